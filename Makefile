@@ -1,0 +1,33 @@
+# make quick: from a fresh clone to a PDF. make test, make check: what .ci/run calls. Each sets up what it needs.
+PYTHON ?= python3
+BIN := .venv/bin
+READY := .venv/ready
+
+.PHONY: quick test check format clean
+quick: $(READY)
+	$(BIN)/firsthit run configs/quick.toml
+	$(BIN)/firsthit report runs/quick
+
+test: $(READY)
+	$(BIN)/python -m pytest -q
+
+check: $(READY)
+	$(BIN)/ruff format --check .
+	$(BIN)/ruff check .
+	$(BIN)/mypy
+	$(BIN)/firsthit compile
+
+format: $(READY)
+	$(BIN)/ruff format .
+	$(BIN)/ruff check --fix .
+
+clean:
+	rm -rf .venv runs build *.egg-info
+
+$(READY): pyproject.toml constraints.txt drivers.sh
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' \
+		|| { echo "firsthit needs Python 3.11 or newer; try: make PYTHON=python3.12"; exit 2; }
+	$(PYTHON) -m venv .venv
+	$(BIN)/python -m pip install --quiet --constraint constraints.txt --editable '.[opengl,opencl,report,dev]'
+	sh drivers.sh $(BIN)/python
+	touch $@

@@ -1,0 +1,134 @@
+"""Devices behind one interface: build a program, launch it, time it, read it back.
+
+Everything above sees only this module. A device is opened by name (`opencl:intel`) in the process that uses it.
+"""
+
+from __future__ import annotations
+
+import difflib
+import importlib
+import importlib.util
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from harness.assemble import Language
+from harness.contract import DeviceInfo, FirsthitError, Hits, Program, RayStatus
+
+Array = NDArray[Any]
+INSTALL = {"opengl": "moderngl", "opencl": "pyopencl"}
+LANGUAGES: dict[str, Language] = {"opengl": "glsl", "opencl": "cl"}
+
+
+class BuildError(Exception):
+    """A program that does not compile; the message names the section's own file and line."""
+
+
+@dataclass(frozen=True)
+class Timing:
+    """One timed repetition: host time from submit to finished, and the device's own clock where it has one."""
+
+    wall_ms: float
+    device_ms: float | None
+
+
+class Launch(ABC):
+    """A built program with its buffers on the device, ready to run again and again."""
+
+    upload_ms: float
+
+    @abstractmethod
+    def run(self, times: int = 1) -> Timing:
+        """Run `times` times back to back and wait until finished; the times are of all together."""
+
+    @abstractmethod
+    def read(self) -> list[Array]:
+        """The outputs, in the program's order."""
+
+    @abstractmethod
+    def release(self) -> None: ...
+
+
+class Device(ABC):
+    """An open device. `build` and `launch` raise BuildError where the driver's compiler refuses."""
+
+    info: DeviceInfo
+    language: Language
+
+    @abstractmethod
+    def build(self, program: Program) -> Any:
+        """Compile; what comes back is only for `launch`."""
+
+    @abstractmethod
+    def launch(
+        self, built: Any, inputs: Sequence[Array], outputs: Sequence[tuple[int, type]], grid: tuple[int, int]
+    ) -> Launch:
+        """Upload `inputs`, reserve `outputs` (count, dtype), ready for one work item per point of `grid`."""
+
+
+def real_type(program: Program) -> type:
+    return np.float32 if program.precision == "float32" else np.float64
+
+
+def launch_rays(device: Device, program: Program, built: Any, rays: NDArray[np.float32]) -> Launch:
+    """rays: float32[n, 6], origins and directions, used as given."""
+    count = len(rays)
+    outputs = [(2 * count, real_type(program)), (count, np.int32)]
+    return device.launch(built, [np.ascontiguousarray(rays, np.float32)], outputs, (count, 1))
+
+
+def launch_camera(device: Device, program: Program, built: Any, camera: NDArray[np.float32], size: int) -> Launch:
+    """camera: float32[12] (eye, forward, right, up); size: samples per side."""
+    outputs = [(size * size, real_type(program)), (size * size, np.int32)]
+    return device.launch(built, [np.ascontiguousarray(camera, np.float32)], outputs, (size, size))
+
+
+def hits_from(outputs: Sequence[Array]) -> Hits:
+    """What a `rays` or `camera` launch answered. The two parts of a listed ray's t are added in float64."""
+    t, answer = outputs
+    whole = t.astype(np.float64)
+    if len(whole) == 2 * len(answer):
+        whole = whole[0::2] + whole[1::2]
+    status = (answer & 3).astype(np.uint8)
+    return Hits(np.where(status == RayStatus.HIT, whole, np.nan), status, (answer >> 2).astype(np.int32))
+
+
+def map_rows(device: Device, program: Program, rows: Array, outputs: int) -> Array:
+    """Run a map program over rows [n, INPUTS] → [n, outputs], in the program's precision."""
+    kind = real_type(program)
+    launch = device.launch(
+        device.build(program), [np.ascontiguousarray(rows, kind)], [(len(rows) * outputs, kind)], (len(rows), 1)
+    )
+    launch.run()
+    result = launch.read()[0].reshape(len(rows), outputs)
+    launch.release()
+    return result
+
+
+def find_devices(backend: str) -> list[DeviceInfo]:
+    """Every device of an installed backend ("opencl" or "opengl"); a broken one says so in its `problem`."""
+    found: list[DeviceInfo] = importlib.import_module(f"harness.backends.{backend}").find()
+    return found
+
+
+def open_device(name: str) -> Device:
+    """Open a device by name. Raises FirsthitError for an unknown, absent or unusable one."""
+    backend = name.partition(":")[0]
+    if backend not in INSTALL:
+        raise FirsthitError(f"unknown device {name!r}: names start with opencl: or opengl:, see `firsthit devices`")
+    if not importlib.util.find_spec(INSTALL[backend]):
+        raise FirsthitError(f"device {name!r} needs the package {INSTALL[backend]}: pip install {INSTALL[backend]}")
+    module = importlib.import_module(f"harness.backends.{backend}")
+    infos = {info.name: info for info in module.find()}
+    if name not in infos:
+        near = difflib.get_close_matches(name, infos, 1) or list(infos)
+        hint = f"did you mean {near[0]!r}?" if near else f"this machine has no {backend} device"
+        raise FirsthitError(f"there is no device {name!r} here; {hint} See `firsthit devices`")
+    if problem := infos[name].problem:
+        raise FirsthitError(f"device {name!r} cannot be used: {problem}", exit_code=3)
+    device: Device = module.open(name)
+    return device

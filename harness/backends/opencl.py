@@ -1,0 +1,190 @@
+"""OpenCL through pyopencl: every platform and device the loader finds."""
+
+from __future__ import annotations
+
+import atexit
+import contextlib
+import ctypes
+import os
+import shutil
+import sys
+import tempfile
+import time
+import warnings
+from collections.abc import Sequence
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from harness.assemble import explain_log
+from harness.backends import Array, BuildError, Device, Launch, Timing
+from harness.contract import DeviceInfo, Program
+
+SHORT = {"intel": "intel", "portable": "pocl", "nvidia": "nvidia", "amd": "amd", "rusticl": "rusticl", "apple": "apple"}
+INTEL_LIBRARIES = ("libintlc.so.5", "libimf.so", "libsvml.so", "libirng.so", "libtbb.so.12")
+SYSTEM_VENDORS = Path("/etc/OpenCL/vendors")
+OPTIONS = {"float32": ["-cl-single-precision-constant"], "float64": []}
+GROUP = 64
+
+
+def _prepare_environment() -> None:
+    """Make every installed driver visible to the loader, and switch off caches that would hide compile times.
+
+    The Intel wheel's own .icd file names a folder that does not exist and its libraries are not on the loader's path,
+    so they are loaded here and the driver is named in a vendors folder of ours, beside the system's own.
+    """
+    os.environ.setdefault("PYOPENCL_NO_CACHE", "1")
+    os.environ.setdefault("POCL_KERNEL_CACHE", "0")
+    driver = Path(sys.prefix) / "lib" / "libintelocl.so"
+    if "OCL_ICD_VENDORS" in os.environ or not driver.exists():
+        return
+    for name in INTEL_LIBRARIES:
+        with contextlib.suppress(OSError):  # the driver itself reports what it misses
+            ctypes.CDLL(str(driver.parent / name), mode=ctypes.RTLD_GLOBAL)
+    vendors = Path(tempfile.mkdtemp(prefix="firsthit-vendors-"))
+    atexit.register(shutil.rmtree, vendors, ignore_errors=True)
+    (vendors / "intel.icd").write_text(f"{driver}\n")
+    if SYSTEM_VENDORS.is_dir():
+        for icd in SYSTEM_VENDORS.glob("*.icd"):
+            shutil.copy(icd, vendors / icd.name)
+    os.environ["OCL_ICD_VENDORS"] = str(vendors)
+
+
+@cache
+def _binding() -> Any:
+    _prepare_environment()
+    import pyopencl
+
+    return pyopencl
+
+
+@cache
+def _named_devices() -> dict[str, Any]:
+    """Devices by short name; a second one of the same platform kind gets a number."""
+    cl = _binding()
+    try:
+        platforms = cl.get_platforms()
+    except cl.Error:
+        return {}
+    named: dict[str, Any] = {}
+    for platform in platforms:
+        words = f"{platform.name} {platform.vendor}".lower()
+        short = next((short for word, short in SHORT.items() if word in words), words.split()[0])
+        try:
+            devices = platform.get_devices()
+        except cl.Error:
+            continue
+        for device in devices:
+            name = base = f"opencl:{short}"
+            number = 2
+            while name in named:
+                name = f"{base}-{number}"
+                number += 1
+            named[name] = device
+    return named
+
+
+def _problem(device: Any) -> str | None:
+    """Why the device cannot run even an empty kernel: some drivers' compilers do not know newer processors."""
+    cl = _binding()
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", cl.CompilerWarning)
+            cl.Program(cl.Context([device]), "__kernel void nothing(__global int *a) { a[0] = 1; }").build()
+    except cl.Error as error:
+        lines = [line.strip() for line in str(error).splitlines() if "error" in line.lower()]
+        return f"its compiler fails: {(lines or ['no message'])[-1]}"
+    return None
+
+
+@cache
+def find() -> list[DeviceInfo]:
+    """Every OpenCL device, in the loader's order."""
+    return [_info(name, device) for name, device in _named_devices().items()]
+
+
+def _info(name: str, device: Any) -> DeviceInfo:
+    cl = _binding()
+    return DeviceInfo(
+        name=name,
+        title=device.name.strip(),
+        driver=f"{device.platform.name} {device.driver_version}".strip(),
+        compiler=device.version.strip(),
+        compute_units=int(device.max_compute_units),
+        float64=bool(device.double_fp_config),
+        clock="device",
+        versions=(("pyopencl", cl.VERSION_TEXT),),
+        problem=_problem(device),
+    )
+
+
+def open(name: str) -> OpenCLDevice:
+    return OpenCLDevice(name, _named_devices()[name])
+
+
+class OpenCLDevice(Device):
+    language = "cl"
+
+    def __init__(self, name: str, device: Any) -> None:
+        cl = _binding()
+        self.info = _info(name, device)
+        self._context = cl.Context([device])
+        self._queue = cl.CommandQueue(self._context, properties=cl.command_queue_properties.PROFILING_ENABLE)
+
+    def build(self, program: Program) -> Any:
+        cl = _binding()
+        source = cl.Program(self._context, program.text)
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore", cl.CompilerWarning)  # drivers that greet are not in error
+                return cl.Kernel(source.build(options=OPTIONS[program.precision]), program.entry)
+        except cl.Error as error:
+            raise BuildError(f"{self.info.name}: {explain_log(program, str(error))}") from None
+
+    def launch(
+        self, built: Any, inputs: Sequence[Array], outputs: Sequence[tuple[int, type]], grid: tuple[int, int]
+    ) -> Launch:
+        return OpenCLLaunch(self._context, self._queue, built, inputs, outputs, grid)
+
+
+class OpenCLLaunch(Launch):
+    def __init__(
+        self,
+        context: Any,
+        queue: Any,
+        kernel: Any,
+        inputs: Sequence[Array],
+        outputs: Sequence[tuple[int, type]],
+        grid: tuple[int, int],
+    ) -> None:
+        cl = _binding()
+        self._queue, self._kernel = queue, kernel
+        self._global = (-(-grid[0] // GROUP) * GROUP, grid[1])
+        self._results = [np.empty(count, kind) for count, kind in outputs]
+        start = time.perf_counter()
+        flags = cl.mem_flags
+        self._inputs = [cl.Buffer(context, flags.READ_ONLY | flags.COPY_HOST_PTR, hostbuf=array) for array in inputs]
+        self._outputs = [cl.Buffer(context, flags.READ_WRITE, result.nbytes) for result in self._results]
+        queue.finish()
+        self.upload_ms = (time.perf_counter() - start) * 1e3
+        kernel.set_args(*self._inputs, *self._outputs, np.int32(grid[0]), np.int32(grid[1]))
+
+    def run(self, times: int = 1) -> Timing:
+        cl = _binding()
+        start = time.perf_counter()
+        events = [cl.enqueue_nd_range_kernel(self._queue, self._kernel, self._global, (GROUP, 1)) for _ in range(times)]
+        self._queue.finish()
+        wall = time.perf_counter() - start
+        return Timing(wall * 1e3, sum(event.profile.end - event.profile.start for event in events) * 1e-6)
+
+    def read(self) -> list[Array]:
+        cl = _binding()
+        for result, buffer in zip(self._results, self._outputs, strict=True):
+            cl.enqueue_copy(self._queue, result, buffer)
+        return self._results
+
+    def release(self) -> None:
+        for buffer in (*self._inputs, *self._outputs):
+            buffer.release()

@@ -1,0 +1,46 @@
+"""Views → cameras → rays. Rays for accuracy are made here once, in float32, and listed to every device alike."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from harness.contract import Surface, View
+
+
+def scene_radius(surface: Surface) -> float:
+    """The length that relative errors and default distances refer to, in scene units."""
+    return surface.bounding_radius or surface.domain.radius
+
+
+def camera_for(view: View, surface: Surface) -> NDArray[np.float32]:
+    """float32[12]: eye, forward (length 1), right and up (the image's half width and height at distance 1)."""
+    azimuth, elevation = math.radians(view.azimuth), math.radians(view.elevation)
+    half = math.radians(view.fov) / 2.0
+    target = np.array(surface.domain.center if view.target is None else view.target)
+    distance = scene_radius(surface) / math.sin(half) if view.distance is None else view.distance
+    ca, sa, ce, se = math.cos(azimuth), math.sin(azimuth), math.cos(elevation), math.sin(elevation)
+    backward = np.array([ce * ca, ce * sa, se])
+    right = np.array([-sa, ca, 0.0])
+    up = np.array([-se * ca, -se * sa, ce])
+    parts = (target + distance * backward, -backward, math.tan(half) * right, math.tan(half) * up)
+    return np.concatenate(parts).astype(np.float32)
+
+
+def rays_of(camera: NDArray[np.float32], size: int) -> NDArray[np.float32]:
+    """float32[size * size, 6]: origins and directions of length 1, row by row from the picture's top left."""
+    eye, forward, right, up = camera.astype(np.float64).reshape(4, 3)
+    at = (2.0 * np.arange(size) + 1.0 - size) / size
+    directions = forward + at[None, :, None] * right - at[:, None, None] * up
+    directions /= np.linalg.norm(directions, axis=-1, keepdims=True)
+    rays = np.empty((size * size, 6), np.float32)
+    rays[:, :3] = eye
+    rays[:, 3:] = directions.reshape(-1, 3)
+    return rays
+
+
+def pixel_footprint(camera: NDArray[np.float32], size: int) -> float:
+    """A pixel's height at distance 1 from the eye."""
+    return 2.0 * float(np.linalg.norm(camera[9:12].astype(np.float64))) / size

@@ -1,0 +1,159 @@
+"""plan, run, why, report: what one does with a config and its results."""
+
+from __future__ import annotations
+
+import argparse
+import dataclasses
+import shlex
+import sys
+from datetime import UTC, datetime
+from pathlib import Path
+
+from harness import config, console, plan
+from harness.contract import CellStatus, DeviceInfo, FirsthitError
+from harness.environment import describe, probed
+from harness.executor import LocalExecutor, discover_devices
+from harness.plan import Planned
+from harness.plugins import Catalog, find_methods
+from harness.runner import UNFINISHED, Runner
+from harness.store import Row, Store
+
+
+def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    def add(name: str, help_text: str, example: str) -> argparse.ArgumentParser:
+        parser = commands.add_parser(name, help=help_text, description=help_text, epilog=f"example: {example}")
+        return parser
+
+    parser = add("plan", "print a config's cells and how long they will take", "firsthit plan configs/quick.toml")
+    _add_config(parser)
+    parser.set_defaults(run=_plan)
+
+    parser = add("run", "run a config; finished cells are reused", "firsthit run configs/quick.toml --retry failed")
+    _add_config(parser)
+    parser.add_argument("--force", action="store_true", help="run every cell again")
+    parser.add_argument("--retry", choices=["failed"], help="run failed, timed out and crashed cells again")
+    parser.add_argument("--device", action="append", metavar="NAME", help="run on this device only; may be repeated")
+    parser.set_defaults(run=_run)
+
+    parser = add(
+        "why",
+        "say what would make a cell run again, or what set it apart from its last result",
+        "firsthit why runs/quick/cells/0123456789abcdef.json",
+    )
+    parser.add_argument("cell", help="a cell's key (or its beginning), or its file")
+    parser.add_argument("--runs", type=Path, default=Path("runs"), metavar="DIR", help="where to look (default: runs)")
+    parser.set_defaults(run=_why)
+
+    parser = add("report", "make the PDF, CSV and Parquet of a run; runs nothing", "firsthit report runs/quick")
+    parser.add_argument("folder", type=Path, metavar="RUN", help="a folder below runs/")
+    parser.set_defaults(run=_report)
+
+
+def _add_config(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("config", type=Path, metavar="CONFIG", help="a TOML file, see configs/")
+    parser.add_argument(
+        "--runs", type=Path, default=Path("runs"), metavar="DIR", help="results go here (default: runs)"
+    )
+
+
+def _load(options: argparse.Namespace) -> tuple[config.Experiment, Catalog, list[DeviceInfo]]:
+    catalog = find_methods(options.plugins)
+    experiment = config.load(options.config, catalog)
+    if getattr(options, "device", None):
+        chosen = dataclasses.replace(experiment.config, devices=options.device)
+        experiment = dataclasses.replace(experiment, config=chosen)
+    return experiment, catalog, discover_devices()
+
+
+def _plan(options: argparse.Namespace) -> int:
+    experiment, catalog, devices = _load(options)
+    planned = plan.plan(experiment, catalog, devices)
+    store = Store(options.runs / experiment.name)
+    rows = {p.key: store.read(p.key) for p in planned}
+    print(console.table(("key", "cell", "state"), [(p.key, p.cell.slot, _state(p, rows[p.key])) for p in planned]))
+    left = plan.estimate_seconds(planned, store, experiment.config.budget.seconds)
+    open_cells = sum(row is None for row in rows.values())
+    print(f"{len(planned)} cells, {open_cells} to run, about {console.duration(left)}")
+    return 0
+
+
+def _state(planned: Planned, row: Row | None) -> str:
+    if row:
+        return f"done: {row['status']}"
+    return f"skip: {planned.skip}" if planned.skip else "to run"
+
+
+def _run(options: argparse.Namespace) -> int:
+    experiment, catalog, found = _load(options)
+    store = Store(options.runs / experiment.name)
+    executor = LocalExecutor(experiment.config.budget.timeout)
+    try:
+        chosen = plan.choose_devices(experiment.config.devices, found)
+        tried = [probed(executor, info) for info in chosen.values() if info]
+        planned = plan.plan(experiment, catalog, [info for info, _ in tried])
+        environment = describe()
+        store.write_plan(
+            {
+                "name": experiment.name,
+                "title": experiment.config.title,
+                "config": str(experiment.path),
+                "config_text": experiment.text,
+                "command": shlex.join(["firsthit", *sys.argv[1:]]),
+                "created": datetime.now(UTC).isoformat(timespec="seconds"),
+                "environment": environment,
+                "devices": [dataclasses.asdict(i) | {"versions": dict(i.versions), "probes": p} for i, p in tried],
+                "cells": [{"slot": p.cell.slot, "key": p.key} for p in planned],
+            }
+        )
+        before = {p.key: store.read(p.key) for p in planned}
+        for message in store.unreadable.values():
+            print(f"firsthit: {message}; running that cell again", file=sys.stderr)
+        todo = [p for p in planned if _is_due(before[p.key], options)]
+        progress = console.Progress(len(todo), plan.estimate_seconds(todo, store, experiment.config.budget.seconds))
+        row_environment = {"commit": environment["commit"], "dirty": environment["dirty"]}
+        rows = Runner(experiment.config, catalog, store, executor, row_environment, progress).run(todo)
+    finally:
+        executor.close()
+    kept = [row for key, row in before.items() if row and key not in {row["key"] for row in rows}]
+    return _summary(store.folder, rows, kept)
+
+
+def _is_due(row: Row | None, options: argparse.Namespace) -> bool:
+    return row is None or options.force or (options.retry == "failed" and row["status"] in UNFINISHED)
+
+
+def _summary(folder: Path, rows: list[Row], kept: list[Row]) -> int:
+    counts = {status: sum(row["status"] == status for row in (*rows, *kept)) for status in CellStatus}
+    told = ", ".join(f"{count} {status}" for status, count in counts.items() if count)
+    print(f"{folder}: {len(rows)} cells run, {len(kept)} reused; {told or 'nothing to do'}")
+    return 3 if any(counts[status] for status in UNFINISHED) else 0
+
+
+def _why(options: argparse.Namespace) -> int:
+    key = Path(options.cell).stem
+    matches = [p for p in sorted(options.runs.glob("*/cells/*.json")) if p.stem.startswith(key)]
+    if len({path.stem for path in matches}) != 1:
+        what = "several cells start" if matches else "no cell starts"
+        raise FirsthitError(f"{what} with {key!r} below {options.runs}; see `firsthit plan CONFIG` for keys")
+    store = Store(matches[0].parent.parent)
+    row = store.read(matches[0].stem)
+    if row is None:
+        raise FirsthitError(f"{store.unreadable[matches[0].stem]}; `firsthit run` makes it again")
+    print(f"{row['key']}  {row['slot']}\nrun {row['environment']['started']}: {row['status']}")
+    if row["reason"]:
+        print(f"reason: {row['reason']}")
+    others = [r for r in store.rows() if r["slot"] == row["slot"] and r["key"] != row["key"]]
+    if not others:
+        print("the only result of this cell so far")
+    for other in sorted(others, key=lambda r: r["environment"]["started"], reverse=True):
+        print(f"\nagainst {other['key']}, run {other['environment']['started']}:")
+        for line in plan.changes(other["identity"], row["identity"]):
+            print(f"  {line}")
+    return 0
+
+
+def _report(options: argparse.Namespace) -> int:
+    import reports
+
+    print(reports.build(options.folder))
+    return 0

@@ -1,0 +1,58 @@
+"""compile: every kernel through every compiler, before anyone waits for a run to find the typing mistake."""
+
+from __future__ import annotations
+
+import argparse
+import itertools
+import sys
+
+from harness.assemble import method_program
+from harness.backends import LANGUAGES
+from harness.contract import PRECISIONS, FirsthitError
+from harness.executor import START_SECONDS, CellError, LocalExecutor, discover_devices
+from harness.plugins import find_methods
+
+TYPICAL = ("sphere", "torus", "barth_sextic")  # box and ball, coefficients along the ray and none
+
+
+def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    text = "compile every method's kernel on every device, for the surfaces named"
+    parser = commands.add_parser("compile", help=text, description=text, epilog="example: firsthit compile --method newton")
+    parser.add_argument("--method", action="append", metavar="NAME", help="only this one; may be repeated")
+    parser.add_argument("--surface", action="append", metavar="NAME", help=f"default: {', '.join(TYPICAL)}")
+    parser.set_defaults(run=_compile)
+
+
+def _compile(options: argparse.Namespace) -> int:
+    import surfaces
+    from surfaces.sections import unsupported
+
+    catalog = find_methods(options.plugins)
+    plugins = [catalog.get(name) for name in options.method or sorted(catalog.plugins)]
+    chosen = [surfaces.get(name) for name in options.surface or TYPICAL]
+    usable = [info for info in discover_devices() if not info.problem]
+    if not usable:
+        raise FirsthitError("no usable device; `firsthit devices` says why", exit_code=3)
+    executor = LocalExecutor(START_SECONDS)
+    built, failed = 0, [f"{name}: {reason}" for name, reason in catalog.broken.items() if not options.method]
+    try:
+        for plugin, surface, info, precision in itertools.product(plugins, chosen, usable, PRECISIONS):
+            method, language = plugin.method, LANGUAGES[info.name.partition(":")[0]]
+            refused = method.accepts(surface) or unsupported(surface, precision, language)
+            if refused or precision not in method.precisions or (precision == "float64" and not info.float64):
+                continue
+            try:
+                for entry in ("rays", "camera"):
+                    program = method_program(
+                        method, plugin.folder, plugin.variant({}), surface, precision, language, entry
+                    )
+                    executor.build(info.name, program)
+                    built += 1
+            except (CellError, FirsthitError) as error:
+                failed.append(f"{method.name} {surface.name} {precision} {info.name}: {error}")
+    finally:
+        executor.close()
+    for line in failed:
+        print(line, file=sys.stderr)
+    print(f"{built} programs compiled on {len(usable)} devices, {len(failed)} failed")
+    return 3 if failed else 0

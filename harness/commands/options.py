@@ -1,0 +1,106 @@
+"""Options that several commands share, and what they stand for."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from harness.assemble import method_program
+from harness.backends import LANGUAGES
+from harness.contract import PRECISIONS, CellStatus, FirsthitError, Hits, Precision, Surface
+from harness.executor import CellError, LocalExecutor, discover_devices
+from harness.plugins import find_methods
+
+
+def add_surface(parser: argparse.ArgumentParser) -> None:
+    which = parser.add_mutually_exclusive_group(required=True)
+    which.add_argument("--surface", metavar="NAME", help="a surface of the catalog, see `firsthit list surfaces`")
+    which.add_argument("--formula", metavar="F", help="f(x, y, z) of your own, as in 'x^2 + y^2*z^3 - z^4'")
+    parser.add_argument("--domain", metavar="D", help="sphere:R or box:X,Y,Z (half extents); default sphere:1.5")
+    parser.add_argument("--parameter", action="append", default=[], metavar="NAME=VALUE", help="of the surface")
+
+
+def add_method(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--method", required=True, metavar="NAME", help="see `firsthit list methods`")
+    parser.add_argument("--knob", action="append", default=[], metavar="NAME=VALUE", help="a parameter of the method")
+    parser.add_argument("--device", metavar="NAME", help="see `firsthit list devices`; default: the first usable one")
+    parser.add_argument("--precision", choices=PRECISIONS, default="float32")
+    parser.add_argument("--timeout", type=float, default=60.0, metavar="SECONDS", help="give up after (default: 60)")
+
+
+def _assignments(texts: list[str], option: str) -> dict[str, str]:
+    pairs = {}
+    for text in texts:
+        name, equals, value = text.partition("=")
+        if not equals or not name.strip() or not value.strip():
+            raise FirsthitError(f"{option} {text!r}: write NAME=VALUE")
+        pairs[name.strip()] = value.strip()
+    return pairs
+
+
+def surface_of(options: argparse.Namespace) -> Surface:
+    """The surface that --surface or --formula names."""
+    import surfaces
+
+    parameters = _assignments(options.parameter, "--parameter")
+    if options.surface:
+        if options.domain:
+            raise FirsthitError("--domain goes with --formula; a surface of the catalog has its own")
+        return surfaces.get(options.surface, **parameters)
+    return surfaces.from_formula(options.formula, options.domain or "sphere:1.5", parameters=parameters)
+
+
+def _number(text: str, name: str) -> float | int:
+    try:
+        value = float(text)
+    except ValueError:
+        raise FirsthitError(f"--knob {name}={text}: not a number") from None
+    return int(value) if value.is_integer() and "." not in text and "e" not in text.lower() else value
+
+
+def _device(name: str | None) -> str:
+    if name:
+        return name
+    usable = [info.name for info in discover_devices() if not info.problem]
+    if not usable:
+        raise FirsthitError("no usable device; `firsthit devices` says why", exit_code=3)
+    return usable[0]
+
+
+def cast(options: argparse.Namespace, surface: Surface, rays: NDArray[np.float32]) -> Hits:
+    """Cast rays float32[n, 6] by the method, knobs, device and precision that the options name.
+
+    The device works in a process of its own. Raises FirsthitError where the method refuses the surface, or the kernel
+    fails, hangs or crashes.
+    """
+    from surfaces.sections import unsupported
+
+    plugin = find_methods(options.plugins).get(options.method)
+    given = _assignments(options.knob, "--knob")
+    variant = plugin.variant({name: _number(text, name) for name, text in given.items()})
+    precision: Precision = options.precision
+    device = _device(options.device)
+    language = LANGUAGES.get(device.partition(":")[0])
+    if language is None:
+        raise FirsthitError(f"unknown device {device!r}: names start with opencl: or opengl:, see `firsthit devices`")
+    if reason := plugin.method.accepts(surface) or unsupported(surface, precision, language):
+        raise FirsthitError(f"{variant} cannot draw {surface.name} here: {reason}")
+    program = method_program(plugin.method, plugin.folder, variant, surface, precision, language, "rays")
+    executor = LocalExecutor(options.timeout)
+    try:
+        return executor.check(device, program, rays).hits
+    except CellError as error:
+        what = {CellStatus.TIMEOUT: "timed out", CellStatus.CRASHED: "crashed"}.get(error.status, "failed")
+        raise FirsthitError(f"{variant} on {device} {what}: {error}", exit_code=3) from None
+    finally:
+        executor.close()
+
+
+def writable(path: Path) -> Path:
+    """`path`, if a file can be put there; asked before long work, so that nothing finished is lost."""
+    if path.is_dir() or not path.parent.is_dir():
+        raise FirsthitError(f"cannot write {path}: {'it is a folder' if path.is_dir() else 'no such folder'}")
+    return path

@@ -1,0 +1,90 @@
+"""trace and oracle: rays in a file → answers in a file."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from harness.commands.options import add_method, add_surface, cast, surface_of, writable
+from harness.contract import FirsthitError, RayStatus, TruthStatus
+from harness.store import savez_atomically
+
+
+def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    parser = commands.add_parser(
+        "trace",
+        help="cast a file of rays by a method",
+        description="Cast the rays float32[n, 6] (origin, direction) of a .npy file. Writes an .npz with t (float64, "
+        "NaN without a hit), status (uint8: 0 miss, 1 hit, 2 exhausted) and evaluations (int32).",
+        epilog="example: firsthit trace --surface torus --method newton --rays rays.npy -o hits.npz",
+    )
+    add_surface(parser)
+    add_method(parser)
+    _add_files(parser)
+    parser.set_defaults(run=_trace)
+
+    parser = commands.add_parser(
+        "oracle",
+        help="certified first hits for a file of rays",
+        description="Certify the first hits of the rays float32[n, 6] of a .npy file. Writes an .npz with lower and "
+        "upper (float64: proved to enclose the first hit, NaN without one) and status (uint8: 0 miss, 1 crossing, 2 touch, "
+        "3 undecided).",
+        epilog="example: firsthit oracle --formula 'x^4 + y^4 + z^4 - 1' --rays rays.npy -o truth.npz",
+    )
+    add_surface(parser)
+    _add_files(parser)
+    parser.set_defaults(run=_oracle)
+
+
+def _add_files(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--rays", type=Path, required=True, metavar="FILE", help=".npy file, float32[n, 6]")
+    parser.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help=".npz file to write")
+
+
+def load_rays(path: Path) -> NDArray[np.float32]:
+    """float32[n, 6] from a .npy file. Raises FirsthitError for anything else, naming the first bad row."""
+    try:
+        rays = np.load(path, allow_pickle=False)
+    except OSError as error:
+        raise FirsthitError(f"cannot read {path}: {error.strerror or error}") from None
+    except (ValueError, EOFError):
+        raise FirsthitError(f"{path} is not a .npy file of numbers; write it with numpy.save") from None
+    if not isinstance(rays, np.ndarray) or rays.ndim != 2 or rays.shape[1] != 6:
+        shape = getattr(rays, "shape", "an archive")
+        raise FirsthitError(f"{path} holds {shape}; it must be [n, 6]: origin and direction of each ray")
+    if rays.dtype != np.float32:
+        raise FirsthitError(f"{path} holds {rays.dtype}; save it as float32, since that is what devices are given")
+    if not len(rays):
+        raise FirsthitError(f"{path} holds no rays")
+    bad = ~np.isfinite(rays).all(axis=1)
+    if bad.any():
+        raise FirsthitError(f"{path}: row {int(bad.argmax())} (counted from 0) is not finite")
+    lengths = np.linalg.norm(rays[:, 3:].astype(np.float64), axis=1)
+    bad = np.abs(lengths - 1.0) > 1e-5
+    if bad.any():
+        row = int(bad.argmax())
+        raise FirsthitError(f"{path}: row {row} (counted from 0) has a direction of length {lengths[row]:.6g}, not 1")
+    return rays
+
+
+def _trace(options: argparse.Namespace) -> int:
+    surface, rays, output = surface_of(options), load_rays(options.rays), writable(options.output)
+    hits = cast(options, surface, rays)
+    savez_atomically(output, t=hits.t, status=hits.status, evaluations=hits.evaluations)
+    counts = {status: int((hits.status == status).sum()) for status in RayStatus}
+    print(f"{output}: {len(rays)} rays, " + ", ".join(f"{n} {status.name.lower()}" for status, n in counts.items()))
+    return 0
+
+
+def _oracle(options: argparse.Namespace) -> int:
+    from harness.oracle import first_hits
+
+    surface, rays, output = surface_of(options), load_rays(options.rays), writable(options.output)
+    truth = first_hits(surface, rays)
+    savez_atomically(output, lower=truth.lower, upper=truth.upper, status=truth.status)
+    counts = {status: int((truth.status == status).sum()) for status in TruthStatus}
+    print(f"{output}: {len(rays)} rays, " + ", ".join(f"{n} {status.name.lower()}" for status, n in counts.items()))
+    return 0

@@ -1,0 +1,267 @@
+"""Experiment configs: TOML, typed, every mistake answered with file, line and the nearest thing that exists."""
+
+from __future__ import annotations
+
+import contextlib
+import dataclasses
+import difflib
+import tomllib
+import types
+import typing
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from harness.contract import PRECISIONS, STAGES, FirsthitError, Precision, Stage, Surface, Variant, View
+from harness.plugins import Catalog
+
+
+@dataclass(frozen=True)
+class MethodChoice:
+    """A method, and for each knob one value or several; several knobs multiply."""
+
+    name: str
+    parameters: dict[str, list[float]] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class SurfaceChoice:
+    """A surface of the config's own."""
+
+    formula: str
+    domain: str = "sphere:1.5"
+    parameters: dict[str, float] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class AccuracyChoice:
+    """Accuracy is checked on each view sampled `size` × `size`.
+
+    Rays nearer than `grazing_margin` scene radii to another answer are a class of their own; a variant that is wrong
+    on more than `max_wrong_share` of the others is not timed.
+    """
+
+    size: int = 128
+    grazing_margin: float = 1e-3
+    max_wrong_share: float = 0.5
+
+
+@dataclass(frozen=True)
+class BudgetChoice:
+    """Per cell: `seconds` of timing, stopped early once the 95 % interval of the median is within `interval`;
+    `timeout` seconds for any one step (build, check, one repetition), after which the worker is killed."""
+
+    seconds: float = 2.0
+    interval: float = 0.02
+    repetitions: int = 200
+    timeout: float = 60.0
+
+
+@dataclass(frozen=True)
+class Config:
+    """An experiment: the grid is methods × surfaces × views × sizes × samples × precisions × stages × devices."""
+
+    title: str
+    method: list[MethodChoice]
+    surfaces: list[str]
+    view: list[View] = field(default_factory=lambda: [View("default")])
+    sizes: list[int] = field(default_factory=lambda: [256])
+    samples_per_pixel: list[int] = field(default_factory=lambda: [1])
+    precisions: list[str] = field(default_factory=lambda: ["float32"])
+    stages: list[str] = field(default_factory=lambda: ["compute"])
+    devices: list[str] = field(default_factory=lambda: ["all"])
+    seed: int = 1
+    accuracy: AccuracyChoice = field(default_factory=AccuracyChoice)
+    budget: BudgetChoice = field(default_factory=BudgetChoice)
+    surface: dict[str, SurfaceChoice] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Experiment:
+    """A config with every name in it resolved."""
+
+    name: str
+    path: Path
+    text: str
+    config: Config
+    variants: tuple[Variant, ...]
+    surfaces: tuple[Surface, ...]
+    precisions: tuple[Precision, ...]
+    stages: tuple[Stage, ...]
+
+
+Where = tuple[str | int, ...]
+
+
+class _Source:
+    """The config's text, to say on which line something stands."""
+
+    def __init__(self, path: Path, text: str) -> None:
+        self.path, self.lines = path, text.splitlines()
+
+    def error(self, where: Where, message: str) -> FirsthitError:
+        return FirsthitError(f"{self.path}:{self._line(where)}: {message}")
+
+    def _line(self, where: Where) -> int:
+        """The line that sets `where`, or its nearest ancestor: tomllib keeps no positions, so the shortest beginning of
+        the file that sets it is looked for."""
+        for depth in range(len(where), 0, -1):
+            for count in range(1, len(self.lines) + 1):
+                with contextlib.suppress(tomllib.TOMLDecodeError):
+                    if _has(tomllib.loads("\n".join(self.lines[:count])), where[:depth]):
+                        return count
+        return 1
+
+
+def _has(table: Any, where: Where) -> bool:
+    for part in where:
+        if isinstance(table, dict) and part in table:
+            table = table[part]
+        elif isinstance(table, list) and isinstance(part, int) and part < len(table):
+            table = table[part]
+        else:
+            return False
+    return True
+
+
+def _read(kind: Any, value: Any, where: Where, source: _Source) -> Any:
+    """`value` as `kind`: a dataclass, list, dict, str, float, int, bool, or a union of such with None."""
+    origin = typing.get_origin(kind)
+    name = ".".join(map(str, where))
+    if dataclasses.is_dataclass(kind) and isinstance(kind, type):
+        return _read_table(kind, value, where, source)
+    if origin in (types.UnionType, typing.Union):
+        return _read(next(k for k in typing.get_args(kind) if k is not type(None)), value, where, source)
+    if origin is list:
+        items = value if isinstance(value, list) else [value]
+        if not items:
+            raise source.error(where, f"{name} is empty; give at least one")
+        return [_read(typing.get_args(kind)[0], item, (*where, i), source) for i, item in enumerate(items)]
+    if origin is tuple:
+        kinds = typing.get_args(kind)
+        if not isinstance(value, list) or len(value) != len(kinds):
+            raise source.error(where, f"{name} needs {len(kinds)} numbers, not {value!r}")
+        return tuple(_read(k, item, (*where, i), source) for i, (k, item) in enumerate(zip(kinds, value, strict=True)))
+    if origin is dict:
+        if not isinstance(value, dict):
+            raise source.error(where, f"{name} is a table of names, not {value!r}")
+        return {key: _read(typing.get_args(kind)[1], item, (*where, key), source) for key, item in value.items()}
+    if kind is float and isinstance(value, int) and not isinstance(value, bool):
+        return value if "parameters" in where else float(value)
+    if not isinstance(value, kind) or isinstance(value, bool):
+        words = {float: "a number", int: "a whole number", str: "a text in quotes"}[kind]
+        raise source.error(where, f"{name} is {words}, not {value!r}")
+    return value
+
+
+def _read_table(kind: type[Any], value: Any, where: Where, source: _Source) -> Any:
+    if not isinstance(value, dict):
+        raise source.error(where, f"{'.'.join(map(str, where))} is a table, not {value!r}")
+    hints = typing.get_type_hints(kind)
+    place = ".".join(map(str, where)) or "the top level"
+    for key in value:
+        if key not in hints:
+            near = difflib.get_close_matches(key, hints, 1)
+            hint = f"did you mean {near[0]!r}?" if near else f"known: {', '.join(hints)}"
+            raise source.error((*where, key), f"unknown key {key!r} in {place}; {hint}")
+    for spec in dataclasses.fields(kind):
+        required = spec.default is dataclasses.MISSING and spec.default_factory is dataclasses.MISSING
+        if required and spec.name not in value:
+            raise source.error(where, f"{place} lacks {spec.name!r}")
+    return kind(**{key: _read(hints[key], item, (*where, key), source) for key, item in value.items()})
+
+
+def _known(values: Iterable[str], known: Iterable[str], key: str, source: _Source) -> None:
+    for value in values:
+        if value not in known:
+            near = difflib.get_close_matches(value, known, 1)
+            hint = f"did you mean {near[0]!r}?" if near else f"known: {', '.join(known)}"
+            raise source.error((key,), f"{key}: unknown {value!r}; {hint}")
+
+
+def _positive(config: Config, source: _Source) -> None:
+    checks: list[tuple[Where, float, float, float]] = [
+        *((("sizes", i), size, 1, 16384) for i, size in enumerate(config.sizes)),
+        (("accuracy", "size"), config.accuracy.size, 1, 4096),
+        (("accuracy", "grazing_margin"), config.accuracy.grazing_margin, 0.0, 1.0),
+        (("accuracy", "max_wrong_share"), config.accuracy.max_wrong_share, 0.0, 1.0),
+        (("budget", "seconds"), config.budget.seconds, 0.0, 1e5),
+        (("budget", "interval"), config.budget.interval, 0.0, 1.0),
+        (("budget", "repetitions"), config.budget.repetitions, 1, 1e6),
+        (("budget", "timeout"), config.budget.timeout, 1e-3, 1e6),
+        *((("view", i, "fov"), view.fov, 1e-3, 179.0) for i, view in enumerate(config.view)),
+        *(
+            (("view", i, "distance"), view.distance, 1e-6, 1e9)
+            for i, view in enumerate(config.view)
+            if view.distance is not None
+        ),
+    ]
+    for where, value, low, high in checks:
+        if not low <= value <= high:
+            raise source.error(where, f"{where[0]}: {value} is outside [{low:g}, {high:g}]")
+    for samples in config.samples_per_pixel:
+        if samples not in (1, 4, 9, 16):
+            raise source.error(("samples_per_pixel",), f"samples_per_pixel: {samples} is not one of 1, 4, 9, 16")
+    for key, names in (("view", [view.name for view in config.view]), ("surfaces", config.surfaces)):
+        if twice := [name for name in names if names.count(name) > 1]:
+            raise source.error((key,), f"{key}: {twice[0]!r} is named twice")
+
+
+def _sweep(choice: MethodChoice) -> list[Mapping[str, float]]:
+    grid: list[dict[str, float]] = [{}]
+    for name, values in choice.parameters.items():
+        grid = [{**point, name: value} for point in grid for value in values]
+    return list(grid)
+
+
+def load(path: Path, catalog: Catalog) -> Experiment:
+    """Read and resolve a config. Raises FirsthitError with file and line for anything wrong in it."""
+    import surfaces
+
+    try:
+        text = path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        reason = error.strerror if isinstance(error, OSError) else "it is not UTF-8 text"
+        raise FirsthitError(f"cannot read {path}: {reason}; see `firsthit list configs`") from None
+    source = _Source(path, text)
+    try:
+        table = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise FirsthitError(f"{path}: not valid TOML: {error}") from None
+    config: Config = _read_table(Config, table, (), source)
+    _positive(config, source)
+    _known(config.precisions, PRECISIONS, "precisions", source)
+    _known(config.stages, STAGES, "stages", source)
+
+    variants: list[Variant] = []
+    for i, choice in enumerate(config.method):
+        try:
+            plugin = catalog.get(choice.name)
+            variants += [plugin.variant(point) for point in _sweep(choice)]
+        except FirsthitError as error:
+            raise source.error(("method", i, "name"), str(error)) from None
+    if twice := [variant for variant in variants if variants.count(variant) > 1]:
+        raise source.error(("method",), f"{twice[0]} is named twice")
+    chosen: list[Surface] = []
+    for name in config.surfaces:
+        try:
+            if name in config.surface:
+                own = config.surface[name]
+                given = {key: repr(value) for key, value in own.parameters.items()}
+                chosen.append(surfaces.from_formula(own.formula, own.domain, name=name, parameters=given))
+            else:
+                chosen.append(surfaces.get(name))
+        except FirsthitError as error:
+            where: Where = ("surface", name, "formula") if name in config.surface else ("surfaces",)
+            raise source.error(where, str(error)) from None
+    return Experiment(
+        path.stem,
+        path,
+        text,
+        config,
+        tuple(variants),
+        tuple(chosen),
+        typing.cast(tuple[Precision, ...], tuple(config.precisions)),
+        typing.cast(tuple[Stage, ...], tuple(config.stages)),
+    )

@@ -1,0 +1,312 @@
+"""The vocabulary every other part speaks in; imports nothing of ours.
+
+Lengths are in scene units (the surface's own coordinates), times in seconds unless a name says `_ms`.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import math
+import struct
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from enum import IntEnum, StrEnum
+from typing import TYPE_CHECKING, Any, Literal
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+Precision = Literal["float32", "float64"]
+Stage = Literal["compute", "rays"]
+PRECISIONS: tuple[Precision, ...] = ("float32", "float64")
+STAGES: tuple[Stage, ...] = ("compute", "rays")
+
+
+class FirsthitError(Exception):
+    """A problem the user can act on, in one line; `exit_code` 2 is usage or config, 3 a failure while running."""
+
+    def __init__(self, message: str, exit_code: int = 2) -> None:
+        super().__init__(message)
+        self.exit_code = exit_code
+
+
+class RayStatus(IntEnum):
+    """A method's answer for one ray; `EXHAUSTED` gave up inside its budget and is never reported as a miss."""
+
+    MISS = 0
+    HIT = 1
+    EXHAUSTED = 2
+
+
+class TruthStatus(IntEnum):
+    """The oracle's answer for one ray."""
+
+    MISS = 0
+    CROSSING = 1
+    TOUCH = 2
+    UNDECIDED = 3
+
+
+class CellStatus(StrEnum):
+    OK = "ok"
+    SKIPPED = "skipped"
+    FAILED = "failed"
+    TIMEOUT = "timeout"
+    CRASHED = "crashed"
+
+
+def as_float32(value: float) -> float:
+    """`value` rounded to the nearest float32; an OverflowError where there is none."""
+    return float(struct.unpack("<f", struct.pack("<f", value))[0])
+
+
+@dataclass(frozen=True)
+class Sphere:
+    """A ball. Its numbers are rounded to float32, so that kernels and oracle clip by the same domain."""
+
+    radius: float
+    center: tuple[float, float, float] = (0.0, 0.0, 0.0)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "radius", as_float32(self.radius))
+        object.__setattr__(self, "center", tuple(as_float32(c) for c in self.center))
+        if not (math.isfinite(self.radius) and self.radius > 0.0 and all(map(math.isfinite, self.center))):
+            raise FirsthitError(f"a sphere domain needs a positive radius and a finite centre, not {self}")
+
+
+@dataclass(frozen=True)
+class Box:
+    """An axis-aligned box. Its numbers are rounded to float32, so that kernels and oracle clip by the same domain."""
+
+    lower: tuple[float, float, float]
+    upper: tuple[float, float, float]
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "lower", tuple(as_float32(c) for c in self.lower))
+        object.__setattr__(self, "upper", tuple(as_float32(c) for c in self.upper))
+        if not all(
+            math.isfinite(a) and math.isfinite(b) and a < b for a, b in zip(self.lower, self.upper, strict=True)
+        ):
+            raise FirsthitError(f"a box domain needs finite lower < upper on every axis, not {self}")
+
+    @property
+    def center(self) -> tuple[float, float, float]:
+        x, y, z = (as_float32(0.5 * (a + b)) for a, b in zip(self.lower, self.upper, strict=True))
+        return (x, y, z)
+
+    @property
+    def radius(self) -> float:
+        """Half the diagonal: the radius of the bounding sphere about `center`."""
+        return 0.5 * math.dist(self.lower, self.upper)
+
+
+Domain = Sphere | Box
+
+
+@dataclass(frozen=True)
+class Surface:
+    """An implicit surface f(x, y, z) = 0 in its domain; all else is derived from the formula.
+
+    What is stated here beside the formula (`degree`, `distance`, `facts`) is recomputed by a test.
+    """
+
+    name: str
+    title: str
+    formula: str  # in the formula language of surfaces.formula
+    domain: Domain
+    source: str
+    degree: int | None  # total degree in x, y, z; None where f is not a polynomial
+    parameters: tuple[tuple[str, str], ...] = ()  # name, exact decimal: ("R", "0.7")
+    distance: str | None = None  # a formula of the exact signed distance, where one is known
+    bounding_radius: float | None = (
+        None  # a sphere about the domain's centre that holds the surface, where one is known
+    )
+    feature_radius: float | None = None  # the length papers relate errors to (torus: minor radius r)
+    facts: tuple[tuple[str, Any], ...] = ()  # what tests recompute: ("singular_points", 50), ...
+
+    @property
+    def algebraic(self) -> bool:
+        return self.degree is not None
+
+    @property
+    def identity(self) -> dict[str, Any]:
+        """What decides the surface's values: goes into cache keys."""
+        return {"formula": self.formula, "parameters": dict(self.parameters), "domain": repr(self.domain)}
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A method's knob: bound as a compile-time constant of this name, in capitals."""
+
+    name: str
+    default: float | int
+    meaning: str  # one phrase with its unit
+
+
+@dataclass(frozen=True)
+class Method:
+    """One published way to find a ray's first hit; the algorithm itself is `kernel.glsl` beside the description."""
+
+    name: str
+    source: str
+    needs: tuple[str, ...] = ()  # generated functions the kernel calls, see surfaces.sections.FUNCTIONS
+    libraries: tuple[str, ...] = ()  # files of harness/kernels/lib the kernel includes, without their ending
+    parameters: tuple[Parameter, ...] = ()
+    variants: Mapping[str, Mapping[str, float]] = field(default_factory=dict)  # the papers' own settings, by name
+    claims: frozenset[str] = frozenset()
+    accepts: Callable[[Surface], str | None] = lambda _: None  # None, or the reason it refuses
+    answers: bool = True  # False: measures the harness's floor and finds nothing
+    precisions: tuple[Precision, ...] = PRECISIONS
+
+
+@dataclass(frozen=True)
+class Variant:
+    """A method with its parameters bound; `parameters` holds every parameter, sorted by name."""
+
+    method: str
+    parameters: tuple[tuple[str, float | int], ...] = ()
+    label: str = ""  # what tables print: `newton[EPSILON=0.001]`
+
+    def __str__(self) -> str:
+        return self.label or self.method
+
+
+@dataclass(frozen=True)
+class View:
+    """A camera. Angles in degrees; `elevation` 90 looks down the z axis.
+
+    `distance` is from the target, in scene units; None puts the camera where the domain's bounding sphere just fits
+    the field of view. `fov` is the full vertical angle of a perspective camera.
+    """
+
+    name: str
+    azimuth: float = 30.0
+    elevation: float = 30.0
+    fov: float = 30.0
+    distance: float | None = None
+    target: tuple[float, float, float] | None = None  # None: the domain's centre
+
+
+@dataclass(frozen=True)
+class Section:
+    """A piece of program text and where it is from: a path below the project, or `generated: …`."""
+
+    origin: str
+    text: str
+
+    @property
+    def hash(self) -> str:
+        return digest(self.text)
+
+
+@dataclass(frozen=True)
+class Program:
+    """One program text made of ordered sections, for one compiler and precision."""
+
+    language: Literal["glsl", "cl"]
+    precision: Precision
+    entry: str  # "rays", "camera" or "map"
+    sections: tuple[Section, ...]
+
+    @property
+    def text(self) -> str:
+        return "".join(f"// ==== {s.origin} ====\n{s.text.rstrip()}\n" for s in self.sections)
+
+    @property
+    def hash(self) -> str:
+        return digest(self.language, self.precision, self.entry, *(s.text for s in self.sections))
+
+    def locate(self, line: int) -> tuple[str, int]:
+        """Section origin and line within it for a 1-based line of `text`."""
+        first = 1
+        for section in self.sections:
+            count = len(section.text.rstrip().split("\n")) + 1
+            if line < first + count:
+                return section.origin, line - first
+            first += count
+        return "end of program", 0
+
+
+@dataclass(frozen=True)
+class DeviceInfo:
+    """A device as its driver names it."""
+
+    name: str  # "opencl:intel"
+    title: str  # the hardware's own name
+    driver: str
+    compiler: str
+    compute_units: int | None
+    float64: bool
+    clock: Literal["device", "wall"]  # which clock is to be believed
+    versions: tuple[tuple[str, str], ...]  # the bindings' package versions
+    problem: str | None = None  # why it cannot run kernels, where it cannot
+
+
+@dataclass(frozen=True, eq=False)
+class Hits:
+    """What a method answered for n rays."""
+
+    t: NDArray[np.float64]  # [n] along the ray as given, scene units; NaN where status is not HIT
+    status: NDArray[np.uint8]  # [n] RayStatus
+    evaluations: NDArray[np.int32]  # [n] evaluations of f (value or value with derivative) spent
+
+
+@dataclass(frozen=True, eq=False)
+class Truth:
+    """The oracle's certified answers for n rays, and what classifies them.
+
+    `lower`, `upper` and `status` are proved. `following`, `condition` and `margin` are float64 estimates that sort
+    rays into classes and never decide right or wrong by themselves.
+    """
+
+    lower: NDArray[np.float64]  # [n] certified: lower <= t* <= upper; NaN where status is not CROSSING or TOUCH
+    upper: NDArray[np.float64]
+    status: NDArray[np.uint8]  # [n] TruthStatus
+    following: NDArray[np.float64]  # [n] the next root after the first inside the domain; inf where there is none
+    condition: NDArray[np.float64]  # [n] condition number of the first root: d t / (relative change of f's terms), over
+    #   the domain's radius: sum of |terms of f| / (|df/dt| * radius); NaN without a hit
+    margin: NDArray[np.float64]  # [n] how far, in scene units, the ray is from another answer: the smallest estimate
+    #   |f| / |grad f| over near touches before the first hit, the depth of the first root's dip, and the distance of
+    #   roots to the ends of the clip interval; inf where nothing is near
+
+
+@dataclass(frozen=True)
+class Cell:
+    """One point of the experiment grid. `seed` decides the order in which a comparison's cells are timed."""
+
+    variant: Variant
+    surface: Surface
+    view: View
+    size: int  # pixels per side
+    samples_per_pixel: int
+    precision: Precision
+    stage: Stage
+    device: str
+
+    @property
+    def slot(self) -> str:
+        """The cell's place in the grid, for people."""
+        return " ".join(
+            (
+                str(self.variant),
+                self.surface.name,
+                self.view.name,
+                f"{self.size}x{self.size}x{self.samples_per_pixel}",
+                self.precision,
+                self.stage,
+                self.device,
+            )
+        )
+
+    @property
+    def comparison(self) -> str:
+        """Cells that share this are timed in one interleaved run."""
+        return f"{self.surface.name} {self.view.name} {self.size}x{self.size}x{self.samples_per_pixel} {self.stage}"
+
+
+def digest(*parts: Any) -> str:
+    """A stable 16-digit hash of JSON-able parts."""
+    text = json.dumps(parts, sort_keys=True, separators=(",", ":"), ensure_ascii=False)
+    return hashlib.sha256(text.encode()).hexdigest()[:16]

@@ -1,0 +1,145 @@
+"""Where cells run. Here: one local worker process per device, restarted when it dies or hangs.
+
+The runner needs no more of an executor than these methods, so that another one may send cells elsewhere.
+"""
+
+from __future__ import annotations
+
+import importlib.util
+import multiprocessing
+import signal
+from dataclasses import dataclass
+from multiprocessing.connection import Connection
+from multiprocessing.context import SpawnProcess
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from harness.backends import INSTALL, Timing
+from harness.contract import CellStatus, DeviceInfo, Program
+from harness.worker import Checked, Frame, Warmed, serve
+
+START_SECONDS = 60.0  # for a worker to start and a driver to load
+_SPAWN = multiprocessing.get_context("spawn")
+
+
+class CellError(Exception):
+    """A step of one cell went wrong: `status` is failed, timeout or crashed."""
+
+    def __init__(self, status: CellStatus, reason: str) -> None:
+        super().__init__(reason)
+        self.status = status
+
+
+@dataclass(eq=False)
+class _Process:
+    process: SpawnProcess
+    connection: Connection
+
+
+def discover_devices() -> list[DeviceInfo]:
+    """Every device of every installed backend, found in processes of their own: a driver that crashes costs itself."""
+    found: list[DeviceInfo] = []
+    executor = LocalExecutor(START_SECONDS)
+    for backend, package in INSTALL.items():
+        if importlib.util.find_spec(package):
+            try:
+                found += executor.find(backend)
+            except CellError as error:
+                found.append(
+                    DeviceInfo(
+                        f"{backend}:none", "none", "none", "none", None, False, "wall", (), f"looking for it: {error}"
+                    )
+                )
+    executor.close()
+    return found
+
+
+class LocalExecutor:
+    """Workers on this machine. One step runs at a time, since software devices share the processor's cores."""
+
+    def __init__(self, timeout: float) -> None:
+        self._timeout = timeout
+        self._processes: dict[str, _Process] = {}
+        self._warm: dict[str, str] = {}  # frame key → device whose worker holds it
+
+    def find(self, backend: str) -> list[DeviceInfo]:
+        found: list[DeviceInfo] = self._call(backend, "find")
+        return found
+
+    def probe(self, device: str) -> Any:
+        return self._call(device, "probe")
+
+    def build(self, device: str, program: Program) -> None:
+        """Compile, and no more."""
+        self._call(device, "build", program)
+
+    def check(self, device: str, program: Program, rays: NDArray[np.float32]) -> Checked:
+        """Build a listed-rays program and cast rays float32[n, 6] once."""
+        checked: Checked = self._call(device, "check", program, rays)
+        return checked
+
+    def warm(self, device: str, key: str, frame: Frame) -> Warmed:
+        """Build a frame and keep it ready for `sample`."""
+        warmed: Warmed = self._call(device, "warm", key, frame)
+        self._warm[key] = device
+        return warmed
+
+    def sample(self, device: str, key: str, frame: Frame, batch: int) -> Timing:
+        """One timed repetition; the frame is warmed again first where its worker has been restarted since."""
+        if key not in self._warm:
+            self.warm(device, key, frame)
+        timing: Timing = self._call(device, "sample", key, batch)
+        return timing
+
+    def release(self, device: str, key: str) -> None:
+        if self._warm.pop(key, None):
+            self._call(device, "release", key)
+
+    def close(self) -> None:
+        for device in list(self._processes):
+            self._stop(device)
+
+    def _start(self, device: str) -> _Process:
+        if device not in self._processes:
+            ours, theirs = _SPAWN.Pipe()
+            process = _SPAWN.Process(target=serve, args=(theirs, device), daemon=True)
+            process.start()
+            theirs.close()
+            self._processes[device] = _Process(process, ours)
+        return self._processes[device]
+
+    def _stop(self, device: str) -> int | None:
+        """End the worker, if need be by force; its exit code."""
+        stopped = self._processes.pop(device)
+        stopped.connection.close()
+        stopped.process.join(0.5)
+        if stopped.process.is_alive():
+            stopped.process.kill()
+        stopped.process.join()
+        self._warm = {key: holder for key, holder in self._warm.items() if holder != device}
+        return stopped.process.exitcode
+
+    def _call(self, device: str, operation: str, *arguments: Any) -> Any:
+        fresh = device not in self._processes
+        worker = self._start(device)
+        limit = self._timeout + (START_SECONDS if fresh else 0.0)
+        try:
+            worker.connection.send((operation, arguments))
+            if not worker.connection.poll(limit):
+                self._stop(device)
+                raise CellError(CellStatus.TIMEOUT, f"{operation} took longer than {self._timeout:g} s; killed")
+            outcome, result = worker.connection.recv()
+        except (EOFError, OSError):
+            code = self._stop(device)
+            raise CellError(CellStatus.CRASHED, f"the worker died during {operation}: {_explain(code)}") from None
+        if outcome == "failed":
+            raise CellError(CellStatus.FAILED, result)
+        return result
+
+
+def _explain(exit_code: int | None) -> str:
+    if exit_code is not None and exit_code < 0:
+        return f"signal {signal.Signals(-exit_code).name}"
+    return f"exit code {exit_code}"

@@ -1,0 +1,7 @@
+// The ray through the middle of sample (i, j) of an nx by ny image, row 0 at the top.
+Ray camera_ray(vec3 eye, vec3 forward, vec3 right, vec3 up, int i, int j, int nx, int ny) {
+    real x = (real(2 * i + 1) - real(nx)) / real(nx);
+    real y = (real(ny) - real(2 * j + 1)) / real(ny);
+    vec3 direction = forward + right * x + up * y;
+    return make_ray(eye, direction / sqrt(dot(direction, direction)));
+}

@@ -1,0 +1,183 @@
+// Intervals that hold every exact result, without directed rounding. Every interval is finite or the whole line.
+//
+// A rounded result r of one operation is within u |r| of the exact one (u = UNIT_ROUNDOFF), or within 2^-126 where it
+// underflows. Subtracting 2 u |r| lowers r by at least one unit in its last place, however that subtraction rounds;
+// INTERVAL_TINY beyond it covers underflow and flushed denormals. What overflows or is no number becomes the whole line.
+// Division and sqrt are widened by what the GLSL 4.3 and OpenCL 1.2 (full profile) specifications allow them, whichever
+// is more; sin and cos, which GLSL leaves unspecified, are computed here; exp and log are in interval_exp_log.
+STRUCT(Interval) struct Interval { real lo; real hi; };
+
+#define INTERVAL_TINY 7.888609052210118e-31  // 2^-100
+#define INTERVAL_LARGEST_DIVISOR 4.253529586511731e37  // 2^125: a quotient by more is specified less well
+
+Interval make_interval(real lo, real hi) {
+    Interval a;
+    a.lo = lo;
+    a.hi = hi;
+    return a;
+}
+
+// [lo, hi], or the whole line where an end is not finite. PRECISE: else Mesa takes it that nothing here is NaN.
+Interval finite_or_whole(real lo, real hi) {
+    PRECISE real width = fabs(hi - lo);
+    bool finite = width < REAL_INFINITY;
+    return make_interval(finite ? lo : -REAL_INFINITY, finite ? hi : REAL_INFINITY);
+}
+
+Interval whole_line() {
+    return make_interval(-REAL_INFINITY, REAL_INFINITY);
+}
+
+// Holds the exact values whose computed ones are lo and hi, each within k u of its size.
+Interval outward(real lo, real hi, real k) {
+    real relative = 2.0 * k * UNIT_ROUNDOFF;
+    return finite_or_whole((lo - fabs(lo) * relative) - INTERVAL_TINY, (hi + fabs(hi) * relative) + INTERVAL_TINY);
+}
+
+Interval interval_neg(Interval a) {
+    return make_interval(-a.hi, -a.lo);
+}
+
+Interval interval_add(Interval a, Interval b) {
+    return outward(a.lo + b.lo, a.hi + b.hi, 1.0);
+}
+
+Interval interval_sub(Interval a, Interval b) {
+    return outward(a.lo - b.hi, a.hi - b.lo, 1.0);
+}
+
+Interval interval_mul(Interval a, Interval b) {
+    real p = a.lo * b.lo;
+    real q = a.lo * b.hi;
+    real r = a.hi * b.lo;
+    real s = a.hi * b.hi;
+    return outward(min(min(p, q), min(r, s)), max(max(p, q), max(r, s)), 1.0);
+}
+
+// c a, for a number c.
+Interval interval_scale(real c, Interval a) {
+    return c < 0.0 ? outward(c * a.hi, c * a.lo, 1.0) : outward(c * a.lo, c * a.hi, 1.0);
+}
+
+// o + [t0, t1] d, for numbers o and d: one coordinate of a piece of a ray.
+Interval interval_affine(real o, real d, real t0, real t1) {
+    real p = t0 * d;
+    real q = t1 * d;
+    real product_error = 2.0 * UNIT_ROUNDOFF * max(fabs(p), fabs(q));
+    return outward((o + min(p, q)) - product_error, (o + max(p, q)) + product_error, 1.0);
+}
+
+// The least absolute value in a.
+real interval_mignitude(Interval a) {
+    return max(max(a.lo, -a.hi), real(0));
+}
+
+// The greatest absolute value in a.
+real interval_magnitude(Interval a) {
+    return max(-a.lo, a.hi);
+}
+
+Interval interval_abs(Interval a) {
+    return finite_or_whole(interval_mignitude(a), interval_magnitude(a));
+}
+
+Interval interval_sqr(Interval a) {
+    real least = interval_mignitude(a);
+    real greatest = interval_magnitude(a);
+    return outward(least * least, greatest * greatest, 1.0);
+}
+
+// a^n by squaring, n >= 1; within (n - 1) u.
+real whole_power(real a, int n) {
+    real power = 1.0;
+    real square = a;
+    for (int k = n; k > 0; k = k / 2) {
+        if (k - 2 * (k / 2) == 1) power = power * square;
+        square = square * square;
+    }
+    return power;
+}
+
+Interval interval_powi(Interval a, int n) {
+    if (n - 2 * (n / 2) == 1) return outward(whole_power(a.lo, n), whole_power(a.hi, n), real(n));
+    return outward(whole_power(interval_mignitude(a), n), whole_power(interval_magnitude(a), n), real(n));
+}
+
+// GLSL allows 2.5 ulp. The whole line where b reaches zero.
+Interval interval_div(Interval a, Interval b) {
+    if (interval_mignitude(b) > 0.0 && interval_magnitude(b) < INTERVAL_LARGEST_DIVISOR) {
+        real p = a.lo / b.lo;
+        real q = a.lo / b.hi;
+        real r = a.hi / b.lo;
+        real s = a.hi / b.hi;
+        return outward(min(min(p, q), min(r, s)), max(max(p, q), max(r, s)), 8.0);
+    }
+    return whole_line();
+}
+
+Interval interval_min(Interval a, Interval b) {
+    return finite_or_whole(min(a.lo, b.lo), min(a.hi, b.hi));
+}
+
+Interval interval_max(Interval a, Interval b) {
+    return finite_or_whole(max(a.lo, b.lo), max(a.hi, b.hi));
+}
+
+// GLSL: 1 / inversesqrt(a), 2 + 2.5 ulp; OpenCL: 3 ulp. Of the part of a that is not negative; TINY: a flushed denormal.
+Interval interval_sqrt(Interval a) {
+    if (a.hi >= 0.0) return outward(sqrt(max(a.lo, real(0))), sqrt(a.hi + INTERVAL_TINY), 12.0);
+    return whole_line();
+}
+
+// sin(x - m pi) for |x| <= 4096 and |m| <= 1304.5, a multiple of a half, so near x / pi that |x - m pi| < 1.6.
+// pi in parts of 12, 12, 12 and 24 bits: m times the first three is exact, and so is the first difference; the others
+// err by u |x - m pi| each, the truncated series by 2e-18, its sum by at most 8 u. Within 16 u, absolute.
+real reduced_sin(real x, real m) {
+    PRECISE real r1 = x - m * 3.140625;
+    PRECISE real r2 = r1 - m * 9.67502593994140625e-4;
+    PRECISE real r3 = r2 - m * 1.50990672409534454e-7;
+    PRECISE real r = r3 - m * 5.12668824e-12;
+    real square = r * r;
+    real sum = 1.0;
+    for (int k = 20; k >= 2; k = k - 2) sum = 1.0 - sum * square / real(k * (k + 1));
+    return r * sum;
+}
+
+#define PER_HALF_TURN 0.31830987334251404  // 1 / pi, rounded: only decides which multiple of pi is near
+#define PER_TURN 0.15915493667125702
+
+// sin(x) for offset 0, cos(x) for offset 1/2: within 32 u, absolute, for |x| <= 4096.
+real bounded_wave(real x, real offset) {
+    real n = floor(x * PER_HALF_TURN + (0.5 - offset));
+    real s = reduced_sin(x, n + offset);
+    bool even = n == 2.0 * floor(0.5 * n);
+    return even == (offset == 0.0) ? s : -s;
+}
+
+// sin or cos over a: its ends, and 1 or -1 where a peak or a dip is in a or within 2^-12 of a turn of it.
+Interval interval_wave(Interval a, real offset) {
+    if (a.lo > -4096.0 && a.hi < 4096.0) {
+        real error = 32.0 * UNIT_ROUNDOFF;
+        real p = bounded_wave(a.lo, offset);
+        real q = bounded_wave(a.hi, offset);
+        real from_peak = a.lo * PER_TURN - (0.25 - 0.5 * offset) - 0.000244140625;
+        real to_peak = a.hi * PER_TURN - (0.25 - 0.5 * offset) + 0.000244140625;
+        bool peak = floor(to_peak) >= from_peak;
+        bool dip = floor(to_peak - 0.5) >= from_peak - 0.5;
+        return make_interval(dip ? real(-1) : max(min(p, q) - error, real(-1)),
+                             peak ? real(1) : min(max(p, q) + error, real(1)));
+    }
+    return make_interval(-1.0, 1.0);
+}
+
+Interval interval_sin(Interval a) {
+    return interval_wave(a, 0.0);
+}
+
+Interval interval_cos(Interval a) {
+    return interval_wave(a, 0.5);
+}
+
+Interval interval_tan(Interval a) {
+    return interval_div(interval_sin(a), interval_cos(a));
+}

@@ -1,0 +1,37 @@
+// A ray p(t) = origin + t direction, and a span [lo, hi] of t: empty where lo > hi.
+STRUCT(Ray) struct Ray { vec3 origin; vec3 direction; };
+STRUCT(Span) struct Span { real lo; real hi; };
+
+Ray make_ray(vec3 origin, vec3 direction) {
+    Ray ray;
+    ray.origin = origin;
+    ray.direction = direction;
+    return ray;
+}
+
+Span make_span(real lo, real hi) {
+    Span span;
+    span.lo = lo;
+    span.hi = hi;
+    return span;
+}
+
+vec3 ray_point(Ray ray, real t) {
+    return ray.origin + ray.direction * t;
+}
+
+// o + t d, rounded about once.
+real advanced(real o, real t, real d) {
+    Pair product = two_prod(t, d);
+    Pair sum = two_sum(o, product.hi);
+    PRECISE real low = sum.lo + product.lo;
+    PRECISE real result = sum.hi + low;
+    return result;
+}
+
+// The same ray with its origin moved by t: methods then work with small parameters however far the camera is.
+Ray advanced_ray(Ray ray, real t) {
+    return make_ray(vec3(advanced(ray.origin.x, t, ray.direction.x),
+                         advanced(ray.origin.y, t, ray.direction.y),
+                         advanced(ray.origin.z, t, ray.direction.z)), ray.direction);
+}

@@ -1,0 +1,8 @@
+// The common shading subset, as OpenCL C. Array parameters are marked IN, OUT or INOUT; all else goes by value.
+#pragma OPENCL FP_CONTRACT OFF
+#define IN const
+#define OUT
+#define INOUT
+#define PRECISE
+#define TABLE __constant
+#define STRUCT(T) typedef struct T T;

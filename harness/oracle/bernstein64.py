@@ -1,0 +1,111 @@
+"""Bernstein coefficients of polynomials along many rays in float64, with rigorous error bounds, and their first roots.
+
+**Theory.** f is evaluated in ball arithmetic at degree + 1 dyadic nodes of the clip interval; the coefficients are M·f
+with M the exact inverse of the Bernstein collocation matrix, rounded once. A dot product of length m in any order, fused
+or not, errs by at most γ_m Σ|M_ij f_j| (Higham 2002, §3.1), and M's rounding adds u of the same sum; both are charged
+together as (m + 4)·2^-52. Halving by de Casteljau averages: each of its `degree` levels errs by at most u times the
+largest coefficient. Signs of coefficients beyond the error bound then prove what they prove in `bernstein`.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+from math import comb
+
+import numpy as np
+
+from harness.oracle import balls64
+from harness.oracle.balls64 import GROW, TINY, UNIT, Balls, Floats
+from harness.oracle.clip import points_at
+from harness.oracle.program import Program
+from harness.oracle.segments import Pieces, Segments, Verdict, first_segments
+
+DEPTH = 30
+NODE_BITS = 20
+
+
+@cache
+def _collocation(degree: int) -> tuple[Floats, Floats]:
+    """Dyadic nodes in [0, 1] near the Chebyshev-Lobatto points, and the inverse collocation matrix, rounded."""
+    from flint import fmpq, fmpq_mat
+
+    count = degree + 1
+    angles = np.pi * np.arange(count) / degree
+    whole = [round((0.5 - 0.5 * np.cos(a)) * 2**NODE_BITS) for a in angles]
+    nodes = [fmpq(w, 2**NODE_BITS) for w in whole]
+    matrix = fmpq_mat(
+        count, count, [comb(degree, i) * s**i * (1 - s) ** (degree - i) for s in nodes for i in range(count)]
+    )
+    inverse = matrix.inv()
+    # numerator / denominator of Python ints rounds correctly
+    entries = [[int(inverse[i, j].p) / int(inverse[i, j].q) for j in range(count)] for i in range(count)]
+    return np.array(whole) / 2**NODE_BITS, np.array(entries)
+
+
+class BernsteinIsolator:
+    """First roots of a polynomial along rays."""
+
+    def __init__(self, program: Program, constants: list[Balls]) -> None:
+        self.program = program
+        self.constants = constants
+        self.degree = max(program.degree, 1)
+        self.nodes, self.matrix = _collocation(self.degree)
+
+    def __call__(self, rays: Floats, lower: Floats, upper: Floats) -> Segments:
+        """The first segment of each ray between t = `lower` and `upper`, float64[n], finite."""
+        count = len(rays)
+        coefficients, error = self.coefficients(rays, lower, upper)
+        whole = Pieces(np.arange(count), np.zeros(count), np.ones(count), (coefficients, error))
+        in_s = first_segments(count, whole, _judge, _halve, DEPTH)
+        # s is exact; the ends are moved inwards by more than the rounding of lower + s·(upper − lower)
+        pad = (np.abs(lower) + np.abs(upper)) * 2.0**-50
+        t_lower = lower + in_s.lower * (upper - lower) + pad
+        t_upper = lower + in_s.upper * (upper - lower) - pad
+        return Segments(t_lower, t_upper, in_s.rising, in_s.found, in_s.empty)
+
+    def coefficients(self, rays: Floats, lower: Floats, upper: Floats) -> tuple[Floats, Floats]:
+        """float64[n, degree + 1] on [lower, upper], and a bound float64[n] of each one's error."""
+        span = Balls(upper[:, None]) - Balls(lower[:, None])
+        nodes = Balls(self.nodes)
+        inputs = [
+            Balls(p.mid[:, None], p.rad[:, None]) + nodes * (span * Balls(rays[:, 3 + k, None]))
+            for k, p in enumerate(points_at(rays, lower))
+        ]
+        values = self.program.run(inputs, self.constants, balls64.FUNCTIONS)
+        shape = (len(rays), len(self.nodes))
+        mid, rad = np.broadcast_to(values.mid, shape), np.broadcast_to(values.rad, shape)
+        coefficients = mid @ self.matrix.T
+        charge = (rad + (len(self.nodes) + 4) * UNIT * np.abs(mid)) @ np.abs(self.matrix).T
+        return coefficients, charge.max(axis=1) * (GROW + 4 * len(self.nodes) * UNIT) + TINY
+
+
+def _judge(pieces: Pieces) -> Verdict:
+    b, error = pieces.data
+    positive, negative = b > error[:, None], b < -error[:, None]
+    signs = positive.view(np.int8) - negative.view(np.int8)
+    steps = np.diff(signs, axis=1)
+    rising = (signs[:, 0] == -1) & (signs[:, -1] == 1) & (steps >= 0).all(axis=1)
+    falling = (signs[:, 0] == 1) & (signs[:, -1] == -1) & (steps <= 0).all(axis=1)
+    empty = positive.all(axis=1) | negative.all(axis=1)
+    hopeless = ~(positive | negative).any(axis=1)
+    return Verdict(empty, rising | falling, rising, hopeless)
+
+
+def _halve(pieces: Pieces) -> Pieces:
+    b, error = pieces.data
+    degree = b.shape[1] - 1
+    left, right = np.empty_like(b), np.empty_like(b)
+    largest = np.abs(b).max(axis=1)
+    row = b
+    left[:, 0], right[:, degree] = row[:, 0], row[:, -1]
+    for level in range(1, degree + 1):
+        row = 0.5 * (row[:, :-1] + row[:, 1:])
+        left[:, level], right[:, degree - level] = row[:, 0], row[:, -1]
+    error = (error + degree * UNIT * largest) * GROW + TINY
+    middle = 0.5 * (pieces.lower + pieces.upper)  # exact: s has at most DEPTH bits
+    return Pieces(
+        np.concatenate((pieces.ray, pieces.ray)),
+        np.concatenate((pieces.lower, middle)),
+        np.concatenate((middle, pieces.upper)),
+        (np.concatenate((left, right)), np.concatenate((error, error))),
+    )

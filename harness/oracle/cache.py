@@ -1,0 +1,47 @@
+"""Truth on disk, named by the content it answers for."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import tempfile
+import zipfile
+from dataclasses import fields
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from harness.contract import Surface, Truth
+
+
+def truth_path(folder: Path, surface: Surface, rays: NDArray[np.float32], version: int) -> Path:
+    """Where the answers for exactly these rays and this surface belong."""
+    key = hashlib.sha256(json.dumps([version, surface.identity, rays.shape], sort_keys=True).encode())
+    key.update(np.ascontiguousarray(rays, dtype="<f4").tobytes())
+    return folder / f"truth-{key.hexdigest()[:24]}.npz"
+
+
+def load(path: Path, count: int) -> Truth | None:
+    """The stored answers for `count` rays; None where there are none or the file is damaged."""
+    try:
+        with np.load(path, allow_pickle=False) as stored:
+            arrays: dict[str, Any] = {f.name: stored[f.name] for f in fields(Truth)}
+    except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile):
+        return None
+    return Truth(**arrays) if all(a.shape == (count,) for a in arrays.values()) else None
+
+
+def store(path: Path, truth: Truth) -> None:
+    """Whole or not at all, also when several processes write the same answers."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    descriptor, name = tempfile.mkstemp(prefix=".truth-", suffix=".npz", dir=path.parent)
+    temporary = Path(name)
+    try:
+        with os.fdopen(descriptor, "wb") as file:
+            np.savez(file, **{f.name: getattr(truth, f.name) for f in fields(Truth)})
+        temporary.replace(path)
+    finally:
+        temporary.unlink(missing_ok=True)

@@ -1,0 +1,184 @@
+"""Where a ray runs inside a surface's domain: exactly for one ray, and enclosed in float64 for many at once."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from harness.contract import Box, Domain, Sphere
+from harness.oracle import balls64
+from harness.oracle.balls64 import TINY, Balls, Floats
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+
+@dataclass(frozen=True)
+class End:
+    """One end of a clip interval, exact: a rational t, or the root (−b + side·√(b² − a·c)) / a of a t² + 2 b t + c."""
+
+    value: Any = None  # fmpq, or None
+    quadratic: tuple[Any, Any, Any] = (None, None, None)
+    side: int = 0
+
+    def ball(self) -> Any:
+        """At the current precision."""
+        from flint import arb
+
+        if self.value is not None:
+            return arb(self.value)
+        a, b, c = self.quadratic
+        return (self.side * arb(b * b - a * c).sqrt() - b) / a
+
+    def is_root_of(self, p: Any) -> bool:
+        """Whether the square-free rational polynomial `p` vanishes here, exactly."""
+        from flint import fmpq_poly
+
+        if self.value is not None:
+            return not p(self.value)
+        a, b, c = self.quadratic
+        common = p.gcd(fmpq_poly([c, 2 * b, a]))
+        if common.degree() != 1:
+            return bool(common.degree() == 2)
+        root = -common[0] / common[1]
+        return bool((a * root + b) * self.side >= 0)
+
+
+def clip_exactly(domain: Domain, ray: Sequence[Any]) -> tuple[End, End] | None:
+    """The closed interval of t >= 0 that a ray (six fmpq) spends in the closed domain; None where it is empty."""
+    from harness.oracle.reals import rational
+
+    if isinstance(domain, Box):
+        lower = [rational(v) for v in domain.lower]
+        upper = [rational(v) for v in domain.upper]
+        return _clip_by_box(lower, upper, ray)
+    return _clip_by_sphere([rational(v) for v in domain.center], rational(domain.radius), ray)
+
+
+def _clip_by_box(lower: Sequence[Any], upper: Sequence[Any], ray: Sequence[Any]) -> tuple[End, End] | None:
+    from flint import fmpq
+
+    enter, leave = fmpq(0), None
+    for low, high, o, d in zip(lower, upper, ray[:3], ray[3:], strict=True):
+        if not d:
+            if not low <= o <= high:
+                return None
+            continue
+        near, far = sorted(((low - o) / d, (high - o) / d))
+        enter = max(enter, near)
+        leave = far if leave is None else min(leave, far)
+    assert leave is not None, "a direction is never zero"
+    return (End(enter), End(leave)) if enter <= leave else None
+
+
+def _clip_by_sphere(center: Sequence[Any], radius: Any, ray: Sequence[Any]) -> tuple[End, End] | None:
+    from flint import fmpq
+
+    offset = [o - c for o, c in zip(ray[:3], center, strict=True)]
+    direction = ray[3:]
+    a = sum(d * d for d in direction)
+    b = sum(o * d for o, d in zip(offset, direction, strict=True))
+    c = sum(o * o for o in offset) - radius * radius
+    if b * b < a * c or (b > 0 and c > 0):  # passes by, or lies behind the origin
+        return None
+    inside = c <= 0 or b >= 0  # t_enter <= 0
+    enter = End(fmpq(0)) if inside else End(quadratic=(a, b, c), side=-1)
+    return enter, End(quadratic=(a, b, c), side=1)
+
+
+@dataclass(frozen=True)
+class Clip:
+    """Enclosures of the clip ends of n rays: outer and inner floats around each, all float64[n].
+
+    `missed` is proved. Elsewhere enter_lower <= t_enter <= enter_upper and so on if the clip interval is not empty;
+    enter_upper is inf where nothing better is known.
+    """
+
+    missed: Any  # bool[n]
+    enter_lower: Floats
+    enter_upper: Floats
+    leave_lower: Floats
+    leave_upper: Floats
+
+
+def clip_many(domain: Domain, rays: Floats) -> Clip:
+    """`rays`: float64[n, 6] holding float32 values."""
+    with np.errstate(all="ignore"):
+        low, high, missed = _slabs(domain, rays) if isinstance(domain, Box) else _chords(domain, rays)
+        unknown = ~(np.isfinite(low.mid) & np.isfinite(high.mid) & np.isfinite(low.rad) & np.isfinite(high.rad))
+        missed = (missed | (low.lower > high.upper) | (high.upper < 0.0)) & ~unknown
+        return Clip(
+            missed,
+            np.where(unknown, -np.inf, np.maximum(low.lower, 0.0)),
+            np.where(unknown, np.inf, np.maximum(low.upper, 0.0)),
+            np.where(unknown, -np.inf, high.lower),
+            np.where(unknown, np.inf, high.upper),
+        )
+
+
+def _slabs(domain: Box, rays: Floats) -> tuple[Balls, Balls, Any]:
+    origins, directions = rays[:, :3], rays[:, 3:]
+    lower, upper = np.asarray(domain.lower), np.asarray(domain.upper)
+    parallel = directions == 0.0
+    outside = parallel & ((origins < lower) | (origins > upper))
+    d = Balls(np.where(parallel, 1.0, directions))
+    to_lower, to_upper = ((Balls(side) - Balls(origins)) / d for side in (lower, upper))
+    near, far = balls64.minimum(to_lower, to_upper), balls64.maximum(to_lower, to_upper)
+    # the largest of several numbers lies between the largest lower and the largest upper bound; an axis the ray does
+    # not move along bounds nothing
+    enter = balls64.hull(*(np.where(parallel, -np.inf, bound).max(axis=1) for bound in (near.lower, near.upper)))
+    leave = balls64.hull(*(np.where(parallel, np.inf, bound).min(axis=1) for bound in (far.lower, far.upper)))
+    return enter, leave, outside.any(axis=1)
+
+
+def _chords(domain: Sphere, rays: Floats) -> tuple[Balls, Balls, Any]:
+    """From the point nearest the centre, so that a distant origin costs no digits."""
+    middle = nearest(np.asarray(domain.center), rays)
+    offset = [point - Balls(c) for point, c in zip(points_at(rays, middle), domain.center, strict=True)]
+    direction = [Balls(rays[:, k]) for k in (3, 4, 5)]
+    a = direction[0] * direction[0] + direction[1] * direction[1] + direction[2] * direction[2]
+    b = offset[0] * direction[0] + offset[1] * direction[1] + offset[2] * direction[2]
+    r = Balls(domain.radius)
+    c = offset[0] * offset[0] + offset[1] * offset[1] + offset[2] * offset[2] - r * r
+    discriminant = b * b - a * c
+    missed = np.asarray(discriminant.upper < 0.0)
+    root = balls64.sqrt(balls64.hull(np.maximum(discriminant.lower, 0.0), np.maximum(discriminant.upper, 0.0)))
+    root = Balls(np.where(missed, 0.0, root.mid), np.where(missed, 0.0, root.rad))
+    return Balls(middle) + (-b - root) / a, Balls(middle) + (root - b) / a, missed
+
+
+def nearest(center: Floats, rays: Floats) -> Floats:
+    """t of about the point nearest `center`: float64[n]; only a good place to start from, its error does not matter."""
+    d = rays[:, 3:]
+    return np.asarray(((center - rays[:, :3]) * d).sum(axis=1) / (d * d).sum(axis=1))
+
+
+def points_at(rays: Floats, t: Floats) -> list[Balls]:
+    """o + t·d for float64 t, as three balls of relative radius about 2^-51 wherever o is.
+
+    **Theory.** With t = h + l (Veltkamp split, 26 bits each) and d a float32, h·d and l·d are exact in float64; two_sum
+    (Knuth) makes o + h·d exact as s + e; so only the sum s + (e + l·d) rounds; TINY covers products that underflow.
+    """
+    if not isinstance(t, np.ndarray):
+        raise TypeError("t must be an array")
+    scaled = t * 134217729.0
+    high = scaled - (scaled - t)
+    low = t - high
+    result = []
+    for k in range(3):
+        o, d = rays[:, k], rays[:, 3 + k]
+        if t.ndim == 2:
+            o, d = o[:, None], d[:, None]
+        product = high * d
+        s = o + product
+        back = s - o
+        error = (o - (s - back)) + (product - back)
+        result.append(Balls(s) + (Balls(error) + Balls(low * d, TINY)))
+    return result
+
+
+def recentred(rays: Floats, t: Floats) -> Floats:
+    """The rays with their origins moved by `t`, float64[n, 6], rounded."""
+    return np.column_stack([*(p.mid for p in points_at(rays, t)), rays[:, 3:]])

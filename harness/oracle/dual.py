@@ -1,0 +1,86 @@
+"""Values with their derivative along the ray, over any number system: balls of arb, balls of float64, plain floats."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from harness.oracle.program import Functions
+
+
+class Dual:
+    """A value and its derivative; where the number system holds ranges, both hold over the whole range."""
+
+    __slots__ = ("slope", "value")
+
+    def __init__(self, value: Any, slope: Any) -> None:
+        self.value = value
+        self.slope = slope
+
+    def __add__(self, other: Dual) -> Dual:
+        return Dual(self.value + other.value, self.slope + other.slope)
+
+    def __sub__(self, other: Dual) -> Dual:
+        return Dual(self.value - other.value, self.slope - other.slope)
+
+    def __neg__(self) -> Dual:
+        return Dual(-self.value, -self.slope)
+
+    def __mul__(self, other: Dual) -> Dual:
+        return Dual(self.value * other.value, self.value * other.slope + self.slope * other.value)
+
+    def __truediv__(self, other: Dual) -> Dual:
+        quotient = self.value / other.value
+        return Dual(quotient, (self.slope - quotient * other.slope) / other.value)
+
+    def __pow__(self, exponent: int) -> Dual:
+        below = self.value ** (exponent - 1) if exponent > 2 else self.value
+        slope = below * self.slope
+        total = slope
+        for _ in range(exponent - 1):
+            total = total + slope
+        return Dual(self.value**exponent, total)
+
+
+def dual_functions(base: Mapping[str, Callable[..., Any]]) -> Functions:
+    """The elementary functions on duals from those of the number system `base`.
+
+    `base` also has `sign`: +1, −1, or a range that holds [−1, 1] where the sign is open (the generalised derivative of
+    abs), and `half`.
+    """
+
+    def sqrt(a: Dual) -> Dual:
+        root = base["sqrt"](a.value)
+        return Dual(root, base["half"](a.slope / root))
+
+    def exp(a: Dual) -> Dual:
+        value = base["exp"](a.value)
+        return Dual(value, value * a.slope)
+
+    def log(a: Dual) -> Dual:
+        return Dual(base["log"](a.value), a.slope / a.value)
+
+    def sin(a: Dual) -> Dual:
+        return Dual(base["sin"](a.value), base["cos"](a.value) * a.slope)
+
+    def cos(a: Dual) -> Dual:
+        return Dual(base["cos"](a.value), -(base["sin"](a.value) * a.slope))
+
+    def tan(a: Dual) -> Dual:
+        return sin(a) / cos(a)
+
+    def absolute(a: Dual) -> Dual:
+        return Dual(base["abs"](a.value), base["sign"](a.value) * a.slope)
+
+    def minimum(a: Dual, b: Dual) -> Dual:
+        side = base["sign"](a.value - b.value) * (a.slope - b.slope)
+        return Dual(base["min"](a.value, b.value), base["half"](a.slope + b.slope - side))
+
+    def maximum(a: Dual, b: Dual) -> Dual:
+        side = base["sign"](a.value - b.value) * (a.slope - b.slope)
+        return Dual(base["max"](a.value, b.value), base["half"](a.slope + b.slope + side))
+
+    return {
+        "sqrt": sqrt, "exp": exp, "log": log, "sin": sin, "cos": cos, "tan": tan,
+        "abs": absolute, "min": minimum, "max": maximum,
+    }  # fmt: skip

@@ -1,0 +1,105 @@
+"""First hits of many rays at once in float64, each accepted only under a rigorous error bound; the rest are left.
+
+**Theory.** Along the outer clip interval [a, b] (float64 enclosures of the exact one) a ray is first cut into segments
+of which each is proved free of roots or proved to hold exactly one, simple and with opposite proved signs at its ends
+(`isolate`: Bernstein coefficients for polynomials, ranges of f and f' for everything else). The first such segment,
+with nothing undecided before it, holds the first root of [a, b]. A few safeguarded Newton steps narrow it down in plain
+float64; nothing is believed of them: f is evaluated in ball arithmetic on both sides of the guess, and opposite proved
+signs inside the segment are the certificate. A ray is left to the slow path where any of that fails, or where the root
+is not proved to lie inside the exact clip interval.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from harness.contract import Domain, TruthStatus
+from harness.oracle import balls64, reals
+from harness.oracle.balls64 import TINY, Balls, Floats
+from harness.oracle.bernstein64 import BernsteinIsolator
+from harness.oracle.clip import clip_many, points_at, recentred
+from harness.oracle.floats import FloatFunction
+from harness.oracle.program import Program, convert_constants
+from harness.oracle.range64 import RangeIsolator
+from harness.oracle.segments import Segments
+
+BLOCK = 2048  # rays at a time, so that the arrays stay in the cache
+MOST_DEGREE = 32  # beyond it the collocation's condition number eats float64
+WIDTHS = (2.0**-44, 2.0**-42, 2.0**-40)  # widths of certified intervals tried, in domain radii
+
+
+@dataclass(frozen=True)
+class FastAnswers:
+    """`decided` rows are certified; all arrays [n]."""
+
+    decided: NDArray[np.bool_]
+    status: NDArray[np.uint8]
+    lower: Floats
+    upper: Floats
+
+
+class FastSolver:
+    """First hits by float64 ball arithmetic on all rays at once."""
+
+    def __init__(self, program: Program, domain: Domain) -> None:
+        self.domain = domain
+        with reals.precision(128):
+            exact = convert_constants(program, reals.leaf, reals.FUNCTIONS)
+        self.constants = [Balls(float(c.mid()), abs(float(c.mid())) * 2.0**-52 + TINY) for c in exact]
+        self.floats = FloatFunction(program, [c.mid for c in self.constants])
+        self.program = program
+        small = program.is_polynomial and program.degree <= MOST_DEGREE
+        self.isolate = (BernsteinIsolator if small else RangeIsolator)(program, self.constants)
+
+    def value(self, rays: Floats, t: Floats) -> Balls:
+        """f at o + t·d, enclosed."""
+        return self.program.run(points_at(rays, t), self.constants, balls64.FUNCTIONS)
+
+    def first_hits(self, rays: Floats) -> FastAnswers:
+        """`rays`: float64[n, 6] holding float32 values."""
+        blocks = [self._block(rays[k : k + BLOCK]) for k in range(0, len(rays), BLOCK)]
+        return FastAnswers(*(np.concatenate([getattr(b, f) for b in blocks]) for f in FastAnswers.__annotations__))
+
+    def _block(self, rays: Floats) -> FastAnswers:
+        with np.errstate(all="ignore"):
+            clip = clip_many(self.domain, rays)
+            status = np.full(len(rays), TruthStatus.MISS, dtype=np.uint8)
+            lower, upper = np.full(len(rays), np.nan), np.full(len(rays), np.nan)
+            decided = clip.missed.copy()
+            inside = np.flatnonzero(~clip.missed & np.isfinite(clip.enter_lower) & np.isfinite(clip.leave_upper))
+            segments = self.isolate(rays[inside], clip.enter_lower[inside], clip.leave_upper[inside])
+            decided[inside[segments.empty]] = True
+            hit = inside[segments.found]
+            found = self._narrow(rays[hit], segments.take(segments.found))
+            proved = (found[0] >= clip.enter_upper[hit]) & (found[1] <= clip.leave_lower[hit])
+            hit = hit[proved]
+            lower[hit], upper[hit] = found[0][proved], found[1][proved]
+            status[hit] = TruthStatus.CROSSING
+            decided[hit] = True
+        return FastAnswers(decided, status, lower, upper)
+
+    def _narrow(self, rays: Floats, segments: Segments) -> tuple[Floats, Floats]:
+        """Certified [lower, upper] around each segment's root; NaN where the signs could not be proved."""
+        guess = self._guess(rays, segments)
+        length = np.sqrt((rays[:, 3:] ** 2).sum(axis=1))
+        direction = np.where(segments.rising, 1, -1)
+        lower, upper = np.full(len(rays), np.nan), np.full(len(rays), np.nan)
+        left = np.arange(len(rays))
+        for width in WIDTHS:
+            room = 0.5 * width * self.domain.radius / length[left] + np.abs(guess[left]) * 2.0**-51
+            below = np.maximum(guess[left] - room, segments.lower[left])
+            above = np.minimum(guess[left] + room, segments.upper[left])
+            signs = self.value(rays[left], below).sign, self.value(rays[left], above).sign
+            proved = (signs[0] == -direction[left]) & (signs[1] == direction[left]) & (below < above)
+            lower[left[proved]], upper[left[proved]] = below[proved], above[proved]
+            left = left[~proved]
+        return lower, upper
+
+    def _guess(self, rays: Floats, segments: Segments) -> Floats:
+        """The segment's root in plain float64, counted from its lower end so that a distant origin costs no digits."""
+        near = recentred(rays, segments.lower)
+        length = segments.upper - segments.lower
+        return segments.lower + self.floats.root_between(near, np.zeros_like(length), length, segments.rising)

@@ -1,0 +1,210 @@
+"""A surface's expression as a straight-line program that runs in any number system with Python operators.
+
+The oracle compiles the exact sympy expression itself and shares nothing with the lowering that prints kernels, so that
+a slip there cannot hide here. Constants stay symbolic until a number system converts them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from harness.contract import FirsthitError
+
+if TYPE_CHECKING:
+    import sympy
+
+Functions = Mapping[str, Callable[..., Any]]
+POLYNOMIAL = frozenset({"input", "constant", "add", "sub", "mul", "neg", "power"})
+FUNCTIONS = {"exp": "exp", "log": "log", "sin": "sin", "cos": "cos", "tan": "tan", "Abs": "abs"}
+
+
+@dataclass(frozen=True)
+class Instruction:
+    """`name` applied to the results numbered `args`; `power`, `input` and `constant` carry an `index` instead."""
+
+    name: str
+    args: tuple[int, ...] = ()
+    index: int = 0
+
+
+@dataclass(frozen=True)
+class Program:
+    """Instructions in order; the last one's result is f."""
+
+    instructions: tuple[Instruction, ...]
+    constants: tuple[sympy.Expr, ...]
+
+    @property
+    def is_polynomial(self) -> bool:
+        return all(i.name in POLYNOMIAL for i in self.instructions)
+
+    @property
+    def degree(self) -> int:
+        """An upper bound of f's total degree, from its structure alone; only for polynomials."""
+        degrees: list[int] = []
+        for i in self.instructions:
+            of = [degrees[a] for a in i.args]
+            match i.name:
+                case "input":
+                    degrees.append(1)
+                case "constant":
+                    degrees.append(0)
+                case "mul":
+                    degrees.append(sum(of))
+                case "power":
+                    degrees.append(of[0] * i.index)
+                case _:
+                    degrees.append(max(of))
+        return degrees[-1]
+
+    def run(self, inputs: Sequence[Any], constants: Sequence[Any], functions: Functions) -> Any:
+        """f at `inputs` (x, y, z) in their own number system, `constants` already converted to it."""
+        results: list[Any] = []
+        for i in self.instructions:
+            a = [results[k] for k in i.args]
+            match i.name:
+                case "input":
+                    value = inputs[i.index]
+                case "constant":
+                    value = constants[i.index]
+                case "add":
+                    value = a[0] + a[1]
+                case "sub":
+                    value = a[0] - a[1]
+                case "mul":
+                    value = a[0] * a[1]
+                case "div":
+                    value = a[0] / a[1]
+                case "neg":
+                    value = -a[0]
+                case "power":
+                    value = a[0] ** i.index
+                case name:
+                    value = functions[name](*a)
+            results.append(value)
+        return results[-1]
+
+
+class _Compiler:
+    """Post-order walk over a sympy tree; equal subtrees are computed once."""
+
+    def __init__(self, fold: bool) -> None:
+        self.fold = fold  # keep constant subtrees whole
+        self.instructions: list[Instruction] = []
+        self.constants: list[sympy.Expr] = []
+        self.seen: dict[Any, int] = {}
+
+    def emit(self, name: str, *args: int, index: int = 0) -> int:
+        instruction = Instruction(name, args, index)
+        if instruction not in self.seen:
+            self.seen[instruction] = len(self.instructions)
+            self.instructions.append(instruction)
+        return self.seen[instruction]
+
+    def constant(self, expr: sympy.Expr) -> int:
+        if expr not in self.constants:
+            self.constants.append(expr)
+        return self.emit("constant", index=self.constants.index(expr))
+
+    def compile(self, expr: sympy.Expr) -> int:
+        if expr not in self.seen:
+            self.seen[expr] = self.walk(expr)
+        return self.seen[expr]
+
+    def walk(self, expr: sympy.Expr) -> int:
+        import sympy
+
+        if expr.is_Symbol:
+            return self.emit("input", index="xyz".index(expr.name))
+        if expr.is_Atom or (self.fold and not expr.free_symbols):
+            return self.constant(expr)
+        if expr.is_Add:
+            return self.sum(expr.args)
+        if expr.is_Mul:
+            return self.product(expr)
+        if expr.is_Pow:
+            return self.power(*expr.as_base_exp())
+        if isinstance(expr, sympy.Min | sympy.Max):
+            name = "min" if isinstance(expr, sympy.Min) else "max"
+            return self.chain(name, [self.compile(a) for a in expr.args])
+        name = FUNCTIONS.get(type(expr).__name__, "")
+        if not name:
+            raise FirsthitError(f"the oracle does not know the function {type(expr).__name__} in {expr}")
+        return self.emit(name, self.compile(expr.args[0]))
+
+    def chain(self, name: str, args: list[int]) -> int:
+        result = args[0]
+        for a in args[1:]:
+            result = self.emit(name, result, a)
+        return result
+
+    def sum(self, terms: tuple[sympy.Expr, ...]) -> int:
+        ordered = sorted(terms, key=lambda t: bool(t.could_extract_minus_sign()))
+        result: int | None = None
+        for term in ordered:
+            negative = bool(term.could_extract_minus_sign())
+            value = self.compile(-term if negative else term)
+            if result is None:
+                result = self.emit("neg", value) if negative else value
+            else:
+                result = self.emit("sub" if negative else "add", result, value)
+        assert result is not None
+        return result
+
+    def product(self, expr: sympy.Expr) -> int:
+        import sympy
+
+        numerator, denominator = [], []
+        for factor in expr.args:
+            base, exponent = factor.as_base_exp()
+            below = base.free_symbols and exponent.is_Rational and exponent < 0
+            (denominator if below else numerator).append(sympy.Pow(base, -exponent) if below else factor)
+        negative = numerator[:1] == [sympy.S.NegativeOne]
+        top = [self.compile(f) for f in numerator[negative:]] or [self.constant(sympy.S.One)]
+        result = self.chain("mul", top)
+        if denominator:
+            result = self.emit("div", result, self.chain("mul", [self.compile(f) for f in denominator]))
+        return self.emit("neg", result) if negative else result
+
+    def power(self, base: sympy.Expr, exponent: sympy.Expr) -> int:
+        import sympy
+
+        if exponent.is_Rational and exponent < 0:
+            return self.emit("div", self.constant(sympy.S.One), self.power(base, -exponent))
+        if exponent == 1:
+            return self.compile(base)
+        if exponent.is_Integer:
+            return self.emit("power", self.compile(base), index=int(exponent))
+        if exponent.is_Rational and exponent.q == 2:
+            return self.power_of(self.emit("sqrt", self.compile(base)), int(exponent.p))
+        if base == sympy.E:
+            return self.emit("exp", self.compile(exponent))
+        logarithm = self.emit("log", self.compile(base))
+        return self.emit("exp", self.emit("mul", self.compile(exponent), logarithm))
+
+    def power_of(self, value: int, exponent: int) -> int:
+        return value if exponent == 1 else self.emit("power", value, index=exponent)
+
+
+def compile_expression(expr: sympy.Expr, fold: bool = True) -> Program:
+    """The program of `expr` in symbols named x, y, z; `fold` keeps constant subtrees as one constant each.
+
+    A FirsthitError where `expr` uses a function the oracle does not know.
+    """
+    compiler = _Compiler(fold)
+    last = compiler.compile(expr)
+    if last != len(compiler.instructions) - 1:  # a result met earlier, such as f = -(-x)
+        raise AssertionError("the last instruction must be the result")
+    return Program(tuple(compiler.instructions), tuple(compiler.constants))
+
+
+def convert_constants(program: Program, leaf: Callable[[sympy.Expr], Any], functions: Functions) -> list[Any]:
+    """The program's constants in another number system that knows its leaves (rationals, pi, e, golden ratio)."""
+
+    def convert(constant: sympy.Expr) -> Any:
+        inner = compile_expression(constant, fold=False)
+        return inner.run((), [leaf(c) for c in inner.constants], functions)
+
+    return [convert(constant) for constant in program.constants]

@@ -1,0 +1,68 @@
+"""Real numbers as python-flint balls: conversions and elementary functions at the current precision."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
+
+from flint import arb, ctx, fmpq
+
+from harness.contract import FirsthitError
+
+if TYPE_CHECKING:
+    import sympy
+
+
+@contextmanager
+def precision(bits: int) -> Iterator[None]:
+    """All ball operations inside round at `bits`."""
+    before = ctx.prec
+    ctx.prec = bits
+    try:
+        yield
+    finally:
+        ctx.prec = before
+
+
+def rational(value: float) -> Any:
+    """A finite float as the exact fmpq it is."""
+    return fmpq(*value.as_integer_ratio())
+
+
+def leaf(expr: sympy.Expr) -> Any:
+    """A sympy number without arguments as a ball."""
+    import sympy
+
+    if expr.is_Rational:
+        return arb(fmpq(int(expr.p), int(expr.q)))
+    if expr == sympy.pi:
+        return arb.pi()
+    if expr == sympy.E:
+        return arb.const_e()
+    if expr == sympy.GoldenRatio:
+        return (1 + arb(5).sqrt()) / 2
+    raise FirsthitError(f"the oracle does not know the constant {expr}")
+
+
+FUNCTIONS = {
+    "sqrt": arb.sqrt, "exp": arb.exp, "log": arb.log, "sin": arb.sin, "cos": arb.cos, "tan": arb.tan,
+    "abs": abs, "min": arb.min, "max": arb.max,
+}  # fmt: skip
+
+
+def float_below(ball: Any) -> float:
+    """A float64 proved not above any member of `ball`."""
+    value = float(ball.lower())
+    while not arb(value) <= ball:
+        value = math.nextafter(value, -math.inf)
+    return value
+
+
+def float_above(ball: Any) -> float:
+    """A float64 proved not below any member of `ball`."""
+    value = float(ball.upper())
+    while not arb(value) >= ball:
+        value = math.nextafter(value, math.inf)
+    return value

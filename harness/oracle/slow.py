@@ -1,0 +1,259 @@
+"""The first hit of one ray with an algebraic surface: balls first, then exact arithmetic, then balls to 4096 bits."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from math import ldexp, nan
+from typing import TYPE_CHECKING, Any
+
+from flint import arb, arb_poly, fmpq, fmpq_poly
+
+from harness.contract import Domain, TruthStatus
+from harness.oracle import reals, surd
+from harness.oracle.bernstein import Bracket, Undecidable, brackets, to_bernstein
+from harness.oracle.clip import End, clip_exactly
+from harness.oracle.program import Program, convert_constants
+from harness.oracle.reals import float_above, float_below, precision, rational
+
+if TYPE_CHECKING:
+    from harness.oracle.surd import Split, Surd
+
+FIRST_PRECISION = 128  # bits; where this does not decide, exact arithmetic does, if it applies
+PRECISIONS = (FIRST_PRECISION, 512, 2048, 4096)  # of balls without it, and to tell exact roots from irrational ends
+
+
+@dataclass(frozen=True)
+class FirstHit:
+    """lower <= t* <= upper, or NaN without a hit; `status` as in the contract."""
+
+    status: TruthStatus
+    lower: float = nan
+    upper: float = nan
+
+
+def certified_hit(status: TruthStatus, t: Any) -> FirstHit:
+    return FirstHit(status, max(float_below(t), 0.0), float_above(t))  # no hit lies before the origin
+
+
+MISS = FirstHit(TruthStatus.MISS)
+UNDECIDED = FirstHit(TruthStatus.UNDECIDED)
+
+
+@dataclass
+class AlgebraicSolver:
+    """First hits of single rays with one polynomial surface; constants are converted once per precision."""
+
+    program: Program
+    domain: Domain
+    constants: dict[int, list[Any]] = field(default_factory=dict)
+    surds: list[Any] | None = None
+
+    def __post_init__(self) -> None:
+        try:
+            self.surds = convert_constants(self.program, surd.leaf, {"sqrt": surd.sqrt})
+        except surd.NotExact:
+            self.surds = None
+
+    def first_hit(self, ray: Sequence[float]) -> FirstHit:
+        """`ray`: six floats, taken as the exact rationals they are."""
+        exact_ray = [rational(v) for v in ray]
+        ends = clip_exactly(self.domain, exact_ray)
+        if ends is None:
+            return MISS
+        exact = self.surds is not None
+        for bits in PRECISIONS[:1] if exact else PRECISIONS:
+            try:
+                with precision(bits):
+                    return self._by_balls(ray, ends, bits)
+            except Undecidable:
+                continue
+        try:
+            return self._exactly(exact_ray, ends) if exact else UNDECIDED
+        except Undecidable:
+            return UNDECIDED
+
+    def _by_balls(self, ray: Sequence[float], ends: tuple[End, End], bits: int) -> FirstHit:
+        if bits not in self.constants:
+            self.constants[bits] = convert_constants(self.program, reals.leaf, reals.FUNCTIONS)
+            self.constants[bits] = [arb_poly([c]) for c in self.constants[bits]]
+        enter, leave = (end.ball() for end in ends)
+        start, width = _frame(enter, leave, self.domain.radius)
+        inputs = [arb_poly([arb(o) + arb(start) * d, arb(width) * d]) for o, d in zip(ray[:3], ray[3:], strict=True)]
+        p = self.program.run(inputs, self.constants[bits], {})
+        line = _Line(p, start, width)
+        for bracket in brackets(*_integers(p, bits), depth=bits):
+            t = line.refine(bracket, self.domain.radius, bits)
+            if t > leave:
+                return MISS
+            if t >= enter and t <= leave:
+                return certified_hit(TruthStatus.CROSSING, t)
+            if not t < enter:
+                raise Undecidable("a root may lie at an end")
+        return MISS
+
+    def _exactly(self, ray: Sequence[Any], ends: tuple[End, End]) -> FirstHit:
+        """No rounding but in comparing roots with irrational clip ends, which are told apart or proved equal."""
+        inputs = [surd.Surd(fmpq_poly([o, d])) for o, d in zip(ray[:3], ray[3:], strict=True)]
+        assert self.surds is not None
+        p = self.program.run(inputs, self.surds, {})
+        if p.is_zero:
+            with precision(FIRST_PRECISION):
+                enter = ends[0].ball()
+                return certified_hit(TruthStatus.TOUCH, enter)
+        parts = surd.split(p)
+        with precision(FIRST_PRECISION):
+            start, width = _frame(ends[0].ball(), ends[1].ball(), self.domain.radius)
+        scaled = parts.carrier(fmpq_poly([rational(start), rational(width)]))
+        if scaled.degree() <= 0:
+            return MISS
+        while not scaled[0] or not sum(scaled.coeffs()):  # a root at an end of the frame: a wider frame
+            start, width = start - width, 3.015625 * width
+            scaled = parts.carrier(fmpq_poly([rational(start), rational(width)]))
+        whole = [int(c) for c in scaled.numer().coeffs()]
+        line = _Line(arb_poly(scaled), start, width, scaled)
+        for bracket in brackets(*to_bernstein(whole), depth=PRECISIONS[-1]):
+            multiplicity = _multiplicity(line, bracket, parts, self.domain.radius)
+            if not multiplicity:
+                continue
+            side, t = _place(line, bracket, parts.carrier, ends, self.domain.radius)
+            if side > 0:
+                return MISS
+            if side == 0:
+                return certified_hit(TruthStatus.CROSSING if multiplicity % 2 else TruthStatus.TOUCH, t)
+        return MISS
+
+
+def _frame(enter: Any, leave: Any, radius: float) -> tuple[float, float]:
+    """Floats start, width so that [start, start + width] holds the clip interval well inside."""
+    lower, upper = float(enter.lower()), float(leave.upper())
+    room = (upper - lower) * 0.0137 + radius * 2.0**-30 + max(abs(lower), abs(upper)) * 2.0**-48
+    start = lower - room
+    return start, (upper - start) + 0.93 * room
+
+
+def _integers(p: Any, bits: int) -> tuple[list[int], int]:
+    """Bernstein coefficients of an arb_poly as integers with their error, in a common unit."""
+    parts = [(c.mid().man_exp(), c.rad().man_exp()) for c in p.coeffs()]
+    top = max((int(e) + int(m).bit_length() for (m, e), _ in parts if m), default=0)
+    unit = top - bits - 8  # the exponent of the integers' unit
+    whole, error = [], 0
+    for (mantissa, exponent), (radius, radius_exponent) in parts:
+        shift = int(exponent) - unit
+        whole.append(int(mantissa) << shift if shift >= 0 else int(mantissa) >> -shift)
+        error += shift < 0
+        if radius:
+            shift = int(radius_exponent) - unit
+            error += (int(radius) << shift if shift >= 0 else int(radius) >> -shift) + 1
+    if not whole:
+        raise Undecidable("the polynomial may be zero")
+    return to_bernstein(whole, error)
+
+
+class _Line:
+    """A polynomial in s where t = start + width·s, and its roots as balls of t."""
+
+    def __init__(self, p: Any, start: float, width: float, exact: Any = None) -> None:
+        self.p = p
+        self.exact = exact  # the fmpq_poly that `p` rounds, where there is one
+        self.slope = p.derivative()
+        self.start = start
+        self.width = width
+
+    def at_precision(self) -> _Line:
+        """The same exact line with its polynomial rounded at the current precision."""
+        return self if self.exact is None else _Line(arb_poly(self.exact), self.start, self.width, self.exact)
+
+    def ends(self, bracket: Bracket) -> tuple[Any, Any]:
+        """The bracket's ends as balls of t."""
+        return self.t(arb((bracket.lower, -bracket.exponent))), self.t(arb((bracket.upper, -bracket.exponent)))
+
+    def t(self, s: Any) -> Any:
+        return arb(self.start) + arb(self.width) * s
+
+    def refine(self, bracket: Bracket, radius: float, bits: int) -> Any:
+        """The bracket's root as a ball of t, narrower than radius·2^-(bits·7/16).
+
+        Interval Newton, and bisection where the slope may vanish: both only cut away what holds no root. Raises
+        Undecidable where the polynomial is not known well enough for that.
+        """
+        target = ldexp(radius, -(bits * 7 // 16)) / self.width
+        lower, upper = arb((bracket.lower, -bracket.exponent)), arb((bracket.upper, -bracket.exponent))  # exact
+        while True:
+            whole = lower.union(upper)
+            gap = upper - lower
+            if gap < target:
+                return self.t(whole)
+            middle = whole.mid()
+            value = self.p(middle)
+            slope = self.slope(whole)
+            if not slope.contains(0):
+                step = middle - value / slope
+                below, above = step.lower(), step.upper()
+                tighter = below if below > lower else lower, above if above < upper else upper
+                if 4 * (tighter[1] - tighter[0]) < 3 * gap:
+                    lower, upper = tighter
+                    continue
+            if value.contains(0):  # perhaps the root itself
+                middle = (lower + gap * fmpq(3, 8)).mid()
+                value = self.p(middle)
+                if value.contains(0):
+                    raise Undecidable("the root is not known more narrowly")
+            if (value > 0) == bracket.rising:
+                upper = middle
+            else:
+                lower = middle
+
+
+def _multiplicity(line: _Line, bracket: Bracket, parts: Split, radius: float) -> int:
+    """How often the bracket's root of the carrier is a root of p; 0 where it belongs to p's conjugate alone."""
+    lower, upper = (
+        rational(line.start) + rational(line.width) * fmpq(e, 1 << bracket.exponent)
+        for e in (bracket.lower, bracket.upper)
+    )
+
+    def among(factors: tuple[tuple[Any, int], ...]) -> int:
+        return sum(m for f, m in factors if f(lower) * f(upper) < 0)
+
+    in_norm = among(parts.norms)
+    if in_norm and _belongs_to_conjugate(line, bracket, parts.q, radius):
+        in_norm = 0
+    return among(parts.rational) + in_norm
+
+
+def _belongs_to_conjugate(line: _Line, bracket: Bracket, q: Surd, radius: float) -> bool:
+    """A root of q·q̄ is a root of exactly one of them: raise the precision until the other one is not zero there."""
+    for bits in PRECISIONS:
+        with precision(bits):
+            try:
+                t = line.at_precision().refine(bracket, radius, bits)
+            except Undecidable:
+                continue
+            if not q.conjugate().ball()(t).contains(0):
+                return False
+            if not q.ball()(t).contains(0):
+                return True
+    raise Undecidable("a root of the norm was not told from its conjugate")
+
+
+def _place(line: _Line, bracket: Bracket, carrier: Any, ends: tuple[End, End], radius: float) -> tuple[int, Any]:
+    """−1, 0 or +1: before, in or after the closed clip interval; and the root as a ball of t."""
+    at_end = [end.is_root_of(carrier) for end in ends]
+    for bits in PRECISIONS:
+        with precision(bits):
+            try:
+                t = line.at_precision().refine(bracket, radius, bits)
+            except Undecidable:
+                continue
+            enter, leave = (end.ball() for end in ends)
+            lower, upper = line.ends(bracket)
+            # the bracket holds one root of the carrier: an end of the clip interval that is a root in it is that root
+            if any(root and lower < e and e < upper for root, e in zip(at_end, (enter, leave), strict=True)):
+                return 0, t
+            if t < enter:
+                return -1, t
+            if t > leave:
+                return 1, t
+            if t >= enter and t <= leave:
+                return 0, t
+    raise Undecidable("a root was not told from a clip end")

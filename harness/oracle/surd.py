@@ -1,0 +1,134 @@
+"""Polynomials in t over Q(√d), exact: a + b·√d with a, b in Q[t] and d a square-free integer (0 for plain rationals).
+
+Enough for every surface whose coefficients are rational or lie in one quadratic field: Barth's golden ratio,
+Endraß's √2. Other constants raise NotExact, and the oracle stays with balls.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from flint import arb, arb_poly, fmpq, fmpq_poly, fmpz
+
+if TYPE_CHECKING:
+    import sympy
+
+ZERO = fmpq_poly(0)
+
+
+class NotExact(Exception):
+    """A constant outside one quadratic field."""
+
+
+class Surd:
+    """a + b·√d."""
+
+    __slots__ = ("a", "b", "d")
+
+    def __init__(self, a: Any, b: Any = ZERO, d: int = 0) -> None:
+        self.a = fmpq_poly(a)
+        self.b = fmpq_poly(b)
+        self.d = d
+
+    def field(self, other: Surd) -> int:
+        if self.d and other.d and self.d != other.d:
+            raise NotExact(f"√{self.d} beside √{other.d}")
+        return self.d or other.d
+
+    def __add__(self, other: Surd) -> Surd:
+        return Surd(self.a + other.a, self.b + other.b, self.field(other))
+
+    def __sub__(self, other: Surd) -> Surd:
+        return Surd(self.a - other.a, self.b - other.b, self.field(other))
+
+    def __neg__(self) -> Surd:
+        return Surd(-self.a, -self.b, self.d)
+
+    def __mul__(self, other: Surd) -> Surd:
+        d = self.field(other)
+        if not d:
+            return Surd(self.a * other.a)
+        return Surd(self.a * other.a + d * self.b * other.b, self.a * other.b + self.b * other.a, d)
+
+    def __truediv__(self, other: Surd) -> Surd:
+        """Only by constants."""
+        if other.a.degree() > 0 or other.b.degree() > 0:
+            raise NotExact("division by a polynomial")
+        norm = (other.a * other.a - other.d * other.b * other.b)[0]
+        product = self * Surd(other.a, -other.b, other.d)
+        return Surd(product.a / norm, product.b / norm, product.d)
+
+    def __pow__(self, exponent: int) -> Surd:
+        result = Surd(1)
+        for _ in range(exponent):
+            result = result * self
+        return result
+
+    def conjugate(self) -> Surd:
+        return Surd(self.a, -self.b, self.d)
+
+    @property
+    def is_zero(self) -> bool:
+        return not self.a and not self.b
+
+    def ball(self) -> Any:
+        """As an arb_poly at the current precision."""
+        return arb_poly(self.a) + arb_poly(self.b) * arb(self.d).sqrt()
+
+
+def leaf(expr: sympy.Expr) -> Surd:
+    """A rational or the golden ratio; anything else raises NotExact."""
+    import sympy
+
+    if expr.is_Rational:
+        return Surd(fmpq(int(expr.p), int(expr.q)))
+    if expr == sympy.GoldenRatio:
+        return Surd(fmpq(1, 2), fmpq(1, 2), 5)
+    raise NotExact(str(expr))
+
+
+def sqrt(value: Surd) -> Surd:
+    """√ of a non-negative rational constant."""
+    if value.d or value.a.degree() > 0 or value.a[0] < 0:
+        raise NotExact("nested root")
+    number = value.a[0]
+    square, free = fmpz(1), 1
+    for prime, exponent in (number.p * number.q).factor() if number else []:
+        square *= prime ** (exponent // 2)
+        free *= int(prime) ** (exponent % 2)
+    root = fmpq(square, number.q)
+    return Surd(root if number else 0) if free == 1 else Surd(0, root, free)
+
+
+@dataclass(frozen=True)
+class Split:
+    """An exact polynomial p = g·q (g rational, q coprime to its conjugate), as real roots see it.
+
+    `carrier` is square-free over Q and vanishes at every root of p (and perhaps at roots of the conjugate of q).
+    """
+
+    carrier: Any  # fmpq_poly
+    rational: tuple[tuple[Any, int], ...]  # square-free factors of g, with multiplicity
+    norms: tuple[tuple[Any, int], ...]  # square-free factors of q·conjugate(q), with multiplicity
+    q: Surd
+
+
+def split(p: Surd) -> Split:
+    """**Theory.** With p = a + b√d and g = gcd(a, b), q = p/g has coprime a/g, b/g, so q and its conjugate share no
+    root; the norm q·q̄ is rational and has each root of q with q's own multiplicity. p must not be zero.
+    """
+    g = p.a.gcd(p.b)
+    q = Surd(p.a / g, p.b / g, p.d)
+    norm = q.a * q.a - p.d * q.b * q.b
+    rational = _square_free_factors(g)
+    norms = _square_free_factors(norm) if p.d else ()
+    product = g * norm if p.d else g
+    return Split(product / product.gcd(product.derivative()), rational, norms, q)
+
+
+def _square_free_factors(p: Any) -> tuple[tuple[Any, int], ...]:
+    if p.degree() <= 0:
+        return ()
+    _, factors = p.numer().factor_squarefree()
+    return tuple((fmpq_poly(f), int(m)) for f, m in factors)

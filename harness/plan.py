@@ -1,0 +1,186 @@
+"""An experiment → its cells, and for each cell what decides its result."""
+
+from __future__ import annotations
+
+import dataclasses
+import hashlib
+import itertools
+import platform
+import random
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from harness.assemble import method_program
+from harness.backends import LANGUAGES
+from harness.camera import camera_for, rays_of
+from harness.config import Experiment
+from harness.contract import Cell, DeviceInfo, FirsthitError, Program, digest
+from harness.plugins import Catalog
+from harness.store import Row, Store
+from harness.worker import Frame
+
+HERE = Path(__file__).parent
+DECIDING = ("accuracy.py", "camera.py", "measure.py", "worker.py", "runner.py", "backends/*.py", "oracle/*.py")
+
+
+@dataclass(frozen=True, eq=False)
+class Planned:
+    """A cell with its key; `skip` says why where it cannot run."""
+
+    cell: Cell
+    key: str
+    identity: dict[str, Any]
+    device: DeviceInfo | None
+    programs: tuple[Program, Program] | None  # listed rays, frame
+    skip: str | None
+
+    @property
+    def camera(self) -> NDArray[np.float32]:
+        """float32[12], as camera_for makes it."""
+        return camera_for(self.cell.view, self.cell.surface)
+
+    @property
+    def frame(self) -> Frame:
+        """What is timed. Only for cells that are not skipped."""
+        assert self.programs
+        camera, size = self.camera, self.cell.size * round(self.cell.samples_per_pixel**0.5)
+        rays = rays_of(camera, size) if self.cell.stage == "rays" else None
+        return Frame(self.programs[1], camera, rays, size)
+
+
+@cache
+def methodology() -> str:
+    """A hash of the harness's own sources that decide what a row says."""
+    files = sorted(path for pattern in DECIDING for path in HERE.glob(pattern))
+    return digest([hashlib.sha256(path.read_bytes()).hexdigest() for path in files])
+
+
+@cache
+def processor() -> str:
+    """The processor's name, since software devices are only as fast as it."""
+    try:
+        text = Path("/proc/cpuinfo").read_text(encoding="utf-8")
+        return next(line.split(":", 1)[1].strip() for line in text.splitlines() if line.startswith("model name"))
+    except (OSError, StopIteration):
+        return platform.processor() or platform.machine()
+
+
+def choose_devices(wanted: list[str], found: list[DeviceInfo]) -> dict[str, DeviceInfo | None]:
+    """Device names to run on; None for a named one that is not here. `all` leaves out a broken double of a working
+    device (one driver installed twice)."""
+    by_name = {info.name: info for info in found}
+    chosen: dict[str, DeviceInfo | None] = {}
+    working = {info.name.split("-")[0] for info in found if not info.problem}
+    for name in wanted:
+        if name == "all":
+            chosen |= {i.name: i for i in found if not i.problem or i.name.split("-")[0] not in working}
+        else:
+            chosen[name] = by_name.get(name)
+    return chosen
+
+
+def _refusal(cell: Cell, info: DeviceInfo | None, catalog: Catalog) -> str | None:
+    """Why a cell cannot run, if it cannot."""
+    from surfaces.sections import unsupported
+
+    method = catalog.get(cell.variant.method).method
+    if info is None:
+        return f"there is no device {cell.device!r} on this machine"
+    if info.problem:
+        return info.problem
+    if cell.precision == "float64" and not info.float64:
+        return "the device has no float64"
+    if cell.precision not in method.precisions:
+        return f"the method has no {cell.precision} form"
+    if reason := method.accepts(cell.surface):
+        return f"the method refuses the surface: {reason}"
+    return unsupported(cell.surface, cell.precision, LANGUAGES[cell.device.split(":")[0]])
+
+
+def _planned(cell: Cell, info: DeviceInfo | None, catalog: Catalog, experiment: Experiment) -> Planned:
+    plugin = catalog.get(cell.variant.method)
+    skip = _refusal(cell, info, catalog)
+    programs: tuple[Program, Program] | None = None
+    if skip is None:
+        language = LANGUAGES[cell.device.split(":")[0]]
+        assemble = lambda entry: method_program(  # noqa: E731
+            plugin.method, plugin.folder, cell.variant, cell.surface, cell.precision, language, entry
+        )
+        try:
+            programs = (assemble("rays"), assemble("camera" if cell.stage == "compute" else "rays"))
+        except FirsthitError as error:
+            skip = str(error)
+    budget = experiment.config.budget
+    identity = {
+        "program": {s.origin: s.hash for program in programs or () for s in program.sections},
+        "program order": [program.hash for program in programs or ()],
+        "parameters": dict(cell.variant.parameters),
+        "surface": cell.surface.identity,
+        "view": dataclasses.asdict(cell.view),
+        "sampling": [cell.size, cell.samples_per_pixel, cell.precision, cell.stage],
+        "accuracy": dataclasses.asdict(experiment.config.accuracy),
+        "budget": dataclasses.asdict(budget),
+        "device": None if info is None else dataclasses.asdict(info),
+        "processor": processor(),
+        "methodology": methodology(),
+        "skip": skip,
+    }
+    return Planned(cell, digest(cell.slot, identity), identity, info, programs, skip)
+
+
+def plan(experiment: Experiment, catalog: Catalog, found: list[DeviceInfo]) -> list[Planned]:
+    """Every cell of the grid, comparison by comparison."""
+    config = experiment.config
+    devices = choose_devices(config.devices, found)
+    if not devices:
+        raise FirsthitError("no device found: see `firsthit devices`", exit_code=3)
+    grid = itertools.product(
+        experiment.surfaces,
+        config.view,
+        config.sizes,
+        config.samples_per_pixel,
+        experiment.stages,
+        experiment.variants,
+        devices.items(),
+        experiment.precisions,
+    )
+    return [
+        _planned(Cell(variant, surface, view, size, samples, precision, stage, name), info, catalog, experiment)
+        for surface, view, size, samples, stage, variant, (name, info), precision in grid
+    ]
+
+
+def estimate_seconds(planned: list[Planned], store: Store, budget_seconds: float) -> float:
+    """How long the cells that have no row yet will take: as long as their slot took before, else the whole budget."""
+    before: dict[str, float] = {}
+    rows: list[Row] = list(store.rows())
+    for row in rows:
+        before[row["slot"]] = row["seconds"]
+    done = {row["key"] for row in rows}
+    typical = budget_seconds + 2.0
+    return sum(before.get(p.cell.slot, 0.0 if p.skip else typical) for p in planned if p.key not in done)
+
+
+def shuffled(items: list[str], seed: int, round_number: int) -> list[str]:
+    """`items` in a random order that depends on the seed and the round alone."""
+    order = list(items)
+    random.Random(f"{seed} {round_number}").shuffle(order)
+    return order
+
+
+def changes(old: dict[str, Any], new: dict[str, Any], path: str = "") -> list[str]:
+    """What differs between two identities, a line each."""
+    lines: list[str] = []
+    for key in sorted(old.keys() | new.keys()):
+        name = f"{path}{key}"
+        a, b = old.get(key), new.get(key)
+        if isinstance(a, dict) and isinstance(b, dict):
+            lines += changes(a, b, f"{name}: ")
+        elif a != b:
+            lines.append(f"{name} changed" if path.startswith("program") else f"{name}: {a!r} → {b!r}")
+    return lines

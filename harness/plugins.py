@@ -1,0 +1,114 @@
+"""Methods are folders with a method.py and a kernel.glsl: ours, those of --plugins, and those of entry points."""
+
+from __future__ import annotations
+
+import difflib
+import importlib.metadata
+import importlib.util
+import sys
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from harness.contract import FirsthitError, Method, Variant
+
+BUILT_IN = Path(__file__).parent.parent / "methods"
+ENTRY_POINTS = "firsthit.methods"
+
+
+@dataclass(frozen=True)
+class Plugin:
+    """A method and the folder that holds its kernel."""
+
+    method: Method
+    folder: Path
+
+    def variant(self, given: Mapping[str, float | int]) -> Variant:
+        """The method with `given` knobs turned; raises FirsthitError for a knob it does not have."""
+        defaults = {parameter.name: parameter.default for parameter in self.method.parameters}
+        for name, value in given.items():
+            if name not in defaults:
+                raise FirsthitError(f"method {self.method.name!r} has no parameter {name!r}{_hint(name, defaults)}")
+            if isinstance(defaults[name], int) and value != int(value):
+                raise FirsthitError(f"{self.method.name}: {name} is a whole number, not {value}")
+        kind = {name: type(default) for name, default in defaults.items()}
+        bound = {name: kind[name](value) for name, value in (defaults | dict(given)).items()}
+        turned = ",".join(f"{name}={bound[name]:g}" for name in sorted(given))
+        label = f"{self.method.name}[{turned}]" if turned else self.method.name
+        return Variant(self.method.name, tuple(sorted(bound.items())), label)
+
+
+@dataclass(frozen=True)
+class Catalog:
+    """The methods found, and why folders that look like one are not."""
+
+    plugins: dict[str, Plugin] = field(default_factory=dict)
+    broken: dict[str, str] = field(default_factory=dict)
+
+    def get(self, name: str) -> Plugin:
+        if name in self.plugins:
+            return self.plugins[name]
+        if name in self.broken:
+            raise FirsthitError(f"method {name!r} cannot be loaded: {self.broken[name]}")
+        raise FirsthitError(f"there is no method {name!r}{_hint(name, self.plugins)}; see `firsthit list methods`")
+
+
+def _hint(name: str, known: Iterable[str]) -> str:
+    near = difflib.get_close_matches(name, list(known), 1)
+    return f"; did you mean {near[0]!r}?" if near else f"; there are: {', '.join(sorted(known)) or 'none'}"
+
+
+def _load(folder: Path) -> Method:
+    """The METHOD that `folder`/method.py states. Raises FirsthitError with the reason where it does not."""
+    path = folder / "method.py"
+    if not (folder / "kernel.glsl").exists():
+        raise FirsthitError(f"{folder} has a method.py but no kernel.glsl")
+    spec = importlib.util.spec_from_file_location(f"firsthit_method_{folder.name}", path)
+    assert spec and spec.loader
+    module = importlib.util.module_from_spec(spec)
+    writes_bytecode, sys.dont_write_bytecode = sys.dont_write_bytecode, True
+    try:
+        spec.loader.exec_module(module)
+    except Exception as error:  # a plugin may fail in any way; it must cost its own rows only
+        raise FirsthitError(f"{path}: {type(error).__name__}: {error}") from error
+    finally:
+        sys.dont_write_bytecode = writes_bytecode
+    method = getattr(module, "METHOD", None)
+    if not isinstance(method, Method):
+        raise FirsthitError(f"{path} does not define METHOD = Method(...)")
+    if method.name != folder.name:
+        raise FirsthitError(f"{path} names its method {method.name!r}, its folder {folder.name!r}; they must agree")
+    return method
+
+
+def _folders(directory: Path) -> list[Path]:
+    return sorted(path.parent for path in directory.glob("*/method.py"))
+
+
+def _entry_point_folders() -> list[Path]:
+    folders = []
+    for point in importlib.metadata.entry_points(group=ENTRY_POINTS):
+        spec = importlib.util.find_spec(point.value)
+        if spec and spec.submodule_search_locations:
+            folders.append(Path(next(iter(spec.submodule_search_locations))))
+    return folders
+
+
+def find_methods(extra: Path | None = None) -> Catalog:
+    """Every method of the project, of installed packages (entry point group `firsthit.methods`) and of `extra`.
+
+    Raises FirsthitError where `extra` is not a folder or two folders claim one name.
+    """
+    if extra is not None and not extra.is_dir():
+        raise FirsthitError(f"--plugins {extra}: no such folder")
+    catalog = Catalog()
+    for folder in (*_folders(BUILT_IN), *_entry_point_folders(), *(_folders(extra) if extra else ())):
+        if folder.name in catalog.plugins:
+            raise FirsthitError(
+                f"two methods are called {folder.name!r}: {catalog.plugins[folder.name].folder} and {folder}"
+            )
+        try:
+            catalog.plugins[folder.name] = Plugin(_load(folder), folder)
+        except FirsthitError as error:
+            catalog.broken[folder.name] = str(error)
+    return catalog

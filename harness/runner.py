@@ -1,0 +1,257 @@
+"""Runs what a plan names: check against the oracle, then time in interleaved rounds, and store each row as it ends.
+
+One writer. A cell that fails, hangs or takes its driver down costs its own row; whatever stops the runner itself loses
+only cells that were not finished.
+"""
+
+from __future__ import annotations
+
+import itertools
+import time
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+from datetime import UTC, datetime
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from harness import accuracy, measure
+from harness.camera import pixel_footprint, rays_of, scene_radius
+from harness.config import Config
+from harness.contract import CellStatus, Hits, RayStatus, Surface, Truth
+from harness.executor import CellError, LocalExecutor
+from harness.oracle import cached_first_hits
+from harness.plan import Planned, shuffled
+from harness.plugins import Catalog
+from harness.store import Row, Store
+from harness.worker import Frame, Warmed
+
+MINIMUM_SAMPLES = 8
+UNFINISHED = (CellStatus.FAILED, CellStatus.TIMEOUT, CellStatus.CRASHED)
+
+
+@dataclass(eq=False)
+class _Live:
+    """A cell on its way from plan to row."""
+
+    planned: Planned
+    frame: Frame
+    compile_ms: float = 0.0
+    warmed: Warmed | None = None
+    wall_ms: list[float] = field(default_factory=list)
+    device_ms: list[float] = field(default_factory=list)
+    preparing: float = 0.0  # seconds of checking and building
+    timing: float = 0.0  # seconds of timed repetitions
+    summary: dict[str, Any] | None = None
+    arrays: dict[str, NDArray[Any]] | None = None
+
+    @property
+    def samples(self) -> list[float]:
+        assert self.planned.device
+        return self.device_ms if self.planned.device.clock == "device" else self.wall_ms
+
+
+class Runner:
+    """`report(row, index)` is called after each stored row."""
+
+    def __init__(
+        self,
+        config: Config,
+        catalog: Catalog,
+        store: Store,
+        executor: LocalExecutor,
+        environment: dict[str, Any],
+        report: Callable[[str, Row | None], None],
+    ) -> None:
+        self._config, self._catalog, self._store = config, catalog, store
+        self._executor, self._environment, self._report = executor, environment, report
+
+    def run(self, planned: Iterable[Planned]) -> list[Row]:
+        """Run cells, comparison by comparison; the rows, in the order in which they ended."""
+        rows: list[Row] = []
+        for _, group in itertools.groupby(planned, key=lambda p: p.cell.comparison):
+            rows += self._compare(list(group))
+        return rows
+
+    def _compare(self, group: list[Planned]) -> list[Row]:
+        rows: list[Row] = []
+        live: dict[str, _Live] = {}
+        for planned in group:
+            self._report(planned.cell.slot, None)
+            if planned.skip is not None:
+                rows.append(self._finish(planned, None, CellStatus.SKIPPED, planned.skip))
+                continue
+            state = _Live(planned, planned.frame)
+            start = time.perf_counter()
+            try:
+                reason = self._check(state)
+                if reason is None:
+                    state.warmed = self._executor.warm(planned.cell.device, planned.key, state.frame)
+                    live[planned.key] = state
+                else:
+                    rows.append(self._finish(planned, state, CellStatus.FAILED, reason))
+            except CellError as error:
+                rows.append(self._finish(planned, state, error.status, str(error)))
+            state.preparing = time.perf_counter() - start
+        rows += self._time(live)
+        return rows
+
+    def _check(self, state: _Live) -> str | None:
+        """Cast the accuracy rays and hold them against the oracle; a reason not to time the cell, if there is one."""
+        cell, config = state.planned.cell, self._config.accuracy
+        assert state.planned.programs
+        rays = rays_of(state.planned.camera, config.size)
+        truth = cached_first_hits(cell.surface, rays, self._store.truth)
+        checked = self._executor.check(cell.device, state.planned.programs[0], rays)
+        hits, state.compile_ms = checked.hits, checked.compile_ms
+        radius = scene_radius(cell.surface)
+        verdicts = accuracy.judge(hits, truth, radius, config.grazing_margin)
+        footprint = pixel_footprint(state.planned.camera, cell.size)
+        state.summary = accuracy.summarize(hits, truth, verdicts, radius, footprint, config.grazing_margin)
+        state.arrays = _pictures(cell.surface, rays, hits, truth, verdicts, config.size)
+        share = accuracy.wrong_share(state.summary)
+        if self._catalog.get(cell.variant.method).method.answers and share > config.max_wrong_share:
+            return f"wrong on {share:.1%} of the rays outside the grazing class: not timed"
+        return None
+
+    def _time(self, live: dict[str, _Live]) -> list[Row]:
+        """Interleaved rounds: each visits every unfinished cell once, in random order."""
+        rows: list[Row] = []
+        for round_number in itertools.count():
+            if not live:
+                return rows
+            for key in shuffled(list(live), self._config.seed, round_number):
+                state = live[key]
+                self._report(state.planned.cell.slot, None)
+                try:
+                    self._sample(state)
+                    if self._is_done(state):
+                        rows.append(self._finish(state.planned, state, CellStatus.OK, None))
+                        del live[key]
+                        self._executor.release(state.planned.cell.device, key)
+                except CellError as error:
+                    if key in live:
+                        rows.append(self._finish(state.planned, state, error.status, str(error)))
+                        del live[key]
+        raise AssertionError("unreachable")
+
+    def _sample(self, state: _Live) -> None:
+        assert state.warmed
+        start = time.perf_counter()
+        batch = state.warmed.batch
+        timing = self._executor.sample(state.planned.cell.device, state.planned.key, state.frame, batch)
+        state.wall_ms.append(timing.wall_ms / batch)
+        if timing.device_ms is not None:
+            state.device_ms.append(timing.device_ms / batch)
+        state.timing += time.perf_counter() - start
+
+    def _is_done(self, state: _Live) -> bool:
+        budget, count = self._config.budget, len(state.wall_ms)
+        narrow = count >= MINIMUM_SAMPLES and measure.is_narrow(state.samples, budget.interval)
+        return narrow or state.timing >= budget.seconds or count >= budget.repetitions
+
+    def _finish(self, planned: Planned, state: _Live | None, status: CellStatus, reason: str | None) -> Row:
+        cell, method = planned.cell, self._catalog.get(planned.cell.variant.method).method
+        row: Row = {
+            "key": planned.key,
+            "slot": cell.slot,
+            "comparison": cell.comparison,
+            "method": cell.variant.method,
+            "variant": str(cell.variant),
+            "parameters": dict(cell.variant.parameters),
+            "surface": cell.surface.name,
+            "surface_title": cell.surface.title,
+            "formula": cell.surface.formula,
+            "degree": cell.surface.degree,
+            "view": cell.view.name,
+            "size": cell.size,
+            "samples_per_pixel": cell.samples_per_pixel,
+            "precision": cell.precision,
+            "stage": cell.stage,
+            "device": cell.device,
+            "answers": method.answers,
+            "status": status.value,
+            "reason": reason,
+            "time": self._time_of(state) if state and status is CellStatus.OK else None,
+            "build": _build_of(state) if state else None,
+            "accuracy": state.summary if state else None,
+            "arrays": None,
+            "operations": _operations(cell.surface) if state else None,
+            "program": {"hash": planned.programs[1].hash} if planned.programs else None,
+            "environment": self._environment | {"started": datetime.now(UTC).isoformat(timespec="seconds")},
+            "seconds": state.preparing + state.timing if state else 0.0,
+            "identity": planned.identity,
+        }
+        self._store.write(row, state.arrays if state else None)
+        self._report(cell.slot, row)
+        return row
+
+    def _time_of(self, state: _Live) -> dict[str, Any]:
+        assert state.warmed and state.planned.device
+        median, lower, upper, _ = measure.median_interval(state.samples)
+        overhead = None
+        if state.device_ms:
+            overhead = float(np.median(np.array(state.wall_ms) / np.array(state.device_ms))) - 1.0
+        return {
+            "clock": state.planned.device.clock,
+            "samples_ms": state.samples,
+            "wall_samples_ms": state.wall_ms,
+            "batch": state.warmed.batch,
+            "median_ms": median,
+            "lower_ms": lower,
+            "upper_ms": upper,
+            "narrow": measure.is_narrow(state.samples, self._config.budget.interval),
+            "overhead_share": overhead,
+        }
+
+
+def _build_of(state: _Live) -> dict[str, Any]:
+    warmed = state.warmed
+    return {
+        "compile_ms": warmed.compile_ms if warmed else state.compile_ms,
+        "upload_ms": warmed.upload_ms if warmed else None,
+        "readback_ms": warmed.readback_ms if warmed else None,
+    }
+
+
+def _operations(surface: Surface) -> dict[str, int]:
+    import surfaces
+
+    return dict(surfaces.operations(surface))
+
+
+def _pictures(
+    surface: Surface,
+    rays: NDArray[np.float32],
+    hits: Hits,
+    truth: Truth,
+    verdicts: accuracy.Verdicts,
+    size: int,
+) -> dict[str, NDArray[Any]]:
+    """The row's answers as [size, size] pictures, row 0 at the top."""
+    pictures: dict[str, NDArray[Any]] = {
+        "status": hits.status,
+        "truth": truth.status,
+        "wrong": verdicts.wrong,
+        "grazing": verdicts.grazing,
+        "error": verdicts.error.astype(np.float32),
+        "evaluations": hits.evaluations,
+        "shade": headlight(surface, rays, hits),
+    }
+    return {name: picture.reshape(size, size) for name, picture in pictures.items()}
+
+
+def headlight(surface: Surface, rays: NDArray[np.float32], hits: Hits) -> NDArray[np.float32]:
+    """float32[n]: the cosine between ray and surface normal at each hit, in [0, 1]; NaN without one."""
+    import surfaces
+
+    shade = np.full(len(hits.t), np.nan, np.float32)
+    hit = hits.status == RayStatus.HIT
+    if hit.any():
+        directions = rays[hit, 3:].astype(np.float64)
+        normals = surfaces.gradient(surface, rays[hit, :3] + hits.t[hit, None] * directions)
+        lengths = np.linalg.norm(normals, axis=1)
+        cosines = np.abs(np.einsum("ij,ij->i", normals, directions)) / np.where(lengths > 0.0, lengths, 1.0)
+        shade[hit] = np.clip(cosines, 0.0, 1.0)
+    return shade

@@ -1,0 +1,147 @@
+"""The process that holds one device. It knows programs and buffers only: no plugins, no surfaces, no files.
+
+Whatever a driver does to it, the runner on the other end of the pipe sees an answer, a closed pipe or silence.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import ctypes
+import signal
+import sys
+import time
+from dataclasses import dataclass
+from functools import cached_property
+from multiprocessing.connection import Connection
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from harness.backends import (
+    BuildError,
+    Device,
+    Launch,
+    Timing,
+    find_devices,
+    hits_from,
+    launch_camera,
+    launch_rays,
+    open_device,
+)
+from harness.contract import DeviceInfo, FirsthitError, Hits, Program
+
+ENOUGH_MS = 2.0  # a sample lasts at least about this long; shorter launches are repeated within it
+MOST_REPEATS = 64
+
+
+@dataclass(frozen=True, eq=False)
+class Frame:
+    """What is timed: a program over a camera's image, or over listed rays where `rays` are given."""
+
+    program: Program
+    camera: NDArray[np.float32]  # [12]
+    rays: NDArray[np.float32] | None  # [size * size, 6]
+    size: int  # samples per side
+
+
+@dataclass(frozen=True, eq=False)
+class Checked:
+    """Hits on the accuracy rays, and what building cost."""
+
+    hits: Hits
+    compile_ms: float
+
+
+@dataclass(frozen=True)
+class Warmed:
+    """What the frame cost apart from running, and how often it is repeated within one sample."""
+
+    compile_ms: float
+    upload_ms: float
+    readback_ms: float
+    batch: int
+
+
+class Worker:
+    def __init__(self, name: str) -> None:
+        self._name = name
+        self._frames: dict[str, Launch] = {}
+
+    @cached_property
+    def _device(self) -> Device:
+        return open_device(self._name)
+
+    def find(self) -> list[DeviceInfo]:
+        """The devices of the backend this worker is named after."""
+        return find_devices(self._name)
+
+    def probe(self) -> Any:
+        from harness.probes import probe
+
+        return probe(self._device)
+
+    def build(self, program: Program) -> None:
+        self._device.build(program)
+
+    def check(self, program: Program, rays: NDArray[np.float32]) -> Checked:
+        """Build a listed-rays program and run it once; rays: float32[n, 6]."""
+        start = time.perf_counter()
+        built = self._device.build(program)
+        compile_ms = (time.perf_counter() - start) * 1e3
+        launch = launch_rays(self._device, program, built, rays)
+        launch.run()
+        hits = hits_from(launch.read())
+        launch.release()
+        return Checked(hits, compile_ms)
+
+    def warm(self, key: str, frame: Frame) -> Warmed:
+        """Build and upload a frame, run it twice, read it back once, and keep it ready under `key`."""
+        start = time.perf_counter()
+        built = self._device.build(frame.program)
+        compile_ms = (time.perf_counter() - start) * 1e3
+        if frame.rays is None:
+            launch = launch_camera(self._device, frame.program, built, frame.camera, frame.size)
+        else:
+            launch = launch_rays(self._device, frame.program, built, frame.rays)
+        launch.run()
+        duration = launch.run().wall_ms
+        start = time.perf_counter()
+        launch.read()
+        readback_ms = (time.perf_counter() - start) * 1e3
+        self._frames[key] = launch
+        batch = min(MOST_REPEATS, max(1, round(ENOUGH_MS / max(duration, 1e-6))))
+        return Warmed(compile_ms, launch.upload_ms, readback_ms, batch)
+
+    def sample(self, key: str, batch: int) -> Timing:
+        return self._frames[key].run(batch)
+
+    def release(self, key: str) -> None:
+        if frame := self._frames.pop(key, None):
+            frame.release()
+
+
+def _die_with_parent() -> None:
+    if sys.platform == "linux":
+        pr_set_pdeathsig = 1
+        with contextlib.suppress(OSError):
+            ctypes.CDLL(None).prctl(pr_set_pdeathsig, signal.SIGKILL)
+
+
+def serve(connection: Connection, device_name: str) -> None:
+    """Answer (operation, arguments) with ("ok", result) or ("failed", reason) until the pipe closes."""
+    _die_with_parent()
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the runner decides when to stop
+    worker = Worker(device_name)
+    while True:
+        try:
+            operation, arguments = connection.recv()
+        except EOFError:
+            return
+        try:
+            answer = ("ok", getattr(worker, operation)(*arguments))
+        except (BuildError, FirsthitError) as error:
+            answer = ("failed", str(error))
+        except Exception as error:  # a binding may raise anything; it costs this one cell
+            answer = ("failed", f"{type(error).__name__}: {error}")
+        connection.send(answer)

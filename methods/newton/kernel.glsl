@@ -1,0 +1,27 @@
+// Newton-Raphson on f along the ray from the bounding sphere's near side; no step longer than λ (toledo2007, 4.4).
+Hit first_hit(Ray ray, real t0, real t1) {
+    Hit hit = no_hit(t1);
+    vec3 o = ray.origin - DOMAIN_CENTER;
+    real middle = -dot(o, ray.direction);
+    vec3 nearest = o + ray.direction * middle;
+    real squared_half = BOUNDING_RADIUS * BOUNDING_RADIUS - dot(nearest, nearest);
+    if (squared_half < 0.0) return hit;
+    real half_length = sqrt(squared_half);
+    real t = max(t0, middle - half_length);
+    real end = min(t1, middle + half_length);
+
+    real longest = STEP_BOUND * BOUNDING_RADIUS;
+    real last = EPSILON * FEATURE_RADIUS;
+    Along along = surface_along(ray);
+    bool outside_is_negative = surface_value_along(along, t) < 0.0;
+    while (hit.evaluations < MAX_EVALUATIONS) {
+        Dual f = surface_dual_along(along, t);
+        hit.evaluations += 1;
+        real step = f.derivative == 0.0 ? longest : clamp(-f.value / f.derivative, -longest, longest);
+        if (FORWARD == 1) step = (f.value < 0.0) == outside_is_negative ? fabs(step) : -fabs(step);
+        t += step;
+        if (t > end) return missed(hit);
+        if (fabs(step) < last) return hit_at(hit, t);
+    }
+    return exhausted(hit, t);
+}

@@ -1,0 +1,35 @@
+"""Newton-Raphson with a bounded step, started on the bounding sphere.
+
+**Source** toledo2007, section 4.4 (equations 4 and 5); ray-torus quartic: equation 2.
+
+**Theory** Outside the surface f has one sign, and a Newton step along the ray stops short of the first root where f is
+convex there; near a simple root it converges quadratically. Close to a local extreme of f the step would be far too
+long, so it is bounded by λ. Nothing proves that the root found is the first: the start, close in front of the surface,
+is what makes it so in practice.
+
+**Changes against the paper**
+- Equation 5's step is signed: where a ray passes the surface closely, f falls and rises again without a root, and the
+  step turns back into the dip, where the ray stays until its budget ends. Here a step goes forwards outside the
+  surface and backwards inside it, whatever the derivative's sign (FORWARD = 1). FORWARD = 0 is the step as printed;
+  configs/newton-steps.toml runs both.
+- The paper does not say when to give up. Here a ray ends as a miss where it leaves the bounding sphere or the domain,
+  and as exhausted after MAX_EVALUATIONS.
+- Surfaces other than the torus are a stated extension: the paper's λ = 0.15 is relative to its canonical torus
+  (R + r = 1), here to the bounding radius; its thresholds are relative to the minor radius r, here to the surface's
+  feature radius, or its domain's radius where none is stated.
+"""
+
+from harness.contract import Method, Parameter
+
+METHOD = Method(
+    name="newton",
+    source="toledo2007",
+    needs=("surface_along", "surface_value_along", "surface_dual_along"),
+    parameters=(
+        Parameter("EPSILON", 0.001, "last step allowed, over the surface's feature radius"),
+        Parameter("STEP_BOUND", 0.15, "longest step λ, over the bounding radius"),
+        Parameter("FORWARD", 1, "1: forwards outside the surface, backwards inside; 0: signed steps as printed"),
+        Parameter("MAX_EVALUATIONS", 100, "evaluations spent on one ray"),
+    ),
+    variants={"Newton 0.001": {"EPSILON": 0.001}, "Newton 0.00003": {"EPSILON": 0.00003}},
+)

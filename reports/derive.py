@@ -1,0 +1,65 @@
+"""What follows from the rows: rates, wrong rays, speed-ups, the harness's floor, Pareto fronts.
+
+Rows are compared only with rows of the same surface, view, size, samples per pixel, stage, device and precision:
+a GROUP.
+"""
+
+from __future__ import annotations
+
+import pandas as pd
+
+from harness.contract import CellStatus
+
+GROUP = ["comparison", "device", "precision"]
+BASELINE = "ray_march"  # the method that speed-ups are over
+FLOOR_FACTOR = 2.0  # a time under this many times the null method's says more about the harness than about the method
+
+
+def derive(frame: pd.DataFrame) -> pd.DataFrame:
+    """`frame` with the columns of DERIVED added."""
+    seconds = frame["median_ms"] / 1e3
+    rays = (frame["size"] ** 2 * frame["samples_per_pixel"]).astype("float64")
+    frame = frame.assign(mrays_per_s=rays / seconds / 1e6, frames_per_s=1.0 / seconds)
+    timed = frame[(frame["status"] == CellStatus.OK) & frame["median_ms"].notna()]
+    baseline, floor = _baseline_ms(timed), _floor_ms(timed)
+    frame = frame.join(baseline, on=GROUP)
+    frame["speedup"] = (frame["baseline_ms"] / frame["median_ms"]).where(frame["answers"])
+    frame = frame.join(floor, on=GROUP)
+    frame["floor_bound"] = frame["answers"] & (frame["median_ms"] < FLOOR_FACTOR * frame["floor_ms"])
+    wrong = ["misses", "false_hits", "exhausted", "wrong_root"]
+    frame["wrong_rays"] = frame[wrong].sum(axis=1, min_count=1).astype("Int64")
+    frame["grazing_wrong_rays"] = frame[[f"grazing_{name}" for name in wrong]].sum(axis=1, min_count=1).astype("Int64")
+    frame["front"] = _front(frame)
+    return frame
+
+
+def contenders(frame: pd.DataFrame) -> pd.DataFrame:
+    """The rows that were timed and answer, fastest first within their group."""
+    rows = frame[(frame["status"] == CellStatus.OK) & frame["answers"] & frame["median_ms"].notna()]
+    return rows.sort_values([*GROUP, "median_ms"], kind="stable")
+
+
+def all_right(frame: pd.DataFrame) -> pd.Series:
+    """Which rows answered every ray outside the grazing class rightly."""
+    return (frame["wrong_rays"] == 0).fillna(False).astype(bool)
+
+
+def _baseline_ms(timed: pd.DataFrame) -> pd.Series:
+    """The time of the baseline method; of its several variants the one without bound parameters in its name, if any."""
+    rows = timed[timed["method"] == BASELINE]
+    swept = (rows["variant"] != BASELINE).rename("swept")
+    rows = rows.assign(swept=swept).sort_values("swept", kind="stable").drop_duplicates(GROUP)
+    return rows.set_index(GROUP)["median_ms"].rename("baseline_ms")
+
+
+def _floor_ms(timed: pd.DataFrame) -> pd.Series:
+    return timed[~timed["answers"].astype(bool)].groupby(GROUP)["median_ms"].max().rename("floor_ms")
+
+
+def _front(frame: pd.DataFrame) -> pd.Series:
+    """Which rows no other row of their group beats in both time and largest error, among those with all rays right."""
+    rows = contenders(frame)
+    rows = rows[all_right(rows) & rows["error_max"].notna()].sort_values([*GROUP, "median_ms", "error_max"])
+    smallest_so_far = rows.groupby(GROUP)["error_max"].cummin()
+    before = smallest_so_far.groupby([rows[name] for name in GROUP]).shift(fill_value=float("inf"))
+    return (rows["error_max"] < before).reindex(frame.index, fill_value=False).astype("boolean")

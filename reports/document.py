@@ -1,0 +1,104 @@
+"""Content → PDF. The template reads the report as data (JSON and files), so no text is ever parsed as markup."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from datetime import datetime
+from pathlib import Path
+from typing import Any
+
+import matplotlib
+import typst
+
+from reports.content import Block, Code, Document, Figure, Gallery, Section, Table, Text
+
+TEMPLATE = Path(__file__).with_name("report.typ")
+
+
+def write_pdf(document: Document, folder: Path, pdf: Path, created: str) -> None:
+    """Set `document` as the file `pdf`, with `folder` (made here) for the template's inputs.
+
+    `created` (ISO 8601) becomes the PDF's date where it is one, so that the same run gives the same bytes.
+    """
+    folder.mkdir()
+    shutil.copy(TEMPLATE, folder)
+    data = {
+        "title": document.title,
+        "subtitle": document.subtitle,
+        "summary": _section(document.summary, folder),
+        "sections": [_section(section, folder) for section in document.sections],
+    }
+    (folder / "report.json").write_text(json.dumps(data, ensure_ascii=False), encoding="utf-8", errors="replace")
+    typst.compile(
+        folder / TEMPLATE.name,
+        output=pdf,
+        root=folder,
+        font_paths=[Path(matplotlib.get_data_path()) / "fonts" / "ttf"],
+        ignore_system_fonts=True,  # the same pages on every machine
+        timestamp=_timestamp(created),
+    )
+
+
+def _timestamp(created: str) -> int | None:
+    try:
+        return int(datetime.fromisoformat(created).timestamp())
+    except ValueError:
+        return None
+
+
+def _section(section: Section, folder: Path) -> dict[str, Any]:
+    return {"title": section.title, "wide": section.wide, "blocks": [_block(block, folder) for block in section.blocks]}
+
+
+def _block(block: Block, folder: Path) -> dict[str, Any]:
+    match block:
+        case Text():
+            return {"kind": "text", "text": block.text, "strong": block.strong}
+        case Code():
+            return {"kind": "code", "text": block.text, "language": block.language}
+        case Table():
+            return _table(block)
+        case Figure():
+            return _figure(block, folder)
+        case Gallery():
+            return _gallery(block, folder)
+
+
+def _table(table: Table) -> dict[str, Any]:
+    """Cells as printed; a leading value that repeats the row above within its group is left blank."""
+    rows = []
+    above: tuple[Any, ...] = ()
+    for row in table.rows:
+        printed = [column.show(value) for column, value in zip(table.columns, row, strict=True)]
+        same = 0
+        while same < table.group and row[: same + 1] == above[: same + 1]:
+            same += 1
+        cells = ["" if i < same else cell for i, cell in enumerate(printed)]
+        rows.append({"cells": cells, "opens": same < table.group})
+        above = row
+    return {
+        "kind": "table",
+        "columns": [{"title": c.title, "numeric": c.numeric, "stretch": c.stretch} for c in table.columns],
+        "rows": rows,
+        "title": table.title,
+        "caption": table.caption,
+    }
+
+
+def _figure(figure: Figure, folder: Path) -> dict[str, Any]:
+    file = f"{figure.name}.svg"
+    (folder / file).write_text(figure.svg, encoding="utf-8")
+    told = {"title": figure.title, "caption": figure.caption, "description": figure.description}
+    return {"kind": "figure", "file": file, **told}
+
+
+def _gallery(gallery: Gallery, folder: Path) -> dict[str, Any]:
+    panels = []
+    for panel in gallery.panels:
+        for picture in panel.pictures:
+            (folder / f"{picture.name}.png").write_bytes(picture.png)
+        pictures = [{"file": f"{picture.name}.png", "description": picture.description} for picture in panel.pictures]
+        panels.append({"title": panel.title, "note": panel.note, "pictures": pictures})
+    legend = None if gallery.legend is None else _figure(gallery.legend, folder)
+    return {"kind": "gallery", "panels": panels, "caption": gallery.caption, "legend": legend}

@@ -1,0 +1,154 @@
+"""A run's arrays → pictures: what a method drew, and beside it how wrong it was, on the rays of the accuracy check."""
+
+from __future__ import annotations
+
+import io
+import math
+import zipfile
+import zlib
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import matplotlib
+import numpy as np
+import pandas as pd
+from matplotlib.colors import to_rgb
+from numpy.typing import NDArray
+from PIL import Image
+
+from harness.contract import CellStatus, TruthStatus
+from reports import plots, style, wording
+from reports.content import Gallery, Panel, Picture
+from reports.load import Unreadable, problem
+
+PIXELS = 480  # pixels are repeated to at least this side, because some viewers blur small pictures
+GRAZING_PALE = 0.55  # how far the colour of a wrong ray fades to white in the grazing class
+WIDEST_SCALE = 10  # decades
+
+
+@dataclass(frozen=True, eq=False)
+class Arrays:
+    """One cell's answers on its accuracy grid; every array is [h, w] with row 0 at the top."""
+
+    truth: NDArray[np.uint8]  # TruthStatus
+    error: NDArray[np.float32]  # |t − t*| in scene units; NaN where not both hit
+    wrong: NDArray[np.uint8]  # 0 right, else the code of a style.Class
+    grazing: NDArray[np.bool_]
+    shade: NDArray[np.float32]  # cosine towards the camera; NaN on background
+
+
+def read(path: Path) -> Arrays:
+    """The arrays of one cell; a ValueError or OSError where the file is damaged or not of this kind."""
+    try:
+        with np.load(path, allow_pickle=False) as file:
+            named = {name: file[name] for name in Arrays.__dataclass_fields__}
+    except (KeyError, EOFError, zipfile.BadZipFile, zlib.error) as error:
+        raise ValueError(f"damaged: {error}") from error
+    shapes = {array.shape for array in named.values()}
+    if len(shapes) != 1 or len(next(iter(shapes))) != 2 or 0 in next(iter(shapes)):
+        raise ValueError(f"its arrays are not of one two-dimensional shape: {sorted(shapes)}")
+    return Arrays(**named)
+
+
+def chosen(rows: pd.DataFrame) -> pd.DataFrame:
+    """The rows of one surface to show: on the device with most results, one variant per method and precision.
+
+    The variant is the first of its method in the plan's order, for every precision the same where it can be.
+    """
+    rows = rows[(rows["status"] == CellStatus.OK) & rows["answers"] & rows["arrays"].notna()]
+    if rows.empty:
+        return rows
+    first = rows[rows["comparison"] == rows["comparison"].iloc[0]]
+    device = first["device"].value_counts(sort=False).idxmax()
+    kept = first[first["device"] == device].drop_duplicates(["method", "precision"])
+    return kept.sort_values(["method", "precision"], kind="stable")
+
+
+def galleries(folder: Path, frame: pd.DataFrame) -> tuple[dict[str, Gallery], list[Unreadable]]:
+    """A gallery for each surface that has pictures, by the surface's name; and the array files that were unusable."""
+    picked: dict[str, list[tuple[Any, Arrays]]] = {}
+    unreadable = []
+    for surface, rows in frame.groupby("surface", sort=False):
+        for row in chosen(rows).itertuples():
+            file = f"arrays/{row.key}.npz"
+            try:
+                arrays = read(folder / file)
+                picked.setdefault(str(surface), []).append((row, arrays))
+            except (OSError, ValueError) as error:
+                unreadable.append(Unreadable(file, f"{problem(error)} ({row.slot})"))
+    scale = _scale([arrays for cells in picked.values() for _, arrays in cells])
+    legend = plots.error_legend(*scale)
+    made = {
+        surface: Gallery(tuple(_panel(row, arrays, scale) for row, arrays in cells), _caption(cells[0][0]), legend)
+        for surface, cells in picked.items()
+    }
+    return made, unreadable
+
+
+def _scale(every: list[Arrays]) -> tuple[int, int]:
+    """The decades that hold every picture's positive errors, at most WIDEST_SCALE of them: one scale for the report."""
+    positive = [arrays.error[(arrays.error > 0) & np.isfinite(arrays.error)] for arrays in every]
+    low = min((float(e.min()) for e in positive if e.size), default=1e-7)
+    high = max((float(e.max()) for e in positive if e.size), default=1e-3)
+    highest = max(math.ceil(math.log10(high)), math.floor(math.log10(low)) + 1)
+    return max(math.floor(math.log10(low)), highest - WIDEST_SCALE), highest
+
+
+def _panel(row: Any, arrays: Arrays, scale: tuple[int, int]) -> Panel:
+    name = f"{row.variant}, {row.precision}"
+    pictures = (
+        Picture(f"{row.key}-shade", _png(shaded(arrays)), f"{row.surface_title} drawn by {name}"),
+        Picture(f"{row.key}-error", _png(error_map(arrays, scale)), f"Errors of {name} on {row.surface_title}"),
+    )
+    counts = zip((row.misses, row.false_hits, row.exhausted, row.wrong_root), style.WRONG, strict=True)
+    wrong = ", ".join(f"{kind.title} {n:,}" for n, kind in counts if not wording.absent(n) and n > 0)
+    note = f"max {wording.error(row.error_max)} · {wrong or 'no wrong ray'}"
+    if not wording.absent(row.grazing_wrong_rays) and row.grazing_wrong_rays > 0:
+        note += f" · {wording.count(row.grazing_wrong_rays)} grazing"
+    return Panel(name, pictures, note)
+
+
+def _caption(row: Any) -> str:
+    return (
+        f"{row.surface_title} on {row.device}, view {row.view}: what each method drew, and its error beside it. "
+        "Dark blue to yellow is a growing |t − t*| on one logarithmic scale for the whole report; the bright colours "
+        "are rays answered wrongly, paler where they graze the surface. Look for wrong rays away from the silhouette, "
+        "and for bands or facets in the error."
+    )
+
+
+def shaded(arrays: Arrays) -> NDArray[np.float64]:
+    """float64[h, w, 3] in 0…1: the hit points lit from the camera, on white."""
+    light = np.clip(np.nan_to_num(arrays.shade.astype(np.float64)), 0.0, 1.0)[..., None]
+    lit = _rgb(style.SURFACE_SHADOW) * (1 - light) + _rgb(style.SURFACE_LIGHT) * light
+    return np.where(np.isnan(arrays.shade)[..., None], 1.0, lit)
+
+
+def error_map(arrays: Arrays, scale: tuple[int, int]) -> NDArray[np.float64]:
+    """float64[h, w, 3] in 0…1: errors by colour between the decades of `scale`, wrong rays in their class's colour."""
+    lowest, highest = scale
+    error = arrays.error.astype(np.float64)
+    positive = np.isfinite(error) & (error > 0)
+    level = (np.log10(np.where(positive, error, 1.0)) - lowest) / (highest - lowest)
+    image = np.ones((*error.shape, 3))
+    image[error == 0] = _rgb(style.EXACT)
+    image[positive] = matplotlib.colormaps[style.ERROR_MAP](np.clip(level[positive], 0, 1))[:, :3]
+    image[arrays.truth == TruthStatus.UNDECIDED] = _rgb(style.UNDECIDED)
+    for kind in style.WRONG:
+        color = _rgb(kind.color)
+        image[(arrays.wrong == kind.code) & ~arrays.grazing] = color
+        image[(arrays.wrong == kind.code) & arrays.grazing] = color + GRAZING_PALE * (1 - color)
+    return image
+
+
+def _rgb(color: str) -> NDArray[np.float64]:
+    return np.asarray(to_rgb(color))
+
+
+def _png(image: NDArray[np.float64]) -> bytes:
+    times = max(1, -(-PIXELS // max(image.shape[:2])))
+    pixels = np.round(255 * image).astype(np.uint8).repeat(times, axis=0).repeat(times, axis=1)
+    buffer = io.BytesIO()
+    Image.fromarray(pixels).save(buffer, "PNG", optimize=True)
+    return buffer.getvalue()

@@ -1,0 +1,228 @@
+"""Frames → figures of content: matplotlib drawings as SVG text, in the visual language of `style`.
+
+Errors are drawn on a logarithmic axis that is broken to the left of its smallest decade, so that an error of exactly
+zero has a place; positions on it are decimal exponents.
+"""
+
+from __future__ import annotations
+
+import io
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import matplotlib
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure as Drawing
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullLocator
+
+from reports import derive, style, wording
+from reports.content import Figure
+from reports.style import Mark
+
+RC: dict[Any, Any] = {
+    "font.family": style.FONT,
+    "font.size": 6.5,
+    "axes.titlesize": 7,
+    "axes.titleweight": "bold",
+    "axes.edgecolor": style.FAINT,
+    "axes.labelcolor": style.INK,
+    "axes.linewidth": 0.6,
+    "axes.grid": True,
+    "axes.axisbelow": True,
+    "grid.color": style.HAIRLINE,
+    "grid.linewidth": 0.4,
+    "xtick.color": style.FAINT,
+    "ytick.color": style.FAINT,
+    "xtick.labelcolor": style.INK,
+    "ytick.labelcolor": style.INK,
+    "legend.frameon": False,
+    "svg.fonttype": "none",  # text stays text: the PDF embeds the same font, and readers can search it
+    "svg.hashsalt": "firsthit",
+    "text.parse_math": False,  # a $ in a name is a $
+}
+PAGE_WIDTH = 10.4  # inches, of a landscape page's text
+PANELS_ACROSS = 5
+
+
+@dataclass(frozen=True)
+class ErrorAxis:
+    """Decades `lowest` to `highest` of a logarithmic axis, and left of them the place of zero."""
+
+    lowest: int
+    highest: int
+
+    @classmethod
+    def of(cls, errors: pd.Series) -> ErrorAxis:
+        positive = errors[(errors > 0) & np.isfinite(errors)]
+        if positive.empty:
+            return cls(-8, -4)
+        lowest = math.floor(math.log10(positive.min()))
+        return cls(lowest, max(math.ceil(math.log10(positive.max())), lowest + 1))
+
+    @property
+    def zero(self) -> float:
+        return self.lowest - max(1.0, 0.18 * (self.highest - self.lowest))
+
+    def position(self, errors: pd.Series) -> Any:
+        """float64[n]: where to draw each error."""
+        values = errors.to_numpy("float64")
+        return np.where(values > 0, np.log10(np.where(values > 0, values, 1.0)), self.zero)
+
+    def _label(self, x: float, _: object) -> str:
+        return wording.power_of_ten(round(x)) if x > self.zero else "0"
+
+    def dress(self, axes: Axes) -> None:
+        span = self.highest - self.lowest
+        step = max(1, math.ceil(span / 4))
+        exponents = list(range(self.lowest, self.highest + 1, step))
+        axes.xaxis.set_major_locator(FixedLocator([self.zero, *exponents]))
+        axes.xaxis.set_major_formatter(FuncFormatter(self._label))
+        margin = 0.06 * (self.highest - self.zero)
+        axes.set_xlim(self.zero - margin, self.highest + margin)
+        axes.axvspan(self.zero - margin, (self.zero + self.lowest) / 2, color="#f4f4f4", linewidth=0, zorder=0)
+
+
+def speed_against_error(rows: pd.DataFrame, marks: Mapping[str, Mark], name: str, title: str) -> list[Figure]:
+    """For one comparison: a panel for each device and precision, `PANELS_ACROSS` devices to a figure."""
+    shown = derive.contenders(rows)
+    shown = shown[shown["error_max"].notna() & np.isfinite(shown["mrays_per_s"]) & (shown["mrays_per_s"] > 0)]
+    if shown.empty:
+        return []
+    devices = list(dict.fromkeys(shown["device"]))
+    batches = [devices[i : i + PANELS_ACROSS] for i in range(0, len(devices), PANELS_ACROSS)]
+    return [
+        Figure(
+            f"{name}-{i}",
+            _speed_against_error(shown[shown["device"].isin(batch)], batch, marks),
+            f"Scatter plots of speed against largest error on {title}, one for each of {', '.join(batch)}.",
+            f"{title}.",
+            _caption(shown[shown["device"].isin(batch)]),
+        )
+        for i, batch in enumerate(batches)
+    ]
+
+
+def _speed_against_error(shown: pd.DataFrame, devices: Sequence[str], marks: Mapping[str, Mark]) -> str:
+    precisions = sorted(set(shown["precision"]))
+    axis = ErrorAxis.of(shown["error_max"])
+    columns, lines = len(devices), len(precisions)
+    width, height = min(PAGE_WIDTH, 0.7 + 3.2 * columns), 0.9 + 2.35 * lines
+    with matplotlib.rc_context(RC):
+        drawing = Drawing(figsize=(width, height))
+        panels = drawing.subplots(lines, columns, sharex=True, sharey=True, squeeze=False)
+        # Margins in inches: left for speeds, below for errors, above for the key. Automatic layout costs a third more.
+        drawing.subplots_adjust(0.55 / width, 0.5 / height, 1 - 0.08 / width, 1 - 0.5 / height, 0.06, 0.16)
+        for i, precision in enumerate(precisions):
+            for j, device in enumerate(devices):
+                axes = panels[i, j]
+                group = shown[(shown["device"] == device) & (shown["precision"] == precision)]
+                axes.set_title(f"{device}  {precision}", color=style.INK)
+                axis.dress(axes)
+                _draw_group(axes, group, axis, marks)
+        _dress_speed(panels[0, 0], shown["mrays_per_s"])
+        drawing.supxlabel("largest error |t − t*|, scene units", y=0.12 / height, va="center", fontsize=6.5)
+        drawing.supylabel("Mrays/s", x=0.1 / width, ha="center", fontsize=6.5)
+        handles, labels = _key(shown, marks)
+        drawing.legend(handles, labels, loc="upper center", ncols=9, borderaxespad=0.2)
+        return _svg(drawing)
+
+
+def _draw_group(axes: Axes, group: pd.DataFrame, axis: ErrorAxis, marks: Mapping[str, Mark]) -> None:
+    if group.empty:
+        axes.text(0.5, 0.5, "no result", transform=axes.transAxes, ha="center", va="center", color=style.FAINT)
+        return
+    floor = group["floor_ms"].iloc[0]
+    if floor > 0:
+        rays_per_ms = group["mrays_per_s"].iloc[0] * group["median_ms"].iloc[0]
+        bound = rays_per_ms / (derive.FLOOR_FACTOR * floor)
+        axes.axhspan(
+            bound, 1e3 * bound, facecolor="none", edgecolor=style.HAIRLINE, hatch="////", linewidth=0, zorder=0.5
+        )
+    x = pd.Series(axis.position(group["error_max"]), group.index)
+    y = group["mrays_per_s"]
+    colors = [marks[method].color for method in group["method"]]
+    low, high = y * group["median_ms"] / group["upper_ms"], y * group["median_ms"] / group["lower_ms"]
+    axes.vlines(x, low, high, color=colors, lw=0.8, zorder=3)
+    right = derive.all_right(group)
+    for method, rows in x.sort_index().groupby(group["method"]):  # a knob's settings joined in the plan's order
+        mark = marks[str(method)]
+        look: dict[str, Any] = {"color": mark.color, "marker": mark.marker, "ms": 4.5, "mew": 0.9, "zorder": 4}
+        axes.plot(rows, y[rows.index], lw=0.5, **look)
+        hollow = rows[~right[rows.index]]
+        axes.plot(hollow, y[hollow.index], lw=0, markerfacecolor=style.PAPER, **look)
+    front = x[group["front"].astype(bool)].sort_values()
+    if len(front):  # drawn down from its most exact row and right from its fastest, for what these two beat
+        ends, speeds = (front.iloc[0], front.iloc[-1] + 99), y[front.index]
+        edge_x, edge_y = np.r_[ends[0], front, ends[1]], np.r_[speeds.iloc[0] * 1e-9, speeds, speeds.iloc[-1]]
+        axes.step(edge_x, edge_y, where="post", color=style.INK, lw=0.8, zorder=2)
+
+
+def _dress_speed(axes: Axes, speeds: pd.Series) -> None:
+    """A logarithmic axis with at least a handful of labels, whatever its span. Shared by all panels."""
+    low, high = speeds.min() / 1.5, speeds.max() * 1.5
+    axes.set_yscale("log")
+    axes.set_ylim(low, high)
+    axes.yaxis.set_major_locator(LogLocator(subs=(1.0,) if high / low > 300 else (1.0, 2.0, 5.0)))
+    axes.yaxis.set_minor_locator(NullLocator())
+    axes.yaxis.set_major_formatter(FuncFormatter(lambda y, _: f"{y:,.0f}" if y >= 1 else f"{y:g}"))
+
+
+def _key(shown: pd.DataFrame, marks: Mapping[str, Mark]) -> tuple[list[Any], list[str]]:
+    entries: list[tuple[Any, str]] = [
+        (Line2D([], [], color=marks[m].color, marker=marks[m].marker, markersize=4.5, lw=0.5), m)
+        for m in sorted(set(shown["method"]))
+    ]
+    hollow = Line2D([], [], color=style.INK, marker="o", markerfacecolor=style.PAPER, markersize=4.5, lw=0)
+    entries.append((hollow, "hollow: some rays wrong"))
+    entries.append((Line2D([], [], color=style.INK, lw=0.8), "Pareto front"))
+    if shown["floor_ms"].notna().any():
+        entries.append((Patch(facecolor="none", edgecolor=style.FAINT, hatch="////", linewidth=0), "floor-bound"))
+    handles, labels = zip(*entries, strict=True)
+    return list(handles), list(labels)
+
+
+def _caption(shown: pd.DataFrame) -> str:
+    best = shown[shown["front"].astype(bool)].sort_values("speedup", ascending=False)
+    seen = ""
+    if len(best) and best["speedup"].notna().any():
+        row = best.iloc[0]
+        seen = (
+            f" The largest gain with no wrong ray here: {row.variant} on {row.device} in {row.precision}, "
+            f"{wording.factor(row.speedup)} {derive.BASELINE} at a largest error of {wording.error(row.error_max)}."
+        )
+    exact = int((shown["error_max"] == 0).sum())
+    zeros = f" {wording.plural(exact, 'row')} with an error of exactly 0 stand left of the break." if exact else ""
+    return (
+        "Up is faster, left is more exact; what lies below and right of the black line is beaten in both. "
+        f"Hollow marks answer some rays wrongly and cannot be on the front.{zeros}{seen}"
+    )
+
+
+def error_legend(lowest: int, highest: int) -> Figure:
+    """The key to the error pictures: the colour scale between two decades, and a patch for each kind of wrong ray."""
+    with matplotlib.rc_context(RC):
+        drawing = Drawing(figsize=(6.8, 0.42))
+        bar = drawing.add_axes((0.03, 0.6, 0.36, 0.36))
+        bar.imshow(np.linspace(0, 1, 256)[None, :], aspect="auto", cmap=style.ERROR_MAP, extent=(lowest, highest, 0, 1))
+        bar.set_yticks([])
+        bar.grid(visible=False)
+        bar.xaxis.set_major_locator(FixedLocator(range(lowest, highest + 1, max(1, math.ceil((highest - lowest) / 6)))))
+        bar.xaxis.set_major_formatter(FuncFormatter(lambda x, _: wording.power_of_ten(round(x))))
+        patches = [(style.EXACT, "0"), *((c.color, c.title) for c in style.WRONG), (style.UNDECIDED, "undecided")]
+        handles = [Patch(facecolor=color, edgecolor=style.FAINT, linewidth=0.3) for color, _ in patches]
+        labels = [label for _, label in patches]
+        spacing = {"handlelength": 1.1, "columnspacing": 1.2, "handletextpad": 0.5}
+        drawing.legend(handles, labels, loc="center left", bbox_to_anchor=(0.42, 0.62), ncols=len(labels), **spacing)
+        return Figure("error-legend", _svg(drawing), "Colours of errors and of wrong rays.")
+
+
+def _svg(drawing: Drawing) -> str:
+    buffer = io.StringIO()
+    drawing.savefig(buffer, format="svg", metadata={"Date": None})
+    return buffer.getvalue()

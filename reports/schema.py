@@ -1,0 +1,136 @@
+"""The flat row: which values of a cell's file a report uses, what they are called and of which kind they are.
+
+A name is the last part of the value's path in the file, prefixed only where two would collide. CSV, Parquet and
+every table use these names; `reports.derive` adds the columns that follow from them.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any, Literal
+
+Kind = Literal["text", "real", "whole", "flag", "json", "reals"]
+
+
+@dataclass(frozen=True)
+class Field:
+    """One column. `path` leads to its value in a cell's file; a value that is null or absent is None in the row."""
+
+    name: str
+    kind: Kind
+    path: tuple[str, ...] = ()
+    required: bool = False
+
+
+def _fields(kind: Kind, names: str, at: str = "", prefix: str = "", required: bool = False) -> Iterator[Field]:
+    for name in names.split():
+        yield Field(prefix + name, kind, (*at.split("."), name) if at else (name,), required)
+
+
+_PERCENTILES = "max p999 p99 p50"
+
+SCHEMA: tuple[Field, ...] = (
+    *_fields("text", "key slot comparison method variant", required=True),
+    *_fields("json", "parameters"),
+    *_fields("text", "surface surface_title", required=True),
+    *_fields("text", "formula"),
+    *_fields("whole", "degree"),
+    *_fields("text", "view", required=True),
+    *_fields("whole", "size samples_per_pixel", required=True),
+    *_fields("text", "precision stage device status", required=True),
+    *_fields("text", "reason"),
+    *_fields("flag", "answers", required=True),
+    *_fields("text", "clock", at="time"),
+    *_fields("real", "median_ms lower_ms upper_ms overhead_share", at="time"),
+    *_fields("flag", "narrow", at="time"),
+    *_fields("whole", "batch", at="time"),
+    *_fields("reals", "samples_ms", at="time"),
+    *_fields("real", "compile_ms upload_ms readback_ms", at="build"),
+    *_fields("whole", "size rays", at="accuracy", prefix="accuracy_"),
+    *_fields("whole", "truth_hits truth_misses undecided grazing", at="accuracy"),
+    *_fields("real", "grazing_margin", at="accuracy"),
+    *_fields("whole", "misses false_hits exhausted wrong_root", at="accuracy"),
+    *_fields("whole", "grazing_misses grazing_false_hits grazing_exhausted grazing_wrong_root", at="accuracy"),
+    *_fields("real", _PERCENTILES, at="accuracy.error", prefix="error_"),
+    *_fields("real", _PERCENTILES, at="accuracy.relative_error", prefix="relative_error_"),
+    *_fields("real", _PERCENTILES, at="accuracy.pixel_error", prefix="pixel_error_"),
+    *_fields("real", "evaluations_mean evaluations_max", at="accuracy"),
+    *_fields("text", "arrays"),
+    *_fields("json", "operations"),
+    *_fields("text", "hash", at="program", prefix="program_"),
+    *_fields("text", "started commit", at="environment"),
+    *_fields("json", "identity"),
+)
+
+DERIVED: tuple[Field, ...] = (
+    *_fields("real", "mrays_per_s frames_per_s baseline_ms speedup floor_ms"),
+    *_fields("flag", "floor_bound"),
+    *_fields("whole", "wrong_rays grazing_wrong_rays"),
+    *_fields("flag", "front"),
+)
+
+
+def flatten(document: Mapping[str, Any]) -> tuple[Any, ...]:
+    """The values of SCHEMA, in its order; a ValueError names the first value that is missing or of another kind."""
+    return tuple(_value(field, document) for field in SCHEMA)
+
+
+def _value(field: Field, document: Mapping[str, Any]) -> Any:
+    value: Any = document
+    for part in field.path:
+        if value is None:
+            break
+        if not isinstance(value, Mapping):
+            raise ValueError(f"{'.'.join(field.path)}: the value around it is no object")
+        value = value.get(part)
+    if value is None:
+        if field.required:
+            raise ValueError(f"{'.'.join(field.path)} is missing")
+        return None
+    try:
+        return _READERS[field.kind](value)
+    except (TypeError, OverflowError) as error:
+        raise ValueError(f"{'.'.join(field.path)} is no {_NOUNS[field.kind]}: {value!r:.40}") from error
+
+
+def _exactly(kind: type) -> Callable[[Any], Any]:
+    def read(value: Any) -> Any:
+        if type(value) is not kind:
+            raise TypeError
+        return value
+
+    return read
+
+
+def _real(value: Any) -> float:
+    if type(value) not in (int, float):
+        raise TypeError
+    return float(value)
+
+
+def _whole(value: Any) -> int:
+    if type(value) is not int:
+        raise TypeError
+    if abs(value) >= 2**63:
+        raise OverflowError
+    return value
+
+
+_READERS: dict[Kind, Callable[[Any], Any]] = {
+    "text": lambda value: _exactly(str)(value).encode(errors="replace").decode(),  # half a surrogate pair is no text
+    "real": _real,
+    "whole": _whole,
+    "flag": _exactly(bool),
+    "json": lambda value: json.dumps(value, sort_keys=True),
+    "reals": lambda value: [_real(item) for item in _exactly(list)(value)],
+}
+_NOUNS: dict[Kind, str] = {
+    "text": "text",
+    "real": "number",
+    "whole": "whole number",
+    "flag": "truth value",
+    "json": "object",
+    "reals": "list of numbers",
+}

@@ -1,0 +1,49 @@
+"""Rows ↔ tables of columns: the pandas frame a report works on, and the CSV and Parquet files it leaves behind."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from reports.schema import DERIVED, SCHEMA, Kind
+
+_DTYPES: dict[Kind, str] = {
+    "text": "object",
+    "real": "float64",
+    "whole": "Int64",
+    "flag": "boolean",
+    "json": "object",
+    "reals": "object",
+}
+_ARROW: dict[Kind, pa.DataType] = {
+    "text": pa.string(),
+    "real": pa.float64(),
+    "whole": pa.int64(),
+    "flag": pa.bool_(),
+    "json": pa.string(),
+    "reals": pa.list_(pa.float64()),
+}
+
+
+def frame(rows: Sequence[tuple[Any, ...]]) -> pd.DataFrame:
+    """Rows in SCHEMA's order → a frame whose columns keep their kind even where every value is missing."""
+    columns = zip(*rows, strict=True)
+    return pd.DataFrame({f.name: pd.Series(c, dtype=_DTYPES[f.kind]) for f, c in zip(SCHEMA, columns, strict=True)})
+
+
+def write_csv(frame: pd.DataFrame, path: Path) -> None:
+    """One line for each cell; lists and objects as JSON."""
+    samples = [None if value is None else json.dumps(value) for value in frame["samples_ms"]]
+    frame.assign(samples_ms=samples).to_csv(path, index=False)
+
+
+def write_parquet(frame: pd.DataFrame, path: Path) -> None:
+    """One row for each cell; time samples as a list column, missing values as nulls."""
+    schema = pa.schema([(field.name, _ARROW[field.kind]) for field in (*SCHEMA, *DERIVED)])
+    pq.write_table(pa.Table.from_pandas(frame, schema=schema, preserve_index=False).replace_schema_metadata(None), path)

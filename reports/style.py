@@ -1,0 +1,77 @@
+"""The visual language: one colour and one marker for a method, one colour for a kind of wrong ray, on every page.
+
+Colours are Okabe and Ito's, which the colour-blind can tell apart; markers carry the same distinction in greyscale.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+INK = "#222222"
+FAINT = "#8a8a8a"
+HAIRLINE = "#d9d9d9"
+PAPER = "#ffffff"
+FONT = "DejaVu Sans"  # matplotlib brings it along, and the PDF embeds the same file
+
+_BLUE, _ORANGE, _GREEN, _VERMILLION = "#0072B2", "#E69F00", "#009E73", "#D55E00"
+_PURPLE, _SKY, _YELLOW, _GREY = "#CC79A7", "#56B4E9", "#B8A800", "#777777"  # the yellow darkened to be seen on paper
+
+
+@dataclass(frozen=True)
+class Mark:
+    """How a method is drawn; `marker` is a matplotlib marker."""
+
+    color: str
+    marker: str
+
+
+_HOUSE: dict[str, Mark] = {
+    "null": Mark(_GREY, "x"),
+    "ray_march": Mark(_ORANGE, "s"),
+    "newton": Mark(_BLUE, "o"),
+    "sturm": Mark(_PURPLE, "D"),
+    "double_derivative_bisection": Mark(_GREEN, "v"),
+    "sphere_tracing": Mark(_SKY, "h"),
+    "analytic": Mark(_VERMILLION, "P"),
+    "yuksel": Mark(_YELLOW, "^"),
+    "eft_yuksel": Mark(_VERMILLION, "^"),
+    "lu_lipschitz": Mark(_GREEN, "<"),
+    "interval_uniform": Mark(_SKY, "d"),
+    "interval_adaptive": Mark(_BLUE, "*"),
+}
+_SPARE_COLORS = (_PURPLE, _GREEN, _VERMILLION, _SKY, _ORANGE, _BLUE, _YELLOW)
+_SPARE_MARKERS = ("p", ">", "X", "8", "H", "D", "v", "s")  # 7 and 8 have no common factor: 56 different pairs
+_SPARE = [
+    mark
+    for mark in (Mark(_SPARE_COLORS[i % 7], _SPARE_MARKERS[i % 8]) for i in range(56))
+    if mark not in _HOUSE.values()
+]
+
+
+def marks(methods: Iterable[str]) -> dict[str, Mark]:
+    """A mark for each method, in name order: the suite's methods have theirs in every report, plugins take spares."""
+    names = sorted(set(methods))
+    spares = {name: _SPARE[i % len(_SPARE)] for i, name in enumerate(n for n in names if n not in _HOUSE)}
+    return {name: _HOUSE.get(name) or spares[name] for name in names}
+
+
+@dataclass(frozen=True)
+class Class:
+    """A kind of wrong ray; `code` is its value in the `wrong` array of a run."""
+
+    code: int
+    title: str
+    color: str
+
+
+WRONG = (
+    Class(1, "miss", _VERMILLION),
+    Class(2, "false hit", _PURPLE),
+    Class(3, "exhausted", _SKY),
+    Class(4, "wrong root", _GREEN),
+)
+UNDECIDED = "#bdbdbd"
+EXACT = "#e9eef4"  # an error of exactly zero, below the colour scale
+ERROR_MAP = "cividis"
+SURFACE_SHADOW, SURFACE_LIGHT = "#2b3440", "#f3eadb"

@@ -1,0 +1,278 @@
+"""Frames → tables of content. Each function makes one table with a caption that says what to see in it."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import pandas as pd
+
+from harness.contract import CellStatus
+from reports import derive, wording
+from reports.content import Column, Table
+from reports.load import Plan, Unreadable
+
+ROW_LIMIT = 1_500  # rows that one list prints; a longer one belongs in results.csv
+REASON_LIMIT = 500  # characters of a reason; a compiler's full log stays in the cell's file
+
+# An overhead above this share of the time is flagged: the harness promises less.
+OVERHEAD_LIMIT = 0.05
+
+
+def place(row: Any, frame: pd.DataFrame) -> str:
+    """The surface, and whatever else of view, size and stage differs within the run."""
+    parts = [row.surface_title]
+    if frame["view"].nunique() > 1:
+        parts.append(row.view)
+    if frame["size"].nunique() > 1 or frame["samples_per_pixel"].nunique() > 1:
+        parts.append(picture_size(row))
+    if frame["stage"].nunique() > 1:
+        parts.append(row.stage)
+    return ", ".join(parts)
+
+
+def picture_size(row: Any) -> str:
+    samples = "" if row.samples_per_pixel == 1 else f" × {row.samples_per_pixel} samples"
+    return f"{row.size} × {row.size}{samples}"
+
+
+def statuses(frame: pd.DataFrame, unreadable: int, not_run: int) -> Table:
+    """How many cells ended how: one column for each status that occurs, and always one for `ok`."""
+    counts = {str(status): int((frame["status"] == status).sum()) for status in CellStatus}
+    counts |= {"unreadable": unreadable, "not run yet": not_run}
+    shown = {name: count for name, count in counts.items() if count or name == CellStatus.OK}
+    cells = Column("cells", wording.count, numeric=True)
+    columns = (cells, *(Column(name, wording.count, numeric=True) for name in shown))
+    return Table(columns, [(sum(counts.values()), *shown.values())], "Cells by how they ended.")
+
+
+def winners(frame: pd.DataFrame) -> Table:
+    """The fastest variant of every group, and the fastest with every ray right where that is another."""
+    rows = derive.contenders(frame)
+    fastest = rows.drop_duplicates(derive.GROUP)
+    right = rows[derive.all_right(rows)].drop_duplicates(derive.GROUP)
+    safest = {(r.comparison, r.device, r.precision): r for r in right.itertuples()}
+    body = []
+    planned = {name: i for i, name in enumerate(frame["comparison"].unique())}
+    fastest = fastest.assign(planned=fastest["comparison"].map(planned))
+    for row in fastest.sort_values(["planned", "precision", "device"], kind="stable").itertuples():
+        safe = safest.get((row.comparison, row.device, row.precision))
+        instead = (None, None) if safe is None else (safe.variant, safe.median_ms)
+        if safe is not None and safe.variant == row.variant:
+            instead = ("the same", None)
+        values = (row.median_ms, row.speedup, row.error_max, row.wrong_rays)
+        body.append((place(row, frame), row.precision, row.device, row.variant, *values, *instead))
+    return Table(
+        (
+            Column("surface"),
+            Column("precision"),
+            Column("device"),
+            Column("fastest variant", stretch=1),
+            Column("ms", wording.number, numeric=True),
+            Column("speed-\nup", wording.factor, numeric=True),
+            Column("max\nerror", wording.error, numeric=True),
+            Column("wrong\nrays", wording.count, numeric=True),
+            Column("fastest with no wrong ray", stretch=1),
+            Column("ms", wording.number, numeric=True),
+        ),
+        body,
+        "What wins where.",
+        f"Speed-up is over {derive.BASELINE} in the same group; max error is the largest |t − t*| in "
+        "scene units over rays away from silhouettes; wrong rays are misses, false hits, exhausted rays and wrong "
+        "roots among them. Where the last columns name another variant, the fastest buys its speed with wrong answers.",
+        group=2,
+    )
+
+
+def wins(frame: pd.DataFrame) -> Table:
+    """For each device and precision, how often each method is fastest; for runs with too many groups for one page."""
+    rows = derive.contenders(frame)
+    fastest = rows[derive.all_right(rows)].drop_duplicates(derive.GROUP)
+    body = []
+    for (device, precision), rows in fastest.groupby(["device", "precision"], sort=False):
+        counted = ", ".join(f"{method} {n}" for method, n in Counter(rows["method"]).most_common())
+        body.append((device, precision, len(rows), counted, rows["speedup"].median(), rows["error_max"].max()))
+    return Table(
+        (
+            Column("device"),
+            Column("precision"),
+            Column("scenes", wording.count, numeric=True),
+            Column("fastest method, and on how many scenes", stretch=1),
+            Column("median\nspeed-up", wording.factor, numeric=True),
+            Column("worst\nmax error", wording.error, numeric=True),
+        ),
+        body,
+        "Which method is fastest with no wrong ray, and how often.",
+        f"Speed-up is the winner's over {derive.BASELINE}, error the largest "
+        "|t − t*| of any winner in scene units. “Winners” names the winner for every single scene.",
+        group=1,
+    )
+
+
+def flags(row: Any) -> str:
+    """What a reader must know before trusting or quoting a row."""
+    notes = []
+    if not row.answers:
+        notes.append("floor")
+    if row.front is True:
+        notes.append("front")
+    if row.floor_bound is True:
+        notes.append("floor-bound")
+    if row.narrow is False:
+        notes.append("interval wide")
+    if row.overhead_share > OVERHEAD_LIMIT:
+        notes.append(f"overhead {wording.share(row.overhead_share)}")
+    return ", ".join(notes)
+
+
+def results(rows: pd.DataFrame) -> Table:
+    """Every finished row of one comparison, fastest first for each device and precision."""
+    rows = rows.sort_values(["device", "precision", "median_ms"], kind="stable")
+    body = []
+    for row in rows.itertuples():
+        spread = (row.upper_ms - row.lower_ms) / (2 * row.median_ms) if row.median_ms else None
+        speed = (row.median_ms, spread, row.mrays_per_s, row.frames_per_s, row.speedup)
+        wrong = (row.misses, row.false_hits, row.exhausted, row.wrong_root, row.grazing_wrong_rays)
+        errors = (row.error_max, row.error_p99, *wrong, row.evaluations_mean)
+        body.append((row.device, row.precision, row.variant, *speed, *errors, row.clock, flags(row)))
+    return Table(
+        (
+            Column("device"),
+            Column("precision"),
+            Column("variant", stretch=1),
+            Column("ms", wording.number, numeric=True),
+            Column("±", wording.share, numeric=True),
+            Column("Mrays/s", wording.number, numeric=True),
+            Column("frames/s", wording.number, numeric=True),
+            Column("speed-\nup", wording.factor, numeric=True),
+            Column("max\nerror", wording.error, numeric=True),
+            Column("99 %\nerror", wording.error, numeric=True),
+            Column("misses", wording.count, numeric=True),
+            Column("false\nhits", wording.count, numeric=True),
+            Column("exhaus-\nted", wording.count, numeric=True),
+            Column("wrong\nroot", wording.count, numeric=True),
+            Column("grazing\nwrong", wording.count, numeric=True),
+            Column("evals\nper ray", wording.number, numeric=True),
+            Column("clock"),
+            Column("flags", stretch=1),
+        ),
+        body,
+        *_results_caption(rows),
+        group=2,
+    )
+
+
+def _results_caption(rows: pd.DataFrame) -> tuple[str, str]:
+    first = next(rows.itertuples())
+    checked = ""
+    for row in rows[rows["accuracy_rays"].notna()].head(1).itertuples():
+        checked = (
+            f" Errors are over {row.accuracy_rays:,} rays ({row.accuracy_size} × {row.accuracy_size}), of which "
+            f"{wording.count(row.grazing)} pass within {wording.error(row.grazing_margin)} of another answer: these "
+            "grazing rays are counted apart."
+        )
+    return (
+        f"{first.surface_title}, view {first.view}, {picture_size(first)}, {first.stage}.",
+        "Fastest first for each device and precision; ± is half the 95 % interval of the median, errors are |t − t*| "
+        f"in scene units.{checked}",
+    )
+
+
+def worth_printing(finished: pd.DataFrame) -> pd.DataFrame:
+    """All finished rows of a run of moderate size; of a larger one its fronts and what they are compared with."""
+    if len(finished) <= ROW_LIMIT:
+        return finished
+    return finished[finished["front"] | (finished["method"] == derive.BASELINE) | ~finished["answers"]]
+
+
+def troubles(frame: pd.DataFrame) -> Table | None:
+    """Every cell that ended otherwise than `ok`, those with the same reason together."""
+    rows = frame[frame["status"] != CellStatus.OK].sort_values(["status", "reason", "device"], kind="stable")
+    if rows.empty:
+        return None
+    body = []
+    for row in rows.head(ROW_LIMIT).itertuples():
+        reason = None if wording.absent(row.reason) else wording.excerpt(row.reason, REASON_LIMIT)
+        body.append((row.status, reason, row.device, row.precision, place(row, frame), row.variant))
+    cut = f" The first {ROW_LIMIT:,} of {len(rows):,}; results.csv has all." if len(rows) > ROW_LIMIT else ""
+    return Table(
+        (
+            Column("status"),
+            Column("reason", stretch=3),
+            Column("device"),
+            Column("precision"),
+            Column("surface"),
+            Column("variant", stretch=2),
+        ),
+        body,
+        "Every cell without a result, by reason.",
+        f"Skipped cells were refused before they ran; failed, timeout and crashed ones each cost only themselves.{cut}",
+        group=2,
+    )
+
+
+def unreadable(files: Sequence[Unreadable]) -> Table | None:
+    if not files:
+        return None
+    body = [(file.file, wording.excerpt(file.problem, REASON_LIMIT)) for file in files[:ROW_LIMIT]]
+    return Table(
+        (Column("file"), Column("problem", stretch=1)),
+        body,
+        "Files that could not be read.",
+        f"{wording.plural(len(files), 'file')} of this run left out; run again to have them made anew.",
+    )
+
+
+def not_run(slots: Sequence[str]) -> Table | None:
+    """How many cells wait, for each device: the last word of a slot."""
+    if not slots:
+        return None
+    counted = Counter(slot.rpartition(" ")[2] for slot in slots)
+    return Table(
+        (Column("device"), Column("cells not run yet", wording.count, numeric=True)),
+        counted.most_common(),
+        "Not run yet.",
+        "Planned cells without a result of any kind; the command on the first page goes on where the run stopped.",
+    )
+
+
+def devices(plan: Plan) -> Table:
+    body: list[tuple[Any, ...]] = []
+    for device in plan.devices:
+        versions = ", ".join(f"{name} {version}" for name, version in _pairs(device.get("versions")))
+        told = (device.get("title"), device.get("driver"), device.get("compiler"), device.get("compute_units"))
+        float64 = "yes" if device.get("float64") else "no"
+        body.append((device.get("name"), *told, float64, device.get("clock"), versions, device.get("problem")))
+    columns = [
+        Column("device"),
+        Column("hardware"),
+        Column("driver"),
+        Column("compiler"),
+        Column("units", numeric=True),
+        Column("float64"),
+        Column("clock"),
+        Column("bindings"),
+        Column("problem"),
+    ]
+    if all(wording.absent(row[-1]) for row in body):
+        columns, body = columns[:-1], [row[:-1] for row in body]
+    caption = "The clock is the one to be believed there, and times are by it."
+    return Table(tuple(columns), body, "Devices of this run.", caption)
+
+
+def environment(plan: Plan) -> Table:
+    """What the run was made with, one line each."""
+    told = {name: value for name, value in plan.environment.items() if name != "versions"}
+    if told.pop("dirty", False):
+        told["commit"] = f"{told.get('commit')} with uncommitted changes"
+    versions = ", ".join(f"{name} {version}" for name, version in _pairs(plan.environment.get("versions")))
+    body = [("config", plan.config), ("created", plan.created), *told.items(), ("packages", versions or None)]
+    return Table((Column(""), Column("")), body, "The machine and software of this run.")
+
+
+def _pairs(versions: Any) -> list[tuple[str, str]]:
+    """Versions as pairs, whether stored as an object or as a list of pairs."""
+    if isinstance(versions, Mapping):
+        return [(str(name), str(version)) for name, version in versions.items()]
+    return [(str(pair[0]), str(pair[1])) for pair in versions or [] if isinstance(pair, list) and len(pair) == 2]

@@ -1,0 +1,68 @@
+"""Numbers as people read them. Every formatter takes None or NaN as "there is none" and prints a dash."""
+
+from __future__ import annotations
+
+import math
+import re
+from typing import Any
+
+import pandas as pd
+
+NONE = "–"
+
+
+def absent(value: Any) -> bool:
+    """Whether a cell of a frame holds nothing."""
+    return bool(pd.isna(value))
+
+
+def text(value: Any) -> str:
+    return NONE if absent(value) else str(value)
+
+
+def number(value: Any) -> str:
+    """Three significant digits, no exponent: 0.0123, 1.23, 123, 1,230."""
+    if absent(value):
+        return NONE
+    if value == 0 or math.isinf(value):
+        return "0" if value == 0 else "∞"
+    digits = 2 - math.floor(math.log10(abs(float(f"{value:.2e}"))))
+    return f"{value:,.{max(digits, 0)}f}"
+
+
+def factor(value: Any) -> str:
+    return NONE if absent(value) else f"{number(value)}×"
+
+
+def error(value: Any) -> str:
+    """Two significant digits: 1.2e-7; a zero is a plain 0."""
+    if absent(value):
+        return NONE
+    if value == 0 or math.isinf(value):
+        return "0" if value == 0 else "∞"
+    mantissa, exponent = f"{value:.1e}".split("e")
+    return f"{mantissa}e{int(exponent)}".replace("-", "−")
+
+
+def count(value: Any) -> str:
+    return NONE if absent(value) else f"{int(value):,}"
+
+
+def share(value: Any) -> str:
+    """A share of one as per cent."""
+    return NONE if absent(value) else f"{100 * value:.{0 if value >= 0.1 else 1}f} %"
+
+
+def power_of_ten(exponent: int) -> str:
+    return "10" + str(exponent).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+
+
+def plural(n: int, noun: str) -> str:
+    return f"{n:,} {noun}" if n == 1 else f"{n:,} {noun}s"
+
+
+def excerpt(value: str, limit: int) -> str:
+    """One paragraph of at most `limit` characters, without terminal colours and control characters."""
+    plain = re.sub(r"\x1b\[[0-9;]*[A-Za-z]", "", value)
+    folded = " ".join("".join(c if c.isprintable() else " " for c in plain).split())
+    return folded if len(folded) <= limit else folded[: limit - 2].rstrip() + " …"

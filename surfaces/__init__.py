@@ -1,0 +1,91 @@
+"""Surfaces: the catalog, formulas of one's own, and what is derived from them.
+
+    import surfaces
+    torus = surfaces.get("torus", R="0.5")
+    mine = surfaces.from_formula("x^2 + y^2*z^3 - z^4", "sphere:1.5")
+    values = surfaces.evaluate(mine, points)  # float64[n, 3] → float64[n]
+"""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Mapping
+from decimal import Decimal
+
+from harness.contract import Box, Domain, FirsthitError, Sphere, Surface
+from surfaces import formula
+from surfaces.catalog import FAMILIES, FIXED
+from surfaces.evaluation import evaluate, expression, gradient, operations, tape_of
+from surfaces.validity import check
+
+__all__ = ["evaluate", "expression", "from_formula", "get", "gradient", "names", "operations", "tape_of"]
+_FIXED = {surface.name: surface for surface in FIXED}
+
+
+def names() -> tuple[str, ...]:
+    """Every catalog name, sorted."""
+    return tuple(sorted((*FAMILIES, *_FIXED)))
+
+
+def get(name: str, **parameters: str | float) -> Surface:
+    """A catalog surface, its parameters bound (`get("torus", R="0.5")`; numbers are taken as the decimals they print).
+
+    Raises FirsthitError for an unknown name (with the nearest ones), parameter or value.
+    """
+    if name not in names():
+        near = difflib.get_close_matches(name, names(), 3, 0.5)
+        hint = f"did you mean {', '.join(near)}?" if near else "see `firsthit list surfaces`"
+        raise FirsthitError(f"there is no surface {name!r}; {hint}")
+    known = FAMILIES[name][2] if name in FAMILIES else {}
+    for key in parameters:
+        if key not in known:
+            has = f"has only {', '.join(known)}" if known else "takes no parameters"
+            raise FirsthitError(f"surface {name!r} has no parameter {key!r}: it {has}")
+    if name in _FIXED:
+        return _FIXED[name]
+    title, make, defaults = FAMILIES[name]
+    bound = make(name, title, {**defaults, **{key: _decimal(value) for key, value in parameters.items()}})
+    return bound
+
+
+def from_formula(
+    text: str,
+    domain_text: str = "sphere:1.5",
+    name: str = "formula",
+    parameters: Mapping[str, str | float] | None = None,
+) -> Surface:
+    """A surface of one's own. `domain_text`: "sphere:R", "box:a,b,c" (half extents) or "box:x0,y0,z0:x1,y1,z1".
+
+    Raises FirsthitError for what is not a formula, does not depend on x, y, z, or is not defined all over its domain.
+    """
+    bound = {key: _decimal(value) for key, value in (parameters or {}).items()}
+    degree = formula.degree(formula.parse(text, bound))
+    surface = Surface(
+        name=name,
+        title=text if len(text) <= 60 else text[:57] + "...",
+        formula=text,
+        domain=_domain(domain_text),
+        source="given as a formula",
+        degree=degree,
+        parameters=tuple(sorted(bound.items())),
+    )
+    check(surface)
+    return surface
+
+
+def _decimal(value: str | float) -> str:
+    """A number as an exact decimal without exponent."""
+    return format(Decimal(str(value)), "f") if isinstance(value, int | float) else value.strip()
+
+
+def _domain(text: str) -> Domain:
+    kind, *groups = (part.strip() for part in text.split(":"))
+    numbers = [[float(formula.exact(item.strip())) for item in group.split(",")] for group in groups]
+    match kind, numbers:
+        case "sphere", [[radius]]:
+            return Sphere(radius)
+        case "box", [[a, b, c]]:
+            return Box((-a, -b, -c), (a, b, c))
+        case "box", [[x0, y0, z0], [x1, y1, z1]]:
+            return Box((x0, y0, z0), (x1, y1, z1))
+    raise FirsthitError(f"domain {text!r}: write sphere:R, box:a,b,c or box:x0,y0,z0:x1,y1,z1")

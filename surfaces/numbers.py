@@ -1,0 +1,206 @@
+"""Number systems that walk a tape: numpy floats, certified balls, polynomials of balls, sympy expressions.
+
+Each has one method per operation of `surfaces.tape`. Balls need python-flint, Symbols need sympy; both load when used.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from functools import reduce
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats64 = NDArray[np.float64]
+
+
+class Arithmetic:
+    """What every number system with Python operators shares."""
+
+    def add(self, a: Any, b: Any) -> Any:
+        return a + b
+
+    def sub(self, a: Any, b: Any) -> Any:
+        return a - b
+
+    def mul(self, a: Any, b: Any) -> Any:
+        return a * b
+
+    def div(self, a: Any, b: Any) -> Any:
+        return a / b
+
+    def neg(self, a: Any) -> Any:
+        return -a
+
+    def sqr(self, a: Any) -> Any:
+        return a * a
+
+    def powi(self, a: Any, n: int) -> Any:
+        """a to the n by squaring."""
+        half = a if n // 2 == 1 else self.powi(a, n // 2) if n > 1 else None
+        return a if half is None else self.mul(self.sqr(half), a) if n % 2 else self.sqr(half)
+
+
+class Floats(Arithmetic):
+    """float64 arrays of any one shape."""
+
+    def const(self, value: Fraction) -> np.float64:
+        return np.float64(value.numerator / value.denominator)
+
+    def pi(self) -> np.float64:
+        return np.float64(np.pi)
+
+    def e(self) -> np.float64:
+        return np.float64(np.e)
+
+    abs = staticmethod(np.abs)
+    min = staticmethod(np.minimum)
+    max = staticmethod(np.maximum)
+    sqrt = staticmethod(np.sqrt)
+    exp = staticmethod(np.exp)
+    log = staticmethod(np.log)
+    sin = staticmethod(np.sin)
+    cos = staticmethod(np.cos)
+    tan = staticmethod(np.tan)
+
+    def sign(self, a: Floats64) -> Floats64:
+        return np.where(a < 0.0, -1.0, 1.0)
+
+    def below(self, a: Floats64, b: Floats64) -> Floats64:
+        return np.where(a <= b, 1.0, 0.0)
+
+
+class Balls(Arithmetic):
+    """flint.arb at the precision of `flint.ctx`: every result holds the exact value for all points of its inputs."""
+
+    def __init__(self) -> None:
+        import flint
+
+        self.arb: Any = flint.arb
+        self.fmpq: Any = flint.fmpq
+
+    def const(self, value: Fraction) -> Any:
+        return self.arb(self.fmpq(value.numerator, value.denominator))
+
+    def pi(self) -> Any:
+        return self.arb.pi()
+
+    def e(self) -> Any:
+        return self.arb.const_e()
+
+    def sqr(self, a: Any) -> Any:
+        # A ball about zero squares to one that reaches as far below zero as above it; its true range does not.
+        square = a * a
+        return square.nonnegative_part() if square.contains(0) else square
+
+    def abs(self, a: Any) -> Any:
+        return abs(a)
+
+    def min(self, a: Any, b: Any) -> Any:
+        return a.min(b)
+
+    def max(self, a: Any, b: Any) -> Any:
+        return a.max(b)
+
+    def sqrt(self, a: Any) -> Any:
+        return a.sqrt()
+
+    def exp(self, a: Any) -> Any:
+        return a.exp()
+
+    def log(self, a: Any) -> Any:
+        return a.log()
+
+    def sin(self, a: Any) -> Any:
+        return a.sin()
+
+    def cos(self, a: Any) -> Any:
+        return a.cos()
+
+    def tan(self, a: Any) -> Any:
+        return a.tan()
+
+    def sign(self, a: Any) -> Any:
+        return self.arb(1) if a >= 0 else self.arb(-1) if a < 0 else self.arb(0, 1)
+
+    def below(self, a: Any, b: Any) -> Any:
+        return self.arb(1) if a <= b else self.arb(0) if a > b else self.arb("0.5", "0.5")
+
+
+class BallPolynomials(Balls):
+    """flint.arb_poly: the surface along a ray is its tape walked with x, y, z as polynomials in t.
+
+    Constants are balls, so that everything that is no polynomial in t raises AttributeError or TypeError; walk only
+    tapes of algebraic surfaces.
+    """
+
+    def sqr(self, a: Any) -> Any:
+        return super().sqr(a) if isinstance(a, self.arb) else a * a
+
+    def div(self, a: Any, b: Any) -> Any:
+        return a / b if isinstance(a, self.arb) else a * (1 / b)
+
+
+class Symbols(Arithmetic):
+    """sympy expressions. abs, min and max stay unevaluated: sympy's simplification of them can take for ever."""
+
+    def __init__(self) -> None:
+        import sympy
+
+        self.sympy: Any = sympy
+
+    def const(self, value: Fraction) -> Any:
+        return self.sympy.Rational(value.numerator, value.denominator)
+
+    def pi(self) -> Any:
+        return self.sympy.pi
+
+    def e(self) -> Any:
+        return self.sympy.E
+
+    def sqr(self, a: Any) -> Any:
+        return a**2
+
+    def powi(self, a: Any, n: int) -> Any:
+        return a**n
+
+    def abs(self, a: Any) -> Any:
+        return self.sympy.Abs(a, evaluate=False)
+
+    def min(self, a: Any, b: Any) -> Any:
+        return self.sympy.Min(a, b, evaluate=False)
+
+    def max(self, a: Any, b: Any) -> Any:
+        return self.sympy.Max(a, b, evaluate=False)
+
+    def sqrt(self, a: Any) -> Any:
+        return self.sympy.sqrt(a)
+
+    def exp(self, a: Any) -> Any:
+        return self.sympy.exp(a)
+
+    def log(self, a: Any) -> Any:
+        return self.sympy.log(a)
+
+    def sin(self, a: Any) -> Any:
+        return self.sympy.sin(a)
+
+    def cos(self, a: Any) -> Any:
+        return self.sympy.cos(a)
+
+    def tan(self, a: Any) -> Any:
+        return self.sympy.tan(a)
+
+
+def fractions_of(ball: Any) -> tuple[Fraction, Fraction]:
+    """The exact ends of a finite flint.arb."""
+    ends = []
+    middle, radius = (_dyadic(part) for part in (ball.mid(), ball.rad()))
+    ends = [middle - radius, middle + radius]
+    return ends[0], ends[1]
+
+
+def _dyadic(exact: Any) -> Fraction:
+    mantissa, exponent = (int(part) for part in exact.man_exp())
+    return Fraction(mantissa) * Fraction(2) ** exponent

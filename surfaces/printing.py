@@ -1,0 +1,146 @@
+"""Tapes as shader source: one statement per operation, in reals or in intervals.
+
+Literals carry every digit: a real constant is the nearest number of its precision, an interval constant the two
+neighbours that hold it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from fractions import Fraction
+from typing import Literal
+
+import numpy as np
+
+from harness.contract import FirsthitError, Precision
+from surfaces.lowering import enclosures
+from surfaces.tape import LEAVES, UNARY, Op, Tape
+
+Language = Literal["glsl", "cl"]
+_TYPES: dict[Precision, type[np.floating]] = {"float32": np.float32, "float64": np.float64}
+
+
+def nearest(value: Fraction, precision: Precision) -> np.floating:
+    """The nearest number of a precision, ties to even. Raises FirsthitError past its range."""
+    kind = _TYPES[precision]
+    with np.errstate(over="ignore"):
+        first = kind(value.numerator / value.denominator)
+    if not np.isfinite(first):
+        raise FirsthitError(f"the constant {float(value):.3g} is past the range of {precision}")
+    # Through float64 a float32 may be off by one: take the nearest of the three, the even one of a tie.
+    near = (first, np.nextafter(first, kind(math.inf)), np.nextafter(first, kind(-math.inf)))
+    return min(
+        (n for n in near if np.isfinite(n)),
+        key=lambda n: (abs(Fraction(float(n)) - value), (float(n) / float(np.spacing(n))) % 2),
+    )
+
+
+def bounds(lower: Fraction, upper: Fraction, precision: Precision) -> tuple[np.floating, np.floating]:
+    """The largest number not above `lower` and the smallest not below `upper`."""
+    kind = _TYPES[precision]
+    lo, hi = nearest(lower, precision), nearest(upper, precision)
+    lo = lo if Fraction(float(lo)) <= lower else np.nextafter(lo, kind(-math.inf))
+    hi = hi if Fraction(float(hi)) >= upper else np.nextafter(hi, kind(math.inf))
+    return lo, hi
+
+
+def number(value: np.floating, precision: Precision, language: Language) -> str:
+    """A finite number as a literal of the precision, shortest digits that read back as it."""
+    text = np.format_float_scientific(value, unique=True, trim="0") if value else "0.0"
+    if 1e-4 <= abs(value) < 1e9:
+        text = np.format_float_positional(value, unique=True, trim="0")
+    text += "f" if precision == "float32" else {"glsl": "lf", "cl": ""}[language]
+    return f"({text})" if value < 0 else text
+
+
+class RealPrinter:
+    """Statements `real NAME = …;` for a real tape; variables are named by `variables`."""
+
+    def __init__(self, variables: Mapping[str, str], precision: Precision, language: Language) -> None:
+        self.variables = variables
+        self.precision = precision
+        self.language = language
+
+    def literal(self, value: Fraction) -> str:
+        return number(nearest(value, self.precision), self.precision, self.language)
+
+    def body(self, tape: Tape) -> tuple[list[str], list[str]]:
+        """The statements, and the outputs as names or literals."""
+        names: list[str] = []
+        lines: list[str] = []
+        for op in tape.ops:
+            if op.name == "var":
+                names.append(self.variables[op.args[0]])
+            elif op.name == "const":
+                names.append(self.literal(op.args[0]))
+            else:
+                names.append(f"a{len(lines)}")
+                lines.append(f"real {names[-1]} = {self.operation(op, [names[i] for i in op.args])};")
+        return lines, [names[i] for i in tape.outputs]
+
+    def operation(self, op: Op, args: list[str]) -> str:
+        one, zero = self.literal(Fraction(1)), self.literal(Fraction(0))
+        match op.name, args:
+            case "add", (a, b):
+                return f"{a} + {b}"
+            case "sub", (a, b):
+                return f"{a} - {b}"
+            case "mul", (a, b):
+                return f"{a} * {b}"
+            case "div", (a, b):
+                return f"{a} / {b}"
+            case "neg", (a,):
+                return f"-{a}"
+            case "sqr", (a,):
+                return f"{a} * {a}"
+            case "abs", (a,):
+                return f"fabs({a})"
+            case "sign", (a,):
+                return f"{a} < {zero} ? -{one} : {one}"
+            case "below", (a, b):
+                return f"{a} <= {b} ? {one} : {zero}"
+        return f"{op.name}({', '.join(args)})"
+
+
+class IntervalPrinter:
+    """Statements `Interval NAME = …;` for a tape as parsed, constants exact and powers whole."""
+
+    def __init__(self, variables: Mapping[str, str], precision: Precision, language: Language) -> None:
+        self.variables = variables
+        self.precision = precision
+        self.language = language
+
+    def _constant(self, lower: Fraction, upper: Fraction) -> tuple[str, str]:
+        lo, hi = (number(n, self.precision, self.language) for n in bounds(lower, upper, self.precision))
+        return lo, hi
+
+    def body(self, tape: Tape) -> tuple[list[str], list[str]]:
+        """The statements, and the outputs as names or expressions."""
+        constants = {i: self._constant(*ends) for i, ends in enclosures(tape).items()}
+        names: list[str] = []
+        lines: list[str] = []
+        for index, op in enumerate(tape.ops):
+            if index in constants:
+                lo, hi = constants[index]
+                names.append(f"make_interval({lo}, {hi})")
+            elif op.name == "var":
+                names.append(self.variables[op.args[0]])
+            else:
+                names.append(f"a{len(lines)}")
+                lines.append(f"Interval {names[-1]} = {self.operation(op, names, constants)};")
+        return lines, [names[i] for i in tape.outputs]
+
+    def operation(self, op: Op, names: list[str], constants: Mapping[int, tuple[str, str]]) -> str:
+        if op.name == "powi":
+            return f"interval_powi({names[op.args[0]]}, {op.args[1]})"
+        for i, j in (op.args, reversed(op.args)) if op.name == "mul" else ():
+            if i in constants and constants[i][0] == constants[i][1]:
+                return f"interval_scale({constants[i][0]}, {names[j]})"
+        return f"interval_{op.name}({', '.join(names[i] for i in op.args)})"
+
+
+def functions_used(tape: Tape) -> list[str]:
+    """The functions beyond arithmetic that a tape calls of its variables."""
+    constant = tape.constants()
+    return sorted({op.name for i, op in enumerate(tape.ops) if not constant[i] and op.name in UNARY and op.name not in LEAVES})

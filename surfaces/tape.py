@@ -1,0 +1,267 @@
+"""Straight-line programs: every surface is one `Tape`, and every number system walks it by the same operation names.
+
+The vocabulary: `const` (a Fraction), `pi`, `e`, `var` (a name); `neg sqr sqrt exp log sin cos tan abs`, `powi` (a value
+and a whole exponent of 3 or more); `add sub mul div min max`. Derivatives of abs, min and max add `sign` (-1 or 1) and
+`below` (1 where a <= b, else 0).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+LEAVES = frozenset({"const", "pi", "e", "var"})
+UNARY = ("sqrt", "exp", "log", "sin", "cos", "tan")  # what a formula may call, beside abs, min and max
+
+
+@dataclass(frozen=True, slots=True)
+class Op:
+    """One operation; `args` are indices of earlier ones, but const: (Fraction,), var: (name,), powi: (index, n)."""
+
+    name: str
+    args: tuple[Any, ...] = ()
+
+    @property
+    def inputs(self) -> tuple[int, ...]:
+        """The indices among `args`."""
+        if self.name in LEAVES:
+            return ()
+        return self.args[:1] if self.name == "powi" else self.args
+
+
+@dataclass(frozen=True)
+class Tape:
+    """Operations in an order in which each finds its inputs, and the indices of the results."""
+
+    ops: tuple[Op, ...]
+    outputs: tuple[int, ...]
+
+    def constants(self) -> list[bool]:
+        """For each operation, whether it depends on no variable."""
+        constant: list[bool] = []
+        for op in self.ops:
+            constant.append(op.name != "var" and all(constant[i] for i in op.inputs))
+        return constant
+
+    def pruned(self) -> Tape:
+        """Only the operations that the outputs need."""
+        live = set(self.outputs)
+        for index in reversed(range(len(self.ops))):
+            if index in live:
+                live.update(self.ops[index].inputs)
+        place = {old: new for new, old in enumerate(sorted(live))}
+        ops = []
+        for old in sorted(live):
+            op = self.ops[old]
+            inputs = tuple(place[i] for i in op.inputs)
+            ops.append(op if op.name in LEAVES else Op(op.name, inputs + op.args[len(inputs) :]))
+        return Tape(tuple(ops), tuple(place[i] for i in self.outputs))
+
+
+def walk(tape: Tape, numbers: Any, variables: Mapping[str, Any] | Callable[[str], Any]) -> tuple[Any, ...]:
+    """The outputs in a number system: an object with one method per operation name."""
+    variable = variables.__getitem__ if isinstance(variables, Mapping) else variables
+    values: list[Any] = []
+    for op in tape.ops:
+        if op.name == "var":
+            values.append(variable(op.args[0]))
+        elif op.name == "powi":
+            values.append(numbers.powi(values[op.args[0]], op.args[1]))
+        elif op.name in LEAVES:
+            values.append(getattr(numbers, op.name)(*op.args))
+        else:
+            values.append(getattr(numbers, op.name)(*(values[i] for i in op.args)))
+    return tuple(values[i] for i in tape.outputs)
+
+
+class Builder:
+    """The number system whose numbers are operations: shares common subexpressions and folds rational constants.
+
+    The order of what was written is kept, since it decides rounding; only sums and products with exact constants
+    (0, 1, -1, two constants) are rearranged.
+    """
+
+    def __init__(self) -> None:
+        self.ops: list[Op] = []
+        self._known: dict[tuple[Any, ...], int] = {}
+        self._constant: list[bool] = []
+
+    def tape(self, *outputs: int) -> Tape:
+        return Tape(tuple(self.ops), outputs).pruned()
+
+    def is_constant(self, index: int) -> bool:
+        return self._constant[index]
+
+    def value(self, index: int) -> Fraction | None:
+        """The rational number an operation is, or None."""
+        op = self.ops[index]
+        return op.args[0] if op.name == "const" else None
+
+    def _emit(self, name: str, *args: Any) -> int:
+        key = (name, *sorted(args)) if name in ("add", "mul", "min", "max") else (name, *args)
+        if key not in self._known:
+            self._known[key] = len(self.ops)
+            op = Op(name, args)
+            self._constant.append(name != "var" and all(self._constant[i] for i in op.inputs))
+            self.ops.append(op)
+        return self._known[key]
+
+    def _split(self, index: int) -> tuple[Fraction, int | None]:
+        """(factor, rest) with value = factor * rest; rest None for a rational constant."""
+        op = self.ops[index]
+        if op.name == "const":
+            return op.args[0], None
+        if self._constant[index]:
+            return Fraction(1), index
+        if op.name == "neg":
+            return Fraction(-1), op.args[0]
+        if op.name == "mul" and (factor := self.value(op.args[0])) is not None:
+            return factor, op.args[1]
+        return Fraction(1), index
+
+    def const(self, value: Fraction | int) -> int:
+        return self._emit("const", Fraction(value))
+
+    def var(self, name: str) -> int:
+        return self._emit("var", name)
+
+    def pi(self) -> int:
+        return self._emit("pi")
+
+    def e(self) -> int:
+        return self._emit("e")
+
+    def neg(self, a: int) -> int:
+        factor, rest = self._split(a)
+        if rest is None:
+            return self.const(-factor)
+        if factor != 1:
+            return self._scaled(-factor, rest)
+        if self.ops[a].name == "sub":
+            return self.sub(*reversed(self.ops[a].args))
+        return self._emit("neg", a)
+
+    def _offset(self, index: int) -> tuple[int, Fraction]:
+        """(rest, offset) with value = rest + offset, for a sum that ends in a rational constant."""
+        op = self.ops[index]
+        if op.name in ("add", "sub") and (offset := self.value(op.args[1])) is not None:
+            return op.args[0], offset if op.name == "add" else -offset
+        return index, Fraction(0)
+
+    def _shifted(self, a: int, offset: Fraction) -> int:
+        """a + offset, merged with an offset that a already has."""
+        rest, known = self._offset(a)
+        total = known + offset
+        if total == 0:
+            return rest
+        return self._emit("add" if total > 0 else "sub", rest, self.const(abs(total)))
+
+    def _scaled(self, factor: Fraction, a: int) -> int:
+        if factor == 0:
+            return self.const(0)
+        if factor == 1:
+            return a
+        return self._emit("neg", a) if factor == -1 else self._emit("mul", self.const(factor), a)
+
+    def add(self, a: int, b: int) -> int:
+        x, y = self.value(a), self.value(b)
+        if x is not None and y is not None:
+            return self.const(x + y)
+        if x == 0:
+            return b
+        if y is not None:
+            return self._shifted(a, y)
+        if self.ops[b].name == "neg":
+            return self.sub(a, self.ops[b].args[0])
+        if self.ops[a].name == "neg":
+            return self.sub(b, self.ops[a].args[0])
+        if a == b:
+            return self.mul(self.const(2), a)
+        return self._emit("add", a, b)
+
+    def sub(self, a: int, b: int) -> int:
+        x, y = self.value(a), self.value(b)
+        if a == b:
+            return self.const(0)
+        if x is not None and y is not None:
+            return self.const(x - y)
+        if y is not None:
+            return self._shifted(a, -y)
+        if x == 0:
+            return self.neg(b)
+        if self.ops[b].name == "neg":
+            return self.add(a, self.ops[b].args[0])
+        return self._emit("sub", a, b)
+
+    def mul(self, a: int, b: int) -> int:
+        (x, p), (y, q) = self._split(a), self._split(b)
+        if p is None or q is None:
+            rest = p if q is None else q
+            return self.const(x * y) if rest is None else self._scaled(x * y, rest)
+        if x * y != 1 or x != 1:
+            return self._scaled(x * y, self.mul(p, q))
+        return self.sqr(a) if a == b else self._emit("mul", a, b)
+
+    def div(self, a: int, b: int) -> int:
+        divisor = self.value(b)
+        if divisor == 0:
+            raise ZeroDivisionError("division by zero")
+        if divisor is not None:
+            return self.mul(a, self.const(1 / divisor))
+        if self.is_constant(b) and not self.is_constant(a):
+            return self.mul(a, self._emit("div", self.const(1), b))
+        return self.const(0) if self.value(a) == 0 else self._emit("div", a, b)
+
+    def sqr(self, a: int) -> int:
+        factor, rest = self._split(a)
+        if rest is None:
+            return self.const(factor * factor)
+        return self._emit("sqr", a) if factor == 1 else self._scaled(factor * factor, self.sqr(rest))
+
+    def powi(self, a: int, n: int) -> int:
+        if n < 0:
+            return self.div(self.const(1), self.powi(a, -n))
+        if n == 0:
+            return self.const(1)
+        if n <= 2:
+            return a if n == 1 else self.sqr(a)
+        value = self.value(a)
+        return self._emit("powi", a, n) if value is None else self.const(value**n)
+
+    def abs(self, a: int) -> int:
+        value = self.value(a)
+        if value is not None:
+            return self.const(abs(value))
+        return a if self.ops[a].name in ("abs", "sqr", "sqrt", "exp") else self._emit("abs", a)
+
+    def min(self, a: int, b: int) -> int:
+        return a if a == b else self._emit("min", a, b)
+
+    def max(self, a: int, b: int) -> int:
+        return a if a == b else self._emit("max", a, b)
+
+    def sqrt(self, a: int) -> int:
+        return self._emit("sqrt", a)
+
+    def exp(self, a: int) -> int:
+        return self._emit("exp", a)
+
+    def log(self, a: int) -> int:
+        return self._emit("log", a)
+
+    def sin(self, a: int) -> int:
+        return self._emit("sin", a)
+
+    def cos(self, a: int) -> int:
+        return self._emit("cos", a)
+
+    def tan(self, a: int) -> int:
+        return self._emit("tan", a)
+
+    def sign(self, a: int) -> int:
+        return self._emit("sign", a)
+
+    def below(self, a: int, b: int) -> int:
+        return self._emit("below", a, b)

@@ -1,0 +1,38 @@
+"""What tests share: the machine's usable devices, opened once each, and small rays."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+from harness.backends import Device, find_devices, open_device
+from harness.contract import DeviceInfo
+
+
+@cache
+def usable_devices() -> tuple[DeviceInfo, ...]:
+    return tuple(info for backend in ("opencl", "opengl") for info in find_devices(backend) if not info.problem)
+
+
+@cache
+def opened(name: str) -> Device:
+    return open_device(name)
+
+
+def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
+    if "device" in metafunc.fixturenames:
+        names = [info.name for info in usable_devices()]
+        marks = [pytest.param(name, id=name) for name in names]
+        metafunc.parametrize("device", marks or [pytest.param(None, marks=pytest.mark.skip("no device"))], indirect=True)
+
+
+@pytest.fixture
+def device(request: pytest.FixtureRequest) -> Device:
+    return opened(request.param)
+
+
+@pytest.fixture
+def rng() -> np.random.Generator:
+    return np.random.default_rng(7)

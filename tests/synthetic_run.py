@@ -1,0 +1,218 @@
+"""A made-up run folder: three surfaces, five variants, four devices, two precisions, and all that goes wrong."""
+
+from __future__ import annotations
+
+import json
+import random
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from harness.contract import digest
+
+SURFACES = {"sphere": ("Sphere", 2, 1.0), "torus": ("Torus", 4, 0.6), "barth": ("Barth #6 $extic_* @65 <b>", 6, 0.2)}
+VARIANTS: dict[str, dict[str, float]] = {
+    "null": {},
+    "ray_march": {},
+    "newton[EPSILON=0.001]": {"EPSILON": 0.001},
+    "newton[EPSILON=1e-06]": {"EPSILON": 1e-6},
+    "_odd#[STEP_$=0.5,RELAXATION_OF_THE_LAST_STEP=1.25]": {"STEP_$": 0.5, "RELAXATION_OF_THE_LAST_STEP": 1.25},
+}
+DEVICES = {"opencl:intel": 8.0, "opencl:pocl": 1.0, "opengl:llvmpipe": 4.0, "opencl:gpu#0_$": 60.0}
+GRID = 48
+
+
+def plan(cells: list[dict[str, Any]]) -> dict[str, Any]:
+    devices = [
+        {
+            "name": name,
+            "title": "Intel(R) Xeon(R) *Platinum* @ 2.60GHz",
+            "driver": "2026.2.0_#1",
+            "compiler": "OpenCL C 3.0",
+            "compute_units": 2,
+            "float64": name != "opencl:gpu#0_$",
+            "clock": "wall" if name.startswith("opengl") else "device",
+            "versions": {"pyopencl": "2026.1.4"},
+            "problem": None,
+        }
+        for name in DEVICES
+    ]
+    environment = {
+        "firsthit": "0.1.0",
+        "commit": "abc1234",
+        "dirty": True,
+        "python": "3.11.7",
+        "platform": "Linux-6.1 #1 SMP",
+        "cpu": "Xeon @ 2.6 GHz",
+        "versions": {"numpy": "2.4.6", "sympy": "1.14.0"},
+    }
+    return {
+        "format": 1,
+        "name": "quick_$",
+        "title": "Quick look: 3 surfaces × 4 variants #1 $2 *all* _devices_",
+        "config": "configs/quick.toml",
+        "config_text": 'title = "quick"  # a comment\n[methods]\nnewton = { EPSILON = [1e-3, 1e-6] }\n',
+        "command": "firsthit run configs/quick.toml",
+        "created": "2026-11-22T03:00:00+00:00",
+        "environment": environment,
+        "devices": devices,
+        "cells": [{"slot": cell["slot"], "key": cell["key"]} for cell in cells],
+    }
+
+
+def cell(variant: str, surface: str, device: str, precision: str) -> dict[str, Any]:
+    """A finished cell whose figures are made up but hang together."""
+    rng = random.Random(f"{variant} {surface} {device} {precision}")
+    title, degree, coverage = SURFACES[surface]
+    slot = f"{variant} {surface} front 256x256x1 {precision} compute {device}"
+    method = variant.partition("[")[0]
+    slow = {"null": 0.04, "ray_march": 12.0, "newton": 0.7, "_odd#": 0.4}[method] * (2.0 if "1e-06" in variant else 1.0)
+    median = slow * degree / DEVICES[device] * (1.8 if precision == "float64" else 1.0) * rng.uniform(0.9, 1.1)
+    narrow = rng.random() > 0.1
+    samples = [median * rng.gauss(1.0, 0.005 if narrow else 0.05) for _ in range(20)]
+    finished = {
+        "format": 1,
+        "key": digest(slot),
+        "slot": slot,
+        "comparison": f"{surface} front 256x256x1 compute",
+        "method": method,
+        "variant": variant,
+        "parameters": VARIANTS[variant],
+        "surface": surface,
+        "surface_title": title,
+        "formula": "x^2 + y^2 + z^2 - 1",
+        "degree": degree,
+        "view": "front",
+        "size": 256,
+        "samples_per_pixel": 1,
+        "precision": precision,
+        "stage": "compute",
+        "device": device,
+        "status": "ok",
+        "reason": None,
+        "answers": method != "null",
+        "time": {
+            "clock": "wall" if device.startswith("opengl") else "device",
+            "samples_ms": samples,
+            "batch": 1,
+            "median_ms": median,
+            "lower_ms": median * (0.995 if narrow else 0.95),
+            "upper_ms": median * (1.005 if narrow else 1.06),
+            "overhead_share": 0.12 if rng.random() < 0.1 else 0.02,
+            "narrow": narrow,
+        },
+        "build": {"compile_ms": 120.0, "upload_ms": 0.1, "readback_ms": 0.4},
+        "accuracy": None,
+        "arrays": None,
+        "operations": {"add": 7, "mul": 12},
+        "program": {"hash": digest(variant, precision)},
+        "environment": {"started": "2026-11-22T03:00:10+00:00", "commit": "abc1234"},
+        "identity": {"formula": "x^2 + y^2 + z^2 - 1"},
+    }
+    if method != "null":
+        exact = variant == "_odd#[STEP_$=0.5,RELAXATION_OF_THE_LAST_STEP=1.25]" and surface == "sphere"
+        finished["accuracy"] = accuracy(rng, method, precision, coverage, exact)
+        finished["arrays"] = f"arrays/{finished['key']}.npz"
+    return finished
+
+
+def accuracy(rng: random.Random, method: str, precision: str, coverage: float, exact: bool) -> dict[str, Any]:
+    top = 0.0 if exact else {"ray_march": 1e-5, "newton": 1e-3, "_odd#": 3e-2}[method] * rng.uniform(0.5, 2.0)
+    top *= 1e-4 if precision == "float64" else 1.0
+    error = {"max": top, "p999": top / 3, "p99": top / 10, "p50": top / 1000}
+    wrong = rng.randrange(1, 40) if method == "_odd#" and not exact else 0
+    hits = int(GRID * GRID * coverage * 0.5)
+    return {
+        "size": GRID,
+        "rays": GRID * GRID,
+        "truth_hits": hits,
+        "truth_misses": GRID * GRID - hits,
+        "undecided": 0,
+        "grazing": 57,
+        "grazing_margin": 0.001,
+        "misses": wrong,
+        "false_hits": wrong // 3,
+        "exhausted": wrong // 5,
+        "wrong_root": 0,
+        "grazing_misses": 3,
+        "grazing_false_hits": 1,
+        "grazing_exhausted": 0,
+        "grazing_wrong_root": 0,
+        "error": error,
+        "relative_error": dict(error),
+        "pixel_error": {name: 200 * value for name, value in error.items()},
+        "evaluations_mean": 5.4 if method == "newton" else 812.5,
+        "evaluations_max": 40,
+    }
+
+
+def arrays(finished: dict[str, Any]) -> dict[str, np.ndarray]:
+    """A ball with an error that grows to its rim and a few wrong rays."""
+    y, x = np.mgrid[1 : -1 : GRID * 1j, -1 : 1 : GRID * 1j]
+    radius = np.hypot(x, y)
+    ball = radius < 0.8
+    rng = np.random.default_rng(int(finished["key"][:8], 16))
+    top = finished["accuracy"]["error"]["max"]
+    wrong = np.zeros((GRID, GRID), np.uint8)
+    for code, name in ((1, "misses"), (2, "false_hits"), (3, "exhausted")):
+        inside = np.flatnonzero(~ball if name == "false_hits" else ball)
+        wrong.flat[rng.choice(inside, finished["accuracy"][name], replace=False)] = code
+    error = np.where(ball & (wrong == 0), top * 10.0 ** (4 * (radius - 0.8)) * rng.uniform(0.3, 1, ball.shape), np.nan)
+    return {
+        "status": np.where(ball, 1, 0).astype(np.uint8),
+        "truth": np.where(ball, 1, 0).astype(np.uint8),
+        "error": error.astype(np.float32),
+        "wrong": wrong,
+        "grazing": np.abs(radius - 0.8) < 0.03,
+        "shade": np.where(ball, np.sqrt(np.clip(1 - (radius / 0.8) ** 2, 0, 1)), np.nan).astype(np.float32),
+    }
+
+
+def troubled(finished: dict[str, Any]) -> dict[str, Any]:
+    """The same cell, without a result where the story has it so."""
+    status = reason = None
+    if finished["precision"] == "float64" and finished["device"] == "opencl:gpu#0_$":
+        status, reason = "skipped", "opencl:gpu#0_$ has no float64"
+    elif (finished["device"], finished["surface"], finished["method"]) == ("opengl:llvmpipe", "barth", "ray_march"):
+        status, reason = "timeout", "still running after 20 s"
+    elif (finished["device"], finished["surface"], finished["method"]) == ("opencl:pocl", "barth", "_odd#"):
+        status, reason = "failed", "kernel.glsl line 7: use of `$x` @ *p = a_b[#i]\n  <7:3>\n\x1b[31m^~~~\x1b[0m\n" * 9
+    elif (finished["device"], finished["surface"], finished["precision"]) == ("opencl:pocl", "torus", "float64"):
+        status, reason = "crashed", "the worker died of signal 11"
+    if status:
+        finished |= dict.fromkeys(("time", "build", "accuracy", "arrays", "operations"))
+        finished |= {"status": status, "reason": reason}
+    return finished
+
+
+def write_run(folder: Path) -> Path:
+    """A run of 120 planned cells: ok, skipped, failed, timed out and crashed ones, two not run, two unreadable."""
+    cells = [
+        troubled(cell(variant, surface, device, precision))
+        for surface in SURFACES
+        for device in DEVICES
+        for precision in ("float32", "float64")
+        for variant in VARIANTS
+    ]
+    (folder / "cells").mkdir(parents=True)
+    (folder / "arrays").mkdir()
+    (folder / "plan.json").write_text(json.dumps(plan(cells)))
+    for finished in cells[:-2]:
+        text = json.dumps(finished)
+        (folder / "cells" / f"{finished['key']}.json").write_text(text)
+        if finished["arrays"]:
+            np.savez_compressed(folder / finished["arrays"], **arrays(finished))
+    (folder / "cells" / f"{cells[0]['key']}.json").write_text('{"format": 1, "key"')
+    (folder / "cells" / f"{cells[7]['key']}.json").write_text('{"somebody": "else\'s"}')
+    (folder / "cells" / "0123456789abcdef.json").write_text("stale: no longer in the plan")
+    return folder
+
+
+def tiny_run(folder: Path, *cells: dict[str, Any]) -> Path:
+    """A run of just these cells, without arrays."""
+    (folder / "cells").mkdir(parents=True)
+    (folder / "plan.json").write_text(json.dumps(plan(list(cells))))
+    for finished in cells:
+        (folder / "cells" / f"{finished['key']}.json").write_text(json.dumps(finished))
+    return folder

@@ -1,0 +1,55 @@
+import numpy as np
+
+from harness.accuracy import Wrong, judge, summarize, wrong_share
+from harness.contract import Hits, Truth
+
+
+def _truth(status, lower, following, margin):
+    lower = np.array(lower, float)
+    return Truth(lower, lower, np.array(status, np.uint8), np.array(following, float), np.ones(len(lower)), np.array(margin))
+
+
+def _hits(t, status):
+    return Hits(np.array(t, float), np.array(status, np.uint8), np.arange(len(t), dtype=np.int32))
+
+
+def test_each_kind_of_wrong_answer_is_told_apart():
+    nan, inf = np.nan, np.inf
+    truth = _truth(
+        [1, 1, 0, 1, 1, 1, 3, 2, 0],
+        [1.0, 1.0, nan, 1.0, 1.0, 1.0, nan, 1.0, nan],
+        [2.0, 2.0, inf, 2.0, 2.0, inf, inf, inf, inf],
+        [inf] * 9,
+    )
+    hits = _hits([1.0001, nan, 3.0, nan, 1.9, 1.2, 1.0, 1.0, nan], [1, 0, 1, 2, 1, 1, 1, 1, 2])
+    verdicts = judge(hits, truth, scene_radius=1.0, grazing_margin=1e-3)
+    expected = [Wrong.RIGHT, Wrong.MISS, Wrong.FALSE_HIT, Wrong.EXHAUSTED, Wrong.WRONG_ROOT, Wrong.WRONG_ROOT]
+    assert list(verdicts.wrong) == [*expected, Wrong.RIGHT, Wrong.RIGHT, Wrong.EXHAUSTED]
+    assert np.isfinite(verdicts.error).tolist() == [True] + [False] * 6 + [True, False]
+
+
+def test_grazing_rays_are_counted_apart_and_give_no_errors():
+    truth = _truth([1, 1, 1], [1.0, 1.0, 1.0], [np.inf] * 3, [1e-4, 1e-2, np.inf])
+    hits = _hits([np.nan, 1.001, 1.002], [0, 1, 1])
+    verdicts = judge(hits, truth, 2.0, 1e-3)
+    summary = summarize(hits, truth, verdicts, 2.0, 0.01, 1e-3)
+    assert (summary["grazing"], summary["grazing_misses"], summary["misses"]) == (1, 1, 0)
+    assert np.isclose(summary["error"]["max"], 0.002)
+    assert np.isclose(summary["relative_error"]["max"], 0.001)
+    assert np.isclose(summary["pixel_error"]["max"], 0.2)
+    assert wrong_share(summary) == 0.0
+
+
+def test_error_is_the_distance_from_the_certified_interval():
+    truth = Truth(*(np.array([v]) for v in (1.0, 1.5, 1, np.inf, 1.0, np.inf)))
+    for t, error in ((1.25, 0.0), (0.9999, 1e-4), (1.5003, 3e-4)):
+        assert np.isclose(judge(_hits([t], [1]), truth, 1.0, 0.0).error[0], error, atol=1e-12)
+
+
+def test_a_method_that_finds_nothing_is_wholly_wrong():
+    truth = _truth([1, 1, 0], [1.0, 1.0, np.nan], [np.inf] * 3, [np.inf] * 3)
+    hits = _hits([np.nan] * 3, [0] * 3)
+    summary = summarize(hits, truth, judge(hits, truth, 1.0, 1e-3), 1.0, 0.01, 1e-3)
+    assert summary["misses"] == 2
+    assert summary["error"]["max"] is None
+    assert np.isclose(wrong_share(summary), 2 / 3)

@@ -1,0 +1,79 @@
+from pathlib import Path
+
+import pytest
+
+from harness import config
+from harness.contract import FirsthitError
+from harness.plugins import find_methods
+
+GOOD = """title = "t"
+surfaces = ["sphere"]
+[[method]]
+name = "newton"
+parameters = { EPSILON = [0.1, 0.2], MAX_EVALUATIONS = 5 }
+[[method]]
+name = "null"
+"""
+
+
+def _load(tmp_path: Path, text: str) -> config.Experiment:
+    path = tmp_path / "c.toml"
+    path.write_text(text)
+    return config.load(path, find_methods())
+
+
+def test_knobs_multiply_and_defaults_fill_in(tmp_path):
+    experiment = _load(tmp_path, GOOD)
+    labels = [str(v) for v in experiment.variants]
+    assert labels == ["newton[EPSILON=0.1,MAX_EVALUATIONS=5]", "newton[EPSILON=0.2,MAX_EVALUATIONS=5]", "null"]
+    assert dict(experiment.variants[0].parameters)["STEP_BOUND"] == 0.15
+    assert experiment.config.budget.seconds == 2.0
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "line", "words"),
+    [
+        ('surfaces = ["sphere"]', 'surface = ["sphere"]', 1, "lacks 'surfaces'"),
+        ('surfaces = ["sphere"]', 'surfcaes = ["sphere"]', 2, "did you mean 'surfaces'"),
+        ('surfaces = ["sphere"]', 'surfaces = ["spere"]', 2, "did you mean sphere"),
+        ('name = "null"', 'name = "nul"', 7, "did you mean 'null'"),
+        ('name = "null"', 'nme = "null"', 7, "did you mean 'name'"),
+        ("EPSILON = ", "EPSILN = ", 4, "did you mean 'EPSILON'"),
+        ('title = "t"', 'title = "t"\nsizes = [0]', 2, "outside"),
+        ('title = "t"', 'title = "t"\nsizes = ["big"]', 2, "a whole number"),
+        ('title = "t"', 'title = "t"\nsizes = []', 2, "empty"),
+        ('title = "t"', 'title = "t"\nprecisions = ["float16"]', 2, "did you mean 'float"),
+        ('name = "null"', 'name = "null"\n[budget]\ntimeout = -1', 9, "outside"),
+        ('name = "null"', 'name = "null"\n[budget]\nsecnds = 1', 9, "did you mean 'seconds'"),
+        ('name = "null"', 'name = "null"\n[[view]]\nname = "a"\n[[view]]\nname = "b"\nfov = 200', 12, "outside"),
+    ],
+)
+def test_a_mistake_is_answered_with_file_line_and_remedy(tmp_path, old, new, line, words):
+    with pytest.raises(FirsthitError) as caught:
+        _load(tmp_path, GOOD.replace(old, new, 1))
+    message = str(caught.value)
+    assert words in message
+    assert f"c.toml:{line}:" in message
+    assert caught.value.exit_code == 2
+
+
+def test_malformed_toml_names_its_place(tmp_path):
+    with pytest.raises(FirsthitError, match=r"c\.toml: not valid TOML: .*line 2"):
+        _load(tmp_path, 'title = "t"\nsurfaces = [}')
+
+
+def test_a_missing_file_is_one_line(tmp_path):
+    with pytest.raises(FirsthitError, match="cannot read"):
+        config.load(tmp_path / "none.toml", find_methods())
+
+
+def test_a_surface_of_the_configs_own(tmp_path):
+    text = GOOD.replace('["sphere"]', '["mine"]') + '[surface.mine]\nformula = "x^2 + y^2 - a"\nparameters = { a = 0.5 }\n'
+    assert _load(tmp_path, text).surfaces[0].degree == 2
+    with pytest.raises(FirsthitError, match=r"c\.toml:9: "):
+        _load(tmp_path, text.replace("y^2 - a", "y^2 - b"))
+
+
+@pytest.mark.parametrize("path", sorted((Path(__file__).parent.parent / "configs").glob("*.toml")), ids=lambda p: p.stem)
+def test_our_own_configs_load(path):
+    assert config.load(path, find_methods()).variants

@@ -1,0 +1,367 @@
+"""The oracle against Sturm's theorem in exact integers, on random formulas and on rays made to be hard.
+
+The reference here shares nothing with the oracle: it expands f along the ray in Python's own fractions and counts
+distinct roots by Sturm sequences, multiplicities by repeated greatest common divisors.
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Iterable, Sequence
+from fractions import Fraction
+from math import gcd, isqrt, lcm
+
+import numpy as np
+import pytest
+import surfaces
+from harness.contract import Box, Surface, TruthStatus
+from harness.oracle import first_hits
+from harness.oracle.program import compile_expression
+from harness.oracle.slow import AlgebraicSolver
+
+Poly = list[int]  # lowest power first, no trailing zero
+Interval = tuple[Fraction, Fraction]
+
+
+def trimmed(p: Iterable[int]) -> Poly:
+    p = list(p)
+    while p and p[-1] == 0:
+        p.pop()
+    content = gcd(*p) if p else 1
+    return [c // content for c in p]
+
+
+def remainder(a: Poly, b: Poly) -> Poly:
+    """A positive multiple of a mod b."""
+    a = list(a)
+    while len(a) >= len(b):
+        lead, shift = a[-1], len(a) - len(b)
+        scale = abs(b[-1])
+        a = [c * scale for c in a]
+        factor = lead if b[-1] > 0 else -lead
+        for i, c in enumerate(b):
+            a[shift + i] -= factor * c
+        a.pop()
+    return trimmed(a)
+
+
+def derivative(p: Poly) -> Poly:
+    return trimmed(i * c for i, c in enumerate(p) if i)
+
+
+def common(a: Poly, b: Poly) -> Poly:
+    while b:
+        a, b = b, remainder(a, b)
+    return a
+
+
+def quotient(a: Poly, b: Poly) -> Poly:
+    rest, result = [Fraction(c) for c in a], [Fraction(0)] * (len(a) - len(b) + 1)
+    for k in reversed(range(len(result))):
+        result[k] = rest[k + len(b) - 1] / b[-1]
+        for i, c in enumerate(b):
+            rest[k + i] -= result[k] * c
+    return integral(result)
+
+
+def integral(p: Sequence[Fraction]) -> Poly:
+    scale = lcm(*(c.denominator for c in p))
+    return trimmed(int(c * scale) for c in p)
+
+
+def value(p: Poly, t: Fraction) -> Fraction:
+    result = Fraction(0)
+    for c in reversed(p):
+        result = result * t + c
+    return result
+
+
+class Roots:
+    """Distinct real roots of p, counted on closed intervals."""
+
+    def __init__(self, p: Poly) -> None:
+        self.p = quotient(p, common(p, derivative(p))) if len(p) > 1 else p
+        self.chain = [self.p, derivative(self.p)]
+        while self.chain[-1]:
+            self.chain.append([-c for c in remainder(self.chain[-2], self.chain[-1])])
+        self.chain.pop()
+
+    def changes(self, t: Fraction) -> int:
+        signs = [v > 0 for q in self.chain if (v := value(q, t))]
+        return sum(a != b for a, b in zip(signs, signs[1:], strict=False))
+
+    def within(self, lower: Fraction, upper: Fraction) -> int:
+        """Roots in the closed interval."""
+        if lower > upper:
+            return 0
+        return self.changes(lower) - self.changes(upper) + (value(self.p, lower) == 0)
+
+    def before(self, lower: Fraction, upper: Fraction) -> int:
+        """Roots in [lower, upper)."""
+        return self.within(lower, upper) - (lower <= upper and value(self.p, upper) == 0)
+
+
+def along(expr: object, ray: Sequence[Fraction]) -> list[Fraction]:
+    """Coefficients of a rational sympy polynomial along o + t·d."""
+    if expr.is_Symbol:
+        axis = "xyz".index(expr.name)
+        return [ray[axis], ray[axis + 3]]
+    if expr.is_Rational:
+        return [Fraction(int(expr.p), int(expr.q))]
+    parts = [along(a, ray) for a in expr.args]
+    if expr.is_Add:
+        width = max(map(len, parts))
+        return [sum((p[i] for p in parts if i < len(p)), Fraction(0)) for i in range(width)]
+    if expr.is_Pow:
+        parts = [parts[0]] * int(expr.exp)
+    result = [Fraction(1)]
+    for p in parts:
+        product = [Fraction(0)] * (len(result) + len(p) - 1)
+        for i, a in enumerate(result):
+            for j, b in enumerate(p):
+                product[i + j] += a * b
+        result = product
+    return result
+
+
+def clip(surface: Surface, ray: Sequence[Fraction]) -> tuple[Interval, Interval] | None:
+    """The clip interval as (outer, inner) rational intervals, equal for boxes and some 2^-300 apart for spheres."""
+    o, d = ray[:3], ray[3:]
+    domain = surface.domain
+    if isinstance(domain, Box):
+        enter, leave = Fraction(0), None
+        for k in range(3):
+            low, high = Fraction(domain.lower[k]), Fraction(domain.upper[k])
+            if d[k] == 0:
+                if not low <= o[k] <= high:
+                    return None
+                continue
+            near, far = sorted(((low - o[k]) / d[k], (high - o[k]) / d[k]))
+            enter, leave = max(enter, near), far if leave is None else min(leave, far)
+        return ((enter, leave), (enter, leave)) if enter <= leave else None
+    offset = [a - Fraction(c) for a, c in zip(o, domain.center, strict=True)]
+    a = sum(v * v for v in d)
+    b = sum(v * w for v, w in zip(offset, d, strict=True))
+    discriminant = b * b - a * (sum(v * v for v in offset) - Fraction(domain.radius) ** 2)
+    if discriminant < 0:
+        return None
+    scale = 1 << 400
+    floor = isqrt(discriminant.numerator * discriminant.denominator * scale * scale)
+    exact = Fraction(floor, discriminant.denominator * scale)
+    slack = 0 if exact**2 == discriminant else Fraction(1, discriminant.denominator * scale)
+    outer = (max(Fraction(0), (-b - exact - slack) / a), (-b + exact + slack) / a)
+    inner = (max(Fraction(0), (-b - exact) / a), (-b + exact) / a)
+    return (outer, inner) if inner[1] >= 0 else None
+
+
+def check(surface: Surface, ray: Sequence[float], status: int, lower: float, upper: float) -> None:
+    """Fails unless Sturm's theorem says the same; UNDECIDED always fails: rational surfaces are decidable."""
+    exact = [Fraction(float(v)) for v in ray]
+    where = f"{surface.formula} in {surface.domain} along {[float(v) for v in ray]}"
+    ends = clip(surface, exact)
+    if ends is None:
+        assert status == TruthStatus.MISS, where
+        return
+    outer, inner = ends
+    p = integral(along(surfaces.expression(surface), exact))
+    if not p:
+        assert status == TruthStatus.TOUCH and Fraction(lower) <= inner[0] <= Fraction(upper), where
+        return
+    roots = Roots(p)
+    assert roots.within(*outer) == roots.within(*inner), f"the reference cannot tell: {where}"
+    if status == TruthStatus.MISS:
+        assert roots.within(*outer) == 0, where
+        return
+    assert status in (TruthStatus.CROSSING, TruthStatus.TOUCH), where
+    low, high = Fraction(lower), Fraction(upper)
+    assert roots.before(inner[0], min(low, inner[1])) == 0, where
+    inside = max(low, inner[0]), min(high, inner[1])
+    assert roots.within(*inside) >= 1, where
+    assert high - low <= max(2.0**-40 * surface.domain.radius / float(sum(v * v for v in exact[3:])) ** 0.5, 4e-16 * upper)
+    if roots.within(*inside) == 1:
+        multiplicity = 0
+        while len(p) > 1 and Roots(p).within(*inside):
+            multiplicity += 1
+            p = common(p, derivative(p))
+        assert (multiplicity % 2 == 0) == (status == TruthStatus.TOUCH), where
+
+
+def check_all(surface: Surface, rays: np.ndarray) -> np.ndarray:
+    """Checks the oracle's answers and the slow path's own, ray by ray; returns the statuses."""
+    truth = first_hits(surface, rays)
+    slow = AlgebraicSolver(compile_expression(surfaces.expression(surface)), surface.domain)
+    for ray, status, lower, upper in zip(rays, truth.status, truth.lower, truth.upper, strict=True):
+        check(surface, ray, status, lower, upper)
+        alone = slow.first_hit(ray.tolist())
+        assert alone.status == status
+        if status != TruthStatus.MISS:
+            assert alone.lower <= upper and lower <= alone.upper
+    return truth.status
+
+
+def rays_at(rng: np.random.Generator, count: int, radius: float, coarse: bool) -> np.ndarray:
+    """Rays from around towards the inside; `coarse` ones on a grid of eighths, so that they hit things exactly."""
+    origins = rng.normal(size=(count, 3)) * radius * rng.choice([0.3, 1.0, 3.0], size=(count, 1))
+    directions = rng.uniform(-0.6, 0.6, size=(count, 3)) * radius - origins
+    if coarse:
+        origins, directions = np.round(origins * 8) / 8, np.round(directions * 4) / 8
+        directions[~directions.any(axis=1), 0] = 1.0
+    else:
+        directions /= np.linalg.norm(directions, axis=1, keepdims=True)
+    return np.hstack([origins, directions]).astype(np.float32)
+
+
+def random_formula(pick: random.Random, degree: int) -> str:
+    """A polynomial of about this degree: sums of products of small factors, some of them repeated."""
+
+    def number() -> str:
+        return f"{pick.randint(-12, 12)}/{pick.choice([1, 2, 4, 5, 8])}"
+
+    def factor(room: int) -> tuple[str, int]:
+        kind = pick.choice(["plane", "ball", "power", "cross"])
+        if kind == "ball" and room >= 2:
+            return f"({pick.choice('xyz')}^2 + {pick.choice('xyz')}^2 + z^2 - {pick.randint(1, 8)}/8)", 2
+        if kind == "power" and room >= 2:
+            exponent = pick.randint(2, room)
+            return f"({pick.choice('xyz')} - ({number()})/8)^{exponent}", exponent
+        if kind == "cross" and room >= 3:
+            return f"({pick.choice('xyz')}^2*{pick.choice('xyz')} - {pick.choice('xyz')}/4 + ({number()})/16)", 3
+        return f"(x*({number()}) + y - z*({number()}) + ({number()})/8)", 1
+
+    def product() -> str:
+        room, factors = degree, []
+        while room > 0:
+            text, used = factor(room)
+            factors.append(text)
+            room -= used
+        return "*".join(factors)
+
+    return " + ".join(f"({number()})*{product()}" for _ in range(pick.randint(1, 2))) + f" + x^{degree}/4"
+
+
+@pytest.mark.parametrize("degree", [1, 2, 3, 4, 5, 6, 8, 10, 13, 16, 20])
+def test_random_formulas(degree: int) -> None:
+    pick, rng = random.Random(degree), np.random.default_rng(degree)
+    seen = np.zeros(4, dtype=int)
+    for domain in ("sphere:1.5", "box:1,1.25,0.75"):
+        surface = surfaces.from_formula(random_formula(pick, degree), domain)
+        for coarse in (False, True):
+            seen += np.bincount(check_all(surface, rays_at(rng, 12, 1.5, coarse)), minlength=4)
+    assert seen[TruthStatus.UNDECIDED] == 0
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_touches_and_multiple_roots(seed: int) -> None:
+    """Squares, cubes and products of factors that share roots, on rays that meet them exactly."""
+    pick, rng = random.Random(seed), np.random.default_rng(seed)
+    factors = [f"({pick.choice('xyz')} - {pick.randint(-4, 4)}/8)^{pick.randint(1, 4)}" for _ in range(3)]
+    surface = surfaces.from_formula("*".join(factors), "box:1,1,1")
+    statuses = check_all(surface, rays_at(rng, 40, 1.0, coarse=True))
+    assert np.isin(statuses, [TruthStatus.CROSSING, TruthStatus.TOUCH]).any()
+
+
+@pytest.mark.parametrize("spacing", [2.0**-8, 2.0**-24, 2.0**-45, 2.0**-52, 2.0**-70])
+def test_clustered_roots(spacing: float) -> None:
+    """Five roots `spacing` apart (the last ones closer than float64 resolves), and the same without the first."""
+    numerator, denominator = spacing.as_integer_ratio()
+    for first in (0, 1):
+        roots = "*".join(f"(x - 1/4 - {k}*{numerator}/{denominator})" for k in range(first, 5))
+        surface = surfaces.from_formula(roots, "box:1,1,1")
+        statuses = check_all(surface, np.array([[-3, 0, 0, 1, 0, 0], [-3, 0.1, 0.2, 0.9, 0.01, 0.02]], np.float32))
+        assert (statuses == TruthStatus.CROSSING).all()
+
+
+@pytest.mark.parametrize("exponent", range(4, 60, 5))
+def test_near_tangent(exponent: int) -> None:
+    """A dip of 2^-exponent below or above the surface: two roots, one touch, or none."""
+    for sign, expected in (("-", TruthStatus.CROSSING), ("+", TruthStatus.MISS)):
+        surface = surfaces.from_formula(f"(x - 1/8)^2 + y^2 {sign} 1/2^{exponent}", "sphere:1")
+        statuses = check_all(surface, np.array([[-2, 0, 0, 1, 0, 0]], np.float32))
+        assert statuses[0] == expected
+
+
+def test_roots_at_the_ends_of_the_clip_interval() -> None:
+    rays = np.array(
+        [
+            [-2, 0, 0, 1, 0, 0],  # enters and leaves at a root
+            [-2, 0.5, 0.25, 1, 0, 0],
+            [1, 0, 0, 1, 0, 0],  # starts on the surface, leaving the box: a clip interval of length 0
+            [1, 0.25, 0.5, -1, 0, 0],  # starts on the surface, entering
+            [-2, 1, 0, 1, 0, 0],  # along a face of the box
+            [0, 2, 0, 1, -1, 0],  # through an edge of the box only
+            [0, 0.5, 0, 1, 0, 0],  # starts inside
+            [3, 0, 0, 1, 0, 0],  # leads away
+            [-2, 1.5, 0, 1, 0, 0],  # misses the domain
+        ],
+        np.float32,
+    )
+    for formula in ("x^2 - 1", "(x - 1)^2", "(x + 1)*(x - 1)^3", "x^2 + y^2 + z^2 - 1", "x + y - 2", "x"):
+        for domain in ("box:1,1,1", "sphere:1"):
+            check_all(surfaces.from_formula(formula, domain), rays)
+
+
+def test_a_sphere_that_is_its_own_domain() -> None:
+    """Every root lies exactly at an irrational end of the clip interval."""
+    surface = surfaces.from_formula("x^2 + y^2 + z^2 - 1", "sphere:1")
+    rays = rays_at(np.random.default_rng(5), 60, 1.0, coarse=False)
+    truth = first_hits(surface, rays)
+    for ray, status in zip(rays, truth.status, strict=True):
+        exact = [Fraction(float(v)) for v in ray]
+        inside = sum(v * v for v in exact[:3]) <= 1
+        expected = TruthStatus.MISS if clip(surface, exact) is None else TruthStatus.CROSSING
+        assert status == (TruthStatus.CROSSING if inside else expected)
+
+
+@pytest.mark.parametrize("distance", [1.0, 1e3, 1e6])
+def test_distant_origins(distance: float) -> None:
+    rng = np.random.default_rng(9)
+    surface = surfaces.get("torus")
+    targets = rng.uniform(-0.8, 0.8, size=(25, 3)) * [1, 1, 0.3]
+    back = rng.normal(size=(25, 3))
+    back /= np.linalg.norm(back, axis=1, keepdims=True)
+    rays = np.hstack([targets + distance * back, -back]).astype(np.float32)
+    statuses = check_all(surface, rays)
+    assert (statuses == TruthStatus.MISS).any() or distance < 1e6
+    assert (statuses == TruthStatus.CROSSING).any() or distance > 1e3
+
+
+def test_torus_axis_and_tangent_planes() -> None:
+    """Axis rays, four-hit rays, rays in the plane that touches the torus along its top circle."""
+    surface = surfaces.from_formula("(x^2 + y^2 + z^2 + 9/16 - 1/16)^2 - 9/4*(x^2 + y^2)", "box:1,1,0.5")
+    rays = np.array(
+        [
+            [0, 0, 2, 0, 0, -1],
+            [2, 0, 0, -1, 0, 0],
+            [2, 0.5, 0, -1, 0, 0],  # tangent to the inner circle
+            [2, 0, 0.25, -1, 0, 0],  # in the upper tangent plane, touching twice
+            [0.75, 0, 2, 0, 0, -1],  # straight down on the top circle
+            [1, -2, 0, 0, 1, 0],  # tangent to the outer circle at the box's face
+            [0.5, 0, 2, 0, 0, -1],  # tangent to the inside of the hole
+            [0.75, 0, 0, 0, 0, 1],  # from inside
+            [0.75, 0, 0.25, 1, 0, 0],  # from the top circle, in its tangent plane
+        ],
+        np.float32,
+    )
+    statuses = check_all(surface, rays)
+    touching = [TruthStatus.TOUCH if k in (3, 5, 6, 8) else TruthStatus.CROSSING for k in range(1, 9)]
+    assert statuses.tolist() == [TruthStatus.MISS, *touching]
+
+
+def test_directions_that_lower_the_degree_and_vanishing_lines() -> None:
+    surface = surfaces.from_formula("x^3*y - z + z^5", "sphere:2")
+    rays = np.array(
+        [[0, 0, 3, 0, 0, -1], [0, -3, 0, 0, 1, 0], [1, -3, 0, 0, 1, 0], [-3, 0, 0.5, 1, 0, 0], [0, 0.5, 0, 1, 0, 0]],
+        np.float32,
+    )
+    statuses = check_all(surface, rays)
+    assert statuses[1] == TruthStatus.TOUCH  # f vanishes all along this ray
+
+
+@pytest.mark.parametrize("scale", ["1/10^30", "10^30"])
+def test_huge_and_tiny_coefficients_and_directions(scale: str) -> None:
+    surface = surfaces.from_formula(f"{scale}*(x^4 + y^4 + z^4 - 1)", "sphere:1.5")
+    rng = np.random.default_rng(3)
+    for length in (1e-20, 1.0, 1e20):
+        rays = rays_at(rng, 10, 1.5, coarse=False)
+        rays[:, 3:] *= np.float32(length)
+        check_all(surface, rays)

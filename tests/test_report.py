@@ -1,0 +1,313 @@
+"""The report of a synthetic run, and of folders that are none."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import pyarrow.parquet as pq
+import pytest
+from synthetic_run import cell, plan, tiny_run, troubled, write_run
+
+import reports
+from harness.contract import FirsthitError, digest
+from reports import content, derive, document, images, load, plots, schema, sections, style, tables, wording
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return write_run(tmp_path_factory.mktemp("runs") / "quick")
+
+
+@pytest.fixture(scope="module")
+def loaded(run: Path) -> load.Run:
+    return load.load(run)
+
+
+@pytest.fixture(scope="module")
+def frame(loaded: load.Run) -> pd.DataFrame:
+    return derive.derive(loaded.frame)
+
+
+def printed(blocks: tuple[content.Block, ...]) -> str:
+    """All that a section's tables and texts say, cells as a renderer prints them."""
+    words = []
+    for block in blocks:
+        match block:
+            case content.Text() | content.Code():
+                words.append(block.text)
+            case content.Table():
+                rows = [[c.show(v) for c, v in zip(block.columns, row, strict=True)] for row in block.rows]
+                words += [block.title, block.caption, *(" | ".join(row) for row in rows)]
+            case content.Figure() | content.Gallery():
+                words.append(block.caption)
+    return "\n".join(words)
+
+
+def test_build_writes_three_files_and_nothing_else(run: Path) -> None:
+    before = {path.name for path in run.iterdir()}
+    pdf = reports.build(run)
+    assert pdf == run / "report.pdf"
+    assert {path.name for path in run.iterdir()} == before | {"report.pdf", "results.csv", "results.parquet"}
+    first = pdf.read_bytes()
+    assert first.startswith(b"%PDF")
+    assert reports.build(run).read_bytes() == first, "the same run must give the same PDF"
+
+    csv, parquet = pd.read_csv(run / "results.csv"), pq.read_table(run / "results.parquet")
+    names = [field.name for field in (*schema.SCHEMA, *schema.DERIVED)]
+    assert list(csv.columns) == parquet.column_names == names
+    for key, samples, text in zip(csv["key"], parquet["samples_ms"].to_pylist(), csv["samples_ms"], strict=True):
+        stored = json.loads((run / "cells" / f"{key}.json").read_text())["time"]
+        assert samples == (stored and stored["samples_ms"])
+        assert stored is None or json.loads(text) == stored["samples_ms"]
+
+
+def test_every_planned_cell_is_accounted_for(loaded: load.Run, frame: pd.DataFrame) -> None:
+    assert [file.problem.split(" (")[0].split(":")[0] for file in loaded.unreadable] == [
+        "truncated or no JSON",
+        "its format is None, not 1",
+    ]
+    assert len(loaded.not_run) == 2
+    assert len(frame) + len(loaded.unreadable) + len(loaded.not_run) == len(loaded.plan.slots) == 120
+    counts = tables.statuses(frame, 2, 2)
+    total, *parts = counts.rows[0]
+    assert total == sum(parts) == 120
+    titles = [column.title for column in counts.columns]
+    assert titles == ["cells", "ok", "skipped", "failed", "timeout", "crashed", "unreadable", "not run yet"]
+
+
+def test_the_report_says_what_happened(loaded: load.Run, frame: pd.DataFrame) -> None:
+    report = sections.report(loaded, frame)
+    by_title = {section.title: printed(section.blocks) for section in report.sections}
+    assert "firsthit run configs/quick.toml" in printed(report.summary.blocks)
+    assert "_odd#[STEP_$=0.5,RELAXATION_OF_THE_LAST_STEP=1.25]" in by_title["Results"]
+    troubles = by_title["Skipped, failed and missing"]
+    for reason in ("opencl:gpu#0_$ has no float64", "the worker died of signal 11", "still running after 20 s"):
+        assert reason in troubles
+    assert "use of `$x` @ *p = a_b[#i] <7:3> ^~~~ kernel" in troubles, "folded, and without terminal colours"
+    assert "opencl:gpu#0_$ | 2" in troubles, "cells not run yet, by device"
+    assert [title for title in by_title if title.startswith("Pictures")] == [
+        "Pictures: Sphere",
+        "Pictures: Torus",
+        "Pictures: Barth #6 $extic_* @65 <b>",
+    ]
+
+
+def test_winners_name_the_fastest_and_the_fastest_with_no_wrong_ray(frame: pd.DataFrame) -> None:
+    rows = {row[:3]: row[3:] for row in tables.winners(frame).rows}
+    group = frame[
+        (frame["surface"] == "torus") & (frame["device"] == "opencl:intel") & (frame["precision"] == "float32")
+    ]
+    times = group.set_index("variant")["median_ms"]
+    fastest, *_, instead, instead_ms = rows["Torus", "float32", "opencl:intel"]
+    assert fastest == times.drop("null").idxmin() == "_odd#[STEP_$=0.5,RELAXATION_OF_THE_LAST_STEP=1.25]"
+    assert (instead, instead_ms) == ("newton[EPSILON=0.001]", times["newton[EPSILON=0.001]"])
+    assert rows["Sphere", "float32", "opencl:intel"][-2:] == ("the same", None)
+
+
+def test_derived_columns(tmp_path: Path) -> None:
+    def timed(variant: str, median: float, error: float = 0.0, misses: int = 0) -> dict[str, Any]:
+        made = cell("null" if variant == "null" else "ray_march", "torus", "opencl:intel", "float32")
+        slot = f"{variant} torus"
+        made |= {"slot": slot, "key": digest(slot), "variant": variant, "method": variant.partition("[")[0]}
+        made["time"] |= {"median_ms": median}
+        if made["accuracy"]:
+            made["accuracy"] |= {"error": {"max": error}, "misses": misses}
+        return made
+
+    cells = [
+        timed("ray_march[CAP=10]", 99.0, 1e-2),
+        timed("ray_march", 8.0, 0.0),
+        timed("null", 0.5),
+        timed("a", 0.9, 1e-3),
+        timed("b", 2.0, 1e-5),
+        timed("beaten", 2.5, 1e-5),
+        timed("misses", 1.5, 1e-6, misses=3),
+    ]
+    rows = derive.derive(load.load(tiny_run(tmp_path / "run", *cells)).frame).set_index("variant")
+    assert rows["speedup"].drop("null").to_dict() == pytest.approx(
+        {"ray_march[CAP=10]": 8 / 99, "ray_march": 1, "a": 8 / 0.9, "b": 4, "beaten": 3.2, "misses": 8 / 1.5}
+    )
+    assert np.isnan(rows["speedup"]["null"])
+    assert rows.index[rows["floor_bound"]].tolist() == ["a"]
+    assert rows.index[rows["front"]].tolist() == ["ray_march", "a", "b"]
+    assert rows["wrong_rays"]["misses"] == 3
+    assert rows["mrays_per_s"]["b"] == pytest.approx(256 * 256 / 2e-3 / 1e6)
+    assert rows["frames_per_s"]["b"] == pytest.approx(500)
+
+
+def test_fronts_are_what_a_comparison_of_all_pairs_finds(frame: pd.DataFrame) -> None:
+    for _, group in derive.contenders(frame).groupby(derive.GROUP):
+        right = group[(group["wrong_rays"] == 0) & group["error_max"].notna()]
+        points = list(right[["median_ms", "error_max"]].itertuples(index=False, name=None))
+        best = [not any(q != p and q[0] <= p[0] and q[1] <= p[1] for q in points) for p in points]
+        assert right["front"].tolist() == best
+        assert not group.loc[group.index.difference(right.index), "front"].any()
+
+
+@pytest.mark.parametrize(
+    ("change", "problem"),
+    [
+        (lambda c: c.pop("variant"), "variant is missing"),
+        (lambda c: c.update(size="256"), "size is no whole number: '256'"),
+        (lambda c: c.update(answers=1), "answers is no truth value: 1"),
+        (lambda c: c.update(time=[1.0]), "time.clock: the value around it is no object"),
+        (lambda c: c["time"].update(samples_ms=[1.0, None]), "time.samples_ms is no list of numbers: [1.0, None]"),
+        (lambda c: c["accuracy"]["error"].update(p99="small"), "accuracy.error.p99 is no number: 'small'"),
+        (lambda c: c["accuracy"].update(misses=2**64), "accuracy.misses is no whole number"),
+        (lambda c: c.update(key="0" * 16), "it names another cell's key"),
+        (lambda c: c.update(status="fine"), "its status is 'fine', not one of ok"),
+    ],
+)
+def test_a_foreign_cell_is_listed_and_the_rest_reported(
+    tmp_path: Path, change: Callable[[dict[str, Any]], Any], problem: str
+) -> None:
+    good, bad = (cell(v, "torus", "opencl:intel", "float32") for v in ("ray_march", "newton[EPSILON=0.001]"))
+    folder = tiny_run(tmp_path / "run", good, bad)
+    file = folder / "cells" / f"{bad['key']}.json"
+    change(bad)
+    file.write_text(json.dumps(bad))
+    loaded = load.load(folder)
+    assert loaded.frame["key"].tolist() == [good["key"]]
+    assert [unreadable.file for unreadable in loaded.unreadable] == [f"cells/{file.name}"]
+    assert loaded.unreadable[0].problem.startswith(problem)
+
+
+def test_a_folder_that_is_no_run_is_refused_in_one_line(tmp_path: Path) -> None:
+    made = cell("ray_march", "torus", "opencl:intel", "float32")
+    plans = {
+        "empty": (None, "it has no plan.json"),
+        "truncated": ('{"format": 1, "na', "truncated or no JSON"),
+        "foreign": ('{"format": 7}', "its format is 7, not 1"),
+        "escaping": (json.dumps(plan([made | {"key": "../../etc"}])), "is no cell key"),
+        "unfinished": (json.dumps(plan([made])), "run `firsthit run configs/quick.toml` first"),
+    }
+    for name, (text, message) in plans.items():
+        (tmp_path / name).mkdir()
+        if text is not None:
+            (tmp_path / name / "plan.json").write_text(text)
+        with pytest.raises(FirsthitError) as raised:
+            reports.build(tmp_path / name)
+        assert message in str(raised.value)
+        assert "\n" not in str(raised.value)
+        assert raised.value.exit_code == 2
+        assert len(list((tmp_path / name).iterdir())) == (text is not None), "nothing half-written"
+    with pytest.raises(FirsthitError, match="there is no run folder"):
+        reports.build(tmp_path / "nowhere")
+
+
+def test_runs_with_nothing_to_show_still_make_a_report(tmp_path: Path) -> None:
+    skipped = troubled(cell("ray_march", "torus", "opencl:gpu#0_$", "float64"))
+    bare = cell("ray_march", "torus", "opencl:intel", "float32") | {"accuracy": None, "arrays": "arrays/gone.npz"}
+    assert reports.build(tiny_run(tmp_path / "skipped", skipped)).stat().st_size > 0
+    folder = tiny_run(tmp_path / "bare", bare)
+    (folder / "report.pdf").mkdir()
+    with pytest.raises(FirsthitError, match="cannot write the report") as raised:
+        reports.build(folder)
+    assert raised.value.exit_code == 3
+    assert not list(folder.glob(".report-*"))
+    (folder / "report.pdf").rmdir()
+    assert reports.build(folder).stat().st_size > 0
+
+
+def test_a_damaged_array_file_is_listed_and_the_other_pictures_drawn(tmp_path: Path) -> None:
+    folder = write_run(tmp_path / "run")
+    victim = next(iter(sorted((folder / "arrays").iterdir())))
+    for broken in folder.glob("arrays/*.npz"):
+        if broken.name.startswith(victim.name[0]):
+            broken.write_bytes(broken.read_bytes()[:200])
+    loaded = load.load(folder)
+    frame = derive.derive(loaded.frame)
+    shown = pd.concat([images.chosen(rows) for _, rows in frame.groupby("surface")])
+    damaged = {f"arrays/{key}.npz" for key in shown["key"] if key.startswith(victim.name[0])}
+    galleries, unreadable = images.galleries(folder, frame)
+    assert {file.file for file in unreadable} == damaged
+    assert sum(len(gallery.panels) for gallery in galleries.values()) == len(shown) - len(damaged)
+
+
+def test_error_pictures_show_each_kind_of_ray_in_its_colour() -> None:
+    shape = (1, 8)
+    error = np.array([[0.0, 1e-8, 1e-2, np.nan, np.nan, np.nan, np.nan, np.nan]], np.float32)
+    wrong = np.array([[0, 0, 0, 1, 2, 3, 4, 1]], np.uint8)
+    grazing = np.arange(8).reshape(shape) == 7
+    shade = np.ones(shape, np.float32)
+    image = images.error_map(images.Arrays(np.ones(shape, np.uint8), error, wrong, grazing, shade), (-8, -2))
+    colors = ["#{:02x}{:02x}{:02x}".format(*np.round(255 * pixel).astype(int)) for pixel in image[0]]
+    assert colors[0] == style.EXACT
+    assert colors[1] == "#00224e" and colors[2] == "#fee838", "the ends of cividis"
+    assert colors[3:7] == [kind.color.lower() for kind in style.WRONG]
+    assert np.all(image[0, 7] > image[0, 3] - 1e-9) and not np.allclose(image[0, 7], image[0, 3])
+
+
+def test_a_zero_error_has_its_place_left_of_the_smallest(frame: pd.DataFrame) -> None:
+    axis = plots.ErrorAxis.of(pd.Series([0.0, 3e-7, 2e-3, np.inf]))
+    assert (axis.lowest, axis.highest) == (-7, -2)
+    assert axis.position(pd.Series([0.0, 1e-7, 1e-2])).tolist() == [axis.zero, -7.0, -2.0]
+    assert axis.zero <= -8
+    sphere = frame[frame["surface"] == "sphere"]
+    (figure,) = plots.speed_against_error(sphere, style.marks(frame["method"]), "sphere", "Sphere")
+    assert "rows with an error of exactly 0" in figure.caption
+    assert ">_odd#<" in figure.svg, "text stays text, and a leading underscore does not drop a method from the key"
+
+
+def test_a_method_keeps_its_mark_and_no_two_share_one() -> None:
+    plugins = [f"plugin_{i}" for i in range(30)]
+    marks = style.marks([*plugins, "newton", "ray_march", "null", "sturm", "analytic"])
+    assert len(set(marks.values())) == len(marks)
+    assert marks["newton"] == style.marks(["newton"])["newton"]
+
+
+def test_large_runs_print_only_what_matters(
+    loaded: load.Run, frame: pd.DataFrame, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(tables, "ROW_LIMIT", 10)
+    monkeypatch.setattr(sections, "SUMMARY_LINES", 5)
+    report = sections.report(loaded, frame)
+    by_title = {section.title: printed(section.blocks) for section in report.sections}
+    assert "Which method is fastest" in printed(report.summary.blocks)
+    assert by_title["Winners"].count("\n") > 10
+    finished = frame[frame["status"] == "ok"]
+    kept = int((finished["front"] | finished["method"].isin(["ray_march", "null"])).sum())
+    assert f"Printed are {kept} of {len(finished)} rows" in by_title["Results"]
+    assert "The first 10 of" in by_title["Skipped, failed and missing"]
+
+
+def test_repeated_group_values_are_printed_once(tmp_path: Path) -> None:
+    columns = tuple(content.Column(title) for title in "abc")
+    table = content.Table(columns, [("x", "y", 1), ("x", "y", 2), ("x", "z", 3), ("w", "z", 4)], "T", group=2)
+    made = document._block(table, tmp_path)
+    assert [row["cells"] for row in made["rows"]] == [["x", "y", "1"], ["", "", "2"], ["", "z", "3"], ["w", "z", "4"]]
+    assert [row["opens"] for row in made["rows"]] == [True, False, True, True]
+
+
+@pytest.mark.parametrize(
+    ("show", "value", "shown"),
+    [
+        (wording.number, 0.012345, "0.0123"),
+        (wording.number, 9.996, "10.0"),
+        (wording.number, 1234.5, "1,234"),
+        (wording.number, float("nan"), "–"),
+        (wording.error, 1.26e-7, "1.3e−7"),
+        (wording.error, 0.0, "0"),
+        (wording.count, pd.NA, "–"),
+        (wording.factor, 7.04, "7.04×"),
+        (wording.share, 0.005, "0.5 %"),
+        (wording.share, 0.12, "12 %"),
+    ],
+)
+def test_numbers_as_people_read_them(show: Callable[[Any], str], value: Any, shown: str) -> None:
+    assert show(value) == shown
+
+
+def test_importing_reports_imports_nothing_heavy() -> None:
+    heavy = "{'pandas', 'matplotlib', 'typst', 'PIL', 'pyarrow', 'numpy'}"
+    code = f"import sys, reports; print(sorted({heavy} & set(sys.modules)))"
+    root = Path(reports.__file__).parents[1]
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, cwd=root)
+    assert done.stdout.strip() == "[]"
