@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import json
 import platform
 import subprocess
 from importlib.metadata import PackageNotFoundError, version
@@ -10,8 +11,10 @@ from pathlib import Path
 from typing import Any
 
 from harness import __version__, plan
-from harness.contract import DeviceInfo
+from harness.contract import DeviceInfo, digest
 from harness.executor import CellError, LocalExecutor
+from harness.probes import BELIEVABLE
+from harness.store import write_atomically
 
 ROOT = Path(__file__).parent.parent
 PACKAGES = ("numpy", "sympy", "python-flint", "moderngl", "pyopencl")
@@ -44,13 +47,26 @@ def describe() -> dict[str, Any]:
     }
 
 
-def probed(executor: LocalExecutor, info: DeviceInfo) -> tuple[DeviceInfo, dict[str, Any]]:
-    """The device with the clock that its probes support, and what they found."""
+def probed(executor: LocalExecutor, info: DeviceInfo, cache: Path | None = None) -> tuple[DeviceInfo, dict[str, Any]]:
+    """The device with the clock that its probes support, and what they found.
+
+    With a `cache` folder the probes are kept there, for as long as the device, its driver and the processor stay.
+    """
     if info.problem:
         return info, {}
+    path = cache / f"{digest(dataclasses.asdict(info), plan.processor(), plan.methodology())}.json" if cache else None
+    found: dict[str, Any]
     try:
-        probes = executor.probe(info.name)
-    except CellError as error:
-        return dataclasses.replace(info, problem=f"its probes failed: {error}"), {}
-    clock = "device" if probes.clock_believable else "wall"
-    return dataclasses.replace(info, clock=clock), dataclasses.asdict(probes)
+        found = json.loads(path.read_text(encoding="utf-8")) if path else {}
+    except (OSError, ValueError):
+        found = {}
+    if not found:
+        try:
+            found = dataclasses.asdict(executor.probe(info.name))
+        except CellError as error:
+            return dataclasses.replace(info, problem=f"its probes failed: {error}"), {}
+        if path:
+            write_atomically(path, json.dumps(found).encode())
+    ratio = found["clock_ratio"]
+    believable = ratio is not None and BELIEVABLE[0] <= ratio <= BELIEVABLE[1]
+    return dataclasses.replace(info, clock="device" if believable else "wall"), found

@@ -12,9 +12,9 @@ from harness.backends import Device, map_rows, real_type
 from harness.contract import Precision
 
 CASES = 65536
-PEAK_ITEMS = 16384
+PEAK_ITEMS = 4096
 PEAK_OPERATIONS = 131072  # per item, as peak.glsl counts them
-BELIEVABLE = (0.5, 1.05)  # device clock over wall clock for a launch of many milliseconds
+BELIEVABLE = (0.5, 1.05)  # device clock over wall clock, for a launch of some milliseconds, that is to be trusted
 
 
 @dataclass(frozen=True)
@@ -28,10 +28,6 @@ class Probes:
     division: float  # share of quotients that are rounded to nearest
     peak_gflops: float
     clock_ratio: float | None  # device clock over wall clock; None where the device has none
-
-    @property
-    def clock_believable(self) -> bool:
-        return self.clock_ratio is not None and BELIEVABLE[0] <= self.clock_ratio <= BELIEVABLE[1]
 
 
 def _pairs(precision: Precision) -> NDArray[np.float64]:
@@ -67,7 +63,7 @@ def _peak(device: Device) -> tuple[float, float | None]:
     kind = real_type(program)
     launch = device.launch(device.build(program), [np.ones(PEAK_ITEMS, kind)], [(PEAK_ITEMS, kind)], (PEAK_ITEMS, 1))
     launch.run()
-    timings = [launch.run() for _ in range(5)]
+    timings = [launch.run() for _ in range(3)]
     launch.release()
     best = min(timings, key=lambda timing: timing.wall_ms)
     rate = PEAK_OPERATIONS * PEAK_ITEMS / best.wall_ms * 1e-6

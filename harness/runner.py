@@ -108,9 +108,10 @@ class Runner:
         radius = scene_radius(cell.surface)
         verdicts = accuracy.judge(hits, truth, radius, config.grazing_margin)
         footprint = pixel_footprint(state.planned.camera, cell.size)
-        state.summary = accuracy.summarize(hits, truth, verdicts, radius, footprint, config.grazing_margin)
+        summary = accuracy.summarize(hits, truth, verdicts, radius, footprint, config.grazing_margin)
+        state.summary = {"size": config.size} | summary
         state.arrays = _pictures(cell.surface, rays, hits, truth, verdicts, config.size)
-        share = accuracy.wrong_share(state.summary)
+        share = accuracy.wrong_share(summary)
         if self._catalog.get(cell.variant.method).method.answers and share > config.max_wrong_share:
             return f"wrong on {share:.1%} of the rays outside the grazing class: not timed"
         return None

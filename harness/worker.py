@@ -144,4 +144,7 @@ def serve(connection: Connection, device_name: str) -> None:
             answer = ("failed", str(error))
         except Exception as error:  # a binding may raise anything; it costs this one cell
             answer = ("failed", f"{type(error).__name__}: {error}")
-        connection.send(answer)
+        try:
+            connection.send(answer)
+        except BrokenPipeError:
+            return

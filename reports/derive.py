@@ -27,8 +27,9 @@ def derive(frame: pd.DataFrame) -> pd.DataFrame:
     frame = frame.join(floor, on=GROUP)
     frame["floor_bound"] = frame["answers"] & (frame["median_ms"] < FLOOR_FACTOR * frame["floor_ms"])
     wrong = ["misses", "false_hits", "exhausted", "wrong_root"]
-    frame["wrong_rays"] = frame[wrong].sum(axis=1, min_count=1).astype("Int64")
-    frame["grazing_wrong_rays"] = frame[[f"grazing_{name}" for name in wrong]].sum(axis=1, min_count=1).astype("Int64")
+    for prefix in ("", "grazing_"):
+        total = frame[[prefix + name for name in wrong]].sum(axis=1, min_count=1).astype("Int64")
+        frame[f"{prefix}wrong_rays"] = total.where(frame["answers"])
     frame["front"] = _front(frame)
     return frame
 

@@ -16,6 +16,7 @@ import matplotlib
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
+from matplotlib.axis import Axis
 from matplotlib.figure import Figure as Drawing
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
@@ -108,6 +109,59 @@ def speed_against_error(rows: pd.DataFrame, marks: Mapping[str, Mark], name: str
     ]
 
 
+def overview(frame: pd.DataFrame, marks: Mapping[str, Mark], titles: Mapping[str, str]) -> Figure | None:
+    """How fast each method's fastest variant with no wrong ray is, for the page that all read; `titles` by comparison.
+
+    None where there is nothing to draw or more devices than fit.
+    """
+    rows = derive.contenders(frame)
+    rows = rows[derive.all_right(rows) & np.isfinite(rows["mrays_per_s"])].drop_duplicates([*derive.GROUP, "method"])
+    devices, precisions = sorted(set(rows["device"])), sorted(set(rows["precision"]))
+    scenes = [name for name in titles if name in set(rows["comparison"])]
+    if rows.empty or len(devices) > PANELS_ACROSS:
+        return None
+    width, height = 7.0, 0.8 + (0.2 + 0.2 * len(scenes)) * len(precisions)
+    with matplotlib.rc_context(RC):
+        drawing = Drawing(figsize=(width, height), layout="constrained")
+        panels = drawing.subplots(len(precisions), len(devices), sharex=True, sharey=True, squeeze=False)
+        for (device, precision), group in rows.groupby(["device", "precision"]):
+            axes = panels[precisions.index(precision), devices.index(device)]
+            for method, own in group.groupby("method"):
+                mark = marks[str(method)]
+                places = own["comparison"].map(scenes.index)
+                axes.plot(own["mrays_per_s"], places, color=mark.color, marker=mark.marker, ms=4.5, lw=0)
+        for axes, device in zip(panels[0], devices, strict=True):
+            axes.set_title(device, color=style.INK)
+        for axes, precision in zip(panels[:, 0], precisions, strict=True):
+            axes.set_ylabel(precision)
+        first = panels[0, 0]
+        first.set_yticks(range(len(scenes)), [titles[name] for name in scenes])
+        first.set_ylim(len(scenes) - 0.5, -0.5)
+        first.set_xscale("log")
+        first.set_xlim(rows["mrays_per_s"].min() / 2, rows["mrays_per_s"].max() * 2)
+        _label_speeds(first.xaxis, few=True)
+        drawing.supxlabel("Mrays/s", fontsize=6.5)
+        handles = [Line2D([], [], color=marks[m].color, marker=marks[m].marker, ms=4.5, lw=0) for m in _methods(rows)]
+        drawing.legend(handles, _methods(rows), loc="outside upper center", ncols=9)
+        svg = _svg(drawing)
+    return Figure(
+        "overview",
+        svg,
+        f"Speed of each method on {', '.join(titles.values())}, for {', '.join(devices)}.",
+        "How fast each method is.",
+        "Its fastest variant among those with no wrong ray, on a logarithmic axis: right is faster. A method without a "
+        "mark has no such variant there.",
+    )
+
+
+def _methods(rows: pd.DataFrame) -> list[str]:
+    return sorted(set(rows["method"]))
+
+
+def _plain(value: float, _: object) -> str:
+    return f"{value:,.0f}" if value >= 1 else f"{value:g}"
+
+
 def _speed_against_error(shown: pd.DataFrame, devices: Sequence[str], marks: Mapping[str, Mark]) -> str:
     precisions = sorted(set(shown["precision"]))
     axis = ErrorAxis.of(shown["error_max"])
@@ -125,7 +179,9 @@ def _speed_against_error(shown: pd.DataFrame, devices: Sequence[str], marks: Map
                 axes.set_title(f"{device}  {precision}", color=style.INK)
                 axis.dress(axes)
                 _draw_group(axes, group, axis, marks)
-        _dress_speed(panels[0, 0], shown["mrays_per_s"])
+        panels[0, 0].set_yscale("log")
+        panels[0, 0].set_ylim(shown["mrays_per_s"].min() / 2, shown["mrays_per_s"].max() * 2)
+        _label_speeds(panels[0, 0].yaxis)
         drawing.supxlabel("largest error |t − t*|, scene units", y=0.12 / height, va="center", fontsize=6.5)
         drawing.supylabel("Mrays/s", x=0.1 / width, ha="center", fontsize=6.5)
         handles, labels = _key(shown, marks)
@@ -163,20 +219,19 @@ def _draw_group(axes: Axes, group: pd.DataFrame, axis: ErrorAxis, marks: Mapping
         axes.step(edge_x, edge_y, where="post", color=style.INK, lw=0.8, zorder=2)
 
 
-def _dress_speed(axes: Axes, speeds: pd.Series) -> None:
-    """A logarithmic axis with at least a handful of labels, whatever its span. Shared by all panels."""
-    low, high = speeds.min() / 1.5, speeds.max() * 1.5
-    axes.set_yscale("log")
-    axes.set_ylim(low, high)
-    axes.yaxis.set_major_locator(LogLocator(subs=(1.0,) if high / low > 300 else (1.0, 2.0, 5.0)))
-    axes.yaxis.set_minor_locator(NullLocator())
-    axes.yaxis.set_major_formatter(FuncFormatter(lambda y, _: f"{y:,.0f}" if y >= 1 else f"{y:g}"))
+def _label_speeds(axis: Axis, few: bool = False) -> None:
+    """Labels for a logarithmic axis whose limits are set: some on a short one, not too many on a long one."""
+    low, high = axis.get_view_interval()
+    within_decades = (1.0, 2.0, 5.0) if high / low < (30 if few else 300) else (1.0,)
+    axis.set_major_locator(LogLocator(subs=within_decades, numticks=5 if few else 9))
+    axis.set_minor_locator(NullLocator())
+    axis.set_major_formatter(FuncFormatter(_plain))
 
 
 def _key(shown: pd.DataFrame, marks: Mapping[str, Mark]) -> tuple[list[Any], list[str]]:
     entries: list[tuple[Any, str]] = [
         (Line2D([], [], color=marks[m].color, marker=marks[m].marker, markersize=4.5, lw=0.5), m)
-        for m in sorted(set(shown["method"]))
+        for m in _methods(shown)
     ]
     hollow = Line2D([], [], color=style.INK, marker="o", markerfacecolor=style.PAPER, markersize=4.5, lw=0)
     entries.append((hollow, "hollow: some rays wrong"))
@@ -188,13 +243,14 @@ def _key(shown: pd.DataFrame, marks: Mapping[str, Mark]) -> tuple[list[Any], lis
 
 
 def _caption(shown: pd.DataFrame) -> str:
-    best = shown[shown["front"].astype(bool)].sort_values("speedup", ascending=False)
-    seen = ""
-    if len(best) and best["speedup"].notna().any():
-        row = best.iloc[0]
+    best = shown[shown["front"].astype(bool) & (shown["method"] != derive.BASELINE)]
+    seen = f" No variant that beats {derive.BASELINE} answers every ray rightly here."
+    if len(best):
+        row = best.sort_values("speedup", ascending=False).iloc[0]
+        gain = "" if wording.absent(row.speedup) else f", {wording.factor(row.speedup)} as fast as {derive.BASELINE}"
         seen = (
-            f" The largest gain with no wrong ray here: {row.variant} on {row.device} in {row.precision}, "
-            f"{wording.factor(row.speedup)} {derive.BASELINE} at a largest error of {wording.error(row.error_max)}."
+            f" The largest gain with no wrong ray: {row.variant} on {row.device} in {row.precision}{gain}, at a "
+            f"largest error of {wording.error(row.error_max)}."
         )
     exact = int((shown["error_max"] == 0).sum())
     zeros = f" {wording.plural(exact, 'row')} with an error of exactly 0 stand left of the break." if exact else ""

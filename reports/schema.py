@@ -50,7 +50,7 @@ SCHEMA: tuple[Field, ...] = (
     *_fields("real", "compile_ms upload_ms readback_ms", at="build"),
     *_fields("whole", "size rays", at="accuracy", prefix="accuracy_"),
     *_fields("whole", "truth_hits truth_misses undecided grazing", at="accuracy"),
-    *_fields("real", "grazing_margin", at="accuracy"),
+    *_fields("real", "grazing_margin scene_radius", at="accuracy"),
     *_fields("whole", "misses false_hits exhausted wrong_root", at="accuracy"),
     *_fields("whole", "grazing_misses grazing_false_hits grazing_exhausted grazing_wrong_root", at="accuracy"),
     *_fields("real", _PERCENTILES, at="accuracy.error", prefix="error_"),

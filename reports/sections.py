@@ -9,7 +9,8 @@ from reports import derive, images, plots, style, tables, wording
 from reports.content import Block, Code, Document, Section, Text
 from reports.load import Run
 
-SUMMARY_LINES = 28  # winners that fit on the first page beside the rest of it
+SUMMARY_LINES = 30  # winners that fit on the first page beside the rest of it
+OVERVIEW_SCENES = 12  # scenes that fit into its figure
 
 
 def report(run: Run, frame: pd.DataFrame) -> Document:
@@ -51,6 +52,9 @@ def _summary(run: Run, frame: pd.DataFrame) -> Section:
     blocks += [Text("To run it again, or go on where it stopped:"), Code(run.plan.command)]
     if _groups(frame):
         blocks.append(tables.winners(frame) if _groups(frame) <= SUMMARY_LINES else tables.wins(frame))
+        scenes = tables.places(frame)
+        figure = plots.overview(frame, style.marks(frame["method"]), scenes) if len(scenes) <= OVERVIEW_SCENES else None
+        blocks += [figure] if figure else []
     return Section("Summary", tuple(blocks))
 
 
@@ -112,10 +116,10 @@ def _results(frame: pd.DataFrame) -> Section:
 
 
 def _fronts(frame: pd.DataFrame) -> list[Section]:
-    marks = style.marks(frame["method"])
+    marks, named = style.marks(frame["method"]), tables.places(frame)
     figures = [
         figure
-        for i, (_, rows) in enumerate(frame.groupby("comparison", sort=False))
-        for figure in plots.speed_against_error(rows, marks, f"front-{i}", tables.place(next(rows.itertuples()), frame))
+        for i, (scene, rows) in enumerate(frame.groupby("comparison", sort=False))
+        for figure in plots.speed_against_error(rows, marks, f"front-{i}", named[str(scene)])
     ]
     return [Section("Speed against error", tuple(figures), wide=True)] if figures else []

@@ -15,21 +15,20 @@ from reports.load import Plan, Unreadable
 
 ROW_LIMIT = 1_500  # rows that one list prints; a longer one belongs in results.csv
 REASON_LIMIT = 500  # characters of a reason; a compiler's full log stays in the cell's file
-
-# An overhead above this share of the time is flagged: the harness promises less.
-OVERHEAD_LIMIT = 0.05
+OVERHEAD_LIMIT = 0.05  # a larger share of the time is flagged: the harness promises less
 
 
-def place(row: Any, frame: pd.DataFrame) -> str:
-    """The surface, and whatever else of view, size and stage differs within the run."""
-    parts = [row.surface_title]
-    if frame["view"].nunique() > 1:
-        parts.append(row.view)
-    if frame["size"].nunique() > 1 or frame["samples_per_pixel"].nunique() > 1:
-        parts.append(picture_size(row))
-    if frame["stage"].nunique() > 1:
-        parts.append(row.stage)
-    return ", ".join(parts)
+def places(frame: pd.DataFrame) -> dict[str, str]:
+    """Each comparison's name for people: the surface, and what else of view, size and stage differs within the run."""
+    several = {name for name in ("view", "size", "samples_per_pixel", "stage") if frame[name].nunique() > 1}
+    named = {}
+    for row in frame.drop_duplicates("comparison").itertuples():
+        parts = [row.surface_title]
+        parts += [row.view] if "view" in several else []
+        parts += [picture_size(row)] if several & {"size", "samples_per_pixel"} else []
+        parts += [row.stage] if "stage" in several else []
+        named[str(row.comparison)] = ", ".join(parts)
+    return named
 
 
 def picture_size(row: Any) -> str:
@@ -53,34 +52,38 @@ def winners(frame: pd.DataFrame) -> Table:
     fastest = rows.drop_duplicates(derive.GROUP)
     right = rows[derive.all_right(rows)].drop_duplicates(derive.GROUP)
     safest = {(r.comparison, r.device, r.precision): r for r in right.itertuples()}
-    body = []
-    planned = {name: i for i, name in enumerate(frame["comparison"].unique())}
-    fastest = fastest.assign(planned=fastest["comparison"].map(planned))
+    body: list[tuple[Any, ...]] = []
+    named = places(frame)
+    fastest = fastest.assign(planned=fastest["comparison"].map(list(named).index))
     for row in fastest.sort_values(["planned", "precision", "device"], kind="stable").itertuples():
         safe = safest.get((row.comparison, row.device, row.precision))
-        instead = (None, None) if safe is None else (safe.variant, safe.median_ms)
+        instead = ("none", None) if safe is None else (safe.variant, safe.median_ms)
         if safe is not None and safe.variant == row.variant:
             instead = ("the same", None)
         values = (row.median_ms, row.speedup, row.error_max, row.wrong_rays)
-        body.append((place(row, frame), row.precision, row.device, row.variant, *values, *instead))
+        body.append((named[row.comparison], row.precision, row.device, row.variant, *values, *instead))
+    columns: tuple[Column, ...] = (
+        Column("surface"),
+        Column("precision"),
+        Column("device"),
+        Column("fastest variant", stretch=1),
+        Column("ms", wording.number, numeric=True),
+        Column("speed-\nup", wording.factor, numeric=True),
+        Column("max\nerror", wording.error, numeric=True),
+        Column("wrong\nrays", wording.count, numeric=True),
+        Column("fastest with no wrong ray", stretch=1),
+        Column("ms", wording.number, numeric=True),
+    )
+    note = " Where the last columns name another variant, the fastest buys its speed with wrong answers."
+    if all(row[-2] == "the same" for row in body):
+        columns, body, note = columns[:-2], [row[:-2] for row in body], ""
     return Table(
-        (
-            Column("surface"),
-            Column("precision"),
-            Column("device"),
-            Column("fastest variant", stretch=1),
-            Column("ms", wording.number, numeric=True),
-            Column("speed-\nup", wording.factor, numeric=True),
-            Column("max\nerror", wording.error, numeric=True),
-            Column("wrong\nrays", wording.count, numeric=True),
-            Column("fastest with no wrong ray", stretch=1),
-            Column("ms", wording.number, numeric=True),
-        ),
+        columns,
         body,
         "What wins where.",
-        f"Speed-up is over {derive.BASELINE} in the same group; max error is the largest |t − t*| in "
-        "scene units over rays away from silhouettes; wrong rays are misses, false hits, exhausted rays and wrong "
-        "roots among them. Where the last columns name another variant, the fastest buys its speed with wrong answers.",
+        f"Speed-up is over {derive.BASELINE} in the same group; max error is the largest |t − t*| in scene units over "
+        "rays away from silhouettes; wrong rays are misses, false hits, exhausted rays and wrong roots among them."
+        + note,
         group=2,
     )
 
@@ -115,11 +118,11 @@ def flags(row: Any) -> str:
     notes = []
     if not row.answers:
         notes.append("floor")
-    if row.front is True:
+    if row.front:
         notes.append("front")
-    if row.floor_bound is True:
+    if row.floor_bound:
         notes.append("floor-bound")
-    if row.narrow is False:
+    if not (wording.absent(row.narrow) or row.narrow):
         notes.append("interval wide")
     if row.overhead_share > OVERHEAD_LIMIT:
         notes.append(f"overhead {wording.share(row.overhead_share)}")
@@ -133,9 +136,9 @@ def results(rows: pd.DataFrame) -> Table:
     for row in rows.itertuples():
         spread = (row.upper_ms - row.lower_ms) / (2 * row.median_ms) if row.median_ms else None
         speed = (row.median_ms, spread, row.mrays_per_s, row.frames_per_s, row.speedup)
-        wrong = (row.misses, row.false_hits, row.exhausted, row.wrong_root, row.grazing_wrong_rays)
-        errors = (row.error_max, row.error_p99, *wrong, row.evaluations_mean)
-        body.append((row.device, row.precision, row.variant, *speed, *errors, row.clock, flags(row)))
+        errors = (row.error_max, row.error_p99, row.misses, row.false_hits, row.exhausted, row.wrong_root)
+        told = (*errors, row.grazing_wrong_rays, row.evaluations_mean) if row.answers else (None,) * 8
+        body.append((row.device, row.precision, row.variant, *speed, *told, row.compile_ms, row.clock, flags(row)))
     return Table(
         (
             Column("device"),
@@ -154,6 +157,7 @@ def results(rows: pd.DataFrame) -> Table:
             Column("wrong\nroot", wording.count, numeric=True),
             Column("grazing\nwrong", wording.count, numeric=True),
             Column("evals\nper ray", wording.number, numeric=True),
+            Column("compile\nms", wording.number, numeric=True),
             Column("clock"),
             Column("flags", stretch=1),
         ),
@@ -168,9 +172,8 @@ def _results_caption(rows: pd.DataFrame) -> tuple[str, str]:
     checked = ""
     for row in rows[rows["accuracy_rays"].notna()].head(1).itertuples():
         checked = (
-            f" Errors are over {row.accuracy_rays:,} rays ({row.accuracy_size} × {row.accuracy_size}), of which "
-            f"{wording.count(row.grazing)} pass within {wording.error(row.grazing_margin)} of another answer: these "
-            "grazing rays are counted apart."
+            f" Errors are over {row.accuracy_rays:,} rays, of which {wording.count(row.grazing)} pass within "
+            f"{wording.error(row.grazing_margin)} of another answer: these grazing rays are counted apart."
         )
     return (
         f"{first.surface_title}, view {first.view}, {picture_size(first)}, {first.stage}.",
@@ -192,9 +195,10 @@ def troubles(frame: pd.DataFrame) -> Table | None:
     if rows.empty:
         return None
     body = []
+    named = places(frame)
     for row in rows.head(ROW_LIMIT).itertuples():
         reason = None if wording.absent(row.reason) else wording.excerpt(row.reason, REASON_LIMIT)
-        body.append((row.status, reason, row.device, row.precision, place(row, frame), row.variant))
+        body.append((row.status, reason, row.device, row.precision, named[row.comparison], row.variant))
     cut = f" The first {ROW_LIMIT:,} of {len(rows):,}; results.csv has all." if len(rows) > ROW_LIMIT else ""
     return Table(
         (
@@ -242,23 +246,26 @@ def devices(plan: Plan) -> Table:
     for device in plan.devices:
         versions = ", ".join(f"{name} {version}" for name, version in _pairs(device.get("versions")))
         told = (device.get("title"), device.get("driver"), device.get("compiler"), device.get("compute_units"))
+        peak = (device.get("probes") or {}).get("peak_gflops")
         float64 = "yes" if device.get("float64") else "no"
-        body.append((device.get("name"), *told, float64, device.get("clock"), versions, device.get("problem")))
-    columns = [
+        how = (float64, device.get("clock"), versions, device.get("problem"))
+        body.append((device.get("name"), *told, peak, *how))
+    columns: tuple[Column, ...] = (
         Column("device"),
         Column("hardware"),
         Column("driver"),
         Column("compiler"),
         Column("units", numeric=True),
+        Column("peak\nGFLOP/s", wording.number, numeric=True),
         Column("float64"),
         Column("clock"),
         Column("bindings"),
         Column("problem"),
-    ]
-    if all(wording.absent(row[-1]) for row in body):
-        columns, body = columns[:-1], [row[:-1] for row in body]
+    )
+    known = [i for i in range(len(columns)) if not all(wording.absent(row[i]) for row in body)]
+    columns, body = tuple(columns[i] for i in known), [tuple(row[i] for i in known) for row in body]
     caption = "The clock is the one to be believed there, and times are by it."
-    return Table(tuple(columns), body, "Devices of this run.", caption)
+    return Table(columns, body, "Devices of this run.", caption)
 
 
 def environment(plan: Plan) -> Table:

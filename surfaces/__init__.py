@@ -1,21 +1,21 @@
 """Surfaces: the catalog, formulas of one's own, and what is derived from them.
 
-    import surfaces
-    torus = surfaces.get("torus", R="0.5")
-    mine = surfaces.from_formula("x^2 + y^2*z^3 - z^4", "sphere:1.5")
-    values = surfaces.evaluate(mine, points)  # float64[n, 3] → float64[n]
+import surfaces
+torus = surfaces.get("torus", R="0.5")
+mine = surfaces.from_formula("x^2 + y^2*z^3 - z^4", "sphere:1.5")
+values = surfaces.evaluate(mine, points)  # float64[n, 3] → float64[n]
 """
 
 from __future__ import annotations
 
 import difflib
 from collections.abc import Mapping
-from decimal import Decimal
 
 from harness.contract import Box, Domain, FirsthitError, Sphere, Surface
 from surfaces import formula
-from surfaces.catalog import FAMILIES, FIXED
+from surfaces.catalog import FIXED
 from surfaces.evaluation import evaluate, expression, gradient, operations, tape_of
+from surfaces.families import FAMILIES
 from surfaces.validity import check
 
 __all__ = ["evaluate", "expression", "from_formula", "get", "gradient", "names", "operations", "tape_of"]
@@ -44,8 +44,7 @@ def get(name: str, **parameters: str | float) -> Surface:
     if name in _FIXED:
         return _FIXED[name]
     title, make, defaults = FAMILIES[name]
-    bound = make(name, title, {**defaults, **{key: _decimal(value) for key, value in parameters.items()}})
-    return bound
+    return make(name, title, defaults | _decimals(parameters))
 
 
 def from_formula(
@@ -58,7 +57,7 @@ def from_formula(
 
     Raises FirsthitError for what is not a formula, does not depend on x, y, z, or is not defined all over its domain.
     """
-    bound = {key: _decimal(value) for key, value in (parameters or {}).items()}
+    bound = _decimals(parameters or {})
     degree = formula.degree(formula.parse(text, bound))
     surface = Surface(
         name=name,
@@ -73,19 +72,28 @@ def from_formula(
     return surface
 
 
-def _decimal(value: str | float) -> str:
-    """A number as an exact decimal without exponent."""
-    return format(Decimal(str(value)), "f") if isinstance(value, int | float) else value.strip()
+def _decimals(values: Mapping[str, str | float]) -> dict[str, str]:
+    """Parameters as exact decimals."""
+    texts = {name: value.strip() if isinstance(value, str) else repr(value) for name, value in values.items()}
+    for name, text in texts.items():
+        try:
+            formula.exact(text)
+        except FirsthitError as error:
+            raise FirsthitError(f"parameter {name}: {error}") from None
+    return texts
 
 
 def _domain(text: str) -> Domain:
     kind, *groups = (part.strip() for part in text.split(":"))
     numbers = [[float(formula.exact(item.strip())) for item in group.split(",")] for group in groups]
-    match kind, numbers:
-        case "sphere", [[radius]]:
-            return Sphere(radius)
-        case "box", [[a, b, c]]:
-            return Box((-a, -b, -c), (a, b, c))
-        case "box", [[x0, y0, z0], [x1, y1, z1]]:
-            return Box((x0, y0, z0), (x1, y1, z1))
+    try:
+        match kind, numbers:
+            case "sphere", [[radius]]:
+                return Sphere(radius)
+            case "box", [[a, b, c]]:
+                return Box((-a, -b, -c), (a, b, c))
+            case "box", [[x0, y0, z0], [x1, y1, z1]]:
+                return Box((x0, y0, z0), (x1, y1, z1))
+    except OverflowError:
+        raise FirsthitError(f"domain {text!r} is past the range of float32") from None
     raise FirsthitError(f"domain {text!r}: write sphere:R, box:a,b,c or box:x0,y0,z0:x1,y1,z1")

@@ -103,9 +103,7 @@ def degree(tape: Tape) -> int | None:
 
     line = {"x": (7919, 104729, 1299709), "y": (6997, 100003, 1299721), "z": (5003, 99991, 1299743)}
     with flint.ctx.workprec(2000):
-        coordinates = {
-            name: flint.arb_poly([flint.arb(a) / c, flint.arb(b) / c]) for name, (a, b, c) in line.items()
-        }
+        coordinates = {name: flint.arb_poly([flint.arb(a) / c, flint.arb(b) / c]) for name, (a, b, c) in line.items()}
         along = walk(tape, BallPolynomials(), coordinates)[0]
         if isinstance(along, flint.arb):
             return -1 if along.contains(0) else 0
@@ -136,7 +134,9 @@ class _Parser:
             raise FirsthitError(f"the formula has {len(text)} characters; at most {MAX_LENGTH} are accepted")
         for name, value in parameters.items():
             if not re.fullmatch(r"[A-Za-z_][A-Za-z_0-9]*", name) or self._reserved(name):
-                raise FirsthitError(f"{name!r} cannot be a parameter's name: names are ASCII words with no other meaning")
+                raise FirsthitError(
+                    f"{name!r} cannot be a parameter's name: names are ASCII words with no other meaning"
+                )
             exact(value)
         self.tokens = self._tokens()
         self.position = 0

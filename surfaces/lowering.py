@@ -10,7 +10,6 @@ from collections import Counter
 from collections.abc import Callable, Mapping
 from fractions import Fraction
 from functools import cache, reduce
-from typing import Any
 
 from surfaces.numbers import Balls, fractions_of
 from surfaces.tape import LEAVES, Builder, Op, Tape, walk
@@ -23,22 +22,19 @@ CONSTANT_BITS = 320
 def enclosures(tape: Tape) -> dict[int, Enclosure]:
     """For each constant operation, exact rational bounds of its value, equal where it is rational as written.
 
-    Raises ZeroDivisionError where a constant is undefined or a constant divisor cannot be told from zero.
+    Raises ZeroDivisionError where a constant is undefined, past 2^1000, or divided by what may be zero.
     """
     import flint
 
     constant = [i for i, is_constant in enumerate(tape.constants()) if is_constant]
-    found: dict[int, Enclosure] = {}
     with flint.ctx.workprec(CONSTANT_BITS):
-        for index in constant:
+        balls = dict(zip(constant, walk(Tape(tape.ops, tuple(constant)).pruned(), Balls(), {}), strict=True))
+        found: dict[int, Enclosure] = {}
+        for index, ball in balls.items():
             op = tape.ops[index]
-            if op.name == "const":
-                found[index] = (op.args[0], op.args[0])
-                continue
-            ball = walk(Tape(tape.ops[: index + 1], (index,)).pruned(), Balls(), {})[0]
-            if not ball.is_finite():
+            if not ball.is_finite() or abs(ball) > 2**1000:
                 raise ZeroDivisionError(f"a constant {op.name} is undefined or too large")
-            found[index] = fractions_of(ball)
+            found[index] = (op.args[0], op.args[0]) if op.name == "const" else fractions_of(ball)
     return found
 
 
@@ -207,4 +203,6 @@ def coefficients_along(tape: Tape, degree: int) -> Tape:
 def counts(tape: Tape) -> dict[str, int]:
     """How many of each operation floats spend on the tape, constants free."""
     constant = tape.constants()
-    return dict(sorted(Counter(op.name for op, c in zip(tape.ops, constant, strict=True) if not c and op.name != "var").items()))
+    return dict(
+        sorted(Counter(op.name for op, c in zip(tape.ops, constant, strict=True) if not c and op.name != "var").items())
+    )

@@ -6,7 +6,6 @@ Each has one method per operation of `surfaces.tape`. Balls need python-flint, S
 from __future__ import annotations
 
 from fractions import Fraction
-from functools import reduce
 from typing import Any
 
 import numpy as np
@@ -194,13 +193,18 @@ class Symbols(Arithmetic):
 
 
 def fractions_of(ball: Any) -> tuple[Fraction, Fraction]:
-    """The exact ends of a finite flint.arb."""
-    ends = []
-    middle, radius = (_dyadic(part) for part in (ball.mid(), ball.rad()))
-    ends = [middle - radius, middle + radius]
-    return ends[0], ends[1]
+    """Exact bounds of a flint.arb at the precision of `flint.ctx`.
+
+    Raises OverflowError past 2^1100; what is closer to zero than 2^-1100 is bounded by that.
+    """
+    return _bound(ball.lower(), -1), _bound(ball.upper(), 1)
 
 
-def _dyadic(exact: Any) -> Fraction:
+def _bound(exact: Any, outward: int) -> Fraction:
     mantissa, exponent = (int(part) for part in exact.man_exp())
+    size = mantissa.bit_length() + exponent
+    if size > 1100:
+        raise OverflowError("past 2^1100")
+    if mantissa and size < -1100:
+        return Fraction(outward, 2**1100) if mantissa * outward > 0 else Fraction(0)
     return Fraction(mantissa) * Fraction(2) ** exponent

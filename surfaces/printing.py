@@ -143,4 +143,6 @@ class IntervalPrinter:
 def functions_used(tape: Tape) -> list[str]:
     """The functions beyond arithmetic that a tape calls of its variables."""
     constant = tape.constants()
-    return sorted({op.name for i, op in enumerate(tape.ops) if not constant[i] and op.name in UNARY and op.name not in LEAVES})
+    return sorted(
+        {op.name for i, op in enumerate(tape.ops) if not constant[i] and op.name in UNARY and op.name not in LEAVES}
+    )

@@ -2,9 +2,9 @@
 
 FUNCTIONS names what a method may need:
 
-    constants                 #define SURFACE_DEGREE (0 where not algebraic), DOMAIN_IS_BOX, DOMAIN_RADIUS, DOMAIN_CENTER,
-                              DOMAIN_LOWER, DOMAIN_UPPER, BOUNDING_RADIUS, FEATURE_RADIUS (the last two fall back on
-                              DOMAIN_RADIUS); always there
+    constants                 #define SURFACE_DEGREE (0 where not algebraic), DOMAIN_IS_BOX, DOMAIN_RADIUS,
+                              DOMAIN_CENTER, DOMAIN_LOWER, DOMAIN_UPPER, BOUNDING_RADIUS, FEATURE_RADIUS (the last two
+                              fall back on DOMAIN_RADIUS); always there
     surface_value             real surface_value(vec3 p)
     surface_gradient          vec3 surface_gradient(vec3 p)
     surface_hessian_product   vec3 surface_hessian_product(vec3 p, vec3 v)
@@ -22,7 +22,7 @@ To degree 4 an Along holds the expansion's coefficients; beyond it, and where f 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from fractions import Fraction
 from pathlib import Path
 
@@ -110,7 +110,9 @@ def surface_sections(
     if reason := unsupported(surface, precision, language):
         raise FirsthitError(f"{surface.name}: {reason}")
     writer = _Writer(surface, precision, language)
-    makers: dict[str, Callable[[], str]] = {name: getattr(writer, name) for name in dict.fromkeys(["constants", *wanted])}
+    makers: dict[str, Callable[[], str]] = {
+        name: getattr(writer, name) for name in dict.fromkeys(["constants", *wanted])
+    }
     sections = [Section(f"generated: surface {surface.name}, {name}", make()) for name, make in makers.items()]
     if "surface_range" in wanted and {"exp", "log"} & set(functions_used(tape_of(surface))):
         sections.insert(0, Section(_EXP_LOG.relative_to(_ROOT).as_posix(), _EXP_LOG.read_text(encoding="utf-8")))
@@ -128,12 +130,16 @@ class _Writer:
         self.surface = surface
         self.exact = tape_of(surface)
         self.real = real_tape(self.exact)
-        self.printer = lambda variables: RealPrinter(variables, precision, language)
+        self.precision = precision
+        self.language = language
         self.intervals = IntervalPrinter({axis: axis for axis in "xyz"}, precision, language)
+
+    def _printer(self, variables: Mapping[str, str]) -> RealPrinter:
+        return RealPrinter(variables, self.precision, self.language)
 
     def constants(self) -> str:
         surface, domain = self.surface, self.surface.domain
-        literal = self.printer({}).literal
+        literal = self._printer({}).literal
 
         def real(value: float | None) -> str:
             return literal(Fraction(domain.radius if value is None else value))
@@ -157,19 +163,19 @@ class _Writer:
         return "\n".join(f"#define {name} {value}" for name, value in values.items())
 
     def _scalar(self, name: str, tape: Tape) -> str:
-        lines, (value,) = self.printer(_POINT).body(tape)
+        lines, (value,) = self._printer(_POINT).body(tape)
         return _function(f"real {name}(vec3 p)", lines, f"return {value};")
 
     def surface_value(self) -> str:
         return self._scalar("surface_value", self.real)
 
     def surface_gradient(self) -> str:
-        lines, values = self.printer(_POINT).body(gradient(self.real))
+        lines, values = self._printer(_POINT).body(gradient(self.real))
         return _function("vec3 surface_gradient(vec3 p)", lines, f"return vec3({', '.join(values)});")
 
     def surface_hessian_product(self) -> str:
         variables = {**_POINT, "vx": "v.x", "vy": "v.y", "vz": "v.z"}
-        lines, values = self.printer(variables).body(hessian_product(self.real))
+        lines, values = self._printer(variables).body(hessian_product(self.real))
         return _function("vec3 surface_hessian_product(vec3 p, vec3 v)", lines, f"return vec3({', '.join(values)});")
 
     def surface_distance(self) -> str:
@@ -187,16 +193,20 @@ class _Writer:
     def surface_range_along(self) -> str:
         axes = [f"interval_affine(ray.origin.{a}, ray.direction.{a}, t0, t1)" for a in "xyz"]
         head = "Interval surface_range_along(Ray ray, real t0, real t1)"
-        return _function(head, [], f"return surface_range({axes[0]},", *(f"                     {a}" for a in (axes[1] + ",", axes[2] + ");")))
+        return _function(
+            head,
+            [],
+            f"return surface_range({axes[0]},",
+            *(f"                     {a}" for a in (axes[1] + ",", axes[2] + ");")),
+        )
 
     def surface_coefficients_along(self) -> str:
         if not expands(self.surface):
             degree = "no polynomial" if self.surface.degree is None else f"of degree {self.surface.degree}"
-            raise FirsthitError(
-                f"{self.surface.name} is {degree}; surface_coefficients_along expands degrees 1 to {MAX_EXPANDED_DEGREE}"
-            )
+            known = f"surface_coefficients_along expands degrees 1 to {MAX_EXPANDED_DEGREE}"
+            raise FirsthitError(f"{self.surface.name} is {degree}; {known}")
         assert self.surface.degree is not None
-        lines, values = self.printer(_RAY).body(coefficients_along(self.real, self.surface.degree))
+        lines, values = self._printer(_RAY).body(coefficients_along(self.real, self.surface.degree))
         stores = [f"c[{k}] = {value};" for k, value in enumerate(values)]
         return _function("void surface_coefficients_along(Ray ray, OUT real c[SURFACE_DEGREE + 1])", lines, *stores)
 
@@ -221,7 +231,7 @@ class _Writer:
         if not expands(self.surface):
             lines = ["vec3 p = along.ray.origin + along.ray.direction * t;"]
             variables = {**_POINT, **{f"d{axis}": f"along.ray.direction.{axis}" for axis in "xyz"}}
-            more, values = self.printer(variables).body(tangent(self.real, {axis: f"d{axis}" for axis in "xyz"}))
+            more, values = self._printer(variables).body(tangent(self.real, {axis: f"d{axis}" for axis in "xyz"}))
             return _function(head, lines + more, f"return make_dual({', '.join(values)});")
         degree = self.surface.degree or 0
         lines = [f"real value = along.c[{degree}];", "real derivative = value;"]

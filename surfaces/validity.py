@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import deque
 from typing import Any
 
 from harness.contract import Box, FirsthitError, Sphere, Surface
@@ -12,6 +13,7 @@ from surfaces.numbers import Balls
 from surfaces.tape import Tape, walk
 
 MAX_BOXES = 3000
+MAX_OPERATIONS = 300_000  # ball operations spent on one formula: about half a second
 _CONDITIONS = {
     "div": "a divisor must not vanish",
     "log": "log needs a positive argument",
@@ -30,35 +32,40 @@ def check(surface: Surface) -> None:
     constant = tape.constants()
     if constant[tape.outputs[0]] or degree(tape) in (-1, 0):
         raise FirsthitError(f"{surface.name}: the formula does not depend on x, y, z: it describes no surface")
-    for op in tape.ops:
-        argument = op.inputs[-1] if op.name in _CONDITIONS else None
-        if argument is not None and not constant[argument]:
-            _prove(surface, op.name, Tape(tape.ops, (argument,)).pruned())
+    conditions = [(op.name, op.inputs[-1]) for op in tape.ops if op.name in _CONDITIONS and not constant[op.inputs[-1]]]
+    for name, index in dict.fromkeys(conditions):
+        argument = Tape(tape.ops, (index,)).pruned()
+        _prove(surface, name, argument, min(MAX_BOXES, MAX_OPERATIONS // (len(conditions) * len(argument.ops))))
 
 
-def _prove(surface: Surface, name: str, argument: Tape) -> None:
+def _prove(surface: Surface, name: str, argument: Tape, budget: int) -> None:
+    """Breadth first over boxes, each halved along its longest side, `budget` of them at most."""
     import flint
 
-    domain = surface.domain
-    lower = domain.lower if isinstance(domain, Box) else tuple(c - domain.radius for c in domain.center)
-    upper = domain.upper if isinstance(domain, Box) else tuple(c + domain.radius for c in domain.center)
-    boxes = [(tuple((a + b) / 2 for a, b in zip(lower, upper, strict=True)), tuple((b - a) / 2 for a, b in zip(lower, upper, strict=True)))]
-    numbers = Balls()
-    for _ in range(MAX_BOXES):
+    domain, numbers = surface.domain, Balls()
+    center, radius = domain.center, domain.radius
+    ends = (
+        zip(domain.lower, domain.upper, strict=True)
+        if isinstance(domain, Box)
+        else [(c - radius, c + radius) for c in center]
+    )
+    boxes = deque([list(ends)])
+    for _ in range(budget):
         if not boxes:
             return
-        middle, half = boxes.pop(0)
-        point = [flint.arb(m, h) for m, h in zip(middle, half, strict=True)]
+        box = boxes.popleft()
+        point = [flint.arb(a).union(flint.arb(b)) for a, b in box]
         if _outside(domain, point) or _holds(name, walk(argument, numbers, dict(zip("xyz", point, strict=True)))[0]):
             continue
-        axis = max(range(3), key=lambda i: half[i])
-        smaller = tuple(h / 2 if i == axis else h for i, h in enumerate(half))
-        for side in (-1, 1):
-            boxes.append((tuple(m + side * smaller[i] if i == axis else m for i, m in enumerate(middle)), smaller))
-    where = ", ".join(f"{m:.3g}" for m in boxes[0][0])
-    raise FirsthitError(
-        f"{surface.name}: {_CONDITIONS[name]}, and that cannot be shown all over the domain (look near {where})"
-    )
+        axis = max(range(3), key=lambda i: box[i][1] - box[i][0])
+        lower, upper = box[axis]
+        for half in ((lower, (lower + upper) / 2), ((lower + upper) / 2, upper)):
+            boxes.append([half if i == axis else side for i, side in enumerate(box)])
+    if boxes:
+        where = ", ".join(f"{(lower + upper) / 2:.3g}" for lower, upper in boxes[0])
+        raise FirsthitError(
+            f"{surface.name}: {_CONDITIONS[name]}, and that cannot be shown all over the domain (look near {where})"
+        )
 
 
 def _outside(domain: Sphere | Box, point: list[Any]) -> bool:

@@ -190,7 +190,9 @@ def test_range_holds_the_value_at_points_of_boxes(surface: Surface, device: Devi
     results = map_rows(device, built, boxes.reshape(-1, 6), 2).astype(np.float64)
     coordinates = [(c, c) for c in points.astype(np.float64).T]
     found = escapes(surface, coordinates, lambda i: [float(c) for c in points[i]], results, exact)
-    assert not found, f"{len(found)} of {len(boxes)}: box {boxes[found[0]]}, point {points[found[0]]}, {results[found[0]]}"
+    assert not found, (
+        f"{len(found)} of {len(boxes)}: box {boxes[found[0]]}, point {points[found[0]]}, {results[found[0]]}"
+    )
 
 
 @pytest.mark.parametrize("surface", FAMILIES, ids=lambda s: s.name)
@@ -249,7 +251,7 @@ def test_range_of_nan_and_infinity_is_not_bounded(surface: Surface, device: Devi
     for row, (lo, hi) in zip(rows, results, strict=True):
         assert not np.isnan(lo) and not np.isnan(hi), row
         for sample in (-1.0, 0.0, 0.4, 2.0):
-            point = [sample if not row[2 * k] == row[2 * k + 1] else 0.25 for k in range(3)]
+            point = [sample if row[2 * k] != row[2 * k + 1] else 0.25 for k in range(3)]
             ball = exact_points([point], tape)[0]
             assert ball.is_nan() or not outside(ball, float(lo), float(hi)), (row, lo, hi)
 
@@ -257,12 +259,16 @@ def test_range_of_nan_and_infinity_is_not_bounded(surface: Surface, device: Devi
 def test_arithmetic_without_outward_rounding_would_be_caught(device: Device) -> None:
     """The same boxes find escapes once `outward` widens by nothing."""
     text = (KERNELS / "lib" / "interval.glsl").read_text(encoding="utf-8")
-    broken = text.replace("2.0 * k * UNIT_ROUNDOFF", "0.0 * k").replace("INTERVAL_TINY 7.888609052210118e-31", "INTERVAL_TINY 0.0")
+    broken = text.replace("2.0 * k * UNIT_ROUNDOFF", "0.0 * k").replace(
+        "INTERVAL_TINY 7.888609052210118e-31", "INTERVAL_TINY 0.0"
+    )
     assert broken.count("0.0 * k") == 1
     surface = surfaces.get("barth_sextic")
     boxes, points = drawn_boxes(surface, BOXES, np.float32, np.random.default_rng(3))
     sections = surface_sections(surface, ("surface_range",), "float32", device.language)
     items = [Section("tests: no outward rounding", broken), *sections, RANGE]
-    results = map_rows(device, map_program(items, "float32", device.language), boxes.reshape(-1, 6), 2).astype(np.float64)
+    results = map_rows(device, map_program(items, "float32", device.language), boxes.reshape(-1, 6), 2).astype(
+        np.float64
+    )
     coordinates = [(c, c) for c in points.astype(np.float64).T]
     assert escapes(surface, coordinates, lambda i: [float(c) for c in points[i]], results, exact=False)

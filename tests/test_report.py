@@ -13,11 +13,11 @@ import numpy as np
 import pandas as pd
 import pyarrow.parquet as pq
 import pytest
-from synthetic_run import cell, plan, tiny_run, troubled, write_run
 
 import reports
 from harness.contract import FirsthitError, digest
 from reports import content, derive, document, images, load, plots, schema, sections, style, tables, wording
+from tests.synthetic_run import cell, plan, tiny_run, troubled, write_run
 
 
 @pytest.fixture(scope="module")
@@ -140,6 +140,26 @@ def test_derived_columns(tmp_path: Path) -> None:
     assert rows["wrong_rays"]["misses"] == 3
     assert rows["mrays_per_s"]["b"] == pytest.approx(256 * 256 / 2e-3 / 1e6)
     assert rows["frames_per_s"]["b"] == pytest.approx(500)
+
+
+def test_flags_say_what_to_know_of_a_row(frame: pd.DataFrame) -> None:
+    flagged = {word for table_row in frame.itertuples() for word in tables.flags(table_row).split(", ")}
+    assert flagged == {"", "floor", "front", "interval wide", "overhead 12 %"}
+    for row in frame[frame["status"] == "ok"].itertuples():
+        words = tables.flags(row).split(", ")
+        assert ("interval wide" in words) == (not row.narrow)
+        assert ("front" in words) == bool(row.front)
+        assert ("floor" in words) == (row.method == "null")
+
+
+def test_no_error_is_told_of_a_method_that_answers_nothing(frame: pd.DataFrame) -> None:
+    finished = frame[(frame["status"] == "ok") & (frame["surface"] == "torus")]
+    assert (finished.loc[finished["method"] == "null", "misses"] > 0).all()
+    table = tables.results(finished)
+    titles = [column.title for column in table.columns]
+    first, last = titles.index("max\nerror"), titles.index("evals\nper ray")
+    for row in table.rows:
+        assert all(value is None for value in row[first : last + 1]) == (row[2] == "null")
 
 
 def test_fronts_are_what_a_comparison_of_all_pairs_finds(frame: pd.DataFrame) -> None:
@@ -271,6 +291,7 @@ def test_large_runs_print_only_what_matters(
     report = sections.report(loaded, frame)
     by_title = {section.title: printed(section.blocks) for section in report.sections}
     assert "Which method is fastest" in printed(report.summary.blocks)
+    assert len([block for block in report.summary.blocks if isinstance(block, content.Figure)]) == 1
     assert by_title["Winners"].count("\n") > 10
     finished = frame[frame["status"] == "ok"]
     kept = int((finished["front"] | finished["method"].isin(["ray_march", "null"])).sum())

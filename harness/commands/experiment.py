@@ -89,7 +89,7 @@ def _run(options: argparse.Namespace) -> int:
     executor = LocalExecutor(experiment.config.budget.timeout)
     try:
         chosen = plan.choose_devices(experiment.config.devices, found)
-        tried = [probed(executor, info) for info in chosen.values() if info]
+        tried = [probed(executor, info, store.folder / "probes") for info in chosen.values() if info]
         planned = plan.plan(experiment, catalog, [info for info, _ in tried])
         environment = describe()
         store.write_plan(
@@ -153,7 +153,11 @@ def _why(options: argparse.Namespace) -> int:
 
 
 def _report(options: argparse.Namespace) -> int:
-    import reports
+    try:
+        import reports
 
-    print(reports.build(options.folder))
+        print(reports.build(options.folder))
+    except ModuleNotFoundError as error:
+        message = f"a report needs the package {error.name}: pip install 'firsthit[report]'; runs/ can be copied elsewhere"
+        raise FirsthitError(message, exit_code=3) from None
     return 0

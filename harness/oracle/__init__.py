@@ -83,9 +83,7 @@ class _Solver:
         self.fast = FastSolver(program, surface.domain)
         self.slow = (AlgebraicSolver if program.is_polynomial else SmoothSolver)(program, surface.domain)
 
-    def certify(
-        self, rays: NDArray[np.float64]
-    ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.uint8]]:
+    def certify(self, rays: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.uint8]]:
         """lower, upper and status of `rays`: float64[n, 6] holding float32 values."""
         fast = self.fast.first_hits(rays)
         for row in np.flatnonzero(~fast.decided):

@@ -17,6 +17,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from harness.oracle.program import Functions
+
 Floats = NDArray[np.float64]
 UNIT = 2.0**-52
 GROW = 1.0 + 2.0**-48
@@ -153,7 +155,7 @@ def half(a: Balls) -> Balls:
     return Balls(0.5 * a.mid, 0.5 * a.rad + TINY)
 
 
-FUNCTIONS = {
+FUNCTIONS: Functions = {
     "sqrt": sqrt, "exp": exp, "log": log, "sin": sin, "cos": cos, "tan": tan,
     "abs": absolute, "min": minimum, "max": maximum, "sign": sign_range, "half": half,
 }  # fmt: skip

@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cache
+from itertools import pairwise
 from math import comb, lcm
 
 SPLITS = ((1, 1), (5, 3), (11, 4), (19, 5), (45, 6))  # a, k: the split point is at a / 2^k
@@ -59,10 +60,7 @@ def split(b: Sequence[int], a: int, k: int) -> tuple[list[int], list[int]]:
     row = list(b)
     left, right = [row[0] << (k * degree)], [row[-1] << (k * degree)]
     for level in range(1, degree + 1):
-        if k == 1:
-            row = [p + q for p, q in zip(row, row[1:])]  # noqa: B905, RUF007 -- pairs, in the innermost loop
-        else:
-            row = [c * p + a * q for p, q in zip(row, row[1:])]  # noqa: B905, RUF007
+        row = [p + q for p, q in pairwise(row)] if k == 1 else [c * p + a * q for p, q in pairwise(row)]
         shift = k * (degree - level)
         left.append(row[0] << shift)
         right.append(row[-1] << shift)

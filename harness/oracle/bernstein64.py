@@ -1,10 +1,10 @@
 """Bernstein coefficients of polynomials along many rays in float64, with rigorous error bounds, and their first roots.
 
-**Theory.** f is evaluated in ball arithmetic at degree + 1 dyadic nodes of the clip interval; the coefficients are M·f
-with M the exact inverse of the Bernstein collocation matrix, rounded once. A dot product of length m in any order, fused
-or not, errs by at most γ_m Σ|M_ij f_j| (Higham 2002, §3.1), and M's rounding adds u of the same sum; both are charged
-together as (m + 4)·2^-52. Halving by de Casteljau averages: each of its `degree` levels errs by at most u times the
-largest coefficient. Signs of coefficients beyond the error bound then prove what they prove in `bernstein`.
+**Theory.** f is evaluated in ball arithmetic at degree + 1 dyadic nodes of the clip interval; the coefficients are
+M·f with M the exact inverse of the Bernstein collocation matrix, rounded once. A dot product of length m in any order,
+fused or not, errs by at most γ_m Σ|M_ij f_j| (Higham 2002, §3.1), and M's rounding adds u of the same sum; both are
+charged together as (m + 4)·2^-52. Halving by de Casteljau averages: each of its `degree` levels errs by at most u times
+the largest coefficient. Signs of coefficients beyond the error bound then prove what they prove in `bernstein`.
 """
 
 from __future__ import annotations
@@ -86,8 +86,8 @@ def _judge(pieces: Pieces) -> Verdict:
     steps = np.diff(signs, axis=1)
     rising = (signs[:, 0] == -1) & (signs[:, -1] == 1) & (steps >= 0).all(axis=1)
     falling = (signs[:, 0] == 1) & (signs[:, -1] == -1) & (steps <= 0).all(axis=1)
-    empty = positive.all(axis=1) | negative.all(axis=1)
-    hopeless = ~(positive | negative).any(axis=1)
+    empty = np.asarray(positive.all(axis=1) | negative.all(axis=1))
+    hopeless = np.asarray(~(positive | negative).any(axis=1))
     return Verdict(empty, rising | falling, rising, hopeless)
 
 

@@ -20,9 +20,7 @@ REFINEMENTS = 5
 Estimates = tuple[Floats, Floats, Floats]  # following, condition, margin, each [n]
 
 
-def classify(
-    f: FloatFunction, domain: Domain, rays: Floats, first: Floats, status: NDArray[np.uint8]
-) -> Estimates:
+def classify(f: FloatFunction, domain: Domain, rays: Floats, first: Floats, status: NDArray[np.uint8]) -> Estimates:
     """`rays`: float64[n, 6]; `first`: the first root's t, float64[n], NaN without a hit; see contract.Truth."""
     if not len(rays):
         return np.empty(0), np.empty(0), np.empty(0)

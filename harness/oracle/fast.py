@@ -28,7 +28,7 @@ from harness.oracle.segments import Segments
 
 BLOCK = 2048  # rays at a time, so that the arrays stay in the cache
 MOST_DEGREE = 32  # beyond it the collocation's condition number eats float64
-WIDTHS = (2.0**-44, 2.0**-42, 2.0**-40)  # widths of certified intervals tried, in domain radii
+WIDTHS = (2.0**-44, 2.0**-42, 2.0**-41)  # widths of certified intervals tried, in domain radii
 
 
 @dataclass(frozen=True)
@@ -56,11 +56,12 @@ class FastSolver:
 
     def value(self, rays: Floats, t: Floats) -> Balls:
         """f at o + t·d, enclosed."""
-        return self.program.run(points_at(rays, t), self.constants, balls64.FUNCTIONS)
+        f: Balls = self.program.run(points_at(rays, t), self.constants, balls64.FUNCTIONS)
+        return f
 
     def first_hits(self, rays: Floats) -> FastAnswers:
         """`rays`: float64[n, 6] holding float32 values."""
-        blocks = [self._block(rays[k : k + BLOCK]) for k in range(0, len(rays), BLOCK)]
+        blocks = [self._block(rays[k : k + BLOCK]) for k in range(0, max(len(rays), 1), BLOCK)]
         return FastAnswers(*(np.concatenate([getattr(b, f) for b in blocks]) for f in FastAnswers.__annotations__))
 
     def _block(self, rays: Floats) -> FastAnswers:

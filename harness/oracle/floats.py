@@ -8,9 +8,9 @@ import numpy as np
 
 from harness.oracle.balls64 import Floats
 from harness.oracle.dual import Dual, dual_functions
-from harness.oracle.program import Program
+from harness.oracle.program import Functions, Program
 
-FUNCTIONS = {
+FUNCTIONS: Functions = {
     "sqrt": np.sqrt, "exp": np.exp, "log": np.log, "sin": np.sin, "cos": np.cos, "tan": np.tan,
     "abs": np.abs, "min": np.minimum, "max": np.maximum, "sign": np.sign, "half": lambda a: 0.5 * a,
 }  # fmt: skip
@@ -41,7 +41,8 @@ class FloatFunction:
         """|grad f|, of t's shape."""
         points = self.points(rays, t)
         squares = [
-            self._dual([Dual(p, np.float64(k == axis)) for k, p in enumerate(points)], t).slope ** 2 for axis in range(3)
+            self._dual([Dual(p, np.float64(k == axis)) for k, p in enumerate(points)], t).slope ** 2
+            for axis in range(3)
         ]
         return np.asarray(np.sqrt(sum(squares)))
 

@@ -156,7 +156,8 @@ class _Compiler:
     def product(self, expr: sympy.Expr) -> int:
         import sympy
 
-        numerator, denominator = [], []
+        numerator: list[sympy.Expr] = []
+        denominator: list[sympy.Expr] = []
         for factor in expr.args:
             base, exponent = factor.as_base_exp()
             below = base.free_symbols and exponent.is_Rational and exponent < 0

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from harness.oracle import balls64
-from harness.oracle.balls64 import GROW, Balls, Floats
+from harness.oracle.balls64 import GROW, TINY, Balls, Floats
 from harness.oracle.clip import points_at
 from harness.oracle.dual import Dual, dual_functions
 from harness.oracle.program import Program
@@ -34,7 +34,8 @@ class RangeIsolator:
         return first_segments(len(rays), whole, lambda pieces: self._judge(rays, pieces), _halve, DEPTH)
 
     def _value(self, rays: Floats, t: Floats) -> Balls:
-        return self.program.run(points_at(rays, t), self.constants, balls64.FUNCTIONS)
+        f: Balls = self.program.run(points_at(rays, t), self.constants, balls64.FUNCTIONS)
+        return f
 
     def _judge(self, rays: Floats, pieces: Pieces) -> Verdict:
         rays = rays[pieces.ray]
@@ -43,7 +44,7 @@ class RangeIsolator:
         half = np.maximum(middle - pieces.lower, pieces.upper - middle) * GROW
         centers = points_at(rays, middle)
         inputs = [
-            Dual(Balls(p.mid, (p.rad + half * np.abs(rays[:, 3 + k])) * GROW), Balls(rays[:, 3 + k]))
+            Dual(Balls(p.mid, (p.rad + half * np.abs(rays[:, 3 + k])) * GROW + TINY), Balls(rays[:, 3 + k]))
             for k, p in enumerate(centers)
         ]
         whole: Dual = self.program.run(inputs, self.duals, self.functions)
@@ -59,7 +60,9 @@ class RangeIsolator:
         last = self._value(rays[monotone], pieces.upper[monotone]).sign
         single[monotone] = first * last == -1
         empty[monotone] |= first * last == 1
-        hopeless = np.broadcast_to(~np.isfinite(center.rad), shape) | (middle <= pieces.lower) | (middle >= pieces.upper)
+        hopeless = (
+            np.broadcast_to(~np.isfinite(center.rad), shape) | (middle <= pieces.lower) | (middle >= pieces.upper)
+        )
         return Verdict(empty, single, rising, hopeless)
 
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from flint import arb, ctx, fmpq
 
 from harness.contract import FirsthitError
+from harness.oracle.program import Functions
 
 if TYPE_CHECKING:
     import sympy
@@ -46,7 +47,7 @@ def leaf(expr: sympy.Expr) -> Any:
     raise FirsthitError(f"the oracle does not know the constant {expr}")
 
 
-FUNCTIONS = {
+FUNCTIONS: Functions = {
     "sqrt": arb.sqrt, "exp": arb.exp, "log": arb.log, "sin": arb.sin, "cos": arb.cos, "tan": arb.tan,
     "abs": abs, "min": arb.min, "max": arb.max,
 }  # fmt: skip

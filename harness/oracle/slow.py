@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from math import ldexp, nan
+from math import hypot, ldexp, nan
 from typing import TYPE_CHECKING, Any
 
 from flint import arb, arb_poly, fmpq, fmpq_poly
@@ -51,7 +51,7 @@ class AlgebraicSolver:
 
     def __post_init__(self) -> None:
         try:
-            self.surds = convert_constants(self.program, surd.leaf, {"sqrt": surd.sqrt})
+            self.surds = convert_constants(self.program, surd.leaf, surd.FUNCTIONS)
         except surd.NotExact:
             self.surds = None
 
@@ -61,29 +61,31 @@ class AlgebraicSolver:
         ends = clip_exactly(self.domain, exact_ray)
         if ends is None:
             return MISS
+        reach = self.domain.radius / hypot(*ray[3:])
         exact = self.surds is not None
         for bits in PRECISIONS[:1] if exact else PRECISIONS:
             try:
                 with precision(bits):
-                    return self._by_balls(ray, ends, bits)
+                    return self._by_balls(ray, ends, reach, bits)
             except Undecidable:
                 continue
         try:
-            return self._exactly(exact_ray, ends) if exact else UNDECIDED
+            return self._exactly(exact_ray, ends, reach) if exact else UNDECIDED
         except Undecidable:
             return UNDECIDED
 
-    def _by_balls(self, ray: Sequence[float], ends: tuple[End, End], bits: int) -> FirstHit:
+    def _by_balls(self, ray: Sequence[float], ends: tuple[End, End], reach: float, bits: int) -> FirstHit:
+        """Raises Undecidable; `reach` is the domain's radius in units of t."""
         if bits not in self.constants:
             self.constants[bits] = convert_constants(self.program, reals.leaf, reals.FUNCTIONS)
             self.constants[bits] = [arb_poly([c]) for c in self.constants[bits]]
         enter, leave = (end.ball() for end in ends)
-        start, width = _frame(enter, leave, self.domain.radius)
+        start, width = _frame(enter, leave, reach)
         inputs = [arb_poly([arb(o) + arb(start) * d, arb(width) * d]) for o, d in zip(ray[:3], ray[3:], strict=True)]
         p = self.program.run(inputs, self.constants[bits], {})
-        line = _Line(p, start, width)
+        line = _Line(p, start, width, reach)
         for bracket in brackets(*_integers(p, bits), depth=bits):
-            t = line.refine(bracket, self.domain.radius, bits)
+            t = line.refine(bracket, bits)
             if t > leave:
                 return MISS
             if t >= enter and t <= leave:
@@ -92,7 +94,7 @@ class AlgebraicSolver:
                 raise Undecidable("a root may lie at an end")
         return MISS
 
-    def _exactly(self, ray: Sequence[Any], ends: tuple[End, End]) -> FirstHit:
+    def _exactly(self, ray: Sequence[Any], ends: tuple[End, End], reach: float) -> FirstHit:
         """No rounding but in comparing roots with irrational clip ends, which are told apart or proved equal."""
         inputs = [surd.Surd(fmpq_poly([o, d])) for o, d in zip(ray[:3], ray[3:], strict=True)]
         assert self.surds is not None
@@ -103,7 +105,7 @@ class AlgebraicSolver:
                 return certified_hit(TruthStatus.TOUCH, enter)
         parts = surd.split(p)
         with precision(FIRST_PRECISION):
-            start, width = _frame(ends[0].ball(), ends[1].ball(), self.domain.radius)
+            start, width = _frame(ends[0].ball(), ends[1].ball(), reach)
         scaled = parts.carrier(fmpq_poly([rational(start), rational(width)]))
         if scaled.degree() <= 0:
             return MISS
@@ -111,12 +113,12 @@ class AlgebraicSolver:
             start, width = start - width, 3.015625 * width
             scaled = parts.carrier(fmpq_poly([rational(start), rational(width)]))
         whole = [int(c) for c in scaled.numer().coeffs()]
-        line = _Line(arb_poly(scaled), start, width, scaled)
+        line = _Line(arb_poly(scaled), start, width, reach, scaled)
         for bracket in brackets(*to_bernstein(whole), depth=PRECISIONS[-1]):
-            multiplicity = _multiplicity(line, bracket, parts, self.domain.radius)
+            multiplicity = _multiplicity(line, bracket, parts)
             if not multiplicity:
                 continue
-            side, t = _place(line, bracket, parts.carrier, ends, self.domain.radius)
+            side, t = _place(line, bracket, parts.carrier, ends)
             if side > 0:
                 return MISS
             if side == 0:
@@ -124,10 +126,10 @@ class AlgebraicSolver:
         return MISS
 
 
-def _frame(enter: Any, leave: Any, radius: float) -> tuple[float, float]:
+def _frame(enter: Any, leave: Any, reach: float) -> tuple[float, float]:
     """Floats start, width so that [start, start + width] holds the clip interval well inside."""
     lower, upper = float(enter.lower()), float(leave.upper())
-    room = (upper - lower) * 0.0137 + radius * 2.0**-30 + max(abs(lower), abs(upper)) * 2.0**-48
+    room = (upper - lower) * 0.0137 + reach * 2.0**-30 + max(abs(lower), abs(upper)) * 2.0**-48
     start = lower - room
     return start, (upper - start) + 0.93 * room
 
@@ -153,16 +155,17 @@ def _integers(p: Any, bits: int) -> tuple[list[int], int]:
 class _Line:
     """A polynomial in s where t = start + width·s, and its roots as balls of t."""
 
-    def __init__(self, p: Any, start: float, width: float, exact: Any = None) -> None:
+    def __init__(self, p: Any, start: float, width: float, reach: float, exact: Any = None) -> None:
         self.p = p
         self.exact = exact  # the fmpq_poly that `p` rounds, where there is one
         self.slope = p.derivative()
         self.start = start
         self.width = width
+        self.reach = reach  # the domain's radius in units of t
 
     def at_precision(self) -> _Line:
-        """The same exact line with its polynomial rounded at the current precision."""
-        return self if self.exact is None else _Line(arb_poly(self.exact), self.start, self.width, self.exact)
+        """The same line with its exact polynomial rounded at the current precision."""
+        return _Line(arb_poly(self.exact), self.start, self.width, self.reach, self.exact)
 
     def ends(self, bracket: Bracket) -> tuple[Any, Any]:
         """The bracket's ends as balls of t."""
@@ -171,13 +174,13 @@ class _Line:
     def t(self, s: Any) -> Any:
         return arb(self.start) + arb(self.width) * s
 
-    def refine(self, bracket: Bracket, radius: float, bits: int) -> Any:
-        """The bracket's root as a ball of t, narrower than radius·2^-(bits·7/16).
+    def refine(self, bracket: Bracket, bits: int) -> Any:
+        """The bracket's root as a ball of t, narrower than the domain's radius · 2^-(bits·7/16).
 
         Interval Newton, and bisection where the slope may vanish: both only cut away what holds no root. Raises
         Undecidable where the polynomial is not known well enough for that.
         """
-        target = ldexp(radius, -(bits * 7 // 16)) / self.width
+        target = ldexp(self.reach, -(bits * 7 // 16)) / self.width
         lower, upper = arb((bracket.lower, -bracket.exponent)), arb((bracket.upper, -bracket.exponent))  # exact
         while True:
             whole = lower.union(upper)
@@ -197,15 +200,15 @@ class _Line:
             if value.contains(0):  # perhaps the root itself
                 middle = (lower + gap * fmpq(3, 8)).mid()
                 value = self.p(middle)
-                if value.contains(0):
-                    raise Undecidable("the root is not known more narrowly")
+            if value.contains(0) or not (lower < middle and middle < upper):
+                raise Undecidable("the root is not known more narrowly")
             if (value > 0) == bracket.rising:
                 upper = middle
             else:
                 lower = middle
 
 
-def _multiplicity(line: _Line, bracket: Bracket, parts: Split, radius: float) -> int:
+def _multiplicity(line: _Line, bracket: Bracket, parts: Split) -> int:
     """How often the bracket's root of the carrier is a root of p; 0 where it belongs to p's conjugate alone."""
     lower, upper = (
         rational(line.start) + rational(line.width) * fmpq(e, 1 << bracket.exponent)
@@ -216,17 +219,17 @@ def _multiplicity(line: _Line, bracket: Bracket, parts: Split, radius: float) ->
         return sum(m for f, m in factors if f(lower) * f(upper) < 0)
 
     in_norm = among(parts.norms)
-    if in_norm and _belongs_to_conjugate(line, bracket, parts.q, radius):
+    if in_norm and _belongs_to_conjugate(line, bracket, parts.q):
         in_norm = 0
     return among(parts.rational) + in_norm
 
 
-def _belongs_to_conjugate(line: _Line, bracket: Bracket, q: Surd, radius: float) -> bool:
+def _belongs_to_conjugate(line: _Line, bracket: Bracket, q: Surd) -> bool:
     """A root of q·q̄ is a root of exactly one of them: raise the precision until the other one is not zero there."""
     for bits in PRECISIONS:
         with precision(bits):
             try:
-                t = line.at_precision().refine(bracket, radius, bits)
+                t = line.at_precision().refine(bracket, bits)
             except Undecidable:
                 continue
             if not q.conjugate().ball()(t).contains(0):
@@ -236,13 +239,13 @@ def _belongs_to_conjugate(line: _Line, bracket: Bracket, q: Surd, radius: float)
     raise Undecidable("a root of the norm was not told from its conjugate")
 
 
-def _place(line: _Line, bracket: Bracket, carrier: Any, ends: tuple[End, End], radius: float) -> tuple[int, Any]:
+def _place(line: _Line, bracket: Bracket, carrier: Any, ends: tuple[End, End]) -> tuple[int, Any]:
     """−1, 0 or +1: before, in or after the closed clip interval; and the root as a ball of t."""
     at_end = [end.is_root_of(carrier) for end in ends]
     for bits in PRECISIONS:
         with precision(bits):
             try:
-                t = line.at_precision().refine(bracket, radius, bits)
+                t = line.at_precision().refine(bracket, bits)
             except Undecidable:
                 continue
             enter, leave = (end.ball() for end in ends)

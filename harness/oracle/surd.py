@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING, Any
 
 from flint import arb, arb_poly, fmpq, fmpq_poly, fmpz
 
+from harness.oracle.program import Functions
+
 if TYPE_CHECKING:
     import sympy
 
@@ -99,6 +101,16 @@ def sqrt(value: Surd) -> Surd:
         free *= int(prime) ** (exponent % 2)
     root = fmpq(square, number.q)
     return Surd(root if number else 0) if free == 1 else Surd(0, root, free)
+
+
+def _outside(*_: Surd) -> Surd:
+    raise NotExact("an elementary function")
+
+
+FUNCTIONS: Functions = {
+    **dict.fromkeys(("exp", "log", "sin", "cos", "tan", "abs", "min", "max"), _outside),
+    "sqrt": sqrt,
+}
 
 
 @dataclass(frozen=True)

@@ -117,7 +117,7 @@ class _Search:
             tighter = max(lower, step.lower()), min(upper, step.upper())
             if 4 * (tighter[1] - tighter[0]) < 3 * (upper - lower):
                 lower, upper = tighter
-            elif value.contains(0):
+            elif value.contains(0) or not lower < middle < upper:
                 raise Undecidable("the root is not known more narrowly")
             elif (value > 0) == rising:
                 upper = middle

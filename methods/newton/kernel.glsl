@@ -13,15 +13,18 @@ Hit first_hit(Ray ray, real t0, real t1) {
     real longest = STEP_BOUND * BOUNDING_RADIUS;
     real last = EPSILON * FEATURE_RADIUS;
     Along along = surface_along(ray);
-    bool outside_is_negative = surface_value_along(along, t) < 0.0;
-    while (hit.evaluations < MAX_EVALUATIONS) {
-        Dual f = surface_dual_along(along, t);
-        hit.evaluations += 1;
+    Dual f = surface_dual_along(along, t);
+    hit.evaluations = 1;
+    bool outside_is_negative = f.value < 0.0;
+    while (true) {
         real step = f.derivative == 0.0 ? longest : clamp(-f.value / f.derivative, -longest, longest);
         if (FORWARD == 1) step = (f.value < 0.0) == outside_is_negative ? fabs(step) : -fabs(step);
         t += step;
         if (t > end) return missed(hit);
         if (fabs(step) < last) return hit_at(hit, t);
+        if (hit.evaluations == MAX_EVALUATIONS) return exhausted(hit, t);
+        f = surface_dual_along(along, t);
+        hit.evaluations += 1;
     }
-    return exhausted(hit, t);
+    return hit;
 }

@@ -24,7 +24,7 @@ from harness.contract import Method, Parameter
 METHOD = Method(
     name="newton",
     source="toledo2007",
-    needs=("surface_along", "surface_value_along", "surface_dual_along"),
+    needs=("surface_along", "surface_dual_along"),
     parameters=(
         Parameter("EPSILON", 0.001, "last step allowed, over the surface's feature radius"),
         Parameter("STEP_BOUND", 0.15, "longest step λ, over the bounding radius"),

@@ -1,0 +1,41 @@
+"""f along rays, enclosed in float64 balls."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from harness.oracle import balls64, reals
+from harness.oracle.balls64 import TINY, Balls, Floats
+from harness.oracle.clip import points_at
+from harness.oracle.dual import Dual, dual_functions
+from harness.oracle.program import Program, convert_constants
+
+DUAL_FUNCTIONS = dual_functions(balls64.FUNCTIONS)
+
+
+class Enclosure:
+    """A program with its constants as float64 balls."""
+
+    def __init__(self, program: Program) -> None:
+        self.program = program
+        with reals.precision(128):
+            mids = [float(c.mid()) for c in convert_constants(program, reals.leaf, reals.FUNCTIONS)]
+        self.constants = [Balls(m, abs(m) * 2.0**-52 + TINY) for m in mids]
+        self.duals = [Dual(c, Balls(0.0)) for c in self.constants]
+
+    def of(self, points: Sequence[Balls]) -> Balls:
+        """f at points (x, y, z)."""
+        f: Balls = self.program.run(points, self.constants, balls64.FUNCTIONS)
+        return f
+
+    def along(self, rays: Floats, t: Floats) -> Balls:
+        """f at o + t·d; `rays` float64[n, 6] holding float32 values, `t` float64[n]."""
+        return self.of(points_at(rays, t))
+
+    def slopes(self, inputs: Sequence[Dual]) -> Dual:
+        """f and its derivative, both as balls of the inputs' shape."""
+        f: Dual = self.program.run(inputs, self.duals, DUAL_FUNCTIONS)
+        shape = np.shape(inputs[0].value.mid)
+        return Dual(*(Balls(np.broadcast_to(b.mid, shape), np.broadcast_to(b.rad, shape)) for b in (f.value, f.slope)))

@@ -1,0 +1,76 @@
+"""How catalog entries are written, and the facts they may state.
+
+A wrong transcription renders plausibly, so everything in `facts` is recomputed by tests/test_catalog.py:
+
+    singular_points   how many real points have f = 0 and grad f = 0, all of them isolated
+    singular_along    directions (a, b, c): f and grad f vanish along the line through the origin
+    singular_at       some points where f and grad f vanish, of a whole curve of them
+    symmetries        names of SYMMETRIES that leave f as it is
+    points            points that lie on the surface
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from math import sqrt
+from typing import Any
+
+from harness.contract import Domain, Surface
+
+PHI = (1.0 + sqrt(5.0)) / 2.0
+_HALF_ROOT_3 = sqrt(3.0) / 2.0
+Matrix = tuple[tuple[float, float, float], tuple[float, float, float], tuple[float, float, float]]
+SYMMETRIES: dict[str, Matrix] = {
+    "mirror_x": ((-1, 0, 0), (0, 1, 0), (0, 0, 1)),
+    "mirror_y": ((1, 0, 0), (0, -1, 0), (0, 0, 1)),
+    "mirror_z": ((1, 0, 0), (0, 1, 0), (0, 0, -1)),
+    "half_turn_x": ((1, 0, 0), (0, -1, 0), (0, 0, -1)),
+    "half_turn_y": ((-1, 0, 0), (0, 1, 0), (0, 0, -1)),
+    "swap_xy": ((0, 1, 0), (1, 0, 0), (0, 0, 1)),
+    "swap_yz": ((1, 0, 0), (0, 0, 1), (0, 1, 0)),
+    "cycle_xyz": ((0, 1, 0), (0, 0, 1), (1, 0, 0)),
+    "quarter_roto_reflection_z": ((0, 1, 0), (-1, 0, 0), (0, 0, -1)),
+    "rotate_z_5": ((3 / 5, -4 / 5, 0), (4 / 5, 3 / 5, 0), (0, 0, 1)),  # by atan(4/3), of infinite order
+    "rotate_x_5": ((1, 0, 0), (0, 3 / 5, -4 / 5), (0, 4 / 5, 3 / 5)),
+    "rotate_y_5": ((3 / 5, 0, 4 / 5), (0, 1, 0), (-4 / 5, 0, 3 / 5)),
+    "third_turn_z": ((-0.5, -_HALF_ROOT_3, 0), (_HALF_ROOT_3, -0.5, 0), (0, 0, 1)),
+    "eighth_turn_z": ((sqrt(0.5), -sqrt(0.5), 0), (sqrt(0.5), sqrt(0.5), 0), (0, 0, 1)),
+    # the fifth turn about (phi, 1, 0), a vertex of the icosahedron
+    "icosahedral_turn": (
+        (0.5 * PHI, 0.5 / PHI, 0.5),
+        (0.5 / PHI, 0.5, -0.5 * PHI),
+        (-0.5, 0.5 * PHI, 0.5 / PHI),
+    ),
+}
+FULL = ("mirror_x", "swap_xy", "cycle_xyz")
+ROUND = ("rotate_z_5", "rotate_x_5", "mirror_z")
+REVOLVED = ("rotate_z_5", "mirror_x", "mirror_z")
+
+
+def entry(
+    name: str,
+    title: str,
+    formula: str,
+    degree: int | None,
+    domain: Domain,
+    source: str,
+    parameters: Mapping[str, str] | None = None,
+    distance: str | None = None,
+    bounding_radius: float | None = None,
+    feature_radius: float | None = None,
+    **facts: Any,
+) -> Surface:
+    """A catalog surface; `facts` as in this module's docstring."""
+    return Surface(
+        name=name,
+        title=title,
+        formula=formula,
+        domain=domain,
+        source=source,
+        degree=degree,
+        parameters=tuple((parameters or {}).items()),
+        distance=distance,
+        bounding_radius=bounding_radius,
+        feature_radius=feature_radius,
+        facts=tuple(facts.items()),
+    )

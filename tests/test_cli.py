@@ -1,0 +1,225 @@
+"""What a person types, and what they get back when it is wrong: one line that says what to do, and no half-written file."""
+
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from harness.cli import build_parser, main
+
+from .conftest import usable_devices
+
+COMMANDS = ("devices", "list", "plan", "run", "why", "report", "show", "trace", "oracle", "compile")
+
+
+@pytest.fixture
+def rays(tmp_path):
+    path = tmp_path / "rays.npy"
+    directions = np.array([[0, 0, -1], [0, 0.6, -0.8], [0, 0, 1]], np.float32)
+    np.save(path, np.hstack([np.tile(np.float32([0, 0, 5]), (3, 1)), directions]))
+    return path
+
+
+def told(capsys, *arguments):
+    code = main([str(a) for a in arguments])
+    captured = capsys.readouterr()
+    assert "Traceback" not in captured.err
+    return code, captured.out, captured.err
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_every_command_explains_itself_with_an_example(command, capsys):
+    with pytest.raises(SystemExit) as caught:
+        build_parser().parse_args([command, "--help"])
+    assert caught.value.code == 0
+    assert f"example: firsthit {command}" in capsys.readouterr().out
+
+
+def test_usage_mistakes_exit_with_2():
+    with pytest.raises(SystemExit) as caught:
+        main(["nonesuch"])
+    assert caught.value.code == 2
+
+
+def test_trace_and_oracle_agree_and_write_what_they_promise(tmp_path, capsys, rays):
+    hits, truth = tmp_path / "hits.npz", tmp_path / "truth.npz"
+    code, _, _ = told(capsys, "trace", "--surface", "sphere", "--method", "newton", "--rays", rays, "-o", hits)
+    assert code == 0
+    assert told(capsys, "oracle", "--surface", "sphere", "--rays", rays, "-o", truth)[0] == 0
+    h, t = np.load(hits), np.load(truth)
+    assert (h["t"].dtype, h["status"].dtype, h["evaluations"].dtype) == (np.float64, np.uint8, np.int32)
+    assert (t["lower"].dtype, t["upper"].dtype, t["status"].dtype) == (np.float64, np.float64, np.uint8)
+    assert h["status"].tolist() == [1, 0, 0]
+    assert t["status"].tolist() == [1, 0, 0]
+    assert t["lower"][0] <= 4.0 <= t["upper"][0]
+    assert abs(h["t"][0] - 4.0) < 1e-5
+    assert np.isnan(h["t"][1:]).all()
+
+
+def test_a_formula_goes_wherever_a_surface_does(tmp_path, capsys, rays):
+    output = tmp_path / "truth.npz"
+    code, out, _ = told(
+        capsys, "oracle", "--formula", "x^2 + y^2 + z^2 - a", "--parameter", "a=0.25", "--rays", rays, "-o", output
+    )
+    assert code == 0
+    assert "1 crossing" in out
+    truth = np.load(output)
+    assert truth["lower"][0] <= 4.5 <= truth["upper"][0]
+
+
+def _bad_rays(tmp_path, name):
+    good = np.array([[0, 0, 5, 0, 0, -1]], np.float32)
+    bad = {
+        "empty": np.zeros((0, 6), np.float32),
+        "shape": np.zeros((4, 3), np.float32),
+        "float64": good.astype(np.float64),
+        "nan": np.where(np.arange(6) == 2, np.nan, good).astype(np.float32),
+        "zero": np.zeros((1, 6), np.float32),
+        "long": good * 2,
+    }
+    path = tmp_path / "bad.npy"
+    if name == "text":
+        path.write_text("1 2 3")
+    elif name == "truncated":
+        np.save(path, np.tile(good, (100, 1)))
+        path.write_bytes(path.read_bytes()[:200])
+    elif name != "missing":
+        np.save(path, bad[name])
+    return path
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("empty", "no rays"),
+        ("shape", "[n, 6]"),
+        ("float64", "save it as float32"),
+        ("nan", "row 0"),
+        ("zero", "length 0"),
+        ("long", "length 2"),
+        ("text", "not a .npy file"),
+        ("truncated", "not a .npy file"),
+        ("missing", "cannot read"),
+    ],
+)
+@pytest.mark.parametrize("command", ["trace", "oracle"])
+def test_bad_rays_are_one_line_and_leave_no_file(tmp_path, capsys, name, words, command):
+    output = tmp_path / "out.npz"
+    method = ["--method", "newton"] if command == "trace" else []
+    path = _bad_rays(tmp_path, name)
+    code, _, err = told(capsys, command, "--surface", "sphere", *method, "--rays", path, "-o", output)
+    assert code == 2
+    assert words in err
+    assert err.count("\n") == 1
+    assert not output.exists()
+
+
+@pytest.mark.parametrize(
+    ("changed", "code", "words"),
+    [
+        ({"--surface": "spere"}, 2, "did you mean sphere"),
+        ({"--method": "newtn"}, 2, "did you mean 'newton'"),
+        ({"--device": "opencl:none"}, 3, "there is no device 'opencl:none'"),
+        ({"--device": "none"}, 2, "unknown device"),
+        ({"--knob": "EPSILN=1"}, 2, "did you mean 'EPSILON'"),
+        ({"--knob": "EPSILON"}, 2, "NAME=VALUE"),
+        ({"--knob": "EPSILON=big"}, 2, "not a number"),
+        ({"--knob": "MAX_EVALUATIONS=1.5"}, 2, "whole number"),
+        ({"--parameter": "q=1"}, 2, "no parameter 'q'"),
+        ({"-o": "no/such/folder/out.npz"}, 2, "no such folder"),
+        ({"-o": "/proc/out.npz"}, 3, "cannot write"),
+    ],
+)
+def test_bad_options_are_one_line(tmp_path, capsys, rays, changed, code, words):
+    options = {"--surface": "sphere", "--method": "newton", "--rays": rays, "-o": tmp_path / "out.npz"} | changed
+    got, _, err = told(capsys, "trace", *[word for pair in options.items() for word in pair])
+    assert got == code
+    assert words in err
+    assert err.count("\n") == 1
+    assert not (tmp_path / "out.npz").exists()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("--size", "0"), "1 to 8192"),
+        (("--view", "up"), "azimuth,elevation"),
+        (("--fov", "180"), "0 and 180"),
+    ],
+)
+def test_show_refuses_what_is_no_picture(tmp_path, capsys, arguments, words):
+    code, _, err = told(
+        capsys, "show", "--surface", "sphere", "--method", "newton", "-o", tmp_path / "a.png", *arguments
+    )
+    assert code == 2
+    assert words in err
+
+
+def test_show_draws_the_sphere_in_the_middle(tmp_path, capsys):
+    from PIL import Image
+
+    output = tmp_path / "a.png"
+    code, out, _ = told(capsys, "show", "--surface", "sphere", "--method", "newton", "--size", "64", "-o", output)
+    assert code == 0
+    picture = np.asarray(Image.open(output))
+    assert picture.shape == (64, 64, 3)
+    assert (picture[0, 0] == 255).all()
+    assert picture[32, 32, 2] > picture[32, 32, 0]
+    assert "0 exhausted" in out
+
+
+@pytest.mark.parametrize("what", ["methods", "surfaces", "configs", "devices"])
+def test_lists_name_what_is_there(capsys, what):
+    code, out, _ = told(capsys, "list", what)
+    assert code == 0
+    expected = {"methods": "newton", "surfaces": "barth_sextic", "configs": "configs/quick.toml"}
+    assert expected.get(what, usable_devices()[0].name) in out
+
+
+def test_plan_prints_cells_and_an_estimate_and_runs_nothing(tmp_path, capsys):
+    code, out, _ = told(capsys, "plan", "configs/quick.toml", "--runs", tmp_path)
+    assert code == 0
+    assert "to run" in out
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("arguments", [("run", "none.toml"), ("plan", "none.toml"), ("report", "none"), ("why", "none")])
+def test_what_is_not_there_is_one_line(capsys, arguments):
+    code, _, err = told(capsys, *arguments)
+    assert code == 2
+    assert err.count("\n") == 1
+
+
+def test_a_run_folder_that_cannot_be_written_is_one_line(tmp_path, capsys):
+    (tmp_path / "runs").write_text("in the way")
+    code, _, err = told(capsys, "run", "configs/speed.toml", "--runs", tmp_path / "runs")
+    assert code == 3
+    assert "cannot write" in err
+
+
+def test_compile_reports_a_broken_plugin_with_its_line(tmp_path, capsys):
+    folder = tmp_path / "mine"
+    folder.mkdir()
+    (folder / "method.py").write_text('from harness.contract import Method\nMETHOD = Method(name="mine", source="t")\n')
+    (folder / "kernel.glsl").write_text("Hit first_hit(Ray ray, real t0, real t1) {\n    return wrong;\n}\n")
+    code, out, err = told(capsys, "--plugins", tmp_path, "compile", "--method", "mine", "--surface", "sphere")
+    assert code == 3
+    assert "mine/kernel.glsl:2" in err
+    assert "failed" in out
+
+
+def test_a_plugin_that_cannot_be_imported_costs_only_itself(tmp_path, capsys):
+    folder = tmp_path / "mine"
+    folder.mkdir()
+    (folder / "method.py").write_text("import nonesuch\n")
+    (folder / "kernel.glsl").write_text("")
+    code, out, _ = told(capsys, "--plugins", tmp_path, "list", "methods")
+    assert code == 0
+    assert "mine: cannot be loaded" in out
+    assert "newton" in out
+
+
+def test_the_command_is_installed():
+    result = subprocess.run([sys.executable, "-m", "harness.cli", "--version"], capture_output=True, text=True, check=True)
+    assert result.stdout.startswith("firsthit 0.")

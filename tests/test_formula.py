@@ -1,0 +1,245 @@
+"""The formula language: what it means, what it refuses and how, and that nothing breaks or hangs it."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import pytest
+import sympy
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+import surfaces
+from harness.contract import Box, FirsthitError, Sphere
+from surfaces import formula
+from surfaces.formula import FUNCTIONS, degree, expression, parse
+from surfaces.numbers import Symbols
+from surfaces.tape import walk
+
+X, Y, Z = formula.X, formula.Y, formula.Z
+MEANINGS = [
+    ("-x^2", -(X**2)),
+    ("2^3^2*x", 512 * X),
+    ("x**2**1", X**2),
+    ("x - y - z", X - Y - Z),
+    ("x/2/4", X / 8),
+    ("-2^2*x", -4 * X),
+    ("2^-3 + x", X + sympy.Rational(1, 8)),
+    ("- - x", X),
+    ("x*-y", -X * Y),
+    ("0.3*x", sympy.Rational(3, 10) * X),
+    ("1e-3*x + .5", X / 1000 + sympy.Rational(1, 2)),
+    ("phi*x", (1 + sympy.sqrt(5)) / 2 * X),
+    ("sqrt2*x + sqrt7", sympy.sqrt(2) * X + sympy.sqrt(7)),
+    ("e^x", sympy.exp(X)),
+    ("pi*exp(x) + log(y) - tan(z)", sympy.pi * sympy.exp(X) + sympy.log(Y) - sympy.tan(Z)),
+    ("sin(x)*cos(y) + sqrt(z)", sympy.sin(X) * sympy.cos(Y) + sympy.sqrt(Z)),
+    ("1/(2 + x)", 1 / (2 + X)),
+    ("x^-2", X**-2),
+    ("a*x + b^2", sympy.Rational(1, 10) * X + 4),
+    ("((((x))))", X),
+    ("x\n + y", X + Y),
+]
+
+
+@pytest.mark.parametrize(("text", "meaning"), MEANINGS, ids=[text for text, _ in MEANINGS])
+def test_meaning(text: str, meaning: sympy.Expr) -> None:
+    assert sympy.expand(expression(parse(text, {"a": "0.1", "b": "-2"})) - meaning) == 0
+
+
+def test_extremes_and_absolute_values_keep_their_meaning() -> None:
+    value = expression(parse("max(x, y, 2) + min(x, -1) + abs(z)"))
+    assert value.subs({X: 1, Y: 3, Z: -4}) == 3 - 1 + 4
+
+
+def test_numbers_are_exact() -> None:
+    assert formula.exact("0.1") == Fraction(1, 10)
+    assert formula.exact("-12.50e-2") == Fraction(-1, 8)
+
+
+REFUSALS = [
+    ("", 1, "found the end"),
+    ("x +", 4, "found the end"),
+    ("2x", 2, "write * between"),
+    ("x(y)", 2, "not a function"),
+    ("x y", 3, "write * between"),
+    ("(x", 3, "expected ')'"),
+    ("x)", 2, "without its '('"),
+    ("x, y", 2, "without its '('"),
+    ("sin x", 1, "write sin(...)"),
+    ("sin(x, y)", 1, "takes one value"),
+    ("min(x)", 1, "two values"),
+    ("x + coz(y)", 5, "did you mean 'cos'"),
+    ("rho*x", 1, "unknown name 'rho'"),
+    ("X^2", 1, "did you mean 'x'"),
+    ("x.real", 2, "U+002E"),
+    ("x.__class__", 2, "U+002E"),
+    ("'x'", 1, "U+0027"),
+    ("__import__(x)", 1, "unknown name"),
+    ("lambda: x", 7, "U+003A"),
+    ("x[0]", 2, "U+005B"),
+    ("x = 0", 3, "U+003D"),
+    ("x − y", 3, "U+2212"),
+    ("x² + y", 2, "U+00B2"),
+    ("𝑥 + 1", 1, "U+1D465"),
+    ("x;y", 2, "U+003B"),
+    ("x%2", 2, "U+0025"),
+    ("x\x00", 2, "U+0000"),
+    ("9^9^9 + x", 2, "bits"),
+    ("9^9^9^9^9 + x", 6, "bits"),
+    ("((x^8)^8)^8", 10, "degree is past 64"),
+    ("(x + 1)^100000", 8, "degree is past 64"),
+    ("x^40*y^40", 5, "degree here is past 64"),
+    ("exp(x)^65", 7, "degree is past 64"),
+    ("x^y", 2, "whole constant"),
+    ("x^0.5", 2, "write sqrt"),
+    ("x^(1/3)", 2, "whole constant"),
+    ("x/0", 2, "division by zero"),
+    ("x/(2 - 2)", 2, "division by zero"),
+    ("x*0^-1", 4, "division by zero"),
+    ("1e999*x", 1, "range of float64"),
+    ("1e-999*x", 1, "range of float64"),
+    ("2^900*2^900*x", 6, "bits"),
+    ("(" * 200 + "x" + ")" * 200, 61, "nested"),
+    ("-" * 500 + "x", 61, "nested"),
+    ("x" + "^1" * 500, 121, "nested"),
+    ("sqrt(" * 100 + "x", 301, "nested"),
+]
+
+
+@pytest.mark.timeout(5)
+@pytest.mark.parametrize(("text", "column", "reason"), REFUSALS, ids=[repr(text[:20]) for text, _, _ in REFUSALS])
+def test_refusal_names_the_column(text: str, column: int, reason: str) -> None:
+    with pytest.raises(FirsthitError) as caught:
+        parse(text)
+    first, shown, caret = str(caught.value).split("\n")
+    assert first.startswith(f"formula, column {column}: ") and reason in first
+    at = caret.index("^")
+    assert shown[at : at + 1] in (text[column - 1 : column], "?")
+
+
+def test_refuses_what_is_too_long_and_bad_parameters() -> None:
+    with pytest.raises(FirsthitError, match="5001 characters"):
+        parse("x+" * 2500 + "x")
+    for name in ("x", "sin", "pi", "sqrt17", "a b", "é", ""):
+        with pytest.raises(FirsthitError, match="cannot be a parameter's name"):
+            parse("x", {name: "1"})
+    with pytest.raises(FirsthitError, match="not a decimal number"):
+        parse("x*a", {"a": "1/3"})
+
+
+@pytest.mark.timeout(10)
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ("1/x - 2", "divisor must not vanish"),
+        ("1/(x^2 + y^2 + z^2 - 1)", "divisor must not vanish"),
+        ("log(x^2 + y^2)", "log needs a positive argument"),
+        ("sqrt(x) - y", "sqrt needs an argument that is not negative"),
+        ("tan(2*x)", "tan must stay off its poles"),
+        ("x + log(-1)", "undefined"),
+        ("x + sqrt(1 - 2)", "undefined"),
+        ("x + 1/(sqrt2^2 - 2)", "undefined"),
+        ("x - x", "does not depend"),
+        ("1 + 2", "does not depend"),
+        ("(x + y)^2 - x^2 - 2*x*y - y^2 + 3", "does not depend"),
+        ("sin(2)", "does not depend"),
+        ("+".join(f"1/(x - {k})" for k in range(200)), "divisor must not vanish"),
+    ],
+)
+def test_refuses_what_has_no_value_all_over_the_domain(text: str, reason: str) -> None:
+    with pytest.raises(FirsthitError, match=reason):
+        surfaces.from_formula(text, "sphere:1.5")
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["1/(x + 2) - y", "log(3 + x*y)", "sqrt(x^2 + y^2) - 1", "tan(x) - z", "x/(1 + y^2)", "x*sqrt(1.5^2 - y^2/1.01)"],
+)
+def test_accepts_partial_functions_where_the_domain_allows_them(text: str) -> None:
+    assert surfaces.from_formula(text, "sphere:1.5").degree is None
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("x", 1),
+        ("x*y*z - 1", 3),
+        ("(x^2 + y)^5 - x^10", 9),
+        ("(x + y)^3 - (x + y)^2*(x + y) + z", 1),
+        ("phi^2*x^4 - (phi + 1)*x^4 + x*y", 2),
+        ("(x^2 - sqrt2*y^2)*(x^2 + sqrt2*y^2) - x^4 + 2*y^4 - z", 1),
+        ("x^20 + y^19*z", 20),
+        ("x/sqrt(2)", 1),
+        ("x/y", None),
+        ("exp(x)", None),
+        ("abs(x)", None),
+    ],
+)
+def test_degree(text: str, expected: int | None) -> None:
+    assert degree(parse(text)) == expected
+
+
+def test_domains() -> None:
+    assert surfaces.from_formula("x", "sphere:2").domain == Sphere(2.0)
+    assert surfaces.from_formula("x", "box:1,2,3").domain == Box((-1, -2, -3), (1, 2, 3))
+    assert surfaces.from_formula("x", " box : 0,0,0 : 1,2,3 ").domain == Box((0, 0, 0), (1, 2, 3))
+    for text in (
+        "",
+        "sphere",
+        "sphere:",
+        "sphere:-1",
+        "sphere:1e300",
+        "box:1,2",
+        "box:1,1,1:0,2,2",
+        "cube:1",
+        "sphere:x",
+    ):
+        with pytest.raises(FirsthitError):
+            surfaces.from_formula("x", text)
+
+
+words = st.sampled_from(
+    [*"xyz", *FUNCTIONS, "pi", "e", "phi", "sqrt2", "a", *"+-*/^(),", "**", "2", "0.5", "1e3", " ", "99"]
+)
+
+
+@settings(max_examples=400, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@given(st.lists(words, max_size=30).map("".join) | st.text(max_size=40))
+def test_any_text_parses_or_is_refused(text: str) -> None:
+    try:
+        tape = parse(text, {"a": "0.25"})
+    except FirsthitError:
+        return
+    assert tape.outputs
+
+
+@st.composite
+def formulas(draw: st.DrawFn, depth: int = 4) -> str:
+    """Well-formed formulas, most of them with a value."""
+    if depth == 0 or draw(st.booleans()):
+        return draw(st.sampled_from(["x", "y", "z", "a", "1", "0.3", "-2", "phi", "pi", "e", "7e2", "sqrt3"]))
+    inner = formulas(depth=depth - 1)
+    kind = draw(st.sampled_from(["+", "-", "*", "/", "^", "call", "pair", "sign"]))
+    if kind == "^":
+        return f"({draw(inner)})^{draw(st.integers(-3, 6))}"
+    if kind == "call":
+        return f"{draw(st.sampled_from(FUNCTIONS[:-2]))}({draw(inner)})"
+    if kind == "pair":
+        return f"{draw(st.sampled_from(FUNCTIONS[-2:]))}({draw(inner)}, {draw(inner)})"
+    return f"-({draw(inner)})" if kind == "sign" else f"({draw(inner)}) {kind} ({draw(inner)})"
+
+
+@settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@given(formulas())
+def test_formulas_become_surfaces_or_are_refused(text: str) -> None:
+    """What is accepted has an expression whose values are those of the tape."""
+    try:
+        surface = surfaces.from_formula(text, "sphere:1.5", parameters={"a": "0.25"})
+    except FirsthitError:
+        return
+    point = {X: sympy.Rational(1, 3), Y: sympy.Rational(-1, 5), Z: sympy.Rational(2, 7)}
+    names = {name: point[sympy.Symbol(name, real=True)] for name in "xyz"}
+    walked = sympy.N(walk(surfaces.tape_of(surface), Symbols(), names)[0], 30)
+    built = sympy.N(surfaces.expression(surface).subs(point), 30)
+    assert abs(walked - built) <= 1e-12 * (1 + abs(built))

@@ -1,0 +1,235 @@
+"""Runs for real: kill the runner, kill a worker, and plugins that do not compile, hang and crash."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from .conftest import usable_devices
+
+CONFIG = """title = "t"
+surfaces = ["sphere", "torus"]
+sizes = [64]
+devices = ["{device}"]
+precisions = ["float32"]
+[[method]]
+name = "newton"
+parameters = {{ EPSILON = [0.001, 0.0001, 0.00001] }}
+[[method]]
+name = "null"
+{more}
+[accuracy]
+size = 16
+[budget]
+seconds = {seconds}
+repetitions = 100000
+interval = 0.0
+timeout = 6.0
+"""
+
+
+def firsthit(*arguments, **options):
+    return [sys.executable, "-m", "harness.cli", *map(str, arguments)]
+
+
+def run(*arguments):
+    return subprocess.run(firsthit(*arguments), capture_output=True, text=True, timeout=200, check=False)
+
+
+def rows(folder: Path):
+    plan = json.loads((folder / "plan.json").read_text())
+    found = {}
+    for cell in plan["cells"]:
+        path = folder / "cells" / f"{cell['key']}.json"
+        if path.exists():
+            found[cell["key"]] = json.loads(path.read_text())
+    return plan["cells"], found
+
+
+@pytest.fixture
+def config(tmp_path):
+    devices = [info.name for info in usable_devices() if info.name.startswith("opencl:")]
+    if not devices:
+        pytest.skip("no OpenCL device")
+
+    def write(seconds=0.3, more=""):
+        path = tmp_path / "t.toml"
+        path.write_text(CONFIG.format(device=devices[-1], seconds=seconds, more=more))
+        return path
+
+    return write
+
+
+def wait_for(condition, seconds=90.0):
+    end = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < end, "nothing happened in time"
+        time.sleep(0.05)
+
+
+def children(pid):
+    found = []
+    for path in Path("/proc").glob("[0-9]*/stat"):
+        try:
+            fields = path.read_text().rpartition(")")[2].split()
+        except OSError:
+            continue
+        if int(fields[1]) == pid:
+            found.append(int(path.parent.name))
+    return found
+
+
+def workers(pid):
+    commands = {child: Path(f"/proc/{child}/cmdline") for child in children(pid)}
+    return [child for child, path in commands.items() if path.exists() and b"spawn_main" in path.read_bytes()]
+
+
+def is_running(pid):
+    try:
+        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+    except OSError:
+        return False
+
+
+def test_a_second_run_reuses_every_cell_and_force_repeats_them(tmp_path, config):
+    path, runs = config(), tmp_path / "runs"
+    first = run("run", path, "--runs", runs)
+    assert first.returncode == 0, first.stderr
+    cells, before = rows(runs / "t")
+    assert {row["status"] for row in before.values()} == {"ok"}
+    assert len(before) == len(cells) == 8
+    for row in before.values():
+        assert len(row["time"]["samples_ms"]) >= 1
+        assert row["accuracy"]["rays"] == 256
+    second = run("run", path, "--runs", runs)
+    assert second.returncode == 0
+    assert "0 cells run, 8 reused" in second.stdout
+    assert rows(runs / "t")[1] == before
+    third = run("run", path, "--runs", runs, "--force")
+    assert "8 cells run, 0 reused" in third.stdout
+
+
+def test_killing_the_runner_loses_and_repeats_no_finished_cell(tmp_path, config):
+    path, runs = config(seconds=0.6), tmp_path / "runs"
+    process = subprocess.Popen(firsthit("run", path, "--runs", runs), stderr=subprocess.DEVNULL)
+    cells_folder = runs / "t" / "cells"
+    wait_for(lambda: cells_folder.exists() and len(list(cells_folder.glob("*.json"))) >= 3)
+    orphans = workers(process.pid)
+    process.send_signal(signal.SIGKILL)
+    process.wait()
+    finished = {p.name: p.read_bytes() for p in cells_folder.glob("*.json")}
+    assert 3 <= len(finished) < 8
+    wait_for(lambda: not any(map(is_running, orphans)), 10.0)
+    again = run("run", path, "--runs", runs)
+    assert again.returncode == 0, again.stderr
+    assert f"{8 - len(finished)} cells run, {len(finished)} reused" in again.stdout
+    assert {name: (cells_folder / name).read_bytes() for name in finished} == finished
+    assert {row["status"] for row in rows(runs / "t")[1].values()} == {"ok"}
+
+
+def test_killing_a_worker_costs_one_cell_and_retry_mends_it(tmp_path, config):
+    path, runs = config(seconds=0.6), tmp_path / "runs"
+    process = subprocess.Popen(firsthit("run", path, "--runs", runs), stderr=subprocess.DEVNULL)
+    cells_folder = runs / "t" / "cells"
+    wait_for(lambda: cells_folder.exists() and len(list(cells_folder.glob("*.json"))) >= 1)
+    victims = workers(process.pid)
+    assert victims
+    for victim in victims:
+        os.kill(victim, signal.SIGKILL)
+    assert process.wait(timeout=120) == 3
+    found = rows(runs / "t")[1]
+    assert sorted(row["status"] for row in found.values()) == ["crashed"] + ["ok"] * 7
+    reason = next(row["reason"] for row in found.values() if row["status"] == "crashed")
+    assert "SIGKILL" in reason
+    again = run("run", path, "--runs", runs, "--retry", "failed")
+    assert again.returncode == 0
+    assert "1 cells run, 7 reused" in again.stdout
+
+
+def test_interrupting_keeps_what_is_finished(tmp_path, config):
+    path, runs = config(seconds=0.6), tmp_path / "runs"
+    process = subprocess.Popen(firsthit("run", path, "--runs", runs), stderr=subprocess.PIPE, text=True)
+    cells_folder = runs / "t" / "cells"
+    wait_for(lambda: cells_folder.exists() and len(list(cells_folder.glob("*.json"))) >= 1)
+    process.send_signal(signal.SIGINT)
+    _, errors = process.communicate(timeout=30)
+    assert process.returncode == 3
+    assert "what was finished is kept" in errors
+    assert "Traceback" not in errors
+
+
+PLUGIN = """from harness.contract import Method
+METHOD = Method(name="{name}", source="test")
+"""
+KERNELS = {
+    "typing_mistake": "Hit first_hit(Ray ray, real t0, real t1) {\n    Hit hit = no_hit(t1);\n    return hti;\n}\n",
+    "endless": """Hit first_hit(Ray ray, real t0, real t1) {
+    Hit hit = no_hit(t0);
+    real x = 0.5 + 0.125 * ray.direction.x;
+    while (x < 2.0) { x = 3.75 * x * (1.0 - x); hit.evaluations = (hit.evaluations + 1) & 7; }
+    hit.t = x;
+    return hit;
+}
+""",
+    "crashing": """Hit first_hit(Ray ray, real t0, real t1) {
+    Hit hit = no_hit(t0);
+    real a[4];
+    int k = 1 << (20 + (ray.direction.z < 2.0 ? 9 : 0));
+    for (int i = 0; i < 4; i++) a[i] = t0;
+    for (int i = 0; i < 4; i++) a[k + i * k] = t1;
+    hit.t = a[k / 2];
+    return hit;
+}
+""",
+}
+
+
+def test_plugins_that_do_not_compile_hang_or_crash_cost_a_row_each(tmp_path, config):
+    plugins, runs = tmp_path / "plugins", tmp_path / "runs"
+    for name, kernel in KERNELS.items():
+        (plugins / name).mkdir(parents=True)
+        (plugins / name / "method.py").write_text(PLUGIN.format(name=name))
+        (plugins / name / "kernel.glsl").write_text(kernel)
+    path = config(more="".join(f'[[method]]\nname = "{name}"\n' for name in KERNELS))
+    text = path.read_text().replace('["sphere", "torus"]', '["sphere"]')
+    path.write_text(text)
+    result = run("--plugins", plugins, "run", path, "--runs", runs)
+    assert result.returncode == 3
+    assert "Traceback" not in result.stderr
+    by_method = {row["method"]: row for row in rows(runs / "t")[1].values() if row["method"] in KERNELS}
+    assert by_method["typing_mistake"]["status"] == "failed"
+    assert "plugins/typing_mistake/kernel.glsl:3" in by_method["typing_mistake"]["reason"]
+    assert "hti" in by_method["typing_mistake"]["reason"]
+    assert by_method["endless"]["status"] == "timeout"
+    assert by_method["crashing"]["status"] == "crashed", by_method["crashing"]
+    others = [row for row in rows(runs / "t")[1].values() if row["method"] not in KERNELS]
+    assert [row["status"] for row in others] == ["ok"] * 4
+
+
+def test_a_truncated_row_is_told_and_run_again(tmp_path, config):
+    path, runs = config(seconds=0.05), tmp_path / "runs"
+    assert run("run", path, "--runs", runs).returncode == 0
+    victim = next((runs / "t" / "cells").glob("*.json"))
+    victim.write_bytes(victim.read_bytes()[:100])
+    again = run("run", path, "--runs", runs)
+    assert again.returncode == 0
+    assert victim.name in again.stderr
+    assert "1 cells run, 7 reused" in again.stdout
+
+
+def test_why_names_what_changed(tmp_path, config):
+    path, runs = config(seconds=0.05), tmp_path / "runs"
+    assert run("run", path, "--runs", runs).returncode == 0
+    path.write_text(path.read_text().replace("size = 16", "size = 17"))
+    assert run("run", path, "--runs", runs).returncode == 0
+    key = rows(runs / "t")[0][0]["key"]
+    told = run("why", key, "--runs", runs)
+    assert told.returncode == 0
+    assert "accuracy: size: 16 → 17" in told.stdout
+    assert "program" not in told.stdout
+    assert run("why", "zzz", "--runs", runs).returncode == 2
