@@ -60,11 +60,13 @@ class BudgetChoice:
 
 @dataclass(frozen=True)
 class Config:
-    """An experiment: the grid is methods × surfaces × views × sizes × samples × precisions × stages × devices."""
+    """An experiment: methods × surfaces × views × sizes × samples × stages × precisions × devices, and, untimed,
+    methods × families of hard rays × precisions × devices."""
 
     title: str
     method: list[MethodChoice]
-    surfaces: list[str]
+    surfaces: list[str] = field(default_factory=list)
+    families: list[str] = field(default_factory=list)
     view: list[View] = field(default_factory=lambda: [View("default")])
     sizes: list[int] = field(default_factory=lambda: [256])
     samples_per_pixel: list[int] = field(default_factory=lambda: [1])
@@ -203,7 +205,11 @@ def _positive(config: Config, source: _Source) -> None:
     for samples in config.samples_per_pixel:
         if samples not in (1, 4, 9, 16):
             raise source.error(("samples_per_pixel",), f"samples_per_pixel: {samples} is not one of 1, 4, 9, 16")
-    for key, names in (("view", [view.name for view in config.view]), ("surfaces", config.surfaces)):
+    for key, names in (
+        ("view", [view.name for view in config.view]),
+        ("surfaces", config.surfaces),
+        ("families", config.families),
+    ):
         if twice := [name for name in names if names.count(name) > 1]:
             raise source.error((key,), f"{key}: {twice[0]!r} is named twice")
 
@@ -218,6 +224,7 @@ def _sweep(choice: MethodChoice) -> list[Mapping[str, float]]:
 def load(path: Path, catalog: Catalog) -> Experiment:
     """Read and resolve a config. Raises FirsthitError with file and line for anything wrong in it."""
     import surfaces
+    from harness import hardcases
 
     try:
         text = path.read_text(encoding="utf-8")
@@ -231,6 +238,9 @@ def load(path: Path, catalog: Catalog) -> Experiment:
         raise FirsthitError(f"{path}: not valid TOML: {error}") from None
     config: Config = _read_table(Config, table, (), source)
     _positive(config, source)
+    if not config.surfaces and not config.families:
+        raise source.error((), "name surfaces to draw, or families of hard rays, or both")
+    _known(config.families, hardcases.names(), "families", source)
     _known(config.precisions, PRECISIONS, "precisions", source)
     _known(config.stages, STAGES, "stages", source)
 

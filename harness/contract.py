@@ -274,7 +274,7 @@ class Truth:
 
 @dataclass(frozen=True)
 class Cell:
-    """One point of the experiment grid. `seed` decides the order in which a comparison's cells are timed."""
+    """One point of the experiment grid: a view, or a family of hard rays, which is checked but not timed."""
 
     variant: Variant
     surface: Surface
@@ -284,25 +284,22 @@ class Cell:
     precision: Precision
     stage: Stage
     device: str
+    family: str | None = None  # of harness.hardcases; then its rungs' rays take the place of surface and view
 
     @property
     def slot(self) -> str:
         """The cell's place in the grid, for people."""
-        return " ".join(
-            (
-                str(self.variant),
-                self.surface.name,
-                self.view.name,
-                f"{self.size}x{self.size}x{self.samples_per_pixel}",
-                self.precision,
-                self.stage,
-                self.device,
-            )
-        )
+        if self.family:
+            return f"{self.variant} family {self.family} {self.precision} {self.device}"
+        sampling = f"{self.size}x{self.size}x{self.samples_per_pixel}"
+        where = f"{self.surface.name} {self.view.name} {sampling}"
+        return f"{self.variant} {where} {self.precision} {self.stage} {self.device}"
 
     @property
     def comparison(self) -> str:
         """Cells that share this are timed in one interleaved run."""
+        if self.family:
+            return f"family {self.family}"
         return f"{self.surface.name} {self.view.name} {self.size}x{self.size}x{self.samples_per_pixel} {self.stage}"
 
 

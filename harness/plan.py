@@ -10,33 +10,45 @@ import random
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
+from harness import stability
 from harness.assemble import method_program
 from harness.backends import LANGUAGES
 from harness.camera import camera_for, rays_of
 from harness.config import Experiment
-from harness.contract import Cell, DeviceInfo, FirsthitError, Program, digest
+from harness.contract import Cell, DeviceInfo, FirsthitError, Program, Surface, View, digest
 from harness.plugins import Catalog
 from harness.store import Row, Store
 from harness.worker import Frame
 
 HERE = Path(__file__).parent
-DECIDING = ("accuracy.py", "camera.py", "measure.py", "worker.py", "runner.py", "backends/*.py", "oracle/*.py")
+DECIDING = (
+    "accuracy.py",
+    "camera.py",
+    "measure.py",
+    "worker.py",
+    "runner.py",
+    "backends/*.py",
+    "oracle/*.py",
+    "hardcases/*.py",
+    "stability.py",
+)
 
 
 @dataclass(frozen=True, eq=False)
 class Planned:
-    """A cell with its key; `skip` says why where it cannot run."""
+    """A cell with its key; `skip` says why where it cannot run, and then it has no programs."""
 
     cell: Cell
     key: str
     identity: dict[str, Any]
     device: DeviceInfo | None
-    programs: tuple[Program, Program] | None  # listed rays, frame
+    checks: tuple[Program, ...]  # over listed rays: one for a view, one for each surface of a family
+    timed: Program | None  # the frame's; None for a family
     skip: str | None
 
     @property
@@ -45,12 +57,13 @@ class Planned:
         return camera_for(self.cell.view, self.cell.surface)
 
     @property
-    def frame(self) -> Frame:
-        """What is timed. Only for cells that are not skipped."""
-        assert self.programs
+    def frame(self) -> Frame | None:
+        """What is timed, if anything."""
+        if self.timed is None:
+            return None
         camera, size = self.camera, self.cell.size * round(self.cell.samples_per_pixel**0.5)
         rays = rays_of(camera, size) if self.cell.stage == "rays" else None
-        return Frame(self.programs[1], camera, rays, size)
+        return Frame(self.timed, camera, rays, size)
 
 
 @cache
@@ -84,7 +97,7 @@ def choose_devices(wanted: list[str], found: list[DeviceInfo]) -> dict[str, Devi
     return chosen
 
 
-def _refusal(cell: Cell, info: DeviceInfo | None, catalog: Catalog) -> str | None:
+def _refusal(cell: Cell, surface: Surface, info: DeviceInfo | None, catalog: Catalog) -> str | None:
     """Why a cell cannot run, if it cannot."""
     from surfaces.sections import unsupported
 
@@ -97,62 +110,79 @@ def _refusal(cell: Cell, info: DeviceInfo | None, catalog: Catalog) -> str | Non
         return "the device has no float64"
     if cell.precision not in method.precisions:
         return f"the method has no {cell.precision} form"
-    if reason := method.accepts(cell.surface):
-        return f"the method refuses the surface: {reason}"
-    return unsupported(cell.surface, cell.precision, LANGUAGES[cell.device.split(":")[0]])
+    if reason := method.accepts(surface):
+        return f"the method refuses the surface {surface.name}: {reason}"
+    return unsupported(surface, cell.precision, LANGUAGES[cell.device.split(":")[0]])
+
+
+def _programs(cell: Cell, surfaces: list[Surface], catalog: Catalog) -> tuple[tuple[Program, ...], Program | None]:
+    plugin, language = catalog.get(cell.variant.method), LANGUAGES[cell.device.split(":")[0]]
+
+    def program(surface: Surface, entry: Literal["rays", "camera"]) -> Program:
+        return method_program(plugin.method, plugin.folder, cell.variant, surface, cell.precision, language, entry)
+
+    checks = tuple(program(surface, "rays") for surface in surfaces)
+    if cell.family:
+        return checks, None
+    return checks, program(cell.surface, "camera") if cell.stage == "compute" else checks[0]
 
 
 def _planned(cell: Cell, info: DeviceInfo | None, catalog: Catalog, experiment: Experiment) -> Planned:
-    plugin = catalog.get(cell.variant.method)
-    skip = _refusal(cell, info, catalog)
-    programs: tuple[Program, Program] | None = None
+    surfaces = [group.surface for group in stability.groups(cell.family)] if cell.family else [cell.surface]
+    skip = next(filter(None, (_refusal(cell, surface, info, catalog) for surface in surfaces)), None)
+    checks: tuple[Program, ...] = ()
+    timed: Program | None = None
     if skip is None:
-        language = LANGUAGES[cell.device.split(":")[0]]
-        assemble = lambda entry: method_program(  # noqa: E731
-            plugin.method, plugin.folder, cell.variant, cell.surface, cell.precision, language, entry
-        )
         try:
-            programs = (assemble("rays"), assemble("camera" if cell.stage == "compute" else "rays"))
+            checks, timed = _programs(cell, surfaces, catalog)
         except FirsthitError as error:
             skip = str(error)
-    budget = experiment.config.budget
-    identity = {
-        "program": {s.origin: s.hash for program in programs or () for s in program.sections},
-        "program order": [program.hash for program in programs or ()],
+    programs = (*checks, timed) if timed else checks
+    scene = (
+        {"family": stability.identity(cell.family)}
+        if cell.family
+        else {
+            "surface": cell.surface.identity,
+            "view": dataclasses.asdict(cell.view),
+            "sampling": [cell.size, cell.samples_per_pixel, cell.stage],
+            "accuracy": dataclasses.asdict(experiment.config.accuracy),
+            "budget": dataclasses.asdict(experiment.config.budget),
+        }
+    )
+    identity = scene | {
+        "program": {s.origin: s.hash for program in programs for s in program.sections},
+        "program order": [program.hash for program in programs],
         "parameters": dict(cell.variant.parameters),
-        "surface": cell.surface.identity,
-        "view": dataclasses.asdict(cell.view),
-        "sampling": [cell.size, cell.samples_per_pixel, cell.precision, cell.stage],
-        "accuracy": dataclasses.asdict(experiment.config.accuracy),
-        "budget": dataclasses.asdict(budget),
+        "precision": cell.precision,
         "device": None if info is None else dataclasses.asdict(info),
         "processor": processor(),
         "methodology": methodology(),
         "skip": skip,
     }
-    return Planned(cell, digest(cell.slot, identity), identity, info, programs, skip)
+    return Planned(cell, digest(cell.slot, identity), identity, info, checks, timed, skip)
 
 
 def plan(experiment: Experiment, catalog: Catalog, found: list[DeviceInfo]) -> list[Planned]:
-    """Every cell of the grid, comparison by comparison."""
+    """Every cell of the grid, comparison by comparison; families last."""
     config = experiment.config
     devices = choose_devices(config.devices, found)
     if not devices:
         raise FirsthitError("no device found: see `firsthit devices`", exit_code=3)
-    grid = itertools.product(
-        experiment.surfaces,
-        config.view,
-        config.sizes,
-        config.samples_per_pixel,
-        experiment.stages,
-        experiment.variants,
-        devices.items(),
-        experiment.precisions,
+    runs_on = list(itertools.product(experiment.variants, devices.items(), experiment.precisions))
+    scenes = itertools.product(
+        experiment.surfaces, config.view, config.sizes, config.samples_per_pixel, experiment.stages
     )
-    return [
-        _planned(Cell(variant, surface, view, size, samples, precision, stage, name), info, catalog, experiment)
-        for surface, view, size, samples, stage, variant, (name, info), precision in grid
+    cells = [
+        (Cell(variant, surface, view, size, samples, precision, stage, name), info)
+        for surface, view, size, samples, stage in scenes
+        for variant, (name, info), precision in runs_on
     ]
+    cells += [
+        (Cell(variant, stability.groups(family)[0].surface, View("none"), 0, 1, precision, "rays", name, family), info)
+        for family in config.families
+        for variant, (name, info), precision in runs_on
+    ]
+    return [_planned(cell, info, catalog, experiment) for cell, info in cells]
 
 
 def estimate_seconds(planned: list[Planned], store: Store, budget_seconds: float) -> float:

@@ -44,18 +44,21 @@ def probe(device: Device) -> Probes:
         np.float64
     )
     a, b = pairs.T
-    to_float32 = lambda values: values.astype(np.float32).astype(np.float64)  # noqa: E731
-    nearest = (sums == to_float32(a + b)) & (products == to_float32(a * b))
+    nearest = (sums == _rounded(a + b)) & (products == _rounded(a * b))
     peak, ratio = _peak(device)
     return Probes(
         two_sum=float(np.mean(sums + sum_errors == a + b)),
         two_prod_split=float(np.mean(products + product_errors == a * b)),
         two_prod_fma=float(np.mean(products + fma_errors == a * b)),
         round_to_nearest=float(np.mean(nearest)),
-        division=float(np.mean(quotients == to_float32(a / b))),
+        division=float(np.mean(quotients == _rounded(a / b))),
         peak_gflops=peak,
         clock_ratio=ratio,
     )
+
+
+def _rounded(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    return values.astype(np.float32).astype(np.float64)
 
 
 def _peak(device: Device) -> tuple[float, float | None]:

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from harness import accuracy, measure
+from harness import accuracy, measure, stability
 from harness.camera import pixel_footprint, rays_of, scene_radius
 from harness.config import Config
 from harness.contract import CellStatus, Hits, RayStatus, Surface, Truth
@@ -36,7 +36,7 @@ class _Live:
     """A cell on its way from plan to row."""
 
     planned: Planned
-    frame: Frame
+    frame: Frame | None
     compile_ms: float = 0.0
     warmed: Warmed | None = None
     wall_ms: list[float] = field(default_factory=list)
@@ -44,6 +44,7 @@ class _Live:
     preparing: float = 0.0  # seconds of checking and building
     timing: float = 0.0  # seconds of timed repetitions
     summary: dict[str, Any] | None = None
+    rungs: list[dict[str, Any]] | None = None
     arrays: dict[str, NDArray[Any]] | None = None
 
     @property
@@ -86,11 +87,13 @@ class Runner:
             start = time.perf_counter()
             try:
                 reason = self._check(state)
-                if reason is None:
+                if reason is not None:
+                    rows.append(self._finish(planned, state, CellStatus.FAILED, reason))
+                elif state.frame is None:
+                    rows.append(self._finish(planned, state, CellStatus.OK, None))
+                else:
                     state.warmed = self._executor.warm(planned.cell.device, planned.key, state.frame)
                     live[planned.key] = state
-                else:
-                    rows.append(self._finish(planned, state, CellStatus.FAILED, reason))
             except CellError as error:
                 rows.append(self._finish(planned, state, error.status, str(error)))
             state.preparing = time.perf_counter() - start
@@ -99,11 +102,12 @@ class Runner:
 
     def _check(self, state: _Live) -> str | None:
         """Cast the accuracy rays and hold them against the oracle; a reason not to time the cell, if there is one."""
+        if state.planned.cell.family:
+            return self._check_family(state)
         cell, config = state.planned.cell, self._config.accuracy
-        assert state.planned.programs
         rays = rays_of(state.planned.camera, config.size)
         truth = cached_first_hits(cell.surface, rays, self._store.truth)
-        checked = self._executor.check(cell.device, state.planned.programs[0], rays)
+        checked = self._executor.check(cell.device, state.planned.checks[0], rays)
         hits, state.compile_ms = checked.hits, checked.compile_ms
         radius = scene_radius(cell.surface)
         verdicts = accuracy.judge(hits, truth, radius, config.grazing_margin)
@@ -114,6 +118,18 @@ class Runner:
         share = accuracy.wrong_share(summary)
         if self._catalog.get(cell.variant.method).method.answers and share > config.max_wrong_share:
             return f"wrong on {share:.1%} of the rays outside the grazing class: not timed"
+        return None
+
+    def _check_family(self, state: _Live) -> str | None:
+        """Cast every rung's rays and judge each rung by itself."""
+        cell = state.planned.cell
+        assert cell.family
+        state.rungs = []
+        for group, program in zip(stability.groups(cell.family), state.planned.checks, strict=True):
+            truth = cached_first_hits(group.surface, group.rays, self._store.truth)
+            checked = self._executor.check(cell.device, program, group.rays)
+            state.compile_ms += checked.compile_ms
+            state.rungs += group.judge(checked.hits, truth, cell.precision)
         return None
 
     def _time(self, live: dict[str, _Live]) -> list[Row]:
@@ -138,7 +154,7 @@ class Runner:
         raise AssertionError("unreachable")
 
     def _sample(self, state: _Live) -> None:
-        assert state.warmed
+        assert state.warmed and state.frame
         start = time.perf_counter()
         batch = state.warmed.batch
         timing = self._executor.sample(state.planned.cell.device, state.planned.key, state.frame, batch)
@@ -174,12 +190,14 @@ class Runner:
             "answers": method.answers,
             "status": status.value,
             "reason": reason,
-            "time": self._time_of(state) if state and status is CellStatus.OK else None,
+            "time": self._time_of(state) if state and state.warmed and status is CellStatus.OK else None,
             "build": _build_of(state) if state else None,
             "accuracy": state.summary if state else None,
+            "family": cell.family,
+            "rungs": state.rungs if state else None,
             "arrays": None,
             "operations": _operations(cell.surface) if state else None,
-            "program": {"hash": planned.programs[1].hash} if planned.programs else None,
+            "program": {"hash": (planned.timed or planned.checks[0]).hash} if planned.checks else None,
             "environment": self._environment | {"started": datetime.now(UTC).isoformat(timespec="seconds")},
             "seconds": state.preparing + state.timing if state else 0.0,
             "identity": planned.identity,

@@ -233,10 +233,11 @@ FIXED: tuple[Surface, ...] = (
     entry(
         "chmutov",
         "Chmutov septic",
-        "64*x^7 - 112*x^5 + 56*x^3 - 7*x + 64*y^7 - 112*y^5 + 56*y^3 - 7*y + 64*z^7 - 112*z^5 + 56*z^3 - 7*z + 1",
+        "x*(x^2*(x^2*(64*x^2 - 112) + 56) - 7) + y*(y^2*(y^2*(64*y^2 - 112) + 56) - 7)"
+        " + z*(z^2*(z^2*(64*z^2 - 112) + 56) - 7) + 1",
         7,
         _CUBE,
-        "S. V. Chmutov 1992; beamcasting, Fig. 2: Chebyshev polynomials T7(x) + T7(y) + T7(z) + 1",
+        "S. V. Chmutov 1992; beamcasting, Fig. 2: 64t^7 - 112t^5 + 56t^3 - 7t of x, y and z, nested",
         singular_points=81,
         symmetries=("swap_xy", "cycle_xyz"),
     ),

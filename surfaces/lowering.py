@@ -32,7 +32,7 @@ def enclosures(tape: Tape) -> dict[int, Enclosure]:
         found: dict[int, Enclosure] = {}
         for index, ball in balls.items():
             op = tape.ops[index]
-            if not ball.is_finite() or abs(ball) > 2**1000:
+            if not abs(ball) < 2**1000:
                 raise ZeroDivisionError(f"a constant {op.name} is undefined or too large")
             found[index] = (op.args[0], op.args[0]) if op.name == "const" else fractions_of(ball)
     return found

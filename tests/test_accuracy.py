@@ -6,7 +6,9 @@ from harness.contract import Hits, Truth
 
 def _truth(status, lower, following, margin):
     lower = np.array(lower, float)
-    return Truth(lower, lower, np.array(status, np.uint8), np.array(following, float), np.ones(len(lower)), np.array(margin))
+    return Truth(
+        lower, lower, np.array(status, np.uint8), np.array(following, float), np.ones(len(lower)), np.array(margin)
+    )
 
 
 def _hits(t, status):

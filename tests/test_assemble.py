@@ -58,8 +58,11 @@ def test_literals_keep_every_digit(value, precision, language, text):
 
 
 def test_a_compile_error_names_the_sections_own_file_and_line(device):
-    broken = Section("methods/mine/kernel.glsl", "#define INPUTS 1\n#define OUTPUTS 1\nvoid map_item(IN real x[INPUTS], "
-                     "OUT real y[OUTPUTS]) {\n    y[0] = undeclared_name;\n}")
+    broken = Section(
+        "methods/mine/kernel.glsl",
+        "#define INPUTS 1\n#define OUTPUTS 1\nvoid map_item(IN real x[INPUTS], "
+        "OUT real y[OUTPUTS]) {\n    y[0] = undeclared_name;\n}",
+    )
     program = map_program(broken, "float32", device.language)
     with pytest.raises(BuildError, match=r"methods/mine/kernel\.glsl:4") as caught:
         device.build(program)
@@ -77,8 +80,11 @@ def test_an_unknown_library_is_named():
 
 
 def test_a_map_program_runs_rows(device, rng):
-    section = Section("twice", "#define INPUTS 2\n#define OUTPUTS 1\n"
-                      "void map_item(IN real x[INPUTS], OUT real y[OUTPUTS]) { y[0] = x[0] + 2.0 * x[1]; }")
+    section = Section(
+        "twice",
+        "#define INPUTS 2\n#define OUTPUTS 1\n"
+        "void map_item(IN real x[INPUTS], OUT real y[OUTPUTS]) { y[0] = x[0] + 2.0 * x[1]; }",
+    )
     rows = rng.integers(-100, 100, (1000, 2)).astype(np.float32)
     result = map_rows(device, map_program(section, "float32", device.language), rows, 1)
     assert np.array_equal(result[:, 0], rows[:, 0] + 2 * rows[:, 1])

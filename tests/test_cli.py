@@ -184,7 +184,9 @@ def test_plan_prints_cells_and_an_estimate_and_runs_nothing(tmp_path, capsys):
     assert not list(tmp_path.iterdir())
 
 
-@pytest.mark.parametrize("arguments", [("run", "none.toml"), ("plan", "none.toml"), ("report", "none"), ("why", "none")])
+@pytest.mark.parametrize(
+    "arguments", [("run", "none.toml"), ("plan", "none.toml"), ("report", "none"), ("why", "none")]
+)
 def test_what_is_not_there_is_one_line(capsys, arguments):
     code, _, err = told(capsys, *arguments)
     assert code == 2
@@ -221,5 +223,7 @@ def test_a_plugin_that_cannot_be_imported_costs_only_itself(tmp_path, capsys):
 
 
 def test_the_command_is_installed():
-    result = subprocess.run([sys.executable, "-m", "harness.cli", "--version"], capture_output=True, text=True, check=True)
+    result = subprocess.run(
+        [sys.executable, "-m", "harness.cli", "--version"], capture_output=True, text=True, check=True
+    )
     assert result.stdout.startswith("firsthit 0.")

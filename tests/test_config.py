@@ -33,7 +33,7 @@ def test_knobs_multiply_and_defaults_fill_in(tmp_path):
 @pytest.mark.parametrize(
     ("old", "new", "line", "words"),
     [
-        ('surfaces = ["sphere"]', 'surface = ["sphere"]', 1, "lacks 'surfaces'"),
+        ('surfaces = ["sphere"]', 'surface = ["sphere"]', 2, "surface is a table"),
         ('surfaces = ["sphere"]', 'surfcaes = ["sphere"]', 2, "did you mean 'surfaces'"),
         ('surfaces = ["sphere"]', 'surfaces = ["spere"]', 2, "did you mean sphere"),
         ('name = "null"', 'name = "nul"', 7, "did you mean 'null'"),
@@ -68,12 +68,16 @@ def test_a_missing_file_is_one_line(tmp_path):
 
 
 def test_a_surface_of_the_configs_own(tmp_path):
-    text = GOOD.replace('["sphere"]', '["mine"]') + '[surface.mine]\nformula = "x^2 + y^2 - a"\nparameters = { a = 0.5 }\n'
+    text = (
+        GOOD.replace('["sphere"]', '["mine"]') + '[surface.mine]\nformula = "x^2 + y^2 - a"\nparameters = { a = 0.5 }\n'
+    )
     assert _load(tmp_path, text).surfaces[0].degree == 2
     with pytest.raises(FirsthitError, match=r"c\.toml:9: "):
         _load(tmp_path, text.replace("y^2 - a", "y^2 - b"))
 
 
-@pytest.mark.parametrize("path", sorted((Path(__file__).parent.parent / "configs").glob("*.toml")), ids=lambda p: p.stem)
+@pytest.mark.parametrize(
+    "path", sorted((Path(__file__).parent.parent / "configs").glob("*.toml")), ids=lambda p: p.stem
+)
 def test_our_own_configs_load(path):
     assert config.load(path, find_methods()).variants

@@ -282,7 +282,7 @@ def test_devices_compute_the_same_function(surface: Surface, device: Device, pre
         ]
     )
     unit = {"float32": 2.0**-24, "float64": 2.0**-53}[precision]
-    assert np.all(np.abs(found - wanted) <= 40.0 * unit * (1.0 + np.abs(wanted).max(axis=0)))
+    assert np.all(np.abs(found - wanted) <= 100.0 * unit * (1.0 + np.abs(wanted).max(axis=0)))
 
 
 @pytest.mark.parametrize("surface", [s for s in CATALOG if expands(s)], ids=lambda s: s.name)

@@ -33,7 +33,7 @@ timeout = 6.0
 """
 
 
-def firsthit(*arguments, **options):
+def firsthit(*arguments):
     return [sys.executable, "-m", "harness.cli", *map(str, arguments)]
 
 

@@ -162,7 +162,7 @@ class OpenCLLaunch(Launch):
         cl = _binding()
         self._queue, self._kernel = queue, kernel
         self._global = (-(-grid[0] // GROUP) * GROUP, grid[1])
-        self._results = [np.empty(count, kind) for count, kind in outputs]
+        self._results: list[Array] = [np.empty(count, kind) for count, kind in outputs]
         start = time.perf_counter()
         flags = cl.mem_flags
         self._inputs = [cl.Buffer(context, flags.READ_ONLY | flags.COPY_HOST_PTR, hostbuf=array) for array in inputs]

@@ -7,6 +7,7 @@ import re
 import time
 from collections.abc import Sequence
 from functools import cache
+from importlib.metadata import version
 from typing import Any
 
 import numpy as np
@@ -26,15 +27,14 @@ def _context() -> Any:
     os.environ.setdefault("MESA_SHADER_CACHE_DISABLE", "true")  # a cache would hide compile times
     import moderngl
 
-    return moderngl.create_standalone_context(backend="egl")
+    create: Any = moderngl.create_standalone_context
+    return create(backend="egl")
 
 
 @cache
 def find() -> list[DeviceInfo]:
     """The OpenGL device that EGL gives, if any; an unusable one carries its problem."""
-    import moderngl
-
-    versions = (("moderngl", moderngl.__version__),)
+    versions = (("moderngl", version("moderngl")),)
     try:
         context = _context()
     except Exception as error:  # glcontext raises bare Exception

@@ -102,7 +102,8 @@ def _run(options: argparse.Namespace) -> int:
                 "created": datetime.now(UTC).isoformat(timespec="seconds"),
                 "environment": environment,
                 "devices": [dataclasses.asdict(i) | {"versions": dict(i.versions), "probes": p} for i, p in tried],
-                "cells": [{"slot": p.cell.slot, "key": p.key} for p in planned],
+                "cells": [{"slot": p.cell.slot, "key": p.key} for p in planned if not p.cell.family],
+                "families": [{"slot": p.cell.slot, "key": p.key} for p in planned if p.cell.family],
             }
         )
         before = {p.key: store.read(p.key) for p in planned}
@@ -158,6 +159,8 @@ def _report(options: argparse.Namespace) -> int:
 
         print(reports.build(options.folder))
     except ModuleNotFoundError as error:
-        message = f"a report needs the package {error.name}: pip install 'firsthit[report]'; runs/ can be copied elsewhere"
+        message = (
+            f"a report needs the package {error.name}: pip install 'firsthit[report]'; runs/ can be copied elsewhere"
+        )
         raise FirsthitError(message, exit_code=3) from None
     return 0

@@ -17,7 +17,9 @@ TYPICAL = ("sphere", "torus", "barth_sextic")  # box and ball, coefficients alon
 
 def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     text = "compile every method's kernel on every device, for the surfaces named"
-    parser = commands.add_parser("compile", help=text, description=text, epilog="example: firsthit compile --method newton")
+    parser = commands.add_parser(
+        "compile", help=text, description=text, epilog="example: firsthit compile --method newton"
+    )
     parser.add_argument("--method", action="append", metavar="NAME", help="only this one; may be repeated")
     parser.add_argument("--surface", action="append", metavar="NAME", help=f"default: {', '.join(TYPICAL)}")
     parser.set_defaults(run=_compile)

@@ -8,8 +8,8 @@ polynomials, `transcendental` for everything else). What neither can prove is UN
 - A touch is a root of even multiplicity. Where f vanishes all along the ray, the answer is a TOUCH at the clip
   interval's first t.
 - A surface whose coefficients are rational or in one field Q(√d) is always decided (touches and roots exactly at clip
-  ends included) up to the 4096 bits at which telling two numbers apart is given up; one with other constants has its
-  crossings and misses decided, its touches not.
+  ends included) up to the 4096 bits at which telling two numbers apart is given up; one with other constants, or that
+  is no polynomial, has its crossings and misses decided, and its touches where f is written with a repeated factor.
 - `following`, `condition` and `margin` are estimates in plain float64 (`classify`).
 """
 
@@ -38,7 +38,7 @@ def first_hits(surface: Surface, rays: NDArray[np.float32]) -> Truth:
     solver = _solver(surface)
     wide = rays.astype(np.float64)
     lower, upper, status = solver.certify(wide)
-    following, condition, margin = classify(solver.fast.floats, surface.domain, wide, 0.5 * (lower + upper), status)
+    following, condition, margin = classify(solver.floats, surface.domain, wide, 0.5 * (lower + upper), status)
     return Truth(lower, upper, status, following, condition, margin)
 
 
@@ -74,13 +74,17 @@ class _Solver:
 
     def __init__(self, surface: Surface) -> None:
         import surfaces
+        from harness.oracle.enclosure import Enclosure
         from harness.oracle.fast import FastSolver
+        from harness.oracle.floats import FloatFunction
         from harness.oracle.program import compile_expression
         from harness.oracle.slow import AlgebraicSolver
         from harness.oracle.transcendental import SmoothSolver
 
-        program = compile_expression(surfaces.expression(surface))
-        self.fast = FastSolver(program, surface.domain)
+        expr = surfaces.expression(surface)
+        program = compile_expression(expr)
+        self.fast = FastSolver(expr, surface.domain)
+        self.floats = FloatFunction(program, [c.mid for c in Enclosure(program).constants])
         self.slow = (AlgebraicSolver if program.is_polynomial else SmoothSolver)(program, surface.domain)
 
     def certify(self, rays: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.uint8]]:

@@ -51,22 +51,6 @@ class Balls:
         spread = np.abs(self.mid) * other.rad + self.rad * (np.abs(other.mid) + other.rad)
         return Balls(mid, (spread + UNIT * np.abs(mid)) * GROW + TINY)
 
-    def square(self) -> Balls:
-        mid = self.mid * self.mid
-        return Balls(mid, (self.rad * (2.0 * np.abs(self.mid) + self.rad) + UNIT * mid) * GROW + TINY)
-
-    def __pow__(self, exponent: int) -> Balls:
-        result: Balls | None = None
-        base = self
-        while True:
-            if exponent & 1:
-                result = base if result is None else result * base
-            exponent >>= 1
-            if not exponent:
-                assert result is not None
-                return result
-            base = base.square()
-
     def __truediv__(self, other: Balls) -> Balls:
         """Infinite radius where the divisor may be 0: |a/b − ma/mb| <= (ra + |ma/mb| rb) / (|mb| − rb)."""
         mid = self.mid / other.mid

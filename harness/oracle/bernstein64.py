@@ -14,10 +14,9 @@ from math import comb
 
 import numpy as np
 
-from harness.oracle import balls64
 from harness.oracle.balls64 import GROW, TINY, UNIT, Balls, Floats
 from harness.oracle.clip import points_at
-from harness.oracle.program import Program
+from harness.oracle.enclosure import Enclosure
 from harness.oracle.segments import Pieces, Segments, Verdict, first_segments
 
 DEPTH = 30
@@ -45,11 +44,9 @@ def _collocation(degree: int) -> tuple[Floats, Floats]:
 class BernsteinIsolator:
     """First roots of a polynomial along rays."""
 
-    def __init__(self, program: Program, constants: list[Balls]) -> None:
-        self.program = program
-        self.constants = constants
-        self.degree = max(program.degree, 1)
-        self.nodes, self.matrix = _collocation(self.degree)
+    def __init__(self, f: Enclosure) -> None:
+        self.f = f
+        self.nodes, self.matrix = _collocation(max(f.program.degree, 1))
 
     def __call__(self, rays: Floats, lower: Floats, upper: Floats) -> Segments:
         """The first segment of each ray between t = `lower` and `upper`, float64[n], finite."""
@@ -71,7 +68,7 @@ class BernsteinIsolator:
             Balls(p.mid[:, None], p.rad[:, None]) + nodes * (span * Balls(rays[:, 3 + k, None]))
             for k, p in enumerate(points_at(rays, lower))
         ]
-        values = self.program.run(inputs, self.constants, balls64.FUNCTIONS)
+        values = self.f.of(inputs)
         shape = (len(rays), len(self.nodes))
         mid, rad = np.broadcast_to(values.mid, shape), np.broadcast_to(values.rad, shape)
         coefficients = mid @ self.matrix.T

@@ -33,14 +33,6 @@ class Dual:
         quotient = self.value / other.value
         return Dual(quotient, (self.slope - quotient * other.slope) / other.value)
 
-    def __pow__(self, exponent: int) -> Dual:
-        below = self.value ** (exponent - 1) if exponent > 2 else self.value
-        slope = below * self.slope
-        total = slope
-        for _ in range(exponent - 1):
-            total = total + slope
-        return Dual(self.value**exponent, total)
-
 
 def dual_functions(base: Mapping[str, Callable[..., Any]]) -> Functions:
     """The elementary functions on duals from those of the number system `base`.

@@ -7,24 +7,31 @@ with nothing undecided before it, holds the first root of [a, b]. A few safeguar
 float64; nothing is believed of them: f is evaluated in ball arithmetic on both sides of the guess, and opposite proved
 signs inside the segment are the certificate. A ray is left to the slow path where any of that fails, or where the root
 is not proved to lie inside the exact clip interval.
+
+Where f is written as a product with repeated factors, such as a plane squared, all this is done for its radical, each
+factor taken once: touches of f are crossings of that, and the factor that changes sign tells the multiplicity.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from harness.contract import Domain, TruthStatus
-from harness.oracle import balls64, reals
-from harness.oracle.balls64 import TINY, Balls, Floats
+from harness.oracle.balls64 import Floats
 from harness.oracle.bernstein64 import BernsteinIsolator
-from harness.oracle.clip import clip_many, points_at, recentred
+from harness.oracle.clip import clip_many, recentred
+from harness.oracle.enclosure import Enclosure
 from harness.oracle.floats import FloatFunction
-from harness.oracle.program import Program, convert_constants
+from harness.oracle.program import compile_expression, repeated_factors
 from harness.oracle.range64 import RangeIsolator
-from harness.oracle.segments import Segments
+from harness.oracle.segments import Mask, Segments
+
+if TYPE_CHECKING:
+    import sympy
 
 BLOCK = 2048  # rays at a time, so that the arrays stay in the cache
 MOST_DEGREE = 32  # beyond it the collocation's condition number eats float64
@@ -44,20 +51,15 @@ class FastAnswers:
 class FastSolver:
     """First hits by float64 ball arithmetic on all rays at once."""
 
-    def __init__(self, program: Program, domain: Domain) -> None:
+    def __init__(self, expr: sympy.Expr, domain: Domain) -> None:
         self.domain = domain
-        with reals.precision(128):
-            exact = convert_constants(program, reals.leaf, reals.FUNCTIONS)
-        self.constants = [Balls(float(c.mid()), abs(float(c.mid())) * 2.0**-52 + TINY) for c in exact]
-        self.floats = FloatFunction(program, [c.mid for c in self.constants])
-        self.program = program
+        radical, factors = repeated_factors(expr)
+        program = compile_expression(radical)
+        self.f = Enclosure(program)
+        self.floats = FloatFunction(program, [c.mid for c in self.f.constants])
+        self.factors = [(Enclosure(compile_expression(factor)), multiplicity) for factor, multiplicity in factors]
         small = program.is_polynomial and program.degree <= MOST_DEGREE
-        self.isolate = (BernsteinIsolator if small else RangeIsolator)(program, self.constants)
-
-    def value(self, rays: Floats, t: Floats) -> Balls:
-        """f at o + t·d, enclosed."""
-        f: Balls = self.program.run(points_at(rays, t), self.constants, balls64.FUNCTIONS)
-        return f
+        self.isolate = (BernsteinIsolator if small else RangeIsolator)(self.f)
 
     def first_hits(self, rays: Floats) -> FastAnswers:
         """`rays`: float64[n, 6] holding float32 values."""
@@ -75,10 +77,11 @@ class FastSolver:
             decided[inside[segments.empty]] = True
             hit = inside[segments.found]
             found = self._narrow(rays[hit], segments.take(segments.found))
-            proved = (found[0] >= clip.enter_upper[hit]) & (found[1] <= clip.leave_lower[hit])
+            odd, proved = self._parity(rays[hit], *found)
+            proved &= (found[0] >= clip.enter_upper[hit]) & (found[1] <= clip.leave_lower[hit])
             hit = hit[proved]
             lower[hit], upper[hit] = found[0][proved], found[1][proved]
-            status[hit] = TruthStatus.CROSSING
+            status[hit] = np.where(odd[proved], TruthStatus.CROSSING, TruthStatus.TOUCH)
             decided[hit] = True
         return FastAnswers(decided, status, lower, upper)
 
@@ -93,11 +96,24 @@ class FastSolver:
             room = 0.5 * width * self.domain.radius / length[left] + np.abs(guess[left]) * 2.0**-51
             below = np.maximum(guess[left] - room, segments.lower[left])
             above = np.minimum(guess[left] + room, segments.upper[left])
-            signs = self.value(rays[left], below).sign, self.value(rays[left], above).sign
+            signs = self.f.along(rays[left], below).sign, self.f.along(rays[left], above).sign
             proved = (signs[0] == -direction[left]) & (signs[1] == direction[left]) & (below < above)
             lower[left[proved]], upper[left[proved]] = below[proved], above[proved]
             left = left[~proved]
         return lower, upper
+
+    def _parity(self, rays: Floats, lower: Floats, upper: Floats) -> tuple[Mask, Mask]:
+        """Whether the root's multiplicity in f itself is odd, and whether that is proved.
+
+        The interval holds one root of the radical, a simple one: exactly one factor vanishes there, and changes sign.
+        """
+        odd = np.ones(len(rays), dtype=bool)
+        proved = np.isfinite(lower)
+        for factor, multiplicity in self.factors:
+            change = factor.along(rays, lower).sign * factor.along(rays, upper).sign
+            proved &= change != 0
+            odd &= (change > 0) | (multiplicity % 2 == 1)
+        return odd, proved
 
     def _guess(self, rays: Floats, segments: Segments) -> Floats:
         """The segment's root in plain float64, counted from its lower end so that a distant origin costs no digits."""

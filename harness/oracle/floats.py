@@ -95,9 +95,6 @@ class _Sized:
         value = self.value / other.value
         return _Sized(value, (self.size + np.abs(value) * other.size) / np.abs(other.value))
 
-    def __pow__(self, exponent: int) -> _Sized:
-        return _Sized(self.value**exponent, self.size**exponent)
-
 
 def _sized(name: str) -> Any:
     """An elementary function of sized values: the argument's terms through the slope, and the result's own."""

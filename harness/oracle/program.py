@@ -16,13 +16,13 @@ if TYPE_CHECKING:
     import sympy
 
 Functions = Mapping[str, Callable[..., Any]]
-POLYNOMIAL = frozenset({"input", "constant", "add", "sub", "mul", "neg", "power"})
+POLYNOMIAL = frozenset({"input", "constant", "add", "sub", "mul", "neg"})
 FUNCTIONS = {"exp": "exp", "log": "log", "sin": "sin", "cos": "cos", "tan": "tan", "Abs": "abs"}
 
 
 @dataclass(frozen=True)
 class Instruction:
-    """`name` applied to the results numbered `args`; `power`, `input` and `constant` carry an `index` instead."""
+    """`name` applied to the results numbered `args`; `input` and `constant` carry an `index` instead."""
 
     name: str
     args: tuple[int, ...] = ()
@@ -53,8 +53,6 @@ class Program:
                     degrees.append(0)
                 case "mul":
                     degrees.append(sum(of))
-                case "power":
-                    degrees.append(of[0] * i.index)
                 case _:
                     degrees.append(max(of))
         return degrees[-1]
@@ -79,8 +77,6 @@ class Program:
                     value = a[0] / a[1]
                 case "neg":
                     value = -a[0]
-                case "power":
-                    value = a[0] ** i.index
                 case name:
                     value = functions[name](*a)
             results.append(value)
@@ -177,7 +173,7 @@ class _Compiler:
         if exponent == 1:
             return self.compile(base)
         if exponent.is_Integer:
-            return self.emit("power", self.compile(base), index=int(exponent))
+            return self.power_of(self.compile(base), int(exponent))
         if exponent.is_Rational and exponent.q == 2:
             return self.power_of(self.emit("sqrt", self.compile(base)), int(exponent.p))
         if base == sympy.E:
@@ -186,7 +182,12 @@ class _Compiler:
         return self.emit("exp", self.emit("mul", self.compile(exponent), logarithm))
 
     def power_of(self, value: int, exponent: int) -> int:
-        return value if exponent == 1 else self.emit("power", value, index=exponent)
+        """By squaring: exact where numbers are exact, and numpy's own powers are slow."""
+        if exponent == 1:
+            return value
+        half = self.power_of(value, exponent // 2)
+        square = self.emit("mul", half, half)
+        return self.emit("mul", square, value) if exponent % 2 else square
 
 
 def compile_expression(expr: sympy.Expr, fold: bool = True) -> Program:
@@ -199,6 +200,24 @@ def compile_expression(expr: sympy.Expr, fold: bool = True) -> Program:
     if last != len(compiler.instructions) - 1:  # a result met earlier, such as f = -(-x)
         raise AssertionError("the last instruction must be the result")
     return Program(tuple(compiler.instructions), tuple(compiler.constants))
+
+
+def repeated_factors(expr: sympy.Expr) -> tuple[sympy.Expr, list[tuple[sympy.Expr, int]]]:
+    """The radical of `expr` as it is written, and its factors with their multiplicities if one is repeated.
+
+    (x − 1)^2·y gives (x − 1)·y and [(x − 1, 2), (y, 1)]; an expression without repeated factors gives itself and [].
+    """
+    import sympy
+
+    factors = []
+    for factor in sympy.Mul.make_args(expr):
+        base, exponent = factor.as_base_exp()
+        repeated = exponent.is_Integer and exponent > 1
+        if factor.free_symbols:
+            factors.append((base, int(exponent)) if repeated else (factor, 1))
+    if all(multiplicity == 1 for _, multiplicity in factors):
+        return expr, []
+    return sympy.Mul(*(factor for factor, _ in factors)), factors
 
 
 def convert_constants(program: Program, leaf: Callable[[sympy.Expr], Any], functions: Functions) -> list[Any]:

@@ -61,12 +61,6 @@ class Surd:
         product = self * Surd(other.a, -other.b, other.d)
         return Surd(product.a / norm, product.b / norm, product.d)
 
-    def __pow__(self, exponent: int) -> Surd:
-        result = Surd(1)
-        for _ in range(exponent):
-            result = result * self
-        return result
-
     def conjugate(self) -> Surd:
         return Surd(self.a, -self.b, self.d)
 

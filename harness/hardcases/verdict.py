@@ -1,0 +1,81 @@
+"""A method's answers on a rung: right and wrong counts, error over what the problem allows, and where it breaks.
+
+Unlike in pictures, rays near tangency are not excused. What no arithmetic of the cell's precision can know is told
+apart from what a method gets wrong: a kernel evaluates f at o + t·d, three coordinates rounded when the origin is
+moved, when t·d is formed and when it is added, and with constants rounded once. Points are then off by up to
+ROUNDINGS · unit roundoff · their size, at most that of the domain. A ray that such a shift turns into one with other
+roots (`margin` of the oracle, or of the rung by construction) is `undecidable` and counted apart. The distance to the
+origin is no part of that size: the origin is given exactly and can be moved near without a loss.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any, Literal
+
+import numpy as np
+
+from harness.accuracy import NAMES, Wrong, judge
+from harness.camera import scene_radius
+from harness.contract import Hits, Precision, Truth, TruthStatus
+from harness.hardcases.model import Rung
+
+ROUNDINGS = 4.0
+UNIT_ROUNDOFF: dict[Precision, float] = {"float32": 2.0**-24, "float64": 2.0**-53}
+
+
+def knowable_margin(rung: Rung, precision: Precision) -> float:
+    """The margin, in scene units, below which a ray of this rung is undecidable."""
+    domain = rung.surface.domain
+    return ROUNDINGS * UNIT_ROUNDOFF[precision] * (domain.radius + math.hypot(*domain.center))
+
+
+def judge_rung(rung: Rung, hits: Hits, truth: Truth, precision: Precision) -> dict[str, Any]:
+    """Counts, errors in scene units, and stability; all of it JSON.
+
+    rays = decided + undecidable + undecided, and decided = right + misses + false_hits + exhausted + wrong_root.
+    `undecidable_right`: undecidable rays answered as the oracle does. `max_error` and `worst_ratio` are over `right`,
+    None where there is no hit: the largest |t - t*|, and of it over max(condition, 1) · unit roundoff · the domain's
+    radius (t itself cannot be had better than with condition 1). A backward stable method's ratio is a small number
+    on every rung.
+    """
+    verdicts = judge(hits, truth, scene_radius(rung.surface), grazing_margin=0.0)
+    certified = truth.status != TruthStatus.UNDECIDED
+    undecidable = certified & (np.minimum(truth.margin, rung.margin) < knowable_margin(rung, precision))
+    decided = certified & ~undecidable
+    right = verdicts.wrong == Wrong.RIGHT
+    measured = decided & np.isfinite(verdicts.error)
+    error = verdicts.error[measured]
+    allowed = np.fmax(truth.condition[measured], 1.0) * UNIT_ROUNDOFF[precision] * rung.surface.domain.radius
+    return {
+        "parameter": rung.parameter,
+        "rays": len(certified),
+        "decided": int(decided.sum()),
+        "right": int((decided & right).sum()),
+        **{name: int((decided & (verdicts.wrong == kind)).sum()) for kind, name in NAMES.items()},
+        "undecidable": int(undecidable.sum()),
+        "undecidable_right": int((undecidable & right).sum()),
+        "undecided": int((~certified).sum()),
+        "max_error": float(error.max()) if len(error) else None,
+        "worst_ratio": float((error / allowed).max()) if len(error) else None,
+    }
+
+
+def share_right(verdict: Mapping[str, Any]) -> float | None:
+    """Of the decided rays; None where there are none, so that nothing can be said."""
+    return verdict["right"] / verdict["decided"] if verdict["decided"] else None
+
+
+def first_break(
+    verdicts: Sequence[Mapping[str, Any]], harder: Literal["smaller", "larger"], share: float = 0.99
+) -> float | None:
+    """The first parameter, going harder, at which less than `share` of the decided rays are right; None: none.
+
+    Rungs without decided rays neither break a method nor clear it.
+    """
+    for verdict in sorted(verdicts, key=lambda v: float(v["parameter"]), reverse=harder == "smaller"):
+        right = share_right(verdict)
+        if right is not None and right < share:
+            return float(verdict["parameter"])
+    return None
