@@ -1,4 +1,4 @@
-"""What a person types, and what they get back when it is wrong: one line that says what to do, and no half-written file."""
+"""What a person types, and what comes back when it is wrong: one line that says what to do, no half-written file."""
 
 import subprocess
 import sys
@@ -10,7 +10,7 @@ from harness.cli import build_parser, main
 
 from .conftest import usable_devices
 
-COMMANDS = ("devices", "list", "plan", "run", "why", "report", "show", "trace", "oracle", "compile")
+COMMANDS = ("devices", "list", "plan", "run", "why", "report", "show", "sheet", "trace", "oracle", "compile")
 
 
 @pytest.fixture

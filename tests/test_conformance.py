@@ -1,4 +1,4 @@
-"""Every method × typical surfaces × devices × precisions against the oracle. A new folder is covered the day it appears."""
+"""Every method × typical surfaces × devices × precisions against the oracle; a new folder is covered at once."""
 
 from functools import cache
 

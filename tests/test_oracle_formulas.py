@@ -10,7 +10,7 @@ import random
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from itertools import pairwise
-from math import gcd, isqrt, lcm
+from math import comb, gcd, isqrt, lcm
 
 import numpy as np
 import pytest
@@ -18,6 +18,8 @@ import pytest
 import surfaces
 from harness.contract import Box, Surface, TruthStatus
 from harness.oracle import first_hits
+from harness.oracle.bernstein64 import BernsteinIsolator
+from harness.oracle.enclosure import Enclosure
 from harness.oracle.program import compile_expression
 from harness.oracle.slow import AlgebraicSolver
 
@@ -115,6 +117,7 @@ def along(expr: object, ray: Sequence[Fraction]) -> list[Fraction]:
         width = max(map(len, parts))
         return [sum((p[i] for p in parts if i < len(p)), Fraction(0)) for i in range(width)]
     if expr.is_Pow:
+        assert expr.exp.is_Integer, f"{expr} is not rational"
         parts = [parts[0]] * int(expr.exp)
     result = [Fraction(1)]
     for p in parts:
@@ -369,3 +372,42 @@ def test_huge_and_tiny_coefficients_and_directions(scale: str) -> None:
         rays = rays_at(rng, 10, 1.5, coarse=False)
         rays[:, 3:] *= np.float32(length)
         check_all(surface, rays)
+
+
+@pytest.mark.parametrize("exponent", [30, 44, 50, 56, 62])
+def test_planes_at_the_end_of_a_nearly_tangent_chord(exponent: int) -> None:
+    """The domain is grazed so that float64 knows the chord's ends badly; planes cross the ray just in and out of it."""
+    slant = 2.0**-exponent
+    half = 2.0 * slant**0.5
+    rays = np.array([[-2, 1, 0, 1, -slant, 0]], np.float32)
+    seen = set()
+    for k in range(0, 30, 3):
+        for side in (-1, 1):
+            numerator, denominator = (half * (1 + side * 2.0**-k)).as_integer_ratio()
+            surface = surfaces.from_formula(f"x + {numerator}/{denominator}", "sphere:1")
+            seen |= set(check_all(surface, rays).tolist())
+    assert seen == {TruthStatus.MISS, TruthStatus.CROSSING}
+
+
+@pytest.mark.parametrize("name", ["torus", "klein", "heart", "sixteen_ball"])
+def test_float64_bernstein_coefficients_are_within_their_error(name: str) -> None:
+    """Against Bernstein's own formula in exact fractions, from origins near and far."""
+    surface = surfaces.get(name)
+    isolator = BernsteinIsolator(Enclosure(compile_expression(surfaces.expression(surface))))
+    rng = np.random.default_rng(4)
+    for distance in (2.0, 1e5):
+        directions = rng.normal(size=(20, 3))
+        directions /= np.linalg.norm(directions, axis=1, keepdims=True)
+        origins = rng.uniform(-0.5, 0.5, size=(20, 3)) - distance * directions
+        rays = np.hstack([origins, directions]).astype(np.float32).astype(np.float64)
+        lower, upper = np.full(20, distance - 1.0) + rng.uniform(0, 1e-9, 20), np.full(20, distance + 1.1)
+        coefficients, error = isolator.coefficients(rays, lower, upper)
+        assert (error < 1e-6 * np.abs(coefficients).max(axis=1)).all()
+        for ray, low, high, found, bound in zip(rays, lower, upper, coefficients, error, strict=True):
+            start, width = Fraction(float(low)), Fraction(float(high)) - Fraction(float(low))
+            o, d = [Fraction(float(v)) for v in ray[:3]], [Fraction(float(v)) for v in ray[3:]]
+            moved = [*(a + start * b for a, b in zip(o, d, strict=True)), *(width * b for b in d)]
+            power = along(surfaces.expression(surface), moved)
+            for i, value_found in enumerate(found):
+                exact = sum(comb(i, j) * power[j] / comb(len(found) - 1, j) for j in range(i + 1))
+                assert abs(Fraction(float(value_found)) - exact) <= Fraction(float(bound))

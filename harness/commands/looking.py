@@ -1,27 +1,15 @@
-"""devices, list, show: what is there, and what it looks like."""
+"""devices, list: what is there."""
 
 from __future__ import annotations
 
 import argparse
 import tomllib
-from pathlib import Path
-
-import numpy as np
-from numpy.typing import NDArray
 
 from harness import console
-from harness.camera import camera_for, rays_of
-from harness.commands.options import add_method, add_surface, cast, surface_of, writable
-from harness.contract import DeviceInfo, FirsthitError, RayStatus, View
+from harness.contract import DeviceInfo
 from harness.environment import ROOT, probed
 from harness.executor import START_SECONDS, LocalExecutor, discover_devices
 from harness.plugins import find_methods
-from harness.runner import headlight
-from harness.store import write_atomically
-
-BACKGROUND = np.array([1.0, 1.0, 1.0])
-LIT = np.array([0.36, 0.58, 0.82])
-EXHAUSTED = np.array([0.84, 0.37, 0.0])
 
 
 def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -33,21 +21,6 @@ def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -
     parser = commands.add_parser("list", help=text, description=text, epilog="example: firsthit list surfaces")
     parser.add_argument("what", choices=["methods", "surfaces", "configs", "devices"])
     parser.set_defaults(run=_list)
-
-    text = "draw a shaded picture"
-    parser = commands.add_parser(
-        "show",
-        help=text,
-        description=text,
-        epilog="example: firsthit show --surface torus --method newton -o a.png",
-    )
-    add_surface(parser)
-    add_method(parser)
-    parser.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help=".png file to write")
-    parser.add_argument("--size", type=int, default=512, help="pixels per side (default: 512)")
-    parser.add_argument("--view", default="30,30", metavar="AZ,EL", help="angles in degrees (default: 30,30)")
-    parser.add_argument("--fov", type=float, default=30.0, help="full vertical angle in degrees (default: 30)")
-    parser.set_defaults(run=_show)
 
 
 def _share(value: float | None) -> str:
@@ -126,44 +99,3 @@ def _configs(_options: argparse.Namespace) -> str:
 def _device_names(_options: argparse.Namespace) -> str:
     rows = [(info.name, info.title, info.problem or "usable") for info in discover_devices()]
     return console.table(("name", "title", "state"), rows)
-
-
-def _view(options: argparse.Namespace) -> View:
-    try:
-        azimuth, elevation = (float(part) for part in options.view.split(","))
-    except ValueError:
-        raise FirsthitError(f"--view {options.view!r}: write azimuth,elevation in degrees, as in 30,30") from None
-    if not (1 <= options.size <= 8192):
-        raise FirsthitError(f"--size {options.size}: an image has 1 to 8192 pixels per side")
-    if not (0.0 < options.fov < 180.0):
-        raise FirsthitError(f"--fov {options.fov:g}: the angle lies between 0 and 180 degrees")
-    return View("shown", azimuth=azimuth, elevation=elevation, fov=options.fov)
-
-
-def _show(options: argparse.Namespace) -> int:
-    try:
-        from PIL import Image
-    except ImportError:
-        raise FirsthitError("`firsthit show` needs the package pillow: pip install pillow") from None
-    import io
-
-    view, surface, output = _view(options), surface_of(options), writable(options.output)
-    doubled = 2 * options.size
-    rays = rays_of(camera_for(view, surface), doubled)
-    hits = cast(options, surface, rays)
-    colours = _colours(headlight(surface, rays, hits), hits.status).reshape(options.size, 2, options.size, 2, 3)
-    picture = Image.fromarray(np.round(255.0 * colours.mean(axis=(1, 3))).astype(np.uint8))
-    buffer = io.BytesIO()
-    picture.save(buffer, "png")
-    write_atomically(output, buffer.getvalue())
-    exhausted = int((hits.status == RayStatus.EXHAUSTED).sum())
-    print(f"{output}: {np.mean(hits.status == RayStatus.HIT):.1%} of {len(rays)} rays hit, {exhausted} exhausted")
-    return 0
-
-
-def _colours(shade: NDArray[np.float32], status: NDArray[np.uint8]) -> NDArray[np.float64]:
-    """float64[n, 3] in [0, 1]: headlight shading, white background, exhausted rays in orange."""
-    lit = LIT * (0.25 + 0.75 * np.nan_to_num(shade)[:, None])
-    colours = np.where((status == RayStatus.HIT)[:, None], lit, BACKGROUND)
-    colours[status == RayStatus.EXHAUSTED] = EXHAUSTED
-    return colours

@@ -30,8 +30,8 @@ def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -
         "oracle",
         help="certified first hits for a file of rays",
         description="Certify the first hits of the rays float32[n, 6] of a .npy file. Writes an .npz with lower and "
-        "upper (float64: proved to enclose the first hit, NaN without one) and status (uint8: 0 miss, 1 crossing, 2 touch, "
-        "3 undecided).",
+        "upper (float64: proved to enclose the first hit, NaN without one) and status (uint8: 0 miss, "
+        "1 crossing, 2 touch, 3 undecided).",
         epilog="example: firsthit oracle --formula 'x^4 + y^4 + z^4 - 1' --rays rays.npy -o truth.npz",
     )
     add_surface(parser)

@@ -46,7 +46,7 @@ def lower_degree(level: float, rng: np.random.Generator) -> tuple[Surface, Rays]
     "Clustered roots",
     "distance between two concentric spheres, scene units",
     TO_1E_7,
-    why="the first two roots are this close, f between them is as small as its square, and the condition grows inversely",
+    why="f between the first two roots is as small as the square of their distance, and the condition grows inversely",
     is_margin=True,
 )
 def clustered_roots(level: float, rng: np.random.Generator) -> tuple[Surface, Rays]:

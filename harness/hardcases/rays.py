@@ -98,7 +98,8 @@ def settled(origins: Floats, directions: Floats, measure: Callable[[Floats], Flo
     near = np.repeat(rays[:, None], shifts.size // 3, axis=1)
     near[..., :3] += shifts.reshape(1, -1, 3) * step[:, None]
     best = np.argmin(np.abs(measure(near.astype(np.float64)) - np.asarray(target)[..., None]), axis=1)
-    return near[np.arange(len(rays)), best]
+    chosen: Rays = near[np.arange(len(rays)), best]
+    return chosen
 
 
 def distance_to_points(rays: Floats, points: Floats) -> Floats:
