@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from functools import cache
 from pathlib import Path
 from typing import Literal
@@ -57,6 +57,14 @@ def _parameter_section(variant: Variant, precision: Precision, language: Languag
     return Section(f"generated: parameters of {variant.method}", "\n".join(lines))
 
 
+def table_section(name: str, values: Sequence[float], precision: Precision, language: Language) -> Section:
+    """A constant array of reals, every digit kept: `TABLE real NAME[n]`."""
+    numbers = ", ".join(literal(float(value), precision, language) for value in values)
+    size = len(values)
+    body = f"real[{size}]({numbers})" if language == "glsl" else f"{{{numbers}}}"
+    return Section(f"generated: table {name}", f"TABLE real {name}[{size}] = {body};")
+
+
 def method_program(
     method: Method,
     folder: Path,
@@ -78,6 +86,9 @@ def method_program(
     sections.append(file_section(KERNELS / f"{domain}.glsl"))
     if variant.parameters:
         sections.append(_parameter_section(variant, precision, language))
+    if method.tables:
+        tables = method.tables(surface, dict(variant.parameters), precision)
+        sections += [table_section(name, values, precision, language) for name, values in tables.items()]
     sections.append(file_section(folder / "kernel.glsl"))
     sections.append(file_section(KERNELS / "cast.glsl"))
     if entry == "camera":

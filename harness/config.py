@@ -61,7 +61,7 @@ class BudgetChoice:
 @dataclass(frozen=True)
 class Config:
     """An experiment: methods × surfaces × views × sizes × samples × stages × precisions × devices, and, untimed,
-    methods × families of hard rays × precisions × devices."""
+    methods × families of hard rays × precisions × devices. `surfaces` and `families` may be ["all"]."""
 
     title: str
     method: list[MethodChoice]
@@ -254,7 +254,7 @@ def load(path: Path, catalog: Catalog) -> Experiment:
     if twice := [variant for variant in variants if variants.count(variant) > 1]:
         raise source.error(("method",), f"{twice[0]} is named twice")
     chosen: list[Surface] = []
-    for name in config.surfaces:
+    for name in surfaces.names() if config.surfaces == ["all"] else config.surfaces:
         try:
             if name in config.surface:
                 own = config.surface[name]

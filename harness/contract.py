@@ -9,7 +9,7 @@ import hashlib
 import json
 import math
 import struct
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import IntEnum, StrEnum
 from typing import TYPE_CHECKING, Any, Literal
@@ -145,6 +145,9 @@ class Parameter:
     meaning: str  # one phrase with its unit
 
 
+Tables = Callable[[Surface, Mapping[str, float | int], Precision], Mapping[str, Sequence[float]]]
+
+
 @dataclass(frozen=True)
 class Method:
     """One published way to find a ray's first hit; the algorithm itself is `kernel.glsl` beside the description."""
@@ -157,6 +160,7 @@ class Method:
     variants: Mapping[str, Mapping[str, float]] = field(default_factory=dict)  # the papers' own settings, by name
     claims: frozenset[str] = frozenset()
     accepts: Callable[[Surface], str | None] = lambda _: None  # None, or the reason it refuses
+    tables: Tables | None = None  # constant arrays of reals that the kernel reads, from surface, knobs and precision
     answers: bool = True  # False: measures the harness's floor and finds nothing
     precisions: tuple[Precision, ...] = PRECISIONS
 

@@ -104,7 +104,7 @@ def _copied(tape: Tape) -> Builder:
     """A builder that starts with the tape's operations, at their indices."""
     builder = Builder()
     for op in tape.ops:
-        builder._emit(op.name, *op.args)
+        builder.emit(op.name, *op.args)
     return builder
 
 

@@ -36,9 +36,11 @@ class Arithmetic:
         return a * a
 
     def powi(self, a: Any, n: int) -> Any:
-        """a to the n by squaring."""
-        half = a if n // 2 == 1 else self.powi(a, n // 2) if n > 1 else None
-        return a if half is None else self.mul(self.sqr(half), a) if n % 2 else self.sqr(half)
+        """a to the n by squaring, n >= 1."""
+        if n == 1:
+            return a
+        half = self.sqr(self.powi(a, n // 2))
+        return self.mul(half, a) if n % 2 else half
 
 
 class Floats(Arithmetic):
@@ -128,10 +130,9 @@ class Balls(Arithmetic):
 
 
 class BallPolynomials(Balls):
-    """flint.arb_poly: the surface along a ray is its tape walked with x, y, z as polynomials in t.
+    """flint.arb_poly, constants as balls: the surface along a ray is its tape walked with x, y, z as polynomials in t.
 
-    Constants are balls, so that everything that is no polynomial in t raises AttributeError or TypeError; walk only
-    tapes of algebraic surfaces.
+    Only for tapes that are built as polynomials (`surfaces.formula.is_polynomial`).
     """
 
     def sqr(self, a: Any) -> Any:

@@ -99,7 +99,8 @@ class Builder:
         op = self.ops[index]
         return op.args[0] if op.name == "const" else None
 
-    def _emit(self, name: str, *args: Any) -> int:
+    def emit(self, name: str, *args: Any) -> int:
+        """The operation as written, or the same one if it is there already."""
         key = (name, *sorted(args)) if name in ("add", "mul", "min", "max") else (name, *args)
         if key not in self._known:
             self._known[key] = len(self.ops)
@@ -122,16 +123,16 @@ class Builder:
         return Fraction(1), index
 
     def const(self, value: Fraction | int) -> int:
-        return self._emit("const", Fraction(value))
+        return self.emit("const", Fraction(value))
 
     def var(self, name: str) -> int:
-        return self._emit("var", name)
+        return self.emit("var", name)
 
     def pi(self) -> int:
-        return self._emit("pi")
+        return self.emit("pi")
 
     def e(self) -> int:
-        return self._emit("e")
+        return self.emit("e")
 
     def neg(self, a: int) -> int:
         factor, rest = self._split(a)
@@ -141,7 +142,7 @@ class Builder:
             return self._scaled(-factor, rest)
         if self.ops[a].name == "sub":
             return self.sub(*reversed(self.ops[a].args))
-        return self._emit("neg", a)
+        return self.emit("neg", a)
 
     def _offset(self, index: int) -> tuple[int, Fraction]:
         """(rest, offset) with value = rest + offset, for a sum that ends in a rational constant."""
@@ -156,14 +157,14 @@ class Builder:
         total = known + offset
         if total == 0:
             return rest
-        return self._emit("add" if total > 0 else "sub", rest, self.const(abs(total)))
+        return self.emit("add" if total > 0 else "sub", rest, self.const(abs(total)))
 
     def _scaled(self, factor: Fraction, a: int) -> int:
         if factor == 0:
             return self.const(0)
         if factor == 1:
             return a
-        return self._emit("neg", a) if factor == -1 else self._emit("mul", self.const(factor), a)
+        return self.emit("neg", a) if factor == -1 else self.emit("mul", self.const(factor), a)
 
     def add(self, a: int, b: int) -> int:
         x, y = self.value(a), self.value(b)
@@ -179,7 +180,7 @@ class Builder:
             return self.sub(b, self.ops[a].args[0])
         if a == b:
             return self.mul(self.const(2), a)
-        return self._emit("add", a, b)
+        return self.emit("add", a, b)
 
     def sub(self, a: int, b: int) -> int:
         x, y = self.value(a), self.value(b)
@@ -193,7 +194,7 @@ class Builder:
             return self.neg(b)
         if self.ops[b].name == "neg":
             return self.add(a, self.ops[b].args[0])
-        return self._emit("sub", a, b)
+        return self.emit("sub", a, b)
 
     def mul(self, a: int, b: int) -> int:
         (x, p), (y, q) = self._split(a), self._split(b)
@@ -202,7 +203,7 @@ class Builder:
             return self.const(x * y) if rest is None else self._scaled(x * y, rest)
         if x * y != 1 or x != 1:
             return self._scaled(x * y, self.mul(p, q))
-        return self.sqr(a) if a == b else self._emit("mul", a, b)
+        return self.sqr(a) if a == b else self.emit("mul", a, b)
 
     def div(self, a: int, b: int) -> int:
         divisor = self.value(b)
@@ -211,14 +212,14 @@ class Builder:
         if divisor is not None:
             return self.mul(a, self.const(1 / divisor))
         if self.is_constant(b) and not self.is_constant(a):
-            return self.mul(a, self._emit("div", self.const(1), b))
-        return self.const(0) if self.value(a) == 0 else self._emit("div", a, b)
+            return self.mul(a, self.emit("div", self.const(1), b))
+        return self.const(0) if self.value(a) == 0 else self.emit("div", a, b)
 
     def sqr(self, a: int) -> int:
         factor, rest = self._split(a)
         if rest is None:
             return self.const(factor * factor)
-        return self._emit("sqr", a) if factor == 1 else self._scaled(factor * factor, self.sqr(rest))
+        return self.emit("sqr", a) if factor == 1 else self._scaled(factor * factor, self.sqr(rest))
 
     def powi(self, a: int, n: int) -> int:
         if n < 0:
@@ -228,40 +229,40 @@ class Builder:
         if n <= 2:
             return a if n == 1 else self.sqr(a)
         value = self.value(a)
-        return self._emit("powi", a, n) if value is None else self.const(value**n)
+        return self.emit("powi", a, n) if value is None else self.const(value**n)
 
     def abs(self, a: int) -> int:
         value = self.value(a)
         if value is not None:
             return self.const(abs(value))
-        return a if self.ops[a].name in ("abs", "sqr", "sqrt", "exp") else self._emit("abs", a)
+        return a if self.ops[a].name in ("abs", "sqr", "sqrt", "exp") else self.emit("abs", a)
 
     def min(self, a: int, b: int) -> int:
-        return a if a == b else self._emit("min", a, b)
+        return a if a == b else self.emit("min", a, b)
 
     def max(self, a: int, b: int) -> int:
-        return a if a == b else self._emit("max", a, b)
+        return a if a == b else self.emit("max", a, b)
 
     def sqrt(self, a: int) -> int:
-        return self._emit("sqrt", a)
+        return self.emit("sqrt", a)
 
     def exp(self, a: int) -> int:
-        return self._emit("exp", a)
+        return self.emit("exp", a)
 
     def log(self, a: int) -> int:
-        return self._emit("log", a)
+        return self.emit("log", a)
 
     def sin(self, a: int) -> int:
-        return self._emit("sin", a)
+        return self.emit("sin", a)
 
     def cos(self, a: int) -> int:
-        return self._emit("cos", a)
+        return self.emit("cos", a)
 
     def tan(self, a: int) -> int:
-        return self._emit("tan", a)
+        return self.emit("tan", a)
 
     def sign(self, a: int) -> int:
-        return self._emit("sign", a)
+        return self.emit("sign", a)
 
     def below(self, a: int, b: int) -> int:
-        return self._emit("below", a, b)
+        return self.emit("below", a, b)

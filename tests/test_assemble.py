@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 import surfaces
-from harness.assemble import KERNELS, explain_log, literal, map_program, method_program
+from harness.assemble import KERNELS, explain_log, literal, map_program, method_program, table_section
 from harness.backends import BuildError, map_rows
 from harness.contract import FirsthitError, Program, Section
 from harness.plugins import BUILT_IN, find_methods
@@ -88,6 +88,18 @@ def test_a_map_program_runs_rows(device, rng):
     rows = rng.integers(-100, 100, (1000, 2)).astype(np.float32)
     result = map_rows(device, map_program(section, "float32", device.language), rows, 1)
     assert np.array_equal(result[:, 0], rows[:, 0] + 2 * rows[:, 1])
+
+
+def test_a_table_reaches_the_kernel_bit_for_bit(device):
+    values = [float(np.float32(v)) for v in (1 / 3, -2e-7, 1e30, 0.0)]
+    section = Section(
+        "lookup",
+        "#define INPUTS 1\n#define OUTPUTS 4\nvoid map_item(IN real x[INPUTS], OUT real y[OUTPUTS]) {\n"
+        "    for (int i = 0; i < 4; i++) y[i] = NUMBERS[i];\n}",
+    )
+    table = table_section("NUMBERS", values, "float32", device.language)
+    result = map_rows(device, map_program((table, section), "float32", device.language), np.zeros((1, 1)), 4)
+    assert result[0].tolist() == values
 
 
 def _kernel_texts():

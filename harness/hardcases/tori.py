@@ -132,7 +132,7 @@ def tangent_plane(level: float, rng: np.random.Generator) -> tuple[Surface, Rays
     source=TOLEDO,
 )
 def torus_axis(level: float, rng: np.random.Generator) -> tuple[Surface, Rays]:
-    """In turn: through the hole, askew to the axis by as much as it is off it; and across it, through the tube twice."""
+    """In turn: through the hole, as askew to the axis as it is off it; and across the axis, through the tube twice."""
     cosine, sine = circle(rng)
     aside, sideways = vectors(cosine, sine, 0.0), vectors(-sine, cosine, 0.0)
     through = (halves() > 0.0)[:, None]

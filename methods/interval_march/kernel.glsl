@@ -1,0 +1,22 @@
+// First piece [t, t + width] in [t0, t1] that f's interval extension cannot keep from zero; bisection, nearest first.
+Hit first_hit(Ray ray, real t0, real t1) {
+    Hit hit = no_hit(t1);
+    real smallest = TOLERANCE * DOMAIN_RADIUS;
+    real t = t0;
+    real width = t1 - t0;
+    while (t < t1) {
+        if (hit.evaluations == MAX_EVALUATIONS) return exhausted(hit, t);
+        real end = min(t + width, t1);
+        Interval range = surface_range_along(ray, t, end);
+        hit.evaluations += 1;
+        if (range.lo > 0.0 || range.hi < 0.0) {
+            t = end;
+            width = 2.0 * width;
+        } else if (width > smallest) {
+            width = 0.5 * width;
+        } else {
+            return hit_at(hit, t + 0.5 * (end - t));
+        }
+    }
+    return hit;
+}

@@ -1,0 +1,28 @@
+"""Interval bisection in depth along a ray, nearest half first.
+
+**Source** beamcasting, section III (procedure BeamCast), with the beam shrunk to a ray.
+
+**Theory** An interval extension of f over a piece of the ray encloses every value that f takes there. Where it excludes
+zero the piece holds no root, touches included, and is passed; otherwise the piece is halved and its nearer half looked at
+first. So no root is ever stepped over. The first piece no wider than TOLERANCE that cannot be excluded is the answer:
+overestimation and roundoff can place it before a root, or where there is only nearly one.
+
+**Changes against the paper**
+- A ray instead of a pixel's beam: what is measured is a hit of the ray, as for the other ray methods.
+- No recursion and no stack: after an excluded piece the next one starts twice as wide, after an undecided one half as
+  wide. The paper keeps the path of a fixed binary tree in one integer; here pieces need not lie on a tree.
+- The tolerance is a width in t over the domain's radius, not halved by level: a ray has no levels.
+"""
+
+from harness.contract import Method, Parameter
+
+METHOD = Method(
+    name="interval_march",
+    source="beamcasting",
+    needs=("surface_range_along",),
+    parameters=(
+        Parameter("TOLERANCE", 2.0**-20, "width of the final piece, over the domain's radius"),
+        Parameter("MAX_EVALUATIONS", 8192, "evaluations spent on one ray"),
+    ),
+    claims=frozenset({"no_missed_root", "finds_touch"}),
+)
