@@ -118,9 +118,9 @@ class _Source:
 
 def _has(table: Any, where: Where) -> bool:
     for part in where:
-        if isinstance(table, dict) and part in table:
-            table = table[part]
-        elif isinstance(table, list) and isinstance(part, int) and part < len(table):
+        if (isinstance(table, dict) and part in table) or (
+            isinstance(table, list) and isinstance(part, int) and part < len(table)
+        ):
             table = table[part]
         else:
             return False
@@ -240,6 +240,8 @@ def load(path: Path, catalog: Catalog) -> Experiment:
     _positive(config, source)
     if not config.surfaces and not config.families:
         raise source.error((), "name surfaces to draw, or families of hard rays, or both")
+    if config.families == ["all"]:
+        config = dataclasses.replace(config, families=list(hardcases.names()))
     _known(config.families, hardcases.names(), "families", source)
     _known(config.precisions, PRECISIONS, "precisions", source)
     _known(config.stages, STAGES, "stages", source)

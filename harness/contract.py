@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 Precision = Literal["float32", "float64"]
 Stage = Literal["compute", "rays"]
 PRECISIONS: tuple[Precision, ...] = ("float32", "float64")
+UNIT_ROUNDOFF: dict[Precision, float] = {"float32": 2.0**-24, "float64": 2.0**-53}
 STAGES: tuple[Stage, ...] = ("compute", "rays")
 
 

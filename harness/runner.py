@@ -109,10 +109,19 @@ class Runner:
         truth = cached_first_hits(cell.surface, rays, self._store.truth)
         checked = self._executor.check(cell.device, state.planned.checks[0], rays)
         hits, state.compile_ms = checked.hits, checked.compile_ms
-        radius = scene_radius(cell.surface)
-        verdicts = accuracy.judge(hits, truth, radius, config.grazing_margin)
+        verdicts = accuracy.judge(hits, truth, scene_radius(cell.surface), config.grazing_margin)
         footprint = pixel_footprint(state.planned.camera, cell.size)
-        summary = accuracy.summarize(hits, truth, verdicts, radius, footprint, config.grazing_margin)
+        deviations = accuracy.deviations(cell.surface, rays, hits, truth, verdicts)
+        summary = accuracy.summarize(
+            cell.surface,
+            hits,
+            truth,
+            verdicts,
+            deviations,
+            precision=cell.precision,
+            footprint=footprint,
+            grazing_margin=config.grazing_margin,
+        )
         state.summary = {"size": config.size} | summary
         state.arrays = _pictures(cell.surface, rays, hits, truth, verdicts, config.size)
         share = accuracy.wrong_share(summary)
@@ -256,6 +265,7 @@ def _pictures(
         "grazing": verdicts.grazing,
         "error": verdicts.error.astype(np.float32),
         "evaluations": hits.evaluations,
+        "condition": truth.condition.astype(np.float32),
         "shade": headlight(surface, rays, hits),
     }
     return {name: picture.reshape(size, size) for name, picture in pictures.items()}

@@ -58,3 +58,9 @@ def identity(family: str) -> list[Any]:
         {"surface": group.surface.identity, "rays": hashlib.sha256(group.rays.tobytes()).hexdigest()[:16]}
         for group in groups(family)
     ]
+
+
+def facts(family: str) -> dict[str, str]:
+    """What a report says of a family."""
+    stated = hardcases.get(family)
+    return {name: getattr(stated, name) for name in ("title", "parameter", "harder", "why", "source")}

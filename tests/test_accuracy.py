@@ -1,7 +1,9 @@
 import numpy as np
 
-from harness.accuracy import Wrong, judge, summarize, wrong_share
-from harness.contract import Hits, Truth
+from harness.accuracy import Wrong, deviations, judge, summarize, wrong_share
+from harness.contract import Box, Hits, Surface, Truth
+
+BALL = Surface("ball", "Ball", "x^2 + y^2 + z^2 - 4", Box((-4, -4, -4), (4, 4, 4)), "test", 2, bounding_radius=2.0)
 
 
 def _truth(status, lower, following, margin):
@@ -13,6 +15,15 @@ def _truth(status, lower, following, margin):
 
 def _hits(t, status):
     return Hits(np.array(t, float), np.array(status, np.uint8), np.arange(len(t), dtype=np.int32))
+
+
+def _summary(hits, truth, margin=1e-3, footprint=0.01, precision="float32", surface=BALL):
+    verdicts = judge(hits, truth, 2.0, margin)
+    rays = np.tile(np.float32([0, 0, 3, 0, 0, -1]), (len(hits.t), 1))
+    found = deviations(surface, rays, hits, truth, verdicts)
+    return summarize(
+        surface, hits, truth, verdicts, found, precision=precision, footprint=footprint, grazing_margin=margin
+    )
 
 
 def test_each_kind_of_wrong_answer_is_told_apart():
@@ -33,8 +44,7 @@ def test_each_kind_of_wrong_answer_is_told_apart():
 def test_grazing_rays_are_counted_apart_and_give_no_errors():
     truth = _truth([1, 1, 1], [1.0, 1.0, 1.0], [np.inf] * 3, [1e-4, 1e-2, np.inf])
     hits = _hits([np.nan, 1.001, 1.002], [0, 1, 1])
-    verdicts = judge(hits, truth, 2.0, 1e-3)
-    summary = summarize(hits, truth, verdicts, 2.0, 0.01, 1e-3)
+    summary = _summary(hits, truth)
     assert (summary["grazing"], summary["grazing_misses"], summary["misses"]) == (1, 1, 0)
     assert np.isclose(summary["error"]["max"], 0.002)
     assert np.isclose(summary["relative_error"]["max"], 0.001)
@@ -51,7 +61,35 @@ def test_error_is_the_distance_from_the_certified_interval():
 def test_a_method_that_finds_nothing_is_wholly_wrong():
     truth = _truth([1, 1, 0], [1.0, 1.0, np.nan], [np.inf] * 3, [np.inf] * 3)
     hits = _hits([np.nan] * 3, [0] * 3)
-    summary = summarize(hits, truth, judge(hits, truth, 1.0, 1e-3), 1.0, 0.01, 1e-3)
+    summary = _summary(hits, truth)
     assert summary["misses"] == 2
     assert summary["error"]["max"] is None
     assert np.isclose(wrong_share(summary), 2 / 3)
+
+
+def test_error_is_told_in_every_unit():
+    """A ray down the z axis at a sphere of radius 2 from z = 3: the root is t = 1, f' there 4, the terms' sum 8."""
+    slope, terms, domain = 4.0, 8.0, BALL.domain.radius
+    truth = Truth(*(np.array([v]) for v in (1.0, 1.0, 1, 5.0, terms / (slope * domain), np.inf)))
+    summary = _summary(_hits([1.0 + 2.0**-10], [1]), truth)
+    error = 2.0**-10
+    for name, value in {
+        "error": error,
+        "relative_error": error / 2.0,
+        "feature_error": error / 2.0,
+        "pixel_error": error / 0.01,
+        "ulp_error": error / 2.0**-23,
+        "condition_ratio": error / (2.0**-24 * domain),
+        "normal_error_degrees": 0.0,
+    }.items():
+        assert np.isclose(summary[name]["max"], value, rtol=1e-6, atol=1e-9), name
+    assert np.isclose(summary["residual"]["max"], (4.0 - (2.0 - error) ** 2) / terms, rtol=1e-3)
+
+
+def test_the_normal_error_is_the_angle_between_gradients():
+    tilted = Surface("t", "T", "z - x^2", Box((-4, -4, -4), (4, 4, 4)), "test", 2)
+    rays = np.array([[0, 0, 0, 1, 0, 0]], np.float32)
+    truth = Truth(*(np.array([v]) for v in (0.0, 0.0, 1, np.inf, 1.0, np.inf)))
+    hits = _hits([0.05], [1])
+    found = deviations(tilted, rays, hits, truth, judge(hits, truth, 4.0, 0.0))
+    assert np.isclose(found.normal[0], np.degrees(np.arctan(0.1)))

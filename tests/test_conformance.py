@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import surfaces
-from harness.accuracy import judge, summarize, wrong_share
+from harness.accuracy import deviations, judge, summarize, wrong_share
 from harness.camera import camera_for, rays_of, scene_radius
 from harness.contract import RayStatus, View
 from harness.oracle import first_hits
@@ -28,6 +28,12 @@ def _case(name):
     return surface, rays, first_hits(surface, rays)
 
 
+def _summary(surface, rays, hits, truth, precision="float32"):
+    verdicts = judge(hits, truth, scene_radius(surface), 1e-3)
+    found = deviations(surface, rays, hits, truth, verdicts)
+    return summarize(surface, hits, truth, verdicts, found, precision=precision, footprint=0.01, grazing_margin=1e-3)
+
+
 @pytest.mark.parametrize("precision", ["float32", "float64"])
 @pytest.mark.parametrize("surface_name", SURFACES)
 @pytest.mark.parametrize("method", METHODS)
@@ -39,8 +45,7 @@ def test_method_agrees_with_the_oracle(device, method, surface_name, precision):
     if precision == "float64" and not device.info.float64:
         pytest.skip("the device has no float64")
     hits = cast(device, method, surface, precision, rays)
-    radius = scene_radius(surface)
-    summary = summarize(hits, truth, judge(hits, truth, radius, 1e-3), radius, 0.01, 1e-3)
+    summary = _summary(surface, rays, hits, truth, precision)
     assert wrong_share(summary) <= MOST_WRONG[surface_name], summary
     assert summary["relative_error"]["p99"] < 1e-3
     assert np.isfinite(hits.t[hits.status == RayStatus.HIT]).all()
@@ -56,21 +61,18 @@ def test_null_finds_nothing(device):
 def test_newton_forward_steps_cure_the_rays_that_signed_steps_lose(device):
     """The change that methods/newton states: same rays, the printed step against ours."""
     surface, rays, truth = _case("torus")
-    radius = scene_radius(surface)
     wrong = {}
     for forward in (0, 1):
         hits = cast(device, "newton", surface, "float32", rays, FORWARD=forward)
-        wrong[forward] = wrong_share(summarize(hits, truth, judge(hits, truth, radius, 1e-3), radius, 0.01, 1e-3))
+        wrong[forward] = wrong_share(_summary(surface, rays, hits, truth))
     assert wrong[1] == 0.0
     assert wrong[0] > 0.05
 
 
 def test_a_smaller_threshold_gives_a_smaller_error(device):
     surface, rays, truth = _case("barth_sextic")
-    radius = scene_radius(surface)
     errors = []
     for epsilon in (1e-2, 1e-3, 1e-4):
         hits = cast(device, "newton", surface, "float32", rays, EPSILON=epsilon)
-        verdicts = judge(hits, truth, radius, 1e-3)
-        errors.append(summarize(hits, truth, verdicts, radius, 0.01, 1e-3)["error"]["p99"])
+        errors.append(_summary(surface, rays, hits, truth)["error"]["p99"])
     assert errors[0] > 10 * errors[1] > 10 * errors[2]

@@ -9,7 +9,7 @@ import sys
 from datetime import UTC, datetime
 from pathlib import Path
 
-from harness import config, console, plan
+from harness import config, console, plan, stability
 from harness.contract import CellStatus, DeviceInfo, FirsthitError
 from harness.environment import describe, probed
 from harness.executor import LocalExecutor, discover_devices
@@ -104,6 +104,7 @@ def _run(options: argparse.Namespace) -> int:
                 "devices": [dataclasses.asdict(i) | {"versions": dict(i.versions), "probes": p} for i, p in tried],
                 "cells": [{"slot": p.cell.slot, "key": p.key} for p in planned if not p.cell.family],
                 "families": [{"slot": p.cell.slot, "key": p.key} for p in planned if p.cell.family],
+                "family_facts": {name: stability.facts(name) for name in experiment.config.families},
             }
         )
         before = {p.key: store.read(p.key) for p in planned}

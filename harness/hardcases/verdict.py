@@ -18,11 +18,10 @@ import numpy as np
 
 from harness.accuracy import NAMES, Wrong, judge
 from harness.camera import scene_radius
-from harness.contract import Hits, Precision, Truth, TruthStatus
+from harness.contract import UNIT_ROUNDOFF, Hits, Precision, Truth, TruthStatus
 from harness.hardcases.model import Rung
 
 ROUNDINGS = 4.0
-UNIT_ROUNDOFF: dict[Precision, float] = {"float32": 2.0**-24, "float64": 2.0**-53}
 
 
 def knowable_margin(rung: Rung, precision: Precision) -> float:
