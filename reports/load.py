@@ -1,4 +1,4 @@
-"""A run folder → the plan and one flat row for each finished cell. Nothing here draws or computes."""
+"""A run folder → the plan and one flat row for each finished cell and rung. Nothing here draws or computes."""
 
 from __future__ import annotations
 
@@ -12,9 +12,20 @@ import pandas as pd
 
 from harness.contract import CellStatus, FirsthitError
 from reports import store
-from reports.schema import flatten
+from reports.schema import FAMILY, RUNG, SCHEMA, flatten
 
 FORMAT = 1
+
+
+@dataclass(frozen=True)
+class Facts:
+    """What a family of hard rays is: rays that get harder as one parameter grows or shrinks."""
+
+    title: str
+    parameter: str  # what the number means, with its unit
+    harder: str  # "smaller" or "larger"
+    why: str
+    source: str
 
 
 @dataclass(frozen=True)
@@ -29,7 +40,8 @@ class Plan:
     created: str  # ISO 8601
     environment: Mapping[str, Any]
     devices: tuple[Mapping[str, Any], ...]
-    slots: Mapping[str, str]  # cell key → slot, in the plan's order
+    slots: Mapping[str, str]  # key → slot of every cell, in the plan's order; families after views
+    facts: Mapping[str, Facts]  # by family, in the plan's order
 
 
 @dataclass(frozen=True)
@@ -42,11 +54,13 @@ class Unreadable:
 
 @dataclass(frozen=True, eq=False)
 class Run:
-    """`frame` has one row for each finished cell of the plan, in the plan's order, and the columns of SCHEMA."""
+    """What the plan's finished cells say, in the plan's order."""
 
     folder: Path
     plan: Plan
-    frame: pd.DataFrame
+    frame: pd.DataFrame  # SCHEMA: one row for each cell that is a view
+    families: pd.DataFrame  # FAMILY: one row for each cell that is a family of hard rays
+    rungs: pd.DataFrame  # RUNG: one row for each rung of the latter
     unreadable: tuple[Unreadable, ...]
     not_run: tuple[str, ...]  # slots
 
@@ -55,20 +69,38 @@ def load(folder: Path) -> Run:
     """The run in `folder`; a FirsthitError where that is no run folder or holds no finished cell."""
     plan = _plan(folder)
     rows: list[tuple[Any, ...]] = []
+    families: list[tuple[Any, ...]] = []
+    rungs: list[tuple[Any, ...]] = []
     unreadable: list[Unreadable] = []
     not_run: list[str] = []
     for key, slot in plan.slots.items():
         path = folder / "cells" / f"{key}.json"
         try:
-            rows.append(flatten(_cell(path, key)))
+            document = _cell(path, key)
+            if document.get("family") is None:
+                rows.append(flatten(SCHEMA, document))
+            else:
+                ladder = _ladder(document)
+                families.append(flatten(FAMILY, document))
+                rungs += ladder
         except FileNotFoundError:
             not_run.append(slot)
         except (OSError, ValueError, RecursionError) as error:
             unreadable.append(Unreadable(f"cells/{path.name}", f"{problem(error)} ({slot})"))
-    if not rows:
+    if not rows and not families:
         damaged = f" ({len(unreadable)} are unreadable: {unreadable[0].problem})" if unreadable else ""
         raise FirsthitError(f"{folder} holds no finished cell{damaged}; run `{plan.command}` first")
-    return Run(folder, plan, store.frame(rows), tuple(unreadable), tuple(not_run))
+    frames = (store.frame(SCHEMA, rows), store.frame(FAMILY, families), store.frame(RUNG, rungs))
+    return Run(folder, plan, *frames, tuple(unreadable), tuple(not_run))
+
+
+def _ladder(document: dict[str, Any]) -> list[tuple[Any, ...]]:
+    """The rungs of a family's cell, which stores them going harder; none where it gave no result."""
+    rungs = [] if document.get("rungs") is None else _typed(document, "rungs", list)
+    for rung in rungs:
+        if not isinstance(rung, dict):
+            raise ValueError(f"a rung is no object: {rung!r:.40}")
+    return [flatten(RUNG, {**rung, "key": document["key"], "level": level}) for level, rung in enumerate(rungs)]
 
 
 def _cell(path: Path, key: str) -> dict[str, Any]:
@@ -91,12 +123,16 @@ def _plan(folder: Path) -> Plan:
         if document.get("format") != FORMAT:
             raise ValueError(f"its format is {document.get('format')!r:.40}, not {FORMAT}")
         texts = {name: _typed(document, name, str) for name in _TEXTS}
-        cells = [(_typed(cell, "key", str), _typed(cell, "slot", str)) for cell in _typed(document, "cells", list)]
+        planned = [*_typed(document, "cells", list), *_typed({"families": [], **document}, "families", list)]
+        cells = [(_typed(cell, "key", str), _typed(cell, "slot", str)) for cell in planned]
+        stated = _typed({"family_facts": {}, **document}, "family_facts", dict)
+        facts = {family: Facts(**{name: _typed(stated[family], name, str) for name in _FACTS}) for family in stated}
         for key, _ in cells:
             if not key.isalnum():  # it becomes a file's name
                 raise ValueError(f"{key!r:.40} is no cell key")
         devices = tuple(_typed({"device": device}, "device", dict) for device in _typed(document, "devices", list))
-        return Plan(**texts, environment=_typed(document, "environment", dict), devices=devices, slots=dict(cells))
+        environment = _typed(document, "environment", dict)
+        return Plan(**texts, environment=environment, devices=devices, slots=dict(cells), facts=facts)
     except FileNotFoundError as error:
         raise FirsthitError(f"{folder} is no run folder: it has no plan.json; name a folder under runs/") from error
     except (OSError, ValueError, RecursionError) as error:
@@ -104,6 +140,7 @@ def _plan(folder: Path) -> Plan:
 
 
 _TEXTS = ("name", "title", "config", "config_text", "command", "created")
+_FACTS = ("title", "parameter", "harder", "why", "source")
 
 
 def problem(error: Exception) -> str:

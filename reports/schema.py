@@ -1,13 +1,16 @@
-"""The flat row: which values of a cell's file a report uses, what they are called and of which kind they are.
+"""The flat rows: which values of a cell's file a report uses, what they are called and of which kind they are.
 
 A name is the last part of the value's path in the file, prefixed only where two would collide. CSV, Parquet and
-every table use these names; `reports.derive` adds the columns that follow from them.
+every table use these names; `reports.derive` and `reports.breaks` add the columns that follow from them.
+
+An ordinary cell is one row of SCHEMA. A cell of a family of hard rays is one row of FAMILY and, for each of its
+rungs, one of RUNG.
 """
 
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
 
@@ -30,6 +33,10 @@ def _fields(kind: Kind, names: str, at: str = "", prefix: str = "", required: bo
 
 
 _PERCENTILES = "max p999 p99 p50"
+UNITS = (
+    *("error", "relative_error", "feature_error", "pixel_error", "ulp_error"),
+    *("condition_ratio", "normal_error_degrees", "residual"),
+)
 
 SCHEMA: tuple[Field, ...] = (
     *_fields("text", "key slot comparison method variant", required=True),
@@ -50,12 +57,14 @@ SCHEMA: tuple[Field, ...] = (
     *_fields("real", "compile_ms upload_ms readback_ms", at="build"),
     *_fields("whole", "size rays", at="accuracy", prefix="accuracy_"),
     *_fields("whole", "truth_hits truth_misses undecided grazing", at="accuracy"),
-    *_fields("real", "grazing_margin scene_radius", at="accuracy"),
+    *_fields("real", "grazing_margin scene_radius domain_radius", at="accuracy"),
     *_fields("whole", "misses false_hits exhausted wrong_root", at="accuracy"),
     *_fields("whole", "grazing_misses grazing_false_hits grazing_exhausted grazing_wrong_root", at="accuracy"),
-    *_fields("real", _PERCENTILES, at="accuracy.error", prefix="error_"),
-    *_fields("real", _PERCENTILES, at="accuracy.relative_error", prefix="relative_error_"),
-    *_fields("real", _PERCENTILES, at="accuracy.pixel_error", prefix="pixel_error_"),
+    *(
+        field
+        for unit in UNITS
+        for field in _fields("real", _PERCENTILES, at=f"accuracy.{unit}", prefix=f"{unit}_")
+    ),
     *_fields("real", "evaluations_mean evaluations_max", at="accuracy"),
     *_fields("text", "arrays"),
     *_fields("json", "operations"),
@@ -72,9 +81,27 @@ DERIVED: tuple[Field, ...] = (
 )
 
 
-def flatten(document: Mapping[str, Any]) -> tuple[Any, ...]:
-    """The values of SCHEMA, in its order; a ValueError names the first value that is missing or of another kind."""
-    return tuple(_value(field, document) for field in SCHEMA)
+FAMILY: tuple[Field, ...] = (
+    *_fields("text", "key slot family method variant", required=True),
+    *_fields("json", "parameters"),
+    *_fields("text", "precision device status", required=True),
+    *_fields("text", "reason"),
+    *_fields("flag", "answers", required=True),
+)
+
+RUNG: tuple[Field, ...] = (
+    *_fields("text", "key", required=True),
+    *_fields("whole", "level", required=True),  # 0, 1, … going harder
+    *_fields("real", "parameter", required=True),
+    *_fields("whole", "rays decided right misses false_hits exhausted wrong_root", required=True),
+    *_fields("whole", "undecidable undecidable_right undecided", required=True),
+    *_fields("real", "max_error worst_ratio"),
+)
+
+
+def flatten(fields: Sequence[Field], document: Mapping[str, Any]) -> tuple[Any, ...]:
+    """The values of `fields`, in their order; a ValueError names the first that is missing or of another kind."""
+    return tuple(_value(field, document) for field in fields)
 
 
 def _value(field: Field, document: Mapping[str, Any]) -> Any:

@@ -11,7 +11,7 @@ import pandas as pd
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from reports.schema import DERIVED, SCHEMA, Kind
+from reports.schema import DERIVED, SCHEMA, Field, Kind
 
 _DTYPES: dict[Kind, str] = {
     "text": "object",
@@ -31,10 +31,10 @@ _ARROW: dict[Kind, pa.DataType] = {
 }
 
 
-def frame(rows: Sequence[tuple[Any, ...]]) -> pd.DataFrame:
-    """Rows in SCHEMA's order → a frame whose columns keep their kind even where every value is missing."""
-    columns = zip(*rows, strict=True)
-    return pd.DataFrame({f.name: pd.Series(c, dtype=_DTYPES[f.kind]) for f, c in zip(SCHEMA, columns, strict=True)})
+def frame(fields: Sequence[Field], rows: Sequence[tuple[Any, ...]]) -> pd.DataFrame:
+    """Rows in the order of `fields` → a frame whose columns keep their kind even where every value is missing."""
+    columns = zip(*rows, strict=True) if rows else [()] * len(fields)
+    return pd.DataFrame({f.name: pd.Series(c, dtype=_DTYPES[f.kind]) for f, c in zip(fields, columns, strict=True)})
 
 
 def write_csv(frame: pd.DataFrame, path: Path) -> None:

@@ -1,13 +1,13 @@
 // Intervals that hold every exact result, without directed rounding. Every interval is finite or the whole line.
 //
-// A rounded result r of one operation is within u |r| of the exact one (u = UNIT_ROUNDOFF), or within 2^-126 where it
-// underflows. Subtracting 2 u |r| lowers r by at least one unit in its last place, however that subtraction rounds;
-// INTERVAL_TINY beyond it covers underflow and flushed denormals. What overflows or is no number becomes the whole line.
+// A rounded result r of one operation is within u |r| of the exact one (u = UNIT_ROUNDOFF), or within the smallest
+// normal number where it underflows. Subtracting 2 u |r| lowers r by at least one unit in its last place, however that
+// subtraction rounds; REAL_TINY, four times the smallest normal number, beyond it covers underflow and flushed
+// denormals. What overflows or is no number becomes the whole line.
 // Division and sqrt are widened by what the GLSL 4.3 and OpenCL 1.2 (full profile) specifications allow them, whichever
 // is more; sin and cos, which GLSL leaves unspecified, are computed here; exp and log are in interval_exp_log.
 STRUCT(Interval) struct Interval { real lo; real hi; };
 
-#define INTERVAL_TINY 7.888609052210118e-31  // 2^-100
 #define INTERVAL_LARGEST_DIVISOR 4.253529586511731e37  // 2^125: a quotient by more is specified less well
 
 Interval make_interval(real lo, real hi) {
@@ -31,7 +31,7 @@ Interval whole_line() {
 // Holds the exact values whose computed ones are lo and hi, each within k u of its size.
 Interval outward(real lo, real hi, real k) {
     real relative = 2.0 * k * UNIT_ROUNDOFF;
-    return finite_or_whole((lo - fabs(lo) * relative) - INTERVAL_TINY, (hi + fabs(hi) * relative) + INTERVAL_TINY);
+    return finite_or_whole((lo - fabs(lo) * relative) - REAL_TINY, (hi + fabs(hi) * relative) + REAL_TINY);
 }
 
 Interval interval_neg(Interval a) {
@@ -125,7 +125,7 @@ Interval interval_max(Interval a, Interval b) {
 
 // GLSL: 1 / inversesqrt(a), 2 + 2.5 ulp; OpenCL: 3 ulp. Of the part of a that is not negative; TINY: a flushed denormal.
 Interval interval_sqrt(Interval a) {
-    if (a.hi >= 0.0) return outward(sqrt(max(a.lo, real(0))), sqrt(a.hi + INTERVAL_TINY), 12.0);
+    if (a.hi >= 0.0) return outward(sqrt(max(a.lo, real(0))), sqrt(a.hi + REAL_TINY), 12.0);
     return whole_line();
 }
 

@@ -1,0 +1,41 @@
+"""Sphere tracing by the surface's own distance, with one start or two.
+
+**Source** toledo2007, section 4.3 (Sphere Tracing and 2-rays S. Tracing of Table 1), after Hart 1996.
+
+**Theory** No surface is nearer to a point than its distance, so a step of that length never passes a root. Near a
+tangency distances are small for long, and steps with them. On the torus the second start cures it: along a line the
+distance to the core circle takes every value at most four times (equation 2 has four roots for every r), so it has at
+most two minima. Once the distance grows, the first minimum is behind, and the march goes on from t_M = -(o·v), where the
+other one is still ahead; once it grows there after it fell, nothing is ahead any more.
+
+**Changes against the paper**
+- Where the second start lies inside the torus, its root is behind it: the march turns back (the paper does not say).
+- The paper does not say when the second march ends without a root: here when the distance has fallen and grows again,
+  where the first one ends (the domain's exit), or as exhausted after MAX_EVALUATIONS.
+- A start inside the surface marches by the distance's absolute value, and has no second start.
+- Any surface that states a distance is accepted. Two starts are proved for the torus and the sphere only, where no
+  third minimum can be. Surfaces without a distance: see sphere_tracing_lipschitz.
+"""
+
+from harness.contract import Method, Parameter, Surface
+
+
+def accepts(surface: Surface) -> str | None:
+    return None if surface.distance else "the surface states no distance; sphere_tracing_lipschitz needs none"
+
+
+METHOD = Method(
+    name="sphere_tracing",
+    source="toledo2007",
+    needs=("surface_distance",),
+    parameters=(
+        Parameter("EPSILON", 0.00003, "distance that counts as a hit, over the surface's feature radius"),
+        Parameter("RAYS", 2, "starts on a ray: 1 where it enters the domain, 2 also the point nearest its centre"),
+        Parameter("MAX_EVALUATIONS", 2000, "evaluations of the distance spent on one ray"),
+    ),
+    variants={
+        "Sphere Tracing": {"EPSILON": 0.001, "RAYS": 1},
+        "2-rays S. Tracing": {"EPSILON": 0.001, "RAYS": 2},
+    },
+    accepts=accepts,
+)
