@@ -29,12 +29,13 @@ class Code:
 
 @dataclass(frozen=True)
 class Column:
-    """A title may say by a line break where it is to be broken."""
+    """A title may say by a line break where it is to be broken; neighbours with the same `over` share that heading."""
 
     title: str
     show: Callable[[Any], str] = wording.text
     numeric: bool = False
     stretch: int = 0  # its part of the width that columns of part 0 leave
+    over: str = ""
 
 
 @dataclass(frozen=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 import shutil
 from datetime import datetime
@@ -80,6 +81,10 @@ def _table(table: Table) -> dict[str, Any]:
     return {
         "kind": "table",
         "columns": [{"title": c.title, "numeric": c.numeric, "stretch": c.stretch} for c in table.columns],
+        "headings": [
+            {"title": over, "span": len(list(columns))}
+            for over, columns in itertools.groupby(table.columns, key=lambda column: column.over)
+        ],
         "rows": rows,
         "title": table.title,
         "caption": table.caption,

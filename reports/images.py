@@ -4,10 +4,6 @@ from __future__ import annotations
 
 import io
 import math
-import zipfile
-import zlib
-from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import matplotlib
@@ -19,36 +15,12 @@ from PIL import Image
 
 from harness.contract import CellStatus, TruthStatus
 from reports import plots, style, wording
+from reports.arrays import Arrays, Shelf
 from reports.content import Gallery, Panel, Picture
-from reports.load import Unreadable, problem
 
 PIXELS = 480  # pixels are repeated to at least this side, because some viewers blur small pictures
 GRAZING_PALE = 0.55  # how far the colour of a wrong ray fades to white in the grazing class
 WIDEST_SCALE = 10  # decades
-
-
-@dataclass(frozen=True, eq=False)
-class Arrays:
-    """One cell's answers on its accuracy grid; every array is [h, w] with row 0 at the top."""
-
-    truth: NDArray[np.uint8]  # TruthStatus
-    error: NDArray[np.float32]  # |t − t*| in scene units; NaN where not both hit
-    wrong: NDArray[np.uint8]  # 0 right, else the code of a style.Class
-    grazing: NDArray[np.bool_]
-    shade: NDArray[np.float32]  # cosine towards the camera; NaN on background
-
-
-def read(path: Path) -> Arrays:
-    """The arrays of one cell; a ValueError or OSError where the file is damaged or not of this kind."""
-    try:
-        with np.load(path, allow_pickle=False) as file:
-            named = {name: file[name] for name in Arrays.__dataclass_fields__}
-    except (KeyError, EOFError, zipfile.BadZipFile, zlib.error) as error:
-        raise ValueError(f"damaged: {error}") from error
-    shapes = {array.shape for array in named.values()}
-    if len(shapes) != 1 or len(next(iter(shapes))) != 2 or 0 in next(iter(shapes)):
-        raise ValueError(f"its arrays are not of one two-dimensional shape: {sorted(shapes)}")
-    return Arrays(**named)
 
 
 def chosen(rows: pd.DataFrame) -> pd.DataFrame:
@@ -65,25 +37,20 @@ def chosen(rows: pd.DataFrame) -> pd.DataFrame:
     return kept.sort_values(["method", "precision"], kind="stable")
 
 
-def galleries(folder: Path, frame: pd.DataFrame) -> tuple[dict[str, Gallery], list[Unreadable]]:
-    """A gallery for each surface that has pictures, by the surface's name; and the array files that were unusable."""
+def galleries(shelf: Shelf, frame: pd.DataFrame) -> dict[str, Gallery]:
+    """A gallery for each surface that has pictures, by the surface's name."""
     picked: dict[str, list[tuple[Any, Arrays]]] = {}
-    unreadable = []
     for surface, rows in frame.groupby("surface", sort=False):
         for row in chosen(rows).itertuples():
-            file = f"arrays/{row.key}.npz"
-            try:
-                arrays = read(folder / file)
+            arrays = shelf.get(row)
+            if arrays is not None:
                 picked.setdefault(str(surface), []).append((row, arrays))
-            except (OSError, ValueError) as error:
-                unreadable.append(Unreadable(file, f"{problem(error)} ({row.slot})"))
     scale = _scale([arrays for cells in picked.values() for _, arrays in cells])
     legend = plots.error_legend(*scale)
-    made = {
+    return {
         surface: Gallery(tuple(_panel(row, arrays, scale) for row, arrays in cells), _caption(cells[0][0]), legend)
         for surface, cells in picked.items()
     }
-    return made, unreadable
 
 
 def _scale(every: list[Arrays]) -> tuple[int, int]:

@@ -1,15 +1,9 @@
-"""Frames → figures of content: matplotlib drawings as SVG text, in the visual language of `style`.
-
-Errors are drawn on a logarithmic axis that is broken to the left of its smallest decade, so that an error of exactly
-zero has a place; positions on it are decimal exponents.
-"""
+"""Frames → figures of content on speed and error, and the key to pictures of errors."""
 
 from __future__ import annotations
 
-import io
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import matplotlib
@@ -24,69 +18,10 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullLocat
 
 from reports import derive, style, wording
 from reports.content import Figure
+from reports.drawing import NARROW, RC, WIDE, ErrorAxis, svg
 from reports.style import Mark
 
-RC: dict[Any, Any] = {
-    "font.family": style.FONT,
-    "font.size": 6.5,
-    "axes.titlesize": 7,
-    "axes.titleweight": "bold",
-    "axes.edgecolor": style.FAINT,
-    "axes.labelcolor": style.INK,
-    "axes.linewidth": 0.6,
-    "axes.grid": True,
-    "axes.axisbelow": True,
-    "grid.color": style.HAIRLINE,
-    "grid.linewidth": 0.4,
-    "xtick.color": style.FAINT,
-    "ytick.color": style.FAINT,
-    "xtick.labelcolor": style.INK,
-    "ytick.labelcolor": style.INK,
-    "legend.frameon": False,
-    "svg.fonttype": "none",  # text stays text: the PDF embeds the same font, and readers can search it
-    "svg.hashsalt": "firsthit",
-    "text.parse_math": False,  # a $ in a name is a $
-}
-PAGE_WIDTH = 10.4  # inches, of a landscape page's text
 PANELS_ACROSS = 5
-
-
-@dataclass(frozen=True)
-class ErrorAxis:
-    """Decades `lowest` to `highest` of a logarithmic axis, and left of them the place of zero."""
-
-    lowest: int
-    highest: int
-
-    @classmethod
-    def of(cls, errors: pd.Series) -> ErrorAxis:
-        positive = errors[(errors > 0) & np.isfinite(errors)]
-        if positive.empty:
-            return cls(-8, -4)
-        lowest = math.floor(math.log10(positive.min()))
-        return cls(lowest, max(math.ceil(math.log10(positive.max())), lowest + 1))
-
-    @property
-    def zero(self) -> float:
-        return self.lowest - max(1.0, 0.18 * (self.highest - self.lowest))
-
-    def position(self, errors: pd.Series) -> Any:
-        """float64[n]: where to draw each error."""
-        values = errors.to_numpy("float64")
-        return np.where(values > 0, np.log10(np.where(values > 0, values, 1.0)), self.zero)
-
-    def _label(self, x: float, _: object) -> str:
-        return wording.power_of_ten(round(x)) if x > self.zero else "0"
-
-    def dress(self, axes: Axes) -> None:
-        span = self.highest - self.lowest
-        step = max(1, math.ceil(span / 4))
-        exponents = list(range(self.lowest, self.highest + 1, step))
-        axes.xaxis.set_major_locator(FixedLocator([self.zero, *exponents]))
-        axes.xaxis.set_major_formatter(FuncFormatter(self._label))
-        margin = 0.06 * (self.highest - self.zero)
-        axes.set_xlim(self.zero - margin, self.highest + margin)
-        axes.axvspan(self.zero - margin, (self.zero + self.lowest) / 2, color="#f4f4f4", linewidth=0, zorder=0)
 
 
 def speed_against_error(rows: pd.DataFrame, marks: Mapping[str, Mark], name: str, title: str) -> list[Figure]:
@@ -120,7 +55,7 @@ def overview(frame: pd.DataFrame, marks: Mapping[str, Mark], titles: Mapping[str
     scenes = [name for name in titles if name in set(rows["comparison"])]
     if rows.empty or len(devices) > PANELS_ACROSS:
         return None
-    width, height = 7.0, 0.8 + (0.2 + 0.2 * len(scenes)) * len(precisions)
+    width, height = NARROW, 0.8 + (0.2 + 0.2 * len(scenes)) * len(precisions)
     with matplotlib.rc_context(RC):
         drawing = Drawing(figsize=(width, height), layout="constrained")
         panels = drawing.subplots(len(precisions), len(devices), sharex=True, sharey=True, squeeze=False)
@@ -143,10 +78,10 @@ def overview(frame: pd.DataFrame, marks: Mapping[str, Mark], titles: Mapping[str
         drawing.supxlabel("Mrays/s", fontsize=6.5)
         handles = [Line2D([], [], color=marks[m].color, marker=marks[m].marker, ms=4.5, lw=0) for m in _methods(rows)]
         drawing.legend(handles, _methods(rows), loc="outside upper center", ncols=9)
-        svg = _svg(drawing)
+        drawn = svg(drawing)
     return Figure(
         "overview",
-        svg,
+        drawn,
         f"Speed of each method on {', '.join(titles.values())}, for {', '.join(devices)}.",
         "How fast each method is.",
         "Its fastest variant among those with no wrong ray, on a logarithmic axis: right is faster. A method without a "
@@ -166,7 +101,7 @@ def _speed_against_error(shown: pd.DataFrame, devices: Sequence[str], marks: Map
     precisions = sorted(set(shown["precision"]))
     axis = ErrorAxis.of(shown["error_max"])
     columns, lines = len(devices), len(precisions)
-    width, height = min(PAGE_WIDTH, 0.7 + 3.2 * columns), 0.9 + 2.35 * lines
+    width, height = min(WIDE, 0.7 + 3.2 * columns), 0.9 + 2.35 * lines
     with matplotlib.rc_context(RC):
         drawing = Drawing(figsize=(width, height))
         panels = drawing.subplots(lines, columns, sharex=True, sharey=True, squeeze=False)
@@ -186,7 +121,7 @@ def _speed_against_error(shown: pd.DataFrame, devices: Sequence[str], marks: Map
         drawing.supylabel("Mrays/s", x=0.1 / width, ha="center", fontsize=6.5)
         handles, labels = _key(shown, marks)
         drawing.legend(handles, labels, loc="upper center", ncols=9, borderaxespad=0.2)
-        return _svg(drawing)
+        return svg(drawing)
 
 
 def _draw_group(axes: Axes, group: pd.DataFrame, axis: ErrorAxis, marks: Mapping[str, Mark]) -> None:
@@ -275,10 +210,4 @@ def error_legend(lowest: int, highest: int) -> Figure:
         labels = [label for _, label in patches]
         spacing = {"handlelength": 1.1, "columnspacing": 1.2, "handletextpad": 0.5}
         drawing.legend(handles, labels, loc="center left", bbox_to_anchor=(0.42, 0.62), ncols=len(labels), **spacing)
-        return Figure("error-legend", _svg(drawing), "Colours of errors and of wrong rays.")
-
-
-def _svg(drawing: Drawing) -> str:
-    buffer = io.StringIO()
-    drawing.savefig(buffer, format="svg", metadata={"Date": None})
-    return buffer.getvalue()
+        return Figure("error-legend", svg(drawing), "Colours of errors and of wrong rays.")

@@ -1,12 +1,13 @@
-"""The visual language: one colour and one marker for a method, one colour for a kind of wrong ray, on every page.
+"""The visual language: one colour and marker for a method, one line for its variant, one colour for a kind of wrong ray.
 
 Colours are Okabe and Ito's, which the colour-blind can tell apart; markers carry the same distinction in greyscale.
 """
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 INK = "#222222"
 FAINT = "#8a8a8a"
@@ -20,10 +21,11 @@ _PURPLE, _SKY, _YELLOW, _GREY = "#CC79A7", "#56B4E9", "#B8A800", "#777777"  # th
 
 @dataclass(frozen=True)
 class Mark:
-    """How a method is drawn; `marker` is a matplotlib marker."""
+    """How a method is drawn, or with a `line` of its own a variant; `marker` and `line` are matplotlib's."""
 
     color: str
     marker: str
+    line: str = "-"
 
 
 _HOUSE: dict[str, Mark] = {
@@ -54,6 +56,21 @@ def marks(methods: Iterable[str]) -> dict[str, Mark]:
     names = sorted(set(methods))
     spares = {name: _SPARE[i % len(_SPARE)] for i, name in enumerate(n for n in names if n not in _HOUSE)}
     return {name: _HOUSE.get(name) or spares[name] for name in names}
+
+
+_LINES = ("-", "--", ":", "-.")
+
+
+def variant_marks(variants: Iterable[tuple[str, str]]) -> dict[str, Mark]:
+    """A mark for each (method, variant): its method's, with the next kind of line for each further variant."""
+    pairs = list(dict.fromkeys(variants))
+    own = marks(method for method, _ in pairs)
+    seen: Counter[str] = Counter()
+    made = {}
+    for method, variant in pairs:
+        made[variant] = replace(own[method], line=_LINES[seen[method] % len(_LINES)])
+        seen[method] += 1
+    return made
 
 
 @dataclass(frozen=True)

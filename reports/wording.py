@@ -44,6 +44,18 @@ def error(value: Any) -> str:
     return f"{mantissa}e{int(exponent)}".replace("-", "−")
 
 
+def short(value: Any) -> str:
+    """Two significant digits of a number of unknown size, with an exponent only where it is far from 1."""
+    return f"{value:.2g}" if not absent(value) and 0.01 <= value < 100 else error(value)
+
+
+def level(value: float) -> str:
+    """A parameter on a ladder: 10⁻⁶, 30, 3.5, 9.5e−7."""
+    exponent = math.log10(value) if value > 0 else 0.5
+    exact = value > 0 and abs(exponent - round(exponent)) < 1e-9
+    return power_of_ten(round(exponent)) if exact and abs(exponent) > 2.5 else f"{value:.2g}" if 0.001 <= value < 1e3 else error(value)
+
+
 def count(value: Any) -> str:
     return NONE if absent(value) else f"{int(value):,}"
 

@@ -21,6 +21,7 @@ VARIANTS = (
     ("newton", "float64", {"EPSILON": 0.00003}),
     ("ray_march", "float64", {"STEPS": 4000}),
     ("interval_march", "float32", {}),
+    ("interval_march", "float64", {"TOLERANCE": 2.0**-30}),
 )
 THIN = {"thin_torus_1000": 0.02, "thin_torus_10000": 0.002}  # the field of view, in degrees, that shows the tube
 MOST_WRONG = 0.02  # share of all rays, the grazing class included
@@ -43,8 +44,11 @@ def _case(name):
 def _agrees(name, method, precision, knobs):
     surface, rays, truth = _case(name)
     device = opened(usable_devices()[0].name)
+    if "STEPS" in knobs and name in THIN:
+        knobs = {"STEPS": 1_000_000}  # a step must be shorter than the tube is wide
     verdicts = judge(cast(device, method, surface, precision, rays, **knobs), truth, scene_radius(surface), 0.0)
-    close = np.nanmedian(verdicts.error) < 1e-3 * scene_radius(surface)
+    right = verdicts.error[np.isfinite(verdicts.error)]
+    close = len(right) > 0 and np.median(right) < 1e-3 * scene_radius(surface)
     return close and np.mean(verdicts.wrong != Wrong.RIGHT) <= MOST_WRONG
 
 
@@ -53,7 +57,7 @@ def test_a_surface_is_drawn_as_the_oracle_sees_it(name):
     _, _, truth = _case(name)
     assert (truth.status != TruthStatus.UNDECIDED).all()
     assert np.mean(truth.status != TruthStatus.MISS) > 0.02, "the view shows next to nothing"
-    agreeing = [method for method, precision, knobs in VARIANTS if _agrees(name, method, precision, knobs)]
+    agreeing = {method for method, precision, knobs in VARIANTS if _agrees(name, method, precision, knobs)}
     assert len(agreeing) >= 2
 
 

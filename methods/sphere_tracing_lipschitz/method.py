@@ -1,57 +1,106 @@
 """Sphere tracing by |f| over a certified Lipschitz bound, for surfaces that state no distance.
 
-**Source** toledo2007, section 4.3, takes distances as given; Hart 1996 (the paper's reference 13), section 3, divides f
-by a Lipschitz bound where none is.
+**Source** toledo2007, section 4.3, takes distances as given; Hart 1996 (the paper's reference 13) divides f by a
+Lipschitz bound where there is none.
 
-**Theory** Where |grad f| <= L, f needs at least |f| / L to fall to 0, so that a step of this length passes no root.
-L is the largest |grad f| over a piece of the domain, proved: gradients are evaluated in ball arithmetic over boxes, the
-box of the largest bound is halved first, and the largest bound left is the answer, rounded up. The domain is cut in
-SHELLS concentric shells and the bound of shell k holds for the ball that ends with it: a step as long as a shell is
-thick, or shorter, ends in the next one at worst, and a ball is convex.
+**Theory** Where |grad f| <= L, f needs at least |f| / L to fall to 0, so a step of this length passes no root. L is
+proved: |grad f| is bounded in ball arithmetic over boxes that cover the domain, and boxes are split until the bound is
+close to a gradient that occurs. The domain is cut in SHELLS concentric shells; a step from one of them is no longer
+than a shell is thick, and its L holds for the whole ball that ends with the next shell (a ball is convex).
 
 **Changes against the paper**
-- |f| / L is far from a distance where |grad f| is far under L, so a threshold on it would end far from the root. The
-  march ends where the secant through the last two values reaches 0 within EPSILON, or where f changes sign.
-- No step is under EPSILON, so that the march ends in rounded arithmetic. A pair of roots closer than that can be passed,
-  and a touch is met only where the secant sees it.
-- MAX_EVALUATIONS: the paper does not say when to give up.
+- |f| / L is far under the distance where |grad f| is far under L, and a threshold on it would end far from the root.
+  The march ends where the secant through the last two values is 0 within EPSILON, or where f changes sign.
+- No step is under EPSILON, so that the march ends in rounded arithmetic. A pair of roots closer than that can be passed.
+- One start: what the second one is for, two minima of a distance, is known of the torus only.
 """
 
-from collections.abc import Mapping
+import math
+from collections.abc import Mapping, Sequence
 from functools import lru_cache
-from typing import Any
+from itertools import product
 
-from harness.contract import Box, Domain, FirsthitError, Method, Parameter, Precision, Surface
+from harness.contract import Box, FirsthitError, Method, Parameter, Precision, Surface
 
-SLACK = 1.0 + 2.0**-16  # covers the rounding of directions' lengths, of |p| and of the table's numbers in float32
-CLOSE = 1.02  # bounds are refined until proved to be within this factor of a gradient that occurs
-MAX_BOXES = 1500  # boxes refined for one shell; past it the bound is as certain, only less tight
+SLACK = 1.0 + 2.0**-16  # covers what float32 rounds: a direction's length, |p|, the clip, the table itself
+CLOSE = 1.05  # boxes are split until their bound is within this factor of a gradient that occurs
+MAX_BOXES = 6000  # split and bounded at most; the answer is as certain with fewer, only less tight
 
 
-@lru_cache(maxsize=64)
-def shell_bounds(surface: Surface, shells: int) -> tuple[float, ...]:
+@lru_cache(maxsize=128)
+def ball_bounds(surface: Surface, shells: int) -> tuple[float, ...]:
     """For k = 1 … shells, at least the largest |grad f| in the domain within k/shells of its radius of its centre.
 
-    Raises FirsthitError where a gradient has no finite bound.
+    Raises FirsthitError where none is finite.
     """
     import flint
-    from surfaces.evaluation import tape_of
+    import numpy as np
+    import surfaces
     from surfaces.lowering import gradient, real_tape
     from surfaces.numbers import Balls
     from surfaces.tape import walk
 
-    tape, numbers, arb = gradient(real_tape(tape_of(surface))), Balls(), flint.arb
-    domain, radius = surface.domain, surface.domain.radius
+    tape, numbers = gradient(real_tape(surfaces.tape_of(surface))), Balls()
+    domain, center, radius = surface.domain, surface.domain.center, surface.domain.radius * SLACK
+    half = np.subtract(domain.upper, domain.lower) / 2 if isinstance(domain, Box) else np.full(3, domain.radius)
 
-    def squared(box: list[Any]) -> Any:
-        return sum(numbers.sqr(g) for g in walk(tape, numbers, dict(zip("xyz", box, strict=True))))
+    def steepest(middle: Sequence[float], half: Sequence[float]) -> float:
+        box = {axis: flint.arb(m, h) for axis, m, h in zip("xyz", middle, half, strict=True)}
+        size = sum(numbers.sqr(slope) for slope in walk(tape, numbers, box))
+        return math.sqrt(float(size.upper())) * SLACK if size.is_finite() else math.inf
 
-    bounds: list[float] = []
-    with flint.ctx.workprec(64):
-        for k in range(1, shells + 1):
-            inner, outer = (radius * j / shells * SLACK for j in (k - 1, k))
-            bound = _largest(squared, _box(domain), [arb(c) for c in domain.center], inner / SLACK**2, outer, arb)
-            bounds.append(max([bound, *bounds[-1:]]))
-    if not bounds[-1] < float("inf"):
+    def ball(middle: Sequence[float], half: Sequence[float]) -> int:
+        """The smallest ball that the box reaches into, of shells; shells where it is outside them all."""
+        away = (max(abs(m - c) - h, 0.0) for m, c, h in zip(middle, center, half, strict=True))
+        return int(shells * math.hypot(*away) / radius)
+
+    grid = np.stack(np.meshgrid(*[np.linspace(-1.0, 1.0, 33)] * 3), -1).reshape(-1, 3) * half + center
+    distances = np.linalg.norm(grid - center, axis=1)
+    slopes = np.linalg.norm(surfaces.gradient(surface, grid), axis=1)
+    occurring = [slopes[distances <= radius * (k + 1) / shells].max() for k in range(shells)]
+
+    bounds = [0.0] * shells
+    open_boxes = [(tuple(center), tuple(half * SLACK))]
+    bounded = 0
+    while open_boxes:
+        split = []
+        for middle, size in open_boxes:
+            reached = ball(middle, size)
+            if reached >= shells:
+                continue
+            bound = steepest(middle, size)
+            bounded += 1
+            if bound > CLOSE * occurring[reached] and bounded + 8 * len(split) < MAX_BOXES:
+                split.append((middle, size))
+            else:
+                bounds[reached] = max(bounds[reached], bound)
+        open_boxes = [
+            (tuple(m + s * h / 2 for m, s, h in zip(middle, signs, size, strict=True)), tuple(h / 2 for h in size))
+            for middle, size in split
+            for signs in product((-1, 1), repeat=3)
+        ]
+    bounds = [max(bounds[: k + 1]) for k in range(shells)]
+    if not bounds[-1] < math.inf:
         raise FirsthitError(f"{surface.name}: its gradient has no finite bound over the domain")
     return tuple(bounds)
+
+
+def tables(surface: Surface, knobs: Mapping[str, float | int], _: Precision) -> Mapping[str, Sequence[float]]:
+    """STEEPNESS[k] holds for steps that start in shell k."""
+    bounds = ball_bounds(surface, int(knobs["SHELLS"]))
+    return {"STEEPNESS": (*bounds[1:], bounds[-1])}
+
+
+METHOD = Method(
+    name="sphere_tracing_lipschitz",
+    source="toledo2007",
+    needs=("surface_along", "surface_value_along"),
+    parameters=(
+        Parameter(
+            "EPSILON", 2.0**-18, "shortest step, and the secant's reach that counts as a hit, over the domain's radius"
+        ),
+        Parameter("SHELLS", 16, "shells with a bound of their own; 1: one bound for the whole domain"),
+        Parameter("MAX_EVALUATIONS", 20000, "evaluations of f spent on one ray"),
+    ),
+    tables=tables,
+)

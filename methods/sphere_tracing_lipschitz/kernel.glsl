@@ -1,0 +1,29 @@
+// Steps of |f| over a bound of |grad f| in the shell at hand and the next one, until the secant ends within reach.
+Hit first_hit(Ray ray, real t0, real t1) {
+    Hit hit = no_hit(t1);
+    vec3 o = ray.origin - DOMAIN_CENTER;
+    real squared_distance = dot(o, o);
+    real advance = 2.0 * dot(o, ray.direction);
+    real thickness = DOMAIN_RADIUS / real(SHELLS);
+    real least = EPSILON * DOMAIN_RADIUS;
+
+    Along along = surface_along(ray);
+    real t = t0;
+    real step = 0.0;
+    real before = 0.0;
+    while (t <= t1) {
+        if (hit.evaluations == MAX_EVALUATIONS) return exhausted(hit, t);
+        real f = surface_value_along(along, t);
+        hit.evaluations += 1;
+        if (f == 0.0) return hit_at(hit, t);
+        if (hit.evaluations > 1) {
+            real to_root = step * (f / (before - f));
+            if ((f < 0.0) != (before < 0.0) || (to_root > 0.0 && to_root < least)) return hit_at(hit, t + to_root);
+        }
+        before = f;
+        int shell = min(int(sqrt(max(squared_distance + t * (advance + t), real(0))) / thickness), SHELLS - 1);
+        step = max(min(fabs(f) / STEEPNESS[shell], thickness), least);
+        t += step;
+    }
+    return hit;
+}

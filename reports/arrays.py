@@ -1,0 +1,61 @@
+"""A cell's answers ray by ray, as a run stores them on the grid of its accuracy check."""
+
+from __future__ import annotations
+
+import zipfile
+import zlib
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from reports.load import Unreadable, problem
+
+
+@dataclass(frozen=True, eq=False)
+class Arrays:
+    """Every array is [h, w] with row 0 at the top."""
+
+    truth: NDArray[np.uint8]  # TruthStatus
+    error: NDArray[np.float32]  # |t − t*| in scene units; NaN where not both hit
+    wrong: NDArray[np.uint8]  # 0 right, else the code of a style.Class
+    grazing: NDArray[np.bool_]
+    shade: NDArray[np.float32]  # cosine towards the camera; NaN on background
+    condition: NDArray[np.float32] | None = None  # of the first root; NaN without one; None in older runs
+
+
+NEEDED = ("truth", "error", "wrong", "grazing", "shade")
+
+
+def read(path: Path) -> Arrays:
+    """The arrays of one cell; a ValueError or OSError where the file is damaged or not of this kind."""
+    try:
+        with np.load(path, allow_pickle=False) as file:
+            named = {name: file[name] for name in NEEDED}
+            if "condition" in file:
+                named["condition"] = file["condition"]
+    except (KeyError, EOFError, zipfile.BadZipFile, zlib.error) as error:
+        raise ValueError(f"damaged: {error}") from error
+    shapes = {array.shape for array in named.values()}
+    if len(shapes) != 1 or len(next(iter(shapes))) != 2 or 0 in next(iter(shapes)):
+        raise ValueError(f"its arrays are not of one two-dimensional shape: {sorted(shapes)}")
+    return Arrays(**named)
+
+
+@dataclass(frozen=True)
+class Shelf:
+    """The arrays of a run; files that could not be used are noted as they are met."""
+
+    folder: Path
+    damaged: dict[str, Unreadable] = field(default_factory=dict)  # by file
+
+    def get(self, row: Any) -> Arrays | None:
+        """The arrays of a row of the frame; None where its file is damaged or gone."""
+        file = f"arrays/{row.key}.npz"
+        try:
+            return read(self.folder / file)
+        except (OSError, ValueError) as error:
+            self.damaged[file] = Unreadable(file, f"{problem(error)} ({row.slot})")
+            return None

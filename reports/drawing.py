@@ -1,0 +1,91 @@
+"""What all drawings share: their look, their way into a report, and an axis of errors on which zero has a place.
+
+Errors are drawn on a logarithmic axis that is broken below its smallest decade, so that an error of exactly zero has
+a place; positions on it are decimal exponents.
+"""
+
+from __future__ import annotations
+
+import io
+import math
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure as Drawing
+from matplotlib.ticker import FixedLocator, FuncFormatter
+from numpy.typing import ArrayLike
+
+from reports import style, wording
+
+RC: dict[Any, Any] = {
+    "font.family": style.FONT,
+    "font.size": 6.5,
+    "axes.titlesize": 7,
+    "axes.titleweight": "bold",
+    "axes.edgecolor": style.FAINT,
+    "axes.labelcolor": style.INK,
+    "axes.linewidth": 0.6,
+    "axes.grid": True,
+    "axes.axisbelow": True,
+    "grid.color": style.HAIRLINE,
+    "grid.linewidth": 0.4,
+    "xtick.color": style.FAINT,
+    "ytick.color": style.FAINT,
+    "xtick.labelcolor": style.INK,
+    "ytick.labelcolor": style.INK,
+    "legend.frameon": False,
+    "svg.fonttype": "none",  # text stays text: the PDF embeds the same font, and readers can search it
+    "svg.hashsalt": "firsthit",
+    "text.parse_math": False,  # a $ in a name is a $
+}
+WIDE, NARROW = 10.4, 7.0  # inches, of the text on a landscape page and on an upright one
+
+
+@dataclass(frozen=True)
+class ErrorAxis:
+    """Decades `lowest` to `highest` of a logarithmic axis, and below them the place of zero."""
+
+    lowest: int
+    highest: int
+
+    @classmethod
+    def of(cls, errors: ArrayLike) -> ErrorAxis:
+        values = np.asarray(errors, np.float64)
+        positive = values[(values > 0) & np.isfinite(values)]
+        if not len(positive):
+            return cls(-8, -4)
+        lowest = math.floor(math.log10(positive.min()))
+        return cls(lowest, max(math.ceil(math.log10(positive.max())), lowest + 1))
+
+    @property
+    def zero(self) -> float:
+        return self.lowest - max(1.0, 0.18 * (self.highest - self.lowest))
+
+    def position(self, errors: ArrayLike) -> Any:
+        """float64[n]: where to draw each error."""
+        values = np.asarray(errors, np.float64)
+        return np.where(values > 0, np.log10(np.where(values > 0, values, 1.0)), self.zero)
+
+    def _label(self, position: float, _: object) -> str:
+        return wording.power_of_ten(round(position)) if position > self.zero else "0"
+
+    def dress(self, axes: Axes, which: Literal["x", "y"] = "x") -> None:
+        """Make it the x or y axis of `axes`: ticks, limits, and a grey ground behind zero."""
+        span = self.highest - self.lowest
+        step = max(1, math.ceil(span / 4))
+        axis = axes.xaxis if which == "x" else axes.yaxis
+        axis.set_major_locator(FixedLocator([self.zero, *range(self.lowest, self.highest + 1, step)]))
+        axis.set_major_formatter(FuncFormatter(self._label))
+        margin = 0.06 * (self.highest - self.zero)
+        limits, ground = (axes.set_xlim, axes.axvspan) if which == "x" else (axes.set_ylim, axes.axhspan)
+        limits(self.zero - margin, self.highest + margin)
+        ground(self.zero - margin, (self.zero + self.lowest) / 2, color="#f4f4f4", linewidth=0, zorder=0)
+
+
+def svg(drawing: Drawing) -> str:
+    """The drawing as SVG text, the same every time."""
+    buffer = io.StringIO()
+    drawing.savefig(buffer, format="svg", metadata={"Date": None})
+    return buffer.getvalue()
