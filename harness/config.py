@@ -19,10 +19,12 @@ from harness.plugins import Catalog
 
 @dataclass(frozen=True)
 class MethodChoice:
-    """A method, and for each knob one value or several; several knobs multiply."""
+    """A method, and for each knob one value or several; several knobs multiply. `settings` are the papers' own, by the
+    names that the method gives them."""
 
     name: str
     parameters: dict[str, list[float]] = field(default_factory=dict)
+    settings: list[str] = field(default_factory=list)
 
 
 @dataclass(frozen=True)
@@ -117,13 +119,11 @@ class _Source:
 
 
 def _has(table: Any, where: Where) -> bool:
-    for part in where:
-        if (isinstance(table, dict) and part in table) or (
-            isinstance(table, list) and isinstance(part, int) and part < len(table)
-        ):
+    try:
+        for part in where:
             table = table[part]
-        else:
-            return False
+    except (KeyError, IndexError, TypeError):
+        return False
     return True
 
 
@@ -250,10 +250,13 @@ def load(path: Path, catalog: Catalog) -> Experiment:
     for i, choice in enumerate(config.method):
         try:
             plugin = catalog.get(choice.name)
-            variants += [plugin.variant(point) for point in _sweep(choice)]
+            variants += [plugin.setting(name) for name in choice.settings]
+            if choice.parameters or not choice.settings:
+                variants += [plugin.variant(point) for point in _sweep(choice)]
         except FirsthitError as error:
             raise source.error(("method", i, "name"), str(error)) from None
-    if twice := [variant for variant in variants if variants.count(variant) > 1]:
+    bound = [(variant.method, variant.parameters) for variant in variants]
+    if twice := [variant for variant, key in zip(variants, bound, strict=True) if bound.count(key) > 1]:
         raise source.error(("method",), f"{twice[0]} is named twice")
     chosen: list[Surface] = []
     for name in surfaces.names() if config.surfaces == ["all"] else config.surfaces:

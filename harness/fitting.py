@@ -59,7 +59,8 @@ def fit_tables(degree: int, basis: Basis, precision: Precision) -> dict[str, lis
     else:
         even = [[(exact[n - r][n - i] + exact[r][n - i]) / 2 for i in range(n // 2 + 1)] for r in range(n // 2 + 1)]
         odd = [[(exact[n - r][n - i] - exact[r][n - i]) / 2 for i in range((n + 1) // 2)] for r in range((n + 1) // 2)]
-    tables = {"NODES": [float(x) for x in nodes(degree, precision)]}
+    parameters = [x if basis == "monomial" else (1 + x) / 2 for x in nodes(degree, precision)]
+    tables = {"NODES": [float(_rounded(x, precision)) for x in parameters]}
     for name, rows in (("EVEN", even), ("ODD", odd)):
         values = [value for row in rows for value in row]
         first = [_rounded(value, precision) for value in values]
@@ -68,10 +69,15 @@ def fit_tables(degree: int, basis: Basis, precision: Precision) -> dict[str, lis
     return tables
 
 
-def derivative_factors(degree: int) -> list[float]:
-    """Row d, of degree + 1 numbers: binomial(n - d + j, j) for j = 0 … d, then zeros.
+def derivative_factors(degree: int, basis: Basis) -> list[float]:
+    """Row d, of degree + 1 numbers: what makes the coefficients of a (degree - d)th derivative, up to one factor.
 
-    Times c[n - d + j], the coefficients of the (n - d)th derivative of the polynomial c, over (n - d)!.
+    Monomial: binomial(n - d + j, j), to multiply coefficient n - d + j with. Bernstein: binomial(d, j), to multiply the
+    (n - d)th difference number j with, and to make it part of the coefficient.
     """
     n = degree
-    return [float(math.comb(n - d + j, j)) if j <= d else 0.0 for d in range(n + 1) for j in range(n + 1)]
+    return [
+        float(math.comb(d if basis == "bernstein" else n - d + j, j) if j <= d else 0)
+        for d in range(n + 1)
+        for j in range(n + 1)
+    ]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import hashlib
 import itertools
 import platform
 import random
@@ -67,10 +66,10 @@ class Planned:
 
 
 @cache
-def methodology() -> str:
-    """A hash of the harness's own sources that decide what a row says."""
+def methodology() -> dict[str, str]:
+    """Hashes of the harness's own sources that decide what a row says, by file."""
     files = sorted(path for pattern in DECIDING for path in HERE.glob(pattern))
-    return digest([hashlib.sha256(path.read_bytes()).hexdigest() for path in files])
+    return {path.relative_to(HERE).as_posix(): digest(path.read_text(encoding="utf-8")) for path in files}
 
 
 @cache
@@ -138,6 +137,8 @@ def _planned(cell: Cell, info: DeviceInfo | None, catalog: Catalog, experiment: 
         except FirsthitError as error:
             skip = str(error)
     programs = (*checks, timed) if timed else checks
+    # which clock is believed is found by probing when a run starts, after a plan is printed: no part of the key
+    facts = None if info is None else dataclasses.asdict(dataclasses.replace(info, clock="wall"))
     scene = (
         {"family": stability.identity(cell.family)}
         if cell.family
@@ -154,7 +155,7 @@ def _planned(cell: Cell, info: DeviceInfo | None, catalog: Catalog, experiment: 
         "program order": [program.hash for program in programs],
         "parameters": dict(cell.variant.parameters),
         "precision": cell.precision,
-        "device": None if info is None else dataclasses.asdict(info),
+        "device": facts,
         "processor": processor(),
         "methodology": methodology(),
         "skip": skip,
@@ -166,8 +167,9 @@ def plan(experiment: Experiment, catalog: Catalog, found: list[DeviceInfo]) -> l
     """Every cell of the grid, comparison by comparison; families last."""
     config = experiment.config
     devices = choose_devices(config.devices, found)
-    if not devices:
-        raise FirsthitError("no device found: see `firsthit devices`", exit_code=3)
+    if not any(devices.values()):
+        wanted = "no device" if config.devices == ["all"] else f"none of {', '.join(config.devices)}"
+        raise FirsthitError(f"{wanted} found on this machine; see `firsthit devices`", exit_code=3)
     runs_on = list(itertools.product(experiment.variants, devices.items(), experiment.precisions))
     scenes = itertools.product(
         experiment.surfaces, config.view, config.sizes, config.samples_per_pixel, experiment.stages
@@ -212,5 +214,6 @@ def changes(old: dict[str, Any], new: dict[str, Any], path: str = "") -> list[st
         if isinstance(a, dict) and isinstance(b, dict):
             lines += changes(a, b, f"{name}: ")
         elif a != b:
-            lines.append(f"{name} changed" if path.startswith("program") else f"{name}: {a!r} → {b!r}")
+            is_hash = path.startswith(("program", "methodology")) or key == "program order"
+            lines.append(f"{name} changed" if is_hash else f"{name}: {a!r} → {b!r}")
     return lines

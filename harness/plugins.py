@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import difflib
 import importlib.metadata
 import importlib.util
@@ -36,6 +37,13 @@ class Plugin:
         turned = ",".join(f"{name}={bound[name]:g}" for name in sorted(given))
         label = f"{self.method.name}[{turned}]" if turned else self.method.name
         return Variant(self.method.name, tuple(sorted(bound.items())), label)
+
+    def setting(self, name: str) -> Variant:
+        """One of the papers' own settings; raises FirsthitError for one that the method does not state."""
+        if name not in self.method.variants:
+            known = self.method.variants
+            raise FirsthitError(f"method {self.method.name!r} has no setting {name!r}{_hint(name, known)}")
+        return dataclasses.replace(self.variant(self.method.variants[name]), label=name)
 
 
 @dataclass(frozen=True)

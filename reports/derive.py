@@ -9,14 +9,18 @@ from __future__ import annotations
 import pandas as pd
 
 from harness.contract import CellStatus
+from reports.schema import SCHEMA
 
 GROUP = ["comparison", "device", "precision"]
 BASELINE = "ray_march"  # the method that speed-ups are over
+_ACCURACY = [field.name for field in SCHEMA if field.path[0] == "accuracy"]
 FLOOR_FACTOR = 2.0  # a time under this many times the null method's says more about the harness than about the method
 
 
 def derive(frame: pd.DataFrame) -> pd.DataFrame:
-    """`frame` with the columns of DERIVED added."""
+    """`frame` with the columns of DERIVED added, and without the accuracy of methods that answer nothing."""
+    answers = frame["answers"].astype(bool)
+    frame = frame.assign(**{name: frame[name].where(answers) for name in _ACCURACY})
     seconds = frame["median_ms"] / 1e3
     rays = (frame["size"] ** 2 * frame["samples_per_pixel"]).astype("float64")
     frame = frame.assign(mrays_per_s=rays / seconds / 1e6, frames_per_s=1.0 / seconds)
@@ -29,7 +33,7 @@ def derive(frame: pd.DataFrame) -> pd.DataFrame:
     wrong = ["misses", "false_hits", "exhausted", "wrong_root"]
     for prefix in ("", "grazing_"):
         total = frame[[prefix + name for name in wrong]].sum(axis=1, min_count=1).astype("Int64")
-        frame[f"{prefix}wrong_rays"] = total.where(frame["answers"])
+        frame[f"{prefix}wrong_rays"] = total
     frame["front"] = _front(frame)
     return frame
 
@@ -38,6 +42,20 @@ def contenders(frame: pd.DataFrame) -> pd.DataFrame:
     """The rows that were timed and answer, fastest first within their group."""
     rows = frame[(frame["status"] == CellStatus.OK) & frame["answers"] & frame["median_ms"].notna()]
     return rows.sort_values([*GROUP, "median_ms"], kind="stable")
+
+
+def drawn(rows: pd.DataFrame, per_method: int = 1) -> pd.DataFrame:
+    """The rows of one surface to show ray by ray: on the device with most results, some of each method and precision.
+
+    The variants are the first of their method in the plan's order, for every precision the same where it can be.
+    """
+    rows = rows[(rows["status"] == CellStatus.OK) & rows["answers"] & rows["arrays"].notna()]
+    if rows.empty:
+        return rows
+    first = rows[rows["comparison"] == rows["comparison"].iloc[0]]
+    kept = first[first["device"] == first["device"].value_counts(sort=False).idxmax()]
+    kept = kept[kept.groupby(["method", "precision"]).cumcount() < per_method]
+    return kept.sort_values(["method", "precision"], kind="stable")
 
 
 def all_right(frame: pd.DataFrame) -> pd.Series:

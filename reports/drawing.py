@@ -14,10 +14,12 @@ from typing import Any, Literal
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure as Drawing
+from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter
 from numpy.typing import ArrayLike
 
 from reports import style, wording
+from reports.style import Mark
 
 RC: dict[Any, Any] = {
     "font.family": style.FONT,
@@ -40,6 +42,7 @@ RC: dict[Any, Any] = {
     "svg.hashsalt": "firsthit",
     "text.parse_math": False,  # a $ in a name is a $
 }
+LINE: dict[str, Any] = {"lw": 0.8, "ms": 3.6, "mew": 0.8}
 WIDE, NARROW = 10.4, 7.0  # inches, of the text on a landscape page and on an upright one
 
 
@@ -82,6 +85,41 @@ class ErrorAxis:
         limits, ground = (axes.set_xlim, axes.axvspan) if which == "x" else (axes.set_ylim, axes.axhspan)
         limits(self.zero - margin, self.highest + margin)
         ground(self.zero - margin, (self.zero + self.lowest) / 2, color="#f4f4f4", linewidth=0, zorder=0)
+
+
+@dataclass(frozen=True)
+class Key:
+    """A key above the panels of a drawing, in as few lines as its labels need."""
+
+    handles: list[Any]
+    labels: list[str]
+    width: float  # inches
+
+    @property
+    def _columns(self) -> int:
+        """As many as fit, when labels fill one column after the other: a letter takes 0.05 inches, a handle 0.5."""
+        for columns in range(len(self.labels), 1, -1):
+            lines = -(-len(self.labels) // columns)
+            longest = [max(map(len, self.labels[i : i + lines])) for i in range(0, len(self.labels), lines)]
+            if sum(0.5 + 0.05 * letters for letters in longest) < self.width:
+                return columns
+        return 1
+
+    @property
+    def height(self) -> float:
+        """Inches."""
+        return 0.02 + 0.14 * -(-len(self.labels) // self._columns)
+
+    def draw(self, drawing: Drawing) -> None:
+        drawing.legend(
+            *(self.handles, self.labels),
+            **{"loc": "upper center", "ncols": self._columns, "borderaxespad": 0.1, "handlelength": 2.6},
+        )
+
+
+def line_of(mark: Mark) -> Line2D:
+    """How a variant's line and mark look in a key."""
+    return Line2D([], [], color=mark.color, marker=mark.marker, ls=mark.line, **LINE)
 
 
 def svg(drawing: Drawing) -> str:

@@ -13,8 +13,8 @@ from matplotlib.colors import to_rgb
 from numpy.typing import NDArray
 from PIL import Image
 
-from harness.contract import CellStatus, TruthStatus
-from reports import plots, style, wording
+from harness.contract import TruthStatus
+from reports import derive, plots, style, wording
 from reports.arrays import Arrays, Shelf
 from reports.content import Gallery, Panel, Picture
 
@@ -23,25 +23,11 @@ GRAZING_PALE = 0.55  # how far the colour of a wrong ray fades to white in the g
 WIDEST_SCALE = 10  # decades
 
 
-def chosen(rows: pd.DataFrame) -> pd.DataFrame:
-    """The rows of one surface to show: on the device with most results, one variant per method and precision.
-
-    The variant is the first of its method in the plan's order, for every precision the same where it can be.
-    """
-    rows = rows[(rows["status"] == CellStatus.OK) & rows["answers"] & rows["arrays"].notna()]
-    if rows.empty:
-        return rows
-    first = rows[rows["comparison"] == rows["comparison"].iloc[0]]
-    device = first["device"].value_counts(sort=False).idxmax()
-    kept = first[first["device"] == device].drop_duplicates(["method", "precision"])
-    return kept.sort_values(["method", "precision"], kind="stable")
-
-
 def galleries(shelf: Shelf, frame: pd.DataFrame) -> dict[str, Gallery]:
     """A gallery for each surface that has pictures, by the surface's name."""
     picked: dict[str, list[tuple[Any, Arrays]]] = {}
     for surface, rows in frame.groupby("surface", sort=False):
-        for row in chosen(rows).itertuples():
+        for row in derive.drawn(rows).itertuples():
             arrays = shelf.get(row)
             if arrays is not None:
                 picked.setdefault(str(surface), []).append((row, arrays))

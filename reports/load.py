@@ -80,7 +80,7 @@ def load(folder: Path) -> Run:
             if document.get("family") is None:
                 rows.append(flatten(SCHEMA, document))
             else:
-                ladder = _ladder(document)
+                ladder = _ladder(document, plan.facts)
                 families.append(flatten(FAMILY, document))
                 rungs += ladder
         except FileNotFoundError:
@@ -94,8 +94,10 @@ def load(folder: Path) -> Run:
     return Run(folder, plan, *frames, tuple(unreadable), tuple(not_run))
 
 
-def _ladder(document: dict[str, Any]) -> list[tuple[Any, ...]]:
+def _ladder(document: dict[str, Any], facts: Mapping[str, Facts]) -> list[tuple[Any, ...]]:
     """The rungs of a family's cell, which stores them going harder; none where it gave no result."""
+    if document["family"] not in facts:
+        raise ValueError(f"the plan says nothing of its family, {document['family']!r:.40}")
     rungs = [] if document.get("rungs") is None else _typed(document, "rungs", list)
     for rung in rungs:
         if not isinstance(rung, dict):

@@ -18,7 +18,7 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullLocat
 
 from reports import derive, style, wording
 from reports.content import Figure
-from reports.drawing import NARROW, RC, WIDE, ErrorAxis, svg
+from reports.drawing import NARROW, RC, WIDE, ErrorAxis, Key, svg
 from reports.style import Mark
 
 PANELS_ACROSS = 5
@@ -100,16 +100,20 @@ def _plain(value: float, _: object) -> str:
 def _speed_against_error(shown: pd.DataFrame, devices: Sequence[str], marks: Mapping[str, Mark]) -> str:
     precisions = sorted(set(shown["precision"]))
     axis = ErrorAxis.of(shown["error_max"])
-    columns, lines = len(devices), len(precisions)
-    width, height = min(WIDE, 0.7 + 3.2 * columns), 0.9 + 2.35 * lines
+    alone = len(devices) == 1  # then its precisions stand side by side
+    columns, lines = (len(precisions), 1) if alone else (len(devices), len(precisions))
+    width = min(WIDE, 0.7 + 3.2 * columns)
+    key = Key(*_key(shown, marks), width)
+    height = key.height + 0.76 + 2.35 * lines
     with matplotlib.rc_context(RC):
         drawing = Drawing(figsize=(width, height))
         panels = drawing.subplots(lines, columns, sharex=True, sharey=True, squeeze=False)
         # Margins in inches: left for speeds, below for errors, above for the key. Automatic layout costs a third more.
-        drawing.subplots_adjust(0.55 / width, 0.5 / height, 1 - 0.08 / width, 1 - 0.5 / height, 0.06, 0.16)
+        above = key.height + 0.26
+        drawing.subplots_adjust(0.55 / width, 0.5 / height, 1 - 0.08 / width, 1 - above / height, 0.06, 0.16)
         for i, precision in enumerate(precisions):
             for j, device in enumerate(devices):
-                axes = panels[i, j]
+                axes = panels[j, i] if alone else panels[i, j]
                 group = shown[(shown["device"] == device) & (shown["precision"] == precision)]
                 axes.set_title(f"{device}  {precision}", color=style.INK)
                 axis.dress(axes)
@@ -119,8 +123,7 @@ def _speed_against_error(shown: pd.DataFrame, devices: Sequence[str], marks: Map
         _label_speeds(panels[0, 0].yaxis)
         drawing.supxlabel("largest error |t − t*|, scene units", y=0.12 / height, va="center", fontsize=6.5)
         drawing.supylabel("Mrays/s", x=0.1 / width, ha="center", fontsize=6.5)
-        handles, labels = _key(shown, marks)
-        drawing.legend(handles, labels, loc="upper center", ncols=9, borderaxespad=0.2)
+        key.draw(drawing)
         return svg(drawing)
 
 

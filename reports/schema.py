@@ -60,11 +60,7 @@ SCHEMA: tuple[Field, ...] = (
     *_fields("real", "grazing_margin scene_radius domain_radius", at="accuracy"),
     *_fields("whole", "misses false_hits exhausted wrong_root", at="accuracy"),
     *_fields("whole", "grazing_misses grazing_false_hits grazing_exhausted grazing_wrong_root", at="accuracy"),
-    *(
-        field
-        for unit in UNITS
-        for field in _fields("real", _PERCENTILES, at=f"accuracy.{unit}", prefix=f"{unit}_")
-    ),
+    *(field for unit in UNITS for field in _fields("real", _PERCENTILES, at=f"accuracy.{unit}", prefix=f"{unit}_")),
     *_fields("real", "evaluations_mean evaluations_max", at="accuracy"),
     *_fields("text", "arrays"),
     *_fields("json", "operations"),

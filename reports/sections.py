@@ -2,38 +2,47 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import pandas as pd
 
 from harness.contract import CellStatus
-from reports import derive, images, plots, style, tables, wording
+from reports import condition, derive, images, plots, stability, style, tables, wording
+from reports.arrays import Shelf
 from reports.content import Block, Code, Document, Section, Text
-from reports.load import Run
+from reports.load import Run, Unreadable
 
 SUMMARY_LINES = 30  # winners that fit on the first page beside the rest of it
 OVERVIEW_SCENES = 12  # scenes that fit into its figure
 
 
-def report(run: Run, frame: pd.DataFrame) -> Document:
-    """The whole report on one run; `frame` is the run's own with the derived columns."""
-    pictures, damaged = images.galleries(run.folder, frame)
-    unreadable = [*run.unreadable, *damaged]
+def report(run: Run, frame: pd.DataFrame, rungs: pd.DataFrame) -> Document:
+    """The whole report on one run; `frame` and `rungs` are the run's own with the derived columns."""
+    shelf = Shelf(run.folder)
+    pictures = images.galleries(shelf, frame)
+    variants = pd.concat([of[["method", "variant"]] for of in (frame, run.families)])
+    marks = style.variant_marks(variants.drop_duplicates().itertuples(index=False, name=None))
+    condition_sections = condition.sections(shelf, frame, marks)
+    unreadable = [*run.unreadable, *shelf.damaged.values()]
     sections = [
         _devices(run),
         *_winners(frame),
-        _results(frame),
+        *_results(frame),
+        *_units(frame),
+        *stability.sections(rungs, run.plan.facts, marks),
         *_fronts(frame),
+        *condition_sections,
         *(
             Section(f"Pictures: {frame.loc[frame['surface'] == surface, 'surface_title'].iloc[0]}", (gallery,))
             for surface, gallery in pictures.items()
         ),
         Section(
             "Skipped, failed and missing",
-            tuple(filter(None, (tables.troubles(frame), tables.unreadable(unreadable), tables.not_run(run.not_run))))
-            or (Text("Nothing: every planned cell ran and gave a result."),),
+            _troubles(run, frame, unreadable) or (Text("Nothing: every planned cell ran and gave a result."),),
             wide=True,
         ),
     ]
-    return Document(run.plan.title or run.plan.name, _subtitle(run), _summary(run, frame), tuple(sections))
+    return Document(run.plan.title or run.plan.name, _subtitle(run), _summary(run, frame, rungs), tuple(sections))
 
 
 def _subtitle(run: Run) -> str:
@@ -45,16 +54,25 @@ def _subtitle(run: Run) -> str:
     return " · ".join(parts)
 
 
-def _summary(run: Run, frame: pd.DataFrame) -> Section:
-    """The first page: how it went, who wins where, how to run it again."""
-    blocks: list[Block] = [Text(_verdict(frame), strong=True)]
-    blocks.append(tables.statuses(frame, len(run.unreadable), len(run.not_run)))
+def _troubles(run: Run, frame: pd.DataFrame, unreadable: Sequence[Unreadable]) -> tuple[Block, ...]:
+    ended = tables.troubles(frame, run.families, run.plan.facts)
+    return tuple(filter(None, (ended, tables.unreadable(unreadable), tables.not_run(run.not_run))))
+
+
+def _summary(run: Run, frame: pd.DataFrame, rungs: pd.DataFrame) -> Section:
+    """The first page: how it went, who wins where, who breaks where, how to run it again."""
+    blocks: list[Block] = [] if frame.empty else [Text(_verdict(frame), strong=True)]
+    blocks += [] if rungs.empty else [Text(stability.verdict(rungs), strong=True)]
+    ended = pd.concat([frame["status"], run.families["status"]])
+    blocks.append(tables.statuses(ended, len(run.unreadable), len(run.not_run)))
     blocks += [Text("To run it again, or go on where it stopped:"), Code(run.plan.command)]
     if _groups(frame):
         blocks.append(tables.winners(frame) if _groups(frame) <= SUMMARY_LINES else tables.wins(frame))
         scenes = tables.places(frame)
         figure = plots.overview(frame, style.marks(frame["method"]), scenes) if len(scenes) <= OVERVIEW_SCENES else None
         blocks += [figure] if figure else []
+    elif not rungs.empty:
+        blocks.append(stability.summary(rungs, run.plan.facts))
     return Section("Summary", tuple(blocks))
 
 
@@ -95,10 +113,12 @@ def _winners(frame: pd.DataFrame) -> list[Section]:
     return [Section("Winners", (tables.winners(frame),))] if _groups(frame) > SUMMARY_LINES else []
 
 
-def _results(frame: pd.DataFrame) -> Section:
+def _results(frame: pd.DataFrame) -> list[Section]:
+    if frame.empty:
+        return []
     finished = frame[frame["status"] == CellStatus.OK]
     if finished.empty:
-        return Section("Results", (Text("No cell gave a result; the reasons are listed below."),), wide=True)
+        return [Section("Results", (Text("No cell gave a result; the reasons are listed below."),), wide=True)]
     legend = Text(
         f"Speed-up is over {derive.BASELINE}. Flags: front, no other variant with all rays right is both faster and "
         f"more exact; floor-bound, under {derive.FLOOR_FACTOR:g} times the null method's time, so that "
@@ -112,7 +132,22 @@ def _results(frame: pd.DataFrame) -> Section:
         told = f"{len(printed):,} of {len(finished):,} rows: those on a front, {derive.BASELINE} and the floor"
         blocks.append(Text(f"Printed are {told}. results.csv has all."))
     blocks += [tables.results(rows) for _, rows in printed.groupby("comparison", sort=False)]
-    return Section("Results", tuple(blocks), wide=True)
+    return [Section("Results", tuple(blocks), wide=True)]
+
+
+def _units(frame: pd.DataFrame) -> list[Section]:
+    printed = tables.worth_printing(frame[frame["status"] == CellStatus.OK])
+    tabled = [table for _, rows in printed.groupby("comparison", sort=False) if (table := tables.units(rows))]
+    told = Text(
+        "The same errors in the units that papers use, over rays away from silhouettes that hit the right root: the "
+        "largest and the 99th percentile. |t − t*| in scene units; over the radius of the scene; over the feature "
+        "radius (a torus's minor radius r; the scene's where a surface has none of its own); in pixel footprints at "
+        "the hit; in units in the last place of t. Over condition × roundoff: the error over what the problem allows, "
+        "max(condition, 1) × unit roundoff × the domain's radius, which a stable method keeps small. Normal: the angle "
+        "between the surface's normals at the hit and at the root. Residual: |f| at the hit over the sum of |terms of "
+        "f|, the backward error. Look for rows with a small error in one unit and a large one in another."
+    )
+    return [Section("Error in every unit", (told, *tabled), wide=True)] if tabled else []
 
 
 def _fronts(frame: pd.DataFrame) -> list[Section]:

@@ -1,4 +1,4 @@
-"""The visual language: one colour and marker for a method, one line for its variant, one colour for a kind of wrong ray.
+"""The visual language: a colour and marker for each method, a line for its variant, a colour for a kind of wrong ray.
 
 Colours are Okabe and Ito's, which the colour-blind can tell apart; markers carry the same distinction in greyscale.
 """

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import pandas as pd
@@ -11,7 +11,7 @@ import pandas as pd
 from harness.contract import CellStatus
 from reports import derive, wording
 from reports.content import Column, Table
-from reports.load import Plan, Unreadable
+from reports.load import Facts, Plan, Unreadable
 
 ROW_LIMIT = 1_500  # rows that one list prints; a longer one belongs in results.csv
 REASON_LIMIT = 500  # characters of a reason; a compiler's full log stays in the cell's file
@@ -36,9 +36,9 @@ def picture_size(row: Any) -> str:
     return f"{row.size} × {row.size}{samples}"
 
 
-def statuses(frame: pd.DataFrame, unreadable: int, not_run: int) -> Table:
+def statuses(ended: pd.Series, unreadable: int, not_run: int) -> Table:
     """How many cells ended how: one column for each status that occurs, and always one for `ok`."""
-    counts = {str(status): int((frame["status"] == status).sum()) for status in CellStatus}
+    counts = {str(status): int((ended == status).sum()) for status in CellStatus}
     counts |= {"unreadable": unreadable, "not run yet": not_run}
     shown = {name: count for name, count in counts.items() if count or name == CellStatus.OK}
     cells = Column("cells", wording.count, numeric=True)
@@ -137,7 +137,7 @@ def results(rows: pd.DataFrame) -> Table:
         spread = (row.upper_ms - row.lower_ms) / (2 * row.median_ms) if row.median_ms else None
         speed = (row.median_ms, spread, row.mrays_per_s, row.frames_per_s, row.speedup)
         errors = (row.error_max, row.error_p99, row.misses, row.false_hits, row.exhausted, row.wrong_root)
-        told = (*errors, row.grazing_wrong_rays, row.evaluations_mean) if row.answers else (None,) * 8
+        told = (*errors, row.grazing_wrong_rays, row.evaluations_mean)
         body.append((row.device, row.precision, row.variant, *speed, *told, row.compile_ms, row.clock, flags(row)))
     return Table(
         (
@@ -167,8 +167,51 @@ def results(rows: pd.DataFrame) -> Table:
     )
 
 
-def _results_caption(rows: pd.DataFrame) -> tuple[str, str]:
+_UNITS: tuple[tuple[str, str, Callable[[Any], str]], ...] = (
+    ("error", "scene units", wording.error),
+    ("relative_error", "over scene\nradius", wording.error),
+    ("feature_error", "over feature\nradius", wording.error),
+    ("pixel_error", "pixels", wording.short),
+    ("ulp_error", "units in last\nplace of t", wording.short),
+    ("condition_ratio", "over condition\n× roundoff", wording.short),
+    ("normal_error_degrees", "normal,\ndegrees", wording.short),
+    ("residual", "residual", wording.error),
+)
+
+
+def units(rows: pd.DataFrame) -> Table | None:
+    """The largest and the 99th-percentile error of every row of one comparison that answers, in every unit."""
+    rows = rows[rows["answers"] & rows["error_max"].notna()].sort_values(["device", "precision"], kind="stable")
+    if rows.empty:
+        return None
+    known = [(unit, title, show) for unit, title, show in _UNITS if rows[f"{unit}_max"].notna().any()]
+    body = []
+    for row in rows.itertuples():
+        figures = (getattr(row, f"{unit}_{quantile}") for unit, _, _ in known for quantile in ("max", "p99"))
+        body.append((row.device, row.precision, row.variant, *figures))
+    return Table(
+        (
+            Column("device"),
+            Column("precision"),
+            Column("variant", stretch=1),
+            *(
+                Column(quantile, show, numeric=True, over=title)
+                for _, title, show in known
+                for quantile in ("max", "99 %")
+            ),
+        ),
+        body,
+        _scene(rows),
+        group=2,
+    )
+
+
+def _scene(rows: pd.DataFrame) -> str:
     first = next(rows.itertuples())
+    return f"{first.surface_title}, view {first.view}, {picture_size(first)}, {first.stage}."
+
+
+def _results_caption(rows: pd.DataFrame) -> tuple[str, str]:
     checked = ""
     for row in rows[rows["accuracy_rays"].notna()].head(1).itertuples():
         checked = (
@@ -176,7 +219,7 @@ def _results_caption(rows: pd.DataFrame) -> tuple[str, str]:
             f"{wording.error(row.grazing_margin)} of another answer: these grazing rays are counted apart."
         )
     return (
-        f"{first.surface_title}, view {first.view}, {picture_size(first)}, {first.stage}.",
+        _scene(rows),
         "Fastest first for each device and precision; ± is half the 95 % interval of the median, errors are |t − t*| "
         f"in scene units.{checked}",
     )
@@ -189,16 +232,19 @@ def worth_printing(finished: pd.DataFrame) -> pd.DataFrame:
     return finished[finished["front"] | (finished["method"] == derive.BASELINE) | ~finished["answers"]]
 
 
-def troubles(frame: pd.DataFrame) -> Table | None:
+def troubles(frame: pd.DataFrame, families: pd.DataFrame, facts: Mapping[str, Facts]) -> Table | None:
     """Every cell that ended otherwise than `ok`, those with the same reason together."""
-    rows = frame[frame["status"] != CellStatus.OK].sort_values(["status", "reason", "device"], kind="stable")
+    views = frame.assign(place=frame["comparison"].map(places(frame)))
+    hard = families.assign(place=[f"family: {facts[name].title}" for name in families["family"]])
+    told = ["status", "reason", "device", "precision", "place", "variant"]
+    rows = pd.concat([of[of["status"] != CellStatus.OK][told] for of in (views, hard)])
+    rows = rows.sort_values(["status", "reason", "device"], kind="stable")
     if rows.empty:
         return None
     body = []
-    named = places(frame)
     for row in rows.head(ROW_LIMIT).itertuples():
         reason = None if wording.absent(row.reason) else wording.excerpt(row.reason, REASON_LIMIT)
-        body.append((row.status, reason, row.device, row.precision, named[row.comparison], row.variant))
+        body.append((row.status, reason, row.device, row.precision, row.place, row.variant))
     cut = f" The first {ROW_LIMIT:,} of {len(rows):,}; results.csv has all." if len(rows) > ROW_LIMIT else ""
     return Table(
         (
@@ -206,7 +252,7 @@ def troubles(frame: pd.DataFrame) -> Table | None:
             Column("reason", stretch=3),
             Column("device"),
             Column("precision"),
-            Column("surface"),
+            Column("surface or family"),
             Column("variant", stretch=2),
         ),
         body,

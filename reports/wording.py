@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Sequence
 from typing import Any
 
 import pandas as pd
@@ -45,15 +46,18 @@ def error(value: Any) -> str:
 
 
 def short(value: Any) -> str:
-    """Two significant digits of a number of unknown size, with an exponent only where it is far from 1."""
-    return f"{value:.2g}" if not absent(value) and 0.01 <= value < 100 else error(value)
+    """Two significant digits or more of a number of unknown size, with an exponent only far from 1: 0.12, 57, 1,234."""
+    if absent(value) or not 0.0095 <= value < 9950:
+        return error(value)
+    return f"{value:#.2g}".rstrip(".") if value < 99.5 else f"{value:,.0f}"
 
 
 def level(value: float) -> str:
-    """A parameter on a ladder: 10⁻⁶, 30, 3.5, 9.5e−7."""
+    """A parameter on a ladder: 10⁻⁶, 0.01, 3.5, 1792, 9.5e−7."""
     exponent = math.log10(value) if value > 0 else 0.5
-    exact = value > 0 and abs(exponent - round(exponent)) < 1e-9
-    return power_of_ten(round(exponent)) if exact and abs(exponent) > 2.5 else f"{value:.2g}" if 0.001 <= value < 1e3 else error(value)
+    if abs(exponent) > 2.5 and abs(exponent - round(exponent)) < 1e-9:
+        return power_of_ten(round(exponent))
+    return f"{value:.{5 if value >= 1 else 2}g}" if 0.001 <= value < 1e5 else error(value)
 
 
 def count(value: Any) -> str:
@@ -65,12 +69,22 @@ def share(value: Any) -> str:
     return NONE if absent(value) else f"{100 * value:.{0 if value >= 0.1 else 1}f} %"
 
 
+def portion(value: Any) -> str:
+    """A share of one as per cent, rounded down: only what is whole is 100 %."""
+    return NONE if absent(value) else "100 %" if value == 1 else f"{math.floor(1000 * value) / 10:.1f} %"
+
+
 def power_of_ten(exponent: int) -> str:
     return "10" + str(exponent).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
 
 
 def plural(n: int, noun: str) -> str:
     return f"{n:,} {noun}" if n == 1 else f"{n:,} {noun}s"
+
+
+def listed(names: Sequence[str]) -> str:
+    """a, b and c"""
+    return " and ".join(filter(None, (", ".join(names[:-1]), *names[-1:])))
 
 
 def excerpt(value: str, limit: int) -> str:

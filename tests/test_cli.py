@@ -193,6 +193,13 @@ def test_what_is_not_there_is_one_line(capsys, arguments):
     assert err.count("\n") == 1
 
 
+def test_a_run_on_a_device_that_is_not_here_is_one_line(tmp_path, capsys):
+    code, _, err = told(capsys, "run", "configs/quick.toml", "--runs", tmp_path, "--device", "opencl:none")
+    assert code == 3
+    assert "opencl:none" in err
+    assert not list(tmp_path.iterdir())
+
+
 def test_a_run_folder_that_cannot_be_written_is_one_line(tmp_path, capsys):
     (tmp_path / "runs").write_text("in the way")
     code, _, err = told(capsys, "run", "configs/speed.toml", "--runs", tmp_path / "runs")

@@ -76,6 +76,23 @@ def test_a_surface_of_the_configs_own(tmp_path):
         _load(tmp_path, text.replace("y^2 - a", "y^2 - b"))
 
 
+def test_the_papers_own_settings_go_by_name(tmp_path):
+    text = GOOD.replace("parameters = { EPSILON = [0.1, 0.2], MAX_EVALUATIONS = 5 }", 'settings = ["Newton 0.00003"]')
+    variant = _load(tmp_path, text).variants[0]
+    assert str(variant) == "Newton 0.00003"
+    assert dict(variant.parameters)["EPSILON"] == 0.00003
+    with pytest.raises(FirsthitError, match=r"c\.toml:4: method 'newton' has no setting 'Newton 0.0003'; did you mean"):
+        _load(tmp_path, text.replace("0.00003", "0.0003"))
+
+
+def test_one_variant_under_two_names_is_refused(tmp_path):
+    text = GOOD.replace(
+        "parameters = { EPSILON = [0.1, 0.2], MAX_EVALUATIONS = 5 }", "parameters = { EPSILON = [1, 1.0] }"
+    )
+    with pytest.raises(FirsthitError, match="is named twice"):
+        _load(tmp_path, text)
+
+
 @pytest.mark.parametrize(
     "path", sorted((Path(__file__).parent.parent / "configs").glob("*.toml")), ids=lambda p: p.stem
 )

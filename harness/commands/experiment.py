@@ -144,13 +144,19 @@ def _why(options: argparse.Namespace) -> int:
     print(f"{row['key']}  {row['slot']}\nrun {row['environment']['started']}: {row['status']}")
     if row["reason"]:
         print(f"reason: {row['reason']}")
-    others = [r for r in store.rows() if r["slot"] == row["slot"] and r["key"] != row["key"]]
-    if not others:
+    history = sorted(
+        (other for other in store.rows() if other["slot"] == row["slot"]),
+        key=lambda r: str(r["environment"]["started"]),
+    )
+    at = next(i for i, other in enumerate(history) if other["key"] == row["key"])
+    if len(history) == 1:
         print("the only result of this cell so far")
-    for other in sorted(others, key=lambda r: r["environment"]["started"], reverse=True):
-        print(f"\nagainst {other['key']}, run {other['environment']['started']}:")
-        for line in plan.changes(other["identity"], row["identity"]):
-            print(f"  {line}")
+    for word, older, newer in (("before", at - 1, at), ("after", at, at + 1)):
+        if older >= 0 and newer < len(history):
+            other = history[older if newer == at else newer]
+            print(f"\n{word} it: {other['key']}, run {other['environment']['started']}; between the two changed:")
+            for line in plan.changes(history[older]["identity"], history[newer]["identity"]):
+                print(f"  {line}")
     return 0
 
 

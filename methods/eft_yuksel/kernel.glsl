@@ -1,98 +1,125 @@
+// f along the ray, fitted on [-1, 1] or, in the Bernstein basis, [0, 1]: szente, section 2.
 #define N SURFACE_DEGREE
 #define EVENS (SURFACE_DEGREE / 2 + 1)
 #define ODDS ((SURFACE_DEGREE + 1) / 2)
+#define BERNSTEIN (BASIS == 1)
 
-void fit(IN real s[N + 1], OUT real c[N + 1]) {
+Factor sample_factor(real a, real b) {
+    return make_factor(EFT == 1 ? two_sum(a, b) : make_pair(a + b, 0.0));
+}
+
+Pair even_row(IN Factor sums[EVENS], int row) {
+    Pair sum = make_pair(0.0, 0.0);
+    for (int i = 0; i < EVENS; i++) {
+        int k = row * EVENS + i;
+        if (EFT == 1) { sum = plus_product(sum, EVEN_HI[k], EVEN_LO[k], sums[i]); } else { sum.hi += EVEN_HI[k] * sums[i].hi; }
+    }
+    return sum;
+}
+
+Pair odd_row(IN Factor differences[ODDS], int row) {
+    Pair sum = make_pair(0.0, 0.0);
+    for (int i = 0; i < ODDS; i++) {
+        int k = row * ODDS + i;
+        if (EFT == 1) {
+            sum = plus_product(sum, ODD_HI[k], ODD_LO[k], differences[i]);
+        } else {
+            sum.hi += ODD_HI[k] * differences[i].hi;
+        }
+    }
+    return sum;
+}
+
+// Coefficients from samples at the nodes: by rows of the inverse, for sums and differences of opposite samples.
+void fit(IN real s[COEFFICIENTS], OUT real c[COEFFICIENTS]) {
     Factor sums[EVENS];
     Factor differences[ODDS];
     for (int i = 0; i < ODDS; i++) {
-        sums[i] = make_factor(two_sum(s[N - i], s[i]));
-        differences[i] = make_factor(two_sum(s[N - i], -s[i]));
+        sums[i] = sample_factor(s[N - i], s[i]);
+        differences[i] = sample_factor(s[N - i], -s[i]);
     }
-    if (EVENS > ODDS) sums[EVENS - 1] = make_factor(make_pair(s[N / 2], 0.0));
-    for (int r = 0; r < EVENS; r++) {
-        Pair sum = make_pair(0.0, 0.0);
-        for (int i = 0; i < EVENS; i++) sum = plus_product(sum, EVEN_HI[r * EVENS + i], EVEN_LO[r * EVENS + i], sums[i]);
-        c[2 * r] = sum.hi + sum.lo;
-    }
+    if (EVENS > ODDS) sums[EVENS - 1] = sample_factor(s[N / 2], 0.0);
     for (int r = 0; r < ODDS; r++) {
-        Pair sum = make_pair(0.0, 0.0);
-        for (int i = 0; i < ODDS; i++) sum = plus_product(sum, ODD_HI[r * ODDS + i], ODD_LO[r * ODDS + i], differences[i]);
-        c[2 * r + 1] = sum.hi + sum.lo;
+        Pair even = even_row(sums, r);
+        Pair odd = odd_row(differences, r);
+        if (BERNSTEIN) {
+            c[r] = (even.hi - odd.hi) + (even.lo - odd.lo);
+            c[N - r] = (even.hi + odd.hi) + (even.lo + odd.lo);
+        } else {
+            c[2 * r] = even.hi + even.lo;
+            c[2 * r + 1] = odd.hi + odd.lo;
+        }
+    }
+    if (EVENS > ODDS) {
+        Pair even = even_row(sums, EVENS - 1);
+        c[BERNSTEIN ? N / 2 : N] = even.hi + even.lo;
     }
 }
 
-// The root of q in [a, b], where q is monotone and changes sign; Newton's steps, kept inside by halving.
-real bracketed_root(IN real q[N + 1], int degree, real a, real b, bool rising) {
-    real x = 0.5 * (a + b);
-    for (int i = 0; i < 40; i++) {
-        real value = q[degree];
-        real slope = 0.0;
-        for (int j = degree - 1; j >= 0; j--) { slope = slope * x + value; value = value * x + q[j]; }
-        if ((value < 0.0) == rising) { a = x; } else { b = x; }
-        real next = x - value / slope;
-        if (!(next > a && next < b)) next = 0.5 * (a + b);
-        bool done = fabs(next - x) < TOLERANCE;
-        x = next;
-        if (done) break;
+// The coefficients of c's (N - degree)th derivative, up to a factor.
+void derivative(IN real c[COEFFICIENTS], int degree, OUT real q[COEFFICIENTS]) {
+    if (BERNSTEIN) {
+        for (int j = 0; j <= N; j++) q[j] = c[j];
+        for (int m = N; m > degree; m--) {
+            for (int j = 0; j < m; j++) q[j] = q[j + 1] - q[j];
+        }
+        for (int j = 0; j <= degree; j++) q[j] = FACTORS[degree * (N + 1) + j] * q[j];
+    } else {
+        for (int j = 0; j <= degree; j++) q[j] = FACTORS[degree * (N + 1) + j] * c[N - degree + j];
     }
-    return x;
 }
 
 Hit first_hit(Ray ray, real t0, real t1) {
     Hit hit = no_hit(t1);
-    real middle = 0.5 * (t0 + t1);
-    real reach = 0.5 * (t1 - t0);
-    real s[N + 1];
-    for (int i = 0; i <= N; i++) s[i] = surface_value(ray_point(ray, middle + reach * NODES[i]));
+    real reach = BERNSTEIN ? t1 - t0 : 0.5 * (t1 - t0);
+    real start = BERNSTEIN ? t0 : 0.5 * (t0 + t1);
+    real s[COEFFICIENTS];
+    for (int i = 0; i <= N; i++) s[i] = surface_value(ray_point(ray, start + reach * NODES[i]));
     hit.evaluations = N + 1;
-    real last = 1.0;
-    for (int i = N; i > 0; i--) { if ((s[i] < 0.0) != (s[0] < 0.0)) last = NODES[i]; }
+    bool below = s[0] < 0.0;
+    real last = NODES[N];
+    for (int i = N - 1; i > 0; i--) { if ((s[i] < 0.0) != below) last = NODES[i]; }
 
-    real c[N + 1];
+    real c[COEFFICIENTS];
     fit(s, c);
-    real x[N + 1];
-    real q[N + 1];
-    x[0] = -1.0;
+    real x[COEFFICIENTS];
+    real q[COEFFICIENTS];
+    x[0] = NODES[0];
     x[1] = last;
     for (int d = 1; d < N; d++) {
-        for (int j = 0; j <= d; j++) q[j] = FACTORS[d * (N + 1) + j] * c[N - d + j];
-        real a = -1.0;
-        real va = q[d];
-        for (int j = d - 1; j >= 0; j--) va = va * a + q[j];
-        for (int k = 1; k <= d; k++) {
-            real b = x[k];
-            real vb = q[d];
-            for (int j = d - 1; j >= 0; j--) vb = vb * b + q[j];
-            if ((va < 0.0) != (vb < 0.0)) x[k] = bracketed_root(q, d, a, b, va < 0.0);
-            a = b;
-            va = vb;
-        }
-        x[d + 1] = last;
+        derivative(c, d, q);
+        split_at_roots(x, q, d, BERNSTEIN, TOLERANCE);
     }
+    derivative(c, N, q);
 
-    bool below = s[0] < 0.0;
-    real a = -1.0;
-    real b = -1.0;
+    real a = x[0];
+    real b = x[0];
+    real from = s[0];
+    real to = s[0];
     bool found = false;
     for (int k = 1; k <= N; k++) {
         if (!found) {
             a = b;
             b = x[k];
-            if (b > a) {
-                real f = surface_value(ray_point(ray, middle + reach * b));
-                hit.evaluations += 1;
-                found = (f < 0.0) != below;
-            }
+            from = to;
+            to = EVAL == 1 ? surface_value(ray_point(ray, start + reach * b)) : polynomial_dual(q, N, BERNSTEIN, b).value;
+            hit.evaluations += EVAL;
+            found = (to < 0.0) != below;
         }
     }
     if (!found) return hit;
-    a = middle + reach * a;
-    b = middle + reach * b;
-    for (int i = 0; i < 24; i++) {
-        real m = 0.5 * (a + b);
-        if ((surface_value(ray_point(ray, m)) < 0.0) == below) { a = m; } else { b = m; }
+    if (EVAL == 0) return hit_at(hit, start + reach * bracketed_root(q, N, BERNSTEIN, a, b, from, to, 0.0));
+    real t = 0.5 * (a + b) + (b - a) * ((from + to) / (from - to)) * 0.3333333432674407958984375;
+    for (int i = 0; i < 40; i++) {
+        Dual f = polynomial_dual(q, N, BERNSTEIN, t);
+        f.value = surface_value(ray_point(ray, start + reach * t));
+        hit.evaluations += 1;
+        if ((f.value < 0.0) == below) { a = t; } else { b = t; }
+        real next = t - f.value / f.derivative;
+        if (!(next > a && next < b)) next = 0.5 * (a + b);
+        real step = fabs(next - t);
+        t = next;
+        if (step <= FINAL) break;
     }
-    hit.evaluations += 24;
-    return hit_at(hit, 0.5 * (a + b));
+    return hit_at(hit, start + reach * t);
 }

@@ -9,8 +9,8 @@ def _tables(surface: Surface, knobs: Mapping[str, float | int], precision: Preci
     from harness.fitting import derivative_factors, fit_tables
 
     assert surface.degree is not None
-    tables = fit_tables(surface.degree, "bernstein" if knobs["BASIS"] == 1 else "monomial", precision)
-    return tables | {"FACTORS": derivative_factors(surface.degree)}
+    basis = "bernstein" if knobs["BASIS"] == 1 else "monomial"
+    return fit_tables(surface.degree, basis, precision) | {"FACTORS": derivative_factors(surface.degree, basis)}
 
 
 def _accepts(surface: Surface) -> str | None:
@@ -23,12 +23,13 @@ METHOD = Method(
     name="eft_yuksel",
     source="szente",
     needs=("surface_value",),
-    libraries=("fit",),
+    libraries=("dual", "fit", "polynomial"),
     parameters=(
         Parameter("BASIS", 0, "0: monomial, 1: Bernstein"),
         Parameter("EFT", 1, ""),
         Parameter("EVAL", 1, ""),
         Parameter("TOLERANCE", 2.0**-12, ""),
+        Parameter("FINAL", 2.0**-22, ""),
     ),
     accepts=_accepts,
     tables=_tables,

@@ -2,10 +2,14 @@
 Hit first_hit(Ray ray, real t0, real t1) {
     Hit hit = no_hit(t1);
     vec3 o = ray.origin - DOMAIN_CENTER;
-    real squared_distance = dot(o, o);
+    real origin_away = dot(o, o);
     real advance = 2.0 * dot(o, ray.direction);
     real thickness = DOMAIN_RADIUS / real(SHELLS);
     real least = EPSILON * DOMAIN_RADIUS;
+    int shell = 0;
+    for (int k = 1; k < SHELLS; k++) {
+        if (origin_away + t0 * (advance + t0) > real(k * k) * (thickness * thickness)) shell = k;
+    }
 
     Along along = surface_along(ray);
     real t = t0;
@@ -21,7 +25,13 @@ Hit first_hit(Ray ray, real t0, real t1) {
             if ((f < 0.0) != (before < 0.0) || (to_root > 0.0 && to_root < least)) return hit_at(hit, t + to_root);
         }
         before = f;
-        int shell = min(int(sqrt(max(squared_distance + t * (advance + t), real(0))) / thickness), SHELLS - 1);
+        // a step is at most as long as a shell is thick, so the shell changes by one at most
+        real away = sqrt(max(origin_away + t * (advance + t), real(0)));
+        if (away < thickness * real(shell)) {
+            shell -= 1;
+        } else if (away > thickness * real(shell + 1) && shell < SHELLS - 1) {
+            shell += 1;
+        }
         step = max(min(fabs(f) / STEEPNESS[shell], thickness), least);
         t += step;
     }

@@ -1,0 +1,60 @@
+// Polynomials and their real roots, in the monomial basis (the sum of q[j] x^j) or the Bernstein basis (the sum of
+// q[j] x^j (1 - x)^(degree - j): the binomials are part of q). Yuksel 2022, High-performance polynomial root finding.
+#define COEFFICIENTS 21  // every array's size, for degrees to 20: a library is read before any surface's degree is known
+
+Dual polynomial_dual(IN real q[COEFFICIENTS], int degree, bool bernstein, real x) {
+    real value = q[degree];
+    real slope = 0.0;
+    if (bernstein) {
+        real y = 1.0 - x;
+        real power = 1.0;
+        real power_slope = 0.0;
+        for (int j = degree - 1; j >= 0; j--) {
+            power_slope = power_slope * y - power;
+            power = power * y;
+            slope = slope * x + value + q[j] * power_slope;
+            value = value * x + q[j] * power;
+        }
+    } else {
+        for (int j = degree - 1; j >= 0; j--) {
+            slope = slope * x + value;
+            value = value * x + q[j];
+        }
+    }
+    return make_dual(value, slope);
+}
+
+// The root in [a, b], where q changes sign once and is `from` at a and `to` at b: Newton's steps, each kept inside what
+// is left of [a, b] by halving it. Ends with a step no longer than the tolerance. Starts where a cubic that is level at
+// both ends is after one Newton step from the middle.
+real bracketed_root(IN real q[COEFFICIENTS], int degree, bool bernstein, real a, real b, real from, real to,
+                    real tolerance) {
+    real x = 0.5 * (a + b) + (b - a) * ((from + to) / (from - to)) * 0.3333333432674407958984375;
+    bool rising = from < 0.0;
+    for (int i = 0; i < 64; i++) {
+        Dual f = polynomial_dual(q, degree, bernstein, x);
+        if ((f.value < 0.0) == rising) { a = x; } else { b = x; }
+        real next = x - f.value / f.derivative;
+        if (!(next > a && next < b)) next = 0.5 * (a + b);
+        real step = fabs(next - x);
+        x = next;
+        if (step <= tolerance) break;
+    }
+    return x;
+}
+
+// One level of Yuksel's method. In: x[0] to x[degree], the ends of pieces on which q is monotone. Out: x[1] to x[degree]
+// are the pieces' roots, or a piece's far end where it has none, and x[degree + 1] is the last end: the ends of pieces
+// on which q's antiderivatives are monotone.
+void split_at_roots(INOUT real x[COEFFICIENTS], IN real q[COEFFICIENTS], int degree, bool bernstein, real tolerance) {
+    real a = x[0];
+    real from = polynomial_dual(q, degree, bernstein, a).value;
+    x[degree + 1] = x[degree];
+    for (int k = 1; k <= degree; k++) {
+        real b = x[k];
+        real to = polynomial_dual(q, degree, bernstein, b).value;
+        if ((from < 0.0) != (to < 0.0)) x[k] = bracketed_root(q, degree, bernstein, a, b, from, to, tolerance);
+        a = b;
+        from = to;
+    }
+}

@@ -1,0 +1,83 @@
+"""Small multiples of families of hard rays: the share answered rightly, rung by rung."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import matplotlib
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure as Drawing
+from matplotlib.patches import Patch
+from matplotlib.ticker import PercentFormatter
+
+from reports import style, wording
+from reports.content import Figure
+from reports.drawing import LINE, NARROW, RC, Key, line_of, svg
+from reports.load import Facts
+from reports.style import Mark
+
+DODGE = 0.5  # of the step between rungs, over which the marks of one rung are spread so that all are seen
+
+
+def figure(devices: Mapping[str, pd.DataFrame], facts: Facts, marks: Mapping[str, Mark]) -> Figure:
+    """One family: a panel for each device (down) and precision (across), a line for each variant.
+
+    Rungs stand at equal steps in the ladder's own order, because some ladders leap and one may reach 0.
+    """
+    rows = pd.concat(devices.values())
+    variants, precisions = list(rows["variant"].unique()), sorted(rows["precision"].unique())
+    hatched = Patch(facecolor="none", edgecolor=style.FAINT, hatch="////", linewidth=0)
+    key = Key([*(line_of(marks[v]) for v in variants), hatched], [*variants, "no ray decided"], NARROW)
+    above = key.height + 0.2
+    height = above + 0.22 + 1.0 * len(devices)
+    with matplotlib.rc_context(RC):
+        drawing = Drawing(figsize=(NARROW, height))
+        panels = drawing.subplots(len(devices), len(precisions), sharey=True, squeeze=False)
+        drawing.subplots_adjust(0.45 / NARROW, 0.2 / height, 1 - 0.05 / NARROW, 1 - above / height, 0.05, 0.45)
+        for line, (device, own) in zip(panels, devices.items(), strict=True):
+            for axes, precision in zip(line, precisions, strict=True):
+                axes.set_title(precision if len(devices) == 1 else f"{precision}, {device}", color=style.INK)
+                _draw(axes, own[own["precision"] == precision], variants, marks)
+        key.draw(drawing)
+        drawn = svg(drawing)
+    return Figure(
+        f"ladder-{rows['family'].iloc[0]}",
+        drawn,
+        f"Share of rays answered rightly by {wording.listed(variants)}, against {facts.parameter}.",
+        f"{facts.title}.",
+        f"Across: {facts.parameter}. Hard because {facts.why}.{_undecided(rows)}",
+    )
+
+
+def _draw(axes: Axes, rows: pd.DataFrame, variants: list[str], marks: Mapping[str, Mark]) -> None:
+    rungs = rows.drop_duplicates("level").sort_values("level")
+    axes.set_ylim(-0.08, 1.08)
+    axes.set_yticks([0, 0.5, 1])
+    axes.yaxis.set_major_formatter(PercentFormatter(1.0))
+    axes.set_xlim(-0.5, max(len(rungs), 1) - 0.5)
+    axes.set_xticks(rungs["level"].astype(int), [wording.level(parameter) for parameter in rungs["parameter"]])
+    axes.grid(visible=False, axis="x")
+    for level in rungs["level"][rungs["decided"] == 0].astype(int):
+        axes.axvspan(level - 0.5, level + 0.5, facecolor="none", edgecolor=style.HAIRLINE, hatch="////", linewidth=0)
+    for i, variant in enumerate(variants):
+        own, mark = rows[rows["variant"] == variant].sort_values("level"), marks[variant]
+        x = own["level"].astype(float) + DODGE * ((i + 0.5) / len(variants) - 0.5)
+        look = {"color": mark.color, "marker": mark.marker, **LINE}
+        axes.plot(x, own["share_right"], ls=mark.line, zorder=3, **look)
+        blind = own[(own["decided"] == 0) & (own["undecidable"] > 0)]
+        share = blind["undecidable_right"].astype(float) / blind["undecidable"].astype(float)
+        axes.plot(x[blind.index], share, ls="none", markerfacecolor=style.PAPER, zorder=3, **look)
+
+
+def _undecided(rows: pd.DataFrame) -> str:
+    """What to say of precisions in which nothing of the family can be decided."""
+    told = ""
+    for precision, own in rows.groupby("precision"):
+        if not own["decided"].any():
+            sums = own.groupby("variant", sort=False)[["undecidable_right", "undecidable"]].sum()
+            counts = wording.listed(
+                [f"{r.Index} {r.undecidable_right:,} of {r.undecidable:,}" for r in sums.itertuples()]
+            )
+            told += f" In {precision} none of these rays can be decided; answered as the oracle does: {counts}."
+    return told

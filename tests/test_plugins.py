@@ -1,0 +1,65 @@
+import pytest
+
+from harness.contract import FirsthitError
+from harness.plugins import find_methods
+
+METHOD = 'from harness.contract import Method\nMETHOD = Method(name="{name}", source="test")\n'
+
+
+def _plugin(folder, name="mine", text=METHOD):
+    folder.mkdir(parents=True)
+    (folder / "__init__.py").write_text("")
+    (folder / "method.py").write_text(text.format(name=name))
+    (folder / "kernel.glsl").write_text("Hit first_hit(Ray ray, real t0, real t1) { return no_hit(t1); }\n")
+
+
+def test_a_folder_outside_the_project_is_found(tmp_path):
+    _plugin(tmp_path / "mine")
+    assert find_methods(tmp_path).get("mine").folder == tmp_path / "mine"
+
+
+def test_an_installed_package_is_found_by_its_entry_point(tmp_path, monkeypatch):
+    _plugin(tmp_path / "somebodys_caster", "somebodys_caster")
+    info = tmp_path / "somebodys_caster-1.0.dist-info"
+    info.mkdir()
+    (info / "METADATA").write_text("Metadata-Version: 2.1\nName: somebodys-caster\nVersion: 1.0\n")
+    (info / "entry_points.txt").write_text("[firsthit.methods]\ncaster = somebodys_caster\n")
+    assert "somebodys_caster" not in find_methods().plugins
+    monkeypatch.syspath_prepend(str(tmp_path))
+    assert find_methods().get("somebodys_caster").folder == tmp_path / "somebodys_caster"
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("import nonesuch\n", "No module named 'nonesuch'"),
+        ("METHOD = 3\n", "does not define METHOD"),
+        ('from harness.contract import Method\nMETHOD = Method(name="other", source="t")\n', "they must agree"),
+        ("METHOD = (\n", "SyntaxError"),
+        ("raise SystemError('no')\n", "SystemError: no"),
+    ],
+)
+def test_a_broken_plugin_is_listed_with_its_reason_and_harms_no_other(tmp_path, text, words):
+    _plugin(tmp_path / "mine", text=text)
+    catalog = find_methods(tmp_path)
+    assert words in catalog.broken["mine"]
+    assert "newton" in catalog.plugins
+    with pytest.raises(FirsthitError, match="cannot be loaded"):
+        catalog.get("mine")
+
+
+def test_a_folder_without_a_kernel_says_so(tmp_path):
+    _plugin(tmp_path / "mine")
+    (tmp_path / "mine" / "kernel.glsl").unlink()
+    assert "no kernel.glsl" in find_methods(tmp_path).broken["mine"]
+
+
+def test_two_methods_of_one_name_are_refused(tmp_path):
+    _plugin(tmp_path / "newton", "newton")
+    with pytest.raises(FirsthitError, match="two methods are called 'newton'"):
+        find_methods(tmp_path)
+
+
+def test_a_plugin_folder_that_is_not_there_is_one_line(tmp_path):
+    with pytest.raises(FirsthitError, match="no such folder"):
+        find_methods(tmp_path / "none")
