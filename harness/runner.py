@@ -84,26 +84,33 @@ class Runner:
                 rows.append(self._finish(planned, None, CellStatus.SKIPPED, planned.skip))
                 continue
             state = _Live(planned, planned.frame)
-            start = time.perf_counter()
             try:
-                reason = self._check(state)
-                if reason is not None:
-                    rows.append(self._finish(planned, state, CellStatus.FAILED, reason))
-                elif state.frame is None:
-                    rows.append(self._finish(planned, state, CellStatus.OK, None))
-                else:
-                    state.warmed = self._executor.warm(planned.cell.device, planned.key, state.frame)
-                    live[planned.key] = state
+                reason = self._prepare(state)
             except CellError as error:
                 rows.append(self._finish(planned, state, error.status, str(error)))
-            state.preparing = time.perf_counter() - start
+                continue
+            if reason is not None:
+                rows.append(self._finish(planned, state, CellStatus.FAILED, reason))
+            elif state.warmed is None:
+                rows.append(self._finish(planned, state, CellStatus.OK, None))
+            else:
+                live[planned.key] = state
         rows += self._time(live)
         return rows
 
+    def _prepare(self, state: _Live) -> str | None:
+        """Check the cell and, if it is to be timed, warm its frame; a reason not to time it, if there is one."""
+        start = time.perf_counter()
+        try:
+            reason = self._check_family(state) if state.planned.cell.family else self._check(state)
+            if reason is None and state.frame:
+                state.warmed = self._executor.warm(state.planned.cell.device, state.planned.key, state.frame)
+            return reason
+        finally:
+            state.preparing = time.perf_counter() - start
+
     def _check(self, state: _Live) -> str | None:
         """Cast the accuracy rays and hold them against the oracle; a reason not to time the cell, if there is one."""
-        if state.planned.cell.family:
-            return self._check_family(state)
         cell, config = state.planned.cell, self._config.accuracy
         rays = rays_of(state.planned.camera, config.size)
         truth = cached_first_hits(cell.surface, rays, self._store.truth)
