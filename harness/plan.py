@@ -83,14 +83,16 @@ def processor() -> str:
 
 
 def choose_devices(wanted: list[str], found: list[DeviceInfo]) -> dict[str, DeviceInfo | None]:
-    """Device names to run on; None for a named one that is not here. `all` leaves out a broken double of a working
-    device (one driver installed twice)."""
+    """Device names to run on; None for a named one that is not here. `any` is the first that works. `all` leaves out a
+    broken double of a working device (one driver installed twice)."""
     by_name = {info.name: info for info in found}
     chosen: dict[str, DeviceInfo | None] = {}
     working = {info.name.split("-")[0] for info in found if not info.problem}
     for name in wanted:
         if name == "all":
             chosen |= {i.name: i for i in found if not i.problem or i.name.split("-")[0] not in working}
+        elif name == "any":
+            chosen |= dict([(info.name, info) for info in found if not info.problem][:1])
         else:
             chosen[name] = by_name.get(name)
     return chosen
@@ -168,7 +170,7 @@ def plan(experiment: Experiment, catalog: Catalog, found: list[DeviceInfo]) -> l
     config = experiment.config
     devices = choose_devices(config.devices, found)
     if not any(devices.values()):
-        wanted = "no device" if config.devices == ["all"] else f"none of {', '.join(config.devices)}"
+        wanted = "no usable device" if set(config.devices) <= {"all", "any"} else f"none of {', '.join(config.devices)}"
         raise FirsthitError(f"{wanted} found on this machine; see `firsthit devices`", exit_code=3)
     runs_on = list(itertools.product(experiment.variants, devices.items(), experiment.precisions))
     scenes = itertools.product(

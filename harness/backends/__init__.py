@@ -20,7 +20,7 @@ from harness.assemble import Language
 from harness.contract import DeviceInfo, FirsthitError, Hits, Program, RayStatus
 
 Array = NDArray[Any]
-INSTALL = {"opengl": "moderngl", "opencl": "pyopencl"}
+INSTALL = {"opencl": "pyopencl", "opengl": "moderngl"}
 LANGUAGES: dict[str, Language] = {"opengl": "glsl", "opencl": "cl"}
 
 
