@@ -83,7 +83,8 @@ def _cloud(shelf: Shelf, row: Any) -> Cloud | None:
 
 
 def _figure(clouds: list[Cloud], marks: Mapping[str, Mark], row: Any, radius: str) -> Figure:
-    variants, precisions = list(dict.fromkeys(c.variant for c in clouds)), sorted({c.precision for c in clouds})
+    variants = [variant for variant in marks if any(cloud.variant == variant for cloud in clouds)]
+    precisions = sorted({cloud.precision for cloud in clouds})
     every = np.log10(np.concatenate([cloud.condition for cloud in clouds]))
     edges = np.linspace(every.min(), max(every.max(), every.min() + 0.1), BINS + 1)
     limits = np.concatenate([allowed(10.0 ** edges[[0, -1]], precision) for precision in precisions])

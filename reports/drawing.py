@@ -97,11 +97,11 @@ class Key:
 
     @property
     def _columns(self) -> int:
-        """As many as fit, when labels fill one column after the other: a letter takes 0.05 inches, a handle 0.5."""
-        for columns in range(len(self.labels), 1, -1):
-            lines = -(-len(self.labels) // columns)
-            longest = [max(map(len, self.labels[i : i + lines])) for i in range(0, len(self.labels), lines)]
-            if sum(0.5 + 0.05 * letters for letters in longest) < self.width:
+        """As many as fit, when labels fill one column after the other: a letter takes 0.056 inches, a handle 0.5."""
+        letters = [len(label) for label in self.labels]
+        for columns in range(len(letters), 1, -1):
+            longest = [max(column) for column in np.array_split(letters, columns)]
+            if sum(0.5 + 0.056 * letter for letter in longest) < self.width:
                 return columns
         return 1
 
@@ -111,10 +111,8 @@ class Key:
         return 0.02 + 0.14 * -(-len(self.labels) // self._columns)
 
     def draw(self, drawing: Drawing) -> None:
-        drawing.legend(
-            *(self.handles, self.labels),
-            **{"loc": "upper center", "ncols": self._columns, "borderaxespad": 0.1, "handlelength": 2.6},
-        )
+        told: dict[str, Any] = {"ncols": self._columns, "borderaxespad": 0.1, "handlelength": 2.6}
+        drawing.legend(self.handles, self.labels, loc="upper center", **told)
 
 
 def line_of(mark: Mark) -> Line2D:

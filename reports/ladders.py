@@ -26,7 +26,8 @@ def figure(devices: Mapping[str, pd.DataFrame], facts: Facts, marks: Mapping[str
     Rungs stand at equal steps in the ladder's own order, because some ladders leap and one may reach 0.
     """
     rows = pd.concat(devices.values())
-    variants, precisions = list(rows["variant"].unique()), sorted(rows["precision"].unique())
+    variants = [variant for variant in marks if (rows["variant"] == variant).any()]
+    precisions = sorted(rows["precision"].unique())
     hatched = Patch(facecolor="none", edgecolor=style.FAINT, hatch="////", linewidth=0)
     key = Key([*(line_of(marks[v]) for v in variants), hatched], [*variants, "no ray decided"], NARROW)
     above = key.height + 0.2

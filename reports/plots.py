@@ -104,7 +104,7 @@ def _speed_against_error(shown: pd.DataFrame, devices: Sequence[str], marks: Map
     columns, lines = (len(precisions), 1) if alone else (len(devices), len(precisions))
     width = min(WIDE, 0.7 + 3.2 * columns)
     key = Key(*_key(shown, marks), width)
-    height = key.height + 0.76 + 2.35 * lines
+    height = key.height + 0.76 + (1.75 if alone else 2.35 * lines)
     with matplotlib.rc_context(RC):
         drawing = Drawing(figsize=(width, height))
         panels = drawing.subplots(lines, columns, sharex=True, sharey=True, squeeze=False)
@@ -191,7 +191,8 @@ def _caption(shown: pd.DataFrame) -> str:
             f"largest error of {wording.error(row.error_max)}."
         )
     exact = int((shown["error_max"] == 0).sum())
-    zeros = f" {wording.plural(exact, 'row')} with an error of exactly 0 stand left of the break." if exact else ""
+    stand = "stands" if exact == 1 else "stand"
+    zeros = f" {wording.plural(exact, 'row')} with an error of exactly 0 {stand} left of the break." if exact else ""
     return (
         "Up is faster, left is more exact; what lies below and right of the black line is beaten in both. "
         f"Hollow marks answer some rays wrongly and cannot be on the front.{zeros}{seen}"

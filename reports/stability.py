@@ -118,7 +118,7 @@ def families(facts: Mapping[str, Facts]) -> Table:
 def summary(rungs: pd.DataFrame, facts: Mapping[str, Facts]) -> Table:
     """One line for each variant and precision: how many families it holds, and what breaks it."""
     devices = breaks.by_device(rungs)
-    body = []
+    body: list[tuple[Any, ...]] = []
     for device, rows in devices.items():
         for (variant, precision), own in breaks.verdicts(rows).groupby(["variant", "precision"], sort=False):
             judged = own[own["decided"] > 0]

@@ -39,6 +39,8 @@ _HOUSE: dict[str, Mark] = {
     "yuksel": Mark(_YELLOW, "^"),
     "eft_yuksel": Mark(_VERMILLION, "^"),
     "lu_lipschitz": Mark(_GREEN, "<"),
+    "sphere_tracing_lipschitz": Mark(_GREEN, "h"),
+    "interval_march": Mark(_VERMILLION, "d"),
     "interval_uniform": Mark(_SKY, "d"),
     "interval_adaptive": Mark(_BLUE, "*"),
 }

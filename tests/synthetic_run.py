@@ -1,4 +1,5 @@
-"""A made-up run folder: three surfaces, five variants, four devices, two precisions, and all that goes wrong."""
+"""Made-up run folders: three surfaces, five variants, four devices, two precisions, families of hard rays, and all
+that goes wrong."""
 
 from __future__ import annotations
 
@@ -10,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from harness.contract import digest
+from reports import breaks, content, derive, load, sections
 
 SURFACES = {"sphere": ("Sphere", 2, 1.0), "torus": ("Torus", 4, 0.6), "barth": ("Barth #6 $extic_* @65 <b>", 6, 0.2)}
 VARIANTS: dict[str, dict[str, float]] = {
@@ -21,6 +23,40 @@ VARIANTS: dict[str, dict[str, float]] = {
 }
 DEVICES = {"opencl:intel": 8.0, "opencl:pocl": 1.0, "opengl:llvmpipe": 4.0, "opencl:gpu#0_$": 60.0}
 PERCENTILES = ("max", "p999", "p99", "p50")
+FAMILIES = {
+    "grazing": {
+        "title": "Grazing #rays_ $*",
+        "parameter": "distance from tangency, scene units",
+        "harder": "smaller",
+        "why": "two roots merge",
+        "source": "firsthit",
+    },
+    "thin_torus": {
+        "title": "Thin tori",
+        "parameter": "R/r",
+        "harder": "larger",
+        "why": "the hit is a short dip in a long ray",
+        "source": "firsthit",
+    },
+    "double_root": {
+        "title": "Double roots",
+        "parameter": "sine of the angle",
+        "harder": "smaller",
+        "why": "f never changes sign",
+        "source": "firsthit",
+    },
+}
+LEVELS = {
+    "grazing": [10.0**-n for n in range(1, 8)],
+    "thin_torus": [10.0, 100.0, 1e3, 1e4],
+    "double_root": [1.0, 0.1, 0.01],
+}
+BROKEN_FROM = {  # the rung that breaks a variant, and the kind of wrong answer
+    ("grazing", "newton[EPSILON=0.001]"): (3, "false_hits"),
+    ("grazing", "ray_march"): (5, "exhausted"),
+    ("thin_torus", "newton[EPSILON=0.001]"): (1, "misses"),
+    ("thin_torus", "_odd#[STEP_$=0.5,RELAXATION_OF_THE_LAST_STEP=1.25]"): (0, "wrong_root"),
+}
 GRID = 48
 
 
@@ -58,7 +94,9 @@ def plan(cells: list[dict[str, Any]]) -> dict[str, Any]:
         "created": "2026-11-22T03:00:00+00:00",
         "environment": environment,
         "devices": devices,
-        "cells": [{"slot": cell["slot"], "key": cell["key"]} for cell in cells],
+        "cells": [{"slot": cell["slot"], "key": cell["key"]} for cell in cells if not cell["family"]],
+        "families": [{"slot": cell["slot"], "key": cell["key"]} for cell in cells if cell["family"]],
+        "family_facts": FAMILIES,
     }
 
 
@@ -72,7 +110,7 @@ def cell(variant: str, surface: str, device: str, precision: str) -> dict[str, A
     median = slow * degree / DEVICES[device] * (1.8 if precision == "float64" else 1.0) * rng.uniform(0.9, 1.1)
     narrow = rng.random() > 0.1
     samples = [median * rng.gauss(1.0, 0.005 if narrow else 0.05) for _ in range(20)]
-    finished = {
+    finished: dict[str, Any] = {
         "format": 1,
         "key": digest(slot),
         "slot": slot,
@@ -105,6 +143,8 @@ def cell(variant: str, surface: str, device: str, precision: str) -> dict[str, A
         },
         "build": {"compile_ms": 120.0, "upload_ms": 0.1, "readback_ms": 0.4},
         "accuracy": None,
+        "family": None,
+        "rungs": None,
         "arrays": None,
         "operations": {"add": 7, "mul": 12},
         "program": {"hash": digest(variant, precision)},
@@ -121,6 +161,45 @@ def cell(variant: str, surface: str, device: str, precision: str) -> dict[str, A
     return finished
 
 
+def family_cell(variant: str, family: str, device: str, precision: str) -> dict[str, Any]:
+    """A finished cell of a family: every ray right, but for what BROKEN_FROM says, and double roots undecidable."""
+    slot = f"{variant} family {family} {precision} {device}"
+    made = cell(variant, "torus", device, precision) | {"slot": slot, "key": digest(slot), "family": family}
+    made |= {"comparison": f"family {family}", "view": "none", "size": 0, "stage": "rays"}
+    made |= {"time": None, "accuracy": None, "arrays": None}
+    first, kind = BROKEN_FROM.get((family, variant), (99, "misses"))
+    made["rungs"] = [
+        rung(
+            parameter,
+            wrong=10 * (level - first + 1) if level >= first else 0,
+            kind=kind,
+            decided=family != "double_root",
+        )
+        for level, parameter in enumerate(LEVELS[family])
+    ]
+    return made
+
+
+def rung(parameter: float, wrong: int, kind: str, decided: bool) -> dict[str, Any]:
+    counts = {"misses": 0, "false_hits": 0, "exhausted": 0, "wrong_root": 0}
+    errors = (
+        {"max_error": 1e-6 / parameter, "worst_ratio": 2.5 + wrong}
+        if decided
+        else dict.fromkeys(("max_error", "worst_ratio"))
+    )
+    return {
+        "parameter": parameter,
+        "rays": 96,
+        "decided": 90 if decided else 0,
+        "right": 90 - wrong if decided else 0,
+        **counts | ({kind: wrong} if decided else {}),
+        "undecidable": 6 if decided else 96,
+        "undecidable_right": 5 if decided else 40,
+        "undecided": 0,
+        **errors,
+    }
+
+
 def accuracy(rng: random.Random, method: str, precision: str, coverage: float, exact: bool) -> dict[str, Any]:
     top = 0.0 if exact else {"ray_march": 1e-5, "newton": 1e-3, "_odd#": 3e-2}[method] * rng.uniform(0.5, 2.0)
     top *= 1e-4 if precision == "float64" else 1.0
@@ -135,6 +214,7 @@ def accuracy(rng: random.Random, method: str, precision: str, coverage: float, e
         "undecided": 0,
         "grazing": 57,
         "grazing_margin": 0.001,
+        "scene_radius": 1.0,
         "misses": wrong,
         "false_hits": wrong // 3,
         "exhausted": wrong // 5,
@@ -145,7 +225,12 @@ def accuracy(rng: random.Random, method: str, precision: str, coverage: float, e
         "grazing_wrong_root": 0,
         "error": error,
         "relative_error": dict(error),
+        "feature_error": {name: value / 0.3 for name, value in error.items()},
         "pixel_error": {name: 200 * value for name, value in error.items()},
+        "ulp_error": {name: value / 2.0**-23 for name, value in error.items()},
+        "condition_ratio": {name: value / 2.0**-22 for name, value in error.items()},
+        "normal_error_degrees": {name: 57 * value for name, value in error.items()},
+        "residual": {name: value / 40 for name, value in error.items()},
         "evaluations_mean": 5.4 if method == "newton" else 812.5,
         "evaluations_max": 40,
     }
@@ -168,6 +253,8 @@ def arrays(finished: dict[str, Any]) -> dict[str, np.ndarray]:
         "truth": np.where(ball, 1, 0).astype(np.uint8),
         "error": error.astype(np.float32),
         "wrong": wrong,
+        "condition": np.where(ball, 1 / np.sqrt(np.clip(1 - (radius / 0.8) ** 2, 1e-9, 1)), np.nan).astype(np.float32),
+        "evaluations": np.full((GRID, GRID), 5, np.int32),
         "grazing": np.abs(radius - 0.8) < 0.03,
         "shade": np.where(ball, np.sqrt(np.clip(1 - (radius / 0.8) ** 2, 0, 1)), np.nan).astype(np.float32),
     }
@@ -213,6 +300,23 @@ def write_run(folder: Path) -> Path:
     return folder
 
 
+def stability_run(folder: Path) -> Path:
+    """Families alone, on two devices that agree; one cell skipped, one not run, one unreadable."""
+    cells = [
+        family_cell(variant, family, device, precision)
+        for family in FAMILIES
+        for device in ("opencl:intel", "opencl:pocl")
+        for precision in ("float32", "float64")
+        for variant in VARIANTS
+        if variant != "null"
+    ]
+    cells[0] |= {"status": "skipped", "reason": "no *interval* extension", "rungs": None, "operations": None}
+    tiny_run(folder, *cells)
+    (folder / "cells" / f"{cells[1]['key']}.json").unlink()
+    (folder / "cells" / f"{cells[2]['key']}.json").write_text('{"format": 1, "key"')
+    return folder
+
+
 def tiny_run(folder: Path, *cells: dict[str, Any]) -> Path:
     """A run of just these cells, without arrays."""
     (folder / "cells").mkdir(parents=True)
@@ -220,3 +324,23 @@ def tiny_run(folder: Path, *cells: dict[str, Any]) -> Path:
     for finished in cells:
         (folder / "cells" / f"{finished['key']}.json").write_text(json.dumps(finished))
     return folder
+
+
+def reported(folder: Path) -> tuple[load.Run, content.Document]:
+    run = load.load(folder)
+    return run, sections.report(run, derive.derive(run.frame), breaks.derive(run.families, run.rungs))
+
+
+def printed(blocks: tuple[content.Block, ...]) -> str:
+    """All that a section's tables and texts say, cells as a renderer prints them."""
+    words = []
+    for block in blocks:
+        match block:
+            case content.Text() | content.Code():
+                words.append(block.text)
+            case content.Table():
+                rows = [[c.show(v) for c, v in zip(block.columns, row, strict=True)] for row in block.rows]
+                words += [block.title, block.caption, *(" | ".join(row) for row in rows)]
+            case content.Figure() | content.Gallery():
+                words.append(block.caption)
+    return "\n".join(words)

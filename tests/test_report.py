@@ -16,8 +16,19 @@ import pytest
 
 import reports
 from harness.contract import FirsthitError, digest
-from reports import content, derive, document, images, load, plots, schema, sections, style, tables, wording
-from tests.synthetic_run import cell, plan, tiny_run, troubled, write_run
+from reports import (
+    arrays,
+    content,
+    derive,
+    document,
+    images,
+    load,
+    schema,
+    sections,
+    tables,
+    wording,
+)
+from tests.synthetic_run import cell, plan, printed, reported, tiny_run, troubled, write_run
 
 
 @pytest.fixture(scope="module")
@@ -33,21 +44,6 @@ def loaded(run: Path) -> load.Run:
 @pytest.fixture(scope="module")
 def frame(loaded: load.Run) -> pd.DataFrame:
     return derive.derive(loaded.frame)
-
-
-def printed(blocks: tuple[content.Block, ...]) -> str:
-    """All that a section's tables and texts say, cells as a renderer prints them."""
-    words = []
-    for block in blocks:
-        match block:
-            case content.Text() | content.Code():
-                words.append(block.text)
-            case content.Table():
-                rows = [[c.show(v) for c, v in zip(block.columns, row, strict=True)] for row in block.rows]
-                words += [block.title, block.caption, *(" | ".join(row) for row in rows)]
-            case content.Figure() | content.Gallery():
-                words.append(block.caption)
-    return "\n".join(words)
 
 
 def test_build_writes_three_files_and_nothing_else(run: Path) -> None:
@@ -75,15 +71,15 @@ def test_every_planned_cell_is_accounted_for(loaded: load.Run, frame: pd.DataFra
     ]
     assert len(loaded.not_run) == 2
     assert len(frame) + len(loaded.unreadable) + len(loaded.not_run) == len(loaded.plan.slots) == 120
-    counts = tables.statuses(frame, 2, 2)
+    counts = tables.statuses(frame["status"], 2, 2)
     total, *parts = counts.rows[0]
     assert total == sum(parts) == 120
     titles = [column.title for column in counts.columns]
     assert titles == ["cells", "ok", "skipped", "failed", "timeout", "crashed", "unreadable", "not run yet"]
 
 
-def test_the_report_says_what_happened(loaded: load.Run, frame: pd.DataFrame) -> None:
-    report = sections.report(loaded, frame)
+def test_the_report_says_what_happened(run: Path) -> None:
+    _, report = reported(run)
     by_title = {section.title: printed(section.blocks) for section in report.sections}
     assert "firsthit run configs/quick.toml" in printed(report.summary.blocks)
     assert "_odd#[STEP_$=0.5,RELAXATION_OF_THE_LAST_STEP=1.25]" in by_title["Results"]
@@ -152,14 +148,20 @@ def test_flags_say_what_to_know_of_a_row(frame: pd.DataFrame) -> None:
         assert ("floor" in words) == (row.method == "null")
 
 
-def test_no_error_is_told_of_a_method_that_answers_nothing(frame: pd.DataFrame) -> None:
+def test_no_error_is_told_of_a_method_that_answers_nothing(loaded: load.Run, frame: pd.DataFrame) -> None:
     finished = frame[(frame["status"] == "ok") & (frame["surface"] == "torus")]
-    assert (finished.loc[finished["method"] == "null", "misses"] > 0).all()
+    null = loaded.frame["method"] == "null"
+    assert (loaded.frame.loc[null, "misses"].dropna() > 0).all()
+    accuracy = [field.name for field in schema.SCHEMA if field.path[0] == "accuracy"]
+    assert len(accuracy) > 40
+    assert frame.loc[null, accuracy].isna().all(axis=None)
+    kept = frame.loc[~null, accuracy]
+    pd.testing.assert_frame_equal(kept, loaded.frame.loc[~null, accuracy])
     table = tables.results(finished)
     titles = [column.title for column in table.columns]
     first, last = titles.index("max\nerror"), titles.index("evals\nper ray")
     for row in table.rows:
-        assert all(value is None for value in row[first : last + 1]) == (row[2] == "null")
+        assert all(pd.isna(value) for value in row[first : last + 1]) == (row[2] == "null")
 
 
 def test_fronts_are_what_a_comparison_of_all_pairs_finds(frame: pd.DataFrame) -> None:
@@ -244,51 +246,18 @@ def test_a_damaged_array_file_is_listed_and_the_other_pictures_drawn(tmp_path: P
             broken.write_bytes(broken.read_bytes()[:200])
     loaded = load.load(folder)
     frame = derive.derive(loaded.frame)
-    shown = pd.concat([images.chosen(rows) for _, rows in frame.groupby("surface")])
+    shown = pd.concat([derive.drawn(rows) for _, rows in frame.groupby("surface")])
     damaged = {f"arrays/{key}.npz" for key in shown["key"] if key.startswith(victim.name[0])}
-    galleries, unreadable = images.galleries(folder, frame)
-    assert {file.file for file in unreadable} == damaged
+    shelf = arrays.Shelf(folder)
+    galleries = images.galleries(shelf, frame)
+    assert {file.file for file in shelf.damaged.values()} == set(shelf.damaged) == damaged
     assert sum(len(gallery.panels) for gallery in galleries.values()) == len(shown) - len(damaged)
 
 
-def test_error_pictures_show_each_kind_of_ray_in_its_colour() -> None:
-    shape = (1, 8)
-    error = np.array([[0.0, 1e-8, 1e-2, np.nan, np.nan, np.nan, np.nan, np.nan]], np.float32)
-    wrong = np.array([[0, 0, 0, 1, 2, 3, 4, 1]], np.uint8)
-    grazing = np.arange(8).reshape(shape) == 7
-    shade = np.ones(shape, np.float32)
-    image = images.error_map(images.Arrays(np.ones(shape, np.uint8), error, wrong, grazing, shade), (-8, -2))
-    colors = ["#{:02x}{:02x}{:02x}".format(*np.round(255 * pixel).astype(int)) for pixel in image[0]]
-    assert colors[0] == style.EXACT
-    assert colors[1] == "#00224e" and colors[2] == "#fee838", "the ends of cividis"
-    assert colors[3:7] == [kind.color.lower() for kind in style.WRONG]
-    assert np.all(image[0, 7] > image[0, 3] - 1e-9) and not np.allclose(image[0, 7], image[0, 3])
-
-
-def test_a_zero_error_has_its_place_left_of_the_smallest(frame: pd.DataFrame) -> None:
-    axis = plots.ErrorAxis.of(pd.Series([0.0, 3e-7, 2e-3, np.inf]))
-    assert (axis.lowest, axis.highest) == (-7, -2)
-    assert axis.position(pd.Series([0.0, 1e-7, 1e-2])).tolist() == [axis.zero, -7.0, -2.0]
-    assert axis.zero <= -8
-    sphere = frame[frame["surface"] == "sphere"]
-    (figure,) = plots.speed_against_error(sphere, style.marks(frame["method"]), "sphere", "Sphere")
-    assert "rows with an error of exactly 0" in figure.caption
-    assert ">_odd#<" in figure.svg, "text stays text, and a leading underscore does not drop a method from the key"
-
-
-def test_a_method_keeps_its_mark_and_no_two_share_one() -> None:
-    plugins = [f"plugin_{i}" for i in range(30)]
-    marks = style.marks([*plugins, "newton", "ray_march", "null", "sturm", "analytic"])
-    assert len(set(marks.values())) == len(marks)
-    assert marks["newton"] == style.marks(["newton"])["newton"]
-
-
-def test_large_runs_print_only_what_matters(
-    loaded: load.Run, frame: pd.DataFrame, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_large_runs_print_only_what_matters(run: Path, frame: pd.DataFrame, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(tables, "ROW_LIMIT", 10)
     monkeypatch.setattr(sections, "SUMMARY_LINES", 5)
-    report = sections.report(loaded, frame)
+    _, report = reported(run)
     by_title = {section.title: printed(section.blocks) for section in report.sections}
     assert "Which method is fastest" in printed(report.summary.blocks)
     assert len([block for block in report.summary.blocks if isinstance(block, content.Figure)]) == 1
@@ -305,6 +274,13 @@ def test_repeated_group_values_are_printed_once(tmp_path: Path) -> None:
     made = document._block(table, tmp_path)
     assert [row["cells"] for row in made["rows"]] == [["x", "y", "1"], ["", "", "2"], ["", "z", "3"], ["w", "z", "4"]]
     assert [row["opens"] for row in made["rows"]] == [True, False, True, True]
+    assert made["headings"] == [{"title": "", "span": 3}]
+
+
+def test_neighbours_share_their_heading(tmp_path: Path) -> None:
+    columns = (content.Column("a"), content.Column("b", over="x"), content.Column("c", over="x"), content.Column("d"))
+    headings = document._block(content.Table(columns, [], "T"), tmp_path)["headings"]
+    assert headings == [{"title": "", "span": 1}, {"title": "x", "span": 2}, {"title": "", "span": 1}]
 
 
 @pytest.mark.parametrize(
@@ -320,10 +296,66 @@ def test_repeated_group_values_are_printed_once(tmp_path: Path) -> None:
         (wording.factor, 7.04, "7.04×"),
         (wording.share, 0.005, "0.5 %"),
         (wording.share, 0.12, "12 %"),
+        (wording.portion, 0.9999, "99.9 %"),
+        (wording.portion, 1.0, "100 %"),
+        (wording.short, 1.0, "1.0"),
+        (wording.short, 0.0123, "0.012"),
+        (wording.short, 56.7, "57"),
+        (wording.short, 99.6, "100"),
+        (wording.short, 1234.0, "1,234"),
+        (wording.short, 0.001, "1.0e−3"),
+        (wording.short, 12345.0, "1.2e4"),
+        (wording.short, None, "–"),
+        (wording.level, 1e-6, "10⁻⁶"),
+        (wording.level, 0.01, "0.01"),
+        (wording.level, 3.5, "3.5"),
+        (wording.level, 1792.0, "1792"),
+        (wording.level, 1e30, "10³⁰"),
+        (wording.level, 2.0**-20, "9.5e−7"),
+        (wording.level, 0.0, "0"),
+        (wording.listed, ["a", "b", "c"], "a, b and c"),
+        (wording.listed, ["a"], "a"),
     ],
 )
 def test_numbers_as_people_read_them(show: Callable[[Any], str], value: Any, shown: str) -> None:
     assert show(value) == shown
+
+
+def test_units_of_error_stand_beside_each_other(frame: pd.DataFrame) -> None:
+    rows = frame[(frame["surface"] == "torus") & (frame["status"] == "ok")]
+    table = tables.units(rows)
+    assert table is not None
+    titles = [(column.over.replace("\n", " "), column.title) for column in table.columns]
+    assert [title for title in titles[3:] if title[1] == "max"] == [
+        ("scene units", "max"),
+        ("over scene radius", "max"),
+        ("over feature radius", "max"),
+        ("pixels", "max"),
+        ("units in last place of t", "max"),
+        ("over condition × roundoff", "max"),
+        ("normal, degrees", "max"),
+        ("residual", "max"),
+    ]
+    assert len(table.rows) == int(rows["answers"].sum())
+    for row in table.rows:
+        told = dict(zip(titles, row, strict=True))
+        assert told["over feature radius", "99 %"] == pytest.approx(told["scene units", "99 %"] / 0.3)
+        assert told["units in last place of t", "max"] == pytest.approx(told["scene units", "max"] * 2**23)
+
+
+def test_an_older_run_has_no_families_and_no_conditions(tmp_path: Path) -> None:
+    folder = write_run(tmp_path / "run")
+    document = json.loads((folder / "plan.json").read_text())
+    del document["families"], document["family_facts"]
+    (folder / "plan.json").write_text(json.dumps(document))
+    for file in folder.glob("arrays/*.npz"):
+        with np.load(file) as stored:
+            kept = {name: stored[name] for name in stored if name not in ("condition", "evaluations")}
+        np.savez_compressed(file, **kept)
+    run, report = reported(folder)
+    assert run.families.empty
+    assert not {"Error against condition", "Where each method breaks"} & {section.title for section in report.sections}
+    assert sum(section.title.startswith("Pictures") for section in report.sections) == 3
 
 
 def test_importing_reports_imports_nothing_heavy() -> None:

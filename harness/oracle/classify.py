@@ -1,10 +1,16 @@
 """Estimates that sort rays into classes: the next root, the first root's condition, and the margin to another answer.
 
-Plain float64 on samples of f along the ray, nothing proved; none of it decides whether a method's answer is right.
+Plain float64 on samples along the ray, nothing proved; none of it decides whether a method's answer is right.
+
+**Theory.** Where the first root t1 is known, the samples are of g = f / (t - t1)^m, m its multiplicity (2 for a touch),
+with g(t1) = f'(t1): a next root or a near touch close to t1, which f's samples would step over, is an ordinary sign
+change or least |g| of these. Wilkinson 1963, §2.28: deflation without dividing polynomials, and Maehly's step in `_root`.
+Everything is as good as f' and f are in float64: a next root t2 to about condition · 2^-53 radii.
 """
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -16,8 +22,14 @@ from harness.oracle.clip import clip_many, nearest, recentred
 from harness.oracle.floats import FloatFunction, majorant
 
 BLOCK = 1024  # rays at a time, so that the arrays stay in the cache
-REFINEMENTS = 5
+MOST_STEPS = 40  # of a bracketed search; it halves at least every second time
+SETTLED = 0.1  # an extremum is settled when |g| can fall by no more than this share
+UNIT = 2.0**-53
+CERTIFIED = 2.0**-42  # bound of the first root's error, in domain radii
+BLUNT = 2.0**40  # condition of a first root above which f'(t1) is taken for rounding errors
+NOISE = 16.0  # roundings of f's terms below which a change of sign is not believed
 Estimates = tuple[Floats, Floats, Floats]  # following, condition, margin, each [n]
+Indices = NDArray[np.intp]
 
 
 def classify(f: FloatFunction, domain: Domain, rays: Floats, first: Floats, status: NDArray[np.uint8]) -> Estimates:
@@ -33,8 +45,19 @@ def classify(f: FloatFunction, domain: Domain, rays: Floats, first: Floats, stat
     return following, condition, margin
 
 
+@dataclass(frozen=True)
+class _Extrema:
+    """Where |g| is locally least on rays `rows`; all arrays [k]."""
+
+    rows: Indices
+    lower: Floats  # t in front of it, with g of the sign `side`
+    t: Floats
+    side: Floats
+    crossed: NDArray[np.bool_]  # g's sign at `t` is the other, and beyond rounding errors
+
+
 class _Block:
-    """Rays with their origins moved near the domain, f sampled along them."""
+    """Rays with their origins moved near the domain, f and g sampled along them."""
 
     def __init__(
         self, f: FloatFunction, domain: Domain, rays: Floats, first: Floats, status: NDArray[np.uint8]
@@ -50,75 +73,184 @@ class _Block:
         self.enter = clip.enter_lower - self.shift
         self.leave = clip.leave_upper - self.shift
         self.first = first - self.shift
-        count = f.samples
-        grid = 0.5 - 0.5 * np.cos(np.pi * np.arange(count) / (count - 1))
-        self.t = self.enter[:, None] + (self.leave - self.enter)[:, None] * grid
-        self.values = f.values(self.rays, self.t).copy()
+        self.hit = np.isfinite(self.first)
+        self.order = np.where(self.hit, np.where(status == TruthStatus.TOUCH, 2.0, 1.0), 0.0)  # m
+        self.slope = self.f.along(self.rays, self.first).slope
+        terms = majorant(self.f, self.rays, self.first)
+        self.condition = terms * self.length / (np.abs(self.slope) * domain.radius)
+        self._sample()
 
     def estimates(self) -> Estimates:
-        rows, columns = self._settle_extrema()
-        hit = np.isfinite(self.first)
-        following = self._following()
-        margin = np.full(len(hit), np.inf)
-        before = np.where(hit, self.first, np.inf)
-        self._lower_margin(margin, rows, self.t[rows, columns], self.t[rows, columns] < before[rows])
-        everyone = np.arange(len(hit))
-        self._lower_margin(margin, everyone, self.enter, np.ones_like(hit))
-        self._lower_margin(margin, everyone, self.leave, ~hit)
-        self._lower_margin(margin, everyone, self._deepest(following), hit)
+        found = self._least()
+        following = self._following(found)
+        margin = np.full(len(self.hit), np.inf)
+        everyone = np.arange(len(self.hit))
+        before = np.where(self.hit, self.first, np.inf)
+        self._lower_margin(margin, found.rows, found.t, found.t < before[found.rows])
+        self._lower_margin(margin, everyone, self.enter, np.ones_like(self.hit))
+        self._lower_margin(margin, everyone, self.leave, ~self.hit)
+        self._lower_margin(margin, everyone, self._deepest(following), self.hit)
         room = np.minimum(self._inside(self.first), (self.first + self.shift) * self.length)
-        margin = np.where(hit, np.minimum(margin, np.maximum(room, 0.0)), margin)
+        room = np.minimum(room, 0.5 * (following - self.first) * self.length)  # nothing between two roots is deeper
+        margin = np.where(self.hit, np.minimum(margin, np.maximum(room, 0.0)), margin)
         margin = np.where(self.missed, self._gap(), margin)
         open_ = (self.status == TruthStatus.TOUCH) | (self.status == TruthStatus.UNDECIDED)
-        return following + self.shift, self._condition(), np.where(open_, 0.0, margin)
+        return following + self.shift, self.condition, np.where(open_, 0.0, margin)
 
-    def _settle_extrema(self) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        """Moves samples at which |f| is locally least to the extremum nearby; returns those where f kept its sign."""
-        size, sign = np.abs(self.values), np.sign(self.values)
-        least = (size[:, 1:-1] <= size[:, :-2]) & (size[:, 1:-1] <= size[:, 2:])
-        least &= (sign[:, 1:-1] == sign[:, :-2]) & (sign[:, 1:-1] == sign[:, 2:])
-        rows, columns = np.nonzero(least)
-        columns = columns + 1
-        rays = self.rays[rows]
-        lower, upper, t = (self.t[rows, columns + k] for k in (-1, 1, 0))
-        inward = sign[rows, columns]  # slope·inward < 0 in front of the extremum
-        slopes = [self.f.along(rays, end).slope * inward for end in (lower, upper)]
-        for _ in range(REFINEMENTS):
-            secant = lower - slopes[0] * (upper - lower) / (slopes[1] - slopes[0])
-            t = np.where((secant > lower) & (secant < upper), secant, 0.5 * (lower + upper))
-            slope = self.f.along(rays, t).slope * inward
-            front = slope < 0.0
-            lower, upper = np.where(front, t, lower), np.where(front, upper, t)
-            # halving the kept end's slope (Illinois) keeps the secant from creeping
-            slopes = [np.where(front, slope, 0.5 * slopes[0]), np.where(front, 0.5 * slopes[1], slope)]
-        value = self.f.values(rays, t)
-        better = np.abs(value) < size[rows, columns]
-        better |= value * inward < 0.0
-        self.t[rows[better], columns[better]] = t[better]
-        self.values[rows[better], columns[better]] = value[better]
-        same = np.sign(self.values[rows, columns]) == inward
-        return rows[same], columns[same]
-
-    def _following(self) -> Floats:
-        """The next sign change behind the first root, from samples; inf where there is none."""
-        positive = self.values > 0.0
-        change = (positive[:, 1:] != positive[:, :-1]) & (self.t[:, :-1] > self.first[:, None])
-        column = change.argmax(axis=1)
-        rows = np.flatnonzero(change.any(axis=1))
-        column = column[rows]
-        following = np.full(len(self.rays), np.inf)
-        following[rows] = self.f.root_between(
-            self.rays[rows], self.t[rows, column], self.t[rows, column + 1], positive[rows, column + 1]
+    def _sample(self) -> None:
+        """t, f and g at Chebyshev's points of the clip interval, one of them moved to t1."""
+        last = self.f.samples - 1
+        self.t = self.enter[:, None] + (self.leave - self.enter)[:, None] * (
+            0.5 - 0.5 * np.cos(np.pi * np.arange(last + 1) / last)
         )
+        angle = np.arccos(np.clip(1.0 - 2.0 * (self.first - self.enter) / (self.leave - self.enter), -1.0, 1.0))
+        self.column = np.clip(np.rint(np.where(self.hit, angle, 0.0) * last / np.pi), 1, last - 1).astype(np.intp)
+        rows, column = np.flatnonzero(self.hit), self.column[self.hit]
+        self.t[rows, column] = self.first[rows]
+        self.values = self.f.values(self.rays, self.t).copy()
+        self.values[rows, column] = 0.0
+        gap = np.where(self.hit[:, None], self.t - self.first[:, None], 1.0)
+        touch = self.order == 2.0
+        gap[touch] *= gap[touch]
+        self.g = self.values / gap
+        # nearer to t1 than rounding errors move roots, g is what it is at t1; that is unknown where f' is only noise
+        sharp = (self.order == 1.0) & (self.condition < BLUNT)
+        spacing = 2.0 * np.spacing(np.abs(self.first + self.shift))
+        blur = (4.0 * UNIT * self.condition + CERTIFIED) * self.domain.radius / self.length + spacing
+        near = np.abs(self.t - self.first[:, None]) <= np.where(sharp, blur, 0.0)[:, None]
+        behind = self.g[np.arange(len(self.g)), self.column + 1]
+        self.g = np.where(near, np.where(sharp, self.slope, behind)[:, None], self.g)
+        changes = np.diff(np.sign(self.g), axis=1) != 0.0
+        changes &= np.arange(last) >= np.where(self.hit, self.column, last)[:, None]
+        self.change = np.where(changes.any(axis=1), changes.argmax(axis=1), last)  # column before g's, behind t1
+
+    def _least(self) -> _Extrema:
+        """The extrema at which |g| is locally least, up to the sampled change of sign behind t1."""
+        size, sign = np.abs(self.g), np.sign(self.g)
+        same = sign[:, 1:] == sign[:, :-1]
+        least = np.ones(size.shape, dtype=bool)
+        least[:, 1:] &= (size[:, 1:] <= size[:, :-1]) | ~same
+        least[:, :-1] &= (size[:, :-1] <= size[:, 1:]) | ~same
+        least &= np.arange(size.shape[1]) <= self.change[:, None]
+        rows, columns = np.nonzero(least)
+        slope = self._deflated(rows, self.t[rows, columns])[1] * sign[rows, columns]
+        at_first = self.hit[rows] & (columns == self.column[rows])  # where the slope is not known: both sides
+        ahead, behind = (slope < 0.0) | at_first, (slope > 0.0) | at_first
+        rows = np.concatenate((rows[ahead], rows[behind]))
+        left = np.concatenate((columns[ahead], columns[behind] - 1))
+        slopes = np.concatenate((slope[ahead], slope[behind]))
+        is_left = np.arange(len(rows)) < ahead.sum()
+        inside = (left >= 0) & (left < same.shape[1])
+        inside &= same[rows, np.where(inside, left, 0)]
+        rows, left, slopes, is_left = rows[inside], left[inside], slopes[inside], is_left[inside]
+        return self._settled(rows, left, slopes, is_left)
+
+    def _settled(self, rows: Indices, left: Indices, known: Floats, is_left: NDArray[np.bool_]) -> _Extrema:
+        """The least |g| between samples `left` and `left` + 1 by cubics; `known` is |g|' at the one that `is_left`."""
+        side = np.sign(self.g[rows, left])
+        lower, upper = self.t[rows, left], self.t[rows, left + 1]
+        low, high = np.abs(self.g[rows, left]), np.abs(self.g[rows, left + 1])
+        other = self._deflated(rows, np.where(is_left, upper, lower))[1] * side
+        falls, climbs = np.where(is_left, known, other), np.where(is_left, other, known)
+        # the slope at t1 itself is that of a parabola, with the sign that makes a bracket
+        secant = 2.0 * (high - low) / (upper - lower)
+        at_first = self.first[rows]
+        falls = np.where(lower == at_first, -np.abs(secant - climbs), falls)
+        climbs = np.where(upper == at_first, np.abs(secant - falls), climbs)
+        t, depth = np.where(low < high, lower, upper), np.minimum(low, high)
+        stuck = np.zeros(len(rows), dtype=bool)
+        k = np.arange(len(rows))
+        for _ in range(MOST_STEPS):
+            if not len(k):
+                break
+            a, b, fall, climb = lower[k], upper[k], falls[k], climbs[k]
+            width = b - a
+            bend = fall + climb - 3.0 * (high[k] - low[k]) / width
+            root = np.sqrt(bend * bend - fall * climb)
+            guess = b - width * (climb + root - bend) / (climb - fall + 2.0 * root)
+            guess = np.where((guess > a) & (guess < b) & ~stuck[k], guess, 0.5 * (a + b))
+            g, slope = self._deflated(rows[k], guess)
+            g, slope = g * side[k], slope * side[k]
+            better = g < depth[k]
+            t[k[better]], depth[k[better]] = guess[better], g[better]
+            front = (slope < 0.0) & (g > 0.0)
+            lower[k], low[k], falls[k] = (
+                np.where(front, guess, a),
+                np.where(front, g, low[k]),
+                np.where(front, slope, fall),
+            )
+            upper[k], high[k], climbs[k] = (
+                np.where(front, b, guess),
+                np.where(front, high[k], g),
+                np.where(front, climb, slope),
+            )
+            left_over = upper[k] - lower[k]
+            stuck[k] = left_over > 0.5 * width
+            go_on = (g > 0.0) & (np.abs(slope) * left_over > SETTLED * g) & (left_over > UNIT * np.abs(guess))
+            k = k[go_on]
+        crossed = depth < 0.0
+        crossed[crossed] = self._believed(rows[crossed], t[crossed])
+        return _Extrema(rows, lower, t, side, crossed)
+
+    def _believed(self, rows: Indices, t: Floats) -> NDArray[np.bool_]:
+        rays = self.rays[rows]
+        return np.asarray(np.abs(self.f.values(rays, t)) > NOISE * UNIT * majorant(self.f, rays, t))
+
+    def _following(self, found: _Extrema) -> Floats:
+        """The first change of g's sign behind the first root, sampled or settled; inf where there is none."""
+        last = self.t.shape[1] - 1
+        everyone = np.arange(len(self.hit))
+        end = np.minimum(self.change + 1, last)
+        lower, side = self.t[everyone, end - 1], np.sign(self.g[everyone, end])
+        upper = np.where(self.change < last, self.t[everyone, end], np.inf)
+        crossed = found.crossed & (found.t > self.first[found.rows])
+        rows = found.rows[crossed]
+        np.minimum.at(upper, rows, found.t[crossed])
+        mine = upper[rows] == found.t[crossed]
+        lower[rows[mine]], side[rows[mine]] = found.lower[crossed][mine], -found.side[crossed][mine]
+        rows = np.flatnonzero(self.hit & np.isfinite(upper))
+        following = np.full(len(upper), np.inf)
+        following[rows] = self._root(rows, np.maximum(lower, self.first)[rows], upper[rows], side[rows])
         return following
+
+    def _root(self, rows: Indices, lower: Floats, upper: Floats, side: Floats) -> Floats:
+        """The root of g in each bracket, at whose upper end g has the sign `side`: Newton, halving as it must."""
+        t = 0.5 * (lower + upper)
+        enough = CERTIFIED * UNIT**0.5 * self.domain.radius / self.length[rows]
+        moved = upper - lower
+        k = np.arange(len(rows))
+        for _ in range(MOST_STEPS):
+            if not len(k):
+                break
+            at = t[k]
+            g, slope = self._deflated(rows[k], at)
+            high = g * side[k] > 0.0
+            lower[k], upper[k] = np.where(high, lower[k], at), np.where(high, at, upper[k])
+            step = at - g / slope
+            good = (step >= lower[k]) & (step <= upper[k]) & (np.abs(step - at) < 0.5 * moved[k])
+            t[k] = np.where(good, step, 0.5 * (lower[k] + upper[k]))
+            moved[k] = np.abs(t[k] - at)
+            k = k[moved[k] > enough[k]]
+        return t
+
+    def _deflated(self, rows: Indices, t: Floats) -> tuple[Floats, Floats]:
+        """g and dg/dt on `rows`; NaN or infinite at t1."""
+        f = self.f.along(self.rays[rows], t)
+        order = self.order[rows]
+        gap = np.where(order > 0.0, t - self.first[rows], 1.0)
+        power = np.where(order == 2.0, gap * gap, gap)
+        return f.value / power, (f.slope - order * f.value / gap) / power
 
     def _deepest(self, following: Floats) -> Floats:
         """t where |f| is largest between the first root and the next, or the clip end: how deep the ray dips."""
         stop = np.minimum(following, self.leave)
         between = (self.t > self.first[:, None]) & (self.t < stop[:, None])
-        column = np.where(between, np.abs(self.values), -1.0).argmax(axis=1)
-        sampled = self.t[np.arange(len(stop)), column]
-        return np.where(between.any(axis=1), sampled, 0.5 * (self.first + stop))
+        size = np.where(between, np.abs(self.values), -1.0)
+        column = size.argmax(axis=1)
+        everyone = np.arange(len(stop))
+        middle = 0.5 * (self.first + stop)
+        sampled = size[everyone, column] > np.abs(self.f.values(self.rays, middle))
+        return np.where(sampled, self.t[everyone, column], middle)
 
     def _lower_margin(self, margin: Floats, rows: NDArray[np.intp], t: Floats, counts: Any) -> None:
         """Lowers margins to |f| / |grad f| at o + t·d of `rows`, where it `counts`."""
@@ -141,9 +273,3 @@ class _Block:
         t = np.maximum(0.0, -self.shift)  # recentred: 0 is nearest to the centre
         surface = np.abs(self.f.values(self.rays, t)) / self.f.steepness(self.rays, t)
         return np.asarray(np.fmax(np.maximum(-self._inside(t), 0.0), surface))
-
-    def _condition(self) -> Floats:
-        """Sum of |terms of f| over |df/dt|·radius at the first root."""
-        terms = majorant(self.f, self.rays, self.first)
-        slope = np.abs(self.f.along(self.rays, self.first).slope)
-        return np.asarray(terms * self.length / (slope * self.domain.radius))

@@ -85,8 +85,10 @@ Hit first_hit(Ray ray, real t0, real t1) {
     real x[COEFFICIENTS];
     real q[COEFFICIENTS];
     x[0] = NODES[0];
-    x[1] = last;
-    for (int d = 1; d < N; d++) {
+    derivative(c, 1, q);
+    x[1] = clamp(-q[0] / (BERNSTEIN ? q[1] - q[0] : q[1]), x[0], last);
+    x[2] = last;
+    for (int d = 2; d < N; d++) {
         derivative(c, d, q);
         split_at_roots(x, q, d, BERNSTEIN, TOLERANCE);
     }
@@ -108,18 +110,13 @@ Hit first_hit(Ray ray, real t0, real t1) {
         }
     }
     if (!found) return hit;
-    if (EVAL == 0) return hit_at(hit, start + reach * bracketed_root(q, N, BERNSTEIN, a, b, from, to, 0.0));
-    real t = 0.5 * (a + b) + (b - a) * ((from + to) / (from - to)) * 0.3333333432674407958984375;
-    for (int i = 0; i < 40; i++) {
-        Dual f = polynomial_dual(q, N, BERNSTEIN, t);
-        f.value = surface_value(ray_point(ray, start + reach * t));
+    if (EVAL == 0) return hit_at(hit, start + reach * bracketed_root(q, N, BERNSTEIN, a, b, from, to, FINAL));
+    Bracket bracket = make_bracket(a, b, from, to);
+    for (int i = 0; i < MOST_STEPS && bracket.step > FINAL; i++) {
+        Dual f = polynomial_dual(q, N, BERNSTEIN, bracket.x);
+        f.value = surface_value(ray_point(ray, start + reach * bracket.x));
         hit.evaluations += 1;
-        if ((f.value < 0.0) == below) { a = t; } else { b = t; }
-        real next = t - f.value / f.derivative;
-        if (!(next > a && next < b)) next = 0.5 * (a + b);
-        real step = fabs(next - t);
-        t = next;
-        if (step <= FINAL) break;
+        bracket = newton_step(bracket, f, below);
     }
-    return hit_at(hit, start + reach * t);
+    return hit_at(hit, start + reach * bracket.x);
 }

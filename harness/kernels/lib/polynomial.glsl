@@ -24,23 +24,44 @@ Dual polynomial_dual(IN real q[COEFFICIENTS], int degree, bool bernstein, real x
     return make_dual(value, slope);
 }
 
-// The root in [a, b], where q changes sign once and is `from` at a and `to` at b: Newton's steps, each kept inside what
-// is left of [a, b] by halving it. Ends with a step no longer than the tolerance. Starts where a cubic that is level at
-// both ends is after one Newton step from the middle.
+// Where Newton's method starts in [a, b], between values of unlike sign: where its step from the middle leads on a cubic
+// that is level at both ends.
+real bracket_start(real a, real b, real from, real to) {
+    return 0.5 * (a + b) + (b - a) * ((from + to) / (from - to)) * 0.3333333432674407958984375;
+}
+
+// What is left of an interval with a change of sign, the next x to look at in it, and how far that is from the last.
+#define MOST_STEPS 64
+
+STRUCT(Bracket) struct Bracket { real a; real b; real x; real step; };
+
+Bracket make_bracket(real a, real b, real from, real to) {
+    Bracket bracket;
+    bracket.a = a;
+    bracket.b = b;
+    bracket.x = bracket_start(a, b, from, to);
+    bracket.step = b - a;
+    return bracket;
+}
+
+// One Newton step at bracket.x; one that would leave the bracket is replaced by halving it.
+Bracket newton_step(Bracket bracket, Dual f, bool rising) {
+    Bracket next = bracket;
+    if ((f.value < 0.0) == rising) { next.a = bracket.x; } else { next.b = bracket.x; }
+    next.x = bracket.x - f.value / f.derivative;
+    if (!(next.x >= next.a && next.x <= next.b)) next.x = 0.5 * (next.a + next.b);
+    next.step = fabs(next.x - bracket.x);
+    return next;
+}
+
+// The root in [a, b], where q changes sign once and is `from` at a and `to` at b.
 real bracketed_root(IN real q[COEFFICIENTS], int degree, bool bernstein, real a, real b, real from, real to,
                     real tolerance) {
-    real x = 0.5 * (a + b) + (b - a) * ((from + to) / (from - to)) * 0.3333333432674407958984375;
-    bool rising = from < 0.0;
-    for (int i = 0; i < 64; i++) {
-        Dual f = polynomial_dual(q, degree, bernstein, x);
-        if ((f.value < 0.0) == rising) { a = x; } else { b = x; }
-        real next = x - f.value / f.derivative;
-        if (!(next > a && next < b)) next = 0.5 * (a + b);
-        real step = fabs(next - x);
-        x = next;
-        if (step <= tolerance) break;
+    Bracket bracket = make_bracket(a, b, from, to);
+    for (int i = 0; i < MOST_STEPS && bracket.step > tolerance; i++) {
+        bracket = newton_step(bracket, polynomial_dual(q, degree, bernstein, bracket.x), from < 0.0);
     }
-    return x;
+    return bracket.x;
 }
 
 // One level of Yuksel's method. In: x[0] to x[degree], the ends of pieces on which q is monotone. Out: x[1] to x[degree]

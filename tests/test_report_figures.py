@@ -1,0 +1,93 @@
+"""The drawings and pictures of a report."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from reports import arrays, condition, content, derive, drawing, images, load, plots, style
+from tests.synthetic_run import write_run
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return write_run(tmp_path_factory.mktemp("runs") / "quick")
+
+
+@pytest.fixture(scope="module")
+def frame(run: Path) -> pd.DataFrame:
+    return derive.derive(load.load(run).frame)
+
+
+def test_error_pictures_show_each_kind_of_ray_in_its_colour() -> None:
+    shape = (1, 8)
+    error = np.array([[0.0, 1e-8, 1e-2, np.nan, np.nan, np.nan, np.nan, np.nan]], np.float32)
+    wrong = np.array([[0, 0, 0, 1, 2, 3, 4, 1]], np.uint8)
+    grazing = np.arange(8).reshape(shape) == 7
+    shade = np.ones(shape, np.float32)
+    image = images.error_map(arrays.Arrays(np.ones(shape, np.uint8), error, wrong, grazing, shade), (-8, -2))
+    colors = ["#{:02x}{:02x}{:02x}".format(*np.round(255 * pixel).astype(int)) for pixel in image[0]]
+    assert colors[0] == style.EXACT
+    assert colors[1] == "#00224e" and colors[2] == "#fee838", "the ends of cividis"
+    assert colors[3:7] == [kind.color.lower() for kind in style.WRONG]
+    assert np.all(image[0, 7] > image[0, 3] - 1e-9) and not np.allclose(image[0, 7], image[0, 3])
+
+
+def test_a_zero_error_has_its_place_left_of_the_smallest(frame: pd.DataFrame) -> None:
+    axis = drawing.ErrorAxis.of(pd.Series([0.0, 3e-7, 2e-3, np.inf]))
+    assert (axis.lowest, axis.highest) == (-7, -2)
+    assert axis.position(pd.Series([0.0, 1e-7, 1e-2])).tolist() == [axis.zero, -7.0, -2.0]
+    assert axis.zero <= -8
+    sphere = frame[frame["surface"] == "sphere"]
+    (figure,) = plots.speed_against_error(sphere, style.marks(frame["method"]), "sphere", "Sphere")
+    assert "rows with an error of exactly 0" in figure.caption
+    assert ">_odd#<" in figure.svg, "text stays text, and a leading underscore does not drop a method from the key"
+
+
+def test_a_method_keeps_its_mark_and_no_two_share_one() -> None:
+    plugins = [f"plugin_{i}" for i in range(30)]
+    marks = style.marks([*plugins, "newton", "ray_march", "null", "sturm", "analytic"])
+    assert len(set(marks.values())) == len(marks)
+    assert marks["newton"] == style.marks(["newton"])["newton"]
+
+
+def test_errors_are_held_against_what_the_condition_allows(run: Path, frame: pd.DataFrame) -> None:
+    marks = style.variant_marks(frame[["method", "variant"]].itertuples(index=False, name=None))
+    (section,) = condition.sections(arrays.Shelf(run), frame, marks)
+    figures = [block for block in section.blocks if isinstance(block, content.Figure)]
+    assert [figure.title.partition(",")[0] for figure in figures] == ["Sphere", "Torus", "Barth #6 $extic_* @65 <b>"]
+    assert len(figures[1].svg) < 300_000, "summaries, not a mark for each ray"
+
+    row = next(frame[(frame["variant"] == "newton[EPSILON=0.001]") & (frame["surface"] == "torus")].itertuples())
+    stored = np.load(run / "arrays" / f"{row.key}.npz")
+    both = np.isfinite(stored["error"]) & np.isfinite(stored["condition"])
+    cloud = condition._cloud(arrays.Shelf(run), row)
+    assert cloud is not None and len(cloud.error) == both.sum()
+    ratios = stored["error"][both] / (np.maximum(stored["condition"][both], 1) * 2.0**-24 * row.scene_radius)
+    assert cloud.excess == pytest.approx(ratios.max())
+    edges = np.linspace(np.log10(cloud.condition).min(), np.log10(cloud.condition).max(), condition.BINS + 1)
+    filled, largest, median = condition._spread(cloud, edges)
+    for number, top, middle in zip(filled, largest, median, strict=True):
+        last = number == condition.BINS - 1
+        place = np.log10(cloud.condition)
+        errors = cloud.error[(place >= edges[number]) & ((place < edges[number + 1]) | last)]
+        assert (top, middle) == (errors.max(), np.sort(errors)[len(errors) // 2])
+    assert len(filled) > 3
+
+
+def test_variants_of_a_method_differ_in_their_line_alone() -> None:
+    pairs = [("newton", "newton[A=1]"), ("sturm", "sturm"), ("newton", "newton[A=2]"), ("newton", "newton[A=1]")]
+    marks = style.variant_marks(pairs)
+    one, two = marks["newton[A=1]"], marks["newton[A=2]"]
+    own = style.marks(["newton"])["newton"]
+    assert {(mark.color, mark.marker) for mark in (one, two)} == {(own.color, own.marker)}
+    assert one.line != two.line and marks["sturm"].line == one.line
+
+
+def test_a_key_takes_no_more_room_than_there_is() -> None:
+    assert drawing.Key([None] * 3, ["a", "b", "c"], 7.0)._columns == 3
+    long = drawing.Key([None] * 3, ["x" * 50, "y" * 50, "z" * 60], 7.0)
+    assert (long._columns, long.height > drawing.Key([None], ["x"], 7.0).height) == (2, True)

@@ -1,0 +1,130 @@
+"""The report of families of hard rays, alone and beside views."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import pytest
+
+import reports
+from harness.hardcases.verdict import first_break
+from reports import breaks, load
+from tests import synthetic_run
+from tests.synthetic_run import family_cell, printed, reported, stability_run, tiny_run
+
+
+@pytest.fixture(scope="module")
+def hard(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return stability_run(tmp_path_factory.mktemp("runs") / "stability")
+
+
+def test_verdicts_name_the_rung_that_breaks(hard: Path) -> None:
+    run = load.load(hard)
+    rungs = breaks.derive(run.families, run.rungs)
+    devices = breaks.by_device(rungs)
+    assert list(devices) == [breaks.ALL_DEVICES], "both agree, where both ran"
+    rows = breaks.verdicts(devices[breaks.ALL_DEVICES]).set_index(breaks.LADDER)
+    broken = rows["breaks_at"].dropna()
+    assert broken["grazing", "float64", "newton[EPSILON=0.001]"] == synthetic_run.LEVELS["grazing"][3]
+    assert broken["grazing", "float64", "ray_march"] == synthetic_run.LEVELS["grazing"][5]
+    assert broken["thin_torus", "float32", "newton[EPSILON=0.001]"] == 100.0
+    assert len(broken) == 2 * len(synthetic_run.BROKEN_FROM)
+    row = rows.loc["grazing", "float64", "newton[EPSILON=0.001]"]
+    assert (row["decided"], row["right"], row["false_hits"], row["worst_ratio"]) == (630, 530, 100, 42.5)
+    assert row["share_right"] == pytest.approx(530 / 630)
+    blind = rows.xs("double_root")
+    assert (blind["decided"] == 0).all() and blind["share_right"].isna().all() and blind["breaks_at"].isna().all()
+
+
+def test_breaks_are_those_that_the_harness_finds() -> None:
+    rng = np.random.default_rng(7)
+    told = dict.fromkeys(("key", "slot", "family", "method", "variant", "precision", "device"), "x")
+    for harder in ("smaller", "larger"):
+        for _ in range(50):
+            decided = rng.choice([0, 50, 100], 6)
+            right = np.minimum(decided, rng.choice([0, 49, 50, 98, 99, 100], 6))
+            parameters = np.sort(rng.random(6))[:: -1 if harder == "smaller" else 1]
+            ladder = [
+                synthetic_run.rung(float(p), 0, "misses", True) | {"decided": int(d), "right": int(r)}
+                for p, d, r in zip(parameters, decided, right, strict=True)
+            ]
+            rungs = pd.DataFrame(ladder).assign(level=range(6), key="x")
+            rows = breaks.derive(pd.DataFrame([told | {"parameters": "{}", "answers": True}]), rungs)
+            found = breaks.verdicts(rows)["breaks_at"].iloc[0]
+            assert (None if np.isnan(found) else found) == first_break(ladder, harder)
+
+
+def test_devices_that_differ_have_tables_of_their_own(tmp_path: Path) -> None:
+    cells = [family_cell("ray_march", "grazing", device, "float32") for device in ("opencl:intel", "opencl:pocl")]
+    rungs = load.load(tiny_run(tmp_path / "same", *cells))
+    same = breaks.derive(rungs.families, rungs.rungs)
+    cells[1]["rungs"][0]["max_error"] = 7.0
+    cells[1]["rungs"][0]["worst_ratio"] = 1e6
+    worse = load.load(tiny_run(tmp_path / "worse", *cells))
+    (together,) = breaks.by_device(breaks.derive(worse.families, worse.rungs)).values()
+    assert together["worst_ratio"].iloc[0] == 1e6 and len(together) == len(same) // 2, "the worst error of any device"
+    cells[1]["rungs"][0] |= {"right": 89, "misses": 1}
+    other = tiny_run(tmp_path / "other", *cells)
+    run, report = reported(other)
+    assert list(breaks.by_device(breaks.derive(run.families, run.rungs))) == ["opencl:intel", "opencl:pocl"]
+    (page,) = (printed(section.blocks) for section in report.sections if section.title == "Where each method breaks")
+    assert "The devices differ (opencl:intel and opencl:pocl)" in page
+    assert "float32 on opencl:intel." in page and "float32 on opencl:pocl." in page
+
+
+def test_a_run_of_families_alone_makes_a_report(hard: Path) -> None:
+    run, report = reported(hard)
+    assert run.frame.empty and len(run.not_run) == 1 and len(run.unreadable) == 1
+    summary = printed(report.summary.blocks)
+    assert "the most that any variant holds are 2 of 2 in float32 (newton[EPSILON=1e-06])" in summary
+    by_title = {section.title: printed(section.blocks) for section in report.sections}
+    assert list(by_title) == [
+        "Devices, environment, config",
+        "Where each method breaks",
+        "Hard rays, family by family",
+        "Skipped, failed and missing",
+    ]
+    page = by_title["Where each method breaks"]
+    assert "All devices agree on every count of every rung they ran: opencl:intel and opencl:pocl" in page
+    assert "Thin tori | ray_march | holds | 360 | 100 %" in page
+    assert " | newton[EPSILON=0.001] | 100 | 360 | 83.3 % | 60 | 0 | 0 | 0 | " in page
+    assert "Double roots | ray_march | nothing decided | 0 | – | – | – | – | – | – | 288 | 120" in page
+    for facts in synthetic_run.FAMILIES.values():
+        assert facts["why"] in page and facts["why"] in by_title["Hard rays, family by family"]
+    assert "In float32 none of these rays can be decided" in by_title["Hard rays, family by family"]
+    assert "skipped | no *interval* extension" in by_title["Skipped, failed and missing"]
+    assert "family: Grazing #rays_ $*" in by_title["Skipped, failed and missing"]
+
+    before = {path.name for path in hard.iterdir()}
+    reports.build(hard)
+    made = {"report.pdf", "results.csv", "results.parquet", "stability.csv"}
+    assert {path.name for path in hard.iterdir()} == before | made
+    csv = pd.read_csv(hard / "stability.csv")
+    cells = [json.loads((hard / "cells" / f"{key}.json").read_text()) for key in csv["key"].unique()]
+    assert len(csv) == sum(len(cell["rungs"]) for cell in cells) == len(run.rungs)
+    first = csv[csv["key"] == cells[-1]["key"]].sort_values("level")
+    assert first["parameter"].tolist() == [rung["parameter"] for rung in cells[-1]["rungs"]]
+    assert first["right"].tolist() == [rung["right"] for rung in cells[-1]["rungs"]]
+    assert pd.read_csv(hard / "results.csv").empty
+
+
+@pytest.mark.parametrize(
+    ("change", "problem"),
+    [
+        (lambda c: c["rungs"][1].pop("decided"), "decided is missing"),
+        (lambda c: c["rungs"].append(7), "a rung is no object: 7"),
+        (lambda c: c.update(rungs="many"), "rungs is missing or no list"),
+        (lambda c: c.update(family="unheard_of"), "the plan says nothing of its family, 'unheard_of'"),
+    ],
+)
+def test_a_foreign_ladder_is_listed(tmp_path: Path, change: Callable[[dict[str, Any]], Any], problem: str) -> None:
+    good, bad = (family_cell("ray_march", family, "opencl:intel", "float32") for family in ("grazing", "thin_torus"))
+    change(bad)
+    run = load.load(tiny_run(tmp_path / "run", good, bad))
+    assert run.families["key"].tolist() == run.rungs["key"].unique().tolist() == [good["key"]]
+    assert run.unreadable[0].problem.startswith(problem)
