@@ -121,9 +121,11 @@ def summarize(
     `footprint` is a pixel's height at distance 1. Errors are of rays outside the grazing class that hit the right root:
     in scene units; relative to the scene radius (toledo2007's ε(R + r)) and to the feature radius (its ε(r)); in pixel
     footprints; in units in the last place of t; and over condition × unit roundoff × radius, which a method as good as
-    the problem allows keeps at a small number.
+    the problem allows keeps at a small number. Errors are distances to a certified interval: what is smaller than its
+    width (`certified_width` is the largest) may show as 0.
     """
     clear, radius = ~verdicts.grazing, scene_radius(surface)
+    widths = (truth.upper - truth.lower)[clear & np.isfinite(verdicts.error)]
     summary: dict[str, Any] = {
         "rays": len(hits.status),
         "truth_hits": int(np.isin(truth.status, (TruthStatus.CROSSING, TruthStatus.TOUCH)).sum()),
@@ -132,6 +134,8 @@ def summarize(
         "grazing": int(verdicts.grazing.sum()),
         "grazing_margin": grazing_margin,
         "scene_radius": radius,
+        "domain_radius": surface.domain.radius,
+        "certified_width": float(np.max(widths, initial=0.0)),
     }
     for kind, name in NAMES.items():
         summary[name] = int((clear & (verdicts.wrong == kind)).sum())

@@ -38,6 +38,8 @@ def build(run: Path) -> Path:
             if not rungs.empty:
                 rungs.to_csv(made / "stability.csv", index=False)
                 files.insert(0, "stability.csv")
+            else:
+                (run / "stability.csv").unlink(missing_ok=True)  # of an earlier plan
             for file in files:
                 (made / file).replace(run / file)
     except OSError as error:

@@ -64,9 +64,7 @@ def sections(shelf: Shelf, frame: pd.DataFrame, marks: Mapping[str, Mark]) -> li
         shown = derive.drawn(rows, VARIANTS)
         clouds = [cloud for row in shown.itertuples() if (cloud := _cloud(shelf, row)) is not None]
         if clouds:
-            row = shown.iloc[0]
-            exact = not wording.absent(row["domain_radius"])
-            figures.append(_figure(clouds, marks, row, "domain's" if exact else "scene's"))
+            figures.append(_figure(f"condition-{len(figures)}", clouds, marks, shown.iloc[0]))
     return [Section("Error against condition", (Text(EXPLANATION), *figures))] if figures else []
 
 
@@ -82,7 +80,8 @@ def _cloud(shelf: Shelf, row: Any) -> Cloud | None:
     return Cloud(row.variant, row.precision, condition, error / radius)
 
 
-def _figure(clouds: list[Cloud], marks: Mapping[str, Mark], row: Any, radius: str) -> Figure:
+def _figure(name: str, clouds: list[Cloud], marks: Mapping[str, Mark], row: Any) -> Figure:
+    radius = "scene's" if wording.absent(row["domain_radius"]) else "domain's"
     variants = [variant for variant in marks if any(cloud.variant == variant for cloud in clouds)]
     precisions = sorted({cloud.precision for cloud in clouds})
     every = np.log10(np.concatenate([cloud.condition for cloud in clouds]))
@@ -109,7 +108,7 @@ def _figure(clouds: list[Cloud], marks: Mapping[str, Mark], row: Any, radius: st
         key.draw(drawing)
         drawn = svg(drawing)
     return Figure(
-        f"condition-{row['surface']}",
+        name,
         drawn,
         f"Largest and median error of {wording.listed(variants)} on {row['surface_title']}, against condition.",
         f"{row['surface_title']}, view {row['view']}, on {row['device']}.",

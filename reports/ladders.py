@@ -52,6 +52,8 @@ def figure(devices: Mapping[str, pd.DataFrame], facts: Facts, marks: Mapping[str
 
 
 def _draw(axes: Axes, rows: pd.DataFrame, variants: list[str], marks: Mapping[str, Mark]) -> None:
+    if rows.empty:
+        axes.text(0.5, 0.5, "no result", transform=axes.transAxes, ha="center", va="center", color=style.FAINT)
     rungs = rows.drop_duplicates("level").sort_values("level")
     axes.set_ylim(-0.08, 1.08)
     axes.set_yticks([0, 0.5, 1])

@@ -149,7 +149,8 @@ def _draw_group(axes: Axes, group: pd.DataFrame, axis: ErrorAxis, marks: Mapping
         look: dict[str, Any] = {"color": mark.color, "marker": mark.marker, "ms": 4.5, "mew": 0.9, "zorder": 4}
         axes.plot(rows, y[rows.index], lw=0.5, **look)
         hollow = rows[~right[rows.index]]
-        axes.plot(hollow, y[hollow.index], lw=0, markerfacecolor=style.PAPER, **look)
+        if len(hollow):
+            axes.plot(hollow, y[hollow.index], lw=0, markerfacecolor=style.PAPER, **look)
     front = x[group["front"].astype(bool)].sort_values()
     if len(front):  # drawn down from its most exact row and right from its fastest, for what these two beat
         ends, speeds = (front.iloc[0], front.iloc[-1] + 99), y[front.index]

@@ -10,7 +10,7 @@ rungs, one of RUNG.
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
 
@@ -95,19 +95,26 @@ RUNG: tuple[Field, ...] = (
 )
 
 
-def flatten(fields: Sequence[Field], document: Mapping[str, Any]) -> tuple[Any, ...]:
+def flatten(fields: Sequence[Field], document: dict[str, Any]) -> tuple[Any, ...]:
     """The values of `fields`, in their order; a ValueError names the first that is missing or of another kind."""
-    return tuple(_value(field, document) for field in fields)
+    around: dict[tuple[str, ...], Any] = {(): document}  # what was found on the way is shared by neighbouring fields
+    return tuple(_value(field, around) for field in fields)
 
 
-def _value(field: Field, document: Mapping[str, Any]) -> Any:
-    value: Any = document
-    for part in field.path:
-        if value is None:
-            break
-        if not isinstance(value, Mapping):
-            raise ValueError(f"{'.'.join(field.path)}: the value around it is no object")
-        value = value.get(part)
+def _object(path: tuple[str, ...], around: dict[tuple[str, ...], Any]) -> Any:
+    """The object at `path`, or None; found and checked once."""
+    if path not in around:
+        outer = _object(path[:-1], around)
+        value = None if outer is None else outer.get(path[-1])
+        if value is not None and not isinstance(value, dict):
+            raise ValueError(f"{'.'.join(path)} is no object")
+        around[path] = value
+    return around[path]
+
+
+def _value(field: Field, around: dict[tuple[str, ...], Any]) -> Any:
+    found = _object(field.path[:-1], around)
+    value = None if found is None else found.get(field.path[-1])
     if value is None:
         if field.required:
             raise ValueError(f"{'.'.join(field.path)} is missing")

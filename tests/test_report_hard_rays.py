@@ -113,6 +113,26 @@ def test_a_run_of_families_alone_makes_a_report(hard: Path) -> None:
     assert pd.read_csv(hard / "results.csv").empty
 
 
+def test_families_without_a_result_still_make_a_report(tmp_path: Path) -> None:
+    skipped = family_cell("ray_march", "grazing", "opencl:intel", "float32")
+    skipped |= {"status": "skipped", "reason": "no such thing", "rungs": None}
+    folder = tiny_run(tmp_path / "run", skipped)
+    _, report = reported(folder)
+    assert [section.title for section in report.sections] == [
+        "Devices, environment, config",
+        "Skipped, failed and missing",
+    ]
+    (folder / "stability.csv").write_text("from an earlier plan")
+    reports.build(folder)
+    assert not (folder / "stability.csv").exists()
+
+
+def test_a_method_that_answers_nothing_breaks_nowhere(tmp_path: Path) -> None:
+    null = family_cell("null", "grazing", "opencl:intel", "float32")
+    run = load.load(tiny_run(tmp_path / "run", null, family_cell("ray_march", "grazing", "opencl:intel", "float32")))
+    assert breaks.derive(run.families, run.rungs)["method"].unique().tolist() == ["ray_march"]
+
+
 @pytest.mark.parametrize(
     ("change", "problem"),
     [

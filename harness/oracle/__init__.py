@@ -38,7 +38,8 @@ def first_hits(surface: Surface, rays: NDArray[np.float32]) -> Truth:
     solver = _solver(surface)
     wide = rays.astype(np.float64)
     lower, upper, status = solver.certify(wide)
-    following, condition, margin = classify(solver.floats, surface.domain, wide, 0.5 * (lower + upper), status)
+    first = 0.5 * (lower + upper)
+    following, condition, margin = classify(solver.floats, solver.fast.f, surface.domain, wide, first, status)
     return Truth(lower, upper, status, following, condition, margin)
 
 

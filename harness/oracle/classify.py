@@ -4,13 +4,14 @@ Plain float64 on samples along the ray, nothing proved; none of it decides wheth
 
 **Theory.** Where the first root t1 is known, the samples are of g = f / (t - t1)^m, m its multiplicity (2 for a touch),
 with g(t1) = f'(t1): a next root or a near touch close to t1, which f's samples would step over, is an ordinary sign
-change or least |g| of these. Wilkinson 1963, §2.28: deflation without dividing polynomials, and Maehly's step in `_root`.
+change or least |g| of these. This is deflation without dividing polynomials, and `_root` steps by Maehly's formula.
 Everything is as good as f' and f are in float64: a next root t2 to about condition · 2^-53 radii.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -19,6 +20,7 @@ from numpy.typing import NDArray
 from harness.contract import Box, Domain, TruthStatus
 from harness.oracle.balls64 import Floats
 from harness.oracle.clip import clip_many, nearest, recentred
+from harness.oracle.enclosure import Enclosure
 from harness.oracle.floats import FloatFunction, majorant
 
 BLOCK = 1024  # rays at a time, so that the arrays stay in the cache
@@ -27,20 +29,40 @@ SETTLED = 0.1  # an extremum is settled when |g| can fall by no more than this s
 UNIT = 2.0**-53
 CERTIFIED = 2.0**-42  # bound of the first root's error, in domain radii
 BLUNT = 2.0**40  # condition of a first root above which f'(t1) is taken for rounding errors
-NOISE = 16.0  # roundings of f's terms below which a change of sign is not believed
+DROWNED = 2.0**-40  # interpolated values below this share of the largest are not believed
 Estimates = tuple[Floats, Floats, Floats]  # following, condition, margin, each [n]
 Indices = NDArray[np.intp]
 
 
-def classify(f: FloatFunction, domain: Domain, rays: Floats, first: Floats, status: NDArray[np.uint8]) -> Estimates:
-    """`rays`: float64[n, 6]; `first`: the first root's t, float64[n], NaN without a hit; see contract.Truth."""
+def lobatto(degree: int) -> Floats:
+    """Chebyshev's extrema in [0, 1], degree + 1 of them."""
+    return np.asarray(0.5 - 0.5 * np.cos(np.pi * np.arange(degree + 1) / degree))
+
+
+@cache
+def interpolation(degree: int, finer: int) -> Floats:
+    """Values of a polynomial at lobatto(degree * finer) from those at lobatto(degree), by its Chebyshev series."""
+    weight = np.where(np.arange(degree + 1) % degree == 0, 0.5, 1.0) if degree > 1 else np.full(2, 0.5)
+    order = np.arange(degree + 1)
+    at_nodes = np.cos(np.pi / degree * np.outer(order, order)) * np.outer(weight, weight) * 2.0 / degree
+    at_samples = np.cos(np.pi / (degree * finer) * np.outer(np.arange(degree * finer + 1), order))
+    return np.asarray(at_samples @ at_nodes)
+
+
+def classify(
+    f: FloatFunction, enclosure: Enclosure, domain: Domain, rays: Floats, first: Floats, status: NDArray[np.uint8]
+) -> Estimates:
+    """`rays`: float64[n, 6]; `first`: the first root's t, float64[n], NaN without a hit; see contract.Truth.
+
+    `enclosure` is of f or of a function with the same roots: it tells two close roots from rounding errors.
+    """
     if not len(rays):
         return np.empty(0), np.empty(0), np.empty(0)
     parts = []
     with np.errstate(all="ignore"):
         for k in range(0, len(rays), BLOCK):
             piece = slice(k, k + BLOCK)
-            parts.append(_Block(f, domain, rays[piece], first[piece], status[piece]).estimates())
+            parts.append(_Block(f, enclosure, domain, rays[piece], first[piece], status[piece]).estimates())
     following, condition, margin = (np.concatenate(columns) for columns in zip(*parts, strict=True))
     return following, condition, margin
 
@@ -53,6 +75,7 @@ class _Extrema:
     lower: Floats  # t in front of it, with g of the sign `side`
     t: Floats
     side: Floats
+    width: Floats  # how far from `t` the two complex roots are that make it
     crossed: NDArray[np.bool_]  # g's sign at `t` is the other, and beyond rounding errors
 
 
@@ -60,9 +83,17 @@ class _Block:
     """Rays with their origins moved near the domain, f and g sampled along them."""
 
     def __init__(
-        self, f: FloatFunction, domain: Domain, rays: Floats, first: Floats, status: NDArray[np.uint8]
+        self,
+        f: FloatFunction,
+        enclosure: Enclosure,
+        domain: Domain,
+        rays: Floats,
+        first: Floats,
+        status: NDArray[np.uint8],
     ) -> None:
         self.f = f
+        self.enclosure = enclosure
+        self.given = rays
         self.domain = domain
         self.status = status
         self.shift = nearest(np.asarray(domain.center), rays)
@@ -86,7 +117,10 @@ class _Block:
         margin = np.full(len(self.hit), np.inf)
         everyone = np.arange(len(self.hit))
         before = np.where(self.hit, self.first, np.inf)
-        self._lower_margin(margin, found.rows, found.t, found.t < before[found.rows])
+        ahead = before[found.rows] - found.t
+        self._lower_margin(
+            margin, found.rows, found.t, (ahead > self.blur[found.rows]) & ~(3.0**0.5 * found.width > ahead)
+        )
         self._lower_margin(margin, everyone, self.enter, np.ones_like(self.hit))
         self._lower_margin(margin, everyone, self.leave, ~self.hit)
         self._lower_margin(margin, everyone, self._deepest(following), self.hit)
@@ -100,14 +134,13 @@ class _Block:
     def _sample(self) -> None:
         """t, f and g at Chebyshev's points of the clip interval, one of them moved to t1."""
         last = self.f.samples - 1
-        self.t = self.enter[:, None] + (self.leave - self.enter)[:, None] * (
-            0.5 - 0.5 * np.cos(np.pi * np.arange(last + 1) / last)
-        )
-        angle = np.arccos(np.clip(1.0 - 2.0 * (self.first - self.enter) / (self.leave - self.enter), -1.0, 1.0))
-        self.column = np.clip(np.rint(np.where(self.hit, angle, 0.0) * last / np.pi), 1, last - 1).astype(np.intp)
+        self.t = self.enter[:, None] + (self.leave - self.enter)[:, None] * lobatto(last)
+        self.values = self._interpolated() if self.f.interpolates else self.f.values(self.rays, self.t).copy()
+        place = np.clip((self.first - self.enter) / (self.leave - self.enter), 0.0, 1.0)
+        nearest_sample = np.rint(np.arccos(1.0 - 2.0 * place) * last / np.pi)
+        self.column = np.clip(np.nan_to_num(nearest_sample), 1, last - 1).astype(np.intp)
         rows, column = np.flatnonzero(self.hit), self.column[self.hit]
         self.t[rows, column] = self.first[rows]
-        self.values = self.f.values(self.rays, self.t).copy()
         self.values[rows, column] = 0.0
         gap = np.where(self.hit[:, None], self.t - self.first[:, None], 1.0)
         touch = self.order == 2.0
@@ -117,12 +150,22 @@ class _Block:
         sharp = (self.order == 1.0) & (self.condition < BLUNT)
         spacing = 2.0 * np.spacing(np.abs(self.first + self.shift))
         blur = (4.0 * UNIT * self.condition + CERTIFIED) * self.domain.radius / self.length + spacing
-        near = np.abs(self.t - self.first[:, None]) <= np.where(sharp, blur, 0.0)[:, None]
+        self.blur = np.where(sharp, blur, 0.0)
+        near = np.abs(self.t - self.first[:, None]) <= self.blur[:, None]
         behind = self.g[np.arange(len(self.g)), self.column + 1]
         self.g = np.where(near, np.where(sharp, self.slope, behind)[:, None], self.g)
         changes = np.diff(np.sign(self.g), axis=1) != 0.0
         changes &= np.arange(last) >= np.where(self.hit, self.column, last)[:, None]
         self.change = np.where(changes.any(axis=1), changes.argmax(axis=1), last)  # column before g's, behind t1
+
+    def _interpolated(self) -> Floats:
+        """f at the samples, a polynomial from degree + 1 of them; what drowns in its rounding errors, one by one."""
+        every = (self.f.samples - 1) // self.f.program.degree
+        known = self.f.values(self.rays, self.t[:, ::every])
+        values = known @ interpolation(self.f.program.degree, every).T
+        rows, columns = np.nonzero(np.abs(values) < DROWNED * np.abs(known).max(axis=1, keepdims=True))
+        values[rows, columns] = self.f.values(self.rays[rows], self.t[rows, columns])
+        return np.asarray(values)
 
     def _least(self) -> _Extrema:
         """The extrema at which |g| is locally least, up to the sampled change of sign behind t1."""
@@ -135,7 +178,7 @@ class _Block:
         rows, columns = np.nonzero(least)
         slope = self._deflated(rows, self.t[rows, columns])[1] * sign[rows, columns]
         at_first = self.hit[rows] & (columns == self.column[rows])  # where the slope is not known: both sides
-        ahead, behind = (slope < 0.0) | at_first, (slope > 0.0) | at_first
+        ahead, behind = (slope <= 0.0) | at_first, (slope > 0.0) | at_first
         rows = np.concatenate((rows[ahead], rows[behind]))
         left = np.concatenate((columns[ahead], columns[behind] - 1))
         slopes = np.concatenate((slope[ahead], slope[behind]))
@@ -189,12 +232,13 @@ class _Block:
             go_on = (g > 0.0) & (np.abs(slope) * left_over > SETTLED * g) & (left_over > UNIT * np.abs(guess))
             k = k[go_on]
         crossed = depth < 0.0
-        crossed[crossed] = self._believed(rows[crossed], t[crossed])
-        return _Extrema(rows, lower, t, side, crossed)
+        crossed[crossed] = self._proved(rows[crossed], t[crossed])
+        bend = (climbs - falls) / (upper - lower)
+        return _Extrema(rows, lower, t, side, np.sqrt(2.0 * np.maximum(depth, 0.0) / bend), crossed)
 
-    def _believed(self, rows: Indices, t: Floats) -> NDArray[np.bool_]:
-        rays = self.rays[rows]
-        return np.asarray(np.abs(self.f.values(rays, t)) > NOISE * UNIT * majorant(self.f, rays, t))
+    def _proved(self, rows: Indices, t: Floats) -> NDArray[np.bool_]:
+        """Whether f is not 0, for what float64 balls can tell."""
+        return np.asarray(self.enclosure.along(self.given[rows], t + self.shift[rows]).sign != 0)
 
     def _following(self, found: _Extrema) -> Floats:
         """The first change of g's sign behind the first root, sampled or settled; inf where there is none."""

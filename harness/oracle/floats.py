@@ -15,6 +15,7 @@ FUNCTIONS: Functions = {
     "abs": np.abs, "min": np.minimum, "max": np.maximum, "sign": np.sign, "half": lambda a: 0.5 * a,
 }  # fmt: skip
 NEWTON_STEPS = 9
+MOST_DEGREE = 32
 DUAL_FUNCTIONS = dual_functions(FUNCTIONS)
 
 
@@ -24,7 +25,9 @@ class FloatFunction:
     def __init__(self, program: Program, constants: list[float]) -> None:
         self.program = program
         self.constants = [np.float64(c) for c in constants]
-        self.samples = min(4 * program.degree + 1, 129) if program.is_polynomial else 129  # enough to see every bend
+        # polynomials are known everywhere from degree + 1 samples, as long as rounding errors are not blown up
+        self.interpolates = program.is_polynomial and program.degree <= MOST_DEGREE
+        self.samples = 12 * program.degree + 1 if self.interpolates else 129
         self.duals = [Dual(c, np.float64(0.0)) for c in self.constants]
 
     def values(self, rays: Floats, t: Floats) -> Floats:

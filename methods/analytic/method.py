@@ -3,14 +3,16 @@
 **Source** Loop and Blinn 2006, as toledo2007 (section 2) describes and criticises it; the closed forms are named in
 harness/kernels/lib/closed_form.glsl.
 
-**Theory** In Bernstein form over an interval u in [0, 1], f is a polynomial in s = u / (1 - u) whose coefficients are the
-Bernstein ones times binomials; the interval is s >= 0. It is solved from the end where f is larger, so that its leading
-coefficient is. Every real root is found; so the first one is, a touch too where rounding leaves it real.
+**Theory** In Bernstein form over an interval u in [0, 1], f is a polynomial in s = u / (1 - u), its coefficients the
+Bernstein ones times binomials, and the interval is s >= 0. It is solved from the end where f is larger, so that the
+leading coefficient is. Every real root is found; so the first one is, a touch too where rounding leaves it real.
 
 **Changes against the paper**
 - The interval is the ray's stay in the domain, in the surface's own coordinates; Loop and Blinn work in screen space.
-  SCREEN = 1 does: depth from 0 at the near plane to 1 at the far plane, by the perspective division, over all of it. The
+  SCREEN = 1 does: over depth as the perspective division makes it, 0 at the near plane and 1 at the far plane. The
   planes are knobs; kernels see no camera, so the eye is taken to stand EYE in front of the point nearest the centre.
+- The interval is widened by WIDENING of its length at either end: a tight box ends where the surface touches it, and
+  with f = 0 there the leading coefficient is lost (without it the torus has up to 2 % of wrong roots in float32).
 - POLISH Newton steps on f along the ray end it; 0 leaves the closed form as it is.
 - Degrees 1 to 4 only, box or ball instead of Bézier tetrahedra.
 
@@ -32,9 +34,11 @@ METHOD = Method(
     needs=("surface_coefficients_along",),
     libraries=("closed_form",),
     parameters=(
-        Parameter("POLISH", 2, "Newton steps on the closed form's root"),
+        Parameter("POLISH", 1, "Newton steps on the closed form's root"),
         Parameter("WIDENING", 0.25, "how much the interval is widened at either end, over its length"),
-        Parameter("SCREEN", 0, "1: in screen space, between the near and the far plane; 0: in the surface's coordinates"),
+        Parameter(
+            "SCREEN", 0, "1: in screen space, between the near and the far plane; 0: in the surface's coordinates"
+        ),
         Parameter("EYE", 3.875, "distance of the eye from the point nearest the centre, over the domain's radius"),
         Parameter("NEAR", 0.5, "distance of the near plane from the eye, over the domain's radius"),
         Parameter("FAR", 64.0, "distance of the far plane from the eye, over the domain's radius"),

@@ -1,44 +1,39 @@
-// f along the ray, fitted on [-1, 1] or, in the Bernstein basis, [0, 1]: szente, section 2.
+// The first root of f along the ray, between the critical points of its fit (szente, section 2). The fit's variable x
+// runs over [-1, 1], or over [0, 1] in the Bernstein basis; t = start + reach x.
 #define N SURFACE_DEGREE
 #define EVENS (SURFACE_DEGREE / 2 + 1)
 #define ODDS ((SURFACE_DEGREE + 1) / 2)
 #define BERNSTEIN (BASIS == 1)
 
-Factor sample_factor(real a, real b) {
+Factor sum_factor(real a, real b) {
     return make_factor(EFT == 1 ? two_sum(a, b) : make_pair(a + b, 0.0));
+}
+
+Pair next_sum(Pair sum, real hi, real lo, Factor b) {
+    return EFT == 1 ? plus_product(sum, hi, lo, b) : make_pair(sum.hi + hi * b.hi, 0.0);
 }
 
 Pair even_row(IN Factor sums[EVENS], int row) {
     Pair sum = make_pair(0.0, 0.0);
-    for (int i = 0; i < EVENS; i++) {
-        int k = row * EVENS + i;
-        if (EFT == 1) { sum = plus_product(sum, EVEN_HI[k], EVEN_LO[k], sums[i]); } else { sum.hi += EVEN_HI[k] * sums[i].hi; }
-    }
+    for (int i = 0; i < EVENS; i++) sum = next_sum(sum, EVEN_HI[row * EVENS + i], EVEN_LO[row * EVENS + i], sums[i]);
     return sum;
 }
 
 Pair odd_row(IN Factor differences[ODDS], int row) {
     Pair sum = make_pair(0.0, 0.0);
-    for (int i = 0; i < ODDS; i++) {
-        int k = row * ODDS + i;
-        if (EFT == 1) {
-            sum = plus_product(sum, ODD_HI[k], ODD_LO[k], differences[i]);
-        } else {
-            sum.hi += ODD_HI[k] * differences[i].hi;
-        }
-    }
+    for (int i = 0; i < ODDS; i++) sum = next_sum(sum, ODD_HI[row * ODDS + i], ODD_LO[row * ODDS + i], differences[i]);
     return sum;
 }
 
-// Coefficients from samples at the nodes: by rows of the inverse, for sums and differences of opposite samples.
+// Coefficients from samples at the nodes: rows of the inverse for sums and differences of opposite samples.
 void fit(IN real s[COEFFICIENTS], OUT real c[COEFFICIENTS]) {
     Factor sums[EVENS];
     Factor differences[ODDS];
     for (int i = 0; i < ODDS; i++) {
-        sums[i] = sample_factor(s[N - i], s[i]);
-        differences[i] = sample_factor(s[N - i], -s[i]);
+        sums[i] = sum_factor(s[N - i], s[i]);
+        differences[i] = sum_factor(s[N - i], -s[i]);
     }
-    if (EVENS > ODDS) sums[EVENS - 1] = sample_factor(s[N / 2], 0.0);
+    if (EVENS > ODDS) sums[EVENS - 1] = sum_factor(s[N / 2], 0.0);
     for (int r = 0; r < ODDS; r++) {
         Pair even = even_row(sums, r);
         Pair odd = odd_row(differences, r);
@@ -56,7 +51,7 @@ void fit(IN real s[COEFFICIENTS], OUT real c[COEFFICIENTS]) {
     }
 }
 
-// The coefficients of c's (N - degree)th derivative, up to a factor.
+// The coefficients of c's (N - degree)th derivative, up to one factor.
 void derivative(IN real c[COEFFICIENTS], int degree, OUT real q[COEFFICIENTS]) {
     if (BERNSTEIN) {
         for (int j = 0; j <= N; j++) q[j] = c[j];
@@ -81,16 +76,16 @@ Hit first_hit(Ray ray, real t0, real t1) {
     for (int i = N - 1; i > 0; i--) { if ((s[i] < 0.0) != below) last = NODES[i]; }
 
     real c[COEFFICIENTS];
-    fit(s, c);
-    real x[COEFFICIENTS];
     real q[COEFFICIENTS];
-    x[0] = NODES[0];
+    real x[COEFFICIENTS];
+    fit(s, c);
     derivative(c, 1, q);
-    x[1] = clamp(-q[0] / (BERNSTEIN ? q[1] - q[0] : q[1]), x[0], last);
+    x[0] = NODES[0];
+    x[1] = N == 1 ? last : linear_root(q, BERNSTEIN, NODES[0], last);
     x[2] = last;
     for (int d = 2; d < N; d++) {
         derivative(c, d, q);
-        split_at_roots(x, q, d, BERNSTEIN, TOLERANCE);
+        split_at_roots(x, q, d, BERNSTEIN, ISOLATION);
     }
     derivative(c, N, q);
 
@@ -98,24 +93,21 @@ Hit first_hit(Ray ray, real t0, real t1) {
     real b = x[0];
     real from = s[0];
     real to = s[0];
-    bool found = false;
     for (int k = 1; k <= N; k++) {
-        if (!found) {
+        if ((to < 0.0) == below) {
             a = b;
-            b = x[k];
             from = to;
+            b = x[k];
             to = EVAL == 1 ? surface_value(ray_point(ray, start + reach * b)) : polynomial_dual(q, N, BERNSTEIN, b).value;
             hit.evaluations += EVAL;
-            found = (to < 0.0) != below;
         }
     }
-    if (!found) return hit;
-    if (EVAL == 0) return hit_at(hit, start + reach * bracketed_root(q, N, BERNSTEIN, a, b, from, to, FINAL));
+    if ((to < 0.0) == below) return hit;
     Bracket bracket = make_bracket(a, b, from, to);
-    for (int i = 0; i < MOST_STEPS && bracket.step > FINAL; i++) {
+    for (int i = 0; i < MOST_STEPS && bracket.step > TOLERANCE; i++) {
         Dual f = polynomial_dual(q, N, BERNSTEIN, bracket.x);
-        f.value = surface_value(ray_point(ray, start + reach * bracket.x));
-        hit.evaluations += 1;
+        if (EVAL == 1) f.value = surface_value(ray_point(ray, start + reach * bracket.x));
+        hit.evaluations += EVAL;
         bracket = newton_step(bracket, f, below);
     }
     return hit_at(hit, start + reach * bracket.x);

@@ -1,4 +1,4 @@
-// Steps of |f| / (bound of how steeply f nears zero) along the ray, from bounds of f's fitted derivative.
+// Steps of |f| over a bound of how steeply f nears zero, along the ray as x in [0, 1]; szente, section 3.
 #define N SURFACE_DEGREE
 #define EVENS (SURFACE_DEGREE / 2 + 1)
 #define ODDS ((SURFACE_DEGREE + 1) / 2)
@@ -15,17 +15,38 @@ void fit(IN real s[COEFFICIENTS], OUT real b[COEFFICIENTS]) {
     for (int r = 0; r < EVENS; r++) {
         Pair even = make_pair(0.0, 0.0);
         Pair odd = make_pair(0.0, 0.0);
-        for (int i = 0; i < EVENS; i++) even = plus_product(even, EVEN_HI[r * EVENS + i], EVEN_LO[r * EVENS + i], sums[i]);
-        if (r < ODDS) {
-            for (int i = 0; i < ODDS; i++) odd = plus_product(odd, ODD_HI[r * ODDS + i], ODD_LO[r * ODDS + i], differences[i]);
+        for (int k = r * EVENS; k < (r + 1) * EVENS; k++) {
+            even = plus_product(even, EVEN_HI[k], EVEN_LO[k], sums[k - r * EVENS]);
+        }
+        for (int k = r * ODDS; k < (r + 1) * ODDS && r < ODDS; k++) {
+            odd = plus_product(odd, ODD_HI[k], ODD_LO[k], differences[k - r * ODDS]);
         }
         b[r] = (even.hi - odd.hi) + (even.lo - odd.lo);
         b[N - r] = (even.hi + odd.hi) + (even.lo + odd.lo);
     }
 }
 
-LowerCurve bounding_curve(IN real b[COEFFICIENTS], int degree) {
-    return BOUND == 1 ? lu_curve(b, degree) : control_point_curve(b, degree);
+// Coefficients on [x, x + width] of the polynomial with coefficients d on [0, 1]: de Casteljau's algorithm, twice.
+void restrict_to(real x, real width, IN real d[COEFFICIENTS], int degree, OUT real e[COEFFICIENTS]) {
+    for (int j = 0; j <= degree; j++) e[j] = d[j];
+    for (int r = 1; r <= degree; r++) {
+        for (int j = 0; j <= degree - r; j++) e[j] = e[j] + x * (e[j + 1] - e[j]);
+    }
+    real share = width / (1.0 - x);
+    for (int r = 1; r <= degree; r++) {
+        for (int j = degree; j >= r; j--) e[j] = e[j - 1] + share * (e[j] - e[j - 1]);
+    }
+}
+
+real least_value(IN real b[COEFFICIENTS], int degree) {
+    return lower_bound(BOUND == 1 ? lu_curve(b, degree) : control_point_curve(b, degree), degree);
+}
+
+// More than what fitting and restricting err by.
+real error_bound(IN real b[COEFFICIENTS], int degree) {
+    real largest = 0.0;
+    for (int j = 0; j <= degree; j++) largest = max(largest, fabs(b[j]));
+    return real(8 * N) * UNIT_ROUNDOFF * largest;
 }
 
 Hit first_hit(Ray ray, real t0, real t1) {
@@ -38,40 +59,32 @@ Hit first_hit(Ray ray, real t0, real t1) {
     fit(s, b);
     real sign = s[0] < 0.0 ? real(-1) : real(1);
     for (int j = 0; j <= N; j++) b[j] = sign * b[j];
-    if (CULL == 1 && lower_bound(bounding_curve(b, N), N, 0.0, 1.0) > 0.0) return hit;
+    if (CULL == 1 && least_value(b, N) > error_bound(b, N)) return hit;
 
     real d[COEFFICIENTS];
+    real e[COEFFICIENTS];
     for (int j = 0; j < N; j++) d[j] = real(N) * (b[j + 1] - b[j]);
-    LowerCurve slope = bounding_curve(d, N - 1);
-    real steepest = -lower_bound(slope, N - 1, 0.0, 1.0);
-    if (steepest <= 0.0) return hit;
+    real error = error_bound(d, N - 1);
+    real steepest = error - least_value(d, N - 1);
     real window = 1.0;
     real a = 0.0;
     real x = 0.0;
     real fa = sign * s[0];
     real fx = fa;
-    while (fx > 0.0) {
+    while (!(fx <= 0.0)) {
         if (x >= 1.0) return hit;
         if (hit.evaluations >= MAX_EVALUATIONS) return exhausted(hit, t0 + reach * x);
+        if (LOCAL == 1 && window < 1.0) {
+            restrict_to(x, window, d, N - 1, e);
+            steepest = error - least_value(e, N - 1);
+        }
+        real step = max(TOLERANCE, fx < steepest * window ? fx / steepest : window);
         a = x;
         fa = fx;
-        if (LOCAL == 1) {
-            steepest = -lower_bound(slope, N - 1, x, min(x + window, 1.0));
-            real safe = fx < steepest * window ? fx / steepest : window;
-            window = 2.0 * max(safe, TOLERANCE);
-            x = x + max(safe, TOLERANCE);
-        } else {
-            x = x + max(fx / steepest, TOLERANCE);
-        }
-        x = min(x, 1.0);
+        x = min(x + step, 1.0);
         fx = sign * surface_value(ray_point(ray, t0 + reach * x));
         hit.evaluations += 1;
+        window = LOCAL == 1 ? min(2.0 * step, 1.0 - x) : 1.0;
     }
-    for (int i = 0; i < 4; i++) {
-        real m = 0.5 * (a + x);
-        real fm = sign * surface_value(ray_point(ray, t0 + reach * m));
-        if (fm > 0.0) { a = m; fa = fm; } else { x = m; fx = fm; }
-    }
-    hit.evaluations += 4;
-    return hit_at(hit, t0 + reach * (a + (x - a) * (fa / (fa - fx))));
+    return hit_at(hit, t0 + reach * (fx < fa ? a + (x - a) * (fa / (fa - fx)) : x));
 }

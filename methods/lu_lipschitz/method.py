@@ -26,8 +26,8 @@ METHOD = Method(
     parameters=(
         Parameter("BOUND", 1, ""),
         Parameter("CULL", 1, ""),
-        Parameter("LOCAL", 0, ""),
-        Parameter("TOLERANCE", 2.0**-12, ""),
+        Parameter("LOCAL", 1, ""),
+        Parameter("TOLERANCE", 2.0**-16, ""),
         Parameter("MAX_EVALUATIONS", 10000, ""),
     ),
     accepts=_accepts,

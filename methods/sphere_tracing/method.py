@@ -3,10 +3,10 @@
 **Source** toledo2007, section 4.3 (Sphere Tracing and 2-rays S. Tracing of Table 1), after Hart 1996.
 
 **Theory** No surface is nearer to a point than its distance, so a step of that length never passes a root. Near a
-tangency distances are small for long, and steps with them. On the torus the second start cures it: along a line the
+tangency distances are small for long, and steps with them. On the torus a second start helps: along a line the
 distance to the core circle takes every value at most four times (equation 2 has four roots for every r), so it has at
-most two minima. Once the distance grows, the first minimum is behind, and the march goes on from t_M = -(o·v), where the
-other one is still ahead; once it grows there after it fell, nothing is ahead any more.
+most two minima. Once the distance grows, the first minimum is behind, and the march goes on from t_M = -(o·v) towards
+the other one; once it grows there after it fell, both are behind and there is no root.
 
 **Changes against the paper**
 - Where the second start lies inside the torus, its root is behind it: the march turns back (the paper does not say).

@@ -5,10 +5,11 @@ Hit first_hit(Ray ray, real t0, real t1) {
     real origin_away = dot(o, o);
     real advance = 2.0 * dot(o, ray.direction);
     real thickness = DOMAIN_RADIUS / real(SHELLS);
+    real squared_thickness = thickness * thickness;
     real least = EPSILON * DOMAIN_RADIUS;
     int shell = 0;
     for (int k = 1; k < SHELLS; k++) {
-        if (origin_away + t0 * (advance + t0) > real(k * k) * (thickness * thickness)) shell = k;
+        if (origin_away + t0 * (advance + t0) > real(k * k) * squared_thickness) shell = k;
     }
 
     Along along = surface_along(ray);
@@ -26,13 +27,12 @@ Hit first_hit(Ray ray, real t0, real t1) {
         }
         before = f;
         // a step is at most as long as a shell is thick, so the shell changes by one at most
-        real away = sqrt(max(origin_away + t * (advance + t), real(0)));
-        if (away < thickness * real(shell)) {
-            shell -= 1;
-        } else if (away > thickness * real(shell + 1) && shell < SHELLS - 1) {
-            shell += 1;
+        if (SHELLS > 1) {
+            real away = origin_away + t * (advance + t);
+            if (away < real(shell * shell) * squared_thickness) shell -= 1;
+            if (away > real((shell + 1) * (shell + 1)) * squared_thickness) shell = min(shell + 1, SHELLS - 1);
         }
-        step = max(min(fabs(f) / STEEPNESS[shell], thickness), least);
+        step = max(min(fabs(f) * REACH[shell], thickness), least);
         t += step;
     }
     return hit;

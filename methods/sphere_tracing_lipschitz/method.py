@@ -11,7 +11,7 @@ than a shell is thick, and its L holds for the whole ball that ends with the nex
 **Changes against the paper**
 - |f| / L is far under the distance where |grad f| is far under L, and a threshold on it would end far from the root.
   The march ends where the secant through the last two values is 0 within EPSILON, or where f changes sign.
-- No step is under EPSILON, so that the march ends in rounded arithmetic. A pair of roots closer than that can be passed.
+- No step is under EPSILON, so that the march ends in rounded arithmetic; roots closer than that can be passed.
 - One start: what the second one is for, two minima of a distance, is known of the torus only.
 """
 
@@ -35,6 +35,7 @@ def ball_bounds(surface: Surface, shells: int) -> tuple[float, ...]:
     """
     import flint
     import numpy as np
+
     import surfaces
     from surfaces.lowering import gradient, real_tape
     from surfaces.numbers import Balls
@@ -63,7 +64,7 @@ def ball_bounds(surface: Surface, shells: int) -> tuple[float, ...]:
     open_boxes = [(tuple(center), tuple(half * SLACK))]
     bounded = 0
     while open_boxes:
-        split = []
+        split: list[tuple[Sequence[float], Sequence[float]]] = []
         for middle, size in open_boxes:
             reached = ball(middle, size)
             if reached >= shells:
@@ -86,9 +87,9 @@ def ball_bounds(surface: Surface, shells: int) -> tuple[float, ...]:
 
 
 def tables(surface: Surface, knobs: Mapping[str, float | int], _: Precision) -> Mapping[str, Sequence[float]]:
-    """STEEPNESS[k] holds for steps that start in shell k."""
+    """REACH[k] times |f| is a step that passes no root from shell k."""
     bounds = ball_bounds(surface, int(knobs["SHELLS"]))
-    return {"STEEPNESS": (*bounds[1:], bounds[-1])}
+    return {"REACH": [1.0 / bound for bound in (*bounds[1:], bounds[-1])]}
 
 
 METHOD = Method(
@@ -97,9 +98,9 @@ METHOD = Method(
     needs=("surface_along", "surface_value_along"),
     parameters=(
         Parameter(
-            "EPSILON", 2.0**-18, "shortest step, and the secant's reach that counts as a hit, over the domain's radius"
+            "EPSILON", 2.0**-15, "shortest step, and the secant's reach that counts as a hit, over the domain's radius"
         ),
-        Parameter("SHELLS", 16, "shells with a bound of their own; 1: one bound for the whole domain"),
+        Parameter("SHELLS", 64, "shells with a bound of their own; 1: one bound for the whole domain"),
         Parameter("MAX_EVALUATIONS", 20000, "evaluations of f spent on one ray"),
     ),
     tables=tables,

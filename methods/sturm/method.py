@@ -2,9 +2,9 @@
 
 **Source** toledo2007, sections 3 (cubics) and 4.1 (quartics).
 
-**Theory** Sturm: the changes of sign along the chain f, f', and the negated remainder of each two by division, are fewer
-at b than at a by the number of distinct roots in (a, b]. Halving the interval towards the first root needs the chain at
-one new point each time, since the near end's count stays what it was. A ray without a root ends before the search.
+**Theory** Sturm: the changes of sign along the chain f, f', and the negated remainder of each two by division, are
+fewer at b than at a by the number of distinct roots in (a, b]. Halving the interval towards the first root needs the
+chain at one new point each time, since the near end's count stays. A ray without a root ends before the search.
 
 **Changes against the paper**
 - BY_SIGN = 1: once one root is left and f differs in sign at the interval's ends, f alone decides which half holds it.

@@ -29,10 +29,3 @@ Pair plus_product(Pair sum, real hi, real lo, Factor b) {
     PRECISE real low = sum.lo + (total.lo + (error + rest));
     return make_pair(total.hi, low);
 }
-
-// a + b, where both are about as precise as a pair can be.
-Pair pair_sum(Pair a, Pair b) {
-    Pair sum = two_sum(a.hi, b.hi);
-    PRECISE real low = sum.lo + (a.lo + b.lo);
-    return fast_two_sum(sum.hi, low);
-}

@@ -1,11 +1,11 @@
-// Lower bounds of a polynomial on [0, 1] from its Bernstein coefficients b (szente, section 3): with m the least of them
+// Lower bounds of a polynomial on [0, 1] from its Bernstein coefficients b (szente, section 3): with m the least of them,
 //
 //     l(x) = m + (b[0] - m) (1 - x)^n + (b[n] - m) x^n
 //
-// is nowhere above it (Equation 5), and least at a point in closed form (Equation 8). Upper bounds: of -b.
+// is nowhere above it (Equation 5), and least at a point in closed form (Equation 8). Upper bounds are those of -b.
 STRUCT(LowerCurve) struct LowerCurve { real least; real first; real last; real lowest_at; };  // m, b[0] - m, b[n] - m
 
-// a^(1/k) for a in [0, 1]: square roots to its neighbourhood, then Halley's iteration.
+// a^(1/k) for a in [0, 1]: square roots into its neighbourhood, then Halley's iteration.
 real kth_root(real a, int k) {
     real y = a;
     for (int power = 1; 10 * power < 7 * k; power = 2 * power) y = sqrt(y);
@@ -17,7 +17,7 @@ real kth_root(real a, int k) {
     return y;
 }
 
-// Equation 8 holds where both ends are above m; where one is not, the curve is least there, and equal to m.
+// Equation 8 needs both ends above m; where one is not, the curve is least at that end, and equal to m.
 LowerCurve lu_curve(IN real b[COEFFICIENTS], int degree) {
     LowerCurve curve;
     curve.least = b[0];
@@ -26,25 +26,26 @@ LowerCurve lu_curve(IN real b[COEFFICIENTS], int degree) {
     curve.last = b[degree] - curve.least;
     curve.lowest_at = curve.first > 0.0 ? real(1) : real(0);
     if (curve.first > 0.0 && curve.last > 0.0) {
-        real ratio = min(curve.first, curve.last) / max(curve.first, curve.last);
-        real root = kth_root(ratio, degree - 1);
+        real root = kth_root(min(curve.first, curve.last) / max(curve.first, curve.last), degree - 1);
         curve.lowest_at = (curve.first < curve.last ? root : real(1)) / (1.0 + root);
     }
     return curve;
 }
 
-// The same for control points alone (Equation 2): a curve that is m everywhere.
+// The control points' own bound (Equation 2): a curve that is m everywhere.
 LowerCurve control_point_curve(IN real b[COEFFICIENTS], int degree) {
-    LowerCurve curve = lu_curve(b, degree);
+    LowerCurve curve;
+    curve.least = b[0];
+    for (int j = 1; j <= degree; j++) curve.least = min(curve.least, b[j]);
     curve.first = 0.0;
     curve.last = 0.0;
+    curve.lowest_at = 0.0;
     return curve;
 }
 
-// The least value of the curve on [x0, x1] within [0, 1], lowered by more than its rounding errors.
-real lower_bound(LowerCurve curve, int degree, real x0, real x1) {
-    real x = clamp(curve.lowest_at, x0, x1);
+// The curve's least value, lowered by more than its rounding errors.
+real lower_bound(LowerCurve curve, int degree) {
+    real x = curve.lowest_at;
     real value = curve.least + (curve.first * whole_power(1.0 - x, degree) + curve.last * whole_power(x, degree));
-    real size = fabs(curve.least) + curve.first + curve.last;
-    return value - real(2 * degree + 16) * UNIT_ROUNDOFF * size;
+    return value - real(2 * degree + 16) * UNIT_ROUNDOFF * (fabs(curve.least) + curve.first + curve.last);
 }

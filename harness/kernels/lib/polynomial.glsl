@@ -1,6 +1,8 @@
 // Polynomials and their real roots, in the monomial basis (the sum of q[j] x^j) or the Bernstein basis (the sum of
 // q[j] x^j (1 - x)^(degree - j): the binomials are part of q). Yuksel 2022, High-performance polynomial root finding.
 #define COEFFICIENTS 21  // every array's size, for degrees to 20: a library is read before any surface's degree is known
+#define MOST_STEPS 64    // of one bracketed Newton iteration; halving alone would end sooner
+#define THIRD 0.3333333432674407958984375
 
 Dual polynomial_dual(IN real q[COEFFICIENTS], int degree, bool bernstein, real x) {
     real value = q[degree];
@@ -24,27 +26,27 @@ Dual polynomial_dual(IN real q[COEFFICIENTS], int degree, bool bernstein, real x
     return make_dual(value, slope);
 }
 
-// Where Newton's method starts in [a, b], between values of unlike sign: where its step from the middle leads on a cubic
-// that is level at both ends.
-real bracket_start(real a, real b, real from, real to) {
-    return 0.5 * (a + b) + (b - a) * ((from + to) / (from - to)) * 0.3333333432674407958984375;
+// The root of a linear q, or the end of [lo, hi] nearest to it.
+real linear_root(IN real q[COEFFICIENTS], bool bernstein, real lo, real hi) {
+    real slope = bernstein ? q[1] - q[0] : q[1];
+    return slope == 0.0 ? hi : clamp(-q[0] / slope, lo, hi);
 }
 
-// What is left of an interval with a change of sign, the next x to look at in it, and how far that is from the last.
-#define MOST_STEPS 64
-
+// What is left of an interval with a change of sign, the x to look at next, and how far that is from the last one.
 STRUCT(Bracket) struct Bracket { real a; real b; real x; real step; };
 
+// [a, b], with the function's values there, `from` and `to`. The first x is where Newton's step from the middle leads on
+// the cubic that is level at both ends, as q is between two critical points.
 Bracket make_bracket(real a, real b, real from, real to) {
     Bracket bracket;
     bracket.a = a;
     bracket.b = b;
-    bracket.x = bracket_start(a, b, from, to);
+    bracket.x = 0.5 * (a + b) + (b - a) * (THIRD * (from + to) / (from - to));
     bracket.step = b - a;
     return bracket;
 }
 
-// One Newton step at bracket.x; one that would leave the bracket is replaced by halving it.
+// Newton's step from bracket.x, where the function is f; one that would leave the bracket is replaced by halving it.
 Bracket newton_step(Bracket bracket, Dual f, bool rising) {
     Bracket next = bracket;
     if ((f.value < 0.0) == rising) { next.a = bracket.x; } else { next.b = bracket.x; }
@@ -52,16 +54,6 @@ Bracket newton_step(Bracket bracket, Dual f, bool rising) {
     if (!(next.x >= next.a && next.x <= next.b)) next.x = 0.5 * (next.a + next.b);
     next.step = fabs(next.x - bracket.x);
     return next;
-}
-
-// The root in [a, b], where q changes sign once and is `from` at a and `to` at b.
-real bracketed_root(IN real q[COEFFICIENTS], int degree, bool bernstein, real a, real b, real from, real to,
-                    real tolerance) {
-    Bracket bracket = make_bracket(a, b, from, to);
-    for (int i = 0; i < MOST_STEPS && bracket.step > tolerance; i++) {
-        bracket = newton_step(bracket, polynomial_dual(q, degree, bernstein, bracket.x), from < 0.0);
-    }
-    return bracket.x;
 }
 
 // One level of Yuksel's method. In: x[0] to x[degree], the ends of pieces on which q is monotone. Out: x[1] to x[degree]
@@ -74,7 +66,13 @@ void split_at_roots(INOUT real x[COEFFICIENTS], IN real q[COEFFICIENTS], int deg
     for (int k = 1; k <= degree; k++) {
         real b = x[k];
         real to = polynomial_dual(q, degree, bernstein, b).value;
-        if ((from < 0.0) != (to < 0.0)) x[k] = bracketed_root(q, degree, bernstein, a, b, from, to, tolerance);
+        if ((from < 0.0) != (to < 0.0)) {
+            Bracket bracket = make_bracket(a, b, from, to);
+            for (int i = 0; i < MOST_STEPS && bracket.step > tolerance; i++) {
+                bracket = newton_step(bracket, polynomial_dual(q, degree, bernstein, bracket.x), from < 0.0);
+            }
+            x[k] = bracket.x;
+        }
         a = b;
         from = to;
     }
