@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import pandas as pd
 
 from harness.contract import CellStatus
-from reports import condition, derive, images, plots, stability, style, tables, wording
+from reports import across, condition, derive, images, plots, stability, style, tables, wording
 from reports.arrays import Shelf
 from reports.content import Block, Code, Document, Section, Text
 from reports.load import Run, Unreadable
@@ -28,6 +28,7 @@ def report(run: Run, frame: pd.DataFrame, rungs: pd.DataFrame) -> Document:
         _devices(run),
         *_winners(frame),
         *_results(frame),
+        *across.sections(frame),
         *_units(frame),
         *stability.sections(rungs, run.plan.facts, marks),
         *_fronts(frame),

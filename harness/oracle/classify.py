@@ -25,6 +25,7 @@ from harness.oracle.floats import FloatFunction, majorant
 
 BLOCK = 1024  # rays at a time, so that the arrays stay in the cache
 MOST_STEPS = 40  # of a bracketed search; it halves at least every second time
+LAST_STEP = 2.0**-38  # of Newton's method, in domain radii: its error is about this one squared over a gap
 SETTLED = 0.1  # an extremum is settled when |g| can fall by no more than this share
 UNIT = 2.0**-53
 CERTIFIED = 2.0**-42  # bound of the first root's error, in domain radii
@@ -34,6 +35,7 @@ Estimates = tuple[Floats, Floats, Floats]  # following, condition, margin, each 
 Indices = NDArray[np.intp]
 
 
+@cache
 def lobatto(degree: int) -> Floats:
     """Chebyshev's extrema in [0, 1], degree + 1 of them."""
     return np.asarray(0.5 - 0.5 * np.cos(np.pi * np.arange(degree + 1) / degree))
@@ -142,21 +144,24 @@ class _Block:
         rows, column = np.flatnonzero(self.hit), self.column[self.hit]
         self.t[rows, column] = self.first[rows]
         self.values[rows, column] = 0.0
-        gap = np.where(self.hit[:, None], self.t - self.first[:, None], 1.0)
         touch = self.order == 2.0
+        gap = self.t - self.first[:, None]
         gap[touch] *= gap[touch]
-        self.g = self.values / gap
+        self.g = np.divide(self.values, gap, out=self.values.copy(), where=self.hit[:, None])
         # nearer to t1 than rounding errors move roots, g is what it is at t1; that is unknown where f' is only noise
         sharp = (self.order == 1.0) & (self.condition < BLUNT)
         spacing = 2.0 * np.spacing(np.abs(self.first + self.shift))
         blur = (4.0 * UNIT * self.condition + CERTIFIED) * self.domain.radius / self.length + spacing
         self.blur = np.where(sharp, blur, 0.0)
-        near = np.abs(self.t - self.first[:, None]) <= self.blur[:, None]
-        behind = self.g[np.arange(len(self.g)), self.column + 1]
-        self.g = np.where(near, np.where(sharp, self.slope, behind)[:, None], self.g)
-        changes = np.diff(np.sign(self.g), axis=1) != 0.0
-        changes &= np.arange(last) >= np.where(self.hit, self.column, last)[:, None]
-        self.change = np.where(changes.any(axis=1), changes.argmax(axis=1), last)  # column before g's, behind t1
+        behind = self.g[rows, column + 1]
+        self.g[rows, column] = np.where(sharp[rows], self.slope[rows], behind)
+        least_gap = np.minimum(np.abs(gap[rows, column - 1]), np.abs(gap[rows, column + 1]))
+        for row in rows[least_gap <= self.blur[rows]]:
+            self.g[row, np.abs(gap[row]) <= self.blur[row]] = self.slope[row]
+        positive = self.g > 0.0
+        self.differ = positive[:, 1:] != positive[:, :-1]
+        change = self.differ & (np.arange(last) >= np.where(self.hit, self.column, last)[:, None])
+        self.change = np.where(change.any(axis=1), change.argmax(axis=1), last)  # column before g's, behind t1
 
     def _interpolated(self) -> Floats:
         """f at the samples, a polynomial from degree + 1 of them; what drowns in its rounding errors, one by one."""
@@ -169,22 +174,21 @@ class _Block:
 
     def _least(self) -> _Extrema:
         """The extrema at which |g| is locally least, up to the sampled change of sign behind t1."""
-        size, sign = np.abs(self.g), np.sign(self.g)
-        same = sign[:, 1:] == sign[:, :-1]
-        least = np.ones(size.shape, dtype=bool)
-        least[:, 1:] &= (size[:, 1:] <= size[:, :-1]) | ~same
-        least[:, :-1] &= (size[:, :-1] <= size[:, 1:]) | ~same
-        least &= np.arange(size.shape[1]) <= self.change[:, None]
+        size = np.abs(self.g)
+        rises = size[:, 1:] > size[:, :-1]
+        least = np.arange(size.shape[1]) <= self.change[:, None]
+        least[:, 1:] &= ~rises | self.differ
+        least[:, :-1] &= rises | self.differ
         rows, columns = np.nonzero(least)
-        slope = self._deflated(rows, self.t[rows, columns])[1] * sign[rows, columns]
+        slope = self._deflated(rows, self.t[rows, columns])[1] * np.sign(self.g[rows, columns])
         at_first = self.hit[rows] & (columns == self.column[rows])  # where the slope is not known: both sides
         ahead, behind = (slope <= 0.0) | at_first, (slope > 0.0) | at_first
         rows = np.concatenate((rows[ahead], rows[behind]))
         left = np.concatenate((columns[ahead], columns[behind] - 1))
         slopes = np.concatenate((slope[ahead], slope[behind]))
         is_left = np.arange(len(rows)) < ahead.sum()
-        inside = (left >= 0) & (left < same.shape[1])
-        inside &= same[rows, np.where(inside, left, 0)]
+        inside = (left >= 0) & (left < self.differ.shape[1])
+        inside &= ~self.differ[rows, np.where(inside, left, 0)]
         rows, left, slopes, is_left = rows[inside], left[inside], slopes[inside], is_left[inside]
         return self._settled(rows, left, slopes, is_left)
 
@@ -260,7 +264,7 @@ class _Block:
     def _root(self, rows: Indices, lower: Floats, upper: Floats, side: Floats) -> Floats:
         """The root of g in each bracket, at whose upper end g has the sign `side`: Newton, halving as it must."""
         t = 0.5 * (lower + upper)
-        enough = CERTIFIED * UNIT**0.5 * self.domain.radius / self.length[rows]
+        enough = LAST_STEP * self.domain.radius / self.length[rows]
         moved = upper - lower
         k = np.arange(len(rows))
         for _ in range(MOST_STEPS):

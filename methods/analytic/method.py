@@ -17,6 +17,10 @@ leading coefficient is. Every real root is found; so the first one is, a touch t
 - Degrees 1 to 4 only, box or ball instead of Bézier tetrahedra.
 
 The coefficients along the ray count as one evaluation, each Newton step as another.
+
+**Accuracy** (opencl:intel, float32, torus at 256x256, 30°/35°.) The largest error is 8e-6 of the radius without a
+Newton step and 2e-6 with one; in screen space without one, 4e-4 with the near plane close to the torus and 2e-2 with
+it close to the eye, whatever the far plane.
 """
 
 from harness.contract import Method, Parameter, Surface

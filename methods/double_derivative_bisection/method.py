@@ -16,6 +16,10 @@ mean of its three extremes and so lies between the outer two: it parts the two m
 - The paper's error 0.0014 r needs 12 halvings; ITERATIONS is more by default, see `variants`.
 
 One evaluation of f with its derivative is counted for each point.
+
+**Speed** (opencl:intel, float32, torus at 1024x1024, 30°/35°, time above the null method's.) Three pieces instead of
+two take 1.1 times as long, 12 halvings instead of 22 half as long. Kept: a piece whose ends rule a root out is left
+before its loop.
 """
 
 from functools import lru_cache

@@ -15,6 +15,11 @@ the other one; once it grows there after it fell, both are behind and there is n
 - A start inside the surface marches by the distance's absolute value, and has no second start.
 - Any surface that states a distance is accepted. Two starts are proved for the torus and the sphere only, where no
   third minimum can be. Surfaces without a distance: see sphere_tracing_lipschitz.
+
+**Speed** (opencl:intel, float32, torus at 1024x1024, 30°/35°, time above the null method's.) Table 1's factor of 3.6
+between two starts and one is not met: 1.1 at EPSILON = 0.00003, 0.9 at 0.001. A second start saves the way out of a
+near tangency but not the way into it: evaluations fall by 6 % on average, by 12 % for the slowest of 16 neighbouring
+rays, by 30 % for the slowest of 32 x 32, and by half for the slowest of all.
 """
 
 from harness.contract import Method, Parameter, Surface

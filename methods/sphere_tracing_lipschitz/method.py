@@ -13,6 +13,11 @@ than a shell is thick, and its L holds for the whole ball that ends with the nex
   The march ends where the secant through the last two values is 0 within EPSILON, or where f changes sign.
 - No step is under EPSILON, so that the march ends in rounded arithmetic; roots closer than that can be passed.
 - One start: what the second one is for, two minima of a distance, is known of the torus only.
+
+**Speed** (opencl:intel, float32, torus and Barth sextic at 512x512, interleaved.) Kept: 16 shells instead of one
+bound, 2.5 times fewer evaluations; 64 instead of 16, 1.2 to 1.5 times faster again; squared distances and reciprocals
+instead of a root and a division in each step, 1.2 times. EPSILON = 2^-14 instead of 2^-18 is 1.4 to 1.6 times faster
+at the same error, since the secant ends the march; 2^-15 is kept for the sake of close pairs of roots.
 """
 
 import math

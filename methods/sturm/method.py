@@ -13,6 +13,11 @@ chain at one new point each time, since the near end's count stays. A ray withou
 - Degrees 1 and 2 are a stated extension. Beyond 4 no exact coefficients along a ray are generated: see `accepts`.
 
 One evaluation is counted for each point at which f or the chain is evaluated.
+
+**Speed** (opencl:intel, float32, torus at 1024x1024, 30°/35°, time above the null method's.) Kept: BY_SIGN = 1, 1.5
+times faster than counting to the end, by two loops: one that counts until a single root is left, and one that only
+looks at f. Rejected: remainders multiplied out instead of divided; over seven views at 256x256 they lost 23 rays, and
+division 14.
 """
 
 from harness.contract import Method, Parameter, Surface

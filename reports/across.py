@@ -1,0 +1,50 @@
+"""The same variant on every device: how much faster each device is, and what the harness adds to its time."""
+
+from __future__ import annotations
+
+import pandas as pd
+
+from harness.contract import CellStatus
+from reports import tables, wording
+from reports.content import Column, Section, Table
+
+
+def sections(frame: pd.DataFrame) -> list[Section]:
+    """One section where at least two devices timed the same variant on the same scene; else none."""
+    timed = frame[frame["status"] == CellStatus.OK].dropna(subset=["median_ms"])
+    table = _table(timed) if timed["device"].nunique() > 1 else None
+    return [Section("The same kernel on every device", (table,), wide=True)] if table else []
+
+
+def _table(timed: pd.DataFrame) -> Table | None:
+    devices = list(dict.fromkeys(timed["device"]))
+    named = tables.places(timed)
+    body = []
+    for (scene, variant, precision), rows in timed.groupby(["comparison", "variant", "precision"], sort=False):
+        if rows["device"].nunique() < 2:
+            continue
+        by_device = rows.set_index("device")
+        slowest = rows["median_ms"].max()
+        cells: list[float | None] = []
+        for device in devices:
+            here = by_device.loc[device] if device in by_device.index else None
+            cells += [None] * 3 if here is None else [here.median_ms, slowest / here.median_ms, here.overhead_share]
+        body.append((named[str(scene)], precision, variant, *cells))
+    if not body:
+        return None
+    columns = [Column("surface"), Column("precision"), Column("variant", stretch=1)]
+    for device in devices:
+        columns += [
+            Column("ms", wording.number, numeric=True, over=device),
+            Column("faster", wording.factor, numeric=True, over=device),
+            Column("overhead", wording.share, numeric=True, over=device),
+        ]
+    return Table(
+        tuple(columns),
+        body,
+        "The same kernel on every device.",
+        "Faster is over the slowest device in the row. Overhead is what the harness's submitting and waiting adds to "
+        "the kernel's own time, told only where the device has a clock of its own that is believed. Look for a device "
+        "whose lead changes from variant to variant: its compiler makes more, or less, of one of them.",
+        group=2,
+    )
