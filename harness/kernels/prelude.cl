@@ -1,5 +1,6 @@
 // The common shading subset, as OpenCL C. Array parameters are marked IN, OUT or INOUT; all else goes by value.
 #pragma OPENCL FP_CONTRACT OFF
+#define int(x) ((int)(x))
 #define IN const
 #define OUT
 #define INOUT

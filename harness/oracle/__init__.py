@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from harness.contract import FirsthitError, Surface, Truth, digest
 
-ORACLE_VERSION = 2  # raise when answers or estimates change: old cache files are then not found
+ORACLE_VERSION = 3  # raise when answers or estimates change: old cache files are then not found
 
 __all__ = ["ORACLE_VERSION", "cached_first_hits", "first_hits"]
 

@@ -42,12 +42,12 @@ real cube_root_estimate(real x) {
 // The largest real root of x^3 + b x^2 + c x + d (side 1), or the least (side -1); one that exists where the cubic's
 // value at its inflection has the other sign than `side`, or where all roots are real.
 real outer_cubic_root(real b, real c, real d, real side) {
-    real x = -b * 0.3333333432674407958984375;
+    real x = -b / 3.0;
     real slope = (x + b) * x + c;
     real value = slope * x + d;
     real reach = cube_root_estimate(fabs(value));
     slope = slope + (2.0 * x + b) * x;
-    if (slope < 0.0) reach = 1.325 * max(reach, sqrt(-slope));
+    if (slope < 0.0) reach = 1.328125 * max(reach, sqrt(-slope));
     x += side * reach;
     for (int i = 0; i < CUBIC_STEPS; i++) {
         real q1 = x + b;
@@ -62,7 +62,7 @@ real outer_cubic_root(real b, real c, real d, real side) {
 }
 
 Roots cubic_roots(real b, real c, real d) {
-    real middle = -b * 0.3333333432674407958984375;
+    real middle = -b / 3.0;
     real value = ((middle + b) * middle + c) * middle + d;
     real x = outer_cubic_root(b, c, d, value < 0.0 ? 1.0 : -1.0);
     // deflated from the end that loses less (Kahan)
@@ -80,7 +80,7 @@ Roots cubic_roots(real b, real c, real d) {
 // Of x^4 + p x^2 + q x + r = (x^2 + a x + m - h) (x^2 - a x + m + h).
 Roots depressed_quartic_roots(real p, real q, real r) {
     // a^2 is any root >= 0 of the resolvent, and there is one; see which outer root is known to be
-    real middle = -p * 0.666666686534881591796875;
+    real middle = -2.0 * p / 3.0;
     real c = p * p - 4.0 * r;
     real value = ((middle + 2.0 * p) * middle + c) * middle - q * q;
     real square = max(outer_cubic_root(2.0 * p, c, -q * q, value < 0.0 || middle < 0.0 ? 1.0 : -1.0), real(0));

@@ -5,14 +5,16 @@
 // is nowhere above it (Equation 5), and least at a point in closed form (Equation 8). Upper bounds are those of -b.
 STRUCT(LowerCurve) struct LowerCurve { real least; real first; real last; real lowest_at; };  // m, b[0] - m, b[n] - m
 
-// a^(1/k) for a in [0, 1]: square roots into its neighbourhood, then Halley's iteration.
+// a^(1/k) for a in [0, 1]: square roots into its neighbourhood, then Halley's iteration, whose error is cubed each time.
 real kth_root(real a, int k) {
     real y = a;
     for (int power = 1; 10 * power < 7 * k; power = 2 * power) y = sqrt(y);
-    if (y == 0.0) return y;
-    for (int i = 0; i < 5; i++) {
+    real step = y;
+    for (int i = 0; i < 8 && step > 0.000244140625 * y; i++) {
         real z = whole_power(y, k);
-        y = y * ((real(k - 1) * z + real(k + 1) * a) / (real(k + 1) * z + real(k - 1) * a));
+        real next = y * ((real(k - 1) * z + real(k + 1) * a) / (real(k + 1) * z + real(k - 1) * a));
+        step = fabs(next - y);
+        y = next;
     }
     return y;
 }
