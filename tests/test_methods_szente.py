@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 from fractions import Fraction
 from functools import cache
 from typing import Any
@@ -13,7 +14,7 @@ import pytest
 
 import surfaces
 from harness.accuracy import NAMES, judge
-from harness.assemble import KERNELS, file_section, map_program, method_program
+from harness.assemble import map_program, method_program
 from harness.backends import Device, hits_from, launch_rays, map_rows
 from harness.camera import camera_for, rays_of, scene_radius
 from harness.contract import Precision, RayStatus, Section, Surface, TruthStatus, View
@@ -89,8 +90,9 @@ def test_tables_give_a_polynomials_coefficients_back_from_its_samples(basis, deg
         samples = [sum(c * x**j for j, c in enumerate(wanted)) for x in nodes(degree, "float32")]
     else:
         ys = [(1 + x) / 2 for x in nodes(degree, "float32")]
-        binomial = [Fraction(flint.fmpz.bin_uiui(degree, j).__int__()) for j in range(degree + 1)]
-        samples = [sum(c * k * y**j * (1 - y) ** (degree - j) for j, (c, k) in enumerate(zip(wanted, binomial, strict=True))) for y in ys]  # noqa: E501
+        samples = [
+            sum(math.comb(degree, j) * c * y**j * (1 - y) ** (degree - j) for j, c in enumerate(wanted)) for y in ys
+        ]
     n, evens, odds = degree, degree // 2 + 1, (degree + 1) // 2
     sums = [samples[n - i] + samples[i] if 2 * i != n else samples[i] for i in range(evens)]
     differences = [samples[n - i] - samples[i] for i in range(odds)]
@@ -103,7 +105,8 @@ def test_tables_give_a_polynomials_coefficients_back_from_its_samples(basis, deg
     if basis == "monomial":
         found = [even[j // 2] if j % 2 == 0 else odd[j // 2] for j in range(n + 1)]
     else:
-        found = [even[j] - odd[j] if j < odds else even[n - j] + (odd[n - j] if n - j < odds else 0) for j in range(n + 1)]
+        odd += [Fraction(0)] * (evens - odds)
+        found = [even[j] - odd[j] if 2 * j <= n else even[n - j] + odd[n - j] for j in range(n + 1)]
     norm = max(sum(abs(v) for v in row) for row in inverse(degree, basis, "float32"))
     size = max(abs(s) for s in samples)
     assert all(abs(a - b) <= 2.0**-46 * norm * size for a, b in zip(found, wanted, strict=True))
@@ -121,7 +124,10 @@ def _dot_errors(device: Device, precise: bool, rng: np.random.Generator) -> Any:
     """Errors of a 20-term compensated dot product, over u |sum| + u^2 sum |terms|, for sums that cancel."""
     rows = rng.uniform(-1, 1, (400, 60)).astype(np.float32)
     rows[:, 20:40] *= 2.0**-24
-    exact = [sum((Fraction(float(r[i])) + Fraction(float(r[20 + i]))) * Fraction(float(r[40 + i])) for i in range(19)) for r in rows]  # noqa: E501
+    exact = [
+        sum((Fraction(float(r[i])) + Fraction(float(r[20 + i]))) * Fraction(float(r[40 + i])) for i in range(19))
+        for r in rows
+    ]
     rows[:, 59] = [float(-e) for e in exact]
     rows[:, 19], rows[:, 39] = 1.0, 0.0
     program = map_program(Section("tests: dot", DOT_ITEM), "float32", device.language, ("fit",))
@@ -152,11 +158,12 @@ def test_error_free_transforms_without_precise_are_caught(rng):
 
 
 def _polynomials(degree: int, count: int, rng: np.random.Generator) -> Any:
-    """float32[count, degree + 1]: uniform, signed, ends alone above the rest, and one end equal to the least."""
+    """float32[count, degree + 1], by turns: uniform; signed; unlike ends above equal others; the first the least."""
     b = rng.uniform(0, 1, (count, degree + 1))
     kind = np.arange(count) % 4
     b[kind == 1] = 2 * b[kind == 1] - 1
-    b[kind >= 2, 1:degree] = b[kind >= 2, 1:2] * 0.5
+    b[kind == 2, 1:degree] = 0.0
+    b[kind == 2, 0] = 10.0 ** rng.uniform(-6, -2, (kind == 2).sum())
     b[kind == 3, 0] = b[kind == 3].min(axis=1)
     return b.astype(np.float32)
 
@@ -168,7 +175,9 @@ def _lower(device: Device, rows: Any, slip: bool = False) -> Any:
     if slip:
         text = program.text
         broken = tuple(
-            dataclasses.replace(s, text=s.text.replace("degree - 1);\n        curve.low", "degree);\n        curve.low"))
+            dataclasses.replace(
+                s, text=s.text.replace("degree - 1);\n        curve.low", "degree);\n        curve.low")
+            )
             for s in program.sections
         )
         program = dataclasses.replace(program, sections=broken)
@@ -210,7 +219,6 @@ def test_the_lu_bound_holds_and_is_tight(degree, rng):
     rows = _polynomials(degree, 1_000_000 // len(DEGREES), rng)
     bound, certified = _lower(_fast(), rows), _certified_least(rows)
     assert (bound <= certified).all()  # conservative_bound
-    assert (bound <= _sampled_least(rows[:8000])[: len(rows)].min(initial=np.inf) if False else True)
     assert (bound[:8000] <= _sampled_least(rows[:8000])).all()
     size = np.abs(rows).max(axis=1)
     assert (certified - bound <= 2e-5 * size).all()
@@ -220,26 +228,23 @@ def test_the_lu_bound_holds_and_is_tight(degree, rng):
 @pytest.mark.parametrize("degree", (2, 5, 20))
 def test_the_lu_bound_holds_in_ball_arithmetic(degree, device, rng):
     rows = _polynomials(degree, 200, rng)
+    x, unit = flint.fmpq_poly([0, 1]), flint.arb(0.5, 0.5)
     for row, bound in zip(rows, _lower(device, rows), strict=True):
-        above = [Fraction(float(c)) - Fraction(float(bound)) for c in row]
-        x = flint.fmpq_poly([0, 1])
-        b = sum(
-            (flint.fmpq(c.numerator, c.denominator) * flint.fmpz.bin_uiui(degree, j).__int__() * x**j * (1 - x) ** (degree - j) for j, c in enumerate(above)),  # noqa: E501
-            flint.fmpq_poly([0]),
-        )
-        assert b(flint.fmpq(1, 2)) > 0
-        roots = [root for root, _ in b.numer().complex_roots()] if b.degree() > 0 else []
-        inside = [r for r in roots if r.imag.contains(0) and r.real.overlaps(flint.arb("0.5", "0.5"))]
-        assert not inside
+        above = flint.fmpq_poly([0])
+        for j, c in enumerate(Fraction(float(c)) - Fraction(float(bound)) for c in row):
+            above += math.comb(degree, j) * flint.fmpq(c.numerator, c.denominator) * x**j * (1 - x) ** (degree - j)
+        assert above(flint.fmpq(1, 2)) > 0
+        roots = [root for root, _ in above.numer().complex_roots()]
+        assert not [root for root in roots if root.imag.contains(0) and root.real.overlaps(unit)]
 
 
-@pytest.mark.parametrize("degree", (2, 3, 9, 20))
+@pytest.mark.parametrize("degree", (2, 3, 5, 9))
 def test_the_exponent_1_over_n_is_caught(degree, rng):
     rows = _polynomials(degree, 20000, rng)
     slipped = _lower(_fast(), rows, slip=True)
-    assert (slipped > _certified_least(rows) + 1e-4).mean() > 0.05
+    assert (slipped > _certified_least(rows))[2::4].mean() > 0.4
     if degree == 2:
-        assert (slipped > _sampled_least(rows)).any()  # of the polynomial itself: there the LU function is exact
+        assert (slipped > _sampled_least(rows)).any()  # not even below the polynomial: there the LU function equals it
 
 
 # The methods

@@ -3,13 +3,13 @@
 **Source** szente, section 2 (fit: 2.1, equation 1; roots: 2.2); C. Yuksel, High-performance polynomial root finding for
 graphics, 2022. Products and sums: Ogita, Rump, Oishi 2005 (Dot2), with the inverse matrix in two parts.
 
-**Theory** f along the ray is a polynomial of f's degree n, known from n + 1 samples. Between neighbouring critical points
-it is monotone, so one root at most lies there, where the ends differ in sign. Critical points are the roots of the
+**Theory** f along the ray is a polynomial of f's degree n, known from n + 1 samples. Between neighbouring critical
+points it is monotone, so one root at most lies there, where the ends differ in sign. Critical points are the roots of the
 derivative, themselves between the derivative's critical points, and so on, from the linear derivative up. Rounding in
-the fit's matrix-vector product would be amplified by the inverse's norm (10^3 at degree 10, 10^5 at 16): that product is
-compensated. What error is left moves only the ends of pieces, since signs at these ends (n + 1 samples, then n points)
-and the last refinement are of f itself (EVAL = 1). Two roots closer than the critical point between them is known are
-missed, and touches are, unless rounding makes them cross.
+the fit's matrix-vector product would be amplified by the inverse's norm (10^3 at degree 10, 10^5 at 16), so that product
+is compensated. What error is left moves only the ends of pieces, since signs at these ends (n + 1 samples, n points) and
+the last refinement are of f itself (EVAL = 1). Two roots closer than the critical point between them is known are
+missed, and so are touches, unless rounding makes them cross.
 
 **Changes against the paper**
 - Section 2.2 refines by bisection of f; here by Newton's steps kept in the bracket, with f's own value and the fit's
@@ -22,13 +22,14 @@ missed, and touches are, unless rounding makes them cross.
 
 Evaluations counted are those of f; none of the fit's.
 
-**Speed** Ratios on opencl:intel, float32, 512×512, one interleaved run. Kept: closed form for the linear level (1.05 to
-1.25 faster, most at low degree), the start above (one Newton step fewer per root), steps that end inclusively on the
-bracket (without it one ray in a vector's sixteen goes on halving: sphere 2.4), Newton instead of 24 bisections (sphere
-2.6, decic 1.2), sample signs. ISOLATION: 2^-10 is as right as 2^-20 on the whole catalog, 2^-6 is not. Rejected:
-Newton for all of a level's roots at once, for instruction-level parallelism (2 to 6 times slower: its arrays leave the
-registers); value and slope from two polynomials' own coefficients (0.5); unrolling by pragma (no difference). The root
-finding is two thirds of the time at degree 10, the compensated fit one twentieth.
+**Speed** Processor time on opencl:intel, float32, szente's seven surfaces of Table 4: 19 (16-ball) to 159 (calyx) times
+less than ray_march, 88 in the mean. Of it EFT takes 2 to 19 %, EVAL 7 to 29 %, most at low degree; the levels of
+derivatives take two thirds at degree 10. Kept, and what each saves in the mean (at most): Newton instead of 22 bisections
+of f, 17 % (42 % on the sphere); steps that may end on the bracket itself, without which one ray of a vector goes on
+halving, 12 % (28 %); the sign of samples, 6 % (30 % on the 16-ball); the closed form of the linear level, 4 % (21 %); the
+start of Newton's method, 4 % (8 %). ISOLATION 2^-10 is right wherever 2^-16 is, 2^-6 is not. Rejected: Newton's method
+for all roots of a level at once, so that their chains overlap (2.5 times slower: its arrays leave the registers);
+slopes from the next derivative's own coefficients (twice slower on calyx); unrolling by pragma (no difference).
 """
 
 from collections.abc import Mapping

@@ -22,13 +22,15 @@ one secant step ends the search; two roots closer than that can be missed.
 
 Evaluations counted are those of f.
 
-**Speed** Ratios on opencl:intel, float32, 512×512, one interleaved run, over Table 5's four surfaces. LU bound over
-control points, both as in the paper (LOCAL = 0, control points without culling): 1.07 in the mean, all of it from
-culling the sphere's misses (1.3 to 1.5 there, 0.9 to 1.0 on flirt, calyx and the sextic: its closed form costs what the
-tighter constant saves). LOCAL = 1 over control points: 2.0 in the mean (1.3, 1.4, 1.2, 4). Rejected: starting where
-the LU function of f reaches zero, Newton's method on a convex curve (1.16 on the sphere, under 1.1 elsewhere, for 20 more
-lines); windows of 1.5 or 4 times the last step (no clear difference from 2); bisections after the change of sign (4 of
-12 evaluations, no better error).
+**Speed** Processor time on opencl:intel, float32, szente's four surfaces of Table 5 (sphere, flirt, calyx, Barth sextic).
+LU bound over control points, as in the paper (LOCAL = 0, control points without culling): 1.05 in the mean, nearly all of
+it from culling the sphere's misses (1.22, 0.99, 0.98, 1.03): the derivative is steepest where the ray enters, and there
+both bounds are exact. LOCAL = 1 over the same: 4.6 (2.3, 2.5, 2.8, 10.9). Control points with LOCAL = 1 and culling:
+6.4, since in a small window the closed form costs more than its bound gains; BOUND = 1 stays the default, as this is the
+LU method. Kept: ending the root's iteration when it has converged (1.3). Rejected: starting where the LU function of f
+reaches zero (Newton's method on a convex curve: 1.2 on the sphere, within 5 % elsewhere, for 20 more lines); windows of
+1.5, 3 or 4 times the last step (as many evaluations); bisections after the change of sign (4 of 12 evaluations, no better
+error).
 """
 
 from collections.abc import Mapping
@@ -38,7 +40,7 @@ from harness.contract import Method, Parameter, Precision, Surface
 MAX_DEGREE = 20
 
 
-def _tables(surface: Surface, knobs: Mapping[str, float | int], precision: Precision) -> dict[str, list[float]]:
+def _tables(surface: Surface, _knobs: Mapping[str, float | int], precision: Precision) -> dict[str, list[float]]:
     from harness.fitting import fit_tables
 
     assert surface.degree is not None
