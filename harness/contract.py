@@ -158,7 +158,7 @@ class Method:
     needs: tuple[str, ...] = ()  # generated functions the kernel calls, see surfaces.sections.FUNCTIONS
     libraries: tuple[str, ...] = ()  # files of harness/kernels/lib the kernel includes, without their ending
     parameters: tuple[Parameter, ...] = ()
-    variants: Mapping[str, Mapping[str, float]] = field(default_factory=dict)  # the papers' own settings, by name
+    settings: Mapping[str, Mapping[str, float]] = field(default_factory=dict)  # the papers' own settings, by name
     claims: frozenset[str] = frozenset()
     accepts: Callable[[Surface], str | None] = lambda _: None  # None, or the reason it refuses
     tables: Tables | None = None  # constant arrays of reals that the kernel reads, from surface, knobs and precision

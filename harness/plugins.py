@@ -40,10 +40,10 @@ class Plugin:
 
     def setting(self, name: str) -> Variant:
         """One of the papers' own settings; raises FirsthitError for one that the method does not state."""
-        if name not in self.method.variants:
-            known = self.method.variants
+        if name not in self.method.settings:
+            known = self.method.settings
             raise FirsthitError(f"method {self.method.name!r} has no setting {name!r}{_hint(name, known)}")
-        return dataclasses.replace(self.variant(self.method.variants[name]), label=name)
+        return dataclasses.replace(self.variant(self.method.settings[name]), label=name)
 
 
 @dataclass(frozen=True)

@@ -76,9 +76,10 @@ def _methods(options: argparse.Namespace) -> str:
     rows = []
     for name, plugin in sorted(catalog.plugins.items()):
         knobs = ", ".join(f"{p.name}={p.default:g}" for p in plugin.method.parameters)
-        rows.append((name, plugin.method.source, knobs or "-", ", ".join(sorted(plugin.method.claims)) or "-"))
+        claims, settings = ", ".join(sorted(plugin.method.claims)), ", ".join(plugin.method.settings)
+        rows.append((name, plugin.method.source, knobs or "-", settings or "-", claims or "-"))
     broken = [f"{name}: cannot be loaded: {reason}" for name, reason in catalog.broken.items()]
-    return "\n".join([console.table(("name", "source", "parameters", "claims"), rows), *broken])
+    return "\n".join([console.table(("name", "source", "parameters", "papers' settings", "claims"), rows), *broken])
 
 
 def _surfaces(_options: argparse.Namespace) -> str:

@@ -47,6 +47,6 @@ METHOD = Method(
         Parameter("NEAR", 0.5, "distance of the near plane from the eye, over the domain's radius"),
         Parameter("FAR", 64.0, "distance of the far plane from the eye, over the domain's radius"),
     ),
-    variants={"Loop-Blinn": {"POLISH": 0, "SCREEN": 1}},
+    settings={"Loop-Blinn": {"POLISH": 0, "SCREEN": 1}},
     accepts=accepts,
 )

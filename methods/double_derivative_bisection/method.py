@@ -66,6 +66,6 @@ METHOD = Method(
         Parameter("ITERATIONS", 22, "halvings of each piece"),
         Parameter("SPLIT", 1, "1: at the roots of f''; 0: at t_M, the root of f''', as printed"),
     ),
-    variants={"D.D. Bisection": {"ITERATIONS": 12, "SPLIT": 0}},
+    settings={"D.D. Bisection": {"ITERATIONS": 12, "SPLIT": 0}},
     accepts=accepts,
 )

@@ -98,7 +98,11 @@ Hit first_hit(Ray ray, real t0, real t1) {
             a = b;
             from = to;
             b = x[k];
-            to = EVAL == 1 ? surface_value(ray_point(ray, start + reach * b)) : polynomial_dual(q, N, BERNSTEIN, b).value;
+            if (EVAL == 1) {
+                to = surface_value(ray_point(ray, start + reach * b));
+            } else {
+                to = polynomial_dual(q, N, BERNSTEIN, b).value;
+            }
             hit.evaluations += EVAL;
         }
     }

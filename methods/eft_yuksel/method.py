@@ -1,19 +1,19 @@
 """Polynomial fit along the ray by error-free transforms; Yuksel's bracketing; refinement on the original function.
 
-**Source** szente, section 2 (fit: 2.1, equation 1; roots: 2.2); C. Yuksel, High-performance polynomial root finding for
-graphics, 2022. Products and sums: Ogita, Rump, Oishi 2005 (Dot2), with the inverse matrix in two parts.
+**Source** szente, section 2 (fit: 2.1, equation 1; roots: 2.2); C. Yuksel, High-performance polynomial root finding
+for graphics, 2022. Products and sums: Ogita, Rump, Oishi 2005 (Dot2), with the inverse matrix in two parts.
 
 **Theory** f along the ray is a polynomial of f's degree n, known from n + 1 samples. Between neighbouring critical
-points it is monotone, so one root at most lies there, where the ends differ in sign. Critical points are the roots of the
-derivative, themselves between the derivative's critical points, and so on, from the linear derivative up. Rounding in
-the fit's matrix-vector product would be amplified by the inverse's norm (10^3 at degree 10, 10^5 at 16), so that product
-is compensated. What error is left moves only the ends of pieces, since signs at these ends (n + 1 samples, n points) and
-the last refinement are of f itself (EVAL = 1). Two roots closer than the critical point between them is known are
-missed, and so are touches, unless rounding makes them cross.
+points it is monotone, so one root at most lies there, where the ends differ in sign. Critical points are the roots of
+the derivative, themselves between the derivative's critical points, and so on, from the linear derivative up. Rounding
+in the fit's matrix-vector product would be amplified by the inverse's norm (10^3 at degree 10, 10^5 at 16), so that
+product is compensated. What error is left moves only the ends of pieces, since signs at these ends (n + 1 samples, n
+points) and the last refinement are of f itself (EVAL = 1). Two roots closer than the critical point between them is
+known are missed, and so are touches, unless rounding makes them cross.
 
 **Changes against the paper**
 - Section 2.2 refines by bisection of f; here by Newton's steps kept in the bracket, with f's own value and the fit's
-  slope, as the list that opens section 2 has it: a third of the evaluations, the same error.
+  slope, as the list that opens section 2 has it: 7 evaluations in all on the sphere instead of 23, the same error.
 - A change of sign between samples bounds the first root from above, and only pieces before it are looked for.
 - The nodes are symmetric, so sums and differences of opposite samples (error-free too) take half the products.
 - Nodes are rounded first, and H inverted exactly for the rounded ones: no double-precision step.
@@ -22,17 +22,19 @@ missed, and so are touches, unless rounding makes them cross.
 
 Evaluations counted are those of f; none of the fit's.
 
-**Speed** Processor time on opencl:intel, float32, szente's seven surfaces of Table 4: 19 (16-ball) to 159 (calyx) times
-less than ray_march, 88 in the mean. Of it EFT takes 2 to 19 %, EVAL 7 to 29 %, most at low degree; the levels of
-derivatives take two thirds at degree 10. Kept, and what each saves in the mean (at most): Newton instead of 22 bisections
-of f, 17 % (42 % on the sphere); steps that may end on the bracket itself, without which one ray of a vector goes on
-halving, 12 % (28 %); the sign of samples, 6 % (30 % on the 16-ball); the closed form of the linear level, 4 % (21 %); the
-start of Newton's method, 4 % (8 %). ISOLATION 2^-10 is right wherever 2^-16 is, 2^-6 is not. Rejected: Newton's method
-for all roots of a level at once, so that their chains overlap (2.5 times slower: its arrays leave the registers);
-slopes from the next derivative's own coefficients (twice slower on calyx); unrolling by pragma (no difference).
+**Speed** Processor time on opencl:intel, float32, szente's seven surfaces of Table 4: 19 (16-ball) to 159 (calyx)
+times less than ray_march, 88 in the mean. Of it EFT takes up to 16 % and EVAL 7 to 22 %, most at degrees 4 and 5; the
+levels of derivatives take two thirds at degree 10. Kept, and what each saves in the mean (at most): Newton instead of
+22 bisections of f, 17 % (42 % on the sphere); steps that may end on the bracket itself, without which one ray of a
+vector goes on halving, 12 % (28 %); the sign of samples, 6 % (30 % on the 16-ball); the closed form of the linear
+level, 4 % (21 %); the start of Newton's method, 4 % (8 %). ISOLATION 2^-10 is as right as 2^-16 there, 2^-6 is not.
+Rejected: Newton's method for all roots of a level at once, so that their chains overlap (2.5 times slower: its arrays
+leave the registers); slopes from the next derivative's own coefficients (twice slower on calyx); unrolling by pragma
+(no difference).
 """
 
 from collections.abc import Mapping
+from typing import Literal
 
 from harness.contract import Method, Parameter, Precision, Surface
 
@@ -43,7 +45,7 @@ def _tables(surface: Surface, knobs: Mapping[str, float | int], precision: Preci
     from harness.fitting import derivative_factors, fit_tables
 
     assert surface.degree is not None
-    basis = "bernstein" if knobs["BASIS"] == 1 else "monomial"
+    basis: Literal["monomial", "bernstein"] = "bernstein" if knobs["BASIS"] == 1 else "monomial"
     return fit_tables(surface.degree, basis, precision) | {"FACTORS": derivative_factors(surface.degree, basis)}
 
 
@@ -67,7 +69,7 @@ METHOD = Method(
         Parameter("TOLERANCE", 2.0**-18, "last Newton step of the root, in the fit's variable"),
         Parameter("ISOLATION", 2.0**-10, "the same for the derivatives' roots"),
     ),
-    variants={
+    settings={
         "no EFT": {"EFT": 0, "EVAL": 0},
         "EFT": {"EFT": 1, "EVAL": 0},
         "EFT + EVAL": {"EFT": 1, "EVAL": 1},

@@ -22,15 +22,14 @@ one secant step ends the search; two roots closer than that can be missed.
 
 Evaluations counted are those of f.
 
-**Speed** Processor time on opencl:intel, float32, szente's four surfaces of Table 5 (sphere, flirt, calyx, Barth sextic).
-LU bound over control points, as in the paper (LOCAL = 0, control points without culling): 1.05 in the mean, nearly all of
-it from culling the sphere's misses (1.22, 0.99, 0.98, 1.03): the derivative is steepest where the ray enters, and there
-both bounds are exact. LOCAL = 1 over the same: 4.6 (2.3, 2.5, 2.8, 10.9). Control points with LOCAL = 1 and culling:
-6.4, since in a small window the closed form costs more than its bound gains; BOUND = 1 stays the default, as this is the
-LU method. Kept: ending the root's iteration when it has converged (1.3). Rejected: starting where the LU function of f
-reaches zero (Newton's method on a convex curve: 1.2 on the sphere, within 5 % elsewhere, for 20 more lines); windows of
-1.5, 3 or 4 times the last step (as many evaluations); bisections after the change of sign (4 of 12 evaluations, no better
-error).
+**Speed** Processor time on opencl:intel, float32, szente's four surfaces of Table 5 (sphere, flirt, calyx, Barth
+sextic). LU bound over control points, as in the paper (LOCAL = 0, control points without culling): 1.05 in the mean,
+nearly all of it from culling the sphere's misses (1.22, 0.99, 0.98, 1.03); the others take 1 to 3 % fewer evaluations.
+LOCAL = 1 over the same: 4.6 (2.3, 2.5, 2.8, 10.9). Control points with LOCAL = 1 and culling: 6.4, since in a small
+window the closed form costs more than its bound gains; BOUND = 1 stays the default, as this is the LU method. Kept:
+ending the root's iteration when it has converged (1.3). Rejected: starting where the LU function of f reaches zero
+(Newton's method on a convex curve: 1.2 on the sphere, within 5 % elsewhere, for 20 more lines); windows of 1.5, 3 or 4
+times the last step (as many evaluations); bisections after the change of sign (4 of 12 evaluations, no better error).
 """
 
 from collections.abc import Mapping
@@ -67,7 +66,7 @@ METHOD = Method(
         Parameter("TOLERANCE", 2.0**-16, "shortest step, over the ray's length in the domain"),
         Parameter("MAX_EVALUATIONS", 10000, "evaluations spent on one ray"),
     ),
-    variants={
+    settings={
         "LU bound": {"BOUND": 1, "CULL": 1, "LOCAL": 0},
         "control point": {"BOUND": 0, "CULL": 0, "LOCAL": 0},
     },

@@ -31,5 +31,5 @@ METHOD = Method(
         Parameter("FORWARD", 1, "1: forwards outside the surface, backwards inside; 0: signed steps as printed"),
         Parameter("MAX_EVALUATIONS", 100, "evaluations spent on one ray"),
     ),
-    variants={"Newton 0.001": {"EPSILON": 0.001}, "Newton 0.00003": {"EPSILON": 0.00003}},
+    settings={"Newton 0.001": {"EPSILON": 0.001}, "Newton 0.00003": {"EPSILON": 0.00003}},
 )

@@ -38,7 +38,7 @@ METHOD = Method(
         Parameter("RAYS", 2, "starts on a ray: 1 where it enters the domain, 2 also the point nearest its centre"),
         Parameter("MAX_EVALUATIONS", 2000, "evaluations of the distance spent on one ray"),
     ),
-    variants={
+    settings={
         "Sphere Tracing": {"EPSILON": 0.001, "RAYS": 1},
         "2-rays S. Tracing": {"EPSILON": 0.001, "RAYS": 2},
     },

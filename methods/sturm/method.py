@@ -37,6 +37,6 @@ METHOD = Method(
         Parameter("ITERATIONS", 22, "halvings of the ray's stay in the domain"),
         Parameter("BY_SIGN", 1, "1: bisect by the sign of f once one root is left; 0: count to the end, as printed"),
     ),
-    variants={"Sturm": {"ITERATIONS": 18, "BY_SIGN": 0}},
+    settings={"Sturm": {"ITERATIONS": 18, "BY_SIGN": 0}},
     accepts=accepts,
 )

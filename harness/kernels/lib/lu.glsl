@@ -1,11 +1,11 @@
-// Lower bounds of a polynomial on [0, 1] from its Bernstein coefficients b (szente, section 3): with m the least of them,
+// A polynomial's lower bound on [0, 1] from its Bernstein coefficients b (szente, section 3): with m the least of them,
 //
 //     l(x) = m + (b[0] - m) (1 - x)^n + (b[n] - m) x^n
 //
 // is nowhere above it (Equation 5), and least at a point in closed form (Equation 8). Upper bounds are those of -b.
 STRUCT(LowerCurve) struct LowerCurve { real least; real first; real last; real lowest_at; };  // m, b[0] - m, b[n] - m
 
-// a^(1/k) for a in [0, 1]: square roots into its neighbourhood, then Halley's iteration, whose error is cubed each time.
+// a^(1/k) for a in [0, 1]: square roots into its neighbourhood, then Halley's iteration, which cubes the error.
 real kth_root(real a, int k) {
     real y = a;
     for (int power = 1; 10 * power < 7 * k; power = 2 * power) y = sqrt(y);

@@ -1,6 +1,6 @@
 // Polynomials and their real roots, in the monomial basis (the sum of q[j] x^j) or the Bernstein basis (the sum of
 // q[j] x^j (1 - x)^(degree - j): the binomials are part of q). Yuksel 2022, High-performance polynomial root finding.
-#define COEFFICIENTS 21  // every array's size, for degrees to 20: a library is read before any surface's degree is known
+#define COEFFICIENTS 21  // every array's size, for degrees to 20: a library comes before any surface's degree
 #define MOST_STEPS 64    // of one bracketed Newton iteration; halving alone would end sooner
 #define THIRD 0.3333333432674407958984375
 
@@ -35,8 +35,8 @@ real linear_root(IN real q[COEFFICIENTS], bool bernstein, real lo, real hi) {
 // What is left of an interval with a change of sign, the x to look at next, and how far that is from the last one.
 STRUCT(Bracket) struct Bracket { real a; real b; real x; real step; };
 
-// [a, b], with the function's values there, `from` and `to`. The first x is where Newton's step from the middle leads on
-// the cubic that is level at both ends, as q is between two critical points.
+// [a, b], with the function's values there, `from` and `to`. The first x is where Newton's step from the middle leads
+// on the cubic that is level at both ends, as q is between two critical points.
 Bracket make_bracket(real a, real b, real from, real to) {
     Bracket bracket;
     bracket.a = a;
@@ -56,9 +56,9 @@ Bracket newton_step(Bracket bracket, Dual f, bool rising) {
     return next;
 }
 
-// One level of Yuksel's method. In: x[0] to x[degree], the ends of pieces on which q is monotone. Out: x[1] to x[degree]
-// are the pieces' roots, or a piece's far end where it has none, and x[degree + 1] is the last end: the ends of pieces
-// on which q's antiderivatives are monotone.
+// One level of Yuksel's method. In: x[0] to x[degree], the ends of pieces on which q is monotone. Out: x[1] to
+// x[degree] are the pieces' roots, or a piece's far end where it has none, and x[degree + 1] is the last end: the ends
+// of pieces on which q's antiderivatives are monotone.
 void split_at_roots(INOUT real x[COEFFICIENTS], IN real q[COEFFICIENTS], int degree, bool bernstein, real tolerance) {
     real a = x[0];
     real from = polynomial_dual(q, degree, bernstein, a).value;
