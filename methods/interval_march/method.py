@@ -3,9 +3,9 @@
 **Source** beamcasting, section III (procedure BeamCast), with the beam shrunk to a ray.
 
 **Theory** An interval extension of f over a piece of the ray encloses every value that f takes there. Where it excludes
-zero the piece holds no root, touches included, and is passed; otherwise the piece is halved and its nearer half looked at
-first. So no root is ever stepped over. The first piece no wider than TOLERANCE that cannot be excluded is the answer:
-overestimation and roundoff can place it before a root, or where there is only nearly one.
+zero the piece holds no root, touches included, and is passed; otherwise the piece is halved and its nearer half looked
+at first. So no root is ever stepped over. The first piece no wider than TOLERANCE that cannot be excluded is the
+answer: overestimation and roundoff can place it before a root, or where there is only nearly one.
 
 **Changes against the paper**
 - A ray instead of a pixel's beam: what is measured is a hit of the ray, as for the other ray methods.
