@@ -16,7 +16,7 @@ want() { # want NAME MESSAGE PACKAGE...: a usable device of that name, from Debi
     name=$1 message=$2
     shift 2
     has "$name" && return
-    echo "no usable $name; installing $*"
+    echo "no usable ${name%:}; installing $*"
     may_install apt-get -qq update >/dev/null 2>&1 &&
         may_install env DEBIAN_FRONTEND=noninteractive apt-get -qq install -y --no-install-recommends "$@" >/dev/null 2>&1
     has "$name" || echo "$message"
