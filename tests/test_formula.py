@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from fractions import Fraction
 
 import flint
@@ -17,6 +18,8 @@ from surfaces import formula
 from surfaces.formula import FUNCTIONS, degree, expression, parse
 from surfaces.numbers import Balls
 from surfaces.tape import walk
+
+FUZZ = int(os.environ.get("FIRSTHIT_FUZZ", "1"))  # times as many formulas; 40 take about a minute
 
 X, Y, Z = formula.X, formula.Y, formula.Z
 MEANINGS = [
@@ -207,7 +210,7 @@ words = st.sampled_from(
 )
 
 
-@settings(max_examples=400, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=400 * FUZZ, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(st.lists(words, max_size=30).map("".join) | st.text(max_size=40))
 def test_any_text_parses_or_is_refused(text: str) -> None:
     try:
@@ -233,7 +236,7 @@ def formulas(draw: st.DrawFn, depth: int = 4) -> str:
     return f"-({draw(inner)})" if kind == "sign" else f"({draw(inner)}) {kind} ({draw(inner)})"
 
 
-@settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=150 * FUZZ, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(formulas())
 def test_formulas_become_surfaces_or_are_refused(text: str) -> None:
     """What is accepted has an expression whose values are those of the tape."""

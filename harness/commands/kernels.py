@@ -22,6 +22,8 @@ def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -
     )
     parser.add_argument("--method", action="append", metavar="NAME", help="only this one; may be repeated")
     parser.add_argument("--surface", action="append", metavar="NAME", help=f"default: {', '.join(TYPICAL)}")
+    parser.add_argument("--formula", metavar="F", help="f(x, y, z) of your own beside them")
+    parser.add_argument("--domain", metavar="D", default="sphere:1.5", help="its domain (default: sphere:1.5)")
     parser.set_defaults(run=_compile)
 
 
@@ -31,7 +33,8 @@ def _compile(options: argparse.Namespace) -> int:
 
     catalog = find_methods(options.plugins)
     plugins = [catalog.get(name) for name in options.method or sorted(catalog.plugins)]
-    chosen = [surfaces.get(name) for name in options.surface or TYPICAL]
+    chosen = [surfaces.get(name) for name in options.surface or (() if options.formula else TYPICAL)]
+    chosen += [surfaces.from_formula(options.formula, options.domain)] if options.formula else []
     usable = [info for info in discover_devices() if not info.problem]
     if not usable:
         raise FirsthitError("no usable device; `firsthit devices` says why", exit_code=3)

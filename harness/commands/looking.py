@@ -86,8 +86,11 @@ def _surfaces(_options: argparse.Namespace) -> str:
     import surfaces
 
     chosen = [surfaces.get(name) for name in surfaces.names()]
-    rows = [(s.name, "-" if s.degree is None else s.degree, s.title, s.source) for s in chosen]
-    return console.table(("name", "degree", "title", "source"), rows)
+    rows = [
+        (s.name, "-" if s.degree is None else s.degree, sum(surfaces.operations(s).values()), s.title, s.source)
+        for s in chosen
+    ]
+    return console.table(("name", "degree", "operations", "title", "source"), rows)
 
 
 def _configs(_options: argparse.Namespace) -> str:
