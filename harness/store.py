@@ -36,9 +36,8 @@ def write_atomically(path: Path, content: bytes) -> None:
                 os.fsync(file.fileno())
             Path(name).chmod(0o644)
             Path(name).replace(path)
-        except BaseException:
-            Path(name).unlink(missing_ok=True)
-            raise
+        finally:
+            Path(name).unlink(missing_ok=True)  # only where it did not become `path`
     except OSError as error:
         raise FirsthitError(f"cannot write {path}: {error.strerror or error}", exit_code=3) from None
 

@@ -19,14 +19,6 @@ Pair two_sum(real a, real b) {
     return make_pair(s, g);
 }
 
-// Needs |a| >= |b| or a = 0.
-Pair fast_two_sum(real a, real b) {
-    PRECISE real s = a + b;
-    PRECISE real c = s - a;
-    PRECISE real d = b - c;
-    return make_pair(s, d);
-}
-
 Pair split(real a) {
     PRECISE real c = SPLITTER * a;
     PRECISE real d = c - a;
