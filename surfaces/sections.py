@@ -221,7 +221,7 @@ class _Writer:
     def surface_value_along(self) -> str:
         head = "real surface_value_along(Along along, real t)"
         if not expands(self.surface):
-            return _function(head, [], "return surface_value(along.ray.origin + along.ray.direction * t);")
+            return _function(head, [], "return surface_value(ray_point(along.ray, t));")
         degree = self.surface.degree or 0
         steps = [f"value = value * t + along.c[{k}];" for k in reversed(range(degree))]
         return _function(head, [f"real value = along.c[{degree}];", *steps], "return value;")
@@ -229,7 +229,7 @@ class _Writer:
     def surface_dual_along(self) -> str:
         head = "Dual surface_dual_along(Along along, real t)"
         if not expands(self.surface):
-            lines = ["vec3 p = along.ray.origin + along.ray.direction * t;"]
+            lines = ["vec3 p = ray_point(along.ray, t);"]
             variables = {**_POINT, **{f"d{axis}": f"along.ray.direction.{axis}" for axis in "xyz"}}
             more, values = self._printer(variables).body(tangent(self.real, {axis: f"d{axis}" for axis in "xyz"}))
             return _function(head, lines + more, f"return make_dual({', '.join(values)});")

@@ -3,7 +3,7 @@ STRUCT(Cast) struct Cast { real shift; Hit hit; };
 
 Cast cast_ray(Ray ray) {
     Cast result;
-    result.shift = dot(DOMAIN_CENTER - ray.origin, ray.direction);
+    result.shift = inner_product(difference(DOMAIN_CENTER, ray.origin), ray.direction);
     Ray near_ray = advanced_ray(ray, result.shift);
     Span span = domain_span(near_ray);
     real t0 = max(span.lo, -result.shift);

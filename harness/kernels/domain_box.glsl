@@ -1,11 +1,12 @@
-// The span a ray spends in the box, widened by a few roundings: a surface that touches a wall is not cut off.
+// The span a ray spends in the box, widened by more than its roundings: a surface that touches a wall is not cut off.
 Span slab(Span span, real o, real d, real lower, real upper) {
-    if (d == 0.0) return (o < lower || o > upper) ? make_span(1.0, 0.0) : span;
-    real inverse = 1.0 / d;
-    real a = (lower - o) * inverse;
-    real b = (upper - o) * inverse;
-    real slack = 4.0 * UNIT_ROUNDOFF * (fabs(o) + max(fabs(lower), fabs(upper))) * fabs(inverse);
-    return make_span(max(span.lo, min(a, b) - slack), min(span.hi, max(a, b) + slack));
+    // along the wall a ray stays in the slab for ever, or never is in it
+    real least = UNIT_ROUNDOFF * UNIT_ROUNDOFF;
+    real inverse = 1.0 / (fabs(d) < least ? least : d);
+    real middle = (0.5 * (lower + upper) - o) * inverse;
+    real slack = 8.0 * UNIT_ROUNDOFF * (fabs(o) + max(fabs(lower), fabs(upper)));
+    real half_length = (0.5 * (upper - lower) + slack) * fabs(inverse);
+    return make_span(max(span.lo, middle - half_length), min(span.hi, middle + half_length));
 }
 
 Span domain_span(Ray ray) {

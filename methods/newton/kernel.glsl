@@ -1,10 +1,10 @@
 // Newton-Raphson on f along the ray from the bounding sphere's near side; no step longer than λ (toledo2007, 4.4).
 Hit first_hit(Ray ray, real t0, real t1) {
     Hit hit = no_hit(t1);
-    vec3 o = ray.origin - DOMAIN_CENTER;
-    real middle = -dot(o, ray.direction);
-    vec3 nearest = o + ray.direction * middle;
-    real squared_half = BOUNDING_RADIUS * BOUNDING_RADIUS - dot(nearest, nearest);
+    vec3 o = difference(ray.origin, DOMAIN_CENTER);
+    real middle = -inner_product(o, ray.direction);
+    vec3 nearest = moved(o, middle, ray.direction);
+    real squared_half = BOUNDING_RADIUS * BOUNDING_RADIUS - inner_product(nearest, nearest);
     if (squared_half < 0.0) return hit;
     real half_length = sqrt(squared_half);
     real t = max(t0, middle - half_length);

@@ -7,7 +7,7 @@
 Hit first_hit(Ray ray, real t0, real t1) {
     Hit hit = no_hit(t1);
     real near_enough = EPSILON * FEATURE_RADIUS;
-    real t_m = dot(DOMAIN_CENTER - ray.origin, ray.direction);
+    real t_m = inner_product(difference(DOMAIN_CENTER, ray.origin), ray.direction);
     real t = t0;
     real way = 1.0;
     real before = REAL_INFINITY;

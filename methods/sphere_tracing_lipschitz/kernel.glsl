@@ -1,9 +1,9 @@
 // Steps of |f| over a bound of |grad f| in the shell at hand and the next one, until the secant ends within reach.
 Hit first_hit(Ray ray, real t0, real t1) {
     Hit hit = no_hit(t1);
-    vec3 o = ray.origin - DOMAIN_CENTER;
-    real origin_away = dot(o, o);
-    real advance = 2.0 * dot(o, ray.direction);
+    vec3 o = difference(ray.origin, DOMAIN_CENTER);
+    real origin_away = inner_product(o, o);
+    real advance = 2.0 * inner_product(o, ray.direction);
     real thickness = DOMAIN_RADIUS / real(SHELLS);
     real squared_thickness = thickness * thickness;
     real least = EPSILON * DOMAIN_RADIUS;

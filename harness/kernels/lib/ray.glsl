@@ -16,8 +16,23 @@ Span make_span(real lo, real hi) {
     return span;
 }
 
+// Vectors are calculated with by components: `dot` and operators on vec3 keep Intel's compiler from giving each lane a
+// ray of its own, and cost twice the time.
+real inner_product(vec3 a, vec3 b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+vec3 difference(vec3 a, vec3 b) {
+    return vec3(a.x - b.x, a.y - b.y, a.z - b.z);
+}
+
+// p + t d
+vec3 moved(vec3 p, real t, vec3 d) {
+    return vec3(p.x + t * d.x, p.y + t * d.y, p.z + t * d.z);
+}
+
 vec3 ray_point(Ray ray, real t) {
-    return ray.origin + ray.direction * t;
+    return moved(ray.origin, t, ray.direction);
 }
 
 // o + t d, rounded about once.
