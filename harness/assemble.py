@@ -11,6 +11,7 @@ from typing import Literal
 from harness.contract import Box, FirsthitError, Method, Precision, Program, Section, Surface, Variant
 
 KERNELS = Path(__file__).parent / "kernels"
+AFTER_TABLES = ("fit_samples",)  # libraries that read the surface's degree and the method's tables
 Language = Literal["glsl", "cl"]
 
 
@@ -59,10 +60,9 @@ def _parameter_section(variant: Variant, precision: Precision, language: Languag
 
 def table_section(name: str, values: Sequence[float], precision: Precision, language: Language) -> Section:
     """A constant array of reals, every digit kept: `TABLE real NAME[n]`."""
-    numbers = ", ".join(literal(float(value), precision, language) for value in values)
-    size = len(values)
-    body = f"real[{size}]({numbers})" if language == "glsl" else f"{{{numbers}}}"
-    return Section(f"generated: table {name}", f"TABLE real {name}[{size}] = {body};")
+    from surfaces.printing import table
+
+    return Section(f"generated: table {name}", table(name, values, precision, language))
 
 
 def method_program(
@@ -80,7 +80,8 @@ def method_program(
     """
     from surfaces.sections import libraries_for, surface_sections
 
-    sections = _head(language, precision, (*libraries_for(method.needs), *method.libraries))
+    early = [name for name in method.libraries if name not in AFTER_TABLES]
+    sections = _head(language, precision, (*libraries_for(method.needs, surface), *early))
     sections += surface_sections(surface, method.needs, precision, language)
     domain = "domain_box" if isinstance(surface.domain, Box) else "domain_sphere"
     sections.append(file_section(KERNELS / f"{domain}.glsl"))
@@ -89,6 +90,7 @@ def method_program(
     if method.tables:
         tables = method.tables(surface, dict(variant.parameters), precision)
         sections += [table_section(name, values, precision, language) for name, values in tables.items()]
+    sections += [_library(name) for name in method.libraries if name in AFTER_TABLES]
     sections.append(file_section(folder / "kernel.glsl"))
     sections.append(file_section(KERNELS / "cast.glsl"))
     if entry == "camera":

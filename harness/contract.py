@@ -144,7 +144,16 @@ class Parameter:
     name: str
     default: float | int
     meaning: str  # one phrase with its unit
+    finer: Literal["up", "down"] | None = None  # which way the error falls; tested, as claims are
 
+
+CLAIMS: dict[str, str] = {
+    "no_missed_root": "a ray that meets the surface is never answered as a miss, nor by a later root; near tangency too",
+    "finds_touch": "where a ray touches the surface without crossing it, that is a hit",
+    "no_false_hit": "no hit where the oracle proves that there is none, outside the grazing class",
+    "error_below_tolerance": "a right hit is within Method.tolerance of its root, and what rounding must add",
+    "conservative_bound": "no step is longer than a proved bound allows: outside the grazing class no root is passed",
+}
 
 Tables = Callable[[Surface, Mapping[str, float | int], Precision], Mapping[str, Sequence[float]]]
 
@@ -159,7 +168,11 @@ class Method:
     libraries: tuple[str, ...] = ()  # files of harness/kernels/lib the kernel includes, without their ending
     parameters: tuple[Parameter, ...] = ()
     settings: Mapping[str, Mapping[str, float]] = field(default_factory=dict)  # the papers' own settings, by name
-    claims: frozenset[str] = frozenset()
+    claims: frozenset[str] = frozenset()  # of CLAIMS; each is tested, so what is not proved is not claimed
+    tolerance: Callable[[Surface, Mapping[str, float | int]], float] | None = (
+        None  # largest error, scene units, without
+    )
+    #   rounding: what error_below_tolerance is about
     accepts: Callable[[Surface], str | None] = lambda _: None  # None, or the reason it refuses
     tables: Tables | None = None  # constant arrays of reals that the kernel reads, from surface, knobs and precision
     answers: bool = True  # False: measures the harness's floor and finds nothing

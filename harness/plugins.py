@@ -11,7 +11,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from harness.contract import FirsthitError, Method, Variant
+from harness.contract import CLAIMS, FirsthitError, Method, Variant
 
 BUILT_IN = Path(__file__).parent.parent / "methods"
 ENTRY_POINTS = "firsthit.methods"
@@ -84,6 +84,10 @@ def _load(folder: Path) -> Method:
     method = getattr(module, "METHOD", None)
     if not isinstance(method, Method):
         raise FirsthitError(f"{path} does not define METHOD = Method(...)")
+    for claim in sorted(method.claims - CLAIMS.keys()):
+        raise FirsthitError(f"{path} claims {claim!r}, which no test knows{_hint(claim, CLAIMS)}")
+    if "error_below_tolerance" in method.claims and method.tolerance is None:
+        raise FirsthitError(f"{path} claims error_below_tolerance; that needs tolerance=..., see harness/contract.py")
     if method.name != folder.name:
         raise FirsthitError(f"{path} names its method {method.name!r}, its folder {folder.name!r}; they must agree")
     return method

@@ -7,7 +7,7 @@ neighbours that hold it.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import Literal
 
@@ -52,6 +52,14 @@ def number(value: np.floating, precision: Precision, language: Language) -> str:
         text = np.format_float_positional(value, unique=True, trim="0")
     text += "f" if precision == "float32" else {"glsl": "lf", "cl": ""}[language]
     return f"({text})" if value < 0 else text
+
+
+def table(name: str, values: Sequence[float], precision: Precision, language: Language) -> str:
+    """A constant array of reals, every digit kept: `TABLE real NAME[n]`."""
+    numbers = ", ".join(number(_TYPES[precision](value), precision, language) for value in values)
+    size = len(values)
+    body = f"real[{size}]({numbers})" if language == "glsl" else f"{{{numbers}}}"
+    return f"TABLE real {name}[{size}] = {body};"
 
 
 class RealPrinter:

@@ -8,11 +8,19 @@ FUNCTIONS names what a method may need:
     surface_value             real surface_value(vec3 p)
     surface_gradient          vec3 surface_gradient(vec3 p)
     surface_hessian_product   vec3 surface_hessian_product(vec3 p, vec3 v)
+    surface_normal            vec3 surface_normal(vec3 p)                         unit, along the gradient
     surface_distance          real surface_distance(vec3 p)                       where the surface states one
+    surface_distance_normal   vec3 surface_distance_normal(vec3 p)                unit, along the distance's gradient:
+                              on a torus P - C with C = (R x / rho, R y / rho, 0), toledo2007, equation 6; either
+                              normal is the zero vector where its gradient is zero or no number
     surface_range             Interval surface_range(Interval x, Interval y, Interval z)
     surface_range_along       Interval surface_range_along(Ray ray, real t0, real t1)
     surface_coefficients_along  void surface_coefficients_along(Ray ray, OUT real c[SURFACE_DEGREE + 1])
                               f(origin + t direction) = c[0] + c[1] t + …, exact expansion; degree 1 to 4
+    surface_polynomial_along  Stretch surface_polynomial_along(Ray ray, real t0, real t1, OUT real c[SURFACE_DEGREE + 1])
+                              f = c[0] + c[1] x + … with t = middle + reach x. To degree 4 the exact expansion in x = t;
+                              beyond, to degree 20, the compensated fit over [t0, t1] as x in [-1, 1] (szente, 2.1), of
+                              which POLYNOMIAL_EVALUATIONS says how often it evaluates f. Brings the library fit_samples
     surface_along             struct Along; Along surface_along(Ray ray)          the surface prepared for one ray
     surface_value_along       real surface_value_along(Along along, real t)
     surface_dual_along        Dual surface_dual_along(Along along, real t)        value and derivative by t
@@ -30,22 +38,27 @@ from harness.contract import Box, FirsthitError, Precision, Section, Surface
 from surfaces.evaluation import tape_of
 from surfaces.formula import parse
 from surfaces.lowering import coefficients_along, gradient, hessian_product, real_tape, tangent
-from surfaces.printing import IntervalPrinter, Language, RealPrinter, functions_used
+from surfaces.printing import IntervalPrinter, Language, RealPrinter, functions_used, table
 from surfaces.tape import Tape
 
 MAX_EXPANDED_DEGREE = 4
+MAX_FITTED_DEGREE = 20
 _ROOT = Path(__file__).parent.parent
 _EXP_LOG = _ROOT / "harness" / "kernels" / "lib" / "interval_exp_log.glsl"  # only where called: see its first lines
+_FIT_SAMPLES = _ROOT / "harness" / "kernels" / "lib" / "fit_samples.glsl"  # after its tables
 
 _REQUIRES: dict[str, tuple[str, ...]] = {
     "constants": (),
     "surface_value": (),
     "surface_gradient": (),
     "surface_hessian_product": (),
+    "surface_normal": ("surface_gradient",),
     "surface_distance": (),
+    "surface_distance_normal": (),
     "surface_range": (),
     "surface_range_along": ("surface_range",),
     "surface_coefficients_along": (),
+    "surface_polynomial_along": (),
     "surface_along": (),
     "surface_value_along": ("surface_along",),
     "surface_dual_along": ("surface_along",),
@@ -76,14 +89,18 @@ def _closure(surface: Surface | None, needs: Iterable[str]) -> list[str]:
     if surface is not None and "surface_along" in wanted:
         evaluated = {"surface_value"} if "surface_value_along" in wanted else set()
         wanted |= {"surface_coefficients_along"} if expands(surface) else evaluated
+    if surface is not None and "surface_polynomial_along" in wanted:
+        wanted |= {"surface_coefficients_along"} if expands(surface) else {"surface_value"}
     return [name for name in FUNCTIONS if name in wanted]
 
 
-def libraries_for(needs: Iterable[str]) -> tuple[str, ...]:
-    """The kernel libraries that the generated functions need, beside `ray`."""
+def libraries_for(needs: Iterable[str], surface: Surface | None = None) -> tuple[str, ...]:
+    """The kernel libraries that the generated functions need, beside `ray`; fewer where `surface` needs fewer."""
     wanted = _closure(None, needs)
     interval = ("interval",) if "surface_range" in wanted else ()
-    return interval + (("dual",) if "surface_dual_along" in wanted else ())
+    dual = ("dual",) if "surface_dual_along" in wanted else ()
+    fitted = "surface_polynomial_along" in wanted and not (surface is not None and expands(surface))
+    return interval + dual + (("dual", "fit", "polynomial") if fitted else ())
 
 
 def unsupported(surface: Surface, precision: Precision, language: Language) -> str | None:
@@ -114,9 +131,29 @@ def surface_sections(
         name: getattr(writer, name) for name in dict.fromkeys(["constants", *wanted])
     }
     sections = [Section(f"generated: surface {surface.name}, {name}", make()) for name, make in makers.items()]
+    if "surface_polynomial_along" in wanted and not expands(surface):
+        at = 1 + list(makers).index("surface_value")
+        fit = Section(_FIT_SAMPLES.relative_to(_ROOT).as_posix(), _FIT_SAMPLES.read_text(encoding="utf-8"))
+        sections[at:at] = [*_fit_tables(surface, precision, language), fit]
     if "surface_range" in wanted and {"exp", "log"} & set(functions_used(tape_of(surface))):
         sections.insert(0, Section(_EXP_LOG.relative_to(_ROOT).as_posix(), _EXP_LOG.read_text(encoding="utf-8")))
     return tuple(sections)
+
+
+def _fit_tables(surface: Surface, precision: Precision, language: Language) -> list[Section]:
+    from harness.fitting import fit_tables
+
+    if surface.degree is None or not 1 <= surface.degree <= MAX_FITTED_DEGREE:
+        known = f"surface_polynomial_along is for degrees 1 to {MAX_FITTED_DEGREE}"
+        raise FirsthitError(f"{surface.name} is {_degree_of(surface)}; {known}")
+    tables = fit_tables(surface.degree, "monomial", precision)
+    return [
+        Section(f"generated: table {name}", table(name, values, precision, language)) for name, values in tables.items()
+    ]
+
+
+def _degree_of(surface: Surface) -> str:
+    return "no polynomial" if surface.degree is None else f"of degree {surface.degree}"
 
 
 def _function(head: str, lines: list[str], *last: str) -> str:
@@ -173,15 +210,26 @@ class _Writer:
         lines, values = self._printer(_POINT).body(gradient(self.real))
         return _function("vec3 surface_gradient(vec3 p)", lines, f"return vec3({', '.join(values)});")
 
+    def surface_normal(self) -> str:
+        return _function("vec3 surface_normal(vec3 p)", [], "return unit_vector(surface_gradient(p));")
+
+    def surface_distance_normal(self) -> str:
+        lines, values = self._printer(_POINT).body(gradient(self._distance("surface_distance_normal")))
+        last = f"return unit_vector(vec3({', '.join(values)}));"
+        return _function("vec3 surface_distance_normal(vec3 p)", lines, last)
+
     def surface_hessian_product(self) -> str:
         variables = {**_POINT, "vx": "v.x", "vy": "v.y", "vz": "v.z"}
         lines, values = self._printer(variables).body(hessian_product(self.real))
         return _function("vec3 surface_hessian_product(vec3 p, vec3 v)", lines, f"return vec3({', '.join(values)});")
 
-    def surface_distance(self) -> str:
+    def _distance(self, needed_by: str) -> Tape:
         if self.surface.distance is None:
-            raise FirsthitError(f"{self.surface.name} states no distance function, which surface_distance needs")
-        return self._scalar("surface_distance", real_tape(parse(self.surface.distance, dict(self.surface.parameters))))
+            raise FirsthitError(f"{self.surface.name} states no distance function, which {needed_by} needs")
+        return real_tape(parse(self.surface.distance, dict(self.surface.parameters)))
+
+    def surface_distance(self) -> str:
+        return self._scalar("surface_distance", self._distance("surface_distance"))
 
     def surface_range(self) -> str:
         used = {op.args[0] for op in self.exact.ops if op.name == "var"}
@@ -202,13 +250,32 @@ class _Writer:
 
     def surface_coefficients_along(self) -> str:
         if not expands(self.surface):
-            degree = "no polynomial" if self.surface.degree is None else f"of degree {self.surface.degree}"
             known = f"surface_coefficients_along expands degrees 1 to {MAX_EXPANDED_DEGREE}"
-            raise FirsthitError(f"{self.surface.name} is {degree}; {known}")
+            raise FirsthitError(f"{self.surface.name} is {_degree_of(self.surface)}; {known}")
         assert self.surface.degree is not None
         lines, values = self._printer(_RAY).body(coefficients_along(self.real, self.surface.degree))
         stores = [f"c[{k}] = {value};" for k, value in enumerate(values)]
         return _function("void surface_coefficients_along(Ray ray, OUT real c[SURFACE_DEGREE + 1])", lines, *stores)
+
+    def surface_polynomial_along(self) -> str:
+        head = "Stretch surface_polynomial_along(Ray ray, real t0, real t1, OUT real c[SURFACE_DEGREE + 1])"
+        evaluations = 0
+        if expands(self.surface):
+            lines = ["surface_coefficients_along(ray, c);", "return make_stretch(0.0, 1.0);"]
+        else:
+            evaluations = (self.surface.degree or 0) + 1
+            lines = [
+                "Stretch stretch = make_stretch(0.5 * (t0 + t1), 0.5 * (t1 - t0));",
+                "real samples[COEFFICIENTS];",
+                "real fitted[COEFFICIENTS];",
+                "for (int i = 0; i <= SURFACE_DEGREE; i++) {",
+                "    samples[i] = surface_value(ray_point(ray, stretch.middle + stretch.reach * NODES[i]));",
+                "}",
+                "fit(samples, false, true, fitted);",
+                "for (int i = 0; i <= SURFACE_DEGREE; i++) c[i] = fitted[i];",
+                "return stretch;",
+            ]
+        return f"#define POLYNOMIAL_EVALUATIONS {evaluations}\n" + _function(head, lines)
 
     def surface_along(self) -> str:
         if expands(self.surface):

@@ -6,7 +6,7 @@ import argparse
 import tomllib
 
 from harness import console
-from harness.contract import DeviceInfo
+from harness.contract import CLAIMS, DeviceInfo
 from harness.environment import ROOT, probed
 from harness.executor import START_SECONDS, LocalExecutor, discover_devices
 from harness.plugins import find_methods
@@ -75,11 +75,23 @@ def _methods(options: argparse.Namespace) -> str:
     catalog = find_methods(options.plugins)
     rows = []
     for name, plugin in sorted(catalog.plugins.items()):
-        knobs = ", ".join(f"{p.name}={p.default:g}" for p in plugin.method.parameters)
-        claims, settings = ", ".join(sorted(plugin.method.claims)), ", ".join(plugin.method.settings)
-        rows.append((name, plugin.method.source, knobs or "-", settings or "-", claims or "-"))
+        method = plugin.method
+        claims = ", ".join(sorted(method.claims)) if method.answers else "(measures the harness's floor)"
+        rows.append((name, method.source, claims or "none", ", ".join(method.settings) or "-"))
+    knobs = [
+        (name, p.name, f"{p.default:g}", {"up": "larger", "down": "smaller", None: "-"}[p.finer], p.meaning)
+        for name, plugin in sorted(catalog.plugins.items())
+        for p in plugin.method.parameters
+    ]
+    stated = {claim for plugin in catalog.plugins.values() for claim in plugin.method.claims}
+    meanings = [(claim, meaning) for claim, meaning in CLAIMS.items() if claim in stated]
     broken = [f"{name}: cannot be loaded: {reason}" for name, reason in catalog.broken.items()]
-    return "\n".join([console.table(("name", "source", "parameters", "papers' settings", "claims"), rows), *broken])
+    tables = (
+        console.table(("name", "source", "claims", "papers' settings"), rows),
+        console.table(("claim", "meaning"), meanings),
+        console.table(("method", "parameter", "default", "finer", "meaning"), knobs),
+    )
+    return "\n\n".join([*tables, *broken])
 
 
 def _surfaces(_options: argparse.Namespace) -> str:

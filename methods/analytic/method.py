@@ -38,7 +38,7 @@ METHOD = Method(
     needs=("surface_coefficients_along",),
     libraries=("closed_form",),
     parameters=(
-        Parameter("POLISH", 1, "Newton steps on the closed form's root"),
+        Parameter("POLISH", 1, "Newton steps on the closed form's root", finer="up"),
         Parameter("WIDENING", 0.25, "how much the interval is widened at either end, over its length"),
         Parameter(
             "SCREEN", 0, "1: in screen space, between the near and the far plane; 0: in the surface's coordinates"

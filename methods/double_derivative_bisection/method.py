@@ -63,9 +63,11 @@ METHOD = Method(
     source="toledo2007",
     needs=("surface_along", "surface_dual_along"),
     parameters=(
-        Parameter("ITERATIONS", 22, "halvings of each piece"),
+        Parameter("ITERATIONS", 22, "halvings of each piece", finer="up"),
         Parameter("SPLIT", 1, "1: at the roots of f''; 0: at t_M, the root of f''', as printed"),
     ),
+    claims=frozenset({"no_false_hit", "error_below_tolerance"}),
+    tolerance=lambda surface, knobs: 2.0 * surface.domain.radius * 0.5 ** (knobs["ITERATIONS"] + 1),
     settings={"D.D. Bisection": {"ITERATIONS": 12, "SPLIT": 0}},
     accepts=accepts,
 )

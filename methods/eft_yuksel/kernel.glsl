@@ -1,55 +1,7 @@
 // The first root of f along the ray, between the critical points of its fit (szente, section 2). The fit's variable x
 // runs over [-1, 1], or over [0, 1] in the Bernstein basis; t = start + reach x.
 #define N SURFACE_DEGREE
-#define EVENS (SURFACE_DEGREE / 2 + 1)
-#define ODDS ((SURFACE_DEGREE + 1) / 2)
 #define BERNSTEIN (BASIS == 1)
-
-Factor sum_factor(real a, real b) {
-    return make_factor(EFT == 1 ? two_sum(a, b) : make_pair(a + b, 0.0));
-}
-
-Pair next_sum(Pair sum, real hi, real lo, Factor b) {
-    return EFT == 1 ? plus_product(sum, hi, lo, b) : make_pair(sum.hi + hi * b.hi, 0.0);
-}
-
-Pair even_row(IN Factor sums[EVENS], int row) {
-    Pair sum = make_pair(0.0, 0.0);
-    for (int i = 0; i < EVENS; i++) sum = next_sum(sum, EVEN_HI[row * EVENS + i], EVEN_LO[row * EVENS + i], sums[i]);
-    return sum;
-}
-
-Pair odd_row(IN Factor differences[ODDS], int row) {
-    Pair sum = make_pair(0.0, 0.0);
-    for (int i = 0; i < ODDS; i++) sum = next_sum(sum, ODD_HI[row * ODDS + i], ODD_LO[row * ODDS + i], differences[i]);
-    return sum;
-}
-
-// Coefficients from samples at the nodes: rows of the inverse for sums and differences of opposite samples.
-void fit(IN real s[COEFFICIENTS], OUT real c[COEFFICIENTS]) {
-    Factor sums[EVENS];
-    Factor differences[ODDS];
-    for (int i = 0; i < ODDS; i++) {
-        sums[i] = sum_factor(s[N - i], s[i]);
-        differences[i] = sum_factor(s[N - i], -s[i]);
-    }
-    if (EVENS > ODDS) sums[EVENS - 1] = sum_factor(s[N / 2], 0.0);
-    for (int r = 0; r < ODDS; r++) {
-        Pair even = even_row(sums, r);
-        Pair odd = odd_row(differences, r);
-        if (BERNSTEIN) {
-            c[r] = (even.hi - odd.hi) + (even.lo - odd.lo);
-            c[N - r] = (even.hi + odd.hi) + (even.lo + odd.lo);
-        } else {
-            c[2 * r] = even.hi + even.lo;
-            c[2 * r + 1] = odd.hi + odd.lo;
-        }
-    }
-    if (EVENS > ODDS) {
-        Pair even = even_row(sums, EVENS - 1);
-        c[BERNSTEIN ? N / 2 : N] = even.hi + even.lo;
-    }
-}
 
 // The coefficients of c's (N - degree)th derivative, up to one factor.
 void derivative(IN real c[COEFFICIENTS], int degree, OUT real q[COEFFICIENTS]) {
@@ -78,7 +30,7 @@ Hit first_hit(Ray ray, real t0, real t1) {
     real c[COEFFICIENTS];
     real q[COEFFICIENTS];
     real x[COEFFICIENTS];
-    fit(s, c);
+    fit(s, BERNSTEIN, EFT == 1, c);
     derivative(c, 1, q);
     x[0] = NODES[0];
     x[1] = N == 1 ? last : linear_root(q, BERNSTEIN, NODES[0], last);

@@ -61,12 +61,12 @@ METHOD = Method(
     name="eft_yuksel",
     source="szente",
     needs=("surface_value",),
-    libraries=("dual", "fit", "polynomial"),
+    libraries=("dual", "fit", "polynomial", "fit_samples"),
     parameters=(
         Parameter("BASIS", 0, "0: monomial on [-1, 1], 1: Bernstein on [0, 1]"),
         Parameter("EFT", 1, "1: compensated fit, 0: plain products and sums"),
         Parameter("EVAL", 1, "1: signs and refinement from f itself, 0: from the fit"),
-        Parameter("TOLERANCE", 2.0**-18, "last Newton step of the root, in the fit's variable"),
+        Parameter("TOLERANCE", 2.0**-18, "last Newton step of the root, in the fit's variable", finer="down"),
         Parameter("ISOLATION", 2.0**-10, "the same for the derivatives' roots"),
     ),
     settings={
@@ -75,6 +75,7 @@ METHOD = Method(
         "EFT + EVAL": {"EFT": 1, "EVAL": 1},
         "Bernstein": {"BASIS": 1},
     },
+    claims=frozenset({"no_false_hit"}),
     accepts=_accepts,
     tables=_tables,
 )

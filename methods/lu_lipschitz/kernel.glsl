@@ -1,30 +1,5 @@
 // Steps of |f| over a bound of how steeply f nears zero, along the ray as x in [0, 1]; szente, section 3.
 #define N SURFACE_DEGREE
-#define EVENS (SURFACE_DEGREE / 2 + 1)
-#define ODDS ((SURFACE_DEGREE + 1) / 2)
-
-// Bernstein coefficients from samples at the nodes: rows of the inverse for sums and differences of opposite samples.
-void fit(IN real s[COEFFICIENTS], OUT real b[COEFFICIENTS]) {
-    Factor sums[EVENS];
-    Factor differences[ODDS];
-    for (int i = 0; i < ODDS; i++) {
-        sums[i] = make_factor(two_sum(s[N - i], s[i]));
-        differences[i] = make_factor(two_sum(s[N - i], -s[i]));
-    }
-    if (EVENS > ODDS) sums[EVENS - 1] = make_factor(make_pair(s[N / 2], 0.0));
-    for (int r = 0; r < EVENS; r++) {
-        Pair even = make_pair(0.0, 0.0);
-        Pair odd = make_pair(0.0, 0.0);
-        for (int k = r * EVENS; k < (r + 1) * EVENS; k++) {
-            even = plus_product(even, EVEN_HI[k], EVEN_LO[k], sums[k - r * EVENS]);
-        }
-        for (int k = r * ODDS; k < (r + 1) * ODDS && r < ODDS; k++) {
-            odd = plus_product(odd, ODD_HI[k], ODD_LO[k], differences[k - r * ODDS]);
-        }
-        b[r] = (even.hi - odd.hi) + (even.lo - odd.lo);
-        b[N - r] = (even.hi + odd.hi) + (even.lo + odd.lo);
-    }
-}
 
 // Coefficients on [x, x + width] of the polynomial with coefficients d on [0, 1]: de Casteljau's algorithm, twice.
 void restrict_to(real x, real width, IN real d[COEFFICIENTS], int degree, OUT real e[COEFFICIENTS]) {
@@ -56,7 +31,7 @@ Hit first_hit(Ray ray, real t0, real t1) {
     for (int i = 0; i <= N; i++) s[i] = surface_value(ray_point(ray, t0 + reach * NODES[i]));
     hit.evaluations = N + 1;
     real b[COEFFICIENTS];
-    fit(s, b);
+    fit(s, true, true, b);
     real sign = s[0] < 0.0 ? real(-1) : real(1);
     for (int j = 0; j <= N; j++) b[j] = sign * b[j];
     if (CULL == 1 && least_value(b, N) > error_bound(b, N)) return hit;

@@ -58,19 +58,19 @@ METHOD = Method(
     name="lu_lipschitz",
     source="szente",
     needs=("surface_value",),
-    libraries=("interval", "dual", "fit", "polynomial", "lu"),
+    libraries=("interval", "dual", "fit", "polynomial", "lu", "fit_samples"),
     parameters=(
         Parameter("BOUND", 1, "1: LU bounds, 0: control points"),
         Parameter("CULL", 1, "1: rays whose f is bounded away from zero end at once"),
         Parameter("LOCAL", 1, "1: the bound follows the ray, 0: one bound for the whole ray"),
-        Parameter("TOLERANCE", 2.0**-16, "shortest step, over the ray's length in the domain"),
+        Parameter("TOLERANCE", 2.0**-16, "shortest step, over the ray's length in the domain", finer="down"),
         Parameter("MAX_EVALUATIONS", 10000, "evaluations spent on one ray"),
     ),
     settings={
         "LU bound": {"BOUND": 1, "CULL": 1, "LOCAL": 0},
         "control point": {"BOUND": 0, "CULL": 0, "LOCAL": 0},
     },
-    claims=frozenset({"conservative_bound"}),
+    claims=frozenset({"conservative_bound", "no_false_hit"}),
     accepts=_accepts,
     tables=_tables,
 )

@@ -18,7 +18,9 @@ METHOD = Method(
     source="szente",
     needs=("surface_along", "surface_value_along"),
     parameters=(
-        Parameter("STEPS", 10000, "steps across the domain's diameter"),
-        Parameter("REFINEMENTS", 12, "bisections of the bracketing step"),
+        Parameter("STEPS", 10000, "steps across the domain's diameter", finer="up"),
+        Parameter("REFINEMENTS", 12, "bisections of the bracketing step", finer="up"),
     ),
+    claims=frozenset({"no_false_hit", "error_below_tolerance"}),
+    tolerance=lambda surface, knobs: 2.0 * surface.domain.radius / knobs["STEPS"] * 0.5 ** knobs["REFINEMENTS"],
 )

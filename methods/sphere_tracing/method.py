@@ -34,10 +34,11 @@ METHOD = Method(
     source="toledo2007",
     needs=("surface_distance",),
     parameters=(
-        Parameter("EPSILON", 0.00003, "distance that counts as a hit, over the surface's feature radius"),
+        Parameter("EPSILON", 0.00003, "distance that counts as a hit, over the surface's feature radius", finer="down"),
         Parameter("RAYS", 2, "starts on a ray: 1 where it enters the domain, 2 also the point nearest its centre"),
         Parameter("MAX_EVALUATIONS", 2000, "evaluations of the distance spent on one ray"),
     ),
+    claims=frozenset({"no_missed_root", "finds_touch"}),
     settings={
         "Sphere Tracing": {"EPSILON": 0.001, "RAYS": 1},
         "2-rays S. Tracing": {"EPSILON": 0.001, "RAYS": 2},

@@ -103,10 +103,14 @@ METHOD = Method(
     needs=("surface_along", "surface_value_along"),
     parameters=(
         Parameter(
-            "EPSILON", 2.0**-15, "shortest step, and the secant's reach that counts as a hit, over the domain's radius"
+            "EPSILON",
+            2.0**-15,
+            "shortest step, and the secant's reach that counts as a hit, over the domain's radius",
+            finer="down",
         ),
         Parameter("SHELLS", 64, "shells with a bound of their own; 1: one bound for the whole domain"),
         Parameter("MAX_EVALUATIONS", 20000, "evaluations of f spent on one ray"),
     ),
+    claims=frozenset({"conservative_bound"}),
     tables=tables,
 )

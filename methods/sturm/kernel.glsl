@@ -1,8 +1,9 @@
 // Halve [t0, t1] towards the first root, counting roots by the changes of sign along Sturm's chain (toledo2007, 3).
-// Row k of the chain is a polynomial of degree SURFACE_DEGREE - k, lowest power first.
+// Row k of the chain is a polynomial in x of degree SURFACE_DEGREE - k at most, lowest power first; t = middle + reach x.
 #define ROW (SURFACE_DEGREE + 1)
 #define CHAIN (ROW * ROW)
 
+// As printed, for degrees to 4: every division of one row by the next leaves one degree less.
 void sturm_chain(IN real c[ROW], OUT real chain[CHAIN]) {
     for (int i = 0; i < CHAIN; i++) chain[i] = 0.0;
     for (int i = 0; i <= SURFACE_DEGREE; i++) chain[i] = c[i];
@@ -21,60 +22,106 @@ void sturm_chain(IN real c[ROW], OUT real chain[CHAIN]) {
     }
 }
 
-real row_value(IN real chain[CHAIN], int k, real t) {
+// Beyond degree 4: in two parts for each coefficient, every row over its largest coefficient, and a leading coefficient
+// that is nothing but rounding taken for 0, as is a row of such.
+void scaled_chain(IN real c[ROW], OUT real chain[CHAIN]) {
+    Pair f[ROW];
+    Pair g[ROW];
+    for (int i = 0; i < CHAIN; i++) chain[i] = 0.0;
+    for (int i = 0; i < ROW; i++) {
+        f[i] = make_pair(0.0, 0.0);
+        g[i] = make_pair(c[i], 0.0);
+    }
+    int p = 0;
+    int q = SURFACE_DEGREE;
+    int k = 0;
+    while (q >= 0) {
+        // g over its largest coefficient, and its degree; f = g at first, then g the derivative
+        real size = 0.0;
+        for (int i = 0; i <= q; i++) size = max(size, fabs(g[i].hi));
+        if (size > LEAST * UNIT_ROUNDOFF * UNIT_ROUNDOFF) {
+            for (int i = 0; i <= q; i++) g[i] = pair_scaled(g[i], 1.0 / size);
+            while (q > 0 && !(fabs(g[q].hi) > LEAST * UNIT_ROUNDOFF)) q -= 1;
+            for (int i = 0; i <= q; i++) chain[k * ROW + i] = g[i].hi;
+            for (int d = p; d >= q && k > 0; d--) {
+                Pair factor = pair_negative(pair_quotient(f[d], g[q]));
+                for (int i = 0; i < q; i++) f[d - q + i] = pair_sum(f[d - q + i], pair_product(factor, g[i]));
+            }
+            for (int i = 0; i <= q; i++) {
+                Pair rest = k > 0 ? pair_negative(f[i]) : pair_scaled(g[min(i + 1, q)], real(i + 1) / real(SURFACE_DEGREE));
+                f[i] = g[i];
+                g[i] = rest;
+            }
+            p = q;
+            q -= 1;
+            k += 1;
+        } else {
+            q = -1;
+        }
+    }
+}
+
+real row_value(IN real chain[CHAIN], int k, real x) {
     real value = chain[k * ROW + SURFACE_DEGREE - k];
-    for (int i = SURFACE_DEGREE - k - 1; i >= 0; i--) value = value * t + chain[k * ROW + i];
+    for (int i = SURFACE_DEGREE - k - 1; i >= 0; i--) value = value * x + chain[k * ROW + i];
     return value;
 }
 
-// Zeros do not count.
-int sign_changes(IN real chain[CHAIN], real t) {
-    int changes = 0;
+// Changes of sign along the chain, in which zeros do not count, and whether f itself is negative.
+STRUCT(Count) struct Count { int changes; bool negative; };
+
+Count sign_changes(IN real chain[CHAIN], real x) {
+    Count count;
+    count.changes = 0;
+    count.negative = false;
     real last = 0.0;
     for (int k = 0; k <= SURFACE_DEGREE; k++) {
-        real value = row_value(chain, k, t);
-        if (last * value < 0.0) changes += 1;
+        real value = row_value(chain, k, x);
+        if (last * value < 0.0) count.changes += 1;
         if (value != 0.0) last = value < 0.0 ? -1.0 : 1.0;
+        if (k == 0) count.negative = value < 0.0;
     }
-    return changes;
+    return count;
 }
 
 Hit first_hit(Ray ray, real t0, real t1) {
     Hit hit = no_hit(t1);
     real c[ROW];
-    surface_coefficients_along(ray, c);
+    Stretch stretch = surface_polynomial_along(ray, t0, t1, c);
+    hit.evaluations = POLYNOMIAL_EVALUATIONS;
     real chain[CHAIN];
-    sturm_chain(c, chain);
+    if (SURFACE_DEGREE > 4) { scaled_chain(c, chain); } else { sturm_chain(c, chain); }
     PRECISE real size = 0.0;
     for (int i = 0; i < CHAIN; i++) size += fabs(chain[i]);
     if (!(size < REAL_INFINITY)) return exhausted(hit, t0);
 
-    int changes_before = sign_changes(chain, t0);
-    int changes_after = sign_changes(chain, t1);
-    hit.evaluations = 2;
-    if (changes_before <= changes_after) return missed(hit);
-    bool negative_before = row_value(chain, 0, t0) < 0.0;
-    bool negative_after = row_value(chain, 0, t1) < 0.0;
-    real a = t0;
-    real b = t1;
+    real a = (t0 - stretch.middle) / stretch.reach;
+    real b = (t1 - stretch.middle) / stretch.reach;
+    Count before = sign_changes(chain, a);
+    Count after = sign_changes(chain, b);
+    hit.evaluations += 2;
+    if (before.changes < after.changes) return exhausted(hit, t0);
+    if (before.changes == after.changes) return missed(hit);
     int i = 0;
-    while (i < ITERATIONS && (BY_SIGN == 0 || changes_before - changes_after > 1 || negative_before == negative_after)) {
+    while (i < ITERATIONS
+           && (BY_SIGN == 0 || before.changes - after.changes > 1 || before.negative == after.negative)) {
         real m = 0.5 * (a + b);
-        int changes = sign_changes(chain, m);
-        if (changes < changes_before) {
+        Count middle = sign_changes(chain, m);
+        if (middle.changes < before.changes) {
             b = m;
-            changes_after = changes;
-            negative_after = row_value(chain, 0, m) < 0.0;
+            after = middle;
         } else {
             a = m;
         }
         i += 1;
     }
+    Along along = surface_along(ray);
     while (i < ITERATIONS) {
         real m = 0.5 * (a + b);
-        if ((row_value(chain, 0, m) < 0.0) == negative_before) { a = m; } else { b = m; }
+        real f = surface_value_along(along, stretch.middle + stretch.reach * m);
+        if ((f < 0.0) == before.negative) { a = m; } else { b = m; }
         i += 1;
     }
     hit.evaluations += ITERATIONS;
-    return hit_at(hit, 0.5 * (a + b));
+    return hit_at(hit, stretch.middle + stretch.reach * (0.5 * (a + b)));
 }

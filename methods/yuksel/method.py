@@ -46,9 +46,12 @@ METHOD = Method(
     needs=("surface_coefficients_along",),
     libraries=("dual", "polynomial"),
     parameters=(
-        Parameter("TOLERANCE", 2.0**-18, "last Newton step of the root, over the ray's length in the domain"),
+        Parameter(
+            "TOLERANCE", 2.0**-18, "last Newton step of the root, over the ray's length in the domain", finer="down"
+        ),
         Parameter("ISOLATION", 2.0**-10, "the same for the derivatives' roots"),
     ),
+    claims=frozenset({"no_false_hit"}),
     accepts=_accepts,
     tables=_tables,
 )

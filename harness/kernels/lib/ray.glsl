@@ -35,6 +35,24 @@ vec3 ray_point(Ray ray, real t) {
     return moved(ray.origin, t, ray.direction);
 }
 
+// A variable x for t = middle + reach x.
+STRUCT(Stretch) struct Stretch { real middle; real reach; };
+
+Stretch make_stretch(real middle, real reach) {
+    Stretch stretch;
+    stretch.middle = middle;
+    stretch.reach = reach;
+    return stretch;
+}
+
+// v over its length; the zero vector where v is zero or no number.
+vec3 unit_vector(vec3 v) {
+    PRECISE real size = fabs(v.x) + fabs(v.y) + fabs(v.z);
+    if (!(size > 0.0 && size < REAL_INFINITY)) return vec3(0.0, 0.0, 0.0);
+    vec3 w = v / size;
+    return w / sqrt(dot(w, w));
+}
+
 // o + t d, rounded about once.
 real advanced(real o, real t, real d) {
     Pair product = two_prod(t, d);
