@@ -88,7 +88,9 @@ class Device(ABC):
         """Compile; what comes back is only for `launch`."""
 
     @abstractmethod
-    def launch_steps(self, buffers: Sequence[Array | Reserved], outputs: Sequence[int], steps: Sequence[Step]) -> Launch:
+    def launch_steps(
+        self, buffers: Sequence[Array | Reserved], outputs: Sequence[int], steps: Sequence[Step]
+    ) -> Launch:
         """Upload or reserve `buffers`, ready to take `steps`; those at the places `outputs` can be read back."""
 
     def launch(

@@ -143,7 +143,9 @@ class OpenCLDevice(Device):
         except cl.Error as error:
             raise BuildError(f"{self.info.name}: {explain_log(program, str(error))}") from None
 
-    def launch_steps(self, buffers: Sequence[Array | Reserved], outputs: Sequence[int], steps: Sequence[Step]) -> Launch:
+    def launch_steps(
+        self, buffers: Sequence[Array | Reserved], outputs: Sequence[int], steps: Sequence[Step]
+    ) -> Launch:
         return OpenCLLaunch(self._context, self._queue, buffers, outputs, steps)
 
 

@@ -83,7 +83,9 @@ class OpenGLDevice(Device):
         except moderngl.Error as error:
             raise BuildError(f"{self.info.name}: {explain_log(program, str(error))}") from None
 
-    def launch_steps(self, buffers: Sequence[Array | Reserved], outputs: Sequence[int], steps: Sequence[Step]) -> Launch:
+    def launch_steps(
+        self, buffers: Sequence[Array | Reserved], outputs: Sequence[int], steps: Sequence[Step]
+    ) -> Launch:
         return OpenGLLaunch(self._context, buffers, outputs, steps)
 
 

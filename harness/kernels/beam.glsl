@@ -1,7 +1,12 @@
 // A beam: every ray of a rectangle of the image. Its points are eye + s (forward + x right + y up), x and y in
 // intervals, for depths s in [near, far], which span the domain. It is closed, and wider by BEAM_SLACK than the
 // rectangle: float32 rays through it, made here or on the host, are in it, rounding included.
-STRUCT(Camera) struct Camera { vec3 eye; vec3 forward; vec3 right; vec3 up; };
+STRUCT(Camera) struct Camera {
+    vec3 forward; vec3 right; vec3 up;           // as the host gives them
+    vec3 eye_lower; vec3 eye_upper;              // widened by what rounding does to a point of a beam
+    vec3 forward_lower; vec3 forward_upper;      // widened by BEAM_SLACK
+    real near; real far;
+};
 STRUCT(Beam) struct Beam { vec3 eye_lower; vec3 eye_upper; vec3 lower; vec3 upper; real near; real far; };
 STRUCT(Box) struct Box { vec3 lower; vec3 upper; };
 
@@ -19,32 +24,41 @@ vec3 greatest(vec3 a, vec3 b) {
     return vec3(max(a.x, b.x), max(a.y, b.y), max(a.z, b.z));
 }
 
-// The depths that the domain spans, a little more than they are.
-Span domain_depths(Camera camera) {
+// The camera with the depths that the domain spans, a little more than they are.
+Camera make_camera(vec3 eye, vec3 forward, vec3 right, vec3 up) {
     vec3 half_size = (DOMAIN_UPPER - DOMAIN_LOWER) * 0.5;
-    real reach = DOMAIN_IS_BOX == 1 ? dot(absolute(camera.forward), half_size) : DOMAIN_RADIUS;
-    real middle = dot(DOMAIN_CENTER - camera.eye, camera.forward);
+    real reach = DOMAIN_IS_BOX == 1 ? dot(absolute(forward), half_size) : DOMAIN_RADIUS;
+    real middle = dot(DOMAIN_CENTER - eye, forward);
     reach = reach + 1.52587890625e-5 * (DOMAIN_RADIUS + fabs(middle));
-    return make_span(max(middle - reach, real(0)), max(middle + reach, real(0)));
+    Camera camera;
+    camera.forward = forward;
+    camera.right = right;
+    camera.up = up;
+    camera.near = max(middle - reach, real(0));
+    camera.far = max(middle + reach, real(0));
+    vec3 longest = absolute(forward) + absolute(right) + absolute(up);
+    camera.forward_lower = forward - longest * BEAM_SLACK;
+    camera.forward_upper = forward + longest * BEAM_SLACK;
+    vec3 rounding = (absolute(eye) + longest * camera.far) * (8.0 * UNIT_ROUNDOFF);
+    camera.eye_lower = eye - rounding;
+    camera.eye_upper = eye + rounding;
+    return camera;
 }
 
-// The beam of the rectangle from pixel (i0, j0) to (i1, j1), their far sides, of an nx by ny image, row 0 at the top.
-Beam camera_beam(Camera camera, int i0, int j0, int i1, int j1, int nx, int ny) {
-    vec3 x0 = camera.right * (real(2 * i0 - nx) / real(nx));
-    vec3 x1 = camera.right * (real(2 * i1 - nx) / real(nx));
-    vec3 y0 = camera.up * (real(ny - 2 * j1) / real(ny));
-    vec3 y1 = camera.up * (real(ny - 2 * j0) / real(ny));
-    vec3 slack = (absolute(camera.forward) + absolute(camera.right) + absolute(camera.up)) * BEAM_SLACK;
-    Span depths = domain_depths(camera);
+// The beam of the pixels from column i0 up to i1 and row j0 up to j1 of a size by size image, row 0 at the top.
+Beam camera_beam(Camera camera, int i0, int j0, int i1, int j1, int size) {
+    real step = 2.0 / real(size);
+    vec3 x0 = camera.right * (real(i0) * step - 1.0);
+    vec3 x1 = camera.right * (real(i1) * step - 1.0);
+    vec3 y0 = camera.up * (1.0 - real(j1) * step);
+    vec3 y1 = camera.up * (1.0 - real(j0) * step);
     Beam beam;
-    beam.lower = camera.forward + least(x0, x1) + least(y0, y1) - slack;
-    beam.upper = camera.forward + greatest(x0, x1) + greatest(y0, y1) + slack;
-    vec3 rounding = (absolute(camera.eye) + greatest(absolute(beam.lower), absolute(beam.upper)) * depths.hi)
-                    * (8.0 * UNIT_ROUNDOFF);
-    beam.eye_lower = camera.eye - rounding;
-    beam.eye_upper = camera.eye + rounding;
-    beam.near = depths.lo;
-    beam.far = depths.hi;
+    beam.lower = camera.forward_lower + least(x0, x1) + least(y0, y1);
+    beam.upper = camera.forward_upper + greatest(x0, x1) + greatest(y0, y1);
+    beam.eye_lower = camera.eye_lower;
+    beam.eye_upper = camera.eye_upper;
+    beam.near = camera.near;
+    beam.far = camera.far;
     return beam;
 }
 

@@ -45,8 +45,7 @@ Beam cell_beam(Work work, Cell cell) {
     int side = 1 << (work.last - work.level);
     int i0 = cell.x * side;
     int j0 = cell.y * side;
-    return camera_beam(work_camera(work), i0, j0, min(i0 + side, work.size), min(j0 + side, work.size),
-                       work.size, work.size);
+    return camera_beam(work.camera, i0, j0, min(i0 + side, work.size), min(j0 + side, work.size), work.size);
 }
 
 // Hands the cell to the next level: its quarters begin at `path`.
@@ -69,14 +68,14 @@ void paint(Work work, Cell cell, Hit hit) {
     int evaluations = cell.evaluations + hit.evaluations;
     for (int j = j0; j < j1; j++) {
         for (int i = i0; i < i1; i++) {
-            int packed = (((evaluations / pixels) * 32 + cell.level) * 4) + hit.status;
+            int word = (((evaluations / pixels) * 32 + cell.level) * 4) + hit.status;
             if (hit.status == MISS) {
-                answer_miss(work, j * work.size + i, packed);
+                answer_miss(work, j * work.size + i, word);
             } else {
-                Camera camera = work_camera(work);
-                vec3 direction = camera.forward + camera.right * (real(2 * i + 1 - work.size) / real(work.size))
-                                 + camera.up * (real(work.size - 2 * j - 1) / real(work.size));
-                answer_hit(work, j * work.size + i, hit.t * sqrt(dot(direction, direction)), packed);
+                vec3 direction = work.camera.forward
+                                 + work.camera.right * (real(2 * i + 1 - work.size) / real(work.size))
+                                 + work.camera.up * (real(work.size - 2 * j - 1) / real(work.size));
+                answer_hit(work, j * work.size + i, hit.t * sqrt(dot(direction, direction)), word);
             }
             evaluations += 1;  // so that all pixels' shares, rounded down, add up to the whole
         }

@@ -6,7 +6,9 @@ void main() {
         if (id < 32) counts[id] = 0;
         return;
     }
-    Work work = Work(size, level, last, source, target);
+    Camera camera = make_camera(vec3(c[0], c[1], c[2]), vec3(c[3], c[4], c[5]), vec3(c[6], c[7], c[8]),
+                                vec3(c[9], c[10], c[11]));
+    Work work = Work(camera, size, level, last, source, target);
     int count = source < 0 ? 1 << (2 * level) : 4 * counts[level - 1];
     for (int item = id; item < count; item += nx) {
         Cell cell = source < 0 ? level_cell(work, item) : queued_cell(work, item);

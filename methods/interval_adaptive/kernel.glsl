@@ -20,8 +20,10 @@ void cast_cell(Work work, Cell cell) {
             empty = range.lo > 0.0 || range.hi < 0.0;
         }
         if (empty) {
-            path += 1;
-            while ((path & 1) == 0) { path >>= 1; depth -= 1; width *= 2.0; }
+            int up = trailing_zeros(path + 1);
+            path = (path + 1) >> up;
+            depth -= up;
+            width *= real(1 << up);
             searching = path != 1;
         } else if (depth < deepest) {
             path *= 2;
