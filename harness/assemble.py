@@ -72,9 +72,9 @@ def method_program(
     surface: Surface,
     precision: Precision,
     language: Language,
-    entry: Literal["rays", "camera"],
+    entry: Literal["rays", "camera", "beams"],
 ) -> Program:
-    """The program that casts rays at `surface` by `variant`; `folder` holds the method's kernel.glsl.
+    """The program that casts rays or beams at `surface` by `variant`; `folder` holds the method's kernel.glsl.
 
     Raises FirsthitError where the surface lacks a function that the method needs.
     """
@@ -83,8 +83,11 @@ def method_program(
     early = [name for name in method.libraries if name not in AFTER_TABLES]
     sections = _head(language, precision, (*libraries_for(method.needs, surface), *early))
     sections += surface_sections(surface, method.needs, precision, language)
-    domain = "domain_box" if isinstance(surface.domain, Box) else "domain_sphere"
-    sections.append(file_section(KERNELS / f"{domain}.glsl"))
+    if entry == "beams":
+        sections += [file_section(KERNELS / f) for f in ("beam.glsl", f"quadtree.{language}", "cells.glsl")]
+    else:
+        domain = "domain_box" if isinstance(surface.domain, Box) else "domain_sphere"
+        sections.append(file_section(KERNELS / f"{domain}.glsl"))
     if variant.parameters:
         sections.append(_parameter_section(variant, precision, language))
     if method.tables:
@@ -92,7 +95,8 @@ def method_program(
         sections += [table_section(name, values, precision, language) for name, values in tables.items()]
     sections += [_library(name) for name in method.libraries if name in AFTER_TABLES]
     sections.append(file_section(folder / "kernel.glsl"))
-    sections.append(file_section(KERNELS / "cast.glsl"))
+    if entry != "beams":
+        sections.append(file_section(KERNELS / "cast.glsl"))
     if entry == "camera":
         sections.append(file_section(KERNELS / "camera.glsl"))
     sections.append(file_section(KERNELS / f"entry_{entry}.{language}"))

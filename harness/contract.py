@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
 Precision = Literal["float32", "float64"]
 Stage = Literal["compute", "rays"]
+Casts = Literal["rays", "beams", "quadtree"]
 PRECISIONS: tuple[Precision, ...] = ("float32", "float64")
 UNIT_ROUNDOFF: dict[Precision, float] = {"float32": 2.0**-24, "float64": 2.0**-53}
 STAGES: tuple[Stage, ...] = ("compute", "rays")
@@ -177,6 +178,8 @@ class Method:
     tables: Tables | None = None  # constant arrays of reals that the kernel reads, from surface, knobs and precision
     answers: bool = True  # False: measures the harness's floor and finds nothing
     precisions: tuple[Precision, ...] = PRECISIONS
+    casts: Casts = "rays"  # what the kernel defines: rays, `Hit first_hit(Ray, real t0, real t1)`; beams and quadtree,
+    #   `void cast_cell(Work, Cell)`, for every pixel, or for the quadtree's cells level by level
 
 
 @dataclass(frozen=True)
@@ -225,7 +228,7 @@ class Program:
 
     language: Literal["glsl", "cl"]
     precision: Precision
-    entry: str  # "rays", "camera" or "map"
+    entry: str  # "rays", "camera", "beams" or "map"
     sections: tuple[Section, ...]
 
     @property

@@ -80,6 +80,11 @@ class LocalExecutor:
         checked: Checked = self._call(device, "check", program, rays)
         return checked
 
+    def check_frame(self, device: str, frame: Frame, pixels: NDArray[np.int32]) -> Checked:
+        """Build a frame of beams and run it once; its answers for `pixels`, int32[n]."""
+        checked: Checked = self._call(device, "check_frame", frame, pixels)
+        return checked
+
     def warm(self, device: str, key: str, frame: Frame) -> Warmed:
         """Build a frame and keep it ready for `sample`."""
         warmed: Warmed = self._call(device, "warm", key, frame)

@@ -19,7 +19,7 @@ from harness.assemble import method_program
 from harness.backends import LANGUAGES
 from harness.camera import camera_for, rays_of
 from harness.config import Experiment
-from harness.contract import Cell, DeviceInfo, FirsthitError, Program, Surface, View, digest
+from harness.contract import Casts, Cell, DeviceInfo, FirsthitError, Program, Surface, View, digest
 from harness.plugins import Catalog
 from harness.store import Row, Store
 from harness.worker import Frame
@@ -27,6 +27,7 @@ from harness.worker import Frame
 HERE = Path(__file__).parent
 DECIDING = (
     "accuracy.py",
+    "beams.py",
     "camera.py",
     "measure.py",
     "worker.py",
@@ -46,9 +47,10 @@ class Planned:
     key: str
     identity: dict[str, Any]
     device: DeviceInfo | None
-    checks: tuple[Program, ...]  # over listed rays: one for a view, one for each surface of a family
+    checks: tuple[Program, ...]  # over listed rays: one for a view, one for each surface of a family, none for beams
     timed: Program | None  # the frame's; None for a family
     skip: str | None
+    casts: Casts = "rays"
 
     @property
     def camera(self) -> NDArray[np.float32]:
@@ -62,7 +64,7 @@ class Planned:
             return None
         camera, size = self.camera, self.cell.size * round(self.cell.samples_per_pixel**0.5)
         rays = rays_of(camera, size) if self.cell.stage == "rays" else None
-        return Frame(self.timed, camera, rays, size)
+        return Frame(self.timed, camera, rays, size, self.casts)
 
 
 @cache
@@ -111,6 +113,8 @@ def _refusal(cell: Cell, surface: Surface, info: DeviceInfo | None, catalog: Cat
         return "the device has no float64"
     if cell.precision not in method.precisions:
         return f"the method has no {cell.precision} form"
+    if method.casts != "rays" and cell.stage == "rays":
+        return "the method casts the beams of a camera's pixels, and listed rays have none"
     if reason := method.accepts(surface):
         return f"the method refuses the surface {surface.name}: {reason}"
     return unsupported(surface, cell.precision, LANGUAGES[cell.device.split(":")[0]])
@@ -119,9 +123,11 @@ def _refusal(cell: Cell, surface: Surface, info: DeviceInfo | None, catalog: Cat
 def _programs(cell: Cell, surfaces: list[Surface], catalog: Catalog) -> tuple[tuple[Program, ...], Program | None]:
     plugin, language = catalog.get(cell.variant.method), LANGUAGES[cell.device.split(":")[0]]
 
-    def program(surface: Surface, entry: Literal["rays", "camera"]) -> Program:
+    def program(surface: Surface, entry: Literal["rays", "camera", "beams"]) -> Program:
         return method_program(plugin.method, plugin.folder, cell.variant, surface, cell.precision, language, entry)
 
+    if plugin.method.casts != "rays":
+        return (), program(cell.surface, "beams")
     checks = tuple(program(surface, "rays") for surface in surfaces)
     if cell.family:
         return checks, None
@@ -162,7 +168,8 @@ def _planned(cell: Cell, info: DeviceInfo | None, catalog: Catalog, experiment: 
         "methodology": methodology(),
         "skip": skip,
     }
-    return Planned(cell, digest(cell.slot, identity), identity, info, checks, timed, skip)
+    casts = catalog.get(cell.variant.method).method.casts
+    return Planned(cell, digest(cell.slot, identity), identity, info, checks, timed, skip, casts)
 
 
 def plan(experiment: Experiment, catalog: Catalog, found: list[DeviceInfo]) -> list[Planned]:

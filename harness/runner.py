@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from harness import accuracy, measure, stability
+from harness import accuracy, beams, measure, stability
 from harness.camera import pixel_footprint, rays_of, scene_radius
 from harness.config import Config
 from harness.contract import CellStatus, Hits, RayStatus, Surface, Truth
@@ -114,9 +114,19 @@ class Runner:
         cell, config = state.planned.cell, self._config.accuracy
         rays = rays_of(state.planned.camera, config.size)
         truth = cached_first_hits(cell.surface, rays, self._store.truth)
-        checked = self._executor.check(cell.device, state.planned.checks[0], rays)
-        hits, state.compile_ms = checked.hits, checked.compile_ms
+        casts_beams = state.planned.casts != "rays"
+        if casts_beams:
+            assert state.frame
+            pixels = beams.pixels_of(state.planned.camera, config.size, state.frame.size)
+            checked = self._executor.check_frame(cell.device, state.frame, pixels.index)
+            hits = beams.along_rays(checked.hits, pixels)
+        else:
+            checked = self._executor.check(cell.device, state.planned.checks[0], rays)
+            hits = checked.hits
+        state.compile_ms = checked.compile_ms
         verdicts = accuracy.judge(hits, truth, scene_radius(cell.surface), config.grazing_margin)
+        if casts_beams:
+            verdicts, beam_only = beams.set_apart(verdicts, hits, truth, pixels)
         footprint = pixel_footprint(state.planned.camera, cell.size)
         deviations = accuracy.deviations(cell.surface, rays, hits, truth, verdicts)
         summary = accuracy.summarize(
@@ -131,6 +141,12 @@ class Runner:
         )
         state.summary = {"size": config.size} | summary
         state.arrays = _pictures(cell.surface, rays, hits, truth, verdicts, config.size)
+        if casts_beams:
+            assert checked.evaluations is not None and checked.levels is not None
+            mean, largest = checked.evaluations  # of the frame: large beams are shared by more pixels than are checked
+            counted = {"beam_only": int(beam_only.sum()), "evaluations_mean": mean, "evaluations_max": largest}
+            state.summary |= counted
+            state.arrays["level"] = checked.levels.reshape(config.size, config.size)
         share = accuracy.wrong_share(summary)
         if self._catalog.get(cell.variant.method).method.answers and share > config.max_wrong_share:
             return f"wrong on {share:.1%} of the rays outside the grazing class: not timed"
@@ -186,6 +202,7 @@ class Runner:
 
     def _finish(self, planned: Planned, state: _Live | None, status: CellStatus, reason: str | None) -> Row:
         cell, method = planned.cell, self._catalog.get(planned.cell.variant.method).method
+        programs = ((planned.timed,) if planned.timed else ()) + planned.checks
         row: Row = {
             "key": planned.key,
             "slot": cell.slot,
@@ -204,6 +221,7 @@ class Runner:
             "stage": cell.stage,
             "device": cell.device,
             "answers": method.answers,
+            "casts": method.casts,
             "status": status.value,
             "reason": reason,
             "time": self._time_of(state) if state and state.warmed and status is CellStatus.OK else None,
@@ -213,7 +231,7 @@ class Runner:
             "rungs": state.rungs if state else None,
             "arrays": None,
             "operations": _operations(cell.surface) if state else None,
-            "program": {"hash": (planned.timed or planned.checks[0]).hash} if planned.checks else None,
+            "program": {"hash": programs[0].hash} if programs else None,
             "environment": self._environment | {"started": datetime.now(UTC).isoformat(timespec="seconds")},
             "seconds": state.preparing + state.timing if state else 0.0,
             "identity": planned.identity,

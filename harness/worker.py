@@ -29,7 +29,8 @@ from harness.backends import (
     launch_rays,
     open_device,
 )
-from harness.contract import DeviceInfo, FirsthitError, Hits, Program
+from harness.backends.beams import beam_hits_from, launch_beams
+from harness.contract import Casts, DeviceInfo, FirsthitError, Hits, Program
 
 ENOUGH_MS = 2.0  # a sample lasts at least about this long; shorter launches are repeated within it
 MOST_REPEATS = 64
@@ -44,14 +45,17 @@ class Frame:
     camera: NDArray[np.float32]  # [12]
     rays: NDArray[np.float32] | None  # [size * size, 6]
     size: int  # samples per side
+    casts: Casts = "rays"
 
 
 @dataclass(frozen=True, eq=False)
 class Checked:
-    """Hits on the accuracy rays, and what building cost."""
+    """Hits on the accuracy rays, and what building cost; for beams also what the whole frame says of them."""
 
     hits: Hits
     compile_ms: float
+    levels: NDArray[np.uint8] | None = None  # [n] of the quadtree, at which each ray's pixel was decided
+    evaluations: tuple[float, int] | None = None  # mean and largest over the frame's pixels
 
 
 @dataclass(frozen=True)
@@ -106,13 +110,30 @@ class Worker:
         launch.release()
         return Checked(hits, compile_ms)
 
+    def check_frame(self, frame: Frame, pixels: NDArray[np.int32]) -> Checked:
+        """Build a frame of beams and run it once; what it answers for `pixels`, int32[n]."""
+        self._last = None
+        built, compile_ms = self._built(frame.program)
+        launch = self._launch(frame, built)
+        launch.run()
+        hits, levels = beam_hits_from(launch.read())
+        launch.release()
+        picked = Hits(hits.t[pixels], hits.status[pixels], hits.evaluations[pixels])
+        evaluations = float(hits.evaluations.mean()), int(hits.evaluations.max())
+        return Checked(picked, compile_ms, levels[pixels], evaluations)
+
+    def _launch(self, frame: Frame, built: Any) -> Launch:
+        if frame.casts != "rays":
+            quadtree = frame.casts == "quadtree"
+            return launch_beams(self._device, frame.program, built, frame.camera, frame.size, quadtree)
+        if frame.rays is None:
+            return launch_camera(self._device, frame.program, built, frame.camera, frame.size)
+        return launch_rays(self._device, frame.program, built, frame.rays)
+
     def warm(self, key: str, frame: Frame) -> Warmed:
         """Build and upload a frame, run it until warm, read it back once, and keep it ready under `key`."""
         built, compile_ms = self._built(frame.program)
-        if frame.rays is None:
-            launch = launch_camera(self._device, frame.program, built, frame.camera, frame.size)
-        else:
-            launch = launch_rays(self._device, frame.program, built, frame.rays)
+        launch = self._launch(frame, built)
         duration = launch.run().wall_ms
         if duration < WARM_MS:
             duration = launch.run().wall_ms

@@ -23,7 +23,7 @@ from harness.plugins import find_methods
 from .conftest import opened, usable_devices
 from .test_devices import cast
 
-METHODS = [name for name, plugin in find_methods().plugins.items() if plugin.method.answers]
+METHODS = [n for n, plugin in find_methods().plugins.items() if plugin.method.answers and plugin.method.casts == "rays"]
 DEVICES = [info.name for info in usable_devices()]
 
 

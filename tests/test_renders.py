@@ -61,8 +61,9 @@ def test_a_surface_is_drawn_as_the_oracle_sees_it(name):
     assert len(agreeing) >= 2
 
 
-NEVER_MISSES = [n for n, plugin in find_methods().plugins.items() if "no_missed_root" in plugin.method.claims]
-FINDS_TOUCHES = [n for n, plugin in find_methods().plugins.items() if "finds_touch" in plugin.method.claims]
+CASTERS = {n: plugin.method for n, plugin in find_methods().plugins.items() if plugin.method.casts == "rays"}
+NEVER_MISSES = [name for name, method in CASTERS.items() if "no_missed_root" in method.claims]
+FINDS_TOUCHES = [name for name, method in CASTERS.items() if "finds_touch" in method.claims]
 
 
 @pytest.mark.parametrize("family", hardcases.names())

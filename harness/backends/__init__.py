@@ -9,8 +9,8 @@ import difflib
 import importlib
 import importlib.util
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -36,14 +36,38 @@ class Timing:
     device_ms: float | None
 
 
+@dataclass(frozen=True)
+class Step:
+    """A built program over a grid of work items, one of the steps that a launch takes in order.
+
+    It is given the launch's `buffers`, by their places, then the grid, then `numbers` (GLSL takes those by name).
+    """
+
+    built: Any
+    buffers: tuple[int, ...]
+    grid: tuple[int, int]
+    numbers: Mapping[str, int] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Reserved:
+    """A buffer that starts with anything in it: `count` numbers of a kind."""
+
+    count: int
+    kind: type
+
+
 class Launch(ABC):
-    """A built program with its buffers on the device, ready to run again and again."""
+    """Built programs with their buffers on the device, ready to run again and again."""
 
     upload_ms: float
 
     @abstractmethod
     def run(self, times: int = 1) -> Timing:
-        """Run `times` times back to back and wait until finished; the times are of all together."""
+        """Run `times` times back to back and wait until finished; the times are of all together.
+
+        The device's time of a run is from its first step's beginning to its last step's end.
+        """
 
     @abstractmethod
     def read(self) -> list[Array]:
@@ -64,10 +88,18 @@ class Device(ABC):
         """Compile; what comes back is only for `launch`."""
 
     @abstractmethod
+    def launch_steps(
+        self, buffers: Sequence[Array | Reserved], outputs: Sequence[int], steps: Sequence[Step]
+    ) -> Launch:
+        """Upload or reserve `buffers`, ready to take `steps`; those at the places `outputs` can be read back."""
+
     def launch(
         self, built: Any, inputs: Sequence[Array], outputs: Sequence[tuple[int, type]], grid: tuple[int, int]
     ) -> Launch:
         """Upload `inputs`, reserve `outputs` (count, dtype), ready for one work item per point of `grid`."""
+        buffers = [*inputs, *(Reserved(count, kind) for count, kind in outputs)]
+        places = tuple(range(len(buffers)))
+        return self.launch_steps(buffers, places[len(inputs) :], [Step(built, places, grid)])
 
 
 def real_type(program: Program) -> type:

@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 
 from harness.assemble import explain_log
-from harness.backends import Array, BuildError, Device, Launch, Timing
+from harness.backends import Array, BuildError, Device, Launch, Reserved, Step, Timing
 from harness.contract import DeviceInfo, Program
 
 SHORT = {"intel": "intel", "portable": "pocl", "nvidia": "nvidia", "amd": "amd", "rusticl": "rusticl", "apple": "apple"}
@@ -139,14 +139,14 @@ class OpenCLDevice(Device):
         try:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore", cl.CompilerWarning)  # drivers that greet are not in error
-                return cl.Kernel(source.build(options=OPTIONS[program.precision]), program.entry)
+                return source.build(options=OPTIONS[program.precision]), program.entry
         except cl.Error as error:
             raise BuildError(f"{self.info.name}: {explain_log(program, str(error))}") from None
 
-    def launch(
-        self, built: Any, inputs: Sequence[Array], outputs: Sequence[tuple[int, type]], grid: tuple[int, int]
+    def launch_steps(
+        self, buffers: Sequence[Array | Reserved], outputs: Sequence[int], steps: Sequence[Step]
     ) -> Launch:
-        return OpenCLLaunch(self._context, self._queue, built, inputs, outputs, grid)
+        return OpenCLLaunch(self._context, self._queue, buffers, outputs, steps)
 
 
 class OpenCLLaunch(Launch):
@@ -154,37 +154,50 @@ class OpenCLLaunch(Launch):
         self,
         context: Any,
         queue: Any,
-        kernel: Any,
-        inputs: Sequence[Array],
-        outputs: Sequence[tuple[int, type]],
-        grid: tuple[int, int],
+        buffers: Sequence[Array | Reserved],
+        outputs: Sequence[int],
+        steps: Sequence[Step],
     ) -> None:
         cl = _binding()
-        self._queue, self._kernel = queue, kernel
-        self._global = (-(-grid[0] // GROUP) * GROUP, grid[1])
-        self._results: list[Array] = [np.empty(count, kind) for count, kind in outputs]
+        self._queue = queue
         start = time.perf_counter()
         flags = cl.mem_flags
-        self._inputs = [cl.Buffer(context, flags.READ_ONLY | flags.COPY_HOST_PTR, hostbuf=array) for array in inputs]
-        self._outputs = [cl.Buffer(context, flags.READ_WRITE, result.nbytes) for result in self._results]
+        self._buffers = [
+            cl.Buffer(context, flags.READ_WRITE, max(1, b.count) * np.dtype(b.kind).itemsize)
+            if isinstance(b, Reserved)
+            else cl.Buffer(context, flags.READ_ONLY | flags.COPY_HOST_PTR, hostbuf=b)
+            for b in buffers
+        ]
         queue.finish()
         self.upload_ms = (time.perf_counter() - start) * 1e3
-        kernel.set_args(*self._inputs, *self._outputs, np.int32(grid[0]), np.int32(grid[1]))
+        results = {i: np.empty(b.count, b.kind) for i, b in enumerate(buffers) if isinstance(b, Reserved)}
+        self._outputs = [(self._buffers[place], results[place]) for place in outputs]
+        self._steps = [(self._kernel(step), (-(-step.grid[0] // GROUP) * GROUP, step.grid[1])) for step in steps]
+
+    def _kernel(self, step: Step) -> Any:
+        built, entry = step.built
+        kernel = _binding().Kernel(built, entry)
+        numbers = (np.int32(value) for value in (*step.grid, *step.numbers.values()))
+        kernel.set_args(*(self._buffers[place] for place in step.buffers), *numbers)
+        return kernel
 
     def run(self, times: int = 1) -> Timing:
         cl = _binding()
         start = time.perf_counter()
-        events = [cl.enqueue_nd_range_kernel(self._queue, self._kernel, self._global, (GROUP, 1)) for _ in range(times)]
+        runs = [
+            [cl.enqueue_nd_range_kernel(self._queue, kernel, items, (GROUP, 1)) for kernel, items in self._steps]
+            for _ in range(times)
+        ]
         self._queue.finish()
         wall = time.perf_counter() - start
-        return Timing(wall * 1e3, sum(event.profile.end - event.profile.start for event in events) * 1e-6)
+        return Timing(wall * 1e3, sum(events[-1].profile.end - events[0].profile.start for events in runs) * 1e-6)
 
     def read(self) -> list[Array]:
         cl = _binding()
-        for result, buffer in zip(self._results, self._outputs, strict=True):
+        for buffer, result in self._outputs:
             cl.enqueue_copy(self._queue, result, buffer)
-        return self._results
+        return [result for _, result in self._outputs]
 
     def release(self) -> None:
-        for buffer in (*self._inputs, *self._outputs):
+        for buffer in self._buffers:
             buffer.release()

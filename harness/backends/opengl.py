@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from harness.assemble import explain_log
-from harness.backends import Array, BuildError, Device, Launch, Timing
+from harness.backends import Array, BuildError, Device, Launch, Reserved, Step, Timing
 from harness.contract import DeviceInfo, Program
 
 SHORT = ("llvmpipe", "softpipe", "nvidia", "geforce", "radeon", "intel", "apple")
@@ -83,45 +83,50 @@ class OpenGLDevice(Device):
         except moderngl.Error as error:
             raise BuildError(f"{self.info.name}: {explain_log(program, str(error))}") from None
 
-    def launch(
-        self, built: Any, inputs: Sequence[Array], outputs: Sequence[tuple[int, type]], grid: tuple[int, int]
+    def launch_steps(
+        self, buffers: Sequence[Array | Reserved], outputs: Sequence[int], steps: Sequence[Step]
     ) -> Launch:
-        return OpenGLLaunch(self._context, built, inputs, outputs, grid)
+        return OpenGLLaunch(self._context, buffers, outputs, steps)
 
 
 class OpenGLLaunch(Launch):
     def __init__(
-        self,
-        context: Any,
-        shader: Any,
-        inputs: Sequence[Array],
-        outputs: Sequence[tuple[int, type]],
-        grid: tuple[int, int],
+        self, context: Any, buffers: Sequence[Array | Reserved], outputs: Sequence[int], steps: Sequence[Step]
     ) -> None:
-        self._context, self._shader, self._grid = context, shader, grid
-        self._groups = (-(-grid[0] // GROUP), grid[1])
-        self._kinds = [kind for _, kind in outputs]
+        self._context, self._steps = context, steps
         start = time.perf_counter()
-        self._inputs = [context.buffer(array.tobytes()) for array in inputs]
-        self._outputs = [context.buffer(reserve=count * np.dtype(kind).itemsize) for count, kind in outputs]
+        self._buffers = [
+            context.buffer(reserve=max(1, b.count) * np.dtype(b.kind).itemsize)
+            if isinstance(b, Reserved)
+            else context.buffer(b.tobytes())
+            for b in buffers
+        ]
         context.finish()
         self.upload_ms = (time.perf_counter() - start) * 1e3
+        kinds = [b.kind if isinstance(b, Reserved) else b.dtype for b in buffers]
+        self._outputs = [(self._buffers[place], kinds[place]) for place in outputs]
 
     def run(self, times: int = 1) -> Timing:
-        for binding, buffer in enumerate((*self._inputs, *self._outputs)):
-            buffer.bind_to_storage_buffer(binding)
-        for name, value in zip(("nx", "ny"), self._grid, strict=True):
-            if name in self._shader:
-                self._shader[name] = value
         start = time.perf_counter()
         for _ in range(times):
-            self._shader.run(*self._groups)
+            for step in self._steps:
+                self._take(step)
         self._context.finish()
         return Timing((time.perf_counter() - start) * 1e3, None)
 
+    def _take(self, step: Step) -> None:
+        for binding, place in enumerate(step.buffers):
+            self._buffers[place].bind_to_storage_buffer(binding)
+        for name, value in {"nx": step.grid[0], "ny": step.grid[1], **step.numbers}.items():
+            if name in step.built:
+                step.built[name] = value
+        step.built.run(-(-step.grid[0] // GROUP), step.grid[1])
+        if len(self._steps) > 1:
+            self._context.memory_barrier()
+
     def read(self) -> list[Array]:
-        return [np.frombuffer(buffer.read(), kind) for kind, buffer in zip(self._kinds, self._outputs, strict=True)]
+        return [np.frombuffer(buffer.read(), kind) for buffer, kind in self._outputs]
 
     def release(self) -> None:
-        for buffer in (*self._inputs, *self._outputs):
+        for buffer in self._buffers:
             buffer.release()

@@ -5,13 +5,19 @@ from __future__ import annotations
 import argparse
 import itertools
 import sys
+from typing import Literal
 
 from harness.assemble import method_program
 from harness.backends import LANGUAGES
-from harness.contract import PRECISIONS, FirsthitError
+from harness.contract import PRECISIONS, Casts, FirsthitError
 from harness.executor import START_SECONDS, CellError, LocalExecutor, discover_devices
 from harness.plugins import find_methods
 
+ENTRIES: dict[Casts, tuple[Literal["rays", "camera", "beams"], ...]] = {
+    "rays": ("rays", "camera"),
+    "beams": ("beams",),
+    "quadtree": ("beams",),
+}
 TYPICAL = ("sphere", "torus", "barth_sextic")  # box and ball, coefficients along the ray and none
 
 
@@ -47,7 +53,7 @@ def _compile(options: argparse.Namespace) -> int:
             if refused or precision not in method.precisions or (precision == "float64" and not info.float64):
                 continue
             try:
-                for entry in ("rays", "camera"):
+                for entry in ENTRIES[method.casts]:
                     program = method_program(
                         method, plugin.folder, plugin.variant({}), surface, precision, language, entry
                     )

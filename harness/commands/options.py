@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import argparse
+import math
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +15,7 @@ from harness.backends import LANGUAGES
 from harness.contract import PRECISIONS, CellStatus, FirsthitError, Hits, Precision, Surface
 from harness.executor import CellError, LocalExecutor, discover_devices
 from harness.plugins import find_methods
+from harness.worker import Frame
 
 
 def add_surface(parser: argparse.ArgumentParser) -> None:
@@ -70,10 +73,16 @@ def _device(name: str | None) -> str:
     return usable[0]
 
 
-def cast(options: argparse.Namespace, surface: Surface, rays: NDArray[np.float32]) -> Hits:
+def cast(
+    options: argparse.Namespace,
+    surface: Surface,
+    rays: NDArray[np.float32],
+    camera: NDArray[np.float32] | None = None,
+) -> Hits:
     """Cast rays float32[n, 6] by the method, knobs, device and precision that the options name.
 
-    The device works in a process of its own. Raises FirsthitError where the method refuses the surface, or the kernel
+    A method that casts beams needs the `camera` that the rays are of, an image of them row by row, and answers for the
+    rays' pixels. The device works in a process of its own. Raises FirsthitError where the method refuses the surface, or the kernel
     fails, hangs or crashes.
     """
     from surfaces.sections import unsupported
@@ -88,9 +97,16 @@ def cast(options: argparse.Namespace, surface: Surface, rays: NDArray[np.float32
         raise FirsthitError(f"unknown device {device!r}: names start with opencl: or opengl:, see `firsthit devices`")
     if reason := plugin.method.accepts(surface) or unsupported(surface, precision, language):
         raise FirsthitError(f"{variant} cannot draw {surface.name} here: {reason}")
-    program = method_program(plugin.method, plugin.folder, variant, surface, precision, language, "rays")
+    casts = plugin.method.casts
+    if casts != "rays" and camera is None:
+        raise FirsthitError(f"{variant} casts the beams of a camera's pixels, and listed rays have none")
+    entry: Literal["rays", "beams"] = "rays" if casts == "rays" else "beams"
+    program = method_program(plugin.method, plugin.folder, variant, surface, precision, language, entry)
     executor = LocalExecutor(options.timeout)
     try:
+        if camera is not None and casts != "rays":
+            frame = Frame(program, camera, None, math.isqrt(len(rays)), casts)
+            return executor.check_frame(device, frame, np.arange(len(rays), dtype=np.int32)).hits
         return executor.check(device, program, rays).hits
     except CellError as error:
         what = {CellStatus.TIMEOUT: "timed out", CellStatus.CRASHED: "crashed"}.get(error.status, "failed")

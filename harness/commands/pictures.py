@@ -76,8 +76,9 @@ def _picture(options: argparse.Namespace, surface: Surface, view: View) -> tuple
     """A shaded picture, four rays to a pixel, and the rays' hits."""
     from PIL import Image
 
-    rays = rays_of(camera_for(view, surface), 2 * options.size)
-    hits = cast(options, surface, rays)
+    camera = camera_for(view, surface)
+    rays = rays_of(camera, 2 * options.size)
+    hits = cast(options, surface, rays, camera)
     colours = _colours(headlight(surface, rays, hits), hits.status).reshape(options.size, 2, options.size, 2, 3)
     return Image.fromarray(np.round(255.0 * colours.mean(axis=(1, 3))).astype(np.uint8)), hits
 

@@ -1,0 +1,91 @@
+"""Launches of programs that cast beams: the cells of a quadtree over the image, level by level, queued on the device.
+
+The host says once which levels there are; between them nothing comes back to it. Each level's work items stride over
+as many cells as its queue turns out to hold.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from harness.backends import Array, Device, Launch, Reserved, Step, real_type
+from harness.contract import Hits, Program, RayStatus
+
+UNITS = 64  # compute units of a device that does not say how many it has
+CELLS_PER_UNIT = 64  # fill a unit: one work group
+ITEMS_PER_UNIT = 2048  # work items that a level is strided over, at most
+LEVELS = 32
+PARENT = 3  # whole numbers in the queue for each cell
+
+
+def last_level(size: int) -> int:
+    """The quadtree's level whose cells are the pixels of a size × size image."""
+    return max(0, (size - 1).bit_length())
+
+
+def first_level(device: Device, last: int) -> int:
+    """The shallowest level with enough cells to fill the device (beamcasting, II.E)."""
+    cells = CELLS_PER_UNIT * (device.info.compute_units or UNITS)
+    return min(last, math.ceil(math.log2(cells) / 2))
+
+
+def quadtree_steps(device: Device, built: Any, size: int, first: int, last: int, stop: int) -> tuple[list[Step], int]:
+    """Levels `first` to `stop` of a quadtree whose level `last` has the pixels, and the whole numbers its queue takes.
+
+    Buffers 0 to 4 are camera, two outputs, queue and counts.
+    """
+    most = ITEMS_PER_UNIT * max(UNITS, device.info.compute_units or 0)
+    buffers = (0, 1, 2, 3, 4)
+    fixed = {"size": size, "level": -1, "last": last, "source": -1, "target": 0}
+    steps = [Step(built, buffers, (LEVELS, 1), fixed)] if stop > first else []
+    source, target = -1, 0
+    for level in range(first, stop + 1):
+        items = 4**level if source < 0 else min(4**level, most)
+        numbers = fixed | {"level": level, "source": source, "target": target}
+        steps.append(Step(built, buffers, (items, 1), numbers))
+        if level < stop:
+            across = -(-size // 2 ** (last - level))  # cells that are in the image
+            source, target = target, target + PARENT * across * across
+    return steps, target
+
+
+def launch_beams(
+    device: Device,
+    program: Program,
+    built: Any,
+    camera: NDArray[np.float32],
+    size: int,
+    quadtree: bool,
+    first: int | None = None,
+) -> Launch:
+    """A beam for each pixel of a size × size image, or a quadtree of beams from level `first` (None: that fills the
+    device). camera: float32[12]."""
+    last = last_level(size)
+    start = (first_level(device, last) if first is None else first) if quadtree else last
+    steps, queue = quadtree_steps(device, built, size, start, last, last)
+    buffers = [
+        np.ascontiguousarray(camera, np.float32),
+        Reserved(size * size, real_type(program)),
+        Reserved(size * size, np.int32),
+        Reserved(queue, np.int32),
+        Reserved(LEVELS, np.int32),
+    ]
+    return device.launch_steps(buffers, (1, 2), steps)
+
+
+def beam_hits_from(outputs: Sequence[Array]) -> tuple[Hits, NDArray[np.uint8]]:
+    """What a beams launch answered for n pixels, and the quadtree's level uint8[n] at which each pixel's cell was
+    eliminated or hit.
+
+    t is along the ray through the pixel's middle. A shared beam's evaluations are divided among its pixels, so that
+    they add up to what was spent.
+    """
+    t, answer = outputs
+    status = (answer & 3).astype(np.uint8)
+    hits = Hits(np.where(status == RayStatus.HIT, t.astype(np.float64), np.nan), status, answer >> 7)
+    return hits, ((answer >> 2) & 31).astype(np.uint8)

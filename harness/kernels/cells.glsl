@@ -1,0 +1,83 @@
+// Cells of the quadtree over the image: cell (x, y) of `level` is 2^(last - level) pixels wide, 1 at level `last`.
+// `path` and `evaluations` are what its parent handed down: see path_depth, and its share of the evaluations spent.
+STRUCT(Cell) struct Cell { int x; int y; int level; int path; int evaluations; };
+
+// Bits 0, 2, 4, … of v, packed.
+int even_bits(int v) {
+    int a = v & 0x55555555;
+    a = (a | (a >> 1)) & 0x33333333;
+    a = (a | (a >> 2)) & 0x0f0f0f0f;
+    a = (a | (a >> 4)) & 0x00ff00ff;
+    return (a | (a >> 8)) & 0x0000ffff;
+}
+
+// Cell `item` of a level whose cells are all looked at, in Z order: neighbouring work items have neighbouring cells.
+Cell level_cell(Work work, int item) {
+    Cell cell;
+    cell.x = even_bits(item);
+    cell.y = even_bits(item >> 1);
+    cell.level = work.level;
+    cell.path = 1;
+    cell.evaluations = 0;
+    return cell;
+}
+
+// Quarter `item` % 4 of the queue's cell `item` / 4. The quarters share what their parent has cost.
+Cell queued_cell(Work work, int item) {
+    int place = work.source + 3 * (item >> 2);
+    int quarter = item & 3;
+    int corner = queued(work, place);
+    Cell cell;
+    cell.x = 2 * (corner & 0xffff) + (quarter & 1);
+    cell.y = 2 * ((corner >> 16) & 0xffff) + (quarter >> 1);
+    cell.level = work.level;
+    cell.path = queued(work, place + 1);
+    cell.evaluations = (queued(work, place + 2) + quarter) >> 2;
+    return cell;
+}
+
+bool outside_image(Work work, Cell cell) {
+    int side = 1 << (work.last - work.level);
+    return max(cell.x, cell.y) * side >= work.size;
+}
+
+Beam cell_beam(Work work, Cell cell) {
+    int side = 1 << (work.last - work.level);
+    int i0 = cell.x * side;
+    int j0 = cell.y * side;
+    return camera_beam(work.camera, i0, j0, min(i0 + side, work.size), min(j0 + side, work.size), work.size);
+}
+
+// Hands the cell to the next level: its quarters begin at `path`.
+void queue_quarters(Work work, Cell cell, int path, Hit hit) {
+    int place = work.target + 3 * queue_slot(work);
+    enqueue(work, place, cell.x | (cell.y << 16));
+    enqueue(work, place + 1, path);
+    enqueue(work, place + 2, cell.evaluations + hit.evaluations);
+}
+
+// The cell's pixels get the answer, each its share of the evaluations, and the level of the cell. A hit's t is a depth:
+// what is stored is its distance along the ray through the middle of the pixel.
+void paint(Work work, Cell cell, Hit hit) {
+    int side = 1 << (work.last - work.level);
+    int i0 = cell.x * side;
+    int j0 = cell.y * side;
+    int i1 = min(i0 + side, work.size);
+    int j1 = min(j0 + side, work.size);
+    int pixels = (i1 - i0) * (j1 - j0);
+    int evaluations = cell.evaluations + hit.evaluations;
+    for (int j = j0; j < j1; j++) {
+        for (int i = i0; i < i1; i++) {
+            int word = (((evaluations / pixels) * 32 + cell.level) * 4) + hit.status;
+            if (hit.status == MISS) {
+                answer_miss(work, j * work.size + i, word);
+            } else {
+                vec3 direction = work.camera.forward
+                                 + work.camera.right * (real(2 * i + 1 - work.size) / real(work.size))
+                                 + work.camera.up * (real(work.size - 2 * j - 1) / real(work.size));
+                answer_hit(work, j * work.size + i, hit.t * sqrt(dot(direction, direction)), word);
+            }
+            evaluations += 1;  // so that all pixels' shares, rounded down, add up to the whole
+        }
+    }
+}

@@ -1,0 +1,17 @@
+// Level -1 empties the queues; any other runs cast_cell on its cells, strided over the nx work items.
+// Without a `source` in the queue, every cell of the level is looked at.
+void main() {
+    int id = int(gl_GlobalInvocationID.x);
+    if (level < 0) {
+        if (id < 32) counts[id] = 0;
+        return;
+    }
+    Camera camera = make_camera(vec3(c[0], c[1], c[2]), vec3(c[3], c[4], c[5]), vec3(c[6], c[7], c[8]),
+                                vec3(c[9], c[10], c[11]));
+    Work work = Work(camera, size, level, last, source, target);
+    int count = source < 0 ? 1 << (2 * level) : 4 * counts[level - 1];
+    for (int item = id; item < count; item += nx) {
+        Cell cell = source < 0 ? level_cell(work, item) : queued_cell(work, item);
+        if (!outside_image(work, cell)) cast_cell(work, cell);
+    }
+}

@@ -1,0 +1,27 @@
+// The quadtree over the image as OpenCL: one cell for each work item, the next level's cells queued on the device.
+#define trailing_zeros(v) popcount(((v) & -(v)) - 1)  // of a positive whole number
+typedef struct Work {
+    __global real *t; __global int *answer; __global int *queue; __global int *counts;
+    Camera camera; int size; int level; int last; int source; int target;
+} Work;
+
+int queued(Work work, int place) {
+    return work.queue[place];
+}
+
+void enqueue(Work work, int place, int value) {
+    work.queue[place] = value;
+}
+
+int queue_slot(Work work) {
+    return atomic_inc(&work.counts[work.level]);
+}
+
+void answer_hit(Work work, int pixel, real distance, int word) {
+    work.t[pixel] = distance;
+    work.answer[pixel] = word;
+}
+
+void answer_miss(Work work, int pixel, int word) {
+    work.answer[pixel] = word;
+}

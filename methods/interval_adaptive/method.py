@@ -1,0 +1,30 @@
+"""Beams over a quadtree of the image: large empty regions are thrown away at once.
+
+**Source** beamcasting, section III.C and procedures Subdivide and Adaptive; levels, queues and where to start: III.E;
+anti-aliasing: III.D.
+
+**Theory** A large beam holds the beams of its quarters, so that what BeamCast excludes for it is excluded for them: a
+cell of the image whose beam is empty is background, and the quarters of another need look no nearer than where its
+search stopped. Each level halves ε, since the width of a beam bounds what its boxes can tell of its depth.
+
+**Changes against the paper**
+- What a cell hands to its quarters is its place in the tree of depths, the integer that holds the path, instead of the
+  depth alone. The quarters go on from that piece and do not halve [a, far] anew from its root; and their pieces are
+  those of the uniform method, so that both answer alike, bit for bit but for pieces that rounding tells apart.
+- The queue holds the cells that were not empty, three whole numbers each; a level's work items take their quarters from
+  it, four neighbours at a time. Its length stays on the device: a fixed number of work items strides over it.
+- Depth T, ε, boxes: as in interval_uniform.
+
+**Evaluations** A large beam's are divided among the pixels below it (whole numbers that add up to what was spent).
+"""
+
+from harness.contract import Method, Parameter
+
+METHOD = Method(
+    name="interval_adaptive",
+    source="beamcasting",
+    needs=("surface_range",),
+    parameters=(Parameter("BISECTIONS", 1, "ε: a level's last piece is the domain's depth / 2^(level + BISECTIONS)"),),
+    claims=frozenset({"no_missed_root", "finds_touch"}),
+    casts="quadtree",
+)
