@@ -60,9 +60,9 @@ def meets(domain: Domain, rays: NDArray[np.float32]) -> NDArray[np.bool_]:
         if isinstance(domain, Box):
             at = [(np.array(corner) - origins) / directions for corner in (domain.lower, domain.upper)]
             enter, leave = np.fmin(*at).max(axis=1), np.fmax(*at).min(axis=1)
-            return (enter <= leave) & (leave >= 0.0)
+            return np.asarray((enter <= leave) & (leave >= 0.0))
         origins = origins - np.array(domain.center)
         along = -np.einsum("ij,ij->i", origins, directions) / np.einsum("ij,ij->i", directions, directions)
         nearest = np.linalg.norm(origins + along[:, None] * directions, axis=1)
         inside = np.linalg.norm(origins, axis=1) <= domain.radius
-        return (nearest <= domain.radius) & (inside | (along >= 0.0))
+        return np.asarray((nearest <= domain.radius) & (inside | (along >= 0.0)))

@@ -10,6 +10,7 @@ import ctypes
 import signal
 import sys
 import time
+from collections import OrderedDict
 from dataclasses import dataclass
 from functools import cached_property
 from multiprocessing.connection import Connection
@@ -33,6 +34,7 @@ from harness.contract import DeviceInfo, FirsthitError, Hits, Program
 
 ENOUGH_MS = 2.0  # a sample lasts at least about this long; shorter launches are repeated within it
 MOST_REPEATS = 64
+KEPT_PROGRAMS = 128  # built ones: a surface's views run the same programs, one view after the other
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,6 +69,7 @@ class Worker:
     def __init__(self, name: str) -> None:
         self._name = name
         self._frames: dict[str, Launch] = {}
+        self._built: OrderedDict[str, tuple[Any, float]] = OrderedDict()  # by hash; the first is the longest unused
 
     @cached_property
     def _device(self) -> Device:
@@ -82,13 +85,22 @@ class Worker:
         return probe(self._device)
 
     def build(self, program: Program) -> None:
-        self._device.build(program)
+        self._build(program)
+
+    def _build(self, program: Program) -> tuple[Any, float]:
+        """The built program, and the milliseconds that building it took, now or when this worker first did."""
+        if program.hash not in self._built:
+            start = time.perf_counter()
+            built = self._device.build(program)
+            self._built[program.hash] = built, (time.perf_counter() - start) * 1e3
+            if len(self._built) > KEPT_PROGRAMS:
+                self._built.popitem(last=False)
+        self._built.move_to_end(program.hash)
+        return self._built[program.hash]
 
     def check(self, program: Program, rays: NDArray[np.float32]) -> Checked:
         """Build a listed-rays program and run it once; rays: float32[n, 6]."""
-        start = time.perf_counter()
-        built = self._device.build(program)
-        compile_ms = (time.perf_counter() - start) * 1e3
+        built, compile_ms = self._build(program)
         launch = launch_rays(self._device, program, built, rays)
         launch.run()
         hits = hits_from(launch.read())
@@ -97,9 +109,7 @@ class Worker:
 
     def warm(self, key: str, frame: Frame) -> Warmed:
         """Build and upload a frame, run it twice, read it back once, and keep it ready under `key`."""
-        start = time.perf_counter()
-        built = self._device.build(frame.program)
-        compile_ms = (time.perf_counter() - start) * 1e3
+        built, compile_ms = self._build(frame.program)
         if frame.rays is None:
             launch = launch_camera(self._device, frame.program, built, frame.camera, frame.size)
         else:

@@ -139,14 +139,16 @@ class OpenCLDevice(Device):
         try:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore", cl.CompilerWarning)  # drivers that greet are not in error
-                return cl.Kernel(source.build(options=OPTIONS[program.precision]), program.entry)
+                return source.build(options=OPTIONS[program.precision]), program.entry
         except cl.Error as error:
             raise BuildError(f"{self.info.name}: {explain_log(program, str(error))}") from None
 
     def launch(
         self, built: Any, inputs: Sequence[Array], outputs: Sequence[tuple[int, type]], grid: tuple[int, int]
     ) -> Launch:
-        return OpenCLLaunch(self._context, self._queue, built, inputs, outputs, grid)
+        program, entry = built
+        kernel = _binding().Kernel(program, entry)  # of its own, since a kernel holds its arguments
+        return OpenCLLaunch(self._context, self._queue, kernel, inputs, outputs, grid)
 
 
 class OpenCLLaunch(Launch):
