@@ -7,7 +7,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from harness.contract import Surface, View
+from harness.contract import Box, Domain, Surface, View
 
 
 def scene_radius(surface: Surface) -> float:
@@ -15,17 +15,24 @@ def scene_radius(surface: Surface) -> float:
     return surface.bounding_radius or surface.domain.radius
 
 
+def distance_of(view: View, surface: Surface) -> float:
+    """From the eye to the target, in scene units."""
+    return scene_radius(surface) / math.sin(math.radians(view.fov) / 2.0) if view.distance is None else view.distance
+
+
 def camera_for(view: View, surface: Surface) -> NDArray[np.float32]:
-    """float32[12]: eye, forward (length 1), right and up (the image's half width and height at distance 1)."""
+    """float32[12]: eye, forward (length 1), right and up (the image's half width and height at distance 1).
+
+    Up leans to the z axis; at the poles it is what it tends to along the view's azimuth, so that no view is singular.
+    """
     azimuth, elevation = math.radians(view.azimuth), math.radians(view.elevation)
     half = math.radians(view.fov) / 2.0
     target = np.array(surface.domain.center if view.target is None else view.target)
-    distance = scene_radius(surface) / math.sin(half) if view.distance is None else view.distance
     ca, sa, ce, se = math.cos(azimuth), math.sin(azimuth), math.cos(elevation), math.sin(elevation)
     backward = np.array([ce * ca, ce * sa, se])
     right = np.array([-sa, ca, 0.0])
     up = np.array([-se * ca, -se * sa, ce])
-    parts = (target + distance * backward, -backward, math.tan(half) * right, math.tan(half) * up)
+    parts = (target + distance_of(view, surface) * backward, -backward, math.tan(half) * right, math.tan(half) * up)
     return np.concatenate(parts).astype(np.float32)
 
 
@@ -44,3 +51,18 @@ def rays_of(camera: NDArray[np.float32], size: int) -> NDArray[np.float32]:
 def pixel_footprint(camera: NDArray[np.float32], size: int) -> float:
     """A pixel's height at distance 1 from the eye."""
     return 2.0 * float(np.linalg.norm(camera[9:12].astype(np.float64))) / size
+
+
+def meets(domain: Domain, rays: NDArray[np.float32]) -> NDArray[np.bool_]:
+    """bool[n]: which rays float32[n, 6] run through the domain, to float64 rounding: to count, not to prove."""
+    origins, directions = np.split(rays.astype(np.float64), 2, axis=1)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        if isinstance(domain, Box):
+            at = [(np.array(corner) - origins) / directions for corner in (domain.lower, domain.upper)]
+            enter, leave = np.fmin(*at).max(axis=1), np.fmax(*at).min(axis=1)
+            return np.asarray((enter <= leave) & (leave >= 0.0))
+        origins = origins - np.array(domain.center)
+        along = -np.einsum("ij,ij->i", origins, directions) / np.einsum("ij,ij->i", directions, directions)
+        nearest = np.linalg.norm(origins + along[:, None] * directions, axis=1)
+        inside = np.linalg.norm(origins, axis=1) <= domain.radius
+        return np.asarray((nearest <= domain.radius) & (inside | (along >= 0.0)))

@@ -8,13 +8,14 @@ import difflib
 import tomllib
 import types
 import typing
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from harness.contract import PRECISIONS, STAGES, FirsthitError, Precision, Stage, Surface, Variant, View
 from harness.plugins import Catalog
+from harness.viewsets import AngleChoice, DirectionChoice, by_angle, by_direction
 
 
 @dataclass(frozen=True)
@@ -69,7 +70,9 @@ class Config:
     method: list[MethodChoice]
     surfaces: list[str] = field(default_factory=list)
     families: list[str] = field(default_factory=list)
-    view: list[View] = field(default_factory=lambda: [View("default")])
+    view: list[View] = field(default_factory=list)  # those of `angles` and `directions` are added; default: one view
+    angles: AngleChoice | None = None
+    directions: DirectionChoice | None = None
     sizes: list[int] = field(default_factory=lambda: [256])
     samples_per_pixel: list[int] = field(default_factory=lambda: [1])
     precisions: list[str] = field(default_factory=lambda: ["float32"])
@@ -198,6 +201,9 @@ def _positive(config: Config, source: _Source) -> None:
             for i, view in enumerate(config.view)
             if view.distance is not None
         ),
+        *((("view", i, "azimuth"), view.azimuth, -360.0, 360.0) for i, view in enumerate(config.view)),
+        *((("view", i, "elevation"), view.elevation, -90.0, 90.0) for i, view in enumerate(config.view)),
+        *_view_set_limits(config),
     ]
     for where, value, low, high in checks:
         if not low <= value <= high:
@@ -206,12 +212,33 @@ def _positive(config: Config, source: _Source) -> None:
         if samples not in (1, 4, 9, 16):
             raise source.error(("samples_per_pixel",), f"samples_per_pixel: {samples} is not one of 1, 4, 9, 16")
     for key, names in (
-        ("view", [view.name for view in config.view]),
+        ("angles", [f"{angle:g}" for angle in config.angles.values] if config.angles else []),
+        ("view", [view.name for view in _with_view_sets(config).view]),
         ("surfaces", config.surfaces),
         ("families", config.families),
     ):
         if twice := [name for name in names if names.count(name) > 1]:
             raise source.error((key,), f"{key}: {twice[0]!r} is named twice")
+
+
+def _view_set_limits(config: Config) -> Iterator[tuple[Where, float, float, float]]:
+    if config.angles:
+        yield from ((("angles", "values", i), angle, 0.0, 180.0) for i, angle in enumerate(config.angles.values))
+        yield ("angles", "azimuth"), config.angles.azimuth, -360.0, 360.0
+    if config.directions:
+        yield ("directions", "count"), config.directions.count, 1, 10_000
+    for key, choice in (("angles", config.angles), ("directions", config.directions)):
+        if choice:
+            yield (key, "fov"), choice.fov, 1e-3, 179.0
+            if choice.distance is not None:
+                yield (key, "distance"), choice.distance, 1e-6, 1e9
+
+
+def _with_view_sets(config: Config) -> Config:
+    views = [*config.view]
+    views += by_angle(config.angles) if config.angles else []
+    views += by_direction(config.directions) if config.directions else []
+    return dataclasses.replace(config, view=views or [View("default")])
 
 
 def _sweep(choice: MethodChoice) -> list[Mapping[str, float]]:
@@ -238,6 +265,7 @@ def load(path: Path, catalog: Catalog) -> Experiment:
         raise FirsthitError(f"{path}: not valid TOML: {error}") from None
     config: Config = _read_table(Config, table, (), source)
     _positive(config, source)
+    config = _with_view_sets(config)
     if not config.surfaces and not config.families:
         raise source.error((), "name surfaces to draw, or families of hard rays, or both")
     if config.families == ["all"]:

@@ -208,6 +208,7 @@ class View:
     fov: float = 30.0
     distance: float | None = None
     target: tuple[float, float, float] | None = None  # None: the domain's centre
+    set: str | None = None  # views of one set are compared with each other: "angles", "directions" or a name of yours
 
 
 @dataclass(frozen=True)

@@ -17,9 +17,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from harness import accuracy, beams, measure, stability
-from harness.camera import pixel_footprint, rays_of, scene_radius
+from harness.camera import distance_of, meets, pixel_footprint, rays_of, scene_radius
 from harness.config import Config
-from harness.contract import CellStatus, Hits, RayStatus, Surface, Truth
+from harness.contract import CellStatus, Hits, RayStatus, Surface, Truth, View
 from harness.executor import CellError, LocalExecutor
 from harness.oracle import cached_first_hits
 from harness.plan import Planned, shuffled
@@ -139,7 +139,8 @@ class Runner:
             footprint=footprint,
             grazing_margin=config.grazing_margin,
         )
-        state.summary = {"size": config.size} | summary
+        inside = int(meets(cell.surface.domain, rays).sum())
+        state.summary = {"size": config.size, "domain_rays": inside} | summary
         state.arrays = _pictures(cell.surface, rays, hits, truth, verdicts, config.size)
         if casts_beams:
             assert checked.evaluations is not None and checked.levels is not None
@@ -215,6 +216,8 @@ class Runner:
             "formula": cell.surface.formula,
             "degree": cell.surface.degree,
             "view": cell.view.name,
+            "view_set": cell.view.set,
+            "camera": None if cell.family else _pose(cell.view, cell.surface),
             "size": cell.size,
             "samples_per_pixel": cell.samples_per_pixel,
             "precision": cell.precision,
@@ -257,6 +260,12 @@ class Runner:
             "narrow": measure.is_narrow(state.samples, self._config.budget.interval),
             "overhead_share": overhead,
         }
+
+
+def _pose(view: View, surface: Surface) -> dict[str, float]:
+    """Degrees, and the distance from the target in scene units, also where the view leaves it to the surface."""
+    distance = distance_of(view, surface)
+    return {"azimuth": view.azimuth, "elevation": view.elevation, "fov": view.fov, "distance": distance}
 
 
 def _build_of(state: _Live) -> dict[str, Any]:

@@ -10,6 +10,7 @@ import ctypes
 import signal
 import sys
 import time
+from collections import OrderedDict
 from dataclasses import dataclass
 from functools import cached_property
 from multiprocessing.connection import Connection
@@ -35,6 +36,7 @@ from harness.contract import Casts, DeviceInfo, FirsthitError, Hits, Program
 ENOUGH_MS = 2.0  # a sample lasts at least about this long; shorter launches are repeated within it
 MOST_REPEATS = 64
 WARM_MS = 200.0  # a launch that takes longer has warmed the device up by itself
+KEPT_PROGRAMS = 128  # built ones: a surface's views run the same programs, one view after the other
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,9 +74,7 @@ class Worker:
     def __init__(self, name: str) -> None:
         self._name = name
         self._frames: dict[str, Launch] = {}
-        self._last: tuple[str, Any, float] | None = (
-            None  # hash, built, compile_ms: a cell's frame may be what it checked
-        )
+        self._built: OrderedDict[str, tuple[Any, float]] = OrderedDict()  # by hash; the first is the longest unused
 
     @cached_property
     def _device(self) -> Device:
@@ -90,20 +90,22 @@ class Worker:
         return probe(self._device)
 
     def build(self, program: Program) -> None:
-        self._device.build(program)
+        self._build(program)
 
-    def _built(self, program: Program) -> tuple[Any, float]:
-        """The program compiled, and the milliseconds that took; what `check` compiled last is not compiled again."""
-        if self._last is None or self._last[0] != program.hash:
+    def _build(self, program: Program) -> tuple[Any, float]:
+        """The built program, and the milliseconds that building it took, now or when this worker first did."""
+        if program.hash not in self._built:
             start = time.perf_counter()
             built = self._device.build(program)
-            self._last = (program.hash, built, (time.perf_counter() - start) * 1e3)
-        return self._last[1:]
+            self._built[program.hash] = built, (time.perf_counter() - start) * 1e3
+            if len(self._built) > KEPT_PROGRAMS:
+                self._built.popitem(last=False)
+        self._built.move_to_end(program.hash)
+        return self._built[program.hash]
 
     def check(self, program: Program, rays: NDArray[np.float32]) -> Checked:
         """Build a listed-rays program and run it once; rays: float32[n, 6]."""
-        self._last = None
-        built, compile_ms = self._built(program)
+        built, compile_ms = self._build(program)
         launch = launch_rays(self._device, program, built, rays)
         launch.run()
         hits = hits_from(launch.read())
@@ -112,8 +114,7 @@ class Worker:
 
     def check_frame(self, frame: Frame, pixels: NDArray[np.int32]) -> Checked:
         """Build a frame of beams and run it once; what it answers for `pixels`, int32[n]."""
-        self._last = None
-        built, compile_ms = self._built(frame.program)
+        built, compile_ms = self._build(frame.program)
         launch = self._launch(frame, built)
         launch.run()
         hits, levels = beam_hits_from(launch.read())
@@ -132,7 +133,7 @@ class Worker:
 
     def warm(self, key: str, frame: Frame) -> Warmed:
         """Build and upload a frame, run it until warm, read it back once, and keep it ready under `key`."""
-        built, compile_ms = self._built(frame.program)
+        built, compile_ms = self._build(frame.program)
         launch = self._launch(frame, built)
         duration = launch.run().wall_ms
         if duration < WARM_MS:

@@ -1,0 +1,73 @@
+"""Sets of views: named in a config by a line or two, drawn up here. How a method depends on the view is told by set."""
+
+from __future__ import annotations
+
+import math
+import random
+from dataclasses import dataclass, field
+
+from harness.contract import View
+
+ANGLES, DIRECTIONS = "angles", "directions"  # the sets' names, which rows carry
+GOLDEN_TURN = 180.0 * (3.0 - math.sqrt(5.0))  # degrees between neighbours of a Fibonacci lattice
+
+
+@dataclass(frozen=True)
+class AngleChoice:
+    """Projection angles as in toledo2007, Table 1: 0° looks down the z axis, 90° from the side (elevation 90° − angle).
+
+    Azimuth, field of view and distance are those of a View, once for all. From azimuth 0 the torus's box shows as many
+    pixels as the paper prints; from others, which turn it about its axis, more.
+    """
+
+    values: list[float] = field(default_factory=lambda: [0.0, 18.0, 36.0, 54.0, 72.0, 90.0])
+    azimuth: float = 0.0
+    fov: float = 30.0
+    distance: float | None = None
+
+
+@dataclass(frozen=True)
+class DirectionChoice:
+    """`count` directions spread evenly over the sphere, turned as a whole by a random rotation that `seed` decides."""
+
+    count: int = 24
+    seed: int = 1
+    fov: float = 30.0
+    distance: float | None = None
+
+
+def by_angle(choice: AngleChoice) -> list[View]:
+    """A view for each angle, in their order."""
+    return [
+        View(f"angle {angle:g}", choice.azimuth, 90.0 - angle, choice.fov, choice.distance, set=ANGLES)
+        for angle in choice.values
+    ]
+
+
+def by_direction(choice: DirectionChoice) -> list[View]:
+    """A view from each direction of a turned Fibonacci lattice (Á. González, Measurement of areas on a sphere using
+    Fibonacci and latitude–longitude lattices, 2010); angles to 1/10,000 of a degree, so that configs can quote them."""
+    turned = _rotation(choice.seed)
+    views = []
+    for i in range(choice.count):
+        z = 1.0 - (2 * i + 1) / choice.count
+        turn, radius = math.radians(i * GOLDEN_TURN), math.sqrt(1.0 - z * z)
+        point = (radius * math.cos(turn), radius * math.sin(turn), z)
+        x, y, z = (sum(a * b for a, b in zip(row, point, strict=True)) for row in turned)
+        azimuth, elevation = math.degrees(math.atan2(y, x)), math.degrees(math.asin(max(-1.0, min(1.0, z))))
+        name = f"direction {i + 1:0{len(str(choice.count))}}"
+        views.append(View(name, round(azimuth, 4), round(elevation, 4), choice.fov, choice.distance, set=DIRECTIONS))
+    return views
+
+
+def _rotation(seed: int) -> list[tuple[float, float, float]]:
+    """A rotation drawn uniformly, by a unit quaternion of four normal deviates; rows of its matrix."""
+    source = random.Random(f"directions {seed}")
+    drawn = [source.gauss(0.0, 1.0) for _ in range(4)]
+    length = math.hypot(*drawn)
+    w, x, y, z = (part / length for part in drawn)
+    return [
+        (1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)),
+        (2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)),
+        (2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)),
+    ]
