@@ -24,6 +24,7 @@ class Arrays:
     grazing: NDArray[np.bool_]
     shade: NDArray[np.float32]  # cosine towards the camera; NaN on background
     condition: NDArray[np.float32] | None = None  # of the first root; NaN without one; None in older runs
+    evaluations: NDArray[np.int32] | None = None  # of f, spent on the ray; None in older runs
 
 
 NEEDED = ("truth", "error", "wrong", "grazing", "shade")
@@ -34,8 +35,7 @@ def read(path: Path) -> Arrays:
     try:
         with np.load(path, allow_pickle=False) as file:
             named = {name: file[name] for name in NEEDED}
-            if "condition" in file:
-                named["condition"] = file["condition"]
+            named |= {name: file[name] for name in ("condition", "evaluations") if name in file}
     except (KeyError, EOFError, zipfile.BadZipFile, zlib.error) as error:
         raise ValueError(f"damaged: {error}") from error
     shapes = {array.shape for array in named.values()}

@@ -31,7 +31,7 @@ def galleries(shelf: Shelf, frame: pd.DataFrame) -> dict[str, Gallery]:
             arrays = shelf.get(row)
             if arrays is not None:
                 picked.setdefault(str(surface), []).append((row, arrays))
-    scale = _scale([arrays for cells in picked.values() for _, arrays in cells])
+    scale = scale_of([arrays for cells in picked.values() for _, arrays in cells])
     legend = plots.error_legend(*scale)
     return {
         surface: Gallery(tuple(_panel(row, arrays, scale) for row, arrays in cells), _caption(cells[0][0]), legend)
@@ -39,7 +39,7 @@ def galleries(shelf: Shelf, frame: pd.DataFrame) -> dict[str, Gallery]:
     }
 
 
-def _scale(every: list[Arrays]) -> tuple[int, int]:
+def scale_of(every: list[Arrays]) -> tuple[int, int]:
     """The decades that hold every picture's positive errors, at most WIDEST_SCALE of them: one scale for the report."""
     positive = [arrays.error[(arrays.error > 0) & np.isfinite(arrays.error)] for arrays in every]
     low = min((float(e.min()) for e in positive if e.size), default=1e-7)
@@ -51,8 +51,8 @@ def _scale(every: list[Arrays]) -> tuple[int, int]:
 def _panel(row: Any, arrays: Arrays, scale: tuple[int, int]) -> Panel:
     name = f"{row.variant}, {row.precision}"
     pictures = (
-        Picture(f"{row.key}-shade", _png(shaded(arrays)), f"{row.surface_title} drawn by {name}"),
-        Picture(f"{row.key}-error", _png(error_map(arrays, scale)), f"Errors of {name} on {row.surface_title}"),
+        Picture(f"{row.key}-shade", png(shaded(arrays)), f"{row.surface_title} drawn by {name}"),
+        Picture(f"{row.key}-error", png(error_map(arrays, scale)), f"Errors of {name} on {row.surface_title}"),
     )
     counts = zip((row.misses, row.false_hits, row.exhausted, row.wrong_root), style.WRONG, strict=True)
     wrong = ", ".join(f"{kind.title} {n:,}" for n, kind in counts if not wording.absent(n) and n > 0)
@@ -99,7 +99,7 @@ def _rgb(color: str) -> NDArray[np.float64]:
     return np.asarray(to_rgb(color))
 
 
-def _png(image: NDArray[np.float64]) -> bytes:
+def png(image: NDArray[np.float64]) -> bytes:
     times = max(1, -(-PIXELS // max(image.shape[:2])))
     pixels = np.round(255 * image).astype(np.uint8).repeat(times, axis=0).repeat(times, axis=1)
     buffer = io.BytesIO()

@@ -7,7 +7,21 @@ from collections.abc import Sequence
 import pandas as pd
 
 from harness.contract import CellStatus
-from reports import across, condition, derive, images, plots, stability, style, tables, wording
+from reports import (
+    across,
+    condition,
+    derive,
+    evaluations,
+    growth,
+    images,
+    plots,
+    stability,
+    style,
+    tables,
+    views,
+    viewstats,
+    wording,
+)
 from reports.arrays import Shelf
 from reports.content import Block, Code, Document, Section, Text
 from reports.load import Run, Unreadable
@@ -23,16 +37,21 @@ def report(run: Run, frame: pd.DataFrame, rungs: pd.DataFrame) -> Document:
     variants = pd.concat([of[["method", "variant"]] for of in (frame, run.families)])
     marks = style.variant_marks(variants.drop_duplicates().itertuples(index=False, name=None))
     condition_sections = condition.sections(shelf, frame, marks)
+    evaluation_sections = evaluations.sections(shelf, frame)
     unreadable = [*run.unreadable, *shelf.damaged.values()]
+    listed = viewstats.one_view_of_each(frame)
     sections = [
         _devices(run),
-        *_winners(frame),
-        *_results(frame),
-        *across.sections(frame),
-        *_units(frame),
+        *_winners(listed),
+        *_results(listed),
+        *views.sections(frame, marks),
+        *growth.sections(listed, marks),
+        *across.sections(listed),
+        *_units(listed),
         *stability.sections(rungs, run.plan.facts, marks),
-        *_fronts(frame),
+        *_fronts(listed),
         *condition_sections,
+        *evaluation_sections,
         *(
             Section(f"Pictures: {frame.loc[frame['surface'] == surface, 'surface_title'].iloc[0]}", (gallery,))
             for surface, gallery in pictures.items()
@@ -43,7 +62,7 @@ def report(run: Run, frame: pd.DataFrame, rungs: pd.DataFrame) -> Document:
             wide=True,
         ),
     ]
-    return Document(run.plan.title or run.plan.name, _subtitle(run), _summary(run, frame, rungs), tuple(sections))
+    return Document(run.plan.title or run.plan.name, _subtitle(run), _summary(run, listed, rungs), tuple(sections))
 
 
 def _subtitle(run: Run) -> str:
@@ -64,7 +83,7 @@ def _summary(run: Run, frame: pd.DataFrame, rungs: pd.DataFrame) -> Section:
     """The first page: how it went, who wins where, who breaks where, how to run it again."""
     blocks: list[Block] = [] if frame.empty else [Text(_verdict(frame), strong=True)]
     blocks += [] if rungs.empty else [Text(stability.verdict(rungs), strong=True)]
-    ended = pd.concat([frame["status"], run.families["status"]])
+    ended = pd.concat([run.frame["status"], run.families["status"]])
     blocks.append(tables.statuses(ended, len(run.unreadable), len(run.not_run)))
     blocks += [Text("To run it again, or go on where it stopped:"), Code(run.plan.command)]
     if _groups(frame):

@@ -69,6 +69,11 @@ def share(value: Any) -> str:
     return NONE if absent(value) else f"{100 * value:.{0 if value >= 0.1 else 1}f} %"
 
 
+def percentage(value: Any) -> str:
+    """A share of one as per cent with two decimals, as in the papers' tables."""
+    return NONE if absent(value) else f"{100 * value:.2f} %"
+
+
 def portion(value: Any) -> str:
     """A share of one as per cent, rounded down: only what is whole is 100 %."""
     return NONE if absent(value) else "100 %" if value == 1 else f"{math.floor(1000 * value) / 10:.1f} %"

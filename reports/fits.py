@@ -1,0 +1,58 @@
+"""Power laws through points: an exponent by least squares in logarithms, with its interval."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+FEWEST = 3  # different places that a fit needs
+
+
+@dataclass(frozen=True)
+class Power:
+    """y = factor · x ** exponent; the exponent is known to ± `half_width` at 95 % if errors are normal."""
+
+    exponent: float
+    half_width: float
+    factor: float
+    points: int
+    scatter: float  # standard deviation of ln y about the line
+
+    def at(self, x: ArrayLike) -> NDArray[np.float64]:
+        fitted: NDArray[np.float64] = self.factor * np.asarray(x, np.float64) ** self.exponent
+        return fitted
+
+
+def power_law(x: ArrayLike, y: ArrayLike) -> Power | None:
+    """The fit through positive points [n]; None where fewer than FEWEST different x are left."""
+    places, values = np.asarray(x, np.float64), np.asarray(y, np.float64)
+    usable = (places > 0) & (values > 0) & np.isfinite(places) & np.isfinite(values)
+    if len(np.unique(places[usable])) < FEWEST:
+        return None
+    u, v = np.log(places[usable]), np.log(values[usable])
+    spread = ((u - u.mean()) ** 2).sum()
+    exponent = float(((u - u.mean()) * (v - v.mean())).sum() / spread)
+    level = float(v.mean() - exponent * u.mean())
+    freedom = len(u) - 2
+    scatter = math.sqrt(float(((v - level - exponent * u) ** 2).sum()) / freedom)
+    return Power(exponent, student(freedom) * scatter / math.sqrt(spread), math.exp(level), len(u), scatter)
+
+
+def student(freedom: int, share: float = 0.975) -> float:
+    """The quantile of Student's distribution at `share` > 1/2, found by bisection on its integrated density."""
+    constant = math.exp(math.lgamma((freedom + 1) / 2) - math.lgamma(freedom / 2)) / math.sqrt(freedom * math.pi)
+    # t = √freedom · tan φ makes the density's integral one of cos^(freedom − 1) over a bounded range
+    low, high = 0.0, math.pi / 2
+    for _ in range(60):
+        middle = (low + high) / 2
+        angles = np.linspace(0.0, middle, 2001)
+        heights = np.cos(angles) ** (freedom - 1)
+        weights = np.full(2001, 2.0)
+        weights[1::2] = 4.0
+        weights[[0, -1]] = 1.0
+        within = constant * math.sqrt(freedom) * float((weights * heights).sum()) * middle / 6000
+        low, high = (middle, high) if within < share - 0.5 else (low, middle)
+    return math.sqrt(freedom) * math.tan((low + high) / 2)

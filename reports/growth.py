@@ -1,0 +1,223 @@
+"""How cost grows: time against pixels, degree and instances, with fitted exponents."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import matplotlib
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure as Drawing
+from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullLocator
+
+from harness.contract import CellStatus
+from reports import style, wording
+from reports.content import Block, Column, Figure, Section, Table, Text
+from reports.drawing import LINE, NARROW, RC, Key, line_of, svg
+from reports.fits import Power, power_law
+from reports.style import Mark
+
+PANELS = 6  # of one figure
+ACROSS = 3
+
+
+@dataclass(frozen=True)
+class Axis:
+    """What cost grows with: `of` says how much of it each row has; rows that share `fixed` differ in nothing else."""
+
+    name: str
+    unit: str
+    of: Callable[[pd.DataFrame], Any]
+    fixed: tuple[str, ...]
+    needs: str  # a column, where there is none there is nothing to fit
+    above_floor: bool = False  # the null method's time is taken off
+    expected: str = ""
+
+
+_ELSE = ("device", "precision", "stage", "samples_per_pixel")
+AXES = (
+    Axis(
+        "pixels",
+        "pixels",
+        lambda rows: rows["size"].astype(float) ** 2,
+        ("surface", "view", *_ELSE),
+        needs="size",
+        expected="An exponent of 1 is a cost in proportion to the pixels; less, that small pictures do not fill the "
+        "device or pay a fixed price.",
+    ),
+    Axis(
+        "degree",
+        "degree of the surface",
+        lambda rows: rows["degree"],
+        ("size", "view", *_ELSE),
+        needs="degree",
+        above_floor=True,
+        expected="Times are above the null method's, where it ran. Surfaces differ in more than their degree, in the "
+        "share of the picture they cover most of all, so that the interval is wide.",
+    ),
+    Axis(
+        "instances",
+        "instances in the scene",
+        lambda rows: rows["instances"],
+        ("surface", "size", "view", *_ELSE),
+        needs="instances",
+        expected="An exponent of 0 is a cost that pixels alone decide, 1 one in proportion to the instances.",
+    ),
+)
+TITLES = {axis.name: f"Cost against {axis.name}" for axis in AXES}
+
+
+@dataclass(frozen=True, eq=False)
+class Curve:
+    """One variant along one axis, all else fixed."""
+
+    place: tuple[Any, ...]  # the values of the axis's `fixed`, in their order
+    variant: str
+    x: np.ndarray[Any, Any]
+    ms: np.ndarray[Any, Any]
+    fit: Power
+
+
+def curves(frame: pd.DataFrame, axis: Axis) -> list[Curve]:
+    """Every variant with at least three different places on `axis`, in the plan's order."""
+    if axis.needs not in frame:
+        return []
+    rows = frame[(frame["status"] == CellStatus.OK) & frame["median_ms"].notna()]
+    rows = rows.assign(x=axis.of(rows).astype("float64"), ms=rows["median_ms"])
+    if axis.above_floor:
+        rows = rows.assign(ms=rows["ms"] - rows["floor_ms"].fillna(0.0))[rows["answers"].astype(bool)]
+    rows = rows[(rows["x"] > 0) & (rows["ms"] > 0)]
+    found = []
+    for (*place, variant), own in rows.groupby([*axis.fixed, "variant"], sort=False):
+        own = own.sort_values("x", kind="stable")
+        fit = power_law(own["x"], own["ms"])
+        if fit is not None:
+            found.append(Curve(tuple(place), str(variant), own["x"].to_numpy(), own["ms"].to_numpy(), fit))
+    return found
+
+
+def sections(frame: pd.DataFrame, marks: Mapping[str, Mark]) -> list[Section]:
+    """A section for each axis along which some variant was timed at three places or more; `marks` by variant."""
+    made = []
+    titles = frame.drop_duplicates("surface").set_index("surface")["surface_title"].to_dict()
+    for axis in AXES:
+        if found := curves(frame, axis):
+            lead = (
+                f"Time t against {axis.unit} n, on logarithmic axes, and the line t = c·nᵏ that fits the logarithms "
+                f"best. The exponent k stands with its 95 % interval. {axis.expected}"
+            )
+            blocks: list[Block] = [Text(lead), *_figures(axis, found, marks, titles), table(axis, found, titles)]
+            made.append(Section(TITLES[axis.name], tuple(blocks)))
+    return made
+
+
+def table(axis: Axis, found: list[Curve], titles: Mapping[str, str]) -> Table:
+    """One line for each curve, the fastest growing first within its place."""
+    named = _places(axis, found, titles)
+    order = list(dict.fromkeys(curve.place for curve in found))
+    lines = sorted(found, key=lambda c: (order.index(c.place), -c.fit.exponent))
+    return Table(
+        (
+            Column("where", stretch=1),
+            Column("variant", stretch=1),
+            Column("points", wording.count, numeric=True),
+            Column("exponent", lambda k: f"{k:.2f}".replace("-", "−"), numeric=True),
+            Column("±", lambda k: f"{k:.2f}", numeric=True),
+            Column("scatter", wording.share, numeric=True),
+        ),
+        [(named[c.place], c.variant, c.fit.points, c.fit.exponent, c.fit.half_width, c.fit.scatter) for c in lines],
+        f"Exponents of time over {axis.name}.",
+        "The fastest growing first. ± is half the 95 % interval; scatter, how far the points lie off the line.",
+        group=1,
+    )
+
+
+def _places(axis: Axis, found: list[Curve], titles: Mapping[str, str]) -> dict[tuple[Any, ...], str]:
+    """Each place for people: its device and precision, and what else differs from place to place."""
+    columns = list(zip(*dict.fromkeys(curve.place for curve in found), strict=True))
+    shown = [
+        i for i, name in enumerate(axis.fixed) if name in ("surface", "device", "precision") or len(set(columns[i])) > 1
+    ]
+
+    def words(i: int, value: Any) -> str:
+        name = axis.fixed[i]
+        if name == "samples_per_pixel":
+            return f"{value} samples"
+        return titles.get(value, str(value)) if name == "surface" else f"{value}²" if name == "size" else str(value)
+
+    return {curve.place: ", ".join(words(i, curve.place[i]) for i in shown) for curve in found}
+
+
+def _figures(axis: Axis, found: list[Curve], marks: Mapping[str, Mark], titles: Mapping[str, str]) -> Iterator[Figure]:
+    named = _places(axis, found, titles)
+    places = list(named)
+    for start in range(0, len(places), PANELS):
+        batch = places[start : start + PANELS]
+        yield _figure(axis, [c for c in found if c.place in batch], batch, named, marks, f"{axis.name}-{start}")
+
+
+def _figure(
+    axis: Axis,
+    found: list[Curve],
+    places: list[tuple[Any, ...]],
+    named: Mapping[tuple[Any, ...], str],
+    marks: Mapping[str, Mark],
+    name: str,
+) -> Figure:
+    variants = [variant for variant in marks if any(curve.variant == variant for curve in found)]
+    columns = min(ACROSS, len(places))
+    lines = -(-len(places) // columns)
+    key = Key([line_of(marks[v]) for v in variants], variants, NARROW)
+    above = key.height + 0.22
+    height = above + 0.4 + 2.3 * lines
+    every = np.concatenate([curve.x for curve in found])
+    with matplotlib.rc_context(RC):
+        drawing = Drawing(figsize=(NARROW, height))
+        panels = drawing.subplots(lines, columns, sharex=True, sharey=True, squeeze=False)
+        drawing.subplots_adjust(0.5 / NARROW, 0.42 / height, 1 - 0.05 / NARROW, 1 - above / height, 0.06, 0.16)
+        for axes, place in zip(panels.flat, places, strict=False):
+            axes.set_title(named[place], color=style.INK, fontsize=6)
+            for curve in (curve for curve in found if curve.place == place):
+                mark = marks[curve.variant]
+                axes.plot(curve.x, curve.ms, color=mark.color, marker=mark.marker, **LINE | {"lw": 0})
+                ends = np.array([curve.x.min(), curve.x.max()])
+                axes.plot(ends, curve.fit.at(ends), color=mark.color, ls=mark.line, lw=LINE["lw"])
+        for axes in list(panels.flat)[len(places) :]:
+            axes.axis("off")
+        first = panels[0, 0]
+        first.set_xscale("log")
+        first.set_yscale("log")
+        first.set_xlim(every.min() / 1.3, every.max() * 1.3)
+        ticks = sorted(set(every))
+        first.xaxis.set_major_locator(FixedLocator(_apart(ticks)))
+        first.xaxis.set_minor_locator(NullLocator())
+        show = (lambda x, _: f"{round(x**0.5)}²") if axis.name == "pixels" else (lambda x, _: f"{x:,.0f}")
+        first.xaxis.set_major_formatter(FuncFormatter(show))
+        first.yaxis.set_major_locator(LogLocator(numticks=9))
+        first.yaxis.set_minor_locator(NullLocator())
+        first.yaxis.set_major_formatter(FuncFormatter(lambda y, _: f"{y:,.0f}" if y >= 1 else f"{y:g}"))
+        drawing.supxlabel(axis.unit, y=0.1 / height, va="center", fontsize=6.5)
+        drawing.supylabel(
+            "ms above the floor" if axis.above_floor else "ms", x=0.08 / NARROW, ha="center", fontsize=6.5
+        )
+        key.draw(drawing)
+        drawn = svg(drawing)
+    exponents = [curve.fit.exponent for curve in found]
+    return Figure(
+        name,
+        drawn,
+        f"Time of {wording.listed(variants)} against {axis.unit}, with fitted lines.",
+        f"Time against {axis.unit}.",
+        f"Exponents from {min(exponents):.2f} to {max(exponents):.2f}; the table below has each.".replace("-", "−"),
+    )
+
+
+def _apart(ticks: list[float]) -> list[float]:
+    """Those of rising `ticks` that stand far enough from the one before to be labelled on a logarithmic axis."""
+    kept: list[float] = []
+    for tick in ticks:
+        if not kept or np.log(tick / kept[-1]) > 0.07 * np.log(ticks[-1] / ticks[0]):
+            kept.append(tick)
+    return kept

@@ -1,0 +1,239 @@
+"""Time, error and wrong rays over the projection angle, and maps of them over the sphere of directions."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import matplotlib
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure as Drawing
+from matplotlib.lines import Line2D
+from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullLocator
+from numpy.typing import NDArray
+
+from reports import style, wording
+from reports.content import Figure
+from reports.drawing import LINE, NARROW, RC, WIDE, ErrorAxis, Key, line_of, svg
+from reports.style import Mark
+from reports.viewstats import ViewSet
+
+DODGE = 0.3  # of the step between angles, over which marks are spread so that all are seen
+ACROSS = 4  # variants in one line of maps
+MAP_PIXELS = (90, 180)  # of a map; each shows the nearest direction
+TIME_MAP = "viridis"
+Limits = tuple[float, float]  # decimal exponents, the ends of a colour scale
+
+
+def over_angle(of: ViewSet, marks: Mapping[str, Mark], name: str) -> Figure:
+    """Time per ray, largest error and wrong rays against the projection angle, a line for each variant."""
+    variants = dict(of.variants())
+    angles = sorted(of.rows["angle"].unique())
+    step = min(np.diff(angles), default=1.0)
+    key = Key([line_of(marks[v]) for v in variants], list(variants), NARROW)
+    above = key.height + 0.2
+    height = above + 0.36 + 2.4
+    axis = ErrorAxis.of(of.rows["error_max"].dropna())
+    with matplotlib.rc_context(RC):
+        drawing = Drawing(figsize=(NARROW, height))
+        times, errors, wrongs = drawing.subplots(1, 3, sharex=True)
+        drawing.subplots_adjust(0.48 / NARROW, 0.36 / height, 1 - 0.06 / NARROW, 1 - above / height, 0.24)
+        axis.dress(errors, "y")
+        for i, (variant, rows) in enumerate(variants.items()):
+            rows, mark = rows.sort_values("angle"), marks[variant]
+            x = rows["angle"] + DODGE * step * ((i + 0.5) / len(variants) - 0.5)
+            look: dict[str, Any] = {"color": mark.color, "marker": mark.marker, "ls": mark.line, **LINE}
+            times.plot(rows["angle"], 1e3 * rows["us_per_ray"], **look)
+            known = rows["error_max"].notna()
+            errors.plot(x[known], axis.position(rows["error_max"][known]), **look)
+            if rows["answers"].iloc[0]:
+                wrongs.plot(x, rows["wrong_rays"].fillna(0).astype(float), **look)
+        times.set_yscale("log")
+        _label_times(times)
+        wrongs.set_yscale("symlog", linthresh=1.0)
+        most = float(of.rows["wrong_rays"].fillna(0).max())
+        wrongs.set_ylim(-0.15, max(10.0, 2 * most))
+        wrongs.yaxis.set_major_locator(FixedLocator([0, *(10.0**e for e in range(int(math.log10(max(10, most))) + 1))]))
+        wrongs.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,.0f}"))
+        wrongs.yaxis.set_minor_locator(NullLocator())
+        for axes, title in zip(
+            (times, errors, wrongs),
+            ("ns per ray in the domain", "largest |t − t*|, scene units", "wrong rays"),
+            strict=True,
+        ):
+            axes.set_title(title, color=style.INK)
+            axes.set_xticks(angles)
+            axes.xaxis.set_major_formatter(FuncFormatter(lambda angle, _: f"{angle:g}°"))
+        drawing.supxlabel("projection angle: 0° looks down the z axis", y=0.08 / height, va="center", fontsize=6.5)
+        key.draw(drawing)
+        drawn = svg(drawing)
+    return Figure(
+        name,
+        drawn,
+        f"Time, error and wrong rays of {wording.listed(list(variants))} against the projection angle.",
+        f"{of.place}.",
+        "A level line does not depend on the view. On the right, marks of one angle stand side by side.",
+    )
+
+
+def _label_times(axes: Axes) -> None:
+    low, high = axes.get_ylim()
+    axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if high / low < 100 else (1.0,), numticks=9))
+    axes.yaxis.set_minor_locator(NullLocator())
+    axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,.0f}" if value >= 1 else f"{value:g}"))
+
+
+@dataclass(frozen=True, eq=False)
+class Sphere:
+    """The sphere of directions in Mollweide's equal-area projection, each place given to the nearest direction."""
+
+    nearest: NDArray[np.intp]  # [h, w]; -1 outside the ellipse
+    x: NDArray[np.float64]  # [n] of each direction, in [-2, 2]
+    y: NDArray[np.float64]  # [n] in [-1, 1]
+
+    @classmethod
+    def of(cls, azimuth: NDArray[np.float64], elevation: NDArray[np.float64]) -> Sphere:
+        """Angles in degrees, [n] each; azimuth 0 is in the middle, the z axis up."""
+        height, width = MAP_PIXELS
+        y = 1 - (2 * np.arange(height) + 1) / height
+        x = (4 * np.arange(width) + 2) / width - 2
+        theta = np.arcsin(y)[:, None]
+        latitude = np.arcsin(np.clip((2 * theta + np.sin(2 * theta)) / np.pi, -1, 1))
+        longitude = np.pi * x[None, :] / (2 * np.cos(theta))
+        places = _unit(longitude, np.broadcast_to(latitude, longitude.shape))
+        nearest = (places @ _unit(np.radians(azimuth), np.radians(elevation)).T).argmax(axis=-1)
+        return cls(np.where(np.abs(longitude) <= np.pi, nearest, -1), *mollweide(azimuth, elevation))
+
+
+def _unit(azimuth: Any, elevation: Any) -> NDArray[np.float64]:
+    return np.stack(
+        [np.cos(elevation) * np.cos(azimuth), np.cos(elevation) * np.sin(azimuth), np.sin(elevation)], axis=-1
+    )
+
+
+def mollweide(
+    azimuth: NDArray[np.float64], elevation: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Degrees → x in [-2, 2], y in [-1, 1], by J. P. Snyder, Map Projections: A Working Manual, 1987, (31-1) to (31-3)
+    over the square root of 2."""
+    longitude, latitude = np.radians((azimuth + 180.0) % 360.0 - 180.0), np.radians(elevation)
+    low, high = np.full(latitude.shape, -np.pi / 2), np.full(latitude.shape, np.pi / 2)
+    for _ in range(60):  # 2θ + sin 2θ = π sin φ rises in θ
+        theta = (low + high) / 2
+        below = 2 * theta + np.sin(2 * theta) < np.pi * np.sin(latitude)
+        low, high = np.where(below, theta, low), np.where(below, high, theta)
+    return 2 / np.pi * longitude * np.cos(theta), np.sin(theta)
+
+
+def over_directions(of: ViewSet, name: str) -> Figure:
+    """For each variant two maps: its time per ray over its mean, and its largest error; wrong rays marked on both."""
+    variants = dict(of.variants())
+    ratios = {variant: rows["us_per_ray"] / rows["us_per_ray"].mean() for variant, rows in variants.items()}
+    every = np.concatenate([ratio.to_numpy() for ratio in ratios.values()])
+    reach = max(1.1, float(every.max()), float(1 / every.min()))
+    axis = ErrorAxis.of(of.rows["error_max"].dropna())
+    lines = -(-len(variants) // ACROSS)
+    line, below, above = 1.42, 0.5, 0.05
+    height = above + line * lines + below
+    with matplotlib.rc_context(RC):
+        drawing = Drawing(figsize=(WIDE, height))
+        times, errors = (-math.log10(reach), math.log10(reach)), (axis.lowest, axis.highest)
+        cell = WIDE / ACROSS
+        for i, (variant, rows) in enumerate(variants.items()):
+            left, top = cell * (i % ACROSS), height - above - line * (i // ACROSS)
+            drawing.text((left + 0.06) / WIDE, (top - 0.12) / height, _name(variant), weight="bold", fontsize=6.5)
+            sphere = Sphere.of(rows["azimuth"].to_numpy(float), rows["elevation"].to_numpy(float))
+            error = rows["error_max"].to_numpy(float)
+            exponents = np.where(error > 0, np.log10(np.where(error > 0, error, 1.0)), -np.inf)
+            exponents[np.isnan(error)] = np.nan
+            wrong = rows["wrong_rays"].fillna(0).to_numpy(float)
+            wide, high = (cell - 0.14) / 2, (cell - 0.14) / 4
+            for j, (values, scale, cmap) in enumerate(
+                ((np.log10(ratios[variant].to_numpy(float)), times, TIME_MAP), (exponents, errors, style.ERROR_MAP))
+            ):
+                box = (
+                    (left + 0.05 + j * (wide + 0.04)) / WIDE,
+                    (top - 0.2 - high) / height,
+                    wide / WIDE,
+                    high / height,
+                )
+                _map(drawing.add_axes(box), sphere, values, scale, cmap, wrong)
+                told = _told_times(rows, ratios[variant]) if j == 0 else _told_errors(rows, wrong)
+                drawing.text(box[0], (top - 0.25 - high) / height, told, fontsize=5.6, va="top", color=style.INK)
+        _scales(drawing, times, errors, height)
+        drawn = svg(drawing)
+    return Figure(
+        name,
+        drawn,
+        f"Maps over the sphere of directions of time and error of {wording.listed(list(variants))}.",
+        f"{of.place}, {len(of.views)} directions.",
+        "Mollweide's equal-area projection: the z axis is up, azimuth 0 in the middle; a place has the colour of the "
+        "nearest direction, a dot. Left, the time per ray in the domain over the variant's own mean, all on one scale: "
+        "an even map does not depend on the view. Right, the largest error; a pale map is an error of 0. Red crosses "
+        "are directions with wrong rays, larger where there are more.",
+    )
+
+
+def _name(variant: str) -> str:
+    return variant if len(variant) <= 42 else f"{variant[:40]} …"
+
+
+def _map(
+    axes: Axes, sphere: Sphere, values: NDArray[Any], limits: Limits, cmap: str, wrong: NDArray[np.float64]
+) -> None:
+    """Decimal exponents by colour between `limits`; -inf is an exact zero, NaN nothing known."""
+    level = (np.where(np.isfinite(values), values, limits[0]) - limits[0]) / (limits[1] - limits[0])
+    colors = matplotlib.colormaps[cmap](np.clip(level, 0.0, 1.0))
+    colors[np.isneginf(values)] = matplotlib.colors.to_rgba(style.EXACT)
+    colors[np.isnan(values)] = matplotlib.colors.to_rgba(style.HAIRLINE)
+    image = np.where((sphere.nearest >= 0)[..., None], colors[sphere.nearest], 0.0)
+    axes.imshow(np.round(255 * image).astype(np.uint8), extent=(-2, 2, -1, 1), interpolation="nearest", aspect="auto")
+    around = np.linspace(0, 2 * np.pi, 120)
+    axes.plot(2 * np.cos(around), np.sin(around), color=style.FAINT, lw=0.5)
+    axes.plot(sphere.x, sphere.y, ls="none", marker=".", ms=1.6, mew=0, color=style.PAPER, alpha=0.8)
+    some = wrong > 0
+    if some.any():
+        for width, color in ((2.2, style.PAPER), (1.1, style.WRONG[0].color)):
+            sizes = 12 + 14 * np.log10(wrong[some])
+            axes.scatter(sphere.x[some], sphere.y[some], sizes, color, marker="x", linewidths=width, zorder=3)
+    axes.set_xlim(-2.02, 2.02)
+    axes.set_ylim(-1.02, 1.02)
+    axes.axis("off")
+
+
+def _told_times(rows: pd.DataFrame, ratio: pd.Series) -> str:
+    return f"mean {wording.number(1e3 * rows['us_per_ray'].mean())} ns, {ratio.min():.2f} to {ratio.max():.2f}"
+
+
+def _told_errors(rows: pd.DataFrame, wrong: NDArray[np.float64]) -> str:
+    if not rows["answers"].iloc[0]:
+        return "finds nothing"
+    error = rows["error_max"].astype("float64")
+    told = f"{wording.error(error.min())} to {wording.error(error.max())}"
+    return f"{told}, {wording.count(wrong.sum())} wrong" if wrong.any() else told
+
+
+def _scales(drawing: Drawing, times: Limits, errors: Limits, height: float) -> None:
+    """The two colour bars below the maps, and a cross's key."""
+    reach = 10.0 ** times[1]
+    ratios = [
+        level for level in (0.1, 0.2, 0.5, 0.7, 0.9, 1.0, 1.1, 1.4, 2.0, 5.0, 10.0) if 1 / reach <= level <= reach
+    ]
+    steps = range(int(errors[0]), int(errors[1]) + 1, max(1, round((errors[1] - errors[0]) / 6)))
+    for left, limits, cmap, title, ticks in (
+        (0.1, times, TIME_MAP, "time per ray in the domain over its mean", [(math.log10(r), f"{r:g}") for r in ratios]),
+        (3.7, errors, style.ERROR_MAP, "largest |t − t*|, scene units", [(e, wording.power_of_ten(e)) for e in steps]),
+    ):
+        axes = drawing.add_axes((left / WIDE, 0.2 / height, 3.0 / WIDE, 0.09 / height))
+        axes.imshow(np.linspace(0, 1, 256)[None], aspect="auto", cmap=cmap, extent=(*limits, 0, 1))
+        axes.grid(visible=False)
+        axes.set_yticks([])
+        axes.set_xticks(*zip(*ticks, strict=True))
+        axes.tick_params(length=2, pad=1)
+        axes.set_title(title, fontsize=6, weight="normal", pad=2, color=style.INK)
+    cross = Line2D([], [], color=style.WRONG[0].color, marker="x", ms=4, lw=0)
+    drawing.legend([cross], ["wrong rays"], loc="center left", bbox_to_anchor=(7.1 / WIDE, 0.3 / height))

@@ -1,0 +1,186 @@
+"""View dependence, growth and evaluations in a report, on rows whose figures are known beforehand."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from harness.contract import View, digest
+from harness.viewsets import AngleChoice, DirectionChoice, by_angle, by_direction
+from reports import arrays, content, derive, evaluations, fits, growth, images, load, style, viewplots, views, viewstats
+from tests.synthetic_run import SURFACES, cell, printed, reported, tiny_run
+from tests.synthetic_run import arrays as made_arrays
+
+PAPER_STURM = [35.64, 35.16, 35.15, 35.32, 35.06, 34.07]  # toledo2007, Table 1, Mpixels/s
+
+
+def viewed(
+    variant: str, view: View, ms: float, surface: str = "torus", size: int = 256, wrong: int = 0
+) -> dict[str, Any]:
+    """A finished cell of one view, half of whose rays meet the domain and a quarter hit."""
+    made = cell(variant, surface, "opencl:intel", "float32")
+    slot = f"{variant} {surface} {view.name} {size}"
+    made |= {"slot": slot, "key": digest(slot), "size": size, "view": view.name, "view_set": view.set}
+    made |= {"comparison": f"{surface} {view.name} {size}", "arrays": None}
+    made["camera"] = {"azimuth": view.azimuth, "elevation": view.elevation, "fov": view.fov, "distance": 5.0}
+    made["time"] |= {"median_ms": ms, "lower_ms": ms, "upper_ms": ms}
+    rays = made["accuracy"]["rays"]
+    made["accuracy"] |= {"domain_rays": rays // 2, "truth_hits": rays // 4, "misses": wrong}
+    made["accuracy"] |= {"false_hits": 0, "exhausted": 0, "wrong_root": 0}
+    return made
+
+
+def framed(folder: Path, *cells: dict[str, Any]) -> pd.DataFrame:
+    return derive.derive(load.load(tiny_run(folder, *cells)).frame)
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    angles, around = by_angle(AngleChoice()), by_direction(DirectionChoice(24))
+    cells = []
+    for i, view in enumerate(angles):
+        rate = PAPER_STURM[i] * 1e6  # rays in the domain per second; half of 256² rays
+        cells.append(viewed("ray_march", view, 256 * 256 / 2 / rate * 1e3, wrong=7 if view.name == "angle 72" else 0))
+        cells += [viewed("newton[EPSILON=0.001]", view, 1.0 + (i == 5)), viewed("null", view, 0.01)]
+    for i, view in enumerate(around):
+        cells.append(viewed("ray_march", view, 10 + np.sin(i), wrong=i if i < 3 else 0))
+        cells.append(viewed("newton[EPSILON=0.001]", view, 5.0))
+    cells += [viewed("ray_march", View(name), 9.0) for name in ("a", "b")]
+    return tiny_run(tmp_path_factory.mktemp("views") / "run", *cells)
+
+
+@pytest.fixture(scope="module")
+def frame(run: Path) -> pd.DataFrame:
+    return derive.derive(load.load(run).frame)
+
+
+def test_rows_tell_their_camera(frame: pd.DataFrame) -> None:
+    row = frame[(frame["view"] == "angle 72") & (frame["variant"] == "ray_march")].iloc[0]
+    assert row[["view_set", "azimuth", "elevation", "fov", "distance"]].tolist() == ["angles", 0.0, 18.0, 30.0, 5.0]
+    assert row["domain_rays"] == row["accuracy_rays"] // 2
+
+
+def test_spread_is_the_papers(frame: pd.DataFrame) -> None:
+    angles, around = viewstats.view_sets(frame)
+    assert (angles.kind, around.kind) == ("angles", "directions"), "two views of no set are none"
+    table = viewstats.dependence(angles)
+    rows = {row[0]: row for row in table.rows}
+    assert [row[0] for row in table.rows] == ["newton[EPSILON=0.001]", "ray_march", "null"], "most dependent first"
+    titles = [(column.over.partition(",")[0], column.title) for column in table.columns]
+    sturm = dict(zip(titles, rows["ray_march"], strict=True))
+    assert sturm["rays in the domain", "mean"] == pytest.approx(np.mean(PAPER_STURM))
+    assert sturm["rays in the domain", "std/mean"] == pytest.approx(0.0138, abs=5e-5), "Table 1: 1.38 %"
+    assert sturm["rays cast", "mean"] == pytest.approx(2 * np.mean(PAPER_STURM))
+    assert sturm["rays that hit", "mean"] == pytest.approx(np.mean(PAPER_STURM) / 2)
+    assert sturm["slowest per ray", "view"] == "angle 90"
+    assert sturm["wrong rays", "all"] == 7 and sturm["wrong rays", "most in"] == "angle 72"
+    null = dict(zip(titles, rows["null"], strict=True))
+    assert null["rays in the domain", "mean"] == pytest.approx(256 * 256 / 2 / 0.01e-3 / 1e6), "shares are the scene's"
+    assert null["wrong rays", "all"] is None and null["worst error", "view"] is None
+    wrong = viewstats.wrong_rays(around)
+    assert wrong is not None
+    assert [row[:4] for row in wrong.rows] == [("ray_march", "direction 03", 2, 2), ("ray_march", "direction 02", 1, 1)]
+
+
+def test_the_report_shows_each_set_and_lists_its_first_view_elsewhere(run: Path, frame: pd.DataFrame) -> None:
+    _, report = reported(run)
+    by_title = {section.title: section for section in report.sections}
+    assert "over 6 projection angles" in printed(by_title["View dependence"].blocks)
+    (lines,) = by_title["View dependence: over the projection angle"].blocks
+    (maps,) = by_title["View dependence: over the sphere of directions"].blocks
+    assert isinstance(lines, content.Figure) and isinstance(maps, content.Figure)
+    for text in (">0°<", ">90°<", ">newton[EPSILON=0.001]<"):
+        assert text in lines.svg
+    assert len(maps.svg) < 400_000
+    results = printed(by_title["Results"].blocks)
+    assert "view angle 0," in results and "view a," in results and "angle 18" not in results
+    kept = viewstats.one_view_of_each(frame)
+    assert set(kept["view"]) == {"angle 0", "direction 01", "a", "b"}
+    assert views.sections(kept, {}) == [] or len(viewstats.view_sets(kept)) == 0
+
+
+def test_the_map_is_equal_area_and_gives_each_place_its_nearest_direction() -> None:
+    x, y = viewplots.mollweide(np.array([0.0, 90, -90, 0, 0, 180]), np.array([0.0, 0, 0, 90, -90, 0]))
+    assert x == pytest.approx([0, 1, -1, 0, 0, -2], abs=1e-6)
+    assert y == pytest.approx([0, 0, 0, 1, -1, 0], abs=1e-6)
+    sphere = viewplots.Sphere.of(np.array([0.0, 0, 120, -120]), np.array([90.0, -19.4712] * 2)[[0, 1, 1, 1]])
+    inside = sphere.nearest >= 0
+    assert inside.mean() == pytest.approx(np.pi / 4, abs=0.01), "an ellipse in its box"
+    shares = np.bincount(sphere.nearest[inside]) / inside.sum()
+    assert shares == pytest.approx([0.25] * 4, abs=0.01), "a tetrahedron's corners share the sphere evenly"
+    assert sphere.nearest[2, 90] == 0 and sphere.nearest[-3, 90] == 1
+    for number, (px, py) in enumerate(zip(sphere.x, sphere.y, strict=True)):
+        line, column = int((1 - py) / 2 * 89.999), int((px + 2) / 4 * 179.999)
+        if inside[line, column]:
+            assert sphere.nearest[line, column] == number
+
+
+@pytest.mark.parametrize("exponent", [0.5, 1.0, 2.3, -1.0])
+def test_a_known_exponent_is_found_within_its_interval(exponent: float) -> None:
+    x = np.array([1.0, 2, 4, 8, 16, 32])
+    exact = fits.power_law(x, 3.0 * x**exponent)
+    assert exact is not None
+    assert exact.exponent == pytest.approx(exponent) and exact.factor == pytest.approx(3.0)
+    assert exact.half_width == pytest.approx(0.0, abs=1e-9)
+    held = 0
+    for seed in range(400):
+        noise = np.exp(np.random.default_rng(seed).normal(0.0, 0.1, len(x)))
+        fit = fits.power_law(x, 3.0 * x**exponent * noise)
+        assert fit is not None
+        held += abs(fit.exponent - exponent) <= fit.half_width
+    assert 0.92 < held / 400 < 0.98, "a 95 % interval holds the truth 95 % of the time"
+
+
+def test_what_no_fit_can_be_made_of() -> None:
+    assert fits.power_law([1, 2, 2], [1, 2, 2]) is None, "two places make a line through anything"
+    assert fits.power_law([1, 2, 3], [1, 0, 2]) is None
+    assert [fits.student(n) for n in (1, 2, 5, 30)] == pytest.approx([12.706, 4.303, 2.571, 2.042], abs=5e-4)
+
+
+def test_growth_against_pixels_and_degree_and_instances(tmp_path: Path) -> None:
+    view = View("front")
+    cells = [viewed("ray_march", view, 1e-5 * size**1.8, size=size) for size in (128, 256, 512)]
+    cells += [viewed("newton[EPSILON=0.001]", view, 1e-6 * size**2, size=size) for size in (256,)]
+    for surface, (_, degree, _) in SURFACES.items():
+        cells.append(viewed("newton[EPSILON=0.001]", view, 0.3 + 0.01 * degree**2.0, surface, size=64))
+        cells.append(viewed("null", view, 0.3, surface, size=64))
+    frame = framed(tmp_path / "run", *cells)
+    pixels, degree, instances = growth.AXES
+    (curve,) = growth.curves(frame, pixels)
+    assert (curve.variant, curve.fit.points) == ("ray_march", 3)
+    assert curve.fit.exponent == pytest.approx(0.9)
+    (curve,) = growth.curves(frame, degree)
+    assert (curve.variant, curve.fit.exponent) == ("newton[EPSILON=0.001]", pytest.approx(2.0))
+    assert growth.curves(frame, instances) == []
+    many = frame[frame["size"] == 64].iloc[[0] * 4].assign(instances=[1, 10, 100, 1000], median_ms=[1, 10, 100, 1000.0])
+    (curve,) = growth.curves(many, instances)
+    assert curve.fit.exponent == pytest.approx(1.0)
+    sections = growth.sections(frame, style.variant_marks([("newton", curve.variant), ("ray_march", "ray_march")]))
+    assert [section.title for section in sections] == ["Cost against pixels", "Cost against degree"]
+    assert "0.90" in printed(sections[0].blocks) and "2.00" in printed(sections[1].blocks)
+
+
+def test_evaluations_are_drawn_and_the_worst_of_many_views_chosen(tmp_path: Path) -> None:
+    seen = [
+        viewed("ray_march", view, 1.0, wrong=4 if view.name == "angle 54" else 0) for view in by_angle(AngleChoice())
+    ]
+    seen += [viewed("null", view, 1.0) for view in by_angle(AngleChoice())]
+    for made in seen:
+        made["arrays"] = f"arrays/{made['key']}.npz" if made["answers"] else None
+    folder = tiny_run(tmp_path / "run", *seen)
+    (folder / "arrays").mkdir()
+    for made in seen[:6]:
+        np.savez_compressed(folder / made["arrays"], **made_arrays(made))
+    frame = derive.derive(load.load(folder).frame)
+    (section,) = evaluations.sections(arrays.Shelf(folder), frame)
+    (gallery,) = [block for block in section.blocks if isinstance(block, content.Gallery)]
+    (panel,) = gallery.panels
+    assert panel.title == "ray_march, Torus, angle 54" and "4 wrong" in panel.note
+    image = evaluations.evaluation_map(np.array([[0, 1, 10, 100]], np.int32), 100)
+    assert image[0, 0].tolist() == [1, 1, 1]
+    assert image[0, 1].sum() < image[0, 2].sum() < image[0, 3].sum(), "more is brighter"
+    assert images.png(image).startswith(b"\x89PNG")
