@@ -319,10 +319,17 @@ class Cell:
 
     @property
     def comparison(self) -> str:
-        """Cells that share this are timed in one interleaved run."""
+        """Cells that share this are compared with each other: they differ in variant, device and precision alone."""
         if self.family:
             return f"family {self.family}"
         return f"{self.surface.name} {self.view.name} {self.size}x{self.size}x{self.samples_per_pixel} {self.stage}"
+
+    @property
+    def together(self) -> str:
+        """Cells that share this are timed in one interleaved run: a comparison, or those of all views of a set."""
+        if self.family or self.view.set is None:
+            return self.comparison
+        return f"{self.surface.name} {self.view.set} {self.size}x{self.size}x{self.samples_per_pixel} {self.stage}"
 
 
 def digest(*parts: Any) -> str:

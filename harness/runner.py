@@ -28,6 +28,8 @@ from harness.store import Row, Store
 from harness.worker import Frame, Warmed
 
 MINIMUM_SAMPLES = 8
+BYTES_PER_RAY = 24  # of a frame kept ready, at most: its answer on the device, and as it was read back
+MOST_BYTES = 3 * 2**30  # of all frames kept ready at once
 UNFINISHED = (CellStatus.FAILED, CellStatus.TIMEOUT, CellStatus.CRASHED)
 
 
@@ -69,11 +71,11 @@ class Runner:
         self._executor, self._environment, self._report = executor, environment, report
 
     def run(self, planned: Iterable[Planned]) -> list[Row]:
-        """Run cells, comparison by comparison; the rows, in the order in which they ended."""
-        rows: list[Row] = []
-        for _, group in itertools.groupby(planned, key=lambda p: p.cell.comparison):
-            rows += self._compare(list(group))
-        return rows
+        """Run cells, those that are timed together after each other; the rows, in the order in which they ended."""
+        groups: dict[str, list[Planned]] = {}
+        for one in planned:
+            groups.setdefault(one.cell.together, []).append(one)
+        return [row for group in groups.values() for part in _fitting(group) for row in self._compare(part)]
 
     def _compare(self, group: list[Planned]) -> list[Row]:
         rows: list[Row] = []
@@ -260,6 +262,14 @@ class Runner:
             "narrow": measure.is_narrow(state.samples, self._config.budget.interval),
             "overhead_share": overhead,
         }
+
+
+def _fitting(group: list[Planned]) -> list[list[Planned]]:
+    """The group whole where its frames are small enough to be kept ready at once, else comparison by comparison."""
+    rays = sum(p.cell.size**2 * p.cell.samples_per_pixel for p in group if p.timed)
+    if rays * BYTES_PER_RAY <= MOST_BYTES:
+        return [group]
+    return [list(part) for _, part in itertools.groupby(group, key=lambda p: p.cell.comparison)]
 
 
 def _pose(view: View, surface: Surface) -> dict[str, float]:

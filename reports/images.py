@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import io
 import math
+from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 import matplotlib
@@ -16,7 +18,7 @@ from PIL import Image
 from harness.contract import TruthStatus
 from reports import derive, plots, style, wording
 from reports.arrays import Arrays, Shelf
-from reports.content import Gallery, Panel, Picture
+from reports.content import Gallery, Panel, Picture, Section
 
 PIXELS = 480  # pixels are repeated to at least this side, because some viewers blur small pictures
 GRAZING_PALE = 0.55  # how far the colour of a wrong ray fades to white in the grazing class
@@ -37,6 +39,20 @@ def galleries(shelf: Shelf, frame: pd.DataFrame) -> dict[str, Gallery]:
         surface: Gallery(tuple(_panel(row, arrays, scale) for row, arrays in cells), _caption(cells[0][0]), legend)
         for surface, cells in picked.items()
     }
+
+
+def sections(pictures: Mapping[str, Gallery], titles: Mapping[str, str]) -> list[Section]:
+    """A section for each surface, or one for all where each surface has one panel; `titles` by the surface's name."""
+    if len(pictures) < 2 or any(len(gallery.panels) > 1 for gallery in pictures.values()):
+        return [Section(f"Pictures: {titles[surface]}", (gallery,)) for surface, gallery in pictures.items()]
+    panels = [
+        replace(panel, title=f"{titles[surface]}: {panel.title}")
+        for surface, gallery in pictures.items()
+        for panel in gallery.panels
+    ]
+    first = next(iter(pictures.values()))
+    told = first.caption.partition(": ")[2]  # without the one surface that it names
+    return [Section("Pictures", (Gallery(tuple(panels), told[:1].upper() + told[1:], first.legend),))]
 
 
 def scale_of(every: list[Arrays]) -> tuple[int, int]:

@@ -52,10 +52,7 @@ def report(run: Run, frame: pd.DataFrame, rungs: pd.DataFrame) -> Document:
         *_fronts(listed),
         *condition_sections,
         *evaluation_sections,
-        *(
-            Section(f"Pictures: {frame.loc[frame['surface'] == surface, 'surface_title'].iloc[0]}", (gallery,))
-            for surface, gallery in pictures.items()
-        ),
+        *images.sections(pictures, dict(zip(frame["surface"], frame["surface_title"], strict=True))),
         Section(
             "Skipped, failed and missing",
             _troubles(run, frame, unreadable) or (Text("Nothing: every planned cell ran and gave a result."),),

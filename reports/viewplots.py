@@ -23,7 +23,7 @@ from reports.style import Mark
 from reports.viewstats import ViewSet
 
 DODGE = 0.3  # of the step between angles, over which marks are spread so that all are seen
-ACROSS = 4  # variants in one line of maps
+ACROSS, DOWN = 4, 4  # variants in one figure of maps
 MAP_PIXELS = (90, 180)  # of a map; each shows the nearest direction
 TIME_MAP = "viridis"
 Limits = tuple[float, float]  # decimal exponents, the ends of a colour scale
@@ -56,8 +56,9 @@ def over_angle(of: ViewSet, marks: Mapping[str, Mark], name: str) -> Figure:
         _label_times(times)
         wrongs.set_yscale("symlog", linthresh=1.0)
         most = float(of.rows["wrong_rays"].fillna(0).max())
-        wrongs.set_ylim(-0.15, max(10.0, 2 * most))
-        wrongs.yaxis.set_major_locator(FixedLocator([0, *(10.0**e for e in range(int(math.log10(max(10, most))) + 1))]))
+        top = max(12.0, 2 * most)
+        wrongs.set_ylim(-0.15, top)
+        wrongs.yaxis.set_major_locator(FixedLocator([0, *(10.0**e for e in range(int(math.log10(top)) + 1))]))
         wrongs.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,.0f}"))
         wrongs.yaxis.set_minor_locator(NullLocator())
         for axes, title in zip(
@@ -129,15 +130,21 @@ def mollweide(
     return 2 / np.pi * longitude * np.cos(theta), np.sin(theta)
 
 
-def over_directions(of: ViewSet, name: str) -> Figure:
+def over_directions(of: ViewSet, name: str) -> list[Figure]:
     """For each variant two maps: its time per ray over its mean, and its largest error; wrong rays marked on both."""
     variants = dict(of.variants())
+    names = list(variants)
+    batches = [names[i : i + ACROSS * DOWN] for i in range(0, len(names), ACROSS * DOWN)]
+    return [_maps(of, {v: variants[v] for v in batch}, f"{name}-{i}") for i, batch in enumerate(batches)]
+
+
+def _maps(of: ViewSet, variants: Mapping[str, pd.DataFrame], name: str) -> Figure:
     ratios = {variant: rows["us_per_ray"] / rows["us_per_ray"].mean() for variant, rows in variants.items()}
     every = np.concatenate([ratio.to_numpy() for ratio in ratios.values()])
     reach = max(1.1, float(every.max()), float(1 / every.min()))
     axis = ErrorAxis.of(of.rows["error_max"].dropna())
     lines = -(-len(variants) // ACROSS)
-    line, below, above = 1.42, 0.5, 0.05
+    line, below, above = 1.12, 0.5, 0.05
     height = above + line * lines + below
     with matplotlib.rc_context(RC):
         drawing = Drawing(figsize=(WIDE, height))
@@ -220,9 +227,8 @@ def _told_errors(rows: pd.DataFrame, wrong: NDArray[np.float64]) -> str:
 def _scales(drawing: Drawing, times: Limits, errors: Limits, height: float) -> None:
     """The two colour bars below the maps, and a cross's key."""
     reach = 10.0 ** times[1]
-    ratios = [
-        level for level in (0.1, 0.2, 0.5, 0.7, 0.9, 1.0, 1.1, 1.4, 2.0, 5.0, 10.0) if 1 / reach <= level <= reach
-    ]
+    levels = (0.7, 0.8, 0.9, 1.0, 1.1, 1.25, 1.4) if reach < 1.6 else (0.1, 0.2, 0.3, 0.5, 0.7, 1.0, 1.4, 2.0, 3.0, 5.0)
+    ratios = [level for level in levels if 1 / reach <= level <= reach]
     steps = range(int(errors[0]), int(errors[1]) + 1, max(1, round((errors[1] - errors[0]) / 6)))
     for left, limits, cmap, title, ticks in (
         (0.1, times, TIME_MAP, "time per ray in the domain over its mean", [(math.log10(r), f"{r:g}") for r in ratios]),

@@ -15,9 +15,9 @@ EXPLANATION = (
     "Every surface, device, precision and size that was timed from at least three views of one set. The spread is the "
     "standard deviation over the mean, as in toledo2007, Table 1. There it is of frames per second × pixels of the "
     "bounding box, the rays that a method is called for; that is “rays in the domain” here. “Rays cast” counts every "
-    "pixel of the picture, “rays that hit” those that the surface covers. Views are timed one after the other, "
-    "so that the machine's own drift adds to every spread: the method null, which does nothing but be called, shows it "
-    "where it runs. Elsewhere in this report the first view stands for a set of angles or directions."
+    "pixel of the picture, “rays that hit” those that the surface covers. The views of a set are timed interleaved, so "
+    "that the machine's drift cancels; what spread the method null has in rays cast, which cost it the same from "
+    "everywhere, is noise. Elsewhere in this report the first view stands for a set of angles or directions."
 )
 
 
@@ -31,7 +31,12 @@ def sections(frame: pd.DataFrame, marks: Mapping[str, Mark]) -> list[Section]:
         tabled += filter(None, (viewstats.dependence(of), viewstats.wrong_rays(of)))
     made = [Section("View dependence", tuple(tabled), wide=True)]
     lines = [viewplots.over_angle(of, marks, f"angles-{i}") for i, of in enumerate(sets) if of.kind == ANGLES]
-    maps = [viewplots.over_directions(of, f"sphere-{i}") for i, of in enumerate(sets) if of.kind == DIRECTIONS]
+    maps = [
+        figure
+        for i, of in enumerate(sets)
+        if of.kind == DIRECTIONS
+        for figure in viewplots.over_directions(of, f"sphere-{i}")
+    ]
     made += [Section("View dependence: over the projection angle", tuple(lines))] if lines else []
     made += [Section("View dependence: over the sphere of directions", tuple(maps), wide=True)] if maps else []
     return made
