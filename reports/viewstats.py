@@ -100,6 +100,7 @@ def dependence(of: ViewSet) -> Table:
             (
                 variant,
                 *rates,
+                float(((rows["upper_ms"] - rows["lower_ms"]) / (2 * rows["median_ms"])).max()),
                 slow["view"],
                 float(slow["us_per_ray"] / rows["us_per_ray"].mean()),
                 None if worst is None else worst["view"],
@@ -120,6 +121,7 @@ def dependence(of: ViewSet) -> Table:
         (
             Column("variant", stretch=1),
             *rate_columns,
+            Column("noise,\n±", wording.share, numeric=True),
             Column("view", over="slowest per ray"),
             Column("over\nmean", wording.factor, numeric=True, over="slowest per ray"),
             Column("view", over="worst error"),
@@ -131,7 +133,8 @@ def dependence(of: ViewSet) -> Table:
         ),
         body,
         f"View dependence over {len(of.views)} {_name(of)}: {of.place}.",
-        "The most view-dependent first, by the spread of rays in the domain per second.",
+        "The most view-dependent first, by the spread of rays in the domain per second. A spread says something of the "
+        "method only where it is well above the noise: half the 95 % interval of the median, in the view where it is widest.",
     )
 
 
