@@ -66,7 +66,7 @@ class Config:
     """An experiment: methods × surfaces × views × sizes × samples × stages × precisions × devices, and, untimed,
     methods × families of hard rays × precisions × devices. `surfaces` and `families` may be ["all"].
 
-    `studies` are computations of harness.studies. With `include`, a list of other configs' files, it holds nothing else:
+    `studies` are computations of harness.studies. With `include`, a list of config files, it holds nothing else:
     each of them is run into its own folder, and one report collects them.
     """
 

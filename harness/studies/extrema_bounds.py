@@ -3,7 +3,7 @@
 The paper: "curves with random coefficients in [0, 1], averaging the statistics over 100 curves", errors "normalised by
 the magnitude of the extremum". That recipe does not give its figures: the LU bound is exact at degree 2, where the
 paper prints 28.54 %. So further readings are computed beside it. Extrema are the least and largest of SAMPLES values
-and of the parabola through the three around each, which is off by less than 1e-6 of the function's range.
+and of the parabola through the three around each, which is off by some 1e-6 of the function's range.
 """
 
 from __future__ import annotations
