@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import zipfile
 import zlib
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -24,6 +25,7 @@ class Arrays:
     grazing: NDArray[np.bool_]
     shade: NDArray[np.float32]  # cosine towards the camera; NaN on background
     condition: NDArray[np.float32] | None = None  # of the first root; NaN without one; None in older runs
+    evaluations: NDArray[np.int32] | None = None
 
 
 NEEDED = ("truth", "error", "wrong", "grazing", "shade")
@@ -34,8 +36,7 @@ def read(path: Path) -> Arrays:
     try:
         with np.load(path, allow_pickle=False) as file:
             named = {name: file[name] for name in NEEDED}
-            if "condition" in file:
-                named["condition"] = file["condition"]
+            named |= {name: file[name] for name in ("condition", "evaluations") if name in file}
     except (KeyError, EOFError, zipfile.BadZipFile, zlib.error) as error:
         raise ValueError(f"damaged: {error}") from error
     shapes = {array.shape for array in named.values()}
@@ -46,16 +47,16 @@ def read(path: Path) -> Arrays:
 
 @dataclass(frozen=True)
 class Shelf:
-    """The arrays of a run; files that could not be used are noted as they are met."""
+    """The arrays of a run or several; files that could not be used are noted as they are met."""
 
-    folder: Path
+    folders: Mapping[str, Path]  # by the name of the run
     damaged: dict[str, Unreadable] = field(default_factory=dict)  # by file
 
     def get(self, row: Any) -> Arrays | None:
         """The arrays of a row of the frame; None where its file is damaged or gone."""
         file = f"arrays/{row.key}.npz"
         try:
-            return read(self.folder / file)
+            return read(self.folders[row.run] / file)
         except (OSError, ValueError) as error:
             self.damaged[file] = Unreadable(file, f"{problem(error)} ({row.slot})")
             return None

@@ -32,11 +32,22 @@ def galleries(shelf: Shelf, frame: pd.DataFrame) -> dict[str, Gallery]:
             if arrays is not None:
                 picked.setdefault(str(surface), []).append((row, arrays))
     scale = _scale([arrays for cells in picked.values() for _, arrays in cells])
-    legend = plots.error_legend(*scale)
-    return {
-        surface: Gallery(tuple(_panel(row, arrays, scale) for row, arrays in cells), _caption(cells[0][0]), legend)
-        for surface, cells in picked.items()
-    }
+    return {surface: _gallery(cells, scale, _caption(cells[0][0])) for surface, cells in picked.items()}
+
+
+def gallery(shelf: Shelf, rows: pd.DataFrame, caption: str, name: str) -> Gallery | None:
+    """Every row of `rows` that has pictures, in its order; `name` sets these pictures apart from others of the rows."""
+    cells = [(row, arrays) for row in rows.itertuples() if (arrays := shelf.get(row)) is not None]
+    if not cells:
+        return None
+    return _gallery(cells, _scale([arrays for _, arrays in cells]), caption, f"{name}-", titled=True)
+
+
+def _gallery(
+    cells: list[tuple[Any, Arrays]], scale: tuple[int, int], caption: str, name: str = "", titled: bool = False
+) -> Gallery:
+    panels = tuple(_panel(row, arrays, scale, name, titled) for row, arrays in cells)
+    return Gallery(panels, caption, plots.error_legend(*scale))
 
 
 def _scale(every: list[Arrays]) -> tuple[int, int]:
@@ -48,18 +59,18 @@ def _scale(every: list[Arrays]) -> tuple[int, int]:
     return max(math.floor(math.log10(low)), highest - WIDEST_SCALE), highest
 
 
-def _panel(row: Any, arrays: Arrays, scale: tuple[int, int]) -> Panel:
+def _panel(row: Any, arrays: Arrays, scale: tuple[int, int], prefix: str, titled: bool) -> Panel:
     name = f"{row.variant}, {row.precision}"
     pictures = (
-        Picture(f"{row.key}-shade", _png(shaded(arrays)), f"{row.surface_title} drawn by {name}"),
-        Picture(f"{row.key}-error", _png(error_map(arrays, scale)), f"Errors of {name} on {row.surface_title}"),
+        Picture(f"{prefix}{row.key}-shade", _png(shaded(arrays)), f"{row.surface_title} drawn by {name}"),
+        Picture(f"{prefix}{row.key}-error", _png(error_map(arrays, scale)), f"Errors of {name} on {row.surface_title}"),
     )
     counts = zip((row.misses, row.false_hits, row.exhausted, row.wrong_root), style.WRONG, strict=True)
     wrong = ", ".join(f"{kind.title} {n:,}" for n, kind in counts if not wording.absent(n) and n > 0)
     note = f"max {wording.error(row.error_max)} · {wrong or 'no wrong ray'}"
     if not wording.absent(row.grazing_wrong_rays) and row.grazing_wrong_rays > 0:
         note += f" · {wording.count(row.grazing_wrong_rays)} grazing"
-    return Panel(name, pictures, note)
+    return Panel(f"{row.surface_title}: {name}" if titled else name, pictures, note)
 
 
 def _caption(row: Any) -> str:

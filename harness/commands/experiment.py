@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from harness import config, console, plan, stability, studies
+from harness.cards import card
 from harness.contract import CellStatus, DeviceInfo, FirsthitError
 from harness.environment import describe, probed
 from harness.executor import LocalExecutor, discover_devices
@@ -135,6 +136,7 @@ def _run_one(
                 "cells": [{"slot": p.cell.slot, "key": p.key} for p in planned if not p.cell.family],
                 "families": [{"slot": p.cell.slot, "key": p.key} for p in planned if p.cell.family],
                 "family_facts": {name: stability.facts(name) for name in experiment.config.families},
+                "methods": {v.method: card(catalog.get(v.method)) for v in experiment.variants},
                 "studies": [{"study": name, "key": studies.key(name)} for name in experiment.config.studies],
             }
         )
