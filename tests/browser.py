@@ -21,6 +21,12 @@ def found() -> str | None:
     return next(filter(None, map(shutil.which, NAMES)), None)
 
 
+def _as_pipe(to_read: int, to_write: int) -> None:
+    """In the child: the file descriptors at which chromium looks for its pipe."""
+    os.dup2(to_read, 3)
+    os.dup2(to_write, 4)
+
+
 class Browser:
     """One headless tab. `problems` holds what the page's console called an error, and uncaught exceptions."""
 
@@ -40,7 +46,7 @@ class Browser:
             stdout=self._log,
             stderr=self._log,
             close_fds=False,
-            preexec_fn=lambda: (os.dup2(held[0], 3), os.dup2(held[1], 4)) and None,
+            preexec_fn=lambda: _as_pipe(*held),
         )
         for fd in (to_read, to_write, *held):
             os.close(fd)
