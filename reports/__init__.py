@@ -47,3 +47,24 @@ def build(run: Path) -> Path:
     except OSError as error:
         raise FirsthitError(f"cannot write the report into {run}: {error.strerror or error}", exit_code=3) from error
     return run / "report.pdf"
+
+
+def compare(a: Path, b: Path) -> Path:
+    """Write what changed from run `a` to run `b` into the folder `a`, as against-….pdf and .html; the path of the PDF.
+
+    Raises FirsthitError where either is no run folder, they have nothing in common or `a` cannot be written to.
+    """
+    from reports import against, document, html, load
+
+    content = against.report(load.load(a), load.load(b))
+    stem = against.name_of(a, b)
+    try:
+        with tempfile.TemporaryDirectory(prefix=".report-", dir=a) as name:
+            made = Path(name)
+            document.write_pdf(content, made / "pdf", made / f"{stem}.pdf", "")
+            html.write_html(content, {}, made / f"{stem}.html")
+            for ending in ("html", "pdf"):
+                (made / f"{stem}.{ending}").replace(a / f"{stem}.{ending}")
+    except OSError as error:
+        raise FirsthitError(f"cannot write the report into {a}: {error.strerror or error}", exit_code=3) from error
+    return a / f"{stem}.pdf"

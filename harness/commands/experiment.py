@@ -46,8 +46,13 @@ def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -
     parser.add_argument("--runs", type=Path, default=Path("runs"), metavar="DIR", help="where to look (default: runs)")
     parser.set_defaults(run=_why)
 
-    parser = add("report", "make the PDF, CSV and Parquet of a run; runs nothing", "firsthit report runs/quick")
+    parser = add(
+        "report",
+        "make the PDF, HTML, CSV and Parquet of a run, or hold two runs against each other; runs nothing",
+        "firsthit report runs/quick",
+    )
     parser.add_argument("folder", type=Path, metavar="RUN", help="a folder below runs/")
+    parser.add_argument("other", type=Path, metavar="OTHER", nargs="?", help="report what changed from RUN to OTHER")
     parser.set_defaults(run=_report)
 
 
@@ -201,7 +206,7 @@ def _report(options: argparse.Namespace) -> int:
     try:
         import reports
 
-        print(reports.build(options.folder))
+        print(reports.compare(options.folder, options.other) if options.other else reports.build(options.folder))
     except ModuleNotFoundError as error:
         message = (
             f"a report needs the package {error.name}: pip install 'firsthit[report]'; runs/ can be copied elsewhere"
