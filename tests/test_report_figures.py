@@ -94,3 +94,12 @@ def test_a_key_takes_no_more_room_than_there_is() -> None:
     long = drawing.Key([None] * 3, ["x" * 50, "y" * 40, "z" * 40], 7.0)
     assert long._columns == 2, "two lines in the first column, one in the second"
     assert long.height == drawing.Key([None] * 2, ["x" * 100, "y" * 100], 7.0).height
+
+
+def test_every_method_of_the_suite_has_a_marker_of_its_own() -> None:
+    folders = (Path(style.__file__).parent.parent / "methods").glob("*/method.py")
+    names = sorted(path.parent.name for path in folders)
+    assert set(names) <= set(style._HOUSE)
+    markers = [mark.marker for mark in style._HOUSE.values()]
+    assert len(markers) == len(set(markers))
+    assert style.marks(["newton"])["newton"] == style.marks(names)["newton"], "the same in every report"
