@@ -3,10 +3,14 @@ PYTHON ?= python3
 BIN := .venv/bin
 READY := .venv/ready
 
-.PHONY: quick test check format clean
+.PHONY: quick papers test check format clean
 quick: $(READY)
 	$(BIN)/firsthit run configs/quick.toml
 	$(BIN)/firsthit report runs/quick
+
+papers: $(READY)
+	$(BIN)/firsthit run configs/papers.toml
+	$(BIN)/firsthit report runs/papers
 
 test: $(READY)
 	$(BIN)/python -m pytest -q

@@ -1,12 +1,22 @@
 #!/bin/sh
 # Installs the drivers that no Python package brings, where they are missing and it may: Mesa's software OpenGL, and
 # Debian's PoCL where the wheel's compiler does not know this processor. Otherwise says in one line what is missing.
+# With "chromium" as a second word, that browser instead, which drives the report's HTML page in the tests.
 python=$1
 
 may_install() { # run "$@" as root, if that is possible without asking
     command -v apt-get >/dev/null || return 1
     if [ "$(id -u)" = 0 ]; then "$@"; else sudo -n "$@"; fi
 }
+
+if [ "$2" = chromium ]; then
+    command -v chromium >/dev/null && exit 0
+    echo "no chromium; installing it"
+    may_install apt-get -qq update >/dev/null 2>&1 &&
+        may_install env DEBIAN_FRONTEND=noninteractive apt-get -qq install -y --no-install-recommends chromium >/dev/null 2>&1
+    command -v chromium >/dev/null || echo "chromium is missing: install it; tests that drive a browser are skipped."
+    exit 0
+fi
 
 has() { # has NAME: is there a usable device of that name?
     "$python" -m harness.cli list devices 2>/dev/null | grep "^$1" | grep -q 'usable$'

@@ -64,10 +64,16 @@ class BudgetChoice:
 @dataclass(frozen=True)
 class Config:
     """An experiment: methods × surfaces × views × sizes × samples × stages × precisions × devices, and, untimed,
-    methods × families of hard rays × precisions × devices. `surfaces` and `families` may be ["all"]."""
+    methods × families of hard rays × precisions × devices. `surfaces` and `families` may be ["all"].
+
+    `studies` are computations of harness.studies. With `include`, a list of config files, it holds nothing else:
+    each of them is run into its own folder, and one report collects them.
+    """
 
     title: str
-    method: list[MethodChoice]
+    include: list[str] = field(default_factory=list)
+    studies: list[str] = field(default_factory=list)
+    method: list[MethodChoice] = field(default_factory=list)
     surfaces: list[str] = field(default_factory=list)
     families: list[str] = field(default_factory=list)
     view: list[View] = field(default_factory=list)  # those of `angles` and `directions` are added; default: one view
@@ -96,6 +102,7 @@ class Experiment:
     surfaces: tuple[Surface, ...]
     precisions: tuple[Precision, ...]
     stages: tuple[Stage, ...]
+    included: tuple[Path, ...] = ()  # of a config that includes others
 
 
 Where = tuple[str | int, ...]
@@ -248,10 +255,25 @@ def _sweep(choice: MethodChoice) -> list[Mapping[str, float]]:
     return list(grid)
 
 
+def _collection(path: Path, text: str, config: Config, table: dict[str, Any], source: _Source) -> Experiment:
+    """The experiment of a config that includes others, named relative to its own folder."""
+    if more := [key for key in table if key not in ("title", "include")]:
+        raise source.error(
+            (more[0],), f"{more[0]} cannot stand beside include; put it into one of the configs included"
+        )
+    paths = [path.parent / name for name in config.include]
+    for i, included in enumerate(paths):
+        if not included.is_file():
+            raise source.error(("include", i), f"include: there is no config {included}")
+        if paths.index(included) < i:
+            raise source.error(("include", i), f"include: {config.include[i]!r} is named twice")
+    return Experiment(path.stem, path, text, config, (), (), (), (), tuple(paths))
+
+
 def load(path: Path, catalog: Catalog) -> Experiment:
     """Read and resolve a config. Raises FirsthitError with file and line for anything wrong in it."""
     import surfaces
-    from harness import hardcases
+    from harness import hardcases, studies
 
     try:
         text = path.read_text(encoding="utf-8")
@@ -264,10 +286,15 @@ def load(path: Path, catalog: Catalog) -> Experiment:
     except tomllib.TOMLDecodeError as error:
         raise FirsthitError(f"{path}: not valid TOML: {error}") from None
     config: Config = _read_table(Config, table, (), source)
+    if config.include:
+        return _collection(path, text, config, table, source)
     _positive(config, source)
     config = _with_view_sets(config)
-    if not config.surfaces and not config.families:
-        raise source.error((), "name surfaces to draw, or families of hard rays, or both")
+    if not config.surfaces and not config.families and not config.studies:
+        raise source.error((), "name surfaces to draw, or families of hard rays, or studies, or some of each")
+    if (config.surfaces or config.families) and not config.method:
+        raise source.error((), "the top level lacks 'method'")
+    _known(config.studies, studies.NAMES, "studies", source)
     if config.families == ["all"]:
         config = dataclasses.replace(config, families=list(hardcases.names()))
     _known(config.families, hardcases.names(), "families", source)

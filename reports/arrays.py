@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import zipfile
 import zlib
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -46,16 +47,16 @@ def read(path: Path) -> Arrays:
 
 @dataclass(frozen=True)
 class Shelf:
-    """The arrays of a run; files that could not be used are noted as they are met."""
+    """The arrays of a run or several; files that could not be used are noted as they are met."""
 
-    folder: Path
+    folders: Mapping[str, Path]  # by the name of the run
     damaged: dict[str, Unreadable] = field(default_factory=dict)  # by file
 
     def get(self, row: Any) -> Arrays | None:
         """The arrays of a row of the frame; None where its file is damaged or gone."""
         file = f"arrays/{row.key}.npz"
         try:
-            return read(self.folder / file)
+            return read(self.folders[row.run] / file)
         except (OSError, ValueError) as error:
             self.damaged[file] = Unreadable(file, f"{problem(error)} ({row.slot})")
             return None

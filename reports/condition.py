@@ -20,7 +20,7 @@ from harness.contract import UNIT_ROUNDOFF
 from reports import derive, style, wording
 from reports.arrays import Shelf
 from reports.content import Block, Figure, Section, Text
-from reports.drawing import LINE, NARROW, RC, ErrorAxis, Key, line_of, svg
+from reports.drawing import LINE, NARROW, RC, ErrorAxis, Key, line_of, series, svg
 from reports.style import Mark
 
 BINS = 12  # of equal width in the logarithm of the condition, over the range that a surface has
@@ -41,6 +41,7 @@ EXPLANATION = (
 class Cloud:
     """The rays of one row that hit the right root."""
 
+    method: str
     variant: str
     precision: str
     condition: NDArray[np.float64]  # [n]
@@ -77,7 +78,7 @@ def _cloud(shelf: Shelf, row: Any) -> Cloud | None:
     if wording.absent(radius) or not known.any():
         return None
     condition, error = (array[known].astype(np.float64) for array in (arrays.condition, arrays.error))
-    return Cloud(row.variant, row.precision, condition, error / radius)
+    return Cloud(row.method, row.variant, row.precision, condition, error / radius)
 
 
 def _figure(name: str, clouds: list[Cloud], marks: Mapping[str, Mark], row: Any) -> Figure:
@@ -129,8 +130,9 @@ def _draw(axes: Axes, cloud: Cloud, edges: Any, shift: float, axis: ErrorAxis, m
     filled, largest, median = _spread(cloud, edges)
     x = (edges[filled] + edges[filled + 1]) / 2 + shift
     top, middle = axis.position(largest), axis.position(median)
-    axes.vlines(x, middle, top, color=mark.color, lw=0.7, zorder=3)
-    axes.plot(x, top, color=mark.color, marker=mark.marker, ls=mark.line, zorder=4, **LINE)
+    own = series(cloud.method, cloud.variant)
+    axes.vlines(x, middle, top, color=mark.color, lw=0.7, zorder=3, gid=own)
+    axes.plot(x, top, color=mark.color, marker=mark.marker, ls=mark.line, zorder=4, gid=own, **LINE)
 
 
 def _dress(axes: Axes, edges: NDArray[np.float64], axis: ErrorAxis, precision: str) -> None:

@@ -35,7 +35,7 @@ def derive(frame: pd.DataFrame) -> pd.DataFrame:
         total = frame[[prefix + name for name in wrong]].sum(axis=1, min_count=1).astype("Int64")
         frame[f"{prefix}wrong_rays"] = total
     frame["front"] = _front(frame)
-    return frame
+    return frame.copy()  # columns added one by one lie scattered
 
 
 def contenders(frame: pd.DataFrame) -> pd.DataFrame:

@@ -7,9 +7,11 @@ a place; positions on it are decimal exponents.
 from __future__ import annotations
 
 import io
+import json
 import math
 from dataclasses import dataclass
 from typing import Any, Literal
+from urllib.parse import quote
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -43,6 +45,7 @@ RC: dict[Any, Any] = {
     "text.parse_math": False,  # a $ in a name is a $
 }
 LINE: dict[str, Any] = {"lw": 0.8, "ms": 3.6, "mew": 0.8}
+SERIES = "series:"  # opens the id of a group of marks, see `series`
 WIDE, NARROW = 10.4, 7.0  # inches, of the text on a landscape page and on an upright one
 
 
@@ -113,6 +116,14 @@ class Key:
     def draw(self, drawing: Drawing) -> None:
         told: dict[str, Any] = {"ncols": self._columns, "borderaxespad": 0.1, "handlelength": 2.6}
         drawing.legend(self.handles, self.labels, loc="upper center", **told)
+
+
+def series(method: str, *variants: str) -> str:
+    """The id of a line's group in the SVG: its method, and its one variant or the variant of each mark in turn.
+
+    As JSON, percent-encoded: matplotlib writes an id with quotes in it in quotes of another kind.
+    """
+    return SERIES + quote(json.dumps([method, *variants], ensure_ascii=False), safe="")
 
 
 def line_of(mark: Mark) -> Line2D:

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import io
 import math
-from collections.abc import Mapping
-from dataclasses import replace
 from typing import Any
 
 import matplotlib
@@ -18,7 +16,7 @@ from PIL import Image
 from harness.contract import TruthStatus
 from reports import derive, plots, style, wording
 from reports.arrays import Arrays, Shelf
-from reports.content import Gallery, Panel, Picture, Section
+from reports.content import Gallery, Panel, Picture
 
 PIXELS = 480  # pixels are repeated to at least this side, because some viewers blur small pictures
 GRAZING_PALE = 0.55  # how far the colour of a wrong ray fades to white in the grazing class
@@ -34,25 +32,22 @@ def galleries(shelf: Shelf, frame: pd.DataFrame) -> dict[str, Gallery]:
             if arrays is not None:
                 picked.setdefault(str(surface), []).append((row, arrays))
     scale = scale_of([arrays for cells in picked.values() for _, arrays in cells])
-    legend = plots.error_legend(*scale)
-    return {
-        surface: Gallery(tuple(_panel(row, arrays, scale) for row, arrays in cells), _caption(cells[0][0]), legend)
-        for surface, cells in picked.items()
-    }
+    return {surface: _gallery(cells, scale, _caption(cells[0][0])) for surface, cells in picked.items()}
 
 
-def sections(pictures: Mapping[str, Gallery], titles: Mapping[str, str]) -> list[Section]:
-    """A section for each surface, or one for all where each surface has one panel; `titles` by the surface's name."""
-    if len(pictures) < 2 or any(len(gallery.panels) > 1 for gallery in pictures.values()):
-        return [Section(f"Pictures: {titles[surface]}", (gallery,)) for surface, gallery in pictures.items()]
-    panels = [
-        replace(panel, title=f"{titles[surface]}: {panel.title}")
-        for surface, gallery in pictures.items()
-        for panel in gallery.panels
-    ]
-    first = next(iter(pictures.values()))
-    told = first.caption.partition(": ")[2]  # without the one surface that it names
-    return [Section("Pictures", (Gallery(tuple(panels), told[:1].upper() + told[1:], first.legend),))]
+def gallery(shelf: Shelf, rows: pd.DataFrame, caption: str, name: str) -> Gallery | None:
+    """Every row of `rows` that has pictures, in its order; `name` sets these pictures apart from others of the rows."""
+    cells = [(row, arrays) for row in rows.itertuples() if (arrays := shelf.get(row)) is not None]
+    if not cells:
+        return None
+    return _gallery(cells, scale_of([arrays for _, arrays in cells]), caption, f"{name}-", titled=True)
+
+
+def _gallery(
+    cells: list[tuple[Any, Arrays]], scale: tuple[int, int], caption: str, name: str = "", titled: bool = False
+) -> Gallery:
+    panels = tuple(_panel(row, arrays, scale, name, titled) for row, arrays in cells)
+    return Gallery(panels, caption, plots.error_legend(*scale))
 
 
 def scale_of(every: list[Arrays]) -> tuple[int, int]:
@@ -64,18 +59,18 @@ def scale_of(every: list[Arrays]) -> tuple[int, int]:
     return max(math.floor(math.log10(low)), highest - WIDEST_SCALE), highest
 
 
-def _panel(row: Any, arrays: Arrays, scale: tuple[int, int]) -> Panel:
+def _panel(row: Any, arrays: Arrays, scale: tuple[int, int], prefix: str, titled: bool) -> Panel:
     name = f"{row.variant}, {row.precision}"
     pictures = (
-        Picture(f"{row.key}-shade", png(shaded(arrays)), f"{row.surface_title} drawn by {name}"),
-        Picture(f"{row.key}-error", png(error_map(arrays, scale)), f"Errors of {name} on {row.surface_title}"),
+        Picture(f"{prefix}{row.key}-shade", png(shaded(arrays)), f"{row.surface_title} drawn by {name}"),
+        Picture(f"{prefix}{row.key}-error", png(error_map(arrays, scale)), f"Errors of {name} on {row.surface_title}"),
     )
     counts = zip((row.misses, row.false_hits, row.exhausted, row.wrong_root), style.WRONG, strict=True)
     wrong = ", ".join(f"{kind.title} {n:,}" for n, kind in counts if not wording.absent(n) and n > 0)
     note = f"max {wording.error(row.error_max)} · {wrong or 'no wrong ray'}"
     if not wording.absent(row.grazing_wrong_rays) and row.grazing_wrong_rays > 0:
         note += f" · {wording.count(row.grazing_wrong_rays)} grazing"
-    return Panel(name, pictures, note)
+    return Panel(f"{row.surface_title}: {name}" if titled else name, pictures, note)
 
 
 def _caption(row: Any) -> str:

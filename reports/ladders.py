@@ -13,7 +13,7 @@ from matplotlib.ticker import PercentFormatter
 
 from reports import style, wording
 from reports.content import Figure
-from reports.drawing import LINE, NARROW, RC, Key, line_of, svg
+from reports.drawing import LINE, NARROW, RC, Key, line_of, series, svg
 from reports.load import Facts
 from reports.style import Mark
 
@@ -66,7 +66,8 @@ def _draw(axes: Axes, rows: pd.DataFrame, variants: list[str], marks: Mapping[st
     for i, variant in enumerate(variants):
         own, mark = rows[rows["variant"] == variant].sort_values("level"), marks[variant]
         x = own["level"].astype(float) + DODGE * ((i + 0.5) / len(variants) - 0.5)
-        look = {"color": mark.color, "marker": mark.marker, **LINE}
+        method = str(own["method"].iloc[0]) if len(own) else variant
+        look = {"color": mark.color, "marker": mark.marker, "gid": series(method, variant), **LINE}
         axes.plot(x, own["share_right"], ls=mark.line, zorder=3, **look)
         blind = own[(own["decided"] == 0) & (own["undecidable"] > 0)]
         share = blind["undecidable_right"].astype(float) / blind["undecidable"].astype(float)

@@ -42,6 +42,9 @@ class Plan:
     devices: tuple[Mapping[str, Any], ...]
     slots: Mapping[str, str]  # key → slot of every cell, in the plan's order; families after views
     facts: Mapping[str, Facts]  # by family, in the plan's order
+    studies: Mapping[str, str]  # name → key
+    methods: Mapping[str, Mapping[str, Any]]  # what the methods say of themselves, by name
+    include: tuple[str, ...]  # run folders beside this one that its report collects
 
 
 @dataclass(frozen=True)
@@ -63,11 +66,22 @@ class Run:
     rungs: pd.DataFrame  # RUNG: one row for each rung of the latter
     unreadable: tuple[Unreadable, ...]
     not_run: tuple[str, ...]  # slots
+    studies: Mapping[str, list[dict[str, Any]]]  # rows by study
+    folders: Mapping[str, Path]  # by the name of the run; several where this one collects others
 
 
 def load(folder: Path) -> Run:
-    """The run in `folder`; a FirsthitError where that is no run folder or holds no finished cell."""
+    """The run in `folder`, or those it collects; a FirsthitError where it is no run folder or nothing is finished."""
     plan = _plan(folder)
+    if plan.include:
+        from reports import collect
+
+        return collect.load(folder, plan)
+    return load_one(folder, plan)
+
+
+def load_one(folder: Path, plan: Plan) -> Run:
+    """What the cells that `plan` names say."""
     rows: list[tuple[Any, ...]] = []
     families: list[tuple[Any, ...]] = []
     rungs: list[tuple[Any, ...]] = []
@@ -76,7 +90,7 @@ def load(folder: Path) -> Run:
     for key, slot in plan.slots.items():
         path = folder / "cells" / f"{key}.json"
         try:
-            document = _cell(path, key)
+            document = _cell(path, key) | {"run": plan.name}
             if document.get("family") is None:
                 rows.append(flatten(SCHEMA, document))
             else:
@@ -87,11 +101,20 @@ def load(folder: Path) -> Run:
             not_run.append(slot)
         except (OSError, ValueError, RecursionError) as error:
             unreadable.append(Unreadable(f"cells/{path.name}", f"{problem(error)} ({slot})"))
-    if not rows and not families:
+    studies: dict[str, list[dict[str, Any]]] = {}
+    for name, key in plan.studies.items():
+        path = folder / "studies" / f"{key}.json"
+        try:
+            studies[name] = _study(path)
+        except FileNotFoundError:
+            not_run.append(f"study {name}")
+        except (OSError, ValueError, RecursionError) as error:
+            unreadable.append(Unreadable(f"studies/{path.name}", f"{problem(error)} ({name})"))
+    if not rows and not families and not studies:
         damaged = f" ({len(unreadable)} are unreadable: {unreadable[0].problem})" if unreadable else ""
         raise FirsthitError(f"{folder} holds no finished cell{damaged}; run `{plan.command}` first")
     frames = (store.frame(SCHEMA, rows), store.frame(FAMILY, families), store.frame(RUNG, rungs))
-    return Run(folder, plan, *frames, tuple(unreadable), tuple(not_run))
+    return Run(folder, plan, *frames, tuple(unreadable), tuple(not_run), studies, {plan.name: folder})
 
 
 def _ladder(document: dict[str, Any], facts: Mapping[str, Facts]) -> list[tuple[Any, ...]]:
@@ -116,6 +139,13 @@ def _cell(path: Path, key: str) -> dict[str, Any]:
     return document
 
 
+def _study(path: Path) -> list[dict[str, Any]]:
+    rows: list[dict[str, Any]] = _typed(_json_object(path), "rows", list)
+    if not all(isinstance(row, dict) for row in rows):
+        raise ValueError("a row is no object")
+    return rows
+
+
 def _plan(folder: Path) -> Plan:
     path = folder / "plan.json"
     if not folder.is_dir():
@@ -134,7 +164,22 @@ def _plan(folder: Path) -> Plan:
                 raise ValueError(f"{key!r:.40} is no cell key")
         devices = tuple(_typed({"device": device}, "device", dict) for device in _typed(document, "devices", list))
         environment = _typed(document, "environment", dict)
-        return Plan(**texts, environment=environment, devices=devices, slots=dict(cells), facts=facts)
+        stored = _typed({"studies": [], **document}, "studies", list)
+        studies = {_typed(study, "study", str): _typed(study, "key", str) for study in stored}
+        include = tuple(_typed({"include": [], **document}, "include", list))
+        for name in (*studies.values(), *include):
+            if not isinstance(name, str) or Path(name).name != name:  # it becomes a file's or a folder's name
+                raise ValueError(f"{name!r:.40} is no name")
+        stated = _typed({"methods": {}, **document}, "methods", dict)
+        methods = {name: _typed(stated, name, dict) for name in stated}
+        told = {
+            "environment": environment,
+            "methods": methods,
+            "devices": devices,
+            "slots": dict(cells),
+            "facts": facts,
+        }
+        return Plan(**texts, **told, studies=studies, include=include)
     except FileNotFoundError as error:
         raise FirsthitError(f"{folder} is no run folder: it has no plan.json; name a folder under runs/") from error
     except (OSError, ValueError, RecursionError) as error:

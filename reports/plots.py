@@ -18,7 +18,7 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullLocat
 
 from reports import derive, style, wording
 from reports.content import Figure
-from reports.drawing import NARROW, RC, WIDE, ErrorAxis, Key, svg
+from reports.drawing import NARROW, RC, WIDE, ErrorAxis, Key, series, svg
 from reports.style import Mark
 
 PANELS_ACROSS = 5
@@ -64,7 +64,8 @@ def overview(frame: pd.DataFrame, marks: Mapping[str, Mark], titles: Mapping[str
             for method, own in group.groupby("method"):
                 mark = marks[str(method)]
                 places = own["comparison"].map(scenes.index)
-                axes.plot(own["mrays_per_s"], places, color=mark.color, marker=mark.marker, ms=4.5, lw=0)
+                look = {"color": mark.color, "marker": mark.marker, "ms": 4.5, "lw": 0}
+                axes.plot(own["mrays_per_s"], places, gid=series(str(method), *own["variant"]), **look)
         for axes, device in zip(panels[0], devices, strict=True):
             axes.set_title(device, color=style.INK)
         for axes, precision in zip(panels[:, 0], precisions, strict=True):
@@ -147,10 +148,12 @@ def _draw_group(axes: Axes, group: pd.DataFrame, axis: ErrorAxis, marks: Mapping
     for method, rows in x.sort_index().groupby(group["method"]):  # a knob's settings joined in the plan's order
         mark = marks[str(method)]
         look: dict[str, Any] = {"color": mark.color, "marker": mark.marker, "ms": 4.5, "mew": 0.9, "zorder": 4}
-        axes.plot(rows, y[rows.index], lw=0.5, **look)
+        names = group["variant"][rows.index]
+        axes.plot(rows, y[rows.index], lw=0.5, gid=series(str(method), *names), **look)
         hollow = rows[~right[rows.index]]
         if len(hollow):
-            axes.plot(hollow, y[hollow.index], lw=0, markerfacecolor=style.PAPER, **look)
+            own = series(str(method), *names[hollow.index])
+            axes.plot(hollow, y[hollow.index], lw=0, markerfacecolor=style.PAPER, gid=own, **look)
     front = x[group["front"].astype(bool)].sort_values()
     if len(front):  # drawn down from its most exact row and right from its fastest, for what these two beat
         ends, speeds = (front.iloc[0], front.iloc[-1] + 99), y[front.index]

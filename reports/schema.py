@@ -39,7 +39,7 @@ UNITS = (
 )
 
 SCHEMA: tuple[Field, ...] = (
-    *_fields("text", "key slot comparison method variant", required=True),
+    *_fields("text", "run key slot comparison method variant", required=True),  # `run` is the plan's name
     *_fields("json", "parameters"),
     *_fields("text", "surface surface_title", required=True),
     *_fields("text", "formula"),
@@ -81,7 +81,7 @@ DERIVED: tuple[Field, ...] = (
 
 
 FAMILY: tuple[Field, ...] = (
-    *_fields("text", "key slot family method variant", required=True),
+    *_fields("text", "run key slot family method variant", required=True),
     *_fields("json", "parameters"),
     *_fields("text", "precision device status", required=True),
     *_fields("text", "reason"),

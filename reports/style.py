@@ -1,6 +1,7 @@
 """The visual language: a colour and marker for each method, a line for its variant, a colour for a kind of wrong ray.
 
-Colours are Okabe and Ito's, which the colour-blind can tell apart; markers carry the same distinction in greyscale.
+Colours are Okabe and Ito's, which the colour-blind can tell apart. There are more methods than colours, so that each of
+the suite's own has a marker that no other has: it tells them apart in greyscale too.
 """
 
 from __future__ import annotations
@@ -37,12 +38,14 @@ _HOUSE: dict[str, Mark] = {
     "sphere_tracing": Mark(_SKY, "h"),
     "analytic": Mark(_VERMILLION, "P"),
     "yuksel": Mark(_YELLOW, "^"),
-    "eft_yuksel": Mark(_VERMILLION, "^"),
+    "eft_yuksel": Mark(_VERMILLION, ">"),
     "lu_lipschitz": Mark(_GREEN, "<"),
-    "sphere_tracing_lipschitz": Mark(_GREEN, "h"),
-    "interval_march": Mark(_VERMILLION, "d"),
-    "interval_uniform": Mark(_SKY, "d"),
+    "sphere_tracing_lipschitz": Mark(_PURPLE, "X"),
+    "interval_march": Mark(_BLUE, "d"),
+    "interval_uniform": Mark(_ORANGE, "p"),
     "interval_adaptive": Mark(_BLUE, "*"),
+    "bernstein": Mark(_GREEN, "H"),
+    "polygon": Mark(_GREY, "8"),
 }
 _SPARE_COLORS = (_PURPLE, _GREEN, _VERMILLION, _SKY, _ORANGE, _BLUE, _YELLOW)
 _SPARE_MARKERS = ("p", ">", "X", "8", "H", "D", "v", "s")  # 7 and 8 have no common factor: 56 different pairs

@@ -28,7 +28,9 @@ def places(frame: pd.DataFrame) -> dict[str, str]:
         parts += [picture_size(row)] if several & {"size", "samples_per_pixel"} else []
         parts += [row.stage] if "stage" in several else []
         named[str(row.comparison)] = ", ".join(parts)
-    return named
+    runs = dict(zip(frame["comparison"], frame["run"], strict=True))
+    shared = Counter(named.values())
+    return {scene: f"{name} ({runs[scene]})" if shared[name] > 1 else name for scene, name in named.items()}
 
 
 def picture_size(row: Any) -> str:

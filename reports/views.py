@@ -17,7 +17,8 @@ EXPLANATION = (
     "bounding box, the rays that a method is called for; that is “rays in the domain” here. “Rays cast” counts every "
     "pixel of the picture, “rays that hit” those that the surface covers. The views of a set are timed interleaved, so "
     "that the machine's drift cancels; what spread the method null has in rays cast, which cost it the same from "
-    "everywhere, is noise. Elsewhere in this report the first view stands for a set of angles or directions."
+    "everywhere, is noise. Elsewhere in this report its first view stands for a set of "
+    f"more than {viewstats.MOST_LISTED}."
 )
 
 

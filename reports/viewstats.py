@@ -13,6 +13,7 @@ from reports import tables, wording
 from reports.content import Column, Table
 
 FEWEST = 3  # views that make a set
+MOST_LISTED = 8  # views of a set that are listed one by one where scenes are
 SCENE = ["surface", "view_set", "device", "precision", "size", "samples_per_pixel", "stage"]
 ANGLES, DIRECTIONS, NAMED = "angles", "directions", "named views"
 RATES = {"cast": "rays cast", "inside": "rays in the domain", "covered": "rays that hit"}
@@ -59,10 +60,10 @@ def view_sets(frame: pd.DataFrame) -> list[ViewSet]:
 
 
 def one_view_of_each(frame: pd.DataFrame) -> pd.DataFrame:
-    """Without all but the first view of every generated set, which stands for it where scenes are listed one by one."""
-    generated = frame["view_set"].isin([ANGLES, DIRECTIONS])
-    first = frame.groupby(["surface", "view_set"], dropna=False)["view"].transform("first")
-    return frame[~generated | (frame["view"] == first)]
+    """Of a set of more than MOST_LISTED views only the first, for what lists scenes one by one."""
+    views = frame.groupby(["surface", "view_set"], dropna=False)["view"]
+    large = frame["view_set"].notna() & (views.transform("nunique") > MOST_LISTED)
+    return frame[~large | (frame["view"] == views.transform("first"))]
 
 
 def _with_rates(rows: pd.DataFrame) -> pd.DataFrame:
@@ -134,7 +135,7 @@ def dependence(of: ViewSet) -> Table:
         body,
         f"View dependence over {len(of.views)} {_name(of)}: {of.place}.",
         "The most view-dependent first, by the spread of rays in the domain per second. A spread says something of the "
-        "method only where it is well above the noise: half the 95 % interval of the median, in the view where it is widest.",
+        "method only well above the noise: half the 95 % interval of the median, in the view where it is widest.",
     )
 
 

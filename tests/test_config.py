@@ -97,4 +97,28 @@ def test_one_variant_under_two_names_is_refused(tmp_path):
     "path", sorted((Path(__file__).parent.parent / "configs").glob("*.toml")), ids=lambda p: p.stem
 )
 def test_our_own_configs_load(path):
-    assert config.load(path, find_methods()).variants
+    experiment = config.load(path, find_methods())
+    assert experiment.variants or experiment.config.studies or experiment.included
+
+
+def test_a_config_may_include_others_and_nothing_else(tmp_path):
+    (tmp_path / "a.toml").write_text(GOOD)
+    experiment = _load(tmp_path, 'title = "all"\ninclude = ["a.toml"]\n')
+    assert experiment.included == (tmp_path / "a.toml",)
+    assert not experiment.variants
+    for text, line, words in (
+        ('title = "all"\ninclude = ["b.toml"]\n', 2, "there is no config"),
+        ('title = "all"\ninclude = ["a.toml", "a.toml"]\n', 2, "named twice"),
+        ('title = "all"\ninclude = ["a.toml"]\nsizes = [8]\n', 3, "cannot stand beside include"),
+    ):
+        with pytest.raises(FirsthitError, match=words) as caught:
+            _load(tmp_path, text)
+        assert f"c.toml:{line}:" in str(caught.value)
+
+
+def test_studies_need_no_method(tmp_path):
+    assert _load(tmp_path, 'title = "t"\nstudies = ["condition_numbers"]\n').config.studies == ["condition_numbers"]
+    with pytest.raises(FirsthitError, match="did you mean 'condition_numbers'"):
+        _load(tmp_path, 'title = "t"\nstudies = ["condition_number"]\n')
+    with pytest.raises(FirsthitError, match="lacks 'method'"):
+        _load(tmp_path, 'title = "t"\nsurfaces = ["sphere"]\n')

@@ -17,17 +17,19 @@ import pytest
 import reports
 from harness.contract import FirsthitError, digest
 from reports import (
+    against,
     arrays,
+    choice,
     content,
     derive,
     document,
     images,
     load,
     schema,
-    sections,
     tables,
     wording,
 )
+from reports.parts import surfaces as surface_pages
 from tests.synthetic_run import cell, plan, printed, reported, tiny_run, troubled, write_run
 
 
@@ -46,11 +48,16 @@ def frame(loaded: load.Run) -> pd.DataFrame:
     return derive.derive(loaded.frame)
 
 
-def test_build_writes_three_files_and_nothing_else(run: Path) -> None:
+def test_build_writes_four_files_and_nothing_else(run: Path) -> None:
     before = {path.name for path in run.iterdir()}
     pdf = reports.build(run)
     assert pdf == run / "report.pdf"
-    assert {path.name for path in run.iterdir()} == before | {"report.pdf", "results.csv", "results.parquet"}
+    assert {path.name for path in run.iterdir()} == before | {
+        "report.pdf",
+        "report.html",
+        "results.csv",
+        "results.parquet",
+    }
     first = pdf.read_bytes()
     assert first.startswith(b"%PDF")
     assert reports.build(run).read_bytes() == first, "the same run must give the same PDF"
@@ -82,17 +89,24 @@ def test_the_report_says_what_happened(run: Path) -> None:
     _, report = reported(run)
     by_title = {section.title: printed(section.blocks) for section in report.sections}
     assert "firsthit run configs/quick.toml" in printed(report.summary.blocks)
-    assert "_odd#[STEP_$=0.5,RELAXATION_OF_THE_LAST_STEP=1.25]" in by_title["Results"]
+    assert "_odd#[STEP_$=0.5,RELAXATION_OF_THE_LAST_STEP=1.25]" in by_title["Torus"]
     troubles = by_title["Skipped, failed and missing"]
     for reason in ("opencl:gpu#0_$ has no float64", "the worker died of signal 11", "still running after 20 s"):
         assert reason in troubles
     assert "use of `$x` @ *p = a_b[#i] <7:3> ^~~~ kernel" in troubles, "folded, and without terminal colours"
     assert "opencl:gpu#0_$ | 2" in troubles, "cells not run yet, by device"
-    assert [title for title in by_title if title.startswith("Pictures")] == [
-        "Pictures: Sphere",
-        "Pictures: Torus",
-        "Pictures: Barth #6 $extic_* @65 <b>",
+    titles = [section.title for section in report.sections]
+    assert titles[:5] == [
+        "Winners",
+        "How to read the surfaces' pages",
+        "Sphere",
+        "Torus",
+        "Barth #6 $extic_* @65 <b>",
     ]
+    assert titles[-3:] == ["Devices, environment, config", "Skipped, failed and missing", "How to run it again"]
+    for section in report.sections[2:5]:
+        kinds = {type(block) for block in section.blocks}
+        assert {content.Figure, content.Gallery, content.Table} <= kinds, "speed, pictures and figures on one page"
 
 
 def test_winners_name_the_fastest_and_the_fastest_with_no_wrong_ray(frame: pd.DataFrame) -> None:
@@ -248,7 +262,7 @@ def test_a_damaged_array_file_is_listed_and_the_other_pictures_drawn(tmp_path: P
     frame = derive.derive(loaded.frame)
     shown = pd.concat([derive.drawn(rows) for _, rows in frame.groupby("surface")])
     damaged = {f"arrays/{key}.npz" for key in shown["key"] if key.startswith(victim.name[0])}
-    shelf = arrays.Shelf(folder)
+    shelf = arrays.Shelf(loaded.folders)
     galleries = images.galleries(shelf, frame)
     assert {file.file for file in shelf.damaged.values()} == set(shelf.damaged) == damaged
     assert sum(len(gallery.panels) for gallery in galleries.values()) == len(shown) - len(damaged)
@@ -256,15 +270,15 @@ def test_a_damaged_array_file_is_listed_and_the_other_pictures_drawn(tmp_path: P
 
 def test_large_runs_print_only_what_matters(run: Path, frame: pd.DataFrame, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(tables, "ROW_LIMIT", 10)
-    monkeypatch.setattr(sections, "SUMMARY_LINES", 5)
+    monkeypatch.setattr(surface_pages, "SCENES", 2)
+    monkeypatch.setattr(choice, "LINES", 2)
     _, report = reported(run)
     by_title = {section.title: printed(section.blocks) for section in report.sections}
-    assert "Which method is fastest" in printed(report.summary.blocks)
-    assert len([block for block in report.summary.blocks if isinstance(block, content.Figure)]) == 1
+    assert "2 of 3 surfaces" in printed(report.summary.blocks)
     assert by_title["Winners"].count("\n") > 10
     finished = frame[frame["status"] == "ok"]
     kept = int((finished["front"] | finished["method"].isin(["ray_march", "null"])).sum())
-    assert f"Printed are {kept} of {len(finished)} rows" in by_title["Results"]
+    assert f"Printed are {kept} of {len(finished)} rows" in by_title["How to read the surfaces' pages"]
     assert "The first 10 of" in by_title["Skipped, failed and missing"]
 
 
@@ -355,7 +369,8 @@ def test_an_older_run_has_no_families_and_no_conditions(tmp_path: Path) -> None:
     run, report = reported(folder)
     assert run.families.empty
     assert not {"Error against condition", "Where each method breaks"} & {section.title for section in report.sections}
-    assert sum(section.title.startswith("Pictures") for section in report.sections) == 3
+    galleries = [block for section in report.sections for block in section.blocks if isinstance(block, content.Gallery)]
+    assert len(galleries) == 3
 
 
 def test_importing_reports_imports_nothing_heavy() -> None:
@@ -364,3 +379,74 @@ def test_importing_reports_imports_nothing_heavy() -> None:
     root = Path(reports.__file__).parents[1]
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, cwd=root)
     assert done.stdout.strip() == "[]"
+
+
+def test_the_first_page_says_which_method_at_which_error_and_what_it_costs(tmp_path: Path) -> None:
+    def timed(variant: str, median: float, error: float, precision: str = "float32", misses: int = 0) -> dict[str, Any]:
+        made = cell("ray_march", "torus", "opencl:intel", precision)
+        slot = f"{variant} torus {precision}"
+        made |= {"slot": slot, "key": digest(slot), "variant": variant, "method": variant}
+        made["time"] |= {"median_ms": median}
+        made["accuracy"] |= {"relative_error": {"max": error}, "error": {"max": error}, "misses": misses}
+        made["accuracy"] |= dict.fromkeys(("false_hits", "exhausted", "wrong_root"), 0)
+        return made
+
+    cells = [
+        timed("wrong", 0.1, 1e-8, misses=1),
+        timed("rough", 0.5, 2e-3),
+        timed("loose", 1.0, 9e-4),
+        timed("tight", 4.0, 9e-7, "float64"),
+        timed("tighter", 8.0, 1e-9),
+    ]
+    frame = derive.derive(load.load(tiny_run(tmp_path / "run", *cells)).frame)
+    table = choice.table(frame)
+    assert table is not None
+    assert table.rows == [("Torus", "loose, float32", 1.0, 9e-4, "tight, float64", 4.0, 9e-7, 4.0)]
+    only = derive.derive(load.load(tiny_run(tmp_path / "rough", timed("rough", 0.5, 2e-3))).frame)
+    table = choice.table(only)
+    assert table is not None
+    assert table.rows == [("Torus", "none", None, None, "none", None, None, None)]
+
+
+def test_a_run_that_collects_others_keeps_their_rows_apart(tmp_path: Path) -> None:
+    def run(name: str, *cells: dict[str, Any]) -> None:
+        folder = tiny_run(tmp_path / name, *cells)
+        document = json.loads((folder / "plan.json").read_text())
+        (folder / "plan.json").write_text(json.dumps(document | {"name": name, "config": f"configs/{name}.toml"}))
+
+    march, newton = (cell(v, "torus", "opencl:intel", "float32") for v in ("ray_march", "newton[EPSILON=0.001]"))
+    run("one", march, newton)
+    run("two", newton)
+    whole = plan([]) | {"name": "all", "include": ["one", "two", "three"]}
+    (tmp_path / "all").mkdir()
+    (tmp_path / "all" / "plan.json").write_text(json.dumps(whole))
+    loaded = load.load(tmp_path / "all")
+    frame = derive.derive(loaded.frame)
+    assert frame["run"].tolist() == ["one", "one", "two"]
+    assert frame["speedup"].notna().tolist() == [True, True, False], "nothing is compared across runs"
+    assert sorted(set(tables.places(frame).values())) == ["Torus (one)", "Torus (two)"]
+    assert [file.file for file in loaded.unreadable] == ["three"]
+    assert reports.build(tmp_path / "all").stat().st_size > 0
+
+
+def test_two_runs_are_held_against_each_other(tmp_path: Path) -> None:
+    a, b = (cell("ray_march", "torus", "opencl:intel", "float32") for _ in range(2))
+    other = cell("newton[EPSILON=0.001]", "torus", "opencl:intel", "float32")
+    b["time"] = b["time"] | {name: 2 * b["time"][name] for name in ("median_ms", "lower_ms", "upper_ms")}
+    b["accuracy"] = b["accuracy"] | {"misses": 7}
+    first, second = tiny_run(tmp_path / "a", a, other), tiny_run(tmp_path / "b", b)
+    document = against.report(load.load(first), load.load(second))
+    summary = printed(document.summary.blocks)
+    assert "Of 1 cell in both runs, B is clearly slower in 1 and clearly faster in 0 of 1" in summary
+    assert "more rays wrongly in 1 and fewer in 0" in summary
+    by_title = {section.title: printed(section.blocks) for section in document.sections}
+    assert "2.00×" in by_title["Speed"]
+    assert "newton[EPSILON=0.001]" in by_title["In one run only"]
+    assert reports.compare(first, second) == first / "against-b.pdf"
+    assert (first / "against-b.html").stat().st_size > 0
+    elsewhere = tiny_run(tmp_path / "c", cell("ray_march", "torus", "opencl:pocl", "float32"))
+    both, by = against.paired(load.load(first), load.load(elsewhere))
+    assert by == ["scene", "variant", "precision"], "one device each: devices are compared"
+    assert len(both) == 1
+    with pytest.raises(FirsthitError, match="no cell in common"):
+        against.paired(load.load(second), load.load(tiny_run(tmp_path / "d", other)))

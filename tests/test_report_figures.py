@@ -56,7 +56,7 @@ def test_a_method_keeps_its_mark_and_no_two_share_one() -> None:
 
 def test_errors_are_held_against_what_the_condition_allows(run: Path, frame: pd.DataFrame) -> None:
     marks = style.variant_marks(frame[["method", "variant"]].itertuples(index=False, name=None))
-    (section,) = condition.sections(arrays.Shelf(run), frame, marks)
+    (section,) = condition.sections(arrays.Shelf(load.load(run).folders), frame, marks)
     figures = [block for block in section.blocks if isinstance(block, content.Figure)]
     assert [figure.title.partition(",")[0] for figure in figures] == ["Sphere", "Torus", "Barth #6 $extic_* @65 <b>"]
     assert len(figures[1].svg) < 300_000, "summaries, not a mark for each ray"
@@ -64,11 +64,11 @@ def test_errors_are_held_against_what_the_condition_allows(run: Path, frame: pd.
     row = next(frame[(frame["variant"] == "newton[EPSILON=0.001]") & (frame["surface"] == "torus")].itertuples())
     stored = np.load(run / "arrays" / f"{row.key}.npz")
     both = np.isfinite(stored["error"]) & np.isfinite(stored["condition"])
-    cloud = condition._cloud(arrays.Shelf(run), row)
+    cloud = condition._cloud(arrays.Shelf(load.load(run).folders), row)
     assert cloud is not None and len(cloud.error) == both.sum()
     ratios = stored["error"][both] / (np.maximum(stored["condition"][both], 1) * 2.0**-24 * row.scene_radius)
     assert cloud.excess == pytest.approx(ratios.max())
-    told = condition._cloud(arrays.Shelf(run), row._replace(domain_radius=2.0))
+    told = condition._cloud(arrays.Shelf(load.load(run).folders), row._replace(domain_radius=2.0))
     assert told is not None and told.excess == pytest.approx(cloud.excess / 2)
     edges = np.linspace(np.log10(cloud.condition).min(), np.log10(cloud.condition).max(), condition.BINS + 1)
     filled, largest, median = condition._spread(cloud, edges)
@@ -94,3 +94,12 @@ def test_a_key_takes_no_more_room_than_there_is() -> None:
     long = drawing.Key([None] * 3, ["x" * 50, "y" * 40, "z" * 40], 7.0)
     assert long._columns == 2, "two lines in the first column, one in the second"
     assert long.height == drawing.Key([None] * 2, ["x" * 100, "y" * 100], 7.0).height
+
+
+def test_every_method_of_the_suite_has_a_marker_of_its_own() -> None:
+    folders = (Path(style.__file__).parent.parent / "methods").glob("*/method.py")
+    names = sorted(path.parent.name for path in folders)
+    assert set(names) <= set(style._HOUSE)
+    markers = [mark.marker for mark in style._HOUSE.values()]
+    assert len(markers) == len(set(markers))
+    assert style.marks(["newton"])["newton"] == style.marks(names)["newton"], "the same in every report"

@@ -84,10 +84,11 @@ def test_a_run_of_families_alone_makes_a_report(hard: Path) -> None:
     assert "the most that any variant holds are 2 of 2 in float32 (newton[EPSILON=1e-06])" in summary
     by_title = {section.title: printed(section.blocks) for section in report.sections}
     assert list(by_title) == [
-        "Devices, environment, config",
         "Where each method breaks",
         "Hard rays, family by family",
+        "Devices, environment, config",
         "Skipped, failed and missing",
+        "How to run it again",
     ]
     page = by_title["Where each method breaks"]
     assert "All devices agree on every count of every rung they ran: opencl:intel and opencl:pocl" in page
@@ -102,7 +103,7 @@ def test_a_run_of_families_alone_makes_a_report(hard: Path) -> None:
 
     before = {path.name for path in hard.iterdir()}
     reports.build(hard)
-    made = {"report.pdf", "results.csv", "results.parquet", "stability.csv"}
+    made = {"report.pdf", "report.html", "results.csv", "results.parquet", "stability.csv"}
     assert {path.name for path in hard.iterdir()} == before | made
     csv = pd.read_csv(hard / "stability.csv")
     cells = [json.loads((hard / "cells" / f"{key}.json").read_text()) for key in csv["key"].unique()]
@@ -121,6 +122,7 @@ def test_families_without_a_result_still_make_a_report(tmp_path: Path) -> None:
     assert [section.title for section in report.sections] == [
         "Devices, environment, config",
         "Skipped, failed and missing",
+        "How to run it again",
     ]
     (folder / "stability.csv").write_text("from an earlier plan")
     reports.build(folder)

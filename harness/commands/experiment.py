@@ -8,8 +8,10 @@ import shlex
 import sys
 from datetime import UTC, datetime
 from pathlib import Path
+from typing import Any
 
-from harness import config, console, plan, stability
+from harness import config, console, plan, stability, studies
+from harness.cards import card
 from harness.contract import CellStatus, DeviceInfo, FirsthitError
 from harness.environment import describe, probed
 from harness.executor import LocalExecutor, discover_devices
@@ -44,8 +46,13 @@ def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -
     parser.add_argument("--runs", type=Path, default=Path("runs"), metavar="DIR", help="where to look (default: runs)")
     parser.set_defaults(run=_why)
 
-    parser = add("report", "make the PDF, CSV and Parquet of a run; runs nothing", "firsthit report runs/quick")
+    parser = add(
+        "report",
+        "make the PDF, HTML, CSV and Parquet of a run, or hold two runs against each other; runs nothing",
+        "firsthit report runs/quick",
+    )
     parser.add_argument("folder", type=Path, metavar="RUN", help="a folder below runs/")
+    parser.add_argument("other", type=Path, metavar="OTHER", nargs="?", help="report what changed from RUN to OTHER")
     parser.set_defaults(run=_report)
 
 
@@ -56,25 +63,37 @@ def _add_config(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def _load(options: argparse.Namespace) -> tuple[config.Experiment, Catalog, list[DeviceInfo]]:
+def _load(options: argparse.Namespace) -> tuple[config.Experiment, list[config.Experiment], Catalog, list[DeviceInfo]]:
+    """The config, and what it stands for: itself, or those that it includes."""
     catalog = find_methods(options.plugins)
-    experiment = config.load(options.config, catalog)
+    whole = config.load(options.config, catalog)
+    parts = [config.load(path, catalog) for path in whole.included] or [whole]
+    if nested := [part.path for part in parts if part.included and part is not whole]:
+        raise FirsthitError(
+            f"{nested[0]} includes configs itself, so {whole.path} cannot include it; name them instead"
+        )
     if getattr(options, "device", None):
-        chosen = dataclasses.replace(experiment.config, devices=options.device)
-        experiment = dataclasses.replace(experiment, config=chosen)
-    return experiment, catalog, discover_devices()
+        parts = [dataclasses.replace(p, config=dataclasses.replace(p.config, devices=options.device)) for p in parts]
+    return whole, parts, catalog, discover_devices()
 
 
 def _plan(options: argparse.Namespace) -> int:
-    experiment, catalog, devices = _load(options)
+    _, parts, catalog, devices = _load(options)
+    for experiment in parts:
+        _plan_one(experiment, catalog, devices, options)
+    return 0
+
+
+def _plan_one(
+    experiment: config.Experiment, catalog: Catalog, devices: list[DeviceInfo], options: argparse.Namespace
+) -> None:
     planned = plan.plan(experiment, catalog, devices)
     store = Store(options.runs / experiment.name)
     rows = {p.key: store.read(p.key) for p in planned}
     print(console.table(("key", "cell", "state"), [(p.key, p.cell.slot, _state(p, rows[p.key])) for p in planned]))
     left = plan.estimate_seconds(planned, store, experiment.config.budget.seconds)
     open_cells = sum(row is None for row in rows.values())
-    print(f"{len(planned)} cells, {open_cells} to run, about {console.duration(left)}")
-    return 0
+    print(f"{experiment.path}: {len(planned)} cells, {open_cells} to run, about {console.duration(left)}")
 
 
 def _state(planned: Planned, row: Row | None) -> str:
@@ -84,29 +103,52 @@ def _state(planned: Planned, row: Row | None) -> str:
 
 
 def _run(options: argparse.Namespace) -> int:
-    experiment, catalog, found = _load(options)
+    whole, parts, catalog, found = _load(options)
+    if whole.included:
+        told = _described(whole) | {"include": [part.name for part in parts], "devices": [], "cells": []}
+        Store(options.runs / whole.name).write_plan(told)
+    return max(_run_one(experiment, catalog, found, options) for experiment in parts)
+
+
+def _described(experiment: config.Experiment) -> dict[str, Any]:
+    """What every plan.json says first."""
+    return {
+        "name": experiment.name,
+        "title": experiment.config.title,
+        "config": str(experiment.path),
+        "config_text": experiment.text,
+        "command": shlex.join(["firsthit", *sys.argv[1:]]),
+        "created": datetime.now(UTC).isoformat(timespec="seconds"),
+        "environment": describe(),
+    }
+
+
+def _run_one(
+    experiment: config.Experiment, catalog: Catalog, found: list[DeviceInfo], options: argparse.Namespace
+) -> int:
     store = Store(options.runs / experiment.name)
     executor = LocalExecutor(experiment.config.budget.timeout)
     try:
-        chosen = plan.choose_devices(experiment.config.devices, found)
+        chosen = plan.choose_devices(experiment.config.devices, found) if experiment.variants else {}
         tried = [probed(executor, info, store.folder / "probes") for info in chosen.values() if info]
-        planned = plan.plan(experiment, catalog, [info for info, _ in tried])
-        environment = describe()
+        planned = plan.plan(experiment, catalog, [info for info, _ in tried]) if experiment.variants else []
+        described = _described(experiment)
+        environment = described["environment"]
         store.write_plan(
-            {
-                "name": experiment.name,
-                "title": experiment.config.title,
-                "config": str(experiment.path),
-                "config_text": experiment.text,
-                "command": shlex.join(["firsthit", *sys.argv[1:]]),
-                "created": datetime.now(UTC).isoformat(timespec="seconds"),
-                "environment": environment,
+            described
+            | {
                 "devices": [dataclasses.asdict(i) | {"versions": dict(i.versions), "probes": p} for i, p in tried],
                 "cells": [{"slot": p.cell.slot, "key": p.key} for p in planned if not p.cell.family],
                 "families": [{"slot": p.cell.slot, "key": p.key} for p in planned if p.cell.family],
                 "family_facts": {name: stability.facts(name) for name in experiment.config.families},
+                "methods": {v.method: card(catalog.get(v.method)) for v in experiment.variants},
+                "studies": [{"study": name, "key": studies.key(name)} for name in experiment.config.studies],
             }
         )
+        for name in experiment.config.studies:
+            if options.force or not studies.is_done(name, store.folder):
+                done = studies.run(name, store.folder)
+                print(f"study {name}: {len(done['rows'])} rows, {console.duration(done['seconds'])}")
         before = {p.key: store.read(p.key) for p in planned}
         for message in store.unreadable.values():
             print(f"firsthit: {message}; running that cell again", file=sys.stderr)
@@ -164,7 +206,7 @@ def _report(options: argparse.Namespace) -> int:
     try:
         import reports
 
-        print(reports.build(options.folder))
+        print(reports.compare(options.folder, options.other) if options.other else reports.build(options.folder))
     except ModuleNotFoundError as error:
         message = (
             f"a report needs the package {error.name}: pip install 'firsthit[report]'; runs/ can be copied elsewhere"

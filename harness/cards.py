@@ -1,0 +1,27 @@
+"""What a report says of a method: its docstring's parts, its knobs and claims."""
+
+from __future__ import annotations
+
+import ast
+import re
+from typing import Any
+
+from harness.plugins import Plugin
+
+_PART = re.compile(r"^\*\*(.+?)\*\*", re.MULTILINE)
+
+
+def card(plugin: Plugin) -> dict[str, Any]:
+    """JSON-able: title, source, doc (the docstring's bold parts but Source, by name), parameters, claims."""
+    method = plugin.method
+    text = ast.get_docstring(ast.parse((plugin.folder / "method.py").read_text(encoding="utf-8"))) or ""
+    title, *_ = text.split("\n", 1)
+    pieces = _PART.split(text)
+    doc = {name: " ".join(body.split()) for name, body in zip(pieces[1::2], pieces[2::2], strict=True)}
+    return {
+        "title": title,
+        "source": doc.pop("Source", method.source),
+        "doc": doc,
+        "parameters": [{"name": p.name, "default": p.default, "meaning": p.meaning} for p in method.parameters],
+        "claims": sorted(method.claims),
+    }

@@ -1,0 +1,60 @@
+"""Studies: computations on the host that a paper tabulates beside its pictures. No device, no rays.
+
+A module here is one study: its docstring says what the paper states and what is computed, TITLE names it, and
+`compute()` returns its rows. A config names studies in `studies = [...]`; `firsthit run` stores each as
+studies/<key>.json in the run folder, and the key covers the module's text, so that an edit runs it again.
+"""
+
+from __future__ import annotations
+
+import importlib
+import inspect
+import json
+import time
+from pathlib import Path
+from typing import Any
+
+from harness.contract import digest
+from harness.store import FORMAT, write_atomically
+
+NAMES = ("condition_numbers", "extrema_bounds")
+
+
+def _module(name: str) -> Any:
+    return importlib.import_module(f"harness.studies.{name}")
+
+
+def key(name: str) -> str:
+    """What decides a study's rows: its own text and the packages it computes with."""
+    import numpy
+
+    return digest(name, inspect.getsource(_module(name)), numpy.__version__)
+
+
+def is_done(name: str, folder: Path) -> bool:
+    """Whether the run `folder` holds this study as it stands."""
+    try:
+        stored = json.loads(_path(name, folder).read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return False
+    return isinstance(stored, dict) and stored.get("format") == FORMAT and stored.get("key") == key(name)
+
+
+def run(name: str, folder: Path) -> dict[str, Any]:
+    """Compute a study and store it in the run `folder`; what was stored."""
+    start = time.perf_counter()
+    module = _module(name)
+    document = {
+        "format": FORMAT,
+        "key": key(name),
+        "study": name,
+        "title": module.TITLE,
+        "rows": module.compute(),
+        "seconds": time.perf_counter() - start,
+    }
+    write_atomically(_path(name, folder), json.dumps(document, indent=1, allow_nan=False).encode())
+    return document
+
+
+def _path(name: str, folder: Path) -> Path:
+    return folder / "studies" / f"{key(name)}.json"

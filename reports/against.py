@@ -1,0 +1,175 @@
+"""Two runs held against each other: two commits, or two devices.
+
+Cells are matched by what they are: scene, variant and precision, and the device too where the runs share one; else each
+run's only device stands for it.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from harness.contract import CellStatus, FirsthitError
+from reports import derive, tables, wording
+from reports.content import Block, Code, Column, Document, Section, Table, Text
+from reports.load import Plan, Run
+
+LINES = 40  # changes that the first page lists
+COUNTS = ("misses", "false_hits", "exhausted", "wrong_root")
+_PLACE = ["scene", "variant", "precision"]
+
+
+def paired(a: Run, b: Run) -> tuple[pd.DataFrame, list[str]]:
+    """Cells of both runs, columns of A ending in _a and of B in _b, and the columns they were matched by.
+
+    Raises FirsthitError where nothing matches.
+    """
+    frames = [derive.derive(run.frame).assign(scene=_scenes(run.frame)) for run in (a, b)]
+    devices = [set(frame["device"]) for frame in frames]
+    by = [*_PLACE, "device"] if devices[0] & devices[1] else _PLACE
+    if by == _PLACE and max(map(len, devices)) > 1:
+        told = "; ".join(", ".join(sorted(names)) for names in devices)
+        raise FirsthitError(
+            f"the runs share no device, and one of them has several ({told}): nothing says which to match"
+        )
+    unique = [frame.drop_duplicates(by) for frame in frames]
+    both = unique[0].merge(unique[1], on=by, suffixes=("_a", "_b"))
+    if both.empty:
+        raise FirsthitError(
+            f"{a.folder} and {b.folder} have no cell in common: no scene, variant and precision in both"
+        )
+    return both.assign(
+        ratio=both["median_ms_b"] / both["median_ms_a"],
+        ratio_low=both["lower_ms_b"] / both["upper_ms_a"],
+        ratio_high=both["upper_ms_b"] / both["lower_ms_a"],
+    ), by
+
+
+def _scenes(frame: pd.DataFrame) -> pd.Series:
+    """A comparison without the name of the run that a collection puts before it."""
+    return frame["comparison"].str.replace(r"^[^:]*: ", "", regex=True)
+
+
+def report(a: Run, b: Run) -> Document:
+    """What changed from A to B."""
+    both, by = paired(a, b)
+    timed = both[both["ratio"].notna()]
+    faster, slower = timed[timed["ratio_high"] < 1.0], timed[timed["ratio_low"] > 1.0]
+    worse, better = both[_error_change(both) > 0], both[_error_change(both) < 0]
+    verdict = (
+        f"Of {wording.plural(len(both), 'cell')} in both runs, B is clearly slower in {len(slower)} and clearly faster "
+        f"in {len(faster)} of {len(timed)} timed ones; it answers more rays wrongly in {len(worse)} and fewer in "
+        f"{len(better)}."
+    )
+    caution = (
+        "Clearly: the 95 % intervals of both medians do not meet. The two runs were not timed in turns, so that a "
+        "machine that was busier during one of them changes every ratio alike; the ratio's median over all cells is "
+        f"{wording.factor(timed['ratio'].median())}."
+    )
+    blocks: list[Block] = [Text(verdict, strong=True), Text(caution), _runs(a.plan, b.plan)]
+    order = timed.assign(size_of_change=(timed["ratio"] - 1.0).abs()).sort_values("size_of_change", ascending=False)
+    shown = order[(order["ratio_low"] > 1.0) | (order["ratio_high"] < 1.0)]
+    sections = [
+        Section(
+            "Speed", (_speed(shown.sort_values("ratio", ascending=False), by, "Cells clearly slower or faster."),), True
+        ),
+        Section("Answers", tuple(_answers(both, by)), True),
+        Section("In one run only", tuple(_alone(a, b, by)), True),
+        Section("Every cell in both", (_speed(order.sort_values([*by]), by, "Times of both."),), True),
+    ]
+    if len(shown):
+        worst = shown.sort_values("size_of_change", ascending=False).head(LINES // 4)
+        blocks.append(_speed(worst, by, "The largest changes of speed."))
+    blocks.append(Code(f"firsthit report {a.folder} {b.folder}"))
+    title = f"{a.plan.name} against {b.plan.name}" if a.plan.name != b.plan.name else f"{a.plan.name}, twice"
+    return Document(title, f"A: {a.folder} · B: {b.folder}", Section("Summary", tuple(blocks)), tuple(sections))
+
+
+def _error_change(both: pd.DataFrame) -> pd.Series:
+    return (both["wrong_rays_b"].astype("float64") - both["wrong_rays_a"].astype("float64")).fillna(0.0)
+
+
+def _runs(a: Plan, b: Plan) -> Table:
+    def told(plan: Plan) -> dict[str, Any]:
+        environment = plan.environment
+        dirty = " with uncommitted changes" if environment.get("dirty") else ""
+        devices = ", ".join(f"{device.get('name')} ({device.get('title')})" for device in plan.devices)
+        commit = f"{environment.get('commit')}{dirty}"
+        return {"config": plan.config, "created": plan.created, "commit": commit, "devices": devices or None}
+
+    first, second = told(a), told(b)
+    body = [(name, first[name], second[name]) for name in first]
+    return Table((Column(""), Column("A", stretch=1), Column("B", stretch=1)), body, "The two runs.")
+
+
+def _places(by: list[str]) -> list[Column]:
+    return [Column(name, stretch=1 if name in ("scene", "variant") else 0) for name in by]
+
+
+def _speed(rows: pd.DataFrame, by: list[str], title: str) -> Table:
+    body = []
+    for row in rows.head(tables.ROW_LIMIT).itertuples():
+        interval = f"{wording.factor(row.ratio_low)} to {wording.factor(row.ratio_high)}"
+        body.append((*(getattr(row, name) for name in by), row.median_ms_a, row.median_ms_b, row.ratio, interval))
+    return Table(
+        (
+            *_places(by),
+            Column("A, ms", wording.number, numeric=True),
+            Column("B, ms", wording.number, numeric=True),
+            Column("B over A", wording.factor, numeric=True),
+            Column("of the intervals' ends"),
+        ),
+        body,
+        title,
+        "Above 1 B is slower." if body else "None.",
+    )
+
+
+def _answers(both: pd.DataFrame, by: list[str]) -> list[Block]:
+    """Cells whose status, wrong rays, error or evaluations differ."""
+    fields = ("wrong_rays", "grazing_wrong_rays", "error_max", "evaluations_mean")
+    body = []
+    for row in both.itertuples():
+        a, b = ([getattr(row, f"{name}_{side}") for name in fields] for side in "ab")
+        status = "" if row.status_a == row.status_b else f"{row.status_a} → {row.status_b}"
+        if status or any(not _same(x, y) for x, y in zip(a, b, strict=True)):
+            pairs = [value for pair in zip(a, b, strict=True) for value in pair]
+            body.append((*(getattr(row, name) for name in by), status, *pairs))
+    shows = (
+        ("wrong rays", wording.count),
+        ("at silhouettes", wording.count),
+        ("max error", wording.error),
+        ("evaluations per ray", wording.number),
+    )
+    columns = [Column(side, show, numeric=True, over=over) for over, show in shows for side in ("A", "B")]
+    caption = f"{len(body)} of {len(both)} cells answer differently in some way."
+    table = Table(
+        (*_places(by), Column("status"), *columns), body[: tables.ROW_LIMIT], "Answers that changed.", caption
+    )
+    return [table]
+
+
+def _same(x: Any, y: Any) -> bool:
+    return bool(wording.absent(x) and wording.absent(y)) or (not wording.absent(x) and not wording.absent(y) and x == y)
+
+
+def _alone(a: Run, b: Run, by: list[str]) -> list[Block]:
+    keys = []
+    for run in (a, b):
+        frame = run.frame.assign(scene=_scenes(run.frame))
+        keys.append(set(frame[frame["status"] == CellStatus.OK][by].itertuples(index=False, name=None)))
+    blocks: list[Block] = []
+    for side, own, other in (("A", keys[0], keys[1]), ("B", keys[1], keys[0])):
+        only = sorted(own - other)
+        blocks.append(Table(tuple(_places(by)), only[: tables.ROW_LIMIT], f"Only in {side}.", f"{len(only):,} cells."))
+    return blocks
+
+
+def name_of(a: Path, b: Path) -> str:
+    """The stem of the comparison's files, written into A's folder."""
+    a, b = a.resolve(), b.resolve()
+    if a == b:
+        return "against-itself"
+    return f"against-{b.name}" if a.name != b.name else f"against-{b.parent.name}-{b.name}"

@@ -1,0 +1,68 @@
+"""Which method for which surface, at which error, and what that costs: the table for a busy reader."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pandas as pd
+
+from reports import derive, wording
+from reports.content import Column, Table
+
+ERRORS = (1e-3, 1e-6)  # largest |t − t*| over the scene's radius
+LINES = 26  # surfaces that fit on the first page
+
+
+def scenes(frame: pd.DataFrame) -> pd.DataFrame:
+    """The contenders of one scene for each surface, the one with most of them, on the device with most of all."""
+    rows = derive.contenders(frame)
+    if rows.empty:
+        return rows
+    rows = rows[rows["device"] == rows["device"].value_counts(sort=False).idxmax()]
+    counted = rows.groupby(["surface", "comparison"], sort=False)["variant"].nunique()
+    chosen = counted.groupby("surface", sort=False).idxmax()
+    return rows[rows["comparison"].isin([comparison for _, comparison in chosen])]
+
+
+def fastest(rows: pd.DataFrame, error: float) -> Any | None:
+    """The fastest row of one scene with no wrong ray away from silhouettes and at most this error; None without one."""
+    good = rows[derive.all_right(rows) & (rows["relative_error_max"] <= error)]
+    return None if good.empty else next(good.sort_values("median_ms", kind="stable").itertuples())
+
+
+def table(frame: pd.DataFrame) -> Table | None:
+    """One line for each surface; None where nothing was timed."""
+    rows = scenes(frame)
+    if rows.empty:
+        return None
+    body: list[tuple[Any, ...]] = []
+    order = list(dict.fromkeys(frame["surface"]))
+    for _, own in sorted(rows.groupby("surface", sort=False), key=lambda pair: order.index(pair[0])):
+        loose, tight = (fastest(own, error) for error in ERRORS)
+        cells: list[Any] = [own["surface_title"].iloc[0]]
+        for won in (loose, tight):
+            cells += ["none", None, None] if won is None else [_named(won, own), won.median_ms, won.error_max]
+        cells.append(None if loose is None or tight is None else tight.median_ms / loose.median_ms)
+        body.append(tuple(cells))
+    shown = body[:LINES]
+    more = "" if len(shown) == len(body) else f" {len(shown)} of {len(body)} surfaces; “Winners” has all."
+    columns: list[Column] = [Column("surface")]
+    for error in ERRORS:
+        over = f"error at most {wording.level(error)} of the radius"
+        columns += [
+            Column("fastest", stretch=1, over=over),
+            Column("ms", wording.number, numeric=True, over=over),
+            Column("max error", wording.error, numeric=True, over=over),
+        ]
+    columns.append(Column("cost", wording.factor, numeric=True))
+    return Table(
+        tuple(columns),
+        shown,
+        f"Which method, at which error, on {rows['device'].iloc[0]}.",
+        "Only variants with every ray away from silhouettes right. Cost is the time of the second over that of the "
+        f"first; “none” where no variant of this run is that exact.{more}",
+    )
+
+
+def _named(row: Any, own: pd.DataFrame) -> str:
+    return f"{row.variant}, {row.precision}" if own["precision"].nunique() > 1 else str(row.variant)

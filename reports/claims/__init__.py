@@ -1,0 +1,14 @@
+"""The papers' qualitative claims as data: what is claimed, what decides it, and a function from rows to a verdict.
+
+`CLAIMS` are in the order of the papers. A claim is judged by whatever rows a run has; without them it is not testable,
+and the checklist says which config would decide it.
+"""
+
+from reports.claims.beamcasting import CLAIMS as _BEAMCASTING
+from reports.claims.model import Claim, Outcome, Verdict, judge
+from reports.claims.szente import CLAIMS as _SZENTE
+from reports.claims.toledo import CLAIMS as _TOLEDO
+
+CLAIMS: tuple[Claim, ...] = (*_TOLEDO, *_SZENTE, *_BEAMCASTING)
+
+__all__ = ["CLAIMS", "Claim", "Outcome", "Verdict", "judge"]

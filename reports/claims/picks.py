@@ -1,0 +1,36 @@
+"""The papers' own settings of their methods, and ours, by their knobs."""
+
+from reports.evidence import Pick
+
+_NEWTON = {"STEP_BOUND": 0.15, "FORWARD": 1}
+NEWTON_3 = Pick("Newton 0.001", "newton", _NEWTON | {"EPSILON": 0.001})
+NEWTON_5 = Pick("Newton 0.00003", "newton", _NEWTON | {"EPSILON": 0.00003})
+NEWTON_UNBOUND = Pick("Newton with steps up to 100", "newton", {"STEP_BOUND": 100, "FORWARD": 1, "EPSILON": 0.001})
+STURM = Pick("Sturm", "sturm", {"BY_SIGN": 0, "ITERATIONS": 18})
+STURM_SHORT = Pick("Sturm with 8 halvings", "sturm", {"BY_SIGN": 0, "ITERATIONS": 8})
+BISECTION = Pick("D.D. Bisection", "double_derivative_bisection", {"SPLIT": 0, "ITERATIONS": 12})
+ONE_RAY = Pick("Sphere Tracing", "sphere_tracing", {"RAYS": 1, "EPSILON": 0.001})
+TWO_RAYS = Pick("2-rays S. Tracing", "sphere_tracing", {"RAYS": 2, "EPSILON": 0.001})
+LOOP_BLINN = Pick("Loop-Blinn", "analytic", {"SCREEN": 1, "POLISH": 0, "NEAR": 0.5, "FAR": 64.0})
+ANALYTIC = Pick("closed form", "analytic", {"SCREEN": 0, "POLISH": 0})
+TABLE_1 = (STURM, BISECTION, ONE_RAY, TWO_RAYS, NEWTON_5, NEWTON_3)
+
+MARCH = Pick("ray marching", "ray_march")
+_FIT = {"BASIS": 0, "EFT": 1, "EVAL": 1}
+FIT = Pick("EFT + EVAL", "eft_yuksel", _FIT)
+NO_EFT = Pick("EVAL without EFT", "eft_yuksel", _FIT | {"EFT": 0})
+NO_EVAL = Pick("EFT without EVAL", "eft_yuksel", _FIT | {"EVAL": 0})
+NEITHER = Pick("neither", "eft_yuksel", _FIT | {"EFT": 0, "EVAL": 0})
+BERNSTEIN_NEITHER = Pick("neither, Bernstein", "eft_yuksel", {"BASIS": 1, "EFT": 0, "EVAL": 0})
+BERNSTEIN_NO_EVAL = Pick("EFT without EVAL, Bernstein", "eft_yuksel", {"BASIS": 1, "EFT": 1, "EVAL": 0})
+LU = Pick("LU bound", "lu_lipschitz", {"BOUND": 1, "CULL": 1, "LOCAL": 0})
+CONTROL = Pick("control point bound", "lu_lipschitz", {"BOUND": 0, "CULL": 0, "LOCAL": 0})
+LU_LOCAL = Pick("LU bound that follows the ray", "lu_lipschitz", {"BOUND": 1, "CULL": 1, "LOCAL": 1})
+
+UNIFORM = Pick("uniform", "interval_uniform")
+ADAPTIVE = Pick("adaptive", "interval_adaptive")
+
+TORUS = ("torus",)
+TABLE_4 = ("sphere", "torus", "calyx", "barth_sextic", "endrass_octic", "barth_decic", "sixteen_ball")
+TABLE_5 = ("sphere", "flirt", "calyx", "barth_sextic")
+HIGH_DEGREE = ("endrass_octic", "barth_decic", "sixteen_ball")

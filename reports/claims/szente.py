@@ -1,0 +1,427 @@
+"""What szente claims."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pandas as pd
+
+from reports import published, wording
+from reports.claims import picks
+from reports.claims.model import Claim, Verdict, faster, quantities, untestable, verdict, wrong
+from reports.evidence import Evidence, Pick
+
+PAPER = "szente"
+FIG_1, TABLE_4, TABLE_5, STUDIES = (
+    "szente-fig1.toml",
+    "szente-table4.toml",
+    "szente-table5.toml",
+    "szente-tables-1-2.toml",
+)
+
+
+def condition(evidence: Evidence) -> pd.DataFrame:
+    """Our Table 1: index basis, one column for each degree; empty where the study was not run."""
+    rows = pd.DataFrame(evidence.studies.get("condition_numbers", []), columns=["basis", "degree", "condition"])
+    return rows.pivot_table(index="basis", columns="degree", values="condition", sort=False)
+
+
+def bounds(evidence: Evidence) -> pd.DataFrame:
+    """Our Table 2: index (reading, bound), one column for each degree."""
+    columns = ["reading", "bound", "degree", "percent"]
+    rows = pd.DataFrame(evidence.studies.get("extrema_bounds", []), columns=columns)
+    return rows.pivot_table(index=["reading", "bound"], columns="degree", values="percent", sort=False)
+
+
+def _digits(evidence: Evidence) -> Verdict | None:
+    ours, paper = condition(evidence), published.table("szente_table1_condition")
+    if ours.empty:
+        return None
+    same = [f"{ours.loc[row['basis'], n]:.2f}" == row[f"degree_{n}"] for row in paper.rows for n in ours.columns]
+    return verdict(all(same), f"{sum(same)} of {len(same)} figures agree in every printed digit")
+
+
+def _better_interval(evidence: Evidence) -> Verdict | None:
+    ours = condition(evidence)
+    if "monomial on [0, 1]" not in ours.index:
+        return None
+    ratio = ours.loc["monomial on [0, 1]"] / ours.loc["monomial"]
+    told = ", ".join(f"{wording.factor(value)} at degree {n}" for n, value in ratio.items())
+    return verdict(bool((ratio > 1).all()), f"on [0, 1] it is larger {told}")
+
+
+def _steadier_basis(evidence: Evidence) -> Verdict | None:
+    ours = condition(evidence)
+    if ours.empty:
+        return None
+    ratio = ours.loc["monomial"] / ours.loc["Bernstein"]
+    told = ", ".join(f"{wording.factor(value)} at degree {n}" for n, value in ratio.items())
+    return verdict(bool((ratio > 1).all()), f"the monomial basis is worse conditioned {told}")
+
+
+def _counts(evidence: Evidence, pick: Pick, surfaces: tuple[str, ...]) -> pd.Series:
+    rows = evidence.rows(pick, surfaces).drop_duplicates("surface")
+    return wrong(rows, grazing=True).set_axis(rows["surface_title"])
+
+
+def _told(counts: pd.Series) -> str:
+    return ", ".join(f"{title} {n:,.0f}" for title, n in counts.items())
+
+
+def _artifacts(without: Pick, cured: Pick, surfaces: tuple[str, ...]) -> Any:
+    """A judge of "`without` draws artifacts that `cured` does not": at most a tenth of the wrong rays is left."""
+
+    def decide(evidence: Evidence) -> Verdict | None:
+        before, after = _counts(evidence, without, surfaces), _counts(evidence, cured, surfaces)
+        before = before[before.index.isin(after.index)]
+        if before.empty:
+            return None
+        figure = f"wrong rays, {without.words}: {_told(before)}; {cured.words}: {_told(after[before.index])}"
+        return verdict(bool(before.sum() > 0 and after[before.index].sum() <= 0.1 * before.sum()), figure)
+
+    return decide
+
+
+def _indispensable(evidence: Evidence) -> Verdict | None:
+    without = _counts(evidence, picks.NO_EFT, picks.HIGH_DEGREE)
+    whole = _counts(evidence, picks.FIT, picks.HIGH_DEGREE)
+    if without.empty or whole.empty:
+        return None
+    figure = f"wrong rays, {picks.NO_EFT.words}: {_told(without)}; {picks.FIT.words}: {_told(whole)}"
+    return verdict(bool(without.sum() > 2 * whole.sum() + 10), figure)
+
+
+def _no_artifacts(evidence: Evidence) -> Verdict | None:
+    counts = wrong(evidence.rows(picks.FIT, picks.TABLE_4))
+    if counts.empty:
+        return None
+    rows = evidence.rows(picks.FIT, picks.TABLE_4)
+    return verdict(
+        bool(counts.sum() == 0),
+        f"{counts.sum():,.0f} wrong rays of {rows['accuracy_rays'].sum():,} on {rows['surface'].nunique()} surfaces",
+    )
+
+
+def _speedup(evidence: Evidence) -> Verdict | None:
+    ratios = evidence.ratios(picks.MARCH, picks.FIT, picks.TABLE_4)
+    if ratios.empty:
+        return None
+    return verdict(ratios["ratio"].mean() >= 23.6, f"{quantities(ratios['ratio'])}; the paper: 23.6× (3.3× to 38.4×)")
+
+
+def _share(part: Pick, most: float, paper: str) -> Any:
+    """A judge of "switching this part off saves at most a share `most` of the whole time"."""
+
+    def decide(evidence: Evidence) -> Verdict | None:
+        ratios = evidence.ratios(part, picks.FIT, picks.TABLE_4)
+        if ratios.empty:
+            return None
+        shares = 1.0 - ratios["ratio"]
+        return verdict(bool(shares.mean() <= most), f"{quantities(shares, _percent)}; the paper: {paper}")
+
+    return decide
+
+
+def _percent(value: float) -> str:
+    return f"{100 * value:.0f} %".replace("-", "−")
+
+
+def _sphere(evidence: Evidence) -> Verdict | None:
+    ratios = evidence.ratios(picks.NO_EVAL, picks.FIT, ("sphere",))
+    if ratios.empty:
+        return None
+    return verdict(
+        ratios["ratio"].mean() > 1.0, f"without direct evaluation it takes {quantities(ratios['ratio'])} the time"
+    )
+
+
+def _thin_features(evidence: Evidence) -> Verdict | None:
+    ours, march = (
+        _counts(evidence, pick, ("calyx", "sixteen_ball", "endrass_octic")) for pick in (picks.FIT, picks.MARCH)
+    )
+    if ours.empty or march.empty:
+        return None
+    figure = f"wrong rays, {picks.FIT.words}: {_told(ours)}; ray marching: {_told(march)}"
+    return verdict(bool(ours.sum() < march.sum()), figure)
+
+
+def _sharper(evidence: Evidence) -> Verdict | None:
+    ours = bounds(evidence)
+    if ours.empty:
+        return None
+    first = ours.index.get_level_values("reading")[0]
+    gain = ours.loc[first, "control point"] - ours.loc[first, "LU"]
+    figure = f"as described, {quantities(gain, lambda v: f'{v:.1f}')} points sharper, most at degree {gain.idxmax()}"
+    paper = published.table("szente_table2_bounds").rows
+    theirs = [float(paper[0][str(n)]) - float(paper[1][str(n)]) for n in gain.index]
+    return verdict(gain.mean() >= 15.0, f"{figure}; the paper's Table 2: {quantities(theirs, lambda v: f'{v:.1f}')}")
+
+
+def _never_looser(evidence: Evidence) -> Verdict | None:
+    ours = bounds(evidence)
+    if ours.empty:
+        return None
+    readings = [r for r in ours.index.get_level_values("reading").unique() if "1/n" not in r]
+    gaps = [ours.loc[r, "control point"] - ours.loc[r, "LU"] for r in readings]
+    least = min(float(gap.min()) for gap in gaps)
+    return verdict(least >= -1e-9, f"smallest gain over {sum(map(len, gaps))} averages: {least:.3f} points")
+
+
+def _lu_misses_nothing(evidence: Evidence) -> Verdict | None:
+    rows = evidence.rows(picks.LU, picks.TABLE_5)
+    if rows.empty:
+        return None
+    bad = rows["misses"].sum() + rows["wrong_root"].sum()
+    told = f"{bad:,} misses and wrong roots of {rows['accuracy_rays'].sum():,} rays on {len(rows)} surfaces"
+    return verdict(bool(bad == 0), told)
+
+
+def _out_of_steps(evidence: Evidence) -> Verdict | None:
+    rows = evidence.rows(picks.LU, picks.HIGH_DEGREE).drop_duplicates("surface")
+    if rows.empty:
+        return None
+    share = (rows["exhausted"] + rows["grazing_exhausted"]).astype(float) / rows["accuracy_rays"].astype(float)
+    told = ", ".join(f"{t} {wording.share(s)}" for t, s in zip(rows["surface_title"], share, strict=True))
+    return verdict(bool((share > 0).all()), f"rays out of steps: {told}")
+
+
+def _lu_over_marching(evidence: Evidence) -> Verdict | None:
+    ratios = evidence.ratios(picks.MARCH, picks.LU, picks.TABLE_5)
+    if ratios.empty:
+        return None
+    return verdict(ratios["ratio"].mean() >= 4.8, f"{quantities(ratios['ratio'])}; the paper's text: 4.8× and 7×")
+
+
+def _lu_over_control(evidence: Evidence) -> Verdict | None:
+    ratios = evidence.ratios(picks.CONTROL, picks.LU, picks.TABLE_5)
+    if ratios.empty:
+        return None
+    each = ", ".join(f"{r.surface_title} {wording.factor(r.ratio)}" for r in ratios.itertuples())
+    return verdict(
+        bool((ratios["ratio_high"] >= 1.0).all() and ratios["ratio"].mean() > 1.0), f"{each}; the paper: 1.37×"
+    )
+
+
+def _cheaper_than_double(evidence: Evidence) -> Verdict | None:
+    single = evidence.rows(picks.FIT, picks.HIGH_DEGREE).dropna(subset=["median_ms"])
+    double = evidence.rows(picks.NO_EFT, picks.HIGH_DEGREE, "float64").dropna(subset=["median_ms"])
+    keys = ["comparison", "device"]
+    both = single.merge(double[[*keys, "median_ms"]], on=keys, suffixes=("", "_double"))
+    if both.empty:
+        return None
+    ratio = both["median_ms_double"] / both["median_ms"]
+    return verdict(ratio.mean() > 1.0, f"float64 without EFT takes {quantities(ratio)} the time of float32 with it")
+
+
+def _degree_hurts(evidence: Evidence) -> Verdict | None:
+    rows = evidence.rows(picks.BERNSTEIN_NEITHER, picks.HIGH_DEGREE).drop_duplicates("surface").sort_values("degree")
+    if len(rows) < 2:
+        return None
+    share = wrong(rows, grazing=True) / rows["accuracy_rays"].astype(float)
+    told = ", ".join(f"degree {d}: {wording.share(s)}" for d, s in zip(rows["degree"], share, strict=True))
+    return verdict(bool(share.iloc[-1] > share.iloc[0]), f"wrong rays in the Bernstein basis without EFT: {told}")
+
+
+_EFT = ("eft_yuksel",)
+_LU = ("lu_lipschitz",)
+CLAIMS = (
+    Claim(PAPER, "2.1", "The condition numbers of Table 1.", "The same computed", _digits, _EFT, STUDIES),
+    Claim(
+        PAPER,
+        "2.1",
+        "In the monomial basis, nodes on [−1, 1] are better conditioned than nodes on [0, 1].",
+        "Condition numbers of both",
+        _better_interval,
+        _EFT,
+        STUDIES,
+    ),
+    Claim(
+        PAPER,
+        "Table 1",
+        "The Bernstein basis is better conditioned than the monomial one.",
+        "Condition numbers of both",
+        _steadier_basis,
+        _EFT,
+        STUDIES,
+    ),
+    Claim(
+        PAPER,
+        "1",
+        "Fitting is numerically unstable at higher degrees.",
+        "Wrong rays of the plain fit by degree",
+        _degree_hurts,
+        _EFT,
+        FIG_1,
+    ),
+    Claim(
+        PAPER,
+        "Fig. 1",
+        "Without EFT and direct evaluation there are artifacts, with both none (monomial basis).",
+        "Wrong rays of both at degrees 8, 10 and 16, silhouettes included; at most a tenth left",
+        _artifacts(picks.NEITHER, picks.FIT, picks.HIGH_DEGREE),
+        _EFT,
+        FIG_1,
+    ),
+    Claim(
+        PAPER,
+        "Fig. 1",
+        "EFT alone removes most artifacts of the plain fit (monomial basis, degrees 8 and 10).",
+        "The same without direct evaluation",
+        _artifacts(picks.NEITHER, picks.NO_EVAL, ("endrass_octic", "barth_decic")),
+        _EFT,
+        FIG_1,
+    ),
+    Claim(
+        PAPER,
+        "Fig. 1",
+        "EFT alone removes most artifacts of the plain fit (monomial basis, degree 16).",
+        "The same on the 16-ball",
+        _artifacts(picks.NEITHER, picks.NO_EVAL, ("sixteen_ball",)),
+        _EFT,
+        FIG_1,
+    ),
+    Claim(
+        PAPER,
+        "Fig. 1",
+        "The same, in the Bernstein basis.",
+        "The same, in the Bernstein basis, all three surfaces",
+        _artifacts(picks.BERNSTEIN_NEITHER, picks.BERNSTEIN_NO_EVAL, picks.HIGH_DEGREE),
+        _EFT,
+        FIG_1,
+    ),
+    Claim(
+        PAPER,
+        "2.1",
+        "EFT is indispensable: nothing else in the method mends what a plain fit loses (degree 8 and more).",
+        "Wrong rays with direct evaluation but without EFT, against both",
+        _indispensable,
+        _EFT,
+        FIG_1,
+    ),
+    Claim(
+        PAPER,
+        "1",
+        "EFT gives the precision without the cost of double precision.",
+        "Time in float64 without EFT over float32 with it",
+        _cheaper_than_double,
+        _EFT,
+        FIG_1,
+    ),
+    Claim(
+        PAPER,
+        "4",
+        "No artifacts on any of the surfaces of Table 4.",
+        "Wrong rays away from silhouettes",
+        _no_artifacts,
+        _EFT,
+        TABLE_4,
+    ),
+    Claim(
+        PAPER,
+        "4",
+        "Around thin features it is more accurate than the ray marching taken as truth.",
+        "Wrong rays of both on the surfaces of Figure 2, silhouettes included",
+        _thin_features,
+        ("eft_yuksel", "ray_march"),
+        "szente-fig2.toml",
+    ),
+    Claim(
+        PAPER,
+        "4",
+        "23.6 times as fast as ray marching, in the mean.",
+        "Time of ray marching over EFT + EVAL, seven surfaces",
+        _speedup,
+        _EFT,
+        TABLE_4,
+    ),
+    Claim(
+        PAPER,
+        "Table 4",
+        "EFT takes a quarter of the time.",
+        "1 − time without EFT over time with it; at most 24 % in the mean",
+        _share(picks.NO_EFT, 0.24, "24 % in the mean (5 % to 39 %)"),
+        _EFT,
+        TABLE_4,
+    ),
+    Claim(
+        PAPER,
+        "Table 4",
+        "Direct evaluation takes less than a tenth of the time.",
+        "1 − time without it over time with it; at most 10 % in the mean",
+        _share(picks.NO_EVAL, 0.10, "8 % in the mean (−8 % to 17 %)"),
+        _EFT,
+        TABLE_4,
+    ),
+    Claim(
+        PAPER,
+        "4",
+        "On the sphere direct evaluation is faster than the polynomial.",
+        "Time without direct evaluation over time with it",
+        _sphere,
+        _EFT,
+        TABLE_4,
+    ),
+    Claim(PAPER, "3", "LU bounds are never looser than control points.", "Both, averaged", _never_looser, _LU, STUDIES),
+    Claim(
+        PAPER,
+        "3",
+        "LU bounds are about 20 % sharper.",
+        "Difference of both errors as Table 2 describes them; at least 15 points in the mean",
+        _sharper,
+        _LU,
+        STUDIES,
+    ),
+    Claim(
+        PAPER,
+        "1, 3",
+        "Lipschitz tracing by LU bounds misses no surface feature.",
+        "Misses and wrong roots away from silhouettes on the surfaces of Table 5",
+        _lu_misses_nothing,
+        _LU,
+        TABLE_5,
+    ),
+    Claim(
+        PAPER,
+        "4",
+        "LU bounds are consistently faster than control points.",
+        "Time of control points over LU, surface by surface",
+        _lu_over_control,
+        _LU,
+        TABLE_5,
+    ),
+    Claim(
+        PAPER,
+        "4",
+        "LU tracing is 4.8 times as fast as ray marching.",
+        "Time of ray marching over LU, mean of four surfaces",
+        _lu_over_marching,
+        _LU,
+        TABLE_5,
+    ),
+    Claim(
+        PAPER,
+        "4",
+        "Surfaces of higher degree run out of the iteration cap.",
+        "Exhausted rays at degrees 8, 10 and 16",
+        _out_of_steps,
+        _LU,
+        TABLE_5,
+    ),
+    Claim(
+        PAPER,
+        "5",
+        "Bounds that follow the interval may be faster still (future work).",
+        "Time of one bound for the ray over bounds that follow it",
+        faster(picks.LU, picks.LU_LOCAL, picks.TABLE_5),
+        _LU,
+        TABLE_5,
+    ),
+    Claim(
+        PAPER,
+        "2.2",
+        "Register efficiency on consumer graphics hardware.",
+        "none",
+        untestable,
+        reason="registers are no part of what a device here reports",
+    ),
+)

@@ -1,0 +1,90 @@
+"""What claims and reproductions are decided by: rows picked by method and knobs, and ratios of times taken in turns."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+import pandas as pd
+
+from harness.contract import CellStatus
+from reports import derive
+from reports.arrays import Arrays, Shelf
+
+
+@dataclass(frozen=True)
+class Pick:
+    """A method with some of its knobs at stated values; `words` name it in texts."""
+
+    words: str
+    method: str
+    knobs: Mapping[str, float] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, eq=False)
+class Evidence:
+    """All that a run holds, for those who judge by it. Only cells that ended well count."""
+
+    frame: pd.DataFrame  # with the columns of derive
+    studies: Mapping[str, list[dict[str, Any]]]
+    shelf: Shelf
+
+    @cached_property
+    def finished(self) -> pd.DataFrame:
+        return self.frame[(self.frame["status"] == CellStatus.OK) & self.frame["answers"]]
+
+    def rows(
+        self, pick: Pick, surfaces: Iterable[str] | None = None, precision: str | None = "float32"
+    ) -> pd.DataFrame:
+        """The finished rows of `pick`, one for each scene, device and precision (the first, where knobs leave several).
+
+        `precision` None takes all precisions, `surfaces` None all surfaces.
+        """
+        rows = self.finished[self.finished["method"] == pick.method]
+        if precision is not None:
+            rows = rows[rows["precision"] == precision]
+        if surfaces is not None:
+            rows = rows[rows["surface"].isin(list(surfaces))]
+        if pick.knobs:
+            texts = {text: _has(text, pick.knobs) for text in rows["parameters"].unique()}
+            rows = rows[rows["parameters"].map(texts).astype(bool)]
+        return rows.drop_duplicates(derive.GROUP)
+
+    def ratios(
+        self,
+        slow: Pick,
+        fast: Pick,
+        surfaces: Iterable[str] | None = None,
+        precision: str | None = "float32",
+        above_floor: bool = False,
+    ) -> pd.DataFrame:
+        """How many times as long `slow` takes as `fast`, where both were timed in turns: one row for each group.
+
+        Columns: those of `fast`, and `ratio`, `ratio_low`, `ratio_high` (of the ends of both intervals), `slow_ms` and
+        `fast_ms`. With `above_floor` the null method's time is taken off both first, where it was measured.
+        """
+        a, b = (self.rows(pick, surfaces, precision).dropna(subset=["median_ms"]) for pick in (slow, fast))
+        times = ["median_ms", "lower_ms", "upper_ms"]
+        both = b.merge(a[[*derive.GROUP, *times]], on=derive.GROUP, suffixes=("", "_slow"))
+        floor = both["floor_ms"].fillna(0.0) if above_floor else 0.0
+        for name in times:
+            both[name] = (both[name] - floor).clip(lower=1e-9)
+            both[f"{name}_slow"] -= floor
+        return both.assign(
+            slow_ms=both["median_ms_slow"],
+            fast_ms=both["median_ms"],
+            ratio=both["median_ms_slow"] / both["median_ms"],
+            ratio_low=both["lower_ms_slow"] / both["upper_ms"],
+            ratio_high=both["upper_ms_slow"] / both["lower_ms"],
+        )
+
+    def arrays(self, row: Any) -> Arrays | None:
+        return self.shelf.get(row)
+
+
+def _has(parameters: Any, knobs: Mapping[str, float]) -> bool:
+    bound = json.loads(parameters) if isinstance(parameters, str) else {}
+    return all(bound.get(name) == value for name, value in knobs.items())

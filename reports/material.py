@@ -1,0 +1,40 @@
+"""What every part of a report is made from."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import pandas as pd
+
+from reports import style, viewstats
+from reports.arrays import Shelf
+from reports.evidence import Evidence
+from reports.load import Run
+from reports.style import Mark
+
+
+@dataclass(frozen=True, eq=False)
+class Material:
+    """A run, its rows with the derived columns, and what parts share."""
+
+    run: Run
+    frame: pd.DataFrame  # of derive
+    rungs: pd.DataFrame  # of breaks
+    shelf: Shelf
+
+    @cached_property
+    def marks(self) -> Mapping[str, Mark]:
+        """By variant."""
+        variants = pd.concat([of[["method", "variant"]] for of in (self.frame, self.run.families)])
+        return style.variant_marks(variants.drop_duplicates().itertuples(index=False, name=None))
+
+    @cached_property
+    def listed(self) -> pd.DataFrame:
+        """`frame` for what lists scenes one by one: the first view stands for a large set."""
+        return viewstats.one_view_of_each(self.frame)
+
+    @cached_property
+    def evidence(self) -> Evidence:
+        return Evidence(self.frame, self.run.studies, self.shelf)

@@ -1,0 +1,72 @@
+"""A card for each method: what it is, what it claims, and whether its claims held."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import pandas as pd
+
+from reports import claims, style, wording
+from reports.claims import Outcome
+from reports.content import Block, Column, Section, Table, Text
+from reports.material import Material
+
+ORDER = 70
+
+
+def sections(material: Material) -> list[Section]:
+    """None where the run does not say what its methods are (runs of before it did)."""
+    told = material.run.plan.methods
+    if not told:
+        return []
+    judged = [(claim, claims.judge(claim, material.evidence)) for claim in claims.CLAIMS]
+    blocks: list[Block] = []
+    for name in sorted(told):
+        blocks += _card(name, told[name], material.frame[material.frame["method"] == name], judged)
+    return [Section("Methods", tuple(blocks))]
+
+
+def _card(name: str, told: Mapping[str, Any], rows: pd.DataFrame, judged: list[Any]) -> list[Block]:
+    knobs = ", ".join(
+        f"{knob['name']} = {knob['default']:g} ({knob['meaning']})" for knob in told.get("parameters", [])
+    )
+    body = [
+        ("source", told.get("source")),
+        *((part.lower(), wording.excerpt(text, 1500)) for part, text in told.get("doc", {}).items()),
+        ("knobs, with defaults", knobs or "none"),
+        ("claims", _claims(told.get("claims", []), rows)),
+    ]
+    for claim, verdict in judged:
+        if name in claim.methods and verdict.outcome is not Outcome.UNTESTED:
+            body.append(
+                (
+                    f"{claim.paper} {claim.section}",
+                    f"{claim.text} {verdict.outcome.value.capitalize()}: {verdict.figure}.",
+                )
+            )
+    mark = style.marks([name])[name]
+    title = f"{name}: {told.get('title', '')}"
+    return [Text(""), Table((Column(""), Column("", stretch=1)), body, title, _drawn(mark))]
+
+
+def _claims(stated: list[str], rows: pd.DataFrame) -> str:
+    """What the method itself claims, and whether this run's counts speak against it."""
+    if not stated:
+        return "none"
+    counted = {"no_missed_root": ["misses", "wrong_root"], "no_false_hit": ["false_hits"], "finds_touch": ["misses"]}
+    words = []
+    for name in sorted(stated):
+        columns = counted.get(name)
+        known = rows[rows["accuracy_rays"].notna()] if columns else rows.head(0)
+        if known.empty or not columns:
+            words.append(f"{name.replace('_', ' ')} (tested by the test suite)")
+            continue
+        bad = int(known[[*columns, *(f"grazing_{c}" for c in columns)]].sum().sum())
+        held = "held" if bad == 0 else f"broken by {bad:,} of"
+        words.append(f"{name.replace('_', ' ')}: {held} {int(known['accuracy_rays'].sum()):,} rays here")
+    return "; ".join(words)
+
+
+def _drawn(mark: style.Mark) -> str:
+    return f"Drawn in {mark.color} with marker “{mark.marker}” on every page."

@@ -1,0 +1,11 @@
+"""Error against condition."""
+
+from reports import condition
+from reports.content import Section
+from reports.material import Material
+
+ORDER = 40
+
+
+def sections(material: Material) -> list[Section]:
+    return condition.sections(material.shelf, material.frame, material.marks)

@@ -1,0 +1,69 @@
+"""A page for each surface: speed against error, pictures, and every figure of its rows."""
+
+from __future__ import annotations
+
+import pandas as pd
+
+from harness.contract import CellStatus
+from reports import derive, images, plots, style, tables, wording
+from reports.content import Block, Section, Text
+from reports.material import Material
+
+ORDER = 20
+SCENES = 40  # comparisons of a run whose fronts are all drawn; of a larger one those of each surface's first
+
+LEGEND = (
+    f"Speed-up is over {derive.BASELINE}. Flags: front, no other variant with all rays right is both faster and more "
+    f"exact; floor-bound, under {derive.FLOOR_FACTOR:g} times the null method's time, so that the harness is measured "
+    "more than the method; floor, the null method itself, which finds nothing; interval wide, the budget ended before "
+    "the 95 % interval of the median was within 2 %; overhead, the harness's share of the time where it is above "
+    f"{wording.share(tables.OVERHEAD_LIMIT)}."
+)
+UNITS = (
+    "The same errors in the units that papers use, over rays away from silhouettes that hit the right root: the "
+    "largest and the 99th percentile. |t − t*| in scene units; over the radius of the scene; over the feature "
+    "radius (a torus's minor radius r; the scene's where a surface has none of its own); in pixel footprints at "
+    "the hit; in units in the last place of t. Over condition × roundoff: the error over what the problem allows, "
+    "max(condition, 1) × unit roundoff × the domain's radius, which a stable method keeps small. Normal: the angle "
+    "between the surface's normals at the hit and at the root. Residual: |f| at the hit over the sum of |terms of "
+    "f|, the backward error. Look for rows with a small error in one unit and a large one in another."
+)
+
+
+def sections(material: Material) -> list[Section]:
+    frame = material.listed
+    if frame.empty:
+        return []
+    finished = frame[frame["status"] == CellStatus.OK]
+    if finished.empty:
+        return [Section("Surfaces", (Text("No cell gave a result; the reasons are listed below."),))]
+    pictures = images.galleries(material.shelf, frame)
+    printed = tables.worth_printing(finished)
+    told: list[Block] = [Text(LEGEND), Text(UNITS)]
+    if len(printed) < len(finished):
+        kept = f"{len(printed):,} of {len(finished):,} rows: those on a front, {derive.BASELINE} and the floor"
+        told.append(Text(f"Printed are {kept}. results.csv has all."))
+    made = [Section("How to read the surfaces' pages", tuple(told))]
+    marks, named = style.marks(frame["method"]), tables.places(frame)
+    all_fronts = frame["comparison"].nunique() <= SCENES
+    for i, (surface, rows) in enumerate(frame.groupby("surface", sort=False)):
+        own = printed[printed["surface"] == surface]
+        scenes = [scene for _, scene in rows.groupby("comparison", sort=False)]
+        blocks: list[Block] = [Text(_facts(rows))]
+        for j, scene in enumerate(scenes if all_fronts else scenes[:1]):
+            title = named[str(scene["comparison"].iloc[0])]
+            blocks += plots.speed_against_error(scene, marks, f"front-{i}-{j}", title)
+        blocks += [pictures[str(surface)]] if str(surface) in pictures else []
+        for _, scene in own.groupby("comparison", sort=False):
+            errors = tables.units(scene)
+            blocks += [tables.results(scene), *([errors] if errors else [])]
+        made.append(Section(str(rows["surface_title"].iloc[0]), tuple(blocks), wide=True))
+    return made
+
+
+def _facts(rows: pd.DataFrame) -> str:
+    """Formula and degree, as the first row tells them."""
+    first = rows.iloc[0]
+    degree = "not algebraic" if wording.absent(first["degree"]) else f"degree {first['degree']}"
+    formula = "" if wording.absent(first["formula"]) else f": {wording.excerpt(first['formula'], 400)} = 0"
+    return f"{degree[0].upper()}{degree[1:]}{formula}."

@@ -1,0 +1,150 @@
+"""The papers' pictures: what each setting drew, its errors, and how many rays it got wrong."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import pandas as pd
+
+from reports import images, wording
+from reports.claims import picks
+from reports.content import Block, Column, Section, Table, Text
+from reports.evidence import Pick
+from reports.material import Material
+from reports.reproductions import verdicts
+
+ORDER = 30
+
+
+@dataclass(frozen=True)
+class Figure:
+    """One figure of a paper. `settings` are drawn side by side on each of `surfaces`, `config` gives their rows."""
+
+    title: str
+    told: str  # what the paper's figure shows, and how ours is made
+    caption: str  # what to see
+    config: str
+    surfaces: tuple[str, ...]
+    settings: tuple[Pick, ...]
+
+
+_CUBICS = ("cayley", "clebsch", "ding_dong", "monkey_saddle", "whitney_umbrella", "cartan_umbrella")
+_ANY_BEAM = (
+    "sphere",
+    "dingdong_beamcasting",
+    "klein",
+    "mitchell",
+    "octdong",
+    "steiner",
+    "tangle",
+    "teardrop",
+    "barth_sextic",
+    "heart",
+    "chmutov",
+    "blinn_blob",
+)
+FIGURES = (
+    Figure(
+        "toledo2007, Figure 2",
+        "The paper shows cubics in the box [−1, 1]³ by Sturm's method, and reports errors close to singular points.",
+        "Cubics by Sturm's method as printed. Look for wrong rays at nodes and along the handles of umbrellas.",
+        "toledo-fig2.toml",
+        _CUBICS,
+        (picks.STURM,),
+    ),
+    Figure(
+        "toledo2007, Figure 4",
+        "The paper shows a torus on which Sturm's method fails at one viewing angle, and draws the ray on which sphere "
+        "tracing is slow. Here: the torus at Table 1's six angles.",
+        "The torus by Sturm, D.D. Bisection and Sphere Tracing, view by view. Look for Sturm's wrong rays near edges "
+        "and for D.D. Bisection's at 18°.",
+        "toledo-fig4.toml",
+        ("torus",),
+        (picks.STURM, picks.BISECTION, picks.ONE_RAY),
+    ),
+    Figure(
+        "szente, Figure 1",
+        "The paper shows the Endraß octic in float32 without EFT, with EFT, and with EFT and direct evaluation. Here "
+        "the Barth decic and the 16-ball stand beside it, and the Bernstein basis beside the monomial one. Rays start "
+        "where they come closest to the centre, whatever the camera's distance, which keeps the samples of f "
+        "themselves exact to float32's last bits; a renderer that starts at the camera adds the rounding of its "
+        "distance to them.",
+        "From top to bottom: neither, EFT without EVAL, EFT + EVAL in the monomial basis, then EVAL without EFT, then "
+        "the Bernstein basis. Look at the error maps: direct evaluation clears the bands, and EFT matters most in the "
+        "Bernstein basis and at degree 16.",
+        "szente-fig1.toml",
+        picks.HIGH_DEGREE,
+        (picks.NEITHER, picks.NO_EVAL, picks.FIT, picks.NO_EFT, picks.BERNSTEIN_NEITHER, picks.BERNSTEIN_NO_EVAL),
+    ),
+    Figure(
+        "szente, Figure 2",
+        "The paper shows the calyx, the 16-ball and the Endraß octic, and calls its pictures more accurate around thin "
+        "features than the ray marching it takes as truth. Both are held against certified hits here.",
+        "The three surfaces by EFT + EVAL and by ray marching. Look at the calyx's cusp.",
+        "szente-fig2.toml",
+        ("calyx", "sixteen_ball", "endrass_octic"),
+        (picks.FIT, picks.MARCH),
+    ),
+    Figure(
+        "beamcasting, Figures 2 to 4",
+        "The paper shows its twelve surfaces with 1 and with 4 samples per pixel. Here: the rays of the accuracy "
+        "check.",
+        "The twelve surfaces by adaptive beams. Look at silhouettes, where a beam may touch what its centre ray does "
+        "not.",
+        "beamcasting-tables.toml",
+        _ANY_BEAM,
+        (picks.ADAPTIVE,),
+    ),
+)
+
+
+def sections(material: Material) -> list[Section]:
+    return [section for figure in FIGURES if (section := _section(material, figure))]
+
+
+def _section(material: Material, figure: Figure) -> Section | None:
+    runs = material.frame["run"] == figure.config.removesuffix(".toml")
+    if not runs.any():
+        return None
+    found = []
+    for pick in figure.settings:
+        rows = material.evidence.rows(pick, figure.surfaces)
+        rows = rows[rows["run"] == figure.config.removesuffix(".toml")]
+        found.append(rows.assign(setting=pick.words))
+    rows = pd.concat(found)
+    rows = rows[rows["device"] == rows["device"].iloc[0]] if len(rows) else rows
+    if rows.empty:
+        return None
+    rows["place"] = rows["surface"].map(list(figure.surfaces).index)
+    rows = rows.sort_values(["place", "view"], kind="stable").drop_duplicates(["surface", "view", "setting"])
+    blocks: list[Block] = [Text(figure.told), _counts(rows, figure.title)]
+    gallery = images.gallery(material.shelf, rows, figure.caption, figure.config.removesuffix(".toml"))
+    blocks += [gallery] if gallery else []
+    return Section(figure.title, (*blocks, *verdicts.of(material, figure.config)))
+
+
+def _counts(rows: pd.DataFrame, title: str) -> Table:
+    kinds = ("misses", "false_hits", "exhausted", "wrong_root")
+    views = rows["view"].nunique() > 1
+    body = []
+    for row in rows.itertuples():
+        counts = tuple(getattr(row, kind) for kind in kinds)
+        place = (row.surface_title, row.view) if views else (row.surface_title,)
+        told = (row.setting, *counts, row.wrong_rays, row.grazing_wrong_rays, row.error_max, row.error_p99)
+        body.append((*place, *told))
+    return Table(
+        (
+            Column("surface"),
+            *([Column("view")] if views else []),
+            Column("setting", stretch=1),
+            *(Column(kind.replace("_", "\n"), wording.count, numeric=True) for kind in kinds),
+            Column("wrong\nrays", wording.count, numeric=True),
+            Column("at sil-\nhouettes", wording.count, numeric=True),
+            Column("max\nerror", wording.error, numeric=True),
+            Column("99 %\nerror", wording.error, numeric=True),
+        ),
+        body,
+        f"{title}: rays answered wrongly, of {wording.count(rows['accuracy_rays'].iloc[0])} each.",
+        f"On {rows['device'].iloc[0]}, {rows['precision'].iloc[0]}; errors in scene units. The paper prints no counts.",
+        group=1,
+    )

@@ -1,0 +1,221 @@
+"""szente's Tables 1, 2, 4 and 5."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import pandas as pd
+
+from reports import published, wording
+from reports.claims import picks
+from reports.claims.szente import bounds, condition
+from reports.content import Block, Column, Section, Table
+from reports.material import Material
+from reports.reproductions import verdicts
+
+ORDER = 20
+MATCH = 0.03  # a reading matches Table 2 where no figure is off by more than this share
+_NAMES = {
+    "sphere": "Sphere",
+    "torus": "Torus",
+    "flirt": "Flirt",
+    "calyx": "Calyx",
+    "barth_sextic": "Barth sextic",
+    "endrass_octic": "Endrass octic",
+    "barth_decic": "Barth decic",
+    "sixteen_ball": "16-Ball",
+}
+
+
+def sections(material: Material) -> list[Section]:
+    made = (_table_1_and_2(material), _table_4(material), _table_5(material))
+    return [section for section in made if section]
+
+
+def _table_1_and_2(material: Material) -> Section | None:
+    ours = condition(material.evidence)
+    blocks: list[Block] = []
+    if not ours.empty:
+        blocks.append(_table_1(ours))
+    figures = bounds(material.evidence)
+    if not figures.empty:
+        blocks += _table_2(figures)
+    if not blocks:
+        return None
+    return Section("szente, Tables 1 and 2", (*blocks, *verdicts.of(material, "szente-tables-1-2.toml")), wide=True)
+
+
+def _table_1(ours: pd.DataFrame) -> Table:
+    paper = published.table("szente_table1_condition")
+    body: list[tuple[Any, ...]] = []
+    for basis, row in ours.iterrows():
+        for n, value in row.items():
+            printed = paper.number(f"degree_{n}", basis=str(basis))
+            same = None if printed is None else "yes" if f"{value:.2f}" == f"{printed:.2f}" else "no"
+            body.append((basis, n, value, printed, None if printed is None else value - printed, same))
+    return Table(
+        (
+            Column("basis"),
+            Column("degree", wording.count, numeric=True),
+            Column("ours", _exact, numeric=True),
+            Column("paper", _exact, numeric=True),
+            Column("difference", _small, numeric=True),
+            Column("every printed digit"),
+        ),
+        body,
+        "szente, Table 1: L² condition numbers of fitting matrices.",
+        "Nodes cos(iπ/n) on [−1, 1] for the monomial basis, mapped to [0, 1] for the Bernstein basis. The paper has no "
+        "figures for the monomial basis on [0, 1], which it calls worse.",
+        group=1,
+    )
+
+
+def _exact(value: Any) -> str:
+    return wording.NONE if wording.absent(value) else f"{value:,.2f}"
+
+
+def _small(value: Any) -> str:
+    return wording.NONE if wording.absent(value) else f"{value:+.4f}".replace("-", "−")
+
+
+def _table_2(figures: pd.DataFrame) -> list[Block]:
+    paper = published.table("szente_table2_bounds")
+    columns = (
+        Column("what was run", stretch=1),
+        Column("bound"),
+        *(Column(f"degree {n}", _percent, numeric=True) for n in figures.columns),
+    )
+    printed = {"control point": paper.rows[0], "LU": paper.rows[1]}
+    body: list[tuple[Any, ...]] = [
+        ("the paper prints", bound, *(float(row[str(n)]) for n in figures.columns)) for bound, row in printed.items()
+    ]
+    matches = []
+    for reading in figures.index.get_level_values("reading").unique():
+        own = [(reading, bound, *figures.loc[(reading, bound)]) for bound in printed]
+        body += own
+        pairs = [
+            (a, float(printed[row[1]][str(n)])) for row in own for a, n in zip(row[2:], figures.columns, strict=True)
+        ]
+        if all(abs(a - b) <= MATCH * b for a, b in pairs):
+            matches.append(str(reading))
+    told = f"Matched by: {'; '.join(matches)}." if matches else "No reading matches it."
+    table = Table(
+        columns,
+        body,
+        "szente, Table 2: relative errors of bounds of extrema, in per cent, mean of 100 random curves.",
+        f"{told} A match would be every figure within {wording.share(MATCH)}. At degree 2 the LU function is the "
+        "curve itself wherever its extremum is an inner one, so that no random quadratic leaves an error: the paper's "
+        "28.54 % cannot come from Equations 5 to 8 as printed.",
+        group=1,
+    )
+    return [table]
+
+
+def _percent(value: Any) -> str:
+    return wording.NONE if wording.absent(value) else f"{value:.2f}".replace("-", "−")
+
+
+def _table_4(material: Material) -> Section | None:
+    evidence = material.evidence
+    march = evidence.ratios(picks.MARCH, picks.FIT, picks.TABLE_4)
+    if march.empty:
+        return None
+    shares = {
+        name: evidence.ratios(pick, picks.FIT, picks.TABLE_4).set_index("comparison")["ratio"]
+        for name, pick in (("eft", picks.NO_EFT), ("eval", picks.NO_EVAL))
+    }
+    body: list[tuple[Any, ...]] = []
+    for row in _in_order(march, picks.TABLE_4):
+        told: list[Any] = [
+            row.surface_title,
+            row.degree,
+            row.fast_ms,
+            _lookup("szente_table4_runtime", "total_ms", row),
+        ]
+        for name in ("eft", "eval"):
+            ratio = shares[name].get(row.comparison)
+            paper = _lookup("szente_table4_runtime", f"{name}_percent", row)
+            told += [None if ratio is None else 100.0 * (1.0 - ratio), paper]
+        told += [row.slow_ms, _lookup("szente_table4_runtime", "raymarch_ms", row), row.ratio]
+        theirs = _lookup("szente_table4_runtime", "speedup", row)
+        body.append((*told, theirs, None if theirs is None else row.ratio / theirs))
+    mean = _means(body, (4, 5, 6, 7, 10, 11), 13)
+    table = Table(
+        (
+            Column("surface"),
+            Column("degree", wording.count, numeric=True),
+            *_both("EFT + EVAL, ms", wording.number),
+            *_both("EFT, % of it", _whole),
+            *_both("EVAL, % of it", _whole),
+            *_both("ray marching, ms", wording.number),
+            Column("ours", wording.factor, numeric=True, over="speed-up"),
+            Column("paper", wording.factor, numeric=True, over="speed-up"),
+            Column("ours over\npaper", wording.factor, numeric=True),
+        ),
+        [*body, mean],
+        "szente, Table 4: the fit with Yuksel's bracketing against ray marching.",
+        f"Ours on {march['device'].iloc[0]}, {march['size'].iloc[0]} × {march['size'].iloc[0]}; the paper's on an "
+        "NVIDIA 1660 Ti mobile. Milliseconds are of two devices and not to be compared; percentages and speed-ups are. "
+        "EFT and EVAL are the share of the time that is saved with that part switched off.",
+    )
+    return Section("szente, Table 4", (table, *verdicts.of(material, "szente-table4.toml")), wide=True)
+
+
+def _table_5(material: Material) -> Section | None:
+    ratios = material.evidence.ratios(picks.CONTROL, picks.LU, picks.TABLE_5)
+    if ratios.empty:
+        return None
+    march = material.evidence.ratios(picks.MARCH, picks.LU, picks.TABLE_5).set_index("comparison")
+    body: list[tuple[Any, ...]] = []
+    for row in _in_order(ratios, picks.TABLE_5):
+        told: list[Any] = [row.surface_title, row.degree]
+        told += [row.fast_ms, _lookup("szente_table5_lu", "lu_ms", row)]
+        told += [row.slow_ms, _lookup("szente_table5_lu", "control_point_ms", row)]
+        theirs = _lookup("szente_table5_lu", "lu_speedup", row)
+        told += [row.ratio, theirs, None if theirs is None else row.ratio / theirs]
+        over = march["ratio"].get(row.comparison)
+        body.append((*told, over, _lookup("szente_table5_lu", "speedup_over_raymarch", row)))
+    mean = _means(body, (6, 7, 9, 10), 11)
+    table = Table(
+        (
+            Column("surface"),
+            Column("degree", wording.count, numeric=True),
+            *_both("LU bound, ms", wording.number),
+            *_both("control points, ms", wording.number),
+            *_both("LU over control points", wording.factor),
+            Column("ours over\npaper", wording.factor, numeric=True),
+            *_both("LU over ray marching", wording.factor),
+        ),
+        [*body, mean],
+        "szente, Table 5: Lipschitz tracing by two bounds.",
+        f"Ours on {ratios['device'].iloc[0]}, {ratios['size'].iloc[0]} × {ratios['size'].iloc[0]}; the paper's on an "
+        "NVIDIA 1660 Ti mobile. As printed: one bound for the whole ray; culling with LU bounds only.",
+    )
+    return Section("szente, Table 5", (table, *verdicts.of(material, "szente-table5.toml")), wide=True)
+
+
+def _in_order(ratios: pd.DataFrame, surfaces: tuple[str, ...]) -> list[Any]:
+    """The first device's row of each surface, in the paper's order."""
+    rows = {row.surface: row for row in reversed(list(ratios.itertuples()))}
+    return [rows[name] for name in surfaces if name in rows]
+
+
+def _lookup(name: str, column: str, row: Any) -> float | None:
+    return published.table(name).number(column, surface=_NAMES.get(row.surface, ""))
+
+
+def _both(over: str, show: Callable[[Any], str]) -> tuple[Column, Column]:
+    return Column("ours", show, numeric=True, over=over), Column("paper", show, numeric=True, over=over)
+
+
+def _whole(value: Any) -> str:
+    return wording.NONE if wording.absent(value) else f"{value:.0f}".replace("-", "−")
+
+
+def _means(body: list[tuple[Any, ...]], columns: tuple[int, ...], width: int) -> tuple[Any, ...]:
+    means: list[Any] = ["mean", *[None] * (width - 1)]
+    for i in columns:
+        known = [row[i] for row in body if not wording.absent(row[i])]
+        means[i] = sum(known) / len(known) if known else None
+    return tuple(means)

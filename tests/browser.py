@@ -1,0 +1,136 @@
+"""A real browser for tests: Debian's chromium, spoken to over a pipe in its DevTools protocol. Needs no package."""
+
+from __future__ import annotations
+
+import fcntl
+import json
+import os
+import select
+import shutil
+import subprocess
+import time
+from pathlib import Path
+from typing import Any
+
+NAMES = ("chromium", "chromium-browser", "google-chrome")
+SECONDS = 120.0  # that one answer may take on a busy machine
+
+
+def found() -> str | None:
+    """The path of a chromium, if there is one."""
+    return next(filter(None, map(shutil.which, NAMES)), None)
+
+
+def _as_pipe(to_read: int, to_write: int) -> None:
+    """In the child: the file descriptors at which chromium looks for its pipe."""
+    os.dup2(to_read, 3)
+    os.dup2(to_write, 4)
+
+
+class Browser:
+    """One headless tab. `problems` holds what the page's console called an error, and uncaught exceptions."""
+
+    def __init__(self, profile: Path) -> None:
+        command = found()
+        assert command
+        to_read, self._write = os.pipe()
+        self._read, to_write = os.pipe()
+        held = [fcntl.fcntl(fd, fcntl.F_DUPFD, 50) for fd in (to_read, to_write)]
+        self._log = (profile / "chromium.log").open("wb")
+        self._process = subprocess.Popen(
+            [
+                *(command, "--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage"),
+                *("--no-first-run", "--disable-background-networking", "--window-size=1400,1000"),
+                *(f"--user-data-dir={profile}", "--remote-debugging-pipe", "about:blank"),
+            ],
+            stdout=self._log,
+            stderr=self._log,
+            close_fds=False,
+            preexec_fn=lambda: _as_pipe(*held),
+        )
+        for fd in (to_read, to_write, *held):
+            os.close(fd)
+        self._pending, self._number, self._session = b"", 0, None
+        self.problems: list[str] = []
+        self.requests: list[str] = []
+        target = self.call("Target.createTarget", url="about:blank")["targetId"]
+        self._session = self.call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
+        for domain in ("Page", "Runtime", "Log", "Network"):
+            self.call(f"{domain}.enable")
+
+    def close(self) -> None:
+        self._process.kill()
+        self._process.wait()
+        os.close(self._read)
+        os.close(self._write)
+        self._log.close()
+
+    def call(self, method: str, **parameters: Any) -> Any:
+        """The answer to one command; events that come before it are noted."""
+        self._number += 1
+        number = self._number
+        message: dict[str, Any] = {"id": number, "method": method, "params": parameters}
+        if self._session:
+            message["sessionId"] = self._session
+        os.write(self._write, json.dumps(message).encode() + b"\0")
+        while True:
+            answer = self._next()
+            if answer.get("id") == number:
+                assert "error" not in answer, answer
+                return answer["result"]
+
+    def open(self, page: Path) -> None:
+        self.call("Page.navigate", url=page.as_uri())
+        end = time.monotonic() + SECONDS
+        while self.run("document.readyState") != "complete" or self.run("location.protocol") != "file:":
+            assert time.monotonic() < end, "the page did not load"
+            time.sleep(0.05)
+
+    def run(self, script: str) -> Any:
+        """The value of a JavaScript expression in the page."""
+        result = self.call("Runtime.evaluate", expression=script, returnByValue=True)
+        assert "exceptionDetails" not in result, result["exceptionDetails"]
+        return result["result"].get("value")
+
+    def point(self, element: str) -> tuple[float, float]:
+        """The middle of an element (a JavaScript expression) in the window, after it is scrolled there."""
+        self.run(f"{element}.scrollIntoView({{block: 'center'}})")
+        box = self.run(f"(b => [b.x + b.width / 2, b.y + b.height / 2])({element}.getBoundingClientRect())")
+        return box[0], box[1]
+
+    def hover(self, element: str) -> None:
+        x, y = self.point(element)
+        self.call("Input.dispatchMouseEvent", type="mouseMoved", x=x - 1, y=y)
+        self.call("Input.dispatchMouseEvent", type="mouseMoved", x=x, y=y)
+
+    def click(self, element: str) -> None:
+        self.hover(element)
+        x, y = self.point(element)
+        for kind in ("mousePressed", "mouseReleased"):
+            self.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", clickCount=1)
+
+    def type(self, element: str, text: str) -> None:
+        self.click(element)
+        self.call("Input.insertText", text=text)
+
+    def _next(self) -> dict[str, Any]:
+        while b"\0" not in self._pending:
+            ready, _, _ = select.select([self._read], [], [], SECONDS)
+            assert ready, "the browser does not answer"
+            part = os.read(self._read, 1 << 16)
+            assert part, "the browser ended"
+            self._pending += part
+        text, _, self._pending = self._pending.partition(b"\0")
+        message: dict[str, Any] = json.loads(text)
+        self._note(message.get("method", ""), message.get("params", {}))
+        return message
+
+    def _note(self, method: str, told: dict[str, Any]) -> None:
+        if method == "Runtime.exceptionThrown":
+            self.problems.append(json.dumps(told["exceptionDetails"]))
+        elif method == "Runtime.consoleAPICalled" and told["type"] in ("error", "warning", "assert"):
+            self.problems.append(json.dumps(told["args"]))
+        elif method == "Log.entryAdded" and told["entry"]["level"] in ("error", "warning"):
+            self.problems.append(told["entry"]["text"])
+        elif method == "Network.requestWillBeSent":
+            self.requests.append(told["request"]["url"])

@@ -1,0 +1,154 @@
+"""The claims checklist: complete data, and verdicts that planted rows flip."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from harness.contract import digest
+from reports import claims, derive, load, published
+from reports.arrays import Shelf
+from reports.claims import Claim, Outcome, picks
+from reports.evidence import Evidence, Pick
+from reports.parts import checklist
+from reports.reproductions import pictures, szente
+from tests.synthetic_run import cell, printed, reported, tiny_run
+
+ROOT = Path(__file__).parent.parent
+
+
+def planted(pick: Pick, surface: str, median: float, view: str = "front", **accuracy: Any) -> dict[str, Any]:
+    """A finished cell of `pick` that took `median` ms; of its `accuracy`, what is stated."""
+    made = cell("ray_march", "torus", "opencl:intel", "float32")
+    slot = f"{pick.words} {pick.method} {surface} {view}"
+    made |= {"slot": slot, "key": digest(slot), "method": pick.method, "variant": pick.words, "surface": surface}
+    made |= {"parameters": dict(pick.knobs), "surface_title": surface, "view": view, "arrays": None, "answers": True}
+    made |= {"comparison": f"{surface} {view} 256x256x1 compute", "degree": 8}
+    made["time"] |= {"median_ms": median, "lower_ms": 0.99 * median, "upper_ms": 1.01 * median}
+    clean = dict.fromkeys(("misses", "false_hits", "exhausted", "wrong_root"), 0)
+    made["accuracy"] |= clean | {f"grazing_{name}": 0 for name in clean} | accuracy
+    return made
+
+
+def evidence(folder: Path, *cells: dict[str, Any], studies: dict[str, Any] | None = None) -> Evidence:
+    run = load.load(tiny_run(folder, *cells))
+    return Evidence(derive.derive(run.frame), studies or {}, Shelf(run.folders))
+
+
+def claim(paper: str, words: str) -> Claim:
+    (found,) = (c for c in claims.CLAIMS if c.paper == paper and words in c.text)
+    return found
+
+
+def test_claims_name_configs_and_methods_that_exist() -> None:
+    for stated in claims.CLAIMS:
+        assert bool(stated.config) != bool(stated.reason), stated.text
+        assert not stated.config or (ROOT / "configs" / stated.config).is_file(), stated.text
+        assert all((ROOT / "methods" / name).is_dir() for name in stated.methods), stated.text
+    assert {stated.paper for stated in claims.CLAIMS} == {"toledo2007", "szente", "beamcasting"}
+    assert len({(c.paper, c.text) for c in claims.CLAIMS}) == len(claims.CLAIMS)
+
+
+def test_without_rows_no_claim_is_decided_and_each_says_what_would(tmp_path: Path) -> None:
+    nothing = evidence(tmp_path / "run", planted(Pick("x", "other"), "plane", 1.0))
+    for stated in claims.CLAIMS:
+        verdict = claims.judge(stated, nothing)
+        assert verdict.outcome is Outcome.UNTESTED, stated.text
+        assert stated.config in verdict.figure or stated.reason == verdict.figure
+
+
+@pytest.mark.parametrize(
+    ("paper", "words", "slow", "fast", "surface"),
+    [
+        ("szente", "23.6 times", picks.MARCH, picks.FIT, "sphere"),
+        ("szente", "4.8 times", picks.MARCH, picks.LU, "flirt"),
+        ("szente", "consistently faster", picks.CONTROL, picks.LU, "calyx"),
+        ("szente", "On the sphere direct", picks.NO_EVAL, picks.FIT, "sphere"),
+        ("toledo2007", "Two starts", picks.ONE_RAY, picks.TWO_RAYS, "torus"),
+        ("toledo2007", "faster than closed forms", picks.LOOP_BLINN, picks.NEWTON_3, "torus"),
+        ("beamcasting", "adaptive method beats", picks.UNIFORM, picks.ADAPTIVE, "heart"),
+    ],
+)
+def test_planted_times_flip_a_verdict(
+    tmp_path: Path, paper: str, words: str, slow: Pick, fast: Pick, surface: str
+) -> None:
+    for name, factor, outcome in (("as-claimed", 30.0, Outcome.CONFIRMED), ("against", 0.5, Outcome.REFUTED)):
+        cells = (planted(slow, surface, factor), planted(fast, surface, 1.0))
+        assert claims.judge(claim(paper, words), evidence(tmp_path / name, *cells)).outcome is outcome
+
+
+def test_times_of_different_scenes_are_no_ratio(tmp_path: Path) -> None:
+    apart = evidence(tmp_path / "run", planted(picks.MARCH, "sphere", 30.0), planted(picks.FIT, "sphere", 1.0, "side"))
+    assert apart.ratios(picks.MARCH, picks.FIT).empty
+
+
+def test_planted_wrong_rays_flip_a_verdict(tmp_path: Path) -> None:
+    def outcome(name: str, words: str, *cells: dict[str, Any], paper: str = "szente") -> Outcome:
+        return claims.judge(claim(paper, words), evidence(tmp_path / name, *cells)).outcome
+
+    octic = "endrass_octic"
+    for pick, bad, words, expected in (
+        (picks.NO_EFT, 500, "EFT is indispensable", Outcome.CONFIRMED),
+        (picks.NO_EFT, 0, "EFT is indispensable", Outcome.REFUTED),
+        (picks.NEITHER, 500, "Without EFT and direct evaluation", Outcome.CONFIRMED),
+        (picks.NEITHER, 0, "Without EFT and direct evaluation", Outcome.REFUTED),
+    ):
+        cells = (planted(pick, octic, 1.0, wrong_root=bad), planted(picks.FIT, octic, 1.0))
+        assert outcome(f"{pick.method}{bad}{words[:3]}", words, *cells) is expected
+
+    lu = "misses no surface feature"
+    assert outcome("lu-right", lu, planted(picks.LU, "flirt", 1.0)) is Outcome.CONFIRMED
+    assert outcome("lu-wrong", lu, planted(picks.LU, "flirt", 1.0, misses=1)) is Outcome.REFUTED
+
+    views = [planted(picks.STURM, "torus", 1.0, f"tilted by {i}", misses=n) for i, n in enumerate((0, 40))]
+    even = [planted(picks.STURM, "torus", 1.0, f"tilted by {i}", misses=n) for i, n in enumerate((40, 40))]
+    assert outcome("uneven", "viewing angle", *views, paper="toledo2007") is Outcome.CONFIRMED
+    assert outcome("even", "viewing angle", *even, paper="toledo2007") is Outcome.REFUTED
+
+    tight, loose = ({"feature_error": {"max": value}} for value in (1e-3, 2e-3))
+    bisection = "none of Sturm's failures"
+    for name, cells, expected in (
+        ("within", planted(picks.BISECTION, "torus", 1.0, **tight), Outcome.CONFIRMED),
+        ("beyond", planted(picks.BISECTION, "torus", 1.0, **loose), Outcome.REFUTED),
+        ("wrong", planted(picks.BISECTION, "torus", 1.0, wrong_root=3, **tight), Outcome.REFUTED),
+    ):
+        assert outcome(name, bisection, cells, paper="toledo2007") is expected
+
+
+def test_a_study_decides_and_a_changed_digit_refutes(tmp_path: Path) -> None:
+    from harness.studies import condition_numbers
+
+    rows = condition_numbers.compute()
+    right = evidence(tmp_path / "a", planted(picks.FIT, "sphere", 1.0), studies={"condition_numbers": rows})
+    assert claims.judge(claim("szente", "condition numbers of Table 1"), right).outcome is Outcome.CONFIRMED
+    changed = [row | {"condition": row["condition"] + 0.01} for row in rows]
+    wrong = evidence(tmp_path / "b", planted(picks.FIT, "sphere", 1.0), studies={"condition_numbers": changed})
+    assert claims.judge(claim("szente", "condition numbers of Table 1"), wrong).outcome is Outcome.REFUTED
+
+
+def test_the_checklist_and_the_tables_stand_in_the_report(tmp_path: Path) -> None:
+    cells = [planted(pick, "sphere", ms) for pick, ms in ((picks.MARCH, 38.4), (picks.FIT, 1.0), (picks.NO_EFT, 0.61))]
+    cells += [planted(pick, "flirt", ms) for pick, ms in ((picks.CONTROL, 3.5), (picks.LU, 2.0), (picks.MARCH, 23.2))]
+    _, report = reported(tiny_run(tmp_path / "run", *cells))
+    by_title = {section.title: printed(section.blocks) for section in report.sections}
+    assert "23.6 times as fast as ray marching, in the mean. | confirmed" in by_title["The papers' claims"]
+    line = next(line for line in by_title["szente, Table 4"].splitlines() if line.startswith("sphere"))
+    assert line.endswith("38.4× | 38.4× | 1.00×"), "ours, the paper's and their ratio"
+    assert "| 39 | 39 |" in line, "EFT's share of the time, ours and the paper's"
+    line = next(line for line in by_title["szente, Table 5"].splitlines() if line.startswith("flirt"))
+    assert "1.75× | 1.75× | 1.00× | 11.6× | 11.6×" in line
+
+
+def test_figures_of_the_papers_name_configs_and_surfaces_that_exist() -> None:
+    import surfaces
+
+    for figure in pictures.FIGURES:
+        assert (ROOT / "configs" / figure.config).is_file()
+        assert set(figure.surfaces) <= set(surfaces.names())
+    for name in szente._NAMES:
+        assert name in surfaces.names()
+    assert checklist.ORDER < 100
+    assert published.table("szente_table4_runtime").number("speedup", surface="16-Ball") == 3.3
+    assert published.table("szente_table4_runtime").number("speedup", surface="Flirt") is None

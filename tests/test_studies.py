@@ -1,0 +1,59 @@
+"""Studies: what they compute, and that a run stores them once."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from harness import studies
+from harness.cli import main
+from harness.studies import condition_numbers, extrema_bounds
+from reports import published
+
+
+def test_condition_numbers_are_table_1_to_every_printed_digit():
+    table = published.table("szente_table1_condition")
+    for row in condition_numbers.compute():
+        printed = [r for r in table.rows if r["basis"] == row["basis"]]
+        if printed:
+            assert f"{row['condition']:.2f}" == printed[0][f"degree_{row['degree']}"]
+
+
+def test_extrema_and_bounds_of_random_functions():
+    rng = np.random.default_rng(7)
+    t = np.linspace(0.0, 1.0, 100_001)
+    for n in (2, 3, 5, 9):
+        for _ in range(20):
+            b = rng.uniform(-1.0, 1.0, n + 1)
+            values = sum(extrema_bounds.math.comb(n, j) * b[j] * t**j * (1 - t) ** (n - j) for j in range(n + 1))
+            low, high = extrema_bounds.extrema(b)
+            assert low == pytest.approx(values.min(), abs=1e-5)
+            assert high == pytest.approx(values.max(), abs=1e-5)
+            least = extrema_bounds.lu_least(b)
+            assert b.min() - 1e-12 <= least <= low + 1e-9
+            if n == 2:
+                assert least == pytest.approx(low, abs=1e-9), "exact by construction at degree 2"
+
+
+def test_table_2_rows_cover_every_reading_bound_and_degree():
+    rows = extrema_bounds.compute()
+    assert len(rows) == len(extrema_bounds.READINGS) * 2 * len(extrema_bounds.DEGREES)
+    assert all(np.isfinite(row["percent"]) for row in rows)
+
+
+def test_a_run_stores_studies_and_reuses_them(tmp_path, capsys):
+    config = tmp_path / "s.toml"
+    config.write_text('title = "s"\nstudies = ["condition_numbers"]\n')
+    assert main(["run", str(config), "--runs", str(tmp_path)]) == 0
+    assert "study condition_numbers" in capsys.readouterr().out
+    assert studies.is_done("condition_numbers", tmp_path / "s")
+    assert main(["run", str(config), "--runs", str(tmp_path)]) == 0
+    assert "study" not in capsys.readouterr().out
+
+
+def test_published_tables_cite_their_paper():
+    for name in published.names():
+        table = published.table(name)
+        assert any(title in table.citation for title in ("Szente", "de Toledo", "beam casting"))
+        assert table.rows
+        assert None not in table.rows[0], "more cells than columns"
