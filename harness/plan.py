@@ -28,6 +28,7 @@ HERE = Path(__file__).parent
 DECIDING = (
     "accuracy.py",
     "camera.py",
+    "costs.py",
     "measure.py",
     "worker.py",
     "runner.py",

@@ -20,6 +20,7 @@ from harness import accuracy, measure, stability
 from harness.camera import pixel_footprint, rays_of, scene_radius
 from harness.config import Config
 from harness.contract import CellStatus, Hits, RayStatus, Surface, Truth
+from harness.costs import operations_per_evaluation
 from harness.executor import CellError, LocalExecutor
 from harness.oracle import cached_first_hits
 from harness.plan import Planned, shuffled
@@ -213,6 +214,7 @@ class Runner:
             "rungs": state.rungs if state else None,
             "arrays": None,
             "operations": _operations(cell.surface) if state else None,
+            "evaluation_operations": operations_per_evaluation(cell.surface, method.needs) if state else None,
             "program": {"hash": (planned.timed or planned.checks[0]).hash} if planned.checks else None,
             "environment": self._environment | {"started": datetime.now(UTC).isoformat(timespec="seconds")},
             "seconds": state.preparing + state.timing if state else 0.0,

@@ -25,7 +25,7 @@ def build(run: Path) -> Path:
     from reports import breaks, derive, document, load, sections, store
 
     loaded = load.load(run)
-    frame = derive.derive(loaded.frame)
+    frame = derive.derive(loaded.frame, loaded.plan.peaks)
     rungs = breaks.derive(loaded.families, loaded.rungs)
     content = sections.report(loaded, frame, rungs)
     try:

@@ -43,6 +43,13 @@ class Plan:
     slots: Mapping[str, str]  # key → slot of every cell, in the plan's order; families after views
     facts: Mapping[str, Facts]  # by family, in the plan's order
 
+    @property
+    def peaks(self) -> dict[str, float]:
+        """By device, the rate of float32 multiply-adds that its probe measured, in 1e9 operations per second."""
+        probed = ((device.get("name"), device.get("probes")) for device in self.devices)
+        rates = ((name, probes.get("peak_gflops")) for name, probes in probed if isinstance(probes, Mapping))
+        return {str(name): float(rate) for name, rate in rates if isinstance(rate, int | float) and rate > 0.0}
+
 
 @dataclass(frozen=True)
 class Unreadable:

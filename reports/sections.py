@@ -125,7 +125,10 @@ def _results(frame: pd.DataFrame) -> list[Section]:
         f"more exact; floor-bound, under {derive.FLOOR_FACTOR:g} times the null method's time, so that "
         "the harness is measured more than the method; floor, the null method itself, which finds nothing; interval "
         "wide, the budget ended before the 95 % interval of the median was within 2 %; overhead, the harness's share "
-        f"of the time where it is above {wording.share(tables.OVERHEAD_LIMIT)}."
+        f"of the time where it is above {wording.share(tables.OVERHEAD_LIMIT)}. Share of peak: operations of the "
+        "function that a method evaluates, times evaluations per ray, over the time, as a share of the float32 "
+        "multiply-adds that the device was measured at. What else a method computes, and what idle lanes of a vector "
+        "do, is not counted; in float64 no peak is measured."
     )
     printed = tables.worth_printing(finished)
     blocks: list[Block] = [legend]
