@@ -29,6 +29,7 @@ DECIDING = (
     "accuracy.py",
     "beams.py",
     "camera.py",
+    "costs.py",
     "measure.py",
     "worker.py",
     "runner.py",

@@ -20,6 +20,7 @@ from harness import accuracy, beams, measure, stability
 from harness.camera import distance_of, meets, pixel_footprint, rays_of, scene_radius
 from harness.config import Config
 from harness.contract import CellStatus, Hits, RayStatus, Surface, Truth, View
+from harness.costs import operations_per_evaluation
 from harness.executor import CellError, LocalExecutor
 from harness.oracle import cached_first_hits
 from harness.plan import Planned, shuffled
@@ -236,6 +237,7 @@ class Runner:
             "rungs": state.rungs if state else None,
             "arrays": None,
             "operations": _operations(cell.surface) if state else None,
+            "evaluation_operations": operations_per_evaluation(cell.surface, method.needs) if state else None,
             "program": {"hash": programs[0].hash} if programs else None,
             "environment": self._environment | {"started": datetime.now(UTC).isoformat(timespec="seconds")},
             "seconds": state.preparing + state.timing if state else 0.0,

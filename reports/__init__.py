@@ -26,7 +26,7 @@ def build(run: Path) -> Path:
     from reports import breaks, derive, document, html, load, sections, store, style
 
     loaded = load.load(run)
-    frame = derive.derive(loaded.frame)
+    frame = derive.derive(loaded.frame, loaded.plan.peaks)
     rungs = breaks.derive(loaded.families, loaded.rungs)
     content = sections.report(loaded, frame, rungs)
     try:

@@ -6,6 +6,8 @@ a GROUP.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import pandas as pd
 
 from harness.contract import CellStatus
@@ -17,8 +19,11 @@ _ACCURACY = [field.name for field in SCHEMA if field.path[0] == "accuracy"]
 FLOOR_FACTOR = 2.0  # a time under this many times the null method's says more about the harness than about the method
 
 
-def derive(frame: pd.DataFrame) -> pd.DataFrame:
-    """`frame` with the columns of DERIVED added, and without the accuracy of methods that answer nothing."""
+def derive(frame: pd.DataFrame, peaks: Mapping[str, float] | None = None) -> pd.DataFrame:
+    """`frame` with the columns of DERIVED added, and without the accuracy of methods that answer nothing.
+
+    peaks: by device, its measured peak rate of float32 multiply-adds, in 1e9 operations per second, where known.
+    """
     answers = frame["answers"].astype(bool)
     frame = frame.assign(**{name: frame[name].where(answers) for name in _ACCURACY})
     seconds = frame["median_ms"] / 1e3
@@ -30,6 +35,7 @@ def derive(frame: pd.DataFrame) -> pd.DataFrame:
     frame["speedup"] = (frame["baseline_ms"] / frame["median_ms"]).where(frame["answers"])
     frame = frame.join(floor, on=GROUP)
     frame["floor_bound"] = frame["answers"] & (frame["median_ms"] < FLOOR_FACTOR * frame["floor_ms"])
+    frame["peak_share"] = _peak_share(frame, peaks or {})
     wrong = ["misses", "false_hits", "exhausted", "wrong_root"]
     for prefix in ("", "grazing_"):
         total = frame[[prefix + name for name in wrong]].sum(axis=1, min_count=1).astype("Int64")
@@ -73,6 +79,13 @@ def _baseline_ms(timed: pd.DataFrame) -> pd.Series:
 
 def _floor_ms(timed: pd.DataFrame) -> pd.Series:
     return timed[~timed["answers"].astype(bool)].groupby(GROUP)["median_ms"].max().rename("floor_ms")
+
+
+def _peak_share(frame: pd.DataFrame, peaks: Mapping[str, float]) -> pd.Series:
+    """The operations of a frame's evaluations per second, over the device's peak; the peak is known in float32 only."""
+    peak = frame["device"].map(peaks).astype("float64").where(frame["precision"] == "float32") * 1e9
+    operations = frame["evaluation_operations"].astype("float64") * frame["evaluations_mean"]
+    return operations * frame["mrays_per_s"] * 1e6 / peak
 
 
 def _front(frame: pd.DataFrame) -> pd.Series:

@@ -46,6 +46,13 @@ class Plan:
     methods: Mapping[str, Mapping[str, Any]]  # what the methods say of themselves, by name
     include: tuple[str, ...]  # run folders beside this one that its report collects
 
+    @property
+    def peaks(self) -> dict[str, float]:
+        """By device, the rate of float32 multiply-adds that its probe measured, in 1e9 operations per second."""
+        probed = ((device.get("name"), device.get("probes")) for device in self.devices)
+        rates = ((name, probes.get("peak_gflops")) for name, probes in probed if isinstance(probes, Mapping))
+        return {str(name): float(rate) for name, rate in rates if isinstance(rate, int | float) and rate > 0.0}
+
 
 @dataclass(frozen=True)
 class Unreadable:

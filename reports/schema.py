@@ -67,6 +67,7 @@ SCHEMA: tuple[Field, ...] = (
     *_fields("real", "evaluations_mean evaluations_max", at="accuracy"),
     *_fields("text", "arrays"),
     *_fields("json", "operations"),
+    *_fields("whole", "evaluation_operations"),
     *_fields("text", "hash", at="program", prefix="program_"),
     *_fields("text", "started commit", at="environment"),
     *_fields("json", "identity"),
@@ -75,6 +76,7 @@ SCHEMA: tuple[Field, ...] = (
 DERIVED: tuple[Field, ...] = (
     *_fields("real", "mrays_per_s frames_per_s baseline_ms speedup floor_ms"),
     *_fields("flag", "floor_bound"),
+    *_fields("real", "peak_share"),
     *_fields("whole", "wrong_rays grazing_wrong_rays"),
     *_fields("flag", "front"),
 )

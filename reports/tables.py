@@ -139,7 +139,7 @@ def results(rows: pd.DataFrame) -> Table:
         spread = (row.upper_ms - row.lower_ms) / (2 * row.median_ms) if row.median_ms else None
         speed = (row.median_ms, spread, row.mrays_per_s, row.frames_per_s, row.speedup)
         errors = (row.error_max, row.error_p99, row.misses, row.false_hits, row.exhausted, row.wrong_root)
-        told = (*errors, row.grazing_wrong_rays, row.evaluations_mean)
+        told = (*errors, row.grazing_wrong_rays, row.evaluations_mean, row.peak_share)
         body.append((row.device, row.precision, row.variant, *speed, *told, row.compile_ms, row.clock, flags(row)))
     return Table(
         (
@@ -159,6 +159,7 @@ def results(rows: pd.DataFrame) -> Table:
             Column("wrong\nroot", wording.count, numeric=True),
             Column("grazing\nwrong", wording.count, numeric=True),
             Column("evals\nper ray", wording.number, numeric=True),
+            Column("share\nof peak", wording.share, numeric=True),
             Column("compile\nms", wording.number, numeric=True),
             Column("clock"),
             Column("flags", stretch=1),

@@ -72,6 +72,7 @@ def plan(cells: list[dict[str, Any]]) -> dict[str, Any]:
             "clock": "wall" if name.startswith("opengl") else "device",
             "versions": {"pyopencl": "2026.1.4"},
             "problem": None,
+            "probes": {"peak_gflops": 143.5},
         }
         for name in DEVICES
     ]
@@ -147,6 +148,7 @@ def cell(variant: str, surface: str, device: str, precision: str) -> dict[str, A
         "rungs": None,
         "arrays": None,
         "operations": {"add": 7, "mul": 12},
+        "evaluation_operations": None if method == "null" else 25,
         "program": {"hash": digest(variant, precision)},
         "environment": {"started": "2026-11-22T03:00:10+00:00", "commit": "abc1234"},
         "identity": {"formula": "x^2 + y^2 + z^2 - 1"},
@@ -328,7 +330,7 @@ def tiny_run(folder: Path, *cells: dict[str, Any]) -> Path:
 
 def reported(folder: Path) -> tuple[load.Run, content.Document]:
     run = load.load(folder)
-    return run, sections.report(run, derive.derive(run.frame), breaks.derive(run.families, run.rungs))
+    return run, sections.report(run, derive.derive(run.frame, run.plan.peaks), breaks.derive(run.families, run.rungs))
 
 
 def printed(blocks: tuple[content.Block, ...]) -> str:

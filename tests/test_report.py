@@ -140,7 +140,8 @@ def test_derived_columns(tmp_path: Path) -> None:
         timed("beaten", 2.5, 1e-5),
         timed("misses", 1.5, 1e-6, misses=3),
     ]
-    rows = derive.derive(load.load(tiny_run(tmp_path / "run", *cells)).frame).set_index("variant")
+    loaded = load.load(tiny_run(tmp_path / "run", *cells))
+    rows = derive.derive(loaded.frame, loaded.plan.peaks).set_index("variant")
     assert rows["speedup"].drop("null").to_dict() == pytest.approx(
         {"ray_march[CAP=10]": 8 / 99, "ray_march": 1, "a": 8 / 0.9, "b": 4, "beaten": 3.2, "misses": 8 / 1.5}
     )
@@ -150,6 +151,17 @@ def test_derived_columns(tmp_path: Path) -> None:
     assert rows["wrong_rays"]["misses"] == 3
     assert rows["mrays_per_s"]["b"] == pytest.approx(256 * 256 / 2e-3 / 1e6)
     assert rows["frames_per_s"]["b"] == pytest.approx(500)
+    flops = 25 * rows["evaluations_mean"]["b"] * 256 * 256 / 2e-3
+    assert rows["peak_share"]["b"] == pytest.approx(flops / 143.5e9)
+    assert np.isnan(rows["peak_share"]["null"])
+
+
+def test_the_share_of_peak_is_absent_where_no_peak_is_known(frame: pd.DataFrame) -> None:
+    assert frame["peak_share"].isna().all()  # no peaks given
+    bare = frame.drop(columns=[field.name for field in schema.DERIVED])
+    known = derive.derive(bare, {"opencl:intel": 100.0})
+    told = known[known["peak_share"].notna()]
+    assert set(told["device"]) == {"opencl:intel"} and set(told["precision"]) == {"float32"}
 
 
 def test_flags_say_what_to_know_of_a_row(frame: pd.DataFrame) -> None:

@@ -17,6 +17,17 @@ real least_value(IN real b[COEFFICIENTS], int degree) {
     return lower_bound(BOUND == 1 ? lu_curve(b, degree) : control_point_curve(b, degree), degree);
 }
 
+// A bound of how steeply the polynomial with the derivative's coefficients d falls, or (SIDES 2) falls or rises.
+real steepest_slope(IN real d[COEFFICIENTS], int degree) {
+    real slope = -least_value(d, degree);
+    if (SIDES == 2) {
+        real negative[COEFFICIENTS];
+        for (int j = 0; j <= degree; j++) negative[j] = -d[j];
+        slope = max(slope, -least_value(negative, degree));
+    }
+    return slope;
+}
+
 // More than what fitting and restricting err by.
 real error_bound(IN real b[COEFFICIENTS], int degree) {
     real largest = 0.0;
@@ -40,7 +51,7 @@ Hit first_hit(Ray ray, real t0, real t1) {
     real e[COEFFICIENTS];
     for (int j = 0; j < N; j++) d[j] = real(N) * (b[j + 1] - b[j]);
     real error = error_bound(d, N - 1);
-    real steepest = error - least_value(d, N - 1);
+    real steepest = error + steepest_slope(d, N - 1);
     real window = 1.0;
     real a = 0.0;
     real x = 0.0;
@@ -51,7 +62,7 @@ Hit first_hit(Ray ray, real t0, real t1) {
         if (hit.evaluations >= MAX_EVALUATIONS) return exhausted(hit, t0 + reach * x);
         if (LOCAL == 1 && window < 1.0) {
             restrict_to(x, window, d, N - 1, e);
-            steepest = error - least_value(e, N - 1);
+            steepest = error + steepest_slope(e, N - 1);
         }
         real step = max(TOLERANCE, fx < steepest * window ? fx / steepest : window);
         a = x;

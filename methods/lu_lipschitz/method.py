@@ -61,14 +61,15 @@ METHOD = Method(
     libraries=("interval", "dual", "fit", "polynomial", "lu", "fit_samples"),
     parameters=(
         Parameter("BOUND", 1, "1: LU bounds, 0: control points"),
+        Parameter("SIDES", 1, "1: the slope towards zero counts, 2: the larger of both slopes' magnitudes, as printed"),
         Parameter("CULL", 1, "1: rays whose f is bounded away from zero end at once"),
         Parameter("LOCAL", 1, "1: the bound follows the ray, 0: one bound for the whole ray"),
         Parameter("TOLERANCE", 2.0**-16, "shortest step, over the ray's length in the domain", finer="down"),
         Parameter("MAX_EVALUATIONS", 10000, "evaluations spent on one ray"),
     ),
     settings={
-        "LU bound": {"BOUND": 1, "CULL": 1, "LOCAL": 0},
-        "control point": {"BOUND": 0, "CULL": 0, "LOCAL": 0},
+        "LU bound": {"BOUND": 1, "SIDES": 2, "CULL": 1, "LOCAL": 0},
+        "control point": {"BOUND": 0, "SIDES": 2, "CULL": 0, "LOCAL": 0},
     },
     claims=frozenset({"conservative_bound", "no_false_hit"}),
     accepts=_accepts,

@@ -17,7 +17,9 @@ LEGEND = (
     f"exact; floor-bound, under {derive.FLOOR_FACTOR:g} times the null method's time, so that the harness is measured "
     "more than the method; floor, the null method itself, which finds nothing; interval wide, the budget ended before "
     "the 95 % interval of the median was within 2 %; overhead, the harness's share of the time where it is above "
-    f"{wording.share(tables.OVERHEAD_LIMIT)}."
+    f"{wording.share(tables.OVERHEAD_LIMIT)}. Share of peak: operations of the function that a method evaluates, times "
+    "evaluations per ray, over the time, as a share of the float32 multiply-adds that the device was measured at. What "
+    "else a method computes, and what idle lanes of a vector do, is not counted; in float64 no peak is measured."
 )
 UNITS = (
     "The same errors in the units that papers use, over rays away from silhouettes that hit the right root: the "

@@ -1,0 +1,107 @@
+"""What one evaluation costs: arithmetic operations of the generated function that a method evaluates.
+
+Additions, multiplications, divisions, minima, maxima, roots and functions count as one each; signs and comparisons are
+free, as are constants. What a method computes beside its evaluations is not counted.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+from harness.contract import Surface
+
+POINT = 6  # origin + t direction
+FREE = frozenset({"neg", "abs", "sign", "below"})
+OUTWARD = 7  # interval.glsl: rounding both ends outwards, and the check that they are finite
+INTERVAL = {
+    **dict.fromkeys(("add", "sub", "scale"), 2 + OUTWARD),
+    "neg": 0,
+    "mul": 10 + OUTWARD,
+    "sqr": 5 + OUTWARD,
+    "div": 13 + OUTWARD,
+    "sqrt": 4 + OUTWARD,
+    "log": 4 + OUTWARD,
+    "exp": 8 + OUTWARD,
+    **dict.fromkeys(("min", "max"), 3),
+    "abs": 4,
+    **dict.fromkeys(("sin", "cos"), 138),
+    "tan": 2 * 138 + 13 + OUTWARD,
+}
+AFFINE = 10 + OUTWARD  # interval_affine, one coordinate of a piece of a ray
+
+
+def _value(surface: Surface) -> int:
+    from surfaces import tape_of
+    from surfaces.lowering import counts, real_tape
+
+    return _sum(counts(real_tape(tape_of(surface))))
+
+
+def _sum(counted: dict[str, int]) -> int:
+    return sum(count for name, count in counted.items() if name not in FREE)
+
+
+def _value_along(surface: Surface) -> int:
+    from surfaces.sections import expands
+
+    return 2 * (surface.degree or 0) if expands(surface) else POINT + _value(surface)
+
+
+def _dual_along(surface: Surface) -> int:
+    from surfaces import tape_of
+    from surfaces.lowering import counts, real_tape, tangent
+    from surfaces.sections import expands
+
+    if expands(surface):
+        return 4 * (surface.degree or 0) - 2
+    return POINT + _sum(counts(tangent(real_tape(tape_of(surface)), {axis: f"d{axis}" for axis in "xyz"})))
+
+
+def _distance(surface: Surface) -> int:
+    from surfaces.formula import parse
+    from surfaces.lowering import counts, real_tape
+
+    assert surface.distance
+    return POINT + _sum(counts(real_tape(parse(surface.distance, dict(surface.parameters)))))
+
+
+def _range(surface: Surface) -> int:
+    from surfaces import tape_of
+    from surfaces.lowering import enclosures
+
+    tape = tape_of(surface)
+    constants = enclosures(tape)
+    exact = {i for i, (lower, upper) in constants.items() if lower == upper}
+    total = 0
+    for index, op in enumerate(tape.ops):
+        if index in constants or op.name == "var":
+            continue
+        if op.name == "powi":
+            total += _interval_power(op.args[1])
+        else:
+            total += INTERVAL["scale" if op.name == "mul" and exact & set(op.inputs) else op.name]
+    return total
+
+
+def _interval_power(n: int) -> int:
+    """Both ends by squaring, as whole_power does; of an even power the mignitude and magnitude first."""
+    return 2 * (n.bit_length() + n.bit_count()) + (0 if n % 2 else 3) + OUTWARD
+
+
+_COSTS: dict[str, Callable[[Surface], int]] = {
+    "surface_dual_along": _dual_along,
+    "surface_range_along": lambda surface: 3 * AFFINE + _range(surface),
+    "surface_range": _range,
+    "surface_distance": _distance,
+    "surface_value_along": _value_along,
+    "surface_value": lambda surface: POINT + _value(surface),
+    "surface_coefficients_along": lambda surface: 2 * (surface.degree or 0),
+}
+
+
+def operations_per_evaluation(surface: Surface, needs: Sequence[str]) -> int | None:
+    """Of the first function of _COSTS that a method needs: what it evaluates. None where it evaluates nothing.
+
+    Exact coefficients along the ray are evaluated as a polynomial.
+    """
+    return next((cost(surface) for name, cost in _COSTS.items() if name in needs), None)

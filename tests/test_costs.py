@@ -1,0 +1,59 @@
+"""Operations per evaluation, counted again in the kernel text."""
+
+import re
+
+import pytest
+
+import surfaces
+from harness import costs
+from harness.assemble import KERNELS
+from harness.plugins import find_methods
+from surfaces.sections import surface_sections
+
+OPERATION = re.compile(r" [-+*/] |\b(?:min|max|sqrt|exp|log|sin|cos|tan|floor)\(")
+FUNCTION = re.compile(r"^(?:Interval|real|Dual|Pair|vec3|void) (\w+)\([^{]*\) \{\n(.*?)^\}", re.M | re.S)
+CONSTANT = re.compile(r"2\.0 \* UNIT_ROUNDOFF|2\.0 \* k \* UNIT_ROUNDOFF|16\.0 \* UNIT_ROUNDOFF")
+NAMES = ["sphere", "torus", "calyx", "barth_sextic", "endrass_octic", "sixteen_ball", "blinn_blob"]
+
+
+def _counts(text):
+    """Operations of each function in the text, those of the functions that it calls among them; loops count once."""
+    bodies = {name: re.sub(r"//.*", "", body) for name, body in FUNCTION.findall(text)}
+
+    def count(name):
+        body = CONSTANT.sub("K", bodies[name])
+        called = re.findall(r"\b(\w+)\(", body)
+        return len(OPERATION.findall(body)) + sum(count(other) for other in called if other in bodies and other != name)
+
+    return {name: count(name) for name in bodies}
+
+
+LIBRARY = (KERNELS / "lib" / "interval.glsl").read_text() + (KERNELS / "lib" / "interval_exp_log.glsl").read_text()
+RAY = (KERNELS / "lib" / "ray.glsl").read_text()
+
+
+@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("function", ["surface_value", "surface_value_along", "surface_dual_along", "surface_distance"])
+def test_an_evaluation_costs_what_its_generated_function_does(name, function):
+    surface = surfaces.get(name)
+    if function == "surface_distance" and not surface.distance:
+        pytest.skip("it states no distance")
+    text = RAY + "\n".join(s.text for s in surface_sections(surface, [function], "float32", "glsl"))
+    point = costs.POINT if function in ("surface_value", "surface_distance") else 0  # the caller's
+    assert costs.operations_per_evaluation(surface, [function]) == _counts(text)[function] + point
+
+
+@pytest.mark.parametrize("operation", ["add", "sub", "mul", "sqr", "min", "max", "abs"])
+def test_interval_operations_cost_what_the_library_does(operation):
+    assert costs.INTERVAL[operation] == _counts(LIBRARY)[f"interval_{operation}"]
+
+
+def test_a_piece_of_a_ray_costs_what_the_library_does():
+    assert _counts(LIBRARY)["interval_affine"] == costs.AFFINE
+
+
+def test_every_method_that_answers_says_what_it_evaluates():
+    torus = surfaces.get("torus")
+    for plugin in find_methods().plugins.values():
+        cost = costs.operations_per_evaluation(torus, plugin.method.needs)
+        assert (cost is not None and cost > 0) == plugin.method.answers, plugin.method.name
