@@ -29,6 +29,7 @@ DECIDING = (
     "accuracy.py",
     "camera.py",
     "measure.py",
+    "ranks.py",
     "worker.py",
     "runner.py",
     "backends/*.py",
@@ -128,17 +129,18 @@ def _programs(cell: Cell, surfaces: list[Surface], catalog: Catalog) -> tuple[tu
     return checks, program(cell.surface, "camera") if cell.stage == "compute" else checks[0]
 
 
-def _planned(cell: Cell, info: DeviceInfo | None, catalog: Catalog, experiment: Experiment) -> Planned:
+def _planned(cell: Cell, info: DeviceInfo | None, catalog: Catalog, experiment: Experiment, timed: bool) -> Planned:
     surfaces = [group.surface for group in stability.groups(cell.family)] if cell.family else [cell.surface]
     skip = next(filter(None, (_refusal(cell, surface, info, catalog) for surface in surfaces)), None)
     checks: tuple[Program, ...] = ()
-    timed: Program | None = None
+    frame: Program | None = None
     if skip is None:
         try:
-            checks, timed = _programs(cell, surfaces, catalog)
+            checks, frame = _programs(cell, surfaces, catalog)
         except FirsthitError as error:
             skip = str(error)
-    programs = (*checks, timed) if timed else checks
+    frame = frame if timed else None
+    programs = (*checks, frame) if frame else checks
     # which clock is believed is found by probing when a run starts, after a plan is printed: no part of the key
     facts = None if info is None else dataclasses.asdict(dataclasses.replace(info, clock="wall"))
     scene = (
@@ -149,7 +151,7 @@ def _planned(cell: Cell, info: DeviceInfo | None, catalog: Catalog, experiment: 
             "view": dataclasses.asdict(cell.view),
             "sampling": [cell.size, cell.samples_per_pixel, cell.stage],
             "accuracy": dataclasses.asdict(experiment.config.accuracy),
-            "budget": dataclasses.asdict(experiment.config.budget),
+            "budget": dataclasses.asdict(experiment.config.budget) if timed else None,
         }
     )
     identity = scene | {
@@ -162,11 +164,11 @@ def _planned(cell: Cell, info: DeviceInfo | None, catalog: Catalog, experiment: 
         "methodology": methodology(),
         "skip": skip,
     }
-    return Planned(cell, digest(cell.slot, identity), identity, info, checks, timed, skip)
+    return Planned(cell, digest(cell.slot, identity), identity, info, checks, frame, skip)
 
 
-def plan(experiment: Experiment, catalog: Catalog, found: list[DeviceInfo]) -> list[Planned]:
-    """Every cell of the grid, comparison by comparison; families last."""
+def plan(experiment: Experiment, catalog: Catalog, found: list[DeviceInfo], timed: bool = True) -> list[Planned]:
+    """Every cell of the grid, comparison by comparison; families last. Untimed cells are only checked."""
     config = experiment.config
     devices = choose_devices(config.devices, found)
     if not any(devices.values()):
@@ -186,7 +188,7 @@ def plan(experiment: Experiment, catalog: Catalog, found: list[DeviceInfo]) -> l
         for family in config.families
         for variant, (name, info), precision in runs_on
     ]
-    return [_planned(cell, info, catalog, experiment) for cell, info in cells]
+    return [_planned(cell, info, catalog, experiment, timed) for cell, info in cells]
 
 
 def estimate_seconds(planned: list[Planned], store: Store, budget_seconds: float) -> float:

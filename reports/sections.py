@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import pandas as pd
 
 from harness.contract import CellStatus
-from reports import across, condition, derive, images, plots, stability, style, tables, wording
+from reports import across, condition, derive, images, pairs, plots, stability, style, tables, wording
 from reports.arrays import Shelf
 from reports.content import Block, Code, Document, Section, Text
 from reports.load import Run, Unreadable
@@ -29,6 +29,7 @@ def report(run: Run, frame: pd.DataFrame, rungs: pd.DataFrame) -> Document:
         *_winners(frame),
         *_results(frame),
         *across.sections(frame),
+        *pairs.sections(frame),
         *_units(frame),
         *stability.sections(rungs, run.plan.facts, marks),
         *_fronts(frame),
@@ -124,7 +125,9 @@ def _results(frame: pd.DataFrame) -> list[Section]:
         f"Speed-up is over {derive.BASELINE}. Flags: front, no other variant with all rays right is both faster and "
         f"more exact; floor-bound, under {derive.FLOOR_FACTOR:g} times the null method's time, so that "
         "the harness is measured more than the method; floor, the null method itself, which finds nothing; interval "
-        "wide, the budget ended before the 95 % interval of the median was within 2 %; overhead, the harness's share "
+        "wide, the budget ended before the 95 % interval of the median was within 2 %; drifts, the second half of the "
+        "samples was slower or faster than the first; noisy, the middle half of the samples spreads over more than a "
+        "tenth of the median; outliers, samples far outside the rest, which are kept; overhead, the harness's share "
         f"of the time where it is above {wording.share(tables.OVERHEAD_LIMIT)}."
     )
     printed = tables.worth_printing(finished)
