@@ -62,6 +62,26 @@ class BudgetChoice:
 
 
 @dataclass(frozen=True)
+class ToleranceChoice:
+    """How much worse a gated figure may get: `absolute` + `relative` × the baseline. `better`: "lower" or "higher", if
+    not as usual; `gated` = false leaves the figure alone."""
+
+    absolute: float = 0.0
+    relative: float = 0.0
+    better: str = ""
+    gated: bool = True
+
+
+@dataclass(frozen=True)
+class GateChoice:
+    """Figures with tolerances of their own (harness.gate.figures has the others'), and the device facts that must be
+    the `same` for rows to be compared."""
+
+    same: list[str] = field(default_factory=lambda: ["title", "driver", "compiler", "processor"])
+    figures: dict[str, ToleranceChoice] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
 class Config:
     """An experiment: methods × surfaces × views × sizes × samples × stages × precisions × devices, and, untimed,
     methods × families of hard rays × precisions × devices. `surfaces` and `families` may be ["all"].
@@ -88,6 +108,7 @@ class Config:
     accuracy: AccuracyChoice = field(default_factory=AccuracyChoice)
     budget: BudgetChoice = field(default_factory=BudgetChoice)
     surface: dict[str, SurfaceChoice] = field(default_factory=dict)
+    gate: GateChoice = field(default_factory=GateChoice)
 
 
 @dataclass(frozen=True)
@@ -161,8 +182,8 @@ def _read(kind: Any, value: Any, where: Where, source: _Source) -> Any:
         return {key: _read(typing.get_args(kind)[1], item, (*where, key), source) for key, item in value.items()}
     if kind is float and isinstance(value, int) and not isinstance(value, bool):
         return value if "parameters" in where else float(value)
-    if not isinstance(value, kind) or isinstance(value, bool):
-        words = {float: "a number", int: "a whole number", str: "a text in quotes"}[kind]
+    if not isinstance(value, kind) or isinstance(value, bool) != (kind is bool):
+        words = {float: "a number", int: "a whole number", str: "a text in quotes", bool: "true or false"}[kind]
         raise source.error(where, f"{name} is {words}, not {value!r}")
     return value
 
@@ -182,6 +203,22 @@ def _read_table(kind: type[Any], value: Any, where: Where, source: _Source) -> A
         if required and spec.name not in value:
             raise source.error(where, f"{place} lacks {spec.name!r}")
     return kind(**{key: _read(hints[key], item, (*where, key), source) for key, item in value.items()})
+
+
+def _check_gate(gate: GateChoice, source: _Source) -> None:
+    from harness.gate.baseline import FACTS
+    from harness.gate.figures import KNOWN
+
+    for values, known, where in ((gate.same, FACTS, "same"), (gate.figures, KNOWN, "figures")):
+        try:
+            _known(values, known, where, source)
+        except FirsthitError as error:
+            raise source.error(("gate", where), str(error).split(": ", 1)[1]) from None
+    for name, choice in gate.figures.items():
+        if choice.better not in ("", "lower", "higher"):
+            raise source.error(("gate", "figures", name, "better"), f"better: {choice.better!r} is not lower or higher")
+        if choice.absolute < 0.0 or choice.relative < 0.0:
+            raise source.error(("gate", "figures", name), f"{name}: a tolerance is not negative")
 
 
 def _known(values: Iterable[str], known: Iterable[str], key: str, source: _Source) -> None:
@@ -300,6 +337,7 @@ def load(path: Path, catalog: Catalog) -> Experiment:
     _known(config.families, hardcases.names(), "families", source)
     _known(config.precisions, PRECISIONS, "precisions", source)
     _known(config.stages, STAGES, "stages", source)
+    _check_gate(config.gate, source)
 
     variants: list[Variant] = []
     for i, choice in enumerate(config.method):

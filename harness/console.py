@@ -40,8 +40,10 @@ class Progress:
                 self._write(f"\r\x1b[K{self._head(elapsed)} {slot}"[:200])
             return
         self._done += 1
-        outcome = f"{row['time']['median_ms']:.3g} ms" if row["time"] else f"{row['status']}: {row['reason']}"
-        line = f"{self._head(elapsed)} {slot}: {outcome}"
+        ended = f"{row['status']}: {row['reason']}" if row["reason"] else row["status"]
+        outcome = f"{row['time']['median_ms']:.3g} ms" if row["time"] else ended
+        warnings = [text.partition(":")[0] for text in row["time"]["warnings"]] if row["time"] else []
+        line = f"{self._head(elapsed)} {slot}: {', '.join([outcome, *warnings])}"
         self._write(f"\r\x1b[K{line}\n" if self._live else f"{line}\n")
 
     def _head(self, elapsed: float) -> str:
@@ -52,3 +54,17 @@ class Progress:
     def _write(text: str) -> None:
         sys.stderr.write(text)
         sys.stderr.flush()
+
+
+def warnings(rows: Sequence[Row]) -> list[str]:
+    """What is to be known of the times of `rows` before they are believed, a line for each kind of trouble."""
+    troubled: dict[str, list[tuple[str, Row]]] = {}
+    for row in rows:
+        for text in row["time"]["warnings"] if row["time"] else ():
+            troubled.setdefault(text.partition(":")[0], []).append((text, row))
+    lines = []
+    for told in troubled.values():
+        text, row = told[0]
+        others = f", and {len(told) - 1} more cells like it" if len(told) > 1 else ""
+        lines.append(f"{row['slot']}{others}: {text}")
+    return lines

@@ -31,6 +31,7 @@ DECIDING = (
     "camera.py",
     "costs.py",
     "measure.py",
+    "ranks.py",
     "worker.py",
     "runner.py",
     "backends/*.py",
@@ -52,6 +53,7 @@ class Planned:
     timed: Program | None  # the frame's; None for a family
     skip: str | None
     casts: Casts = "rays"
+    is_timed: bool = True  # False: checked only; then only beams have a frame, since it is what they are checked on
 
     @property
     def camera(self) -> NDArray[np.float32]:
@@ -135,17 +137,18 @@ def _programs(cell: Cell, surfaces: list[Surface], catalog: Catalog) -> tuple[tu
     return checks, program(cell.surface, "camera") if cell.stage == "compute" else checks[0]
 
 
-def _planned(cell: Cell, info: DeviceInfo | None, catalog: Catalog, experiment: Experiment) -> Planned:
+def _planned(cell: Cell, info: DeviceInfo | None, catalog: Catalog, experiment: Experiment, timed: bool) -> Planned:
     surfaces = [group.surface for group in stability.groups(cell.family)] if cell.family else [cell.surface]
     skip = next(filter(None, (_refusal(cell, surface, info, catalog) for surface in surfaces)), None)
     checks: tuple[Program, ...] = ()
-    timed: Program | None = None
+    frame: Program | None = None
     if skip is None:
         try:
-            checks, timed = _programs(cell, surfaces, catalog)
+            checks, frame = _programs(cell, surfaces, catalog)
         except FirsthitError as error:
             skip = str(error)
-    programs = (*checks, timed) if timed else checks
+    frame = frame if timed or not checks else None
+    programs = (*checks, frame) if frame else checks
     # which clock is believed is found by probing when a run starts, after a plan is printed: no part of the key
     facts = None if info is None else dataclasses.asdict(dataclasses.replace(info, clock="wall"))
     scene = (
@@ -156,7 +159,7 @@ def _planned(cell: Cell, info: DeviceInfo | None, catalog: Catalog, experiment: 
             "view": dataclasses.asdict(cell.view),
             "sampling": [cell.size, cell.samples_per_pixel, cell.stage],
             "accuracy": dataclasses.asdict(experiment.config.accuracy),
-            "budget": dataclasses.asdict(experiment.config.budget),
+            "budget": dataclasses.asdict(experiment.config.budget) if timed else None,
         }
     )
     identity = scene | {
@@ -170,11 +173,11 @@ def _planned(cell: Cell, info: DeviceInfo | None, catalog: Catalog, experiment: 
         "skip": skip,
     }
     casts = catalog.get(cell.variant.method).method.casts
-    return Planned(cell, digest(cell.slot, identity), identity, info, checks, timed, skip, casts)
+    return Planned(cell, digest(cell.slot, identity), identity, info, checks, frame, skip, casts, timed)
 
 
-def plan(experiment: Experiment, catalog: Catalog, found: list[DeviceInfo]) -> list[Planned]:
-    """Every cell of the grid, comparison by comparison; families last."""
+def plan(experiment: Experiment, catalog: Catalog, found: list[DeviceInfo], timed: bool = True) -> list[Planned]:
+    """Every cell of the grid, comparison by comparison; families last. Untimed cells are only checked."""
     config = experiment.config
     devices = choose_devices(config.devices, found)
     if not any(devices.values()):
@@ -194,7 +197,7 @@ def plan(experiment: Experiment, catalog: Catalog, found: list[DeviceInfo]) -> l
         for family in config.families
         for variant, (name, info), precision in runs_on
     ]
-    return [_planned(cell, info, catalog, experiment) for cell, info in cells]
+    return [_planned(cell, info, catalog, experiment, timed) for cell, info in cells]
 
 
 def estimate_seconds(planned: list[Planned], store: Store, budget_seconds: float) -> float:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import itertools
 import time
+import uuid
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
@@ -44,6 +45,7 @@ class _Live:
     warmed: Warmed | None = None
     wall_ms: list[float] = field(default_factory=list)
     device_ms: list[float] = field(default_factory=list)
+    rounds: list[int] = field(default_factory=list)  # the round of each sample, so that cells of one run can be paired
     preparing: float = 0.0  # seconds of checking and building
     timing: float = 0.0  # seconds of timed repetitions
     summary: dict[str, Any] | None = None
@@ -70,6 +72,7 @@ class Runner:
     ) -> None:
         self._config, self._catalog, self._store = config, catalog, store
         self._executor, self._environment, self._report = executor, environment, report
+        self._session = ""
 
     def run(self, planned: Iterable[Planned]) -> list[Row]:
         """Run cells, those that are timed together after each other; the rows, in the order in which they ended."""
@@ -106,7 +109,7 @@ class Runner:
         start = time.perf_counter()
         try:
             reason = self._check_family(state) if state.planned.cell.family else self._check(state)
-            if reason is None and state.frame:
+            if reason is None and state.frame and state.planned.is_timed:
                 state.warmed = self._executor.warm(state.planned.cell.device, state.planned.key, state.frame)
             return reason
         finally:
@@ -152,7 +155,8 @@ class Runner:
             state.summary |= counted
             state.arrays["level"] = checked.levels.reshape(config.size, config.size)
         share = accuracy.wrong_share(summary)
-        if self._catalog.get(cell.variant.method).method.answers and share > config.max_wrong_share:
+        answers = self._catalog.get(cell.variant.method).method.answers
+        if state.frame and answers and share > config.max_wrong_share:
             return f"wrong on {share:.1%} of the rays outside the grazing class: not timed"
         return None
 
@@ -171,6 +175,7 @@ class Runner:
     def _time(self, live: dict[str, _Live]) -> list[Row]:
         """Interleaved rounds: each visits every unfinished cell once, in random order."""
         rows: list[Row] = []
+        self._session = uuid.uuid4().hex[:16]
         for round_number in itertools.count():
             if not live:
                 return rows
@@ -178,7 +183,7 @@ class Runner:
                 state = live[key]
                 self._report(state.planned.cell.slot, None)
                 try:
-                    self._sample(state)
+                    self._sample(state, round_number)
                     if self._is_done(state):
                         rows.append(self._finish(state.planned, state, CellStatus.OK, None))
                         del live[key]
@@ -189,7 +194,7 @@ class Runner:
                         del live[key]
         raise AssertionError("unreachable")
 
-    def _sample(self, state: _Live) -> None:
+    def _sample(self, state: _Live, round_number: int) -> None:
         assert state.warmed and state.frame
         start = time.perf_counter()
         batch = state.warmed.batch
@@ -197,6 +202,7 @@ class Runner:
         state.wall_ms.append(timing.wall_ms / batch)
         if timing.device_ms is not None:
             state.device_ms.append(timing.device_ms / batch)
+        state.rounds.append(round_number)
         state.timing += time.perf_counter() - start
 
     def _is_done(self, state: _Live) -> bool:
@@ -250,6 +256,7 @@ class Runner:
     def _time_of(self, state: _Live) -> dict[str, Any]:
         assert state.warmed and state.planned.device
         median, lower, upper, _ = measure.median_interval(state.samples)
+        bootstrap_lower, bootstrap_upper = measure.bootstrap_interval(state.samples, self._config.seed)
         overhead = None
         if state.device_ms:
             overhead = float(np.median(np.array(state.wall_ms) / np.array(state.device_ms))) - 1.0
@@ -257,12 +264,17 @@ class Runner:
             "clock": state.planned.device.clock,
             "samples_ms": state.samples,
             "wall_samples_ms": state.wall_ms,
+            "rounds": state.rounds,
+            "session": self._session,  # cells of one session were interleaved: their rounds pair
             "batch": state.warmed.batch,
             "median_ms": median,
             "lower_ms": lower,
             "upper_ms": upper,
+            "bootstrap_lower_ms": bootstrap_lower,
+            "bootstrap_upper_ms": bootstrap_upper,
             "narrow": measure.is_narrow(state.samples, self._config.budget.interval),
             "overhead_share": overhead,
+            **measure.steadiness(state.samples),
         }
 
 

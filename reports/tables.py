@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
@@ -126,6 +127,10 @@ def flags(row: Any) -> str:
         notes.append("floor-bound")
     if not (wording.absent(row.narrow) or row.narrow):
         notes.append("interval wide")
+    if not wording.absent(row.warnings):
+        notes += [text.partition(":")[0] for text in json.loads(row.warnings)]
+    if not wording.absent(row.outliers) and row.outliers:
+        notes.append(wording.plural(row.outliers, "outlier"))
     if row.overhead_share > OVERHEAD_LIMIT:
         notes.append(f"overhead {wording.share(row.overhead_share)}")
     return ", ".join(notes)
@@ -204,12 +209,12 @@ def units(rows: pd.DataFrame) -> Table | None:
             ),
         ),
         body,
-        _scene(rows),
+        scene(rows),
         group=2,
     )
 
 
-def _scene(rows: pd.DataFrame) -> str:
+def scene(rows: pd.DataFrame) -> str:
     first = next(rows.itertuples())
     return f"{first.surface_title}, view {first.view}, {picture_size(first)}, {first.stage}."
 
@@ -222,7 +227,7 @@ def _results_caption(rows: pd.DataFrame) -> tuple[str, str]:
             f"{wording.error(row.grazing_margin)} of another answer: these grazing rays are counted apart."
         )
     return (
-        _scene(rows),
+        scene(rows),
         "Fastest first for each device and precision; ± is half the 95 % interval of the median, errors are |t − t*| "
         f"in scene units.{checked}",
     )

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from harness import measure
 from harness.contract import digest
 from reports import breaks, content, derive, load, sections
 
@@ -135,12 +136,15 @@ def cell(variant: str, surface: str, device: str, precision: str) -> dict[str, A
         "time": {
             "clock": "wall" if device.startswith("opengl") else "device",
             "samples_ms": samples,
+            "rounds": list(range(20)),
+            "session": f"{surface} {device}",
             "batch": 1,
             "median_ms": median,
             "lower_ms": median * (0.995 if narrow else 0.95),
             "upper_ms": median * (1.005 if narrow else 1.06),
             "overhead_share": 0.12 if rng.random() < 0.1 else 0.02,
             "narrow": narrow,
+            **measure.steadiness(samples),
         },
         "build": {"compile_ms": 120.0, "upload_ms": 0.1, "readback_ms": 0.4},
         "accuracy": None,

@@ -166,12 +166,14 @@ def test_the_share_of_peak_is_absent_where_no_peak_is_known(frame: pd.DataFrame)
 
 def test_flags_say_what_to_know_of_a_row(frame: pd.DataFrame) -> None:
     flagged = {word for table_row in frame.itertuples() for word in tables.flags(table_row).split(", ")}
-    assert flagged == {"", "floor", "front", "interval wide", "overhead 12 %"}
+    assert flagged - {"drifts", "1 outlier"} == {"", "floor", "front", "interval wide", "overhead 12 %"}
     for row in frame[frame["status"] == "ok"].itertuples():
         words = tables.flags(row).split(", ")
         assert ("interval wide" in words) == (not row.narrow)
         assert ("front" in words) == bool(row.front)
         assert ("floor" in words) == (row.method == "null")
+        assert ("drifts" in words) == ("drifts:" in row.warnings)
+        assert ("1 outlier" in words) == (row.outliers == 1)
 
 
 def test_no_error_is_told_of_a_method_that_answers_nothing(loaded: load.Run, frame: pd.DataFrame) -> None:

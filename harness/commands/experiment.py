@@ -170,6 +170,8 @@ def _summary(folder: Path, rows: list[Row], kept: list[Row]) -> int:
     counts = {status: sum(row["status"] == status for row in (*rows, *kept)) for status in CellStatus}
     told = ", ".join(f"{count} {status}" for status, count in counts.items() if count)
     print(f"{folder}: {len(rows)} cells run, {len(kept)} reused; {told or 'nothing to do'}")
+    for line in console.warnings(rows):
+        print(f"firsthit: {line}", file=sys.stderr)
     return 3 if any(counts[status] for status in UNFINISHED) else 0
 
 

@@ -1,0 +1,128 @@
+"""Speed against another revision: both programs' frames in interleaved rounds of one run on one device."""
+
+from __future__ import annotations
+
+import itertools
+import time
+from dataclasses import replace
+from pathlib import Path
+
+from harness import accuracy, measure
+from harness.camera import rays_of, scene_radius
+from harness.config import Experiment
+from harness.executor import CellError, LocalExecutor
+from harness.gate.entries import slot_of
+from harness.gate.figures import SPEED
+from harness.gate.judge import Change, Judged, Tolerance, Verdict
+from harness.gate.revision import Former
+from harness.measure import Ratio
+from harness.oracle import cached_first_hits
+from harness.plan import Planned, shuffled
+
+MINIMUM_ROUNDS = 10
+SIDES = ("now", "then")
+
+
+def compare(
+    planned: list[Planned],
+    former: dict[str, Former],
+    experiment: Experiment,
+    tolerance: Tolerance,
+    executor: LocalExecutor,
+    truth: Path,
+) -> list[Judged]:
+    """A verdict for each timed cell that answers rightly enough at both revisions; the ratio is now over then."""
+    return [_judged(p, former.get(p.cell.slot), experiment, tolerance, executor, truth) for p in planned if p.timed]
+
+
+def _judged(
+    planned: Planned,
+    former: Former | None,
+    experiment: Experiment,
+    tolerance: Tolerance,
+    executor: LocalExecutor,
+    truth: Path,
+) -> Judged:
+    base = Judged(f"{slot_of(planned)}: speed", planned.cell.device, planned.cell.variant.method, Verdict.PASS)
+    if former is None:
+        return replace(base, verdict=Verdict.NEW, reason="the other revision has no such cell")
+    if former.timed is None or former.check is None:
+        return replace(base, verdict=Verdict.NEW, reason=f"the other revision skips it: {former.skip}")
+    assert planned.timed
+    if (former.timed.language, former.timed.precision) != (planned.timed.language, planned.timed.precision):
+        return replace(base, verdict=Verdict.INCOMPARABLE, reason="the other revision's program is in another language")
+    if former.timed.hash == planned.timed.hash:
+        return replace(base, reason="the same program")
+    try:
+        if reason := _wrong(planned, former, experiment, executor, truth):
+            return replace(base, verdict=Verdict.INCOMPARABLE, reason=reason)
+        ratio = _race(planned, former, experiment, tolerance, executor)
+    except CellError as error:
+        return replace(base, verdict=Verdict.INCOMPARABLE, reason=str(error))
+    return verdict_of(base, ratio, tolerance)
+
+
+def verdict_of(base: Judged, ratio: Ratio | None, tolerance: Tolerance) -> Judged:
+    """Regressed only where the whole interval of the ratio is above what is allowed."""
+    if ratio is None or not ratio.proved:
+        rounds = ratio.pairs if ratio else 0
+        reason = f"{rounds} rounds prove nothing; raise [budget] seconds"
+        return replace(base, verdict=Verdict.INCOMPARABLE, reason=reason)
+    allowed = tolerance.allowed(1.0)
+    slack = allowed - 1.0
+    worse, better = ratio.lower > allowed, ratio.upper < 1.0 - slack
+    verdict = Verdict.REGRESSED if worse else Verdict.IMPROVED if better else Verdict.PASS
+    told = f"time over the other revision's, in {ratio.lower:.3f} to {ratio.upper:.3f} (95 %, {ratio.pairs} rounds)"
+    return replace(
+        base, verdict=verdict, reason=told, changes=(Change(SPEED.name, 1.0, ratio.median, allowed, verdict),)
+    )
+
+
+def _wrong(
+    planned: Planned, former: Former, experiment: Experiment, executor: LocalExecutor, truth: Path
+) -> str | None:
+    """Nothing is timed before its hits are held against the oracle; why this is not timed, if so."""
+    cell, choice = planned.cell, experiment.config.accuracy
+    rays = rays_of(planned.camera, choice.size)
+    certified = cached_first_hits(cell.surface, rays, truth)
+    assert former.check
+    for program, when in ((planned.checks[0], "now"), (former.check, "at the other revision")):
+        hits = executor.check(cell.device, program, rays).hits
+        verdicts = accuracy.judge(hits, certified, scene_radius(cell.surface), choice.grazing_margin)
+        share = (
+            float((verdicts.wrong[~verdicts.grazing] != accuracy.Wrong.RIGHT).mean())
+            if not verdicts.grazing.all()
+            else 0.0
+        )
+        if share > choice.max_wrong_share:
+            return f"wrong on {share:.1%} of the rays outside the grazing class {when}: not timed"
+    return None
+
+
+def _race(
+    planned: Planned, former: Former, experiment: Experiment, tolerance: Tolerance, executor: LocalExecutor
+) -> Ratio | None:
+    """Rounds that time both programs once, in random order, until the interval is narrow or the budget is spent."""
+    frame, budget = planned.frame, experiment.config.budget
+    assert frame and planned.device and former.timed
+    frames = dict(zip(SIDES, (frame, replace(frame, program=former.timed)), strict=True))
+    device, keys = planned.cell.device, {side: f"{planned.key} {side}" for side in SIDES}
+    batches = {side: executor.warm(device, keys[side], frames[side]).batch for side in SIDES}
+    batch = max(batches.values())
+    times: dict[str, list[float]] = {side: [] for side in SIDES}
+    start, ratio = time.perf_counter(), None
+    for round_number in itertools.count():
+        for side in shuffled(list(SIDES), experiment.config.seed, round_number):
+            timing = executor.sample(device, keys[side], frames[side], batch)
+            by_device = planned.device.clock == "device" and timing.device_ms is not None
+            times[side].append((timing.device_ms if by_device else timing.wall_ms) or timing.wall_ms)
+        rounds = range(round_number + 1)
+        ratio = measure.paired_ratio(times["now"], rounds, times["then"], rounds)
+        assert ratio
+        narrow = ratio.proved and ratio.upper - ratio.lower <= tolerance.relative * ratio.median / 2.0
+        spent = time.perf_counter() - start >= 2.0 * budget.seconds
+        if len(rounds) >= MINIMUM_ROUNDS and (narrow or spent or len(rounds) >= budget.repetitions):
+            break
+    for side in SIDES:
+        executor.release(device, keys[side])
+    return ratio

@@ -1,0 +1,110 @@
+"""The blessed baseline: a TOML file made to be read in a diff, one figure a line, sorted.
+
+    [device."opencl:pocl 1f3a6c"]   one device of one machine: its facts, and who blessed it when and why
+    [row."opencl:pocl 1f3a6c"."newton torus …"]   what one cell gave there
+
+A baseline may hold several devices and machines; blessing replaces only those it ran on.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from harness.contract import FirsthitError, digest
+from harness.store import write_atomically
+
+FORMAT = 1
+FACTS = ("title", "driver", "compiler", "processor")
+Entry = dict[str, Any]  # status, scene, program, and the figures
+
+
+@dataclass(frozen=True)
+class Baseline:
+    """Entries by device key and slot (without the device)."""
+
+    config: str = ""
+    devices: dict[str, dict[str, Any]] = field(default_factory=dict)
+    rows: dict[str, dict[str, Entry]] = field(default_factory=dict)
+
+
+def device_key(facts: Mapping[str, Any], same: list[str]) -> str:
+    """A device's name and a hash of the facts that must be `same` for figures to be compared."""
+    return f"{facts['name']} {digest({name: facts[name] for name in same})[:6]}"
+
+
+def read(path: Path) -> Baseline:
+    """Raises FirsthitError where there is no baseline or it is damaged."""
+    try:
+        document = tomllib.loads(path.read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        raise FirsthitError(f"there is no baseline {path}; `firsthit bless` makes one") from None
+    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+        raise FirsthitError(f"cannot read the baseline {path}: {error}") from None
+    if document.get("format") != FORMAT:
+        raise FirsthitError(f"{path} is no baseline of this version (format {document.get('format')!r}); bless anew")
+    devices, rows = document.get("device", {}), document.get("row", {})
+    tables = [devices, rows, *devices.values(), *rows.values()] if _is_tables(devices, rows) else [None]
+    tables += [entry for entries in rows.values() for entry in entries.values()] if all(map(_is_table, tables)) else []
+    if not all(map(_is_table, tables)) or not rows.keys() <= devices.keys():
+        raise FirsthitError(f"{path} is damaged: it lacks tables of devices and rows; restore it, or bless anew")
+    for entry in (entry for entries in rows.values() for entry in entries.values()):
+        if not {"status", "scene"} <= entry.keys():
+            raise FirsthitError(f"{path} is damaged: a row lacks its status or scene; restore it, or bless anew")
+    return Baseline(str(document.get("config", "")), devices, rows)
+
+
+def _is_table(value: Any) -> bool:
+    return isinstance(value, dict)
+
+
+def _is_tables(*values: Any) -> bool:
+    return all(map(_is_table, values))
+
+
+def write(path: Path, baseline: Baseline) -> None:
+    """Write a baseline whole or not at all."""
+    lines = [
+        "# Made by `firsthit bless`; held against by `firsthit gate`. Do not edit: bless with a reason.",
+        f"format = {FORMAT}",
+        f"config = {_value(baseline.config)}",
+    ]
+    for key in sorted(baseline.devices):
+        lines += ["", f"[device.{_value(key)}]", *_pairs(baseline.devices[key])]
+    for key in sorted(baseline.rows):
+        for slot in sorted(baseline.rows[key]):
+            lines += ["", f"[row.{_value(key)}.{_value(slot)}]", *_pairs(baseline.rows[key][slot])]
+    write_atomically(path, ("\n".join(lines) + "\n").encode())
+
+
+def merged(old: Baseline, new: Baseline) -> Baseline:
+    """`new`, and of `old` the devices of other machines and those that `new` did not run on."""
+
+    def place(facts: Mapping[str, Any]) -> tuple[Any, Any]:
+        return facts.get("name"), facts.get("processor")
+
+    replaced = {place(facts) for facts in new.devices.values()}
+    kept = {key: facts for key, facts in old.devices.items() if place(facts) not in replaced}
+    rows = {key: old.rows[key] for key in kept if key in old.rows}
+    return Baseline(new.config, kept | new.devices, rows | new.rows)
+
+
+def _pairs(table: Mapping[str, Any]) -> list[str]:
+    return [f"{name} = {_value(table[name])}" for name in sorted(table)]
+
+
+def _value(value: Any) -> str:
+    """TOML; floats with every digit."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, (int, float)):
+        text = repr(value)
+        return re.sub(r"^(-?\d+)e", r"\1.0e", text)
+    if isinstance(value, Mapping):
+        return "{ " + ", ".join(f"{name} = {_value(item)}" for name, item in sorted(value.items())) + " }"
+    return json.dumps(str(value), ensure_ascii=False).replace("\x7f", "\\u007f")

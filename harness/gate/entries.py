@@ -1,0 +1,63 @@
+"""Rows just run → what the baseline keeps of them."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Iterable
+from typing import Any
+
+from harness.contract import DeviceInfo, digest
+from harness.gate.baseline import Baseline, Entry, device_key
+from harness.gate.figures import figures
+from harness.plan import Planned, processor
+from harness.plugins import Catalog
+from harness.store import Row
+
+# What of a cell's identity is the method's doing, the machine's or the harness's; the rest is the question asked.
+_NOT_SCENE = {
+    "program",
+    "program order",
+    "parameters",
+    "device",
+    "processor",
+    "methodology",
+    "skip",
+    "budget",
+}
+
+
+def slot_of(planned: Planned) -> str:
+    """The cell's place in the grid without its device: what a row is gated by, whatever becomes of its program."""
+    return planned.cell.slot.removesuffix(f" {planned.cell.device}")
+
+
+def facts_of(info: DeviceInfo) -> dict[str, Any]:
+    facts = dataclasses.asdict(info)
+    told = {name: facts[name] for name in ("name", "title", "driver", "compiler")}
+    return told | {"versions": dict(info.versions), "processor": processor()}
+
+
+def baseline_of(
+    planned: Iterable[Planned], rows: dict[str, Row], catalog: Catalog, config: str, same: list[str]
+) -> Baseline:
+    """The rows of every device that is here."""
+    made = Baseline(config)
+    for p in planned:
+        if p.device is None:
+            continue
+        facts = facts_of(p.device)
+        key = device_key(facts, same)
+        made.devices[key] = facts
+        made.rows.setdefault(key, {})[slot_of(p)] = _entry(p, rows[p.key], catalog)
+    return made
+
+
+def _entry(planned: Planned, row: Row, catalog: Catalog) -> Entry:
+    scene = {name: value for name, value in planned.identity.items() if name not in _NOT_SCENE}
+    entry: Entry = {"status": row["status"], "scene": digest(scene)}
+    if row["program"]:
+        entry["program"] = row["program"]["hash"]
+    if row["reason"]:
+        entry["reason"] = row["reason"]
+    method = catalog.get(planned.cell.variant.method).method
+    return entry | (figures(row, method.claims) if method.answers else {})

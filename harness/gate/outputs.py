@@ -1,0 +1,132 @@
+"""What a gate found, for people, for CI servers (JUnit XML), for pages (Markdown) and as GitHub annotations."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+from xml.sax.saxutils import escape, quoteattr
+
+from harness import console
+from harness.gate.judge import ORDER, Judged, Verdict
+
+BAD = (Verdict.REGRESSED, Verdict.MISSING, Verdict.INCOMPARABLE)
+HEADER = ("verdict", "cell", "device", "figure", "baseline", "now", "allowed", "")
+SHOWN = 40  # rows of one kind that a table lists
+REASON = 160  # characters of a reason
+
+
+def number(value: Any) -> str:
+    if isinstance(value, float):
+        return f"{value:.6g}"
+    return "-" if value is None else str(value)
+
+
+def counted(judged: Sequence[Judged]) -> str:
+    """12 pass, 1 regressed; the worst first."""
+    counts = Counter(j.verdict for j in judged)
+    return ", ".join(f"{counts[verdict]} {verdict}" for verdict in ORDER if counts[verdict]) or "nothing to judge"
+
+
+def lines(judged: Sequence[Judged]) -> list[tuple[str, ...]]:
+    """Cells of HEADER for every row that does not simply pass, and each of its figures that changed; worst first."""
+    listed: list[tuple[str, ...]] = []
+    for verdict in ORDER[:-1]:
+        rows = [j for j in judged if j.verdict is verdict]
+        for j in rows[:SHOWN]:
+            head = (str(verdict), j.slot, j.device)
+            changed = [c for c in j.changes if c.verdict is not Verdict.PASS]
+            changed.sort(key=lambda c: (ORDER.index(c.verdict), -c.size))
+            for change in changed:
+                better = " (improved)" if change.verdict is Verdict.IMPROVED is not verdict else ""
+                told = (change.figure + better, number(change.before), number(change.now), number(change.allowed))
+                listed.append((*head, *told, _short(j.reason)))
+            if not changed:
+                listed.append((*head, "", "", "", "", _short(j.reason)))
+        if len(rows) > SHOWN:
+            listed.append((str(verdict), f"and {len(rows) - SHOWN} more", "", "", "", "", "", ""))
+    return listed
+
+
+def _short(reason: str) -> str:
+    text = " ".join(reason.split())
+    return text if len(text) <= REASON else text[: REASON - 2] + " …"
+
+
+def table(judged: Sequence[Judged]) -> str:
+    listed = lines(judged)
+    return "\n".join(filter(None, (console.table(HEADER, listed) if listed else "", counted(judged))))
+
+
+def markdown(judged: Sequence[Judged], title: str, baseline: Path, code: int) -> str:
+    """A heading with the outcome, and the table."""
+
+    def cell(text: str) -> str:
+        return text.replace("\\", "\\\\").replace("|", "\\|").replace("<", "&lt;")
+
+    outcome = {0: "passed", 1: "**failed**"}.get(code, "**could not judge everything**")
+    listed = lines(judged)
+    text = [f"## Gate {cell(title)}: {outcome}", "", f"{counted(judged)}; baseline `{baseline}`.", ""]
+    if listed:
+        text += ["| " + " | ".join(HEADER) + " |", "|" + " --- |" * len(HEADER)]
+        text += ["| " + " | ".join(map(cell, line)) + " |" for line in listed]
+    return "\n".join(text) + "\n"
+
+
+def junit(judged: Sequence[Judged], title: str) -> str:
+    """One test case a row; regressed and missing ones are failures, incomparable ones errors."""
+
+    def attribute(text: str) -> str:
+        return quoteattr("".join(c if c.isprintable() else " " for c in text))
+
+    failures = sum(j.verdict in (Verdict.REGRESSED, Verdict.MISSING) for j in judged)
+    errors = sum(j.verdict is Verdict.INCOMPARABLE for j in judged)
+    counts = f'tests="{len(judged)}" failures="{failures}" errors="{errors}"'
+    text = ['<?xml version="1.0" encoding="UTF-8"?>', f"<testsuites {counts}>"]
+    text.append(f"<testsuite name={attribute(title)} {counts}>")
+    for j in judged:
+        case = f"<testcase classname={attribute(f'{title}.{j.device}')} name={attribute(j.slot)}"
+        if j.verdict in BAD:
+            kind = "error" if j.verdict is Verdict.INCOMPARABLE else "failure"
+            body = escape("".join(c if c.isprintable() or c == "\n" else " " for c in _told(j)))
+            text.append(
+                f"{case}><{kind} message={attribute(f'{j.verdict}: {_headline(j)}')}>{body}</{kind}></testcase>"
+            )
+        else:
+            text.append(f"{case}/>")
+    return "\n".join([*text, "</testsuite>", "</testsuites>"]) + "\n"
+
+
+def github(judged: Sequence[Judged], kernels: dict[str, Path]) -> str:
+    """GitHub's workflow commands: an error for each bad row, at its method's kernel where that is below here."""
+
+    def data(text: str) -> str:
+        return text.replace("%", "%25").replace("\r", "%0D").replace("\n", "%0A")
+
+    def place(text: str) -> str:
+        return data(text).replace(":", "%3A").replace(",", "%2C")
+
+    written = []
+    for j in judged:
+        if j.verdict not in BAD:
+            continue
+        path = kernels.get(j.method)
+        here = path is not None and path.resolve().is_relative_to(Path.cwd())
+        file = f"file={place(path.resolve().relative_to(Path.cwd()).as_posix())}," if path and here else ""
+        kind = "warning" if j.verdict is Verdict.INCOMPARABLE else "error"
+        written.append(f"::{kind} {file}title={place(f'{j.verdict}: {j.slot}')}::{data(_told(j))}")
+    return "\n".join(written)
+
+
+def _headline(judged: Judged) -> str:
+    worst = judged.worst
+    if worst is None or worst.verdict is Verdict.PASS:
+        return judged.reason
+    return f"{worst.figure} {number(worst.before)} → {number(worst.now)}, allowed {number(worst.allowed)}"
+
+
+def _told(judged: Judged) -> str:
+    changed = [c for c in judged.changes if c.verdict is not Verdict.PASS]
+    figures = [f"{c.figure}: {number(c.before)} → {number(c.now)}, allowed {number(c.allowed)}" for c in changed]
+    return "\n".join(filter(None, (f"{judged.slot} on {judged.device}: {judged.verdict}", judged.reason, *figures)))

@@ -1,0 +1,86 @@
+"""Another git revision's programs of a config, made by that revision's own code in a temporary worktree."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from harness.contract import FirsthitError, Program, Section
+from harness.environment import ROOT
+
+EXPORT = Path(__file__).with_name("export.py")
+
+
+@dataclass(frozen=True)
+class Former:
+    """One cell's programs at the other revision; `skip`: why there are none."""
+
+    check: Program | None
+    timed: Program | None
+    skip: str | None
+
+
+def programs_at(revision: str, config: Path, plugins: Path | None, devices: list[str]) -> dict[str, Former]:
+    """Each view cell's programs by its slot.
+
+    The revision is of the repository that holds `plugins`, where they are given, else of this project; where these are
+    two, the harness stays as it is. Raises FirsthitError where there is no such revision or it cannot plan the config.
+    """
+    top = _git(plugins or ROOT, "rev-parse", "--show-toplevel")
+    if top is None:
+        raise FirsthitError(f"--against: {plugins or ROOT} is in no git repository, so there is no revision to be had")
+    repository = Path(top)
+    with _worktree(repository, revision) as tree:
+        ours = repository == ROOT.resolve()
+        there = tree / plugins.resolve().relative_to(repository) if plugins else None
+        code = tree if ours else ROOT
+        arguments = [str(config.resolve()), str(there or ""), *devices]
+        command = [sys.executable, "-c", EXPORT.read_text(encoding="utf-8"), *arguments]
+        environment = {**os.environ, "PYTHONPATH": str(code)}
+        ran = subprocess.run(command, cwd=code, env=environment, capture_output=True, text=True, check=False)
+    if ran.returncode:
+        reason = (ran.stderr.strip().splitlines() or ["no reason given"])[-1]
+        raise FirsthitError(f"--against {revision}: its code cannot plan {config}: {reason}", exit_code=3)
+    return {slot: _former(cell) for slot, cell in json.loads(ran.stdout.splitlines()[-1]).items()}
+
+
+@contextlib.contextmanager
+def _worktree(repository: Path, revision: str) -> Iterator[Path]:
+    """`revision` checked out in a temporary folder, and gone again afterwards."""
+    commit = _git(repository, "rev-parse", "--verify", "--quiet", f"{revision}^{{commit}}")
+    if commit is None:
+        raise FirsthitError(f"--against: {repository} has no revision {revision!r}; a shallow clone lacks older ones")
+    with tempfile.TemporaryDirectory(prefix="firsthit-against-") as folder:
+        tree = Path(folder).resolve() / "tree"
+        if _git(repository, "worktree", "add", "--detach", "--quiet", str(tree), commit) is None:
+            raise FirsthitError(f"--against: git cannot check {revision} out into {tree}", exit_code=3)
+        try:
+            yield tree
+        finally:
+            _git(repository, "worktree", "remove", "--force", str(tree))
+
+
+def _git(folder: Path, *arguments: str) -> str | None:
+    try:
+        ran = subprocess.run(["git", "-C", str(folder), *arguments], capture_output=True, text=True, check=False)
+    except OSError:
+        return None
+    return ran.stdout.strip() if ran.returncode == 0 else None
+
+
+def _former(cell: dict[str, Any]) -> Former:
+    check, timed = (_program(cell[name]) if cell[name] else None for name in ("check", "timed"))
+    return Former(check, timed, cell["skip"])
+
+
+def _program(stored: dict[str, Any]) -> Program:
+    sections = tuple(Section(origin, text) for origin, text in stored["sections"])
+    return Program(stored["language"], stored["precision"], stored["entry"], sections)

@@ -1,0 +1,234 @@
+"""Verdicts, exit codes, the baseline's file and what CI is told, of made-up rows."""
+
+import dataclasses
+import xml.etree.ElementTree as ElementTree
+from pathlib import Path
+
+import pytest
+
+from harness.contract import FirsthitError
+from harness.gate import baseline, figures, outputs
+from harness.gate.against import verdict_of
+from harness.gate.baseline import Baseline
+from harness.gate.judge import Judged, Tolerance, Verdict, exit_code, judge, tolerances_of
+from harness.measure import Ratio
+
+FACTS = {"name": "opencl:a", "title": "A", "driver": "1", "compiler": "c", "processor": "p", "versions": {"b": "2"}}
+SAME = list(baseline.FACTS)
+KEY = baseline.device_key(FACTS, SAME)
+ENTRY = {
+    "status": "ok",
+    "scene": "s1",
+    "program": "p1",
+    "misses": 3,
+    "error_max": 1e-5,
+    "evaluations_mean": 12.5,
+    "claims": 1,
+}
+METHODS = {"m a": "m", "m b": "m", "m c": "m"}
+
+
+def of(rows, facts=FACTS):
+    key = baseline.device_key(facts, SAME)
+    return Baseline("t", {key: facts}, {key: rows})
+
+
+def verdict(now, before=ENTRY, facts=FACTS, own=None):
+    (found,) = judge(of({"m a": now}, facts), of({"m a": before}), METHODS, tolerances_of(own or {}))
+    return found
+
+
+@pytest.mark.parametrize(
+    ("changed", "expected", "figure"),
+    [
+        ({}, "pass", None),
+        ({"program": "another"}, "pass", None),
+        ({"misses": 4}, "regressed", "misses"),
+        ({"misses": 2}, "improved", "misses"),
+        ({"error_max": 1.04e-5}, "pass", None),
+        ({"error_max": 1.06e-5}, "regressed", "error_max"),
+        ({"error_max": 0.9e-5}, "improved", "error_max"),
+        ({"evaluations_mean": 12.5 + 1 / 4096}, "regressed", "evaluations_mean"),
+        ({"claims": 0}, "regressed", "claims"),
+        ({"misses": 2, "error_max": 1.0}, "regressed", "error_max"),
+        ({"status": "crashed", "reason": "SIGSEGV"}, "regressed", "status"),
+        ({"scene": "s2", "misses": 0}, "incomparable", None),
+    ],
+)
+def test_each_figure_is_judged_by_its_direction_and_tolerance(changed, expected, figure):
+    found = verdict(ENTRY | changed)
+    assert found.verdict == expected
+    if figure:
+        assert found.worst.figure == figure
+
+
+def test_a_figure_that_is_gone_is_a_regression_and_a_cell_that_recovers_an_improvement():
+    assert verdict({name: value for name, value in ENTRY.items() if name != "error_max"}).verdict == "regressed"
+    assert verdict(ENTRY, before={"status": "failed", "scene": "s1"}).verdict == "improved"
+
+
+@pytest.mark.parametrize("fact", SAME)
+def test_another_device_driver_compiler_or_processor_is_incomparable_and_no_pass(fact):
+    found = verdict(ENTRY, facts=FACTS | {fact: "other"})
+    assert found.verdict == "incomparable"
+    assert f"{fact}: {FACTS[fact]!r} → 'other'" in found.reason
+    assert exit_code([found], set()) == 3
+    passed = Judged("m b", "opencl:a", "m", Verdict.PASS)
+    assert exit_code([found, passed], set()) == 3, "one row that could not be judged is enough"
+
+
+def test_another_device_by_name_says_which_one_the_baseline_knows():
+    found = verdict(ENTRY, facts=FACTS | {"name": "opengl:b"})
+    assert (found.verdict, found.reason) == ("incomparable", "the baseline is of opencl:a, not of opengl:b")
+
+
+def test_only_facts_that_the_config_names_decide_whether_devices_are_the_same():
+    other = FACTS | {"title": "B", "processor": "q"}
+    assert baseline.device_key(other, SAME) != KEY
+    assert baseline.device_key(other, ["driver"]) == baseline.device_key(FACTS, ["driver"])
+
+
+def test_rows_that_come_and_go():
+    found = judge(of({"m a": ENTRY, "m c": ENTRY}), of({"m a": ENTRY, "m b": ENTRY}), METHODS, tolerances_of({}))
+    assert [(j.slot, str(j.verdict)) for j in found] == [("m b", "missing"), ("m c", "new"), ("m a", "pass")]
+    assert exit_code(found, set()) == 1
+    assert exit_code(found[1:], set()) == 0
+    assert exit_code(found[1:], {("m c", "opencl:a")}) == 3, "a new row that did not finish is no pass"
+    assert exit_code(found[1:2], set()) == 3, "where nothing was compared nothing passed"
+
+
+def test_a_config_may_loosen_turn_or_drop_a_figure():
+    from harness.config import ToleranceChoice
+
+    own = {
+        "misses": ToleranceChoice(absolute=2),
+        "error_max": ToleranceChoice(gated=False),
+        "evaluations_mean": ToleranceChoice(better="higher"),
+    }
+    assert verdict(ENTRY | {"misses": 5, "error_max": 9.0, "evaluations_mean": 99.0}, own=own).verdict == "improved"
+    assert verdict(ENTRY | {"misses": 6}, own=own).verdict == "regressed"
+    assert verdict(ENTRY | {"evaluations_mean": 12.0}, own=own).verdict == "regressed"
+
+
+def test_the_worst_comes_first():
+    before = of({f"m {i}": ENTRY for i in range(4)})
+    now = of({f"m {i}": ENTRY | {"error_max": 1e-5 * factor} for i, factor in enumerate((1.0, 2.0, 50.0, 0.1))})
+    methods = {f"m {i}": "m" for i in range(4)}
+    assert [j.slot for j in judge(now, before, methods, tolerances_of({}))] == ["m 2", "m 1", "m 3", "m 0"]
+
+
+def test_a_baseline_comes_back_as_written_one_figure_a_line(tmp_path):
+    path = tmp_path / "b.toml"
+    entry = ENTRY | {"error_max": 5e-324, "error_p99": 1e22, "reason": 'quotes " and \\ and\nlines é'}
+    stored = Baseline("c", {KEY: FACTS}, {KEY: {'x["y"] z': entry, "a": ENTRY}})
+    baseline.write(path, stored)
+    assert baseline.read(path) == stored
+    text = path.read_text()
+    assert text.splitlines().count("misses = 3") == 2
+    assert text.index('."a"]') < text.index('."x[')
+    baseline.write(path, Baseline("c", stored.devices, {KEY: {"a": ENTRY | {"misses": 4}, 'x["y"] z': entry}}))
+    changed = set(path.read_text().splitlines()) - set(text.splitlines())
+    assert changed == {"misses = 4"}, "a diff shows what changed and nothing else"
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["", "format = 2", "format = 1\ndevice = 3", "not toml", "format = 1\n[row.x.y]\nstatus = 'ok'\nscene = 's'",
+     "format = 1\n[device.x]\nname = 'x'\n[row.x.y]\nmisses = 1", "format = 1\n[device]\nx = 1"],
+)  # fmt: skip
+def test_a_damaged_baseline_is_one_line(tmp_path, text):
+    path = tmp_path / "b.toml"
+    path.write_text(text)
+    with pytest.raises(FirsthitError, match=r"baseline|damaged") as caught:
+        baseline.read(path)
+    assert "\n" not in str(caught.value)
+    assert caught.value.exit_code == 2
+    with pytest.raises(FirsthitError, match="firsthit bless"):
+        baseline.read(tmp_path / "none.toml")
+
+
+def test_blessing_keeps_other_machines_and_replaces_this_one():
+    other = FACTS | {"processor": "q"}
+    old_driver = FACTS | {"driver": "0"}
+    keys = [baseline.device_key(facts, SAME) for facts in (FACTS, other, old_driver)]
+    old = Baseline("t", {keys[1]: other, keys[2]: old_driver}, {keys[1]: {"m a": ENTRY}, keys[2]: {"m a": ENTRY}})
+    merged = baseline.merged(old, of({"m b": ENTRY}))
+    assert merged.devices.keys() == merged.rows.keys() == {keys[0], keys[1]}
+
+
+def test_claims_are_counted_until_a_row_disproves_them():
+    counts = dict.fromkeys(("misses", "false_hits", "exhausted", "wrong_root"), 0)
+    grazing = {f"grazing_{name}": 0 for name in counts}
+    accuracy = counts | grazing | {"error": {"max": 1.0, "p99": None}, "evaluations_mean": 2.0}
+    row = {"accuracy": accuracy, "rungs": None}
+    claims = ("no_missed_root", "finds_touch")
+    assert figures.figures(row, claims) == counts | {
+        "grazing_wrong": 0,
+        "error_max": 1.0,
+        "evaluations_mean": 2.0,
+        "claims": 2,
+    }
+    assert figures.figures({"accuracy": accuracy | {"grazing_misses": 1}, "rungs": None}, claims)["claims"] == 1
+    rung = counts | {"right": 5, "worst_ratio": 2.0}
+    family = figures.figures({"accuracy": None, "rungs": [rung, rung | {"misses": 1, "worst_ratio": None}]}, claims)
+    assert family == counts | {"misses": 1, "right": 10, "worst_ratio": 2.0, "claims": 1}
+    assert figures.figures({"accuracy": None, "rungs": None}, claims) == {}
+
+
+@pytest.mark.parametrize(
+    ("lower", "upper", "proved", "expected"),
+    [
+        (1.06, 1.2, True, "regressed"),
+        (1.04, 1.2, True, "pass"),
+        (0.8, 0.9, True, "improved"),
+        (0.8, 0.99, True, "pass"),
+        (2.0, 3.0, False, "incomparable"),
+    ],
+)
+def test_speed_regresses_only_where_the_whole_interval_is_beyond_the_tolerance(lower, upper, proved, expected):
+    base = Judged("m a: speed", "opencl:a", "m", Verdict.PASS)
+    ratio = Ratio((lower + upper) / 2, lower, upper, proved, 0.001, 12)
+    assert verdict_of(base, ratio, Tolerance("lower", 0.0, 0.05)).verdict == expected
+
+
+@pytest.fixture
+def told():
+    rows = {"m a": ENTRY | {"error_max": 1.0}, "m b": ENTRY, "m c|<&>\"'": ENTRY | {"scene": "s2"}}
+    methods = dict.fromkeys(rows, "m")
+    return judge(of(rows), of(dict.fromkeys((*rows, "gone"), ENTRY)), methods, tolerances_of({}))
+
+
+def test_junit_is_xml_with_a_failure_for_each_bad_row(told):
+    suite = ElementTree.fromstring(outputs.junit(told, "t")).find("testsuite")
+    assert (suite.get("tests"), suite.get("failures"), suite.get("errors")) == ("4", "2", "1")
+    cases = {case.get("name"): [child.tag for child in case] for case in suite}
+    assert cases == {"m a": ["failure"], "gone": ["failure"], "m c|<&>\"'": ["error"], "m b": []}
+    assert "error_max 1e-05 → 1" in suite.find("testcase/failure").get("message")
+
+
+def test_markdown_is_a_table_with_the_worst_first(told):
+    text = outputs.markdown(told, "t", Path("b.toml"), 1)
+    assert text.startswith("## Gate t: **failed**\n\n1 regressed, 1 missing, 1 incomparable, 1 pass;")
+    rows = [line for line in text.splitlines() if line.startswith("| ")][2:]
+    assert [row.split(" | ")[0] for row in rows] == ["| regressed", "| missing", "| incomparable"]
+    assert "m c\\|&lt;&>" in rows[2]
+
+
+def test_github_annotations_name_the_kernel_and_escape_what_they_must(told, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    folder = tmp_path / "a,b"
+    folder.mkdir()
+    kernel = folder / "kernel.glsl"
+    kernel.write_text("")
+    first, *others = outputs.github(told, {"m": kernel}).splitlines()
+    assert first.startswith("::error file=a%2Cb/kernel.glsl,title=regressed%3A m a::m a on opencl:a: regressed%0A")
+    assert len(others) == 2
+    assert others[1].startswith("::warning ")
+    assert "file=" not in outputs.github(told, {"m": Path("/elsewhere/kernel.glsl")})
+
+
+def test_the_table_lists_all_that_does_not_pass(told):
+    text = outputs.table(told)
+    assert text.splitlines()[1].startswith("regressed     m a")
+    assert text.splitlines()[-1] == "1 regressed, 1 missing, 1 incomparable, 1 pass"
+    assert outputs.table([dataclasses.replace(told[-1])]) == "1 pass"

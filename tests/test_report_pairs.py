@@ -1,0 +1,59 @@
+"""The report's table of paired ratios."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from harness.contract import digest
+from tests.synthetic_run import cell, printed, reported, tiny_run
+
+
+def timed(
+    variant: str, samples: list[float], rounds: list[int], session: str = "one", misses: int = 0, slower: float = 1.0
+) -> Any:
+    made = cell("ray_march", "torus", "opencl:intel", "float32")
+    slot = f"{variant} torus"
+    made |= {"slot": slot, "key": digest(slot), "variant": variant, "method": variant, "arrays": None}
+    made["time"] |= {"samples_ms": samples, "rounds": rounds, "session": session}
+    made["time"]["median_ms"] = slower * float(np.median(samples))
+    made["accuracy"] |= {"misses": misses}
+    return made
+
+
+def test_variants_are_held_against_the_fastest_right_one_round_by_round(tmp_path: Path, rng: Any) -> None:
+    load = rng.lognormal(sigma=0.4, size=30)
+    rounds = list(range(30))
+    folder = tiny_run(
+        tmp_path / "run",
+        timed("best", list(load), rounds),
+        timed("wrong", list(0.5 * load * (1 + 0.01 * rng.standard_normal(30))), rounds, misses=7),
+        timed("slow", list(3.0 * load[:10]), rounds[:10]),
+        timed("alike", [time * (1.02 if i % 2 else 0.985) for i, time in enumerate(load)], rounds, slower=1.01),
+        timed("few", list(2.0 * load[:3]), rounds[:3]),
+        timed("elsewhere", list(2.0 * load), rounds, session="another"),
+    )
+    _, report = reported(folder)
+    (section,) = [s for s in report.sections if s.title == "Variants compared round by round"]
+    text = printed(section.blocks)
+    lines = {line.split(" | ")[3]: line.split(" | ")[2:] for line in text.splitlines() if line.count(" | ") == 9}
+    lines.pop("variant", None)
+    assert {variant: row[0] for variant, row in lines.items()} == dict.fromkeys(
+        ("wrong", "slow", "alike", "few"), "best"
+    )
+    assert lines["slow"][2:5] == ["3.00×", "3.00×", "3.00×"]
+    assert lines["slow"][6:] == ["10", "slower"]
+    assert lines["wrong"][-1] == "faster"
+    assert lines["alike"][-1] == "not told apart"
+    assert lines["few"][2:5] == ["2.00×", "–", "–"]
+    assert lines["few"][6:] == ["3", "too few rounds"]
+
+
+@pytest.mark.parametrize("sessions", [("one", "two")])
+def test_runs_that_were_not_interleaved_are_not_paired(tmp_path: Path, sessions: tuple[str, str]) -> None:
+    cells = [timed(name, [1.0] * 9, list(range(9)), session) for name, session in zip("ab", sessions, strict=True)]
+    _, report = reported(tiny_run(tmp_path / "run", *cells))
+    assert "Variants compared round by round" not in [s.title for s in report.sections]
