@@ -3,7 +3,7 @@ PYTHON ?= python3
 BIN := .venv/bin
 READY := .venv/ready
 
-.PHONY: quick papers test check format clean
+.PHONY: quick papers test bench gate check format clean
 quick: $(READY)
 	$(BIN)/firsthit run configs/quick.toml
 	$(BIN)/firsthit report runs/quick
@@ -14,6 +14,12 @@ papers: $(READY)
 
 test: $(READY)
 	$(BIN)/python -m pytest -q
+
+bench: $(READY)
+	$(BIN)/python -m pytest -q tests/benchmarks --benchmark-enable --benchmark-only --benchmark-autosave
+
+gate: $(READY)
+	$(BIN)/firsthit gate configs/gate.toml
 
 check: $(READY)
 	$(BIN)/ruff format --check .

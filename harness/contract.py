@@ -146,6 +146,7 @@ class Parameter:
     default: float | int
     meaning: str  # one phrase with its unit
     finer: Literal["up", "down"] | None = None  # which way the error falls; tested, as claims are
+    sweep: tuple[float | int, ...] = ()  # values beside the default that trade speed for error, for `recommend` to try
 
 
 CLAIMS: dict[str, str] = {

@@ -105,7 +105,7 @@ def test_finished_rows_are_used_again(gated):
 
 
 def test_a_loosened_threshold_is_caught_by_the_errors(gated, tmp_path):
-    _plant(gated.plugins, "mine", "method.py", 'Parameter("EPSILON", 0.001', 'Parameter("EPSILON", 0.05')
+    _plant(gated.plugins, "mine", "method.py", '"EPSILON",\n            0.001,', '"EPSILON", 0.05,')
     code, out, _ = gated("--junit", tmp_path / "g.xml", "--markdown", tmp_path / "g.md", "--github")
     assert code == 1
     assert _row(out, "mine torus", "error_max") == "regressed"

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import itertools
 import time
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
-from harness import accuracy, measure
+import numpy as np
+from numpy.typing import NDArray
+
+from harness import accuracy, beams, measure
 from harness.camera import rays_of, scene_radius
 from harness.config import Experiment
+from harness.contract import Hits, Program
 from harness.executor import CellError, LocalExecutor
 from harness.gate.entries import slot_of
 from harness.gate.figures import SPEED
@@ -18,6 +22,7 @@ from harness.gate.revision import Former
 from harness.measure import Ratio
 from harness.oracle import cached_first_hits
 from harness.plan import Planned, shuffled
+from harness.worker import Frame
 
 MINIMUM_ROUNDS = 10
 SIDES = ("now", "then")
@@ -46,7 +51,7 @@ def _judged(
     base = Judged(f"{slot_of(planned)}: speed", planned.cell.device, planned.cell.variant.method, Verdict.PASS)
     if former is None:
         return replace(base, verdict=Verdict.NEW, reason="the other revision has no such cell")
-    if former.timed is None or former.check is None:
+    if former.timed is None:
         return replace(base, verdict=Verdict.NEW, reason=f"the other revision skips it: {former.skip}")
     assert planned.timed
     if (former.timed.language, former.timed.precision) != (planned.timed.language, planned.timed.precision):
@@ -82,21 +87,36 @@ def _wrong(
     planned: Planned, former: Former, experiment: Experiment, executor: LocalExecutor, truth: Path
 ) -> str | None:
     """Nothing is timed before its hits are held against the oracle; why this is not timed, if so."""
-    cell, choice = planned.cell, experiment.config.accuracy
+    surface, choice = planned.cell.surface, experiment.config.accuracy
     rays = rays_of(planned.camera, choice.size)
-    certified = cached_first_hits(cell.surface, rays, truth)
-    assert former.check
-    for program, when in ((planned.checks[0], "now"), (former.check, "at the other revision")):
-        hits = executor.check(cell.device, program, rays).hits
-        verdicts = accuracy.judge(hits, certified, scene_radius(cell.surface), choice.grazing_margin)
-        share = (
-            float((verdicts.wrong[~verdicts.grazing] != accuracy.Wrong.RIGHT).mean())
-            if not verdicts.grazing.all()
-            else 0.0
-        )
+    certified = cached_first_hits(surface, rays, truth)
+    frame = planned.frame
+    assert frame and former.timed
+    present = _Side(planned.checks[0] if planned.checks else None, frame)
+    other = _Side(former.check, replace(frame, program=former.timed))
+    for side, when in ((present, "now"), (other, "at the other revision")):
+        hits = _hits(side, planned, rays, choice.size, executor)
+        verdicts = accuracy.judge(hits, certified, scene_radius(surface), choice.grazing_margin)
+        wrong = (verdicts.wrong != accuracy.Wrong.RIGHT) & ~verdicts.grazing
+        share = wrong.sum() / max(1, (~verdicts.grazing).sum())
         if share > choice.max_wrong_share:
             return f"wrong on {share:.1%} of the rays outside the grazing class {when}: not timed"
     return None
+
+
+@dataclass(frozen=True, eq=False)
+class _Side:
+    """One revision's programs: of listed rays, where it casts rays, and of the frame."""
+
+    check: Program | None
+    frame: Frame
+
+
+def _hits(side: _Side, planned: Planned, rays: NDArray[np.float32], size: int, executor: LocalExecutor) -> Hits:
+    if planned.casts == "rays" and side.check:
+        return executor.check(planned.cell.device, side.check, rays).hits
+    pixels = beams.pixels_of(planned.camera, size, side.frame.size)
+    return beams.along_rays(executor.check_frame(planned.cell.device, side.frame, pixels.index).hits, pixels)
 
 
 def _race(

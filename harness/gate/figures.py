@@ -81,8 +81,13 @@ def figures(row: Row, claims: Iterable[str]) -> dict[str, Value]:
 
 
 def _disproved(claim: str, row: Row) -> bool:
-    """Whether this row contradicts the claim; a claim that no row can contradict stands as long as it is stated."""
-    if claim == "no_missed_root":
-        counts = [row["accuracy"]] if row["accuracy"] else row["rungs"]
-        return any(count["misses"] + count.get("grazing_misses", 0) > 0 for count in counts)
+    """Whether this row contradicts the claim (contract.CLAIMS); one that no row can contradict stands while stated."""
+    counts = [row["accuracy"]] if row["accuracy"] else row["rungs"]
+    match claim:
+        case "no_missed_root":
+            return any(count["misses"] + count.get("grazing_misses", 0) > 0 for count in counts)
+        case "conservative_bound":
+            return any(count["misses"] > 0 for count in counts)
+        case "no_false_hit":
+            return any(count["false_hits"] > 0 for count in counts)
     return False

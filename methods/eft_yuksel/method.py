@@ -66,7 +66,13 @@ METHOD = Method(
         Parameter("BASIS", 0, "0: monomial on [-1, 1], 1: Bernstein on [0, 1]"),
         Parameter("EFT", 1, "1: compensated fit, 0: plain products and sums"),
         Parameter("EVAL", 1, "1: signs and refinement from f itself, 0: from the fit"),
-        Parameter("TOLERANCE", 2.0**-18, "last Newton step of the root, in the fit's variable", finer="down"),
+        Parameter(
+            "TOLERANCE",
+            2.0**-18,
+            "last Newton step of the root, in the fit's variable",
+            finer="down",
+            sweep=(2.0**-8, 2.0**-12, 2.0**-22),
+        ),
         Parameter("ISOLATION", 2.0**-10, "the same for the derivatives' roots"),
     ),
     settings={

@@ -21,7 +21,13 @@ METHOD = Method(
     source="beamcasting",
     needs=("surface_range_along",),
     parameters=(
-        Parameter("TOLERANCE", 2.0**-20, "width of the final piece, over the domain's radius", finer="down"),
+        Parameter(
+            "TOLERANCE",
+            2.0**-20,
+            "width of the final piece, over the domain's radius",
+            finer="down",
+            sweep=(2.0**-12, 2.0**-16, 2.0**-22),
+        ),
         Parameter("MAX_EVALUATIONS", 8192, "evaluations spent on one ray"),
     ),
     claims=frozenset({"no_missed_root", "finds_touch"}),

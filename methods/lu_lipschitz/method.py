@@ -64,7 +64,13 @@ METHOD = Method(
         Parameter("SIDES", 1, "1: the slope towards zero counts, 2: the larger of both slopes' magnitudes, as printed"),
         Parameter("CULL", 1, "1: rays whose f is bounded away from zero end at once"),
         Parameter("LOCAL", 1, "1: the bound follows the ray, 0: one bound for the whole ray"),
-        Parameter("TOLERANCE", 2.0**-16, "shortest step, over the ray's length in the domain", finer="down"),
+        Parameter(
+            "TOLERANCE",
+            2.0**-16,
+            "shortest step, over the ray's length in the domain",
+            finer="down",
+            sweep=(2.0**-10, 2.0**-13, 2.0**-20),
+        ),
         Parameter("MAX_EVALUATIONS", 10000, "evaluations spent on one ray"),
     ),
     settings={

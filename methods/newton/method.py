@@ -26,7 +26,13 @@ METHOD = Method(
     source="toledo2007",
     needs=("surface_along", "surface_dual_along"),
     parameters=(
-        Parameter("EPSILON", 0.001, "last step allowed, over the surface's feature radius", finer="down"),
+        Parameter(
+            "EPSILON",
+            0.001,
+            "last step allowed, over the surface's feature radius",
+            finer="down",
+            sweep=(0.03, 0.01, 0.0003, 0.0001, 0.00003, 0.00001),
+        ),
         Parameter("STEP_BOUND", 0.15, "longest step λ, over the bounding radius"),
         Parameter("FORWARD", 1, "1: forwards outside the surface, backwards inside; 0: signed steps as printed"),
         Parameter("MAX_EVALUATIONS", 100, "evaluations spent on one ray"),

@@ -18,7 +18,7 @@ METHOD = Method(
     source="szente",
     needs=("surface_along", "surface_value_along"),
     parameters=(
-        Parameter("STEPS", 10000, "steps across the domain's diameter", finer="up"),
+        Parameter("STEPS", 10000, "steps across the domain's diameter", finer="up", sweep=(100, 300, 1000)),
         Parameter("REFINEMENTS", 12, "bisections of the bracketing step", finer="up"),
     ),
     claims=frozenset({"no_false_hit", "error_below_tolerance"}),

@@ -47,7 +47,11 @@ METHOD = Method(
     libraries=("dual", "polynomial"),
     parameters=(
         Parameter(
-            "TOLERANCE", 2.0**-18, "last Newton step of the root, over the ray's length in the domain", finer="down"
+            "TOLERANCE",
+            2.0**-18,
+            "last Newton step of the root, over the ray's length in the domain",
+            finer="down",
+            sweep=(2.0**-8, 2.0**-12, 2.0**-22),
         ),
         Parameter("ISOLATION", 2.0**-10, "the same for the derivatives' roots"),
     ),

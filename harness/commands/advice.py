@@ -1,0 +1,148 @@
+"""recommend: the fastest variant that keeps an error."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+from harness import console
+from harness.commands.options import add_surface, surface_of
+from harness.contract import PRECISIONS, DeviceInfo, FirsthitError, digest
+from harness.environment import probed
+from harness.executor import LocalExecutor, discover_devices
+from harness.plugins import find_methods
+from harness.recommend.search import HEADROOM, Fallen, Recommendation, Search, Wish, named
+
+NOTHING_HOLDS = 1
+REASON = 110  # characters of a reason
+
+
+def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    parser = commands.add_parser(
+        "recommend",
+        help="the fastest variant whose certified error stays within a bound, and why the others fell",
+        description="Check every method, with its papers' settings and its knobs' sweeps, against the oracle on "
+        "sampled views; time those within the bound, interleaved; check the fastest once more on views held out. "
+        "Exit codes: 0 a variant is recommended, 1 none holds, 2 usage, 3 something failed while running.",
+        epilog="example: firsthit recommend --formula 'x^4 + y^4 + z^4 - 1' --error 1e-5",
+    )
+    add_surface(parser)
+    parser.add_argument("--error", type=float, required=True, metavar="E", help="largest |t - t*|, scene units")
+    parser.add_argument(
+        "--quantile",
+        choices=("max", "p999", "p99"),
+        default="max",
+        help=f"of the errors that must keep E; max leaves a factor {HEADROOM:g} for rays not sampled (default: max)",
+    )
+    parser.add_argument("--fps", type=float, default=0.0, metavar="N", help="frames per second at least")
+    parser.add_argument("--size", type=int, default=512, help="pixels per side of what is timed (default: 512)")
+    parser.add_argument("--precision", choices=PRECISIONS, help="default: float32, and float64 where none holds")
+    parser.add_argument("--device", metavar="NAME", help="see `firsthit list devices`; default: the first usable one")
+    parser.add_argument("--views", type=int, default=5, metavar="N", help="views to choose by (default: 5)")
+    parser.add_argument("--rays", type=int, default=64, metavar="N", help="rays per side checked a view (default: 64)")
+    parser.add_argument("--seconds", type=float, default=1.0, metavar="S", help="of timing a variant and view")
+    parser.add_argument("--seed", type=int, default=1, help="of the views (default: 1)")
+    parser.add_argument("--runs", type=Path, default=Path("runs"), metavar="DIR", help="rows go here (default: runs)")
+    parser.set_defaults(run=_recommend)
+
+
+def _wish(options: argparse.Namespace) -> Wish:
+    limits = (
+        ("--error", options.error, 0.0, 1e30),
+        ("--fps", options.fps, 0.0, 1e6),
+        ("--size", options.size, 1, 16384),
+        ("--views", options.views, 1, 1000),
+        ("--rays", options.rays, 4, 4096),
+        ("--seconds", options.seconds, 0.0, 1e5),
+    )
+    for name, value, low, high in limits:
+        if not low <= value <= high:
+            raise FirsthitError(f"{name} {value:g} is outside [{low:g}, {high:g}]")
+    return Wish(
+        surface=surface_of(options),
+        error=options.error,
+        quantile=options.quantile,
+        fps=options.fps,
+        size=options.size,
+        precision=options.precision,
+        tuning_views=options.views,
+        held_out_views=max(2, options.views // 2),
+        accuracy_size=options.rays,
+        seed=options.seed,
+        seconds=options.seconds,
+    )
+
+
+def _device(name: str | None) -> DeviceInfo:
+    usable = {info.name: info for info in discover_devices() if not info.problem}
+    if name and name not in usable:
+        raise FirsthitError(f"there is no usable device {name!r} here; there are: {', '.join(usable)}", exit_code=3)
+    if not usable:
+        raise FirsthitError("no usable device; `firsthit devices` says why", exit_code=3)
+    return usable[name] if name else next(iter(usable.values()))
+
+
+def _recommend(options: argparse.Namespace) -> int:
+    wish, catalog = _wish(options), find_methods(options.plugins)
+    surface = wish.surface
+    folder = options.runs / f"recommend-{options.surface or 'formula'}-{digest(surface.identity)[:8]}"
+    executor = LocalExecutor(60.0)
+    try:
+        device, _ = probed(executor, _device(options.device), folder / "probes")
+        found = Search(wish, catalog, device, executor, folder, _tell).run()
+    finally:
+        executor.close()
+    print(_answer(found, wish, device))
+    return 0 if found.contenders else NOTHING_HOLDS
+
+
+def _tell(line: str) -> None:
+    print(f"firsthit: {line}", file=sys.stderr)
+
+
+def _answer(found: Recommendation, wish: Wish, device: DeviceInfo) -> str:
+    bound = f"a {wish.quantile} error of {wish.error:.2g}"
+    if not found.contenders:
+        head = [f"Nothing draws {wish.surface.title} on {device.name} within {bound}. Why each variant fell:"]
+        return "\n".join([*head, _fallen(found)])
+    best = found.contenders[0]
+    speed = f"{best.ms:.3g} ms a frame, {1e3 / best.ms:.3g} frames/s at {wish.size}x{wish.size}"
+    views = f"{wish.tuning_views} views to choose by and {wish.held_out_views} held out"
+    columns = ("variant", "precision", "ms", "times", f"{wish.quantile} error", "evaluations")
+    rows = [
+        (
+            named(c.variant),
+            c.precision,
+            f"{c.ms:.3g}",
+            f"{c.ms / best.ms:.3g}",
+            f"{c.error:.2g}",
+            f"{c.evaluations:.4g}",
+        )
+        for c in found.contenders
+    ]
+    return "\n".join(
+        [
+            f"{named(best.variant)} in {best.precision} is the fastest that draws {wish.surface.title} within {bound} "
+            f"on {device.name}: {speed}.",
+            f"Outside the grazing class no ray is wrong on {views}. Were more than a share of "
+            f"{3.0 / found.held_out:.1e} wrong, the {found.held_out} held-out rays would have shown it 19 times in 20.",
+            "",
+            console.table(columns, rows),
+            "",
+            "Why the others fell:",
+            _fallen(found),
+        ]
+    )
+
+
+def _fallen(found: Recommendation) -> str:
+    """A line for each variant; one for all variants of a method that fell for the same reason."""
+    grouped: dict[tuple[str, str, str], list[Fallen]] = {}
+    for fallen in found.fallen:
+        grouped.setdefault((fallen.variant.method, fallen.precision, fallen.why), []).append(fallen)
+    rows = []
+    for (method, precision, why), alike in grouped.items():
+        name = named(alike[0].variant) if len(alike) == 1 else f"{method}, {len(alike)} variants"
+        rows.append((name, precision, why if len(why) <= REASON else why[: REASON - 2] + " …"))
+    return console.table(("variant", "precision", "why"), rows) if rows else "none did"

@@ -1,0 +1,43 @@
+"""What is tried: every method's default, its papers' settings and its knobs' sweeps; and the views it is tried on."""
+
+from __future__ import annotations
+
+import itertools
+import math
+import random
+
+from harness.contract import Variant, View
+from harness.plugins import Catalog, Plugin
+
+GOLDEN_ANGLE = 180.0 * (3.0 - math.sqrt(5.0))
+
+
+def variants(catalog: Catalog) -> tuple[Variant, ...]:
+    """Every candidate, each binding of a method's parameters once. Methods that cast beams answer for pixels and have no
+    error along a ray: they are none."""
+    found: dict[tuple[str, tuple[tuple[str, float | int], ...]], Variant] = {}
+    for _, plugin in sorted(catalog.plugins.items()):
+        if plugin.method.answers and plugin.method.casts == "rays":
+            for variant in _of(plugin):
+                found.setdefault((variant.method, variant.parameters), variant)
+    return tuple(found.values())
+
+
+def _of(plugin: Plugin) -> list[Variant]:
+    swept = [(p.name, (None, *p.sweep)) for p in plugin.method.parameters if p.sweep]
+    points = itertools.product(*(values for _, values in swept))
+    named = [{name: v for (name, _), v in zip(swept, point, strict=True) if v is not None} for point in points]
+    grid = [plugin.variant(point) for point in named]
+    return [grid[0], *(plugin.setting(name) for name in plugin.method.settings), *grid[1:]]
+
+
+def views(count: int, seed: int) -> list[View]:
+    """`count` directions spread evenly over the sphere, turned by the seed; the surface fills each window."""
+    draw = random.Random(f"views {seed}")
+    turn, order = draw.uniform(0.0, 360.0), draw.sample(range(count), count)
+    made = []
+    for i in range(count):
+        height = 1.0 - 2.0 * (i + draw.uniform(0.2, 0.8)) / count
+        azimuth = (turn + GOLDEN_ANGLE * i) % 360.0
+        made.append(View(f"seed {seed}, {i + 1}", azimuth=azimuth, elevation=math.degrees(math.asin(height))))
+    return [made[i] for i in order]

@@ -1,0 +1,83 @@
+"""The hot pieces under pytest-benchmark: `make bench` times them, `make test` runs each once.
+
+No time is asserted: a benchmark is compared with another run of the same machine (`--benchmark-compare`).
+"""
+
+from __future__ import annotations
+
+import pytest
+
+import surfaces
+from harness.assemble import method_program
+from harness.backends import Device, launch_camera
+from harness.camera import camera_for, rays_of
+from harness.contract import View
+from harness.oracle import first_hits
+from harness.plugins import find_methods
+from harness.store import Store
+from surfaces.sections import FUNCTIONS, surface_sections
+from tests.conftest import opened, usable_devices
+
+CATALOG = find_methods()
+VIEW = View("oblique", azimuth=30, elevation=35)
+
+
+@pytest.fixture(scope="module")
+def first_device() -> Device:
+    if not usable_devices():
+        pytest.skip("no device")
+    return opened(usable_devices()[0].name)
+
+
+@pytest.mark.parametrize("name", ["torus", "barth_decic"])
+def test_lowering(benchmark, name):
+    """Formula → straight-line operations → kernel text, with nothing kept from before."""
+    formula = surfaces.get(name).formula
+    counter = iter(range(10**9))
+
+    def lower():
+        surface = surfaces.from_formula(f"{formula} + 0*{next(counter)}.5", "sphere:1.5")
+        return surface_sections(surface, ("surface_along", "surface_dual_along"), "float32", "cl")
+
+    assert benchmark(lower)
+
+
+@pytest.mark.parametrize("name", ["torus", "barth_sextic", "blinn_blob"])
+def test_oracle(benchmark, name):
+    surface = surfaces.get(name)
+    rays = rays_of(camera_for(VIEW, surface), 32)
+    first_hits(surface, rays[:1])
+    assert len(benchmark(first_hits, surface, rays).lower) == len(rays)
+
+
+def test_assemble(benchmark):
+    plugin, surface = CATALOG.get("eft_yuksel"), surfaces.get("barth_sextic")
+    made = (plugin.method, plugin.folder, plugin.variant({}), surface, "float32", "cl", "camera")
+    assert benchmark(lambda: method_program(*made).hash)
+
+
+@pytest.mark.parametrize("method", [name for name, plugin in CATALOG.plugins.items()])
+def test_kernel(benchmark, first_device, method):
+    """One 256 × 256 frame of the torus, on the first device."""
+    plugin, surface = CATALOG.get(method), surfaces.get("torus")
+    if reason := plugin.method.accepts(surface):
+        pytest.skip(reason)
+    made = (plugin.method, plugin.folder, plugin.variant({}), surface, "float32", first_device.language, "camera")
+    program = method_program(*made)
+    launch = launch_camera(first_device, program, first_device.build(program), camera_for(VIEW, surface), 256)
+    assert benchmark(launch.run).wall_ms >= 0.0
+    launch.release()
+
+
+def test_reading_rows(benchmark, tmp_path):
+    """Two hundred rows of ordinary size from a run folder."""
+    store = Store(tmp_path)
+    for i in range(200):
+        samples = [1.0 + 0.01 * j for j in range(40)]
+        figures = {f"figure_{j}": j / 7 for j in range(60)}
+        store.write({"key": f"{i:016x}", "slot": f"slot {i}", "time": {"samples_ms": samples}, "accuracy": figures})
+    assert len(benchmark(lambda: list(store.rows()))) == 200
+
+
+def test_the_functions_named_here_exist():
+    assert {"surface_along", "surface_dual_along"} <= set(FUNCTIONS)

@@ -1,0 +1,152 @@
+"""Recommendations on formulas that are in no config, held against the oracle on views they were not chosen by."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+import surfaces
+from harness.accuracy import Wrong, judge
+from harness.camera import camera_for, rays_of, scene_radius
+from harness.cli import main
+from harness.contract import View
+from harness.environment import ROOT
+from harness.executor import LocalExecutor
+from harness.oracle import first_hits
+from harness.plugins import Catalog, find_methods
+from harness.recommend import candidates
+from harness.recommend.search import Search, Wish, certified_error
+
+from .conftest import opened, usable_devices
+from .test_devices import cast
+
+FORMULAS = {
+    "rounded cube": ("x^4 + y^4 + z^4 - 0.7", "sphere:1.5"),
+    "cassinian": ("(x^2 + y^2 + z^2)^2 - 2*(x^2 - y^2) - 0.3", "sphere:1.8"),
+    "boxed cubic": ("x^3 + y^3 + z^3 + 0.2*x*y*z - 0.5", "box:1,1,1"),
+    "waves": ("sin(3*x) + sin(3*y) + sin(3*z)", "sphere:1.5"),
+    "bulged ball": ("x^6 + y^6 + z^6 + x^2*y^2 - 0.8", "sphere:1.5"),
+}
+METHODS = ("newton", "interval_march", "eft_yuksel", "yuksel", "ray_march")
+ERROR = 1e-4
+
+
+@pytest.fixture
+def info():
+    if not usable_devices():
+        pytest.skip("no device")
+    return usable_devices()[0]
+
+
+def _search(tmp_path, info, surface, methods=METHODS, **wished):
+    plugins = find_methods().plugins
+    wish = Wish(surface, ERROR, size=64, tuning_views=2, held_out_views=2, accuracy_size=32, seconds=0.02)
+    executor = LocalExecutor(60.0)
+    try:
+        catalog = Catalog({name: plugins[name] for name in methods})
+        search = Search(dataclasses.replace(wish, **wished), catalog, info, executor, tmp_path, lambda _: None)
+        return search.run()
+    finally:
+        executor.close()
+
+
+@pytest.mark.parametrize("name", FORMULAS)
+def test_the_recommended_variant_holds_on_views_it_was_not_chosen_by(tmp_path, info, name):
+    formula, domain = FORMULAS[name]
+    assert all(formula not in path.read_text() for path in (ROOT / "configs").glob("*.toml"))
+    surface = surfaces.from_formula(formula, domain)
+    found = _search(tmp_path, info, surface)
+    assert found.contenders, [fallen.why for fallen in found.fallen]
+    best = found.contenders[0]
+    assert [c.ms for c in found.contenders] == sorted(c.ms for c in found.contenders)
+    assert best.error <= ERROR / 2
+    for view in (View("unseen", azimuth=17, elevation=8), *candidates.views(3, seed=12345)):
+        rays = rays_of(camera_for(view, surface), 48)
+        truth = first_hits(surface, rays)
+        hits = cast(
+            opened(info.name), best.variant.method, surface, best.precision, rays, **dict(best.variant.parameters)
+        )
+        verdicts = judge(hits, truth, scene_radius(surface), 1e-3)
+        clear = ~verdicts.grazing
+        assert (verdicts.wrong[clear] == Wrong.RIGHT).all(), view
+        widths = truth.upper - truth.lower
+        assert np.nanmax((verdicts.error + widths)[clear], initial=0.0) <= ERROR, view
+
+
+def test_every_candidate_is_recommended_or_told_why_it_fell(tmp_path, info):
+    surface = surfaces.from_formula("x^2 + 2*y^2 + z^2 - 1")
+    methods = ("newton", "sphere_tracing", "interval_march")
+    found = _search(tmp_path, info, surface, methods, precision="float32", fps=1e6)
+    told = [fallen.variant for fallen in found.fallen] + [c.variant for c in found.contenders]
+    plugins = find_methods().plugins
+    assert sorted(map(str, told)) == sorted(map(str, candidates.variants(Catalog({m: plugins[m] for m in methods}))))
+    whys = {(fallen.variant.method, fallen.why.split(",")[0]) for fallen in found.fallen}
+    assert any(method == "sphere_tracing" and "states no distance" in why for method, why in whys)
+    loose = next(fallen for fallen in found.fallen if str(fallen.variant) == "newton[EPSILON=0.03]")
+    assert loose.why.startswith("max error ")
+    assert not found.contenders, "no device here draws a million frames per second"
+    assert any("frames/s at 64x64, not 1e+06" in fallen.why for fallen in found.fallen)
+
+
+def test_stored_rows_are_used_again(tmp_path, info):
+    surface = surfaces.from_formula("x^2 + 2*y^2 + z^2 - 1")
+    first = _search(tmp_path, info, surface, ("newton",))
+    written = {path: path.stat().st_mtime_ns for path in (tmp_path / "cells").iterdir()}
+    assert _search(tmp_path, info, surface, ("newton",)).contenders == first.contenders
+    assert {path: path.stat().st_mtime_ns for path in (tmp_path / "cells").iterdir()} == written
+
+
+def test_float64_is_tried_where_no_float32_variant_holds(tmp_path, info):
+    if not info.float64:
+        pytest.skip("the device has no float64")
+    surface = surfaces.from_formula("x^2 + 2*y^2 + z^2 - 1")
+    found = _search(tmp_path, info, surface, ("newton", "yuksel"), error=1e-9)
+    assert {fallen.precision for fallen in found.fallen} >= {"float32"}
+    assert all(contender.precision == "float64" for contender in found.contenders)
+    assert found.contenders, [fallen.why for fallen in found.fallen]
+
+
+def test_candidates_bind_every_sweep_and_setting_once():
+    catalog = find_methods()
+    found = candidates.variants(catalog)
+    assert len({(v.method, v.parameters) for v in found}) == len(found)
+    for plugin in catalog.plugins.values():
+        if plugin.method.answers and plugin.method.casts == "rays":
+            mine = {v.parameters for v in found if v.method == plugin.method.name}
+            assert plugin.variant({}).parameters in mine
+            assert all(plugin.setting(name).parameters in mine for name in plugin.method.settings)
+            for parameter in plugin.method.parameters:
+                assert {dict(p)[parameter.name] for p in mine} >= set(parameter.sweep)
+    assert not any(v.method == "null" for v in found)
+
+
+@pytest.mark.parametrize("count", [1, 3, 8])
+def test_views_surround_the_surface_and_follow_the_seed(count):
+    made = candidates.views(count, 4)
+    assert made == candidates.views(count, 4) != candidates.views(count, 5)
+    assert len({view.name for view in made}) == count
+    if count == 8:
+        assert min(view.elevation for view in made) < -35.0
+        assert max(view.elevation for view in made) > 35.0
+
+
+def test_the_certified_error_holds_the_certificates_own_width():
+    accuracy = {"error": {"max": 0.25, "p99": None}, "certified_width": 0.125}
+    assert certified_error(accuracy, "max") == 0.375
+    assert certified_error(accuracy, "p99") == 0.0
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("--surface", "spere", "--error", "1"), "did you mean sphere"),
+        (("--surface", "sphere", "--error", "-1"), "--error -1 is outside"),
+        (("--surface", "sphere", "--error", "1", "--device", "opencl:none"), "no usable device 'opencl:none'"),
+        (("--formula", "x + ", "--error", "1"), "x + "),
+    ],
+)
+def test_mistakes_are_one_line(tmp_path, capsys, arguments, words):
+    assert main(["recommend", "--runs", str(tmp_path), *arguments]) in (2, 3)
+    err = capsys.readouterr().err
+    assert words in err
+    assert err.count("\n") == 1 or "^" in err
