@@ -121,9 +121,6 @@ def test_a_dropped_root_is_caught_by_misses_or_wrong_roots_and_by_the_claim(gate
     code, out, _ = gated()
     assert code == 1
     assert "regressed" in (_row(out, "theirs torus", "wrong_root"), _row(out, "theirs torus", "misses"))
-    assert (
-        _row(out, "theirs sphere", "wrong_root") == "regressed" or _row(out, "theirs sphere", "misses") == "regressed"
-    )
     assert "claims" in out
     assert _row(out, "mine", "misses") is None
 

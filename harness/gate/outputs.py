@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
@@ -50,7 +51,10 @@ def lines(judged: Sequence[Judged]) -> list[tuple[str, ...]]:
 
 
 def _short(reason: str) -> str:
+    """One line; of a compiler's log from the first place in a kernel on."""
     text = " ".join(reason.split())
+    place = re.search(r"\S+\.glsl:\d+", text)
+    text = text[place.start() :] if place else text
     return text if len(text) <= REASON else text[: REASON - 2] + " …"
 
 
