@@ -11,6 +11,7 @@ from harness.cli import build_parser, main
 from .conftest import usable_devices
 
 COMMANDS = ("devices", "list", "plan", "run", "why", "report", "show", "sheet", "trace", "oracle", "compile")
+COMMANDS += ("gate", "bless", "recommend")
 
 
 @pytest.fixture

@@ -13,8 +13,10 @@ GOLDEN_ANGLE = 180.0 * (3.0 - math.sqrt(5.0))
 
 
 def variants(catalog: Catalog) -> tuple[Variant, ...]:
-    """Every candidate, each binding of a method's parameters once. Methods that cast beams answer for pixels and have no
-    error along a ray: they are none."""
+    """Every candidate, each binding of a method's parameters once.
+
+    Methods that cast beams are left out: they answer for pixels and have no
+    error along a ray."""
     found: dict[tuple[str, tuple[tuple[str, float | int], ...]], Variant] = {}
     for _, plugin in sorted(catalog.plugins.items()):
         if plugin.method.answers and plugin.method.casts == "rays":

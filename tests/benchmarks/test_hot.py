@@ -10,6 +10,7 @@ import pytest
 import surfaces
 from harness.assemble import method_program
 from harness.backends import Device, launch_camera
+from harness.backends.beams import launch_beams
 from harness.camera import camera_for, rays_of
 from harness.contract import View
 from harness.oracle import first_hits
@@ -32,11 +33,12 @@ def first_device() -> Device:
 @pytest.mark.parametrize("name", ["torus", "barth_decic"])
 def test_lowering(benchmark, name):
     """Formula → straight-line operations → kernel text, with nothing kept from before."""
-    formula = surfaces.get(name).formula
+    stated = surfaces.get(name)
     counter = iter(range(10**9))
 
     def lower():
-        surface = surfaces.from_formula(f"{formula} + 0*{next(counter)}.5", "sphere:1.5")
+        text = f"{stated.formula} + 0*{next(counter)}.5"
+        surface = surfaces.from_formula(text, "sphere:1.5", parameters=dict(stated.parameters))
         return surface_sections(surface, ("surface_along", "surface_dual_along"), "float32", "cl")
 
     assert benchmark(lower)
@@ -62,9 +64,12 @@ def test_kernel(benchmark, first_device, method):
     plugin, surface = CATALOG.get(method), surfaces.get("torus")
     if reason := plugin.method.accepts(surface):
         pytest.skip(reason)
-    made = (plugin.method, plugin.folder, plugin.variant({}), surface, "float32", first_device.language, "camera")
+    casts = plugin.method.casts
+    entry = "camera" if casts == "rays" else "beams"
+    made = (plugin.method, plugin.folder, plugin.variant({}), surface, "float32", first_device.language, entry)
     program = method_program(*made)
-    launch = launch_camera(first_device, program, first_device.build(program), camera_for(VIEW, surface), 256)
+    frame = (first_device, program, first_device.build(program), camera_for(VIEW, surface), 256)
+    launch = launch_camera(*frame) if casts == "rays" else launch_beams(*frame, casts == "quadtree")
     assert benchmark(launch.run).wall_ms >= 0.0
     launch.release()
 
