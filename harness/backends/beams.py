@@ -68,7 +68,7 @@ def launch_beams(
     last = last_level(size)
     start = (first_level(device, last) if first is None else first) if quadtree else last
     steps, queue = quadtree_steps(device, built, size, start, last, last)
-    buffers = [
+    buffers: list[Array | Reserved] = [
         np.ascontiguousarray(camera, np.float32),
         Reserved(size * size, real_type(program)),
         Reserved(size * size, np.int32),
