@@ -140,12 +140,12 @@ void map_item(IN real x[INPUTS], OUT real y[OUTPUTS]) {
                                 vec3(x[9], x[10], x[11]));
     Beam beam = camera_beam(camera, int(x[12]), int(x[13]), int(x[14]), int(x[15]), int(x[16]));
     Box box = beam_box(beam, x[17], x[18]);
-    y[0] = box.lower.x;
-    y[1] = box.lower.y;
-    y[2] = box.lower.z;
-    y[3] = box.upper.x;
-    y[4] = box.upper.y;
-    y[5] = box.upper.z;
+    y[0] = box.x.lo;
+    y[1] = box.y.lo;
+    y[2] = box.z.lo;
+    y[3] = box.x.hi;
+    y[4] = box.y.hi;
+    y[5] = box.z.hi;
 }
 """,
 )

@@ -66,10 +66,11 @@ int answer_word(int evaluations, Cell cell, int status) {
 void paint(Work work, Cell cell, Hit hit) {
     int evaluations = cell.evaluations + hit.evaluations;
     if (work.level == work.last) {
-        vec3 direction = work.camera.forward
-                         + work.camera.right * (real(2 * cell.x + 1 - work.size) / real(work.size))
-                         + work.camera.up * (real(work.size - 2 * cell.y - 1) / real(work.size));
-        answer_pixel(work, cell.y * work.size + cell.x, hit.t * sqrt(dot(direction, direction)),
+        Camera camera = work.camera;
+        real x = real(2 * cell.x + 1 - work.size) / real(work.size);
+        real y = real(work.size - 2 * cell.y - 1) / real(work.size);
+        vec3 direction = moved(moved(camera.forward, x, camera.right), y, camera.up);
+        answer_pixel(work, cell.y * work.size + cell.x, hit.t * sqrt(inner_product(direction, direction)),
                      answer_word(evaluations, cell, hit.status));
         return;
     }
