@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from harness import prepass
 from harness.backends import Array, Device, Launch, Reserved, Step, real_type
 from harness.contract import Hits, Program, RayStatus
 
@@ -76,6 +77,59 @@ def launch_beams(
         Reserved(LEVELS, np.int32),
     ]
     return device.launch_steps(buffers, (1, 2), steps)
+
+
+def _prepass(device: Device, program: Program, built: Any, size: int) -> tuple[list[Step], list[Array | Reserved]]:
+    """The prepass's steps over a size × size image, and its buffers behind the camera: spans, counters, queues."""
+    last = last_level(size)
+    stop = max(0, last - prepass.TILE_BITS)
+    steps, queue = quadtree_steps(device, built, size, first_level(device, stop), last, stop)
+    values = 2 * prepass.tiles_per_side(size) ** 2
+    spans, spent = Reserved(values, real_type(program)), Reserved(values, np.int32)
+    return steps, [spans, spent, Reserved(queue, np.int32), Reserved(LEVELS, np.int32)]
+
+
+def launch_narrowed_camera(
+    device: Device,
+    programs: tuple[Program, Program],
+    built: tuple[Any, Any],
+    camera: NDArray[np.float32],
+    size: int,
+) -> Launch:
+    """A prepass, and the rays of a size × size image narrowed by it. programs, built: of the prepass, of the rays."""
+    steps, scratch = _prepass(device, programs[0], built[0], size)
+    outputs = [Reserved(size * size, real_type(programs[1])), Reserved(size * size, np.int32)]
+    buffers: list[Array | Reserved] = [np.ascontiguousarray(camera, np.float32), *scratch, *outputs]
+    return device.launch_steps(buffers, (5, 6), [*steps, Step(built[1], (0, 5, 6, 1), (size, size))])
+
+
+def launch_narrowed_rays(
+    device: Device,
+    programs: tuple[Program, Program],
+    built: tuple[Any, Any],
+    camera: NDArray[np.float32],
+    size: int,
+    rays: NDArray[np.float32],
+    pixels: NDArray[np.int32],
+) -> Launch:
+    """The same prepass, and listed rays float32[n, 6] that lie in `pixels`, int32[n], of that image.
+
+    A third output holds the prepass's evaluations; they add up to all.
+    """
+    steps, scratch = _prepass(device, programs[0], built[0], size)
+    row, column = np.divmod(pixels, size)
+    across = prepass.tiles_per_side(size)
+    tiles = ((row >> prepass.TILE_BITS) * across + (column >> prepass.TILE_BITS)).astype(np.int32)
+    buffers: list[Array | Reserved] = [
+        np.ascontiguousarray(camera, np.float32),
+        *scratch,
+        Reserved(2 * len(rays), real_type(programs[1])),
+        Reserved(len(rays), np.int32),
+        np.ascontiguousarray(rays, np.float32),
+        tiles,
+    ]
+    cast = Step(built[1], (0, 5, 6, 1, 7, 8), (len(rays), 1))
+    return device.launch_steps(buffers, (5, 6, 2), [*steps, cast])
 
 
 def beam_hits_from(outputs: Sequence[Array]) -> tuple[Hits, NDArray[np.uint8]]:

@@ -24,8 +24,8 @@ middle of the first piece that cannot be excluded, as a distance along the pixel
 
 **Tried**, processor time of opencl:intel at 512 × 512, float32, as ms on both cores, sphere / tangle / barth_sextic:
 - Beams as vec3 keep the driver from vectorising: 73 ms on the sphere. It can be made to, sixteen pixels to a vector, by
-  `intel_vec_len_hint(16)`: 42 / 110 / 127. By components it does so by itself, eight to a vector: 36 / 100. Kept, without
-  the hint, which is one vendor's: with it 31 / 92, but the adaptive method slows from 16 / 55 to 19 / 59.
+  `intel_vec_len_hint(16)`: 42 / 110 / 127. By components it does so by itself, eight to a vector: 36 / 100. Kept,
+  without the hint, which is one vendor's: with it 31 / 92, but the adaptive method slows from 16 / 55 to 19 / 59.
 - f evaluated for every lane, also outside the domain, instead of under a branch: 46 / 107 / 122 against 42 / 110 / 127.
   Not kept, since the adaptive method loses 3 to 20 % by it.
 - What depends on the camera alone computed once per work item instead of once per beam: 38 / 103 / 122. Kept.
