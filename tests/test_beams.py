@@ -3,7 +3,6 @@
 import dataclasses
 import re
 from fractions import Fraction
-from functools import cache
 
 import numpy as np
 import pytest
@@ -16,7 +15,6 @@ from harness.backends import map_rows
 from harness.backends.beams import beam_hits_from, launch_beams
 from harness.camera import camera_for, rays_of, scene_radius
 from harness.contract import Hits, RayStatus, Section, Surface, Truth, TruthStatus, View
-from harness.oracle import first_hits
 from harness.plugins import find_methods
 from surfaces.sections import surface_sections, unsupported
 
@@ -205,33 +203,6 @@ def test_a_beam_that_lacks_its_corners_or_its_slack_is_caught(device, rng):
 
     assert escaping(device, "float32", rng, narrow, 300) > 30
     assert escaping(device, "float32", rng, without_rounding, 300) > 30
-
-
-@cache
-def _near_miss():
-    """A plane met without crossing, so that f's range has to reach zero by rounding outward."""
-    surface = surfaces.from_formula("(x + 2*y + 2*z)^2", "sphere:1", "squared")
-    camera = camera_for(View("tilted", azimuth=47, elevation=21), surface)
-    return surface, camera, first_hits(surface, rays_of(camera, 40))
-
-
-def test_interval_operations_without_outward_rounding_are_caught(device):
-    def inward(text):
-        return (
-            re.sub(r"real relative = .*;", "real relative = 0.0;", text)
-            .replace("- REAL_TINY", "")
-            .replace("+ REAL_TINY", "")
-        )
-
-    surface, camera, truth = _near_miss()
-    pixels = beams.pixels_of(camera, 40, 1280)
-    missed = {}
-    for name, edit in (("as it is", None), ("broken", inward)):
-        hits, _ = frame(device, "interval_uniform", surface, camera, 1280, edit=edit, BISECTIONS=12)
-        picked = hits.status[pixels.index]
-        missed[name] = int(((truth.status == TruthStatus.TOUCH) & (picked != RayStatus.HIT)).sum())
-    assert missed["as it is"] == 0
-    assert missed["broken"] > 0
 
 
 def test_what_only_a_beam_can_see_is_set_apart():
