@@ -386,5 +386,5 @@ def load(path: Path, catalog: Catalog) -> Experiment:
         tuple(chosen),
         typing.cast(tuple[Precision, ...], tuple(config.precisions)),
         typing.cast(tuple[Stage, ...], tuple(config.stages)),
-        typing.cast(tuple[Prepass, ...], tuple(config.prepass)),
+        prepasses=typing.cast(tuple[Prepass, ...], tuple(config.prepass)),
     )

@@ -54,7 +54,9 @@ class Planned:
     timed: Program | None  # the frame's; None for a family
     skip: str | None
     casts: Casts = "rays"
-    is_timed: bool = True  # False: checked only; then only beams and prepasses have a frame, since they are checked on it
+    is_timed: bool = (
+        True  # False: checked only; then only beams and prepasses have a frame, since they are checked on it
+    )
     prepass: Program | None = None
 
     @property

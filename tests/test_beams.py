@@ -14,7 +14,7 @@ from harness.assemble import KERNELS, file_section, map_program, method_program
 from harness.backends import map_rows
 from harness.backends.beams import beam_hits_from, launch_beams
 from harness.camera import camera_for, rays_of, scene_radius
-from harness.contract import Hits, RayStatus, Section, Surface, Truth, TruthStatus, View
+from harness.contract import FirsthitError, Hits, RayStatus, Section, Surface, Truth, TruthStatus, View
 from harness.plugins import find_methods
 from surfaces.sections import surface_sections, unsupported
 
@@ -232,3 +232,23 @@ def test_every_accuracy_ray_is_in_its_pixels_closed_beam(size):
     assert np.allclose(pixels.per_middle, middle[pixels.index] / straight, rtol=1e-6)
     assert np.all(pixels.reach >= 0.49 * np.linalg.norm(camera[6:9]) * 2 / size * straight)
     assert np.all(pixels.reach <= 1.5 * np.linalg.norm(camera[6:9]) * 2 / size)
+
+
+def test_a_launch_of_more_groups_than_the_device_runs_at_once_is_refused_not_dropped(device):
+    """OpenGL ignores such a launch and leaves the buffers as they were."""
+    if device.language != "glsl":
+        pytest.skip("OpenCL has no such limit")
+    section = Section(
+        "ones",
+        "#define INPUTS 1\n#define OUTPUTS 1\nvoid map_item(IN real x[INPUTS], OUT real y[OUTPUTS]) { y[0] = 1.0; }",
+    )
+    built = device.build(map_program(section, "float32", "glsl"))
+    with pytest.raises(FirsthitError, match="work groups"):
+        device.launch(built, [np.ones(1, np.float32)], [(1, np.float32)], (64 * 2**17, 1))
+
+
+def test_more_pixels_than_a_launch_has_work_items_are_all_cast(device):
+    surface = surfaces.get("sphere")
+    hits, levels = frame(device, "interval_uniform", surface, camera_for(VIEW, surface), 1500, BISECTIONS=0)
+    assert (levels == 11).all()
+    assert abs(np.mean(hits.status == RayStatus.HIT) - np.pi / 4) < 0.02

@@ -19,7 +19,8 @@ from harness.contract import Hits, Program, RayStatus
 
 UNITS = 64  # compute units of a device that does not say how many it has
 CELLS_PER_UNIT = 64  # fill a unit: one work group
-ITEMS_PER_UNIT = 2048  # work items that a level is strided over, at most
+ITEMS_PER_UNIT = 2048  # work items that a queue is strided over, at most
+MOST_ITEMS = 2**21  # work items of any level: OpenGL promises 65535 groups
 LEVELS = 32
 PARENT = 3  # whole numbers in the queue for each cell
 
@@ -40,13 +41,13 @@ def quadtree_steps(device: Device, built: Any, size: int, first: int, last: int,
 
     Buffers 0 to 4 are camera, two outputs, queue and counts.
     """
-    most = ITEMS_PER_UNIT * max(UNITS, device.info.compute_units or 0)
+    most = min(MOST_ITEMS, ITEMS_PER_UNIT * max(UNITS, device.info.compute_units or 0))
     buffers = (0, 1, 2, 3, 4)
     fixed = {"size": size, "level": -1, "last": last, "source": -1, "target": 0}
     steps = [Step(built, buffers, (LEVELS, 1), fixed)] if stop > first else []
     source, target = -1, 0
     for level in range(first, stop + 1):
-        items = 4**level if source < 0 else min(4**level, most)
+        items = min(4**level, MOST_ITEMS if source < 0 else most)
         numbers = fixed | {"level": level, "source": source, "target": target}
         steps.append(Step(built, buffers, (items, 1), numbers))
         if level < stop:
