@@ -20,9 +20,9 @@ MAP = "plasma"
 MEANING = (
     "A beam's hit says that f's interval extension cannot keep the surface out of a piece of the pixel's whole beam. "
     "It is held against a ray in that beam. Beam only: the beam hits where the ray passes the surface by, no further "
-    "off than the beam's farthest edge; these are neither right nor wrong. Hits further off are false hits or wrong roots, "
-    "the price of overestimating boxes. Misses would refute the method. Evaluations are of the interval extension, "
-    "large beams shared among their pixels."
+    "off than the beam's farthest edge; these are neither right nor wrong. Hits further off are false hits or wrong "
+    "roots, the price of overestimating boxes. Misses would refute the method. Evaluations are of the interval "
+    "extension, large beams shared among their pixels."
 )
 
 
