@@ -73,19 +73,21 @@ def method_program(
     precision: Precision,
     language: Language,
     entry: Literal["rays", "camera", "beams"],
+    narrowed: Section | None = None,
 ) -> Program:
     """The program that casts rays or beams at `surface` by `variant`; `folder` holds the method's kernel.glsl.
 
-    Raises FirsthitError where the surface lacks a function that the method needs.
+    `narrowed` is the prepass's parameters where rays are to be narrowed by it. Raises FirsthitError where the surface
+    lacks a function that the method needs.
     """
     from surfaces.sections import libraries_for, surface_sections
 
     early = [name for name in method.libraries if name not in AFTER_TABLES]
-    sections = _head(language, precision, (*libraries_for(method.needs, surface), *early))
-    sections += surface_sections(surface, method.needs, precision, language)
     if entry == "beams":
-        sections += [file_section(KERNELS / f) for f in ("beam.glsl", f"quadtree.{language}", "cells.glsl")]
+        sections = beam_sections(surface, method.needs, precision, language, early)
     else:
+        sections = _head(language, precision, (*libraries_for(method.needs, surface), *early))
+        sections += surface_sections(surface, method.needs, precision, language)
         domain = "domain_box" if isinstance(surface.domain, Box) else "domain_sphere"
         sections.append(file_section(KERNELS / f"{domain}.glsl"))
     if variant.parameters:
@@ -99,8 +101,22 @@ def method_program(
         sections.append(file_section(KERNELS / "cast.glsl"))
     if entry == "camera":
         sections.append(file_section(KERNELS / "camera.glsl"))
-    sections.append(file_section(KERNELS / f"entry_{entry}.{language}"))
+    if narrowed:
+        sections += [narrowed, file_section(KERNELS / "narrowed.glsl")]
+    suffix = "_narrowed" if narrowed else ""
+    sections.append(file_section(KERNELS / f"entry_{entry}{suffix}.{language}"))
     return Program(language, precision, entry, tuple(sections))
+
+
+def beam_sections(
+    surface: Surface, needs: Iterable[str], precision: Precision, language: Language, libraries: Iterable[str] = ()
+) -> list[Section]:
+    """What comes before the kernel of a method that casts beams."""
+    from surfaces.sections import libraries_for, surface_sections
+
+    sections = _head(language, precision, (*libraries_for(needs, surface), *libraries))
+    sections += surface_sections(surface, needs, precision, language)
+    return sections + [file_section(KERNELS / f) for f in ("beam.glsl", f"quadtree.{language}", "cells.glsl")]
 
 
 def map_program(

@@ -1,7 +1,7 @@
 """Beams held against rays: which pixel's beam holds an accuracy ray, and what its answer says of the ray.
 
-A beam's hit says that f's interval extension cannot keep the surface out of a piece of the pixel's closed beam. A ray in
-that beam may well pass the surface there. So, for a ray in the beam:
+A beam's hit says that f's interval extension cannot keep the surface out of a piece of the pixel's closed beam. A ray
+in that beam may well pass the surface there. So, for a ray in the beam:
 
 - where the ray hits, the beam must hit, and at no later depth (`no_missed_root`);
 - |t - t*| is of the beam's depth, brought to the ray;

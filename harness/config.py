@@ -13,7 +13,18 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from harness.contract import PRECISIONS, STAGES, FirsthitError, Precision, Stage, Surface, Variant, View
+from harness.contract import (
+    PRECISIONS,
+    PREPASSES,
+    STAGES,
+    FirsthitError,
+    Precision,
+    Prepass,
+    Stage,
+    Surface,
+    Variant,
+    View,
+)
 from harness.plugins import Catalog
 from harness.viewsets import AngleChoice, DirectionChoice, by_angle, by_direction
 
@@ -83,8 +94,8 @@ class GateChoice:
 
 @dataclass(frozen=True)
 class Config:
-    """An experiment: methods × surfaces × views × sizes × samples × stages × precisions × devices, and, untimed,
-    methods × families of hard rays × precisions × devices. `surfaces` and `families` may be ["all"].
+    """An experiment: methods × prepass × surfaces × views × sizes × samples × stages × precisions × devices, and,
+    untimed, methods × families of hard rays × precisions × devices. `surfaces` and `families` may be ["all"].
 
     `studies` are computations of harness.studies. With `include`, a list of config files, it holds nothing else:
     each of them is run into its own folder, and one report collects them.
@@ -103,6 +114,7 @@ class Config:
     samples_per_pixel: list[int] = field(default_factory=lambda: [1])
     precisions: list[str] = field(default_factory=lambda: ["float32"])
     stages: list[str] = field(default_factory=lambda: ["compute"])
+    prepass: list[str] = field(default_factory=lambda: ["none"])
     devices: list[str] = field(default_factory=lambda: ["all"])
     seed: int = 1
     accuracy: AccuracyChoice = field(default_factory=AccuracyChoice)
@@ -124,6 +136,7 @@ class Experiment:
     precisions: tuple[Precision, ...]
     stages: tuple[Stage, ...]
     included: tuple[Path, ...] = ()  # of a config that includes others
+    prepasses: tuple[Prepass, ...] = ("none",)
 
 
 Where = tuple[str | int, ...]
@@ -338,6 +351,7 @@ def load(path: Path, catalog: Catalog) -> Experiment:
     _known(config.precisions, PRECISIONS, "precisions", source)
     _known(config.stages, STAGES, "stages", source)
     _check_gate(config.gate, source)
+    _known(config.prepass, PREPASSES, "prepass", source)
 
     variants: list[Variant] = []
     for i, choice in enumerate(config.method):
@@ -372,4 +386,5 @@ def load(path: Path, catalog: Catalog) -> Experiment:
         tuple(chosen),
         typing.cast(tuple[Precision, ...], tuple(config.precisions)),
         typing.cast(tuple[Stage, ...], tuple(config.stages)),
+        prepasses=typing.cast(tuple[Prepass, ...], tuple(config.prepass)),
     )

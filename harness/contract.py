@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 Precision = Literal["float32", "float64"]
 Stage = Literal["compute", "rays"]
 Casts = Literal["rays", "beams", "quadtree"]
+Prepass = Literal["none", "beams"]
+PREPASSES: tuple[Prepass, ...] = ("none", "beams")
 PRECISIONS: tuple[Precision, ...] = ("float32", "float64")
 UNIT_ROUNDOFF: dict[Precision, float] = {"float32": 2.0**-24, "float64": 2.0**-53}
 STAGES: tuple[Stage, ...] = ("compute", "rays")
@@ -308,15 +310,21 @@ class Cell:
     stage: Stage
     device: str
     family: str | None = None  # of harness.hardcases; then its rungs' rays take the place of surface and view
+    prepass: Prepass = "none"  # beams: the rays are narrowed to where tiles' beams cannot exclude the surface
+
+    @property
+    def caster(self) -> str:
+        """The variant, with the prepass that it works behind."""
+        return str(self.variant) if self.prepass == "none" else f"{self.variant}+{self.prepass}"
 
     @property
     def slot(self) -> str:
         """The cell's place in the grid, for people."""
         if self.family:
-            return f"{self.variant} family {self.family} {self.precision} {self.device}"
+            return f"{self.caster} family {self.family} {self.precision} {self.device}"
         sampling = f"{self.size}x{self.size}x{self.samples_per_pixel}"
         where = f"{self.surface.name} {self.view.name} {sampling}"
-        return f"{self.variant} {where} {self.precision} {self.stage} {self.device}"
+        return f"{self.caster} {where} {self.precision} {self.stage} {self.device}"
 
     @property
     def comparison(self) -> str:

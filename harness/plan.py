@@ -14,7 +14,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from harness import stability
+from harness import prepass, stability
 from harness.assemble import method_program
 from harness.backends import LANGUAGES
 from harness.camera import camera_for, rays_of
@@ -38,6 +38,7 @@ DECIDING = (
     "oracle/*.py",
     "hardcases/*.py",
     "stability.py",
+    "prepass.py",
 )
 
 
@@ -53,7 +54,10 @@ class Planned:
     timed: Program | None  # the frame's; None for a family
     skip: str | None
     casts: Casts = "rays"
-    is_timed: bool = True  # False: checked only; then only beams have a frame, since it is what they are checked on
+    is_timed: bool = (
+        True  # False: checked only; then only beams and prepasses have a frame, since they are checked on it
+    )
+    prepass: Program | None = None
 
     @property
     def camera(self) -> NDArray[np.float32]:
@@ -67,7 +71,7 @@ class Planned:
             return None
         camera, size = self.camera, self.cell.size * round(self.cell.samples_per_pixel**0.5)
         rays = rays_of(camera, size) if self.cell.stage == "rays" else None
-        return Frame(self.timed, camera, rays, size, self.casts)
+        return Frame(self.timed, camera, rays, size, self.casts, self.prepass)
 
 
 @cache
@@ -118,6 +122,8 @@ def _refusal(cell: Cell, surface: Surface, info: DeviceInfo | None, catalog: Cat
         return f"the method has no {cell.precision} form"
     if method.casts != "rays" and cell.stage == "rays":
         return "the method casts the beams of a camera's pixels, and listed rays have none"
+    if cell.prepass != "none" and (method.casts != "rays" or cell.stage != "compute"):
+        return "a prepass narrows the rays of a camera's pixels, in the stage compute"
     if reason := method.accepts(surface):
         return f"the method refuses the surface {surface.name}: {reason}"
     return unsupported(surface, cell.precision, LANGUAGES[cell.device.split(":")[0]])
@@ -127,7 +133,10 @@ def _programs(cell: Cell, surfaces: list[Surface], catalog: Catalog) -> tuple[tu
     plugin, language = catalog.get(cell.variant.method), LANGUAGES[cell.device.split(":")[0]]
 
     def program(surface: Surface, entry: Literal["rays", "camera", "beams"]) -> Program:
-        return method_program(plugin.method, plugin.folder, cell.variant, surface, cell.precision, language, entry)
+        narrowed = prepass.parameters() if cell.prepass == "beams" else None
+        return method_program(
+            plugin.method, plugin.folder, cell.variant, surface, cell.precision, language, entry, narrowed
+        )
 
     if plugin.method.casts != "rays":
         return (), program(cell.surface, "beams")
@@ -142,13 +151,16 @@ def _planned(cell: Cell, info: DeviceInfo | None, catalog: Catalog, experiment: 
     skip = next(filter(None, (_refusal(cell, surface, info, catalog) for surface in surfaces)), None)
     checks: tuple[Program, ...] = ()
     frame: Program | None = None
+    before: Program | None = None
     if skip is None:
         try:
             checks, frame = _programs(cell, surfaces, catalog)
+            if cell.prepass == "beams" and info is not None:
+                before = prepass.program(cell.surface, cell.precision, LANGUAGES[info.name.split(":")[0]])
         except FirsthitError as error:
             skip = str(error)
-    frame = frame if timed or not checks else None
-    programs = (*checks, frame) if frame else checks
+    frame = frame if timed or before or not checks else None
+    programs = tuple(program for program in (*checks, frame, before) if program)
     # which clock is believed is found by probing when a run starts, after a plan is printed: no part of the key
     facts = None if info is None else dataclasses.asdict(dataclasses.replace(info, clock="wall"))
     scene = (
@@ -173,7 +185,7 @@ def _planned(cell: Cell, info: DeviceInfo | None, catalog: Catalog, experiment: 
         "skip": skip,
     }
     casts = catalog.get(cell.variant.method).method.casts
-    return Planned(cell, digest(cell.slot, identity), identity, info, checks, frame, skip, casts, timed)
+    return Planned(cell, digest(cell.slot, identity), identity, info, checks, frame, skip, casts, timed, before)
 
 
 def plan(experiment: Experiment, catalog: Catalog, found: list[DeviceInfo], timed: bool = True) -> list[Planned]:
@@ -183,19 +195,33 @@ def plan(experiment: Experiment, catalog: Catalog, found: list[DeviceInfo], time
     if not any(devices.values()):
         wanted = "no usable device" if set(config.devices) <= {"all", "any"} else f"none of {', '.join(config.devices)}"
         raise FirsthitError(f"{wanted} found on this machine; see `firsthit devices`", exit_code=3)
-    runs_on = list(itertools.product(experiment.variants, devices.items(), experiment.precisions))
+    runs_on = list(itertools.product(experiment.variants, experiment.prepasses, devices.items(), experiment.precisions))
     scenes = itertools.product(
         experiment.surfaces, config.view, config.sizes, config.samples_per_pixel, experiment.stages
     )
     cells = [
-        (Cell(variant, surface, view, size, samples, precision, stage, name), info)
+        (Cell(variant, surface, view, size, samples, precision, stage, name, prepass=before), info)
         for surface, view, size, samples, stage in scenes
-        for variant, (name, info), precision in runs_on
+        for variant, before, (name, info), precision in runs_on
     ]
     cells += [
-        (Cell(variant, stability.groups(family)[0].surface, View("none"), 0, 1, precision, "rays", name, family), info)
+        (
+            Cell(
+                variant,
+                stability.groups(family)[0].surface,
+                View("none"),
+                0,
+                1,
+                precision,
+                "rays",
+                name,
+                family,
+                before,
+            ),
+            info,
+        )
         for family in config.families
-        for variant, (name, info), precision in runs_on
+        for variant, before, (name, info), precision in runs_on
     ]
     return [_planned(cell, info, catalog, experiment, timed) for cell, info in cells]
 

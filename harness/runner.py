@@ -10,7 +10,7 @@ import itertools
 import time
 import uuid
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from datetime import UTC, datetime
 from typing import Any
 
@@ -120,15 +120,15 @@ class Runner:
         cell, config = state.planned.cell, self._config.accuracy
         rays = rays_of(state.planned.camera, config.size)
         truth = cached_first_hits(cell.surface, rays, self._store.truth)
-        casts_beams = state.planned.casts != "rays"
-        if casts_beams:
+        casts_beams, checks = state.planned.casts != "rays", state.planned.checks
+        if casts_beams or cell.prepass != "none":
             assert state.frame
             pixels = beams.pixels_of(state.planned.camera, config.size, state.frame.size)
-            checked = self._executor.check_frame(cell.device, state.frame, pixels.index)
-            hits = beams.along_rays(checked.hits, pixels)
+            frame = replace(state.frame, program=checks[0], rays=rays) if checks else state.frame
+            checked = self._executor.check_frame(cell.device, frame, pixels.index)
         else:
-            checked = self._executor.check(cell.device, state.planned.checks[0], rays)
-            hits = checked.hits
+            checked = self._executor.check(cell.device, checks[0], rays)
+        hits = beams.along_rays(checked.hits, pixels) if casts_beams else checked.hits
         state.compile_ms = checked.compile_ms
         verdicts = accuracy.judge(hits, truth, scene_radius(cell.surface), config.grazing_margin)
         if casts_beams:
@@ -147,6 +147,8 @@ class Runner:
         )
         inside = int(meets(cell.surface.domain, rays).sum())
         state.summary = {"size": config.size, "domain_rays": inside} | summary
+        if checked.prepass_evaluations is not None:
+            state.summary["prepass_evaluations_mean"] = checked.prepass_evaluations
         state.arrays = _pictures(cell.surface, rays, hits, truth, verdicts, config.size)
         if casts_beams:
             assert checked.evaluations is not None and checked.levels is not None
@@ -218,7 +220,7 @@ class Runner:
             "slot": cell.slot,
             "comparison": cell.comparison,
             "method": cell.variant.method,
-            "variant": str(cell.variant),
+            "variant": cell.caster,
             "parameters": dict(cell.variant.parameters),
             "surface": cell.surface.name,
             "surface_title": cell.surface.title,
@@ -234,6 +236,7 @@ class Runner:
             "device": cell.device,
             "answers": method.answers,
             "casts": method.casts,
+            "prepass": cell.prepass,
             "status": status.value,
             "reason": reason,
             "time": self._time_of(state) if state and state.warmed and status is CellStatus.OK else None,

@@ -30,7 +30,7 @@ from harness.backends import (
     launch_rays,
     open_device,
 )
-from harness.backends.beams import beam_hits_from, launch_beams
+from harness.backends.beams import beam_hits_from, launch_beams, launch_narrowed_camera, launch_narrowed_rays
 from harness.contract import Casts, DeviceInfo, FirsthitError, Hits, Program
 
 ENOUGH_MS = 2.0  # a sample lasts at least about this long; shorter launches are repeated within it
@@ -48,6 +48,7 @@ class Frame:
     rays: NDArray[np.float32] | None  # [size * size, 6]
     size: int  # samples per side
     casts: Casts = "rays"
+    prepass: Program | None = None  # whose beams narrow the rays
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,6 +59,7 @@ class Checked:
     compile_ms: float
     levels: NDArray[np.uint8] | None = None  # [n] of the quadtree, at which each ray's pixel was decided
     evaluations: tuple[float, int] | None = None  # mean and largest over the frame's pixels
+    prepass_evaluations: float | None = None  # the prepass's own, mean over the frame's pixels
 
 
 @dataclass(frozen=True)
@@ -113,8 +115,22 @@ class Worker:
         return Checked(hits, compile_ms)
 
     def check_frame(self, frame: Frame, pixels: NDArray[np.int32]) -> Checked:
-        """Build a frame of beams and run it once; what it answers for `pixels`, int32[n]."""
+        """Build a frame of beams and run it once; what it answers for `pixels`, int32[n], or, where beams are only the
+        prepass, for the rays of the frame, float32[n, 6], which lie in those pixels."""
         built, compile_ms = self._build(frame.program)
+        if frame.prepass:
+            assert frame.rays is not None
+            before, more_ms = self._build(frame.prepass)
+            programs = frame.prepass, frame.program
+            launch = launch_narrowed_rays(
+                self._device, programs, (before, built), frame.camera, frame.size, frame.rays, pixels
+            )
+            launch.run()
+            *outputs, spent = launch.read()
+            launch.release()
+            return Checked(
+                hits_from(outputs), compile_ms + more_ms, prepass_evaluations=float(spent.sum()) / frame.size**2
+            )
         launch = self._launch(frame, built)
         launch.run()
         hits, levels = beam_hits_from(launch.read())
@@ -124,6 +140,10 @@ class Worker:
         return Checked(picked, compile_ms, levels[pixels], evaluations)
 
     def _launch(self, frame: Frame, built: Any) -> Launch:
+        if frame.prepass:
+            before, _ = self._build(frame.prepass)
+            programs = frame.prepass, frame.program
+            return launch_narrowed_camera(self._device, programs, (before, built), frame.camera, frame.size)
         if frame.casts != "rays":
             quadtree = frame.casts == "quadtree"
             return launch_beams(self._device, frame.program, built, frame.camera, frame.size, quadtree)
@@ -134,6 +154,7 @@ class Worker:
     def warm(self, key: str, frame: Frame) -> Warmed:
         """Build and upload a frame, run it until warm, read it back once, and keep it ready under `key`."""
         built, compile_ms = self._build(frame.program)
+        compile_ms += self._build(frame.prepass)[1] if frame.prepass else 0.0
         launch = self._launch(frame, built)
         duration = launch.run().wall_ms
         if duration < WARM_MS:

@@ -26,6 +26,8 @@ class Arrays:
     shade: NDArray[np.float32]  # cosine towards the camera; NaN on background
     condition: NDArray[np.float32] | None = None  # of the first root; NaN without one; None in older runs
     evaluations: NDArray[np.int32] | None = None  # of f, spent on the ray; None in older runs
+    status: NDArray[np.uint8] | None = None  # RayStatus
+    level: NDArray[np.uint8] | None = None  # of the quadtree, at which the pixel's box was decided; of beams only
 
 
 NEEDED = ("truth", "error", "wrong", "grazing", "shade")
@@ -36,7 +38,7 @@ def read(path: Path) -> Arrays:
     try:
         with np.load(path, allow_pickle=False) as file:
             named = {name: file[name] for name in NEEDED}
-            named |= {name: file[name] for name in ("condition", "evaluations") if name in file}
+            named |= {name: file[name] for name in ("condition", "evaluations", "status", "level") if name in file}
     except (KeyError, EOFError, zipfile.BadZipFile, zlib.error) as error:
         raise ValueError(f"damaged: {error}") from error
     shapes = {array.shape for array in named.values()}

@@ -78,7 +78,8 @@ def _baseline_ms(timed: pd.DataFrame) -> pd.Series:
 
 
 def _floor_ms(timed: pd.DataFrame) -> pd.Series:
-    return timed[~timed["answers"].astype(bool)].groupby(GROUP)["median_ms"].max().rename("floor_ms")
+    floor = ~timed["answers"].astype(bool) & (timed["prepass"] != "beams")  # behind a prepass it measures that too
+    return timed[floor].groupby(GROUP)["median_ms"].max().rename("floor_ms")
 
 
 def _peak_share(frame: pd.DataFrame, peaks: Mapping[str, float]) -> pd.Series:

@@ -51,6 +51,7 @@ SCHEMA: tuple[Field, ...] = (
     *_fields("text", "precision stage device status", required=True),
     *_fields("text", "reason"),
     *_fields("flag", "answers", required=True),
+    *_fields("text", "casts prepass"),
     *_fields("text", "clock", at="time"),
     *_fields("real", "median_ms lower_ms upper_ms overhead_share", at="time"),
     *_fields("real", "bootstrap_lower_ms bootstrap_upper_ms drift_share drift_chance spread_share", at="time"),
@@ -69,7 +70,8 @@ SCHEMA: tuple[Field, ...] = (
     *_fields("whole", "misses false_hits exhausted wrong_root", at="accuracy"),
     *_fields("whole", "grazing_misses grazing_false_hits grazing_exhausted grazing_wrong_root", at="accuracy"),
     *(field for unit in UNITS for field in _fields("real", _PERCENTILES, at=f"accuracy.{unit}", prefix=f"{unit}_")),
-    *_fields("real", "evaluations_mean evaluations_max", at="accuracy"),
+    *_fields("whole", "beam_only", at="accuracy"),  # hits of what the pixel's beam sees and its ray passes by
+    *_fields("real", "evaluations_mean evaluations_max prepass_evaluations_mean", at="accuracy"),
     *_fields("text", "arrays"),
     *_fields("json", "operations"),
     *_fields("whole", "evaluation_operations"),

@@ -3,7 +3,6 @@
 import dataclasses
 import re
 from fractions import Fraction
-from functools import cache
 
 import numpy as np
 import pytest
@@ -15,8 +14,7 @@ from harness.assemble import KERNELS, file_section, map_program, method_program
 from harness.backends import map_rows
 from harness.backends.beams import beam_hits_from, launch_beams
 from harness.camera import camera_for, rays_of, scene_radius
-from harness.contract import Hits, RayStatus, Section, Surface, Truth, TruthStatus, View
-from harness.oracle import first_hits
+from harness.contract import FirsthitError, Hits, RayStatus, Section, Surface, Truth, TruthStatus, View
 from harness.plugins import find_methods
 from surfaces.sections import surface_sections, unsupported
 
@@ -140,12 +138,12 @@ void map_item(IN real x[INPUTS], OUT real y[OUTPUTS]) {
                                 vec3(x[9], x[10], x[11]));
     Beam beam = camera_beam(camera, int(x[12]), int(x[13]), int(x[14]), int(x[15]), int(x[16]));
     Box box = beam_box(beam, x[17], x[18]);
-    y[0] = box.lower.x;
-    y[1] = box.lower.y;
-    y[2] = box.lower.z;
-    y[3] = box.upper.x;
-    y[4] = box.upper.y;
-    y[5] = box.upper.z;
+    y[0] = box.x.lo;
+    y[1] = box.y.lo;
+    y[2] = box.z.lo;
+    y[3] = box.x.hi;
+    y[4] = box.y.hi;
+    y[5] = box.z.hi;
 }
 """,
 )
@@ -207,33 +205,6 @@ def test_a_beam_that_lacks_its_corners_or_its_slack_is_caught(device, rng):
     assert escaping(device, "float32", rng, without_rounding, 300) > 30
 
 
-@cache
-def _near_miss():
-    """A plane met without crossing, so that f's range has to reach zero by rounding outward."""
-    surface = surfaces.from_formula("(x + 2*y + 2*z)^2", "sphere:1", "squared")
-    camera = camera_for(View("tilted", azimuth=47, elevation=21), surface)
-    return surface, camera, first_hits(surface, rays_of(camera, 40))
-
-
-def test_interval_operations_without_outward_rounding_are_caught(device):
-    def inward(text):
-        return (
-            re.sub(r"real relative = .*;", "real relative = 0.0;", text)
-            .replace("- REAL_TINY", "")
-            .replace("+ REAL_TINY", "")
-        )
-
-    surface, camera, truth = _near_miss()
-    pixels = beams.pixels_of(camera, 40, 1280)
-    missed = {}
-    for name, edit in (("as it is", None), ("broken", inward)):
-        hits, _ = frame(device, "interval_uniform", surface, camera, 1280, edit=edit, BISECTIONS=12)
-        picked = hits.status[pixels.index]
-        missed[name] = int(((truth.status == TruthStatus.TOUCH) & (picked != RayStatus.HIT)).sum())
-    assert missed["as it is"] == 0
-    assert missed["broken"] > 0
-
-
 def test_what_only_a_beam_can_see_is_set_apart():
     nan, inf = np.nan, np.inf
     status, lower = np.uint8([0, 0, 1, 1, 0]), np.array([nan, nan, 2.0, 2.0, nan])
@@ -261,3 +232,23 @@ def test_every_accuracy_ray_is_in_its_pixels_closed_beam(size):
     assert np.allclose(pixels.per_middle, middle[pixels.index] / straight, rtol=1e-6)
     assert np.all(pixels.reach >= 0.49 * np.linalg.norm(camera[6:9]) * 2 / size * straight)
     assert np.all(pixels.reach <= 1.5 * np.linalg.norm(camera[6:9]) * 2 / size)
+
+
+def test_a_launch_of_more_groups_than_the_device_runs_at_once_is_refused_not_dropped(device):
+    """OpenGL ignores such a launch and leaves the buffers as they were."""
+    if device.language != "glsl":
+        pytest.skip("OpenCL has no such limit")
+    section = Section(
+        "ones",
+        "#define INPUTS 1\n#define OUTPUTS 1\nvoid map_item(IN real x[INPUTS], OUT real y[OUTPUTS]) { y[0] = 1.0; }",
+    )
+    built = device.build(map_program(section, "float32", "glsl"))
+    with pytest.raises(FirsthitError, match="work groups"):
+        device.launch(built, [np.ones(1, np.float32)], [(1, np.float32)], (64 * 2**17, 1))
+
+
+def test_more_pixels_than_a_launch_has_work_items_are_all_cast(device):
+    surface = surfaces.get("sphere")
+    hits, levels = frame(device, "interval_uniform", surface, camera_for(VIEW, surface), 1500, BISECTIONS=0)
+    assert (levels == 11).all()
+    assert abs(np.mean(hits.status == RayStatus.HIT) - np.pi / 4) < 0.02

@@ -97,7 +97,7 @@ class Device(ABC):
         self, built: Any, inputs: Sequence[Array], outputs: Sequence[tuple[int, type]], grid: tuple[int, int]
     ) -> Launch:
         """Upload `inputs`, reserve `outputs` (count, dtype), ready for one work item per point of `grid`."""
-        buffers = [*inputs, *(Reserved(count, kind) for count, kind in outputs)]
+        buffers: list[Array | Reserved] = [*inputs, *(Reserved(count, kind) for count, kind in outputs)]
         places = tuple(range(len(buffers)))
         return self.launch_steps(buffers, places[len(inputs) :], [Step(built, places, grid)])
 

@@ -13,12 +13,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from harness import prepass
 from harness.backends import Array, Device, Launch, Reserved, Step, real_type
 from harness.contract import Hits, Program, RayStatus
 
 UNITS = 64  # compute units of a device that does not say how many it has
 CELLS_PER_UNIT = 64  # fill a unit: one work group
-ITEMS_PER_UNIT = 2048  # work items that a level is strided over, at most
+ITEMS_PER_UNIT = 2048  # work items that a queue is strided over, at most
+MOST_ITEMS = 2**21  # work items of any level: OpenGL promises 65535 groups
 LEVELS = 32
 PARENT = 3  # whole numbers in the queue for each cell
 
@@ -39,13 +41,13 @@ def quadtree_steps(device: Device, built: Any, size: int, first: int, last: int,
 
     Buffers 0 to 4 are camera, two outputs, queue and counts.
     """
-    most = ITEMS_PER_UNIT * max(UNITS, device.info.compute_units or 0)
+    most = min(MOST_ITEMS, ITEMS_PER_UNIT * max(UNITS, device.info.compute_units or 0))
     buffers = (0, 1, 2, 3, 4)
     fixed = {"size": size, "level": -1, "last": last, "source": -1, "target": 0}
     steps = [Step(built, buffers, (LEVELS, 1), fixed)] if stop > first else []
     source, target = -1, 0
     for level in range(first, stop + 1):
-        items = 4**level if source < 0 else min(4**level, most)
+        items = min(4**level, MOST_ITEMS if source < 0 else most)
         numbers = fixed | {"level": level, "source": source, "target": target}
         steps.append(Step(built, buffers, (items, 1), numbers))
         if level < stop:
@@ -68,7 +70,7 @@ def launch_beams(
     last = last_level(size)
     start = (first_level(device, last) if first is None else first) if quadtree else last
     steps, queue = quadtree_steps(device, built, size, start, last, last)
-    buffers = [
+    buffers: list[Array | Reserved] = [
         np.ascontiguousarray(camera, np.float32),
         Reserved(size * size, real_type(program)),
         Reserved(size * size, np.int32),
@@ -76,6 +78,59 @@ def launch_beams(
         Reserved(LEVELS, np.int32),
     ]
     return device.launch_steps(buffers, (1, 2), steps)
+
+
+def _prepass(device: Device, program: Program, built: Any, size: int) -> tuple[list[Step], list[Array | Reserved]]:
+    """The prepass's steps over a size × size image, and its buffers behind the camera: spans, counters, queues."""
+    last = last_level(size)
+    stop = max(0, last - prepass.TILE_BITS)
+    steps, queue = quadtree_steps(device, built, size, first_level(device, stop), last, stop)
+    values = 2 * prepass.tiles_per_side(size) ** 2
+    spans, spent = Reserved(values, real_type(program)), Reserved(values, np.int32)
+    return steps, [spans, spent, Reserved(queue, np.int32), Reserved(LEVELS, np.int32)]
+
+
+def launch_narrowed_camera(
+    device: Device,
+    programs: tuple[Program, Program],
+    built: tuple[Any, Any],
+    camera: NDArray[np.float32],
+    size: int,
+) -> Launch:
+    """A prepass, and the rays of a size × size image narrowed by it. programs, built: of the prepass, of the rays."""
+    steps, scratch = _prepass(device, programs[0], built[0], size)
+    outputs = [Reserved(size * size, real_type(programs[1])), Reserved(size * size, np.int32)]
+    buffers: list[Array | Reserved] = [np.ascontiguousarray(camera, np.float32), *scratch, *outputs]
+    return device.launch_steps(buffers, (5, 6), [*steps, Step(built[1], (0, 5, 6, 1), (size, size))])
+
+
+def launch_narrowed_rays(
+    device: Device,
+    programs: tuple[Program, Program],
+    built: tuple[Any, Any],
+    camera: NDArray[np.float32],
+    size: int,
+    rays: NDArray[np.float32],
+    pixels: NDArray[np.int32],
+) -> Launch:
+    """The same prepass, and listed rays float32[n, 6] that lie in `pixels`, int32[n], of that image.
+
+    A third output holds the prepass's evaluations; they add up to all.
+    """
+    steps, scratch = _prepass(device, programs[0], built[0], size)
+    row, column = np.divmod(pixels, size)
+    across = prepass.tiles_per_side(size)
+    tiles = ((row >> prepass.TILE_BITS) * across + (column >> prepass.TILE_BITS)).astype(np.int32)
+    buffers: list[Array | Reserved] = [
+        np.ascontiguousarray(camera, np.float32),
+        *scratch,
+        Reserved(2 * len(rays), real_type(programs[1])),
+        Reserved(len(rays), np.int32),
+        np.ascontiguousarray(rays, np.float32),
+        tiles,
+    ]
+    cast = Step(built[1], (0, 5, 6, 1, 7, 8), (len(rays), 1))
+    return device.launch_steps(buffers, (5, 6, 2), [*steps, cast])
 
 
 def beam_hits_from(outputs: Sequence[Array]) -> tuple[Hits, NDArray[np.uint8]]:

@@ -170,7 +170,9 @@ class OpenCLLaunch(Launch):
         ]
         queue.finish()
         self.upload_ms = (time.perf_counter() - start) * 1e3
-        results = {i: np.empty(b.count, b.kind) for i, b in enumerate(buffers) if isinstance(b, Reserved)}
+        results: dict[int, Array] = {
+            i: np.empty(b.count, b.kind) for i, b in enumerate(buffers) if isinstance(b, Reserved)
+        }
         self._outputs = [(self._buffers[place], results[place]) for place in outputs]
         self._steps = [(self._kernel(step), (-(-step.grid[0] // GROUP) * GROUP, step.grid[1])) for step in steps]
 

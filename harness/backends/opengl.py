@@ -14,7 +14,7 @@ import numpy as np
 
 from harness.assemble import explain_log
 from harness.backends import Array, BuildError, Device, Launch, Reserved, Step, Timing
-from harness.contract import DeviceInfo, Program
+from harness.contract import DeviceInfo, FirsthitError, Program
 
 SHORT = ("llvmpipe", "softpipe", "nvidia", "geforce", "radeon", "intel", "apple")
 GROUP = 64
@@ -89,11 +89,20 @@ class OpenGLDevice(Device):
         return OpenGLLaunch(self._context, buffers, outputs, steps)
 
 
+def _groups(step: Step) -> int:
+    return -(-step.grid[0] // GROUP)
+
+
 class OpenGLLaunch(Launch):
     def __init__(
         self, context: Any, buffers: Sequence[Array | Reserved], outputs: Sequence[int], steps: Sequence[Step]
     ) -> None:
         self._context, self._steps = context, steps
+        groups, most = max(_groups(step) for step in steps), context.info["GL_MAX_COMPUTE_WORK_GROUP_COUNT"][0]
+        if groups > most:
+            raise FirsthitError(
+                f"{groups} work groups are needed, and this device runs {most} at once: take a smaller size"
+            )
         start = time.perf_counter()
         self._buffers = [
             context.buffer(reserve=max(1, b.count) * np.dtype(b.kind).itemsize)
@@ -120,7 +129,7 @@ class OpenGLLaunch(Launch):
         for name, value in {"nx": step.grid[0], "ny": step.grid[1], **step.numbers}.items():
             if name in step.built:
                 step.built[name] = value
-        step.built.run(-(-step.grid[0] // GROUP), step.grid[1])
+        step.built.run(_groups(step), step.grid[1])
         if len(self._steps) > 1:
             self._context.memory_barrier()
 

@@ -82,8 +82,8 @@ def cast(
     """Cast rays float32[n, 6] by the method, knobs, device and precision that the options name.
 
     A method that casts beams needs the `camera` that the rays are of, an image of them row by row, and answers for the
-    rays' pixels. The device works in a process of its own. Raises FirsthitError where the method refuses the surface, or the kernel
-    fails, hangs or crashes.
+    rays' pixels. The device works in a process of its own. Raises FirsthitError where the method refuses the surface,
+    or the kernel fails, hangs or crashes.
     """
     from surfaces.sections import unsupported
 

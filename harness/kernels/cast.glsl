@@ -1,18 +1,24 @@
 // The harness's part of every ray: move the origin to the point nearest the domain's centre, clip, call the method.
 STRUCT(Cast) struct Cast { real shift; Hit hit; };
 
-Cast cast_ray(Ray ray) {
+// The first hit with lower <= t <= upper.
+Cast cast_ray_between(Ray ray, real lower, real upper) {
     Cast result;
     result.shift = inner_product(difference(DOMAIN_CENTER, ray.origin), ray.direction);
     Ray near_ray = advanced_ray(ray, result.shift);
     Span span = domain_span(near_ray);
-    real t0 = max(span.lo, -result.shift);
-    if (t0 <= span.hi) {
-        result.hit = first_hit(near_ray, t0, span.hi);
+    real t0 = max(span.lo, lower - result.shift);
+    real t1 = min(span.hi, upper - result.shift);
+    if (t0 <= t1) {
+        result.hit = first_hit(near_ray, t0, t1);
     } else {
         result.hit = no_hit(t0);
     }
     return result;
+}
+
+Cast cast_ray(Ray ray) {
+    return cast_ray_between(ray, 0.0, REAL_INFINITY);
 }
 
 int packed_answer(Hit hit) {

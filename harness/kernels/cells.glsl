@@ -56,28 +56,36 @@ void queue_quarters(Work work, Cell cell, int path, Hit hit) {
     enqueue(work, place + 2, cell.evaluations + hit.evaluations);
 }
 
-// The cell's pixels get the answer, each its share of the evaluations, and the level of the cell. A hit's t is a depth:
-// what is stored is its distance along the ray through the middle of the pixel.
+// Evaluations, level and status in one word.
+int answer_word(int evaluations, Cell cell, int status) {
+    return ((evaluations * 32) + cell.level) * 4 + status;
+}
+
+// The cell's pixels get the answer, each its share of the evaluations, and the level of the cell. A hit is of one pixel,
+// and its t a depth: what is stored is its distance along the ray through the middle of the pixel.
 void paint(Work work, Cell cell, Hit hit) {
+    int evaluations = cell.evaluations + hit.evaluations;
+    if (work.level == work.last) {
+        Camera camera = work.camera;
+        real x = real(2 * cell.x + 1 - work.size) / real(work.size);
+        real y = real(work.size - 2 * cell.y - 1) / real(work.size);
+        vec3 direction = moved(moved(camera.forward, x, camera.right), y, camera.up);
+        answer_pixel(work, cell.y * work.size + cell.x, hit.t * sqrt(inner_product(direction, direction)),
+                     answer_word(evaluations, cell, hit.status));
+        return;
+    }
     int side = 1 << (work.last - work.level);
     int i0 = cell.x * side;
     int j0 = cell.y * side;
     int i1 = min(i0 + side, work.size);
     int j1 = min(j0 + side, work.size);
     int pixels = (i1 - i0) * (j1 - j0);
-    int evaluations = cell.evaluations + hit.evaluations;
+    int share = evaluations / pixels;
+    int extra = evaluations - share * pixels;  // pixels that take one more, so that all shares add up
     for (int j = j0; j < j1; j++) {
         for (int i = i0; i < i1; i++) {
-            int word = (((evaluations / pixels) * 32 + cell.level) * 4) + hit.status;
-            if (hit.status == MISS) {
-                answer_miss(work, j * work.size + i, word);
-            } else {
-                vec3 direction = work.camera.forward
-                                 + work.camera.right * (real(2 * i + 1 - work.size) / real(work.size))
-                                 + work.camera.up * (real(work.size - 2 * j - 1) / real(work.size));
-                answer_hit(work, j * work.size + i, hit.t * sqrt(dot(direction, direction)), word);
-            }
-            evaluations += 1;  // so that all pixels' shares, rounded down, add up to the whole
+            answer_pixel(work, j * work.size + i, 0.0, answer_word(share + (extra > 0 ? 1 : 0), cell, MISS));
+            extra -= 1;
         }
     }
 }

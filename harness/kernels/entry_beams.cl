@@ -1,6 +1,6 @@
 // Level -1 empties the queues; any other runs cast_cell on its cells, strided over the nx work items.
 // Without a `source` in the queue, every cell of the level is looked at.
-__kernel __attribute__((intel_vec_len_hint(16))) void beams(__global const float *c, __global real *t, __global int *answer, __global int *queue,
+__kernel void beams(__global const float *c, __global real *t, __global int *answer, __global int *queue,
                     __global int *counts, int nx, int ny, int size, int level, int last, int source, int target) {
     int id = get_global_id(0);
     if (level < 0) {

@@ -17,11 +17,7 @@ int queue_slot(Work work) {
     return atomic_inc(&work.counts[work.level]);
 }
 
-void answer_hit(Work work, int pixel, real distance, int word) {
+void answer_pixel(Work work, int pixel, real distance, int word) {
     work.t[pixel] = distance;
-    work.answer[pixel] = word;
-}
-
-void answer_miss(Work work, int pixel, int word) {
     work.answer[pixel] = word;
 }

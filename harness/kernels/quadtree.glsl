@@ -28,11 +28,7 @@ int queue_slot(Work work) {
     return atomicAdd(counts[work.level], 1);
 }
 
-void answer_hit(Work work, int pixel, real distance, int word) {
+void answer_pixel(Work work, int pixel, real distance, int word) {
     t[pixel] = distance;
-    answer[pixel] = word;
-}
-
-void answer_miss(Work work, int pixel, int word) {
     answer[pixel] = word;
 }

@@ -3,31 +3,34 @@
 **Source** beamcasting, sections III.A and III.B and procedures BeamCast and Uniform; the integer in place of a stack:
 III.E.
 
-**Theory** A beam is every ray of a pixel, a piece of it lies between two depths, and a box in world coordinates holds the
-piece. f's interval extension over that box encloses every value that f takes on the piece. Where it excludes zero, or
-the box lies outside the domain, no ray of the pixel meets the surface there. Otherwise the piece is halved in depth and
-its nearer half looked at first, down to pieces ε deep. So no root of any ray of the pixel is stepped over, touches
+**Theory** A beam is every ray of a pixel, a piece of it lies between two depths, and a box in world coordinates holds
+the piece. f's interval extension over that box encloses every value that f takes on the piece. Where it excludes zero,
+or the box lies outside the domain, no ray of the pixel meets the surface there. Otherwise the piece is halved in depth
+and its nearer half looked at first, down to pieces ε deep. So no root of any ray of the pixel is stepped over, touches
 included. The converse does not hold: the beam may touch what its middle ray passes by, the box is larger than the
 piece, and the extension overestimates, more so the more its operations depend on one another. What is told is the
 middle of the first piece that cannot be excluded, as a distance along the pixel's middle ray.
 
 **Changes against the paper**
-- The depth T spans the domain exactly as far as this domain does: a ball its diameter, a box what it measures along the
-  view. The paper's T = [-1, 1] is of its own scenes.
-- ε follows the resolution: the last pieces are T / 2^(level + BISECTIONS) deep, 2^level pixels to a side of the smallest
-  square that holds the image. With BISECTIONS = 1 a piece is about half as deep as a pixel is wide. The paper sets a
-  constant that it does not print.
-- Boxes are cut by the domain, which clips the surface here, and lie in float32 or float64 with outward rounding; the beam
-  is wider than its pixel by sixteen float32 roundings, so that rays made on any device are in it.
-- After an excluded piece the next one is the nearest ancestor's other half: found from the integer's trailing ones, so
+- The depth T spans the domain as far as this domain does: a ball its diameter, a box what it measures along the view.
+  The paper's T = [-1, 1] is of its own scenes.
+- ε follows the resolution: the last pieces are T / 2^(level + BISECTIONS) deep, where 2^level pixels are a side of the
+  smallest square that holds the image. With BISECTIONS = 1 a piece is about half as deep as a pixel is wide. The paper
+  sets a constant that it does not print.
+- Boxes are cut by the domain, which clips the surface here, and are rounded outward, in float32 or float64; the beam is
+  wider than its pixel by sixteen float32 roundings, so that rays made on any device are in it.
+- After an excluded piece the next one is the nearest ancestor's other half, found from the integer's trailing ones, so
   that the search costs no step upwards.
 
-**Tried**, ms of both cores on opencl:intel at 512 × 512, float32, sphere / tangle / barth_sextic:
-- Pixels in Z order, sixteen neighbours to a vector, asked for by the kernel's `intel_vec_len_hint(16)`: the driver's own
-  choice is not to vectorise (73 against 42 ms on the sphere; 8 to a vector 48 ms). Kept.
+**Tried**, processor time of opencl:intel at 512 × 512, float32, as ms on both cores, sphere / tangle / barth_sextic:
+- Beams as vec3 keep the driver from vectorising: 73 ms on the sphere. It can be made to, sixteen pixels to a vector, by
+  `intel_vec_len_hint(16)`: 42 / 110 / 127. By components it does so by itself, eight to a vector: 36 / 100. Kept,
+  without the hint, which is one vendor's: with it 31 / 92, but the adaptive method slows from 16 / 55 to 19 / 59.
 - f evaluated for every lane, also outside the domain, instead of under a branch: 46 / 107 / 122 against 42 / 110 / 127.
-  Not kept, since the adaptive method loses 5 to 20 % by it.
+  Not kept, since the adaptive method loses 3 to 20 % by it.
 - What depends on the camera alone computed once per work item instead of once per beam: 38 / 103 / 122. Kept.
+- The search started at 2, 4, 8 or 16 pieces instead of the whole beam, whose range always holds zero where there is a
+  surface: 45 / 97 at 8 pieces against 36 / 105 on sphere / tangle, fewer evaluations but no less time. Not kept.
 """
 
 from harness.contract import Method, Parameter

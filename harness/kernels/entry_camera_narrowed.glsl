@@ -1,0 +1,19 @@
+// One work item per sample of a camera's image, its ray narrowed to the depths in its tile's span.
+layout(local_size_x = 64) in;
+layout(std430, binding = 0) readonly buffer Input0 { float c[]; };
+layout(std430, binding = 1) writeonly buffer Output0 { real t[]; };
+layout(std430, binding = 2) writeonly buffer Output1 { int answer[]; };
+layout(std430, binding = 3) readonly buffer Input1 { real spans[]; };
+uniform int nx;
+uniform int ny;
+void main() {
+    int i = int(gl_GlobalInvocationID.x);
+    int j = int(gl_GlobalInvocationID.y);
+    if (i >= nx || j >= ny) return;
+    int tile = (j >> TILE_BITS) * ((nx + (1 << TILE_BITS) - 1) >> TILE_BITS) + (i >> TILE_BITS);
+    vec3 forward = vec3(c[3], c[4], c[5]);
+    Ray ray = camera_ray(vec3(c[0], c[1], c[2]), forward, vec3(c[6], c[7], c[8]), vec3(c[9], c[10], c[11]), i, j, nx, ny);
+    Cast result = cast_narrowed_ray(ray, forward, spans[2 * tile], spans[2 * tile + 1]);
+    t[j * nx + i] = result.shift + result.hit.t;
+    answer[j * nx + i] = packed_answer(result.hit);
+}

@@ -1,0 +1,151 @@
+"""Beams: what a hit of theirs means, where a quadtree throws boxes away (beamcasting, Fig. 1), and the prepass."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import matplotlib
+import numpy as np
+import pandas as pd
+from matplotlib.colors import to_rgb
+from numpy.typing import NDArray
+
+from harness.contract import CellStatus, RayStatus
+from reports import derive, images, style, tables, wording
+from reports.arrays import Shelf
+from reports.content import Block, Column, Gallery, Panel, Picture, Section, Table, Text
+
+MOST_PANELS = 12
+MAP = "plasma"
+MEANING = (
+    "A beam's hit says that f's interval extension cannot keep the surface out of a piece of the pixel's whole beam. "
+    "It is held against a ray in that beam. Beam only: the beam hits where the ray passes the surface by, no further "
+    "off than the beam's farthest edge; these are neither right nor wrong. Hits further off are false hits or wrong "
+    "roots, the price of overestimating boxes. Misses would refute the method. Evaluations are of the interval "
+    "extension, large beams shared among their pixels."
+)
+
+
+def sections(shelf: Shelf, frame: pd.DataFrame) -> list[Section]:
+    """One section where any finished row casts beams."""
+    rows = frame[(frame["status"] == CellStatus.OK) & frame["casts"].isin(["beams", "quadtree"])]
+    if rows.empty:
+        return []
+    blocks: list[Block] = [Text(MEANING), _table(rows)]
+    if gallery := _gallery(shelf, rows[rows["casts"] == "quadtree"]):
+        blocks.append(gallery)
+    return [Section("Beams", tuple(blocks), wide=True)]
+
+
+def _table(rows: pd.DataFrame) -> Table:
+    named = tables.places(rows)
+    body = []
+    for row in rows.itertuples():
+        counts = (row.misses + row.grazing_misses, row.beam_only, row.false_hits, row.wrong_root)
+        told = (row.device, row.precision, row.variant, *counts, row.pixel_error_p50, row.evaluations_mean)
+        body.append((named[str(row.comparison)], *told))
+    counted = [
+        Column(title, wording.count, numeric=True) for title in ("misses", "beam\nonly", "false\nhits", "wrong\nroot")
+    ]
+    return Table(
+        (
+            Column("surface", stretch=1),
+            Column("device"),
+            Column("precision"),
+            Column("variant", stretch=1),
+            *counted,
+            Column("median error,\npixels", wording.short, numeric=True),
+            Column("evals\nper pixel", wording.number, numeric=True),
+        ),
+        body,
+        "Beams held against rays.",
+        "Misses include silhouettes. Look for surfaces whose false hits outnumber the hits that only a beam can see: "
+        "there the interval extension overestimates most.",
+        group=3,
+    )
+
+
+def level_map(level: NDArray[np.uint8], hit: NDArray[np.bool_]) -> NDArray[np.float64]:
+    """float64[h, w, 3] in 0…1: dark to bright by the level of the box that was eliminated; white where one is hit."""
+    last = max(int(level.max()), 1)
+    first = int(level.min())
+    image = matplotlib.colormaps[MAP](0.05 + 0.85 * (level - first) / max(last - first, 1))[..., :3]
+    image[hit] = to_rgb(style.PAPER)
+    return np.asarray(image)
+
+
+def _gallery(shelf: Shelf, rows: pd.DataFrame) -> Gallery | None:
+    """The largest picture of every surface."""
+    largest = rows.sort_values(["size", "samples_per_pixel"], ascending=False, kind="stable")
+    kept = rows.loc[sorted(largest.drop_duplicates("surface").index)].head(MOST_PANELS)
+    panels = []
+    for row in kept.itertuples():
+        arrays = shelf.get(row)
+        if arrays is not None and arrays.level is not None and arrays.status is not None:
+            panels.append(_panel(row, arrays.level, arrays.status == RayStatus.HIT))
+    if not panels:
+        return None
+    caption = (
+        "The level at which a box was eliminated, as beamcasting's Fig. 1 shows for the Octdong: dark, large boxes "
+        "thrown away early; bright, at the pixels' own level; white, the surface. Look for wide bright borders: there "
+        "boxes hold no surface and their ranges cannot tell."
+    )
+    return Gallery(tuple(panels), caption)
+
+
+def _panel(row: Any, level: NDArray[np.uint8], hit: NDArray[np.bool_]) -> Panel:
+    name = f"{row.surface_title}, {tables.picture_size(row)}"
+    picture = Picture(f"{row.key}-level", images.png(level_map(level, hit)), f"Levels of elimination of {name}")
+    last = int(level.max())
+    early = float(np.mean(~hit & (level < last)))
+    late = float(np.mean(~hit & (level == last)))
+    share = f"{wording.share(early)} eliminated early, {wording.share(late)} at the last"
+    note = f"levels {int(level.min())} to {last}: {share}"
+    return Panel(name, (picture,), note)
+
+
+def prepass_sections(frame: pd.DataFrame) -> list[Section]:
+    """One section where a variant was timed with and without the prepass in one comparison."""
+    rows = derive.contenders(frame)
+    plain, behind = rows[rows["prepass"] != "beams"], rows[rows["prepass"] == "beams"]
+    keys = [*derive.GROUP, "method", "parameters"]
+    both = plain.merge(behind, on=keys, suffixes=("", "_behind"))
+    if both.empty:
+        return []
+    named = tables.places(both)
+    body = [
+        (
+            named[str(row.comparison)],
+            row.device,
+            row.precision,
+            row.variant,
+            row.median_ms,
+            row.median_ms_behind,
+            row.median_ms / row.median_ms_behind,
+            row.evaluations_mean,
+            row.evaluations_mean_behind,
+            row.prepass_evaluations_mean_behind,
+            row.wrong_rays,
+            row.wrong_rays_behind,
+        )
+        for row in both.itertuples()
+    ]
+    columns = (
+        Column("surface", stretch=1),
+        Column("device"),
+        Column("precision"),
+        Column("variant", stretch=1),
+        Column("plain", wording.number, numeric=True, over="ms"),
+        Column("+beams", wording.number, numeric=True, over="ms"),
+        Column("faster", wording.factor, numeric=True, over="ms"),
+        Column("plain", wording.number, numeric=True, over="evals per ray"),
+        Column("+beams", wording.number, numeric=True, over="evals per ray"),
+        Column("of tiles", wording.number, numeric=True, over="evals per ray"),
+        Column("plain", wording.count, numeric=True, over="wrong rays"),
+        Column("+beams", wording.count, numeric=True, over="wrong rays"),
+    )
+    caption = (
+        "Each method alone and behind beams over tiles of pixels, which leave to a ray the depths where the surface "
+        "may lie. Faster above 1× means that the prepass pays; it cannot where a method is hardly slower than it."
+    )
+    return [Section("Where the prepass pays", (Table(columns, body, "The prepass.", caption, group=3),), wide=True)]

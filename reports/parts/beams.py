@@ -1,0 +1,11 @@
+"""Methods that cast beams: what their hits mean, and the level at which each box was eliminated."""
+
+from reports import beams
+from reports.content import Section
+from reports.material import Material
+
+ORDER = 28
+
+
+def sections(material: Material) -> list[Section]:
+    return [*beams.sections(material.shelf, material.frame), *beams.prepass_sections(material.frame)]
