@@ -15,11 +15,12 @@ FUNCTIONS names what a method may need:
                               normal is the zero vector where its gradient is zero or no number
     surface_range             Interval surface_range(Interval x, Interval y, Interval z)
     surface_range_along       Interval surface_range_along(Ray ray, real t0, real t1)
-    surface_coefficients_along  void surface_coefficients_along(Ray ray, OUT real c[DEGREE + 1])
+    surface_coefficients_along  void surface_coefficients_along(Ray ray, OUT real c[SURFACE_DEGREE + 1])
                               f(origin + t direction) = c[0] + c[1] t + …, exact expansion; degree 1 to 4
-    surface_polynomial_along  Stretch surface_polynomial_along(Ray ray, real t0, real t1, OUT real c[DEGREE + 1])
+    surface_polynomial_along  Stretch surface_polynomial_along(Ray ray, real t0, real t1,
+                                                               OUT real c[SURFACE_DEGREE + 1])
                               f = c[0] + c[1] x + … with t = middle + reach x. To degree 4 the exact expansion in x = t;
-                              beyond, to degree 20, the compensated fit over [t0, t1], x in [-1, 1] (szente, 2.1); of
+                              beyond, to degree 20, the compensated fit over [t0, t1] as x in [-1, 1] (szente, 2.1), of
                               which POLYNOMIAL_EVALUATIONS says how often it evaluates f. Brings the library fit_samples
     surface_along             struct Along; Along surface_along(Ray ray)          the surface prepared for one ray
     surface_value_along       real surface_value_along(Along along, real t)
@@ -255,7 +256,7 @@ class _Writer:
         assert self.surface.degree is not None
         lines, values = self._printer(_RAY).body(coefficients_along(self.real, self.surface.degree))
         stores = [f"c[{k}] = {value};" for k, value in enumerate(values)]
-        return _function("void surface_coefficients_along(Ray ray, OUT real c[DEGREE + 1])", lines, *stores)
+        return _function("void surface_coefficients_along(Ray ray, OUT real c[SURFACE_DEGREE + 1])", lines, *stores)
 
     def surface_polynomial_along(self) -> str:
         head = "Stretch surface_polynomial_along(Ray ray, real t0, real t1, OUT real c[SURFACE_DEGREE + 1])"
