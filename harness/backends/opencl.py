@@ -26,6 +26,7 @@ SHORT = {"intel": "intel", "portable": "pocl", "nvidia": "nvidia", "amd": "amd",
 INTEL_LIBRARIES = ("libintlc.so.5", "libimf.so", "libsvml.so", "libirng.so", "libtbb.so.12")
 SYSTEM_VENDORS = Path("/etc/OpenCL/vendors")
 OPTIONS = {"float32": ["-cl-single-precision-constant"], "float64": []}
+ROUNDED_DIVISION = "-cl-fp32-correctly-rounded-divide-sqrt"  # without it 2.5 ulp may be lost; some devices lack it
 GROUP = 64
 
 
@@ -131,6 +132,8 @@ class OpenCLDevice(Device):
         cl = _binding()
         self.info = _info(name, device)
         self._context = cl.Context([device])
+        rounds = device.single_fp_config & cl.device_fp_config.CORRECTLY_ROUNDED_DIVIDE_SQRT
+        self._options = {**OPTIONS, "float32": [*OPTIONS["float32"], *([ROUNDED_DIVISION] if rounds else [])]}
         self._queue = cl.CommandQueue(self._context, properties=cl.command_queue_properties.PROFILING_ENABLE)
 
     def build(self, program: Program) -> Any:
@@ -139,7 +142,7 @@ class OpenCLDevice(Device):
         try:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore", cl.CompilerWarning)  # drivers that greet are not in error
-                return source.build(options=OPTIONS[program.precision]), program.entry
+                return source.build(options=self._options[program.precision]), program.entry
         except cl.Error as error:
             raise BuildError(f"{self.info.name}: {explain_log(program, str(error))}") from None
 
