@@ -35,11 +35,12 @@ from harness.viewsets import AngleChoice, DirectionChoice, by_angle, by_directio
 @dataclass(frozen=True)
 class MethodChoice:
     """A method, and for each knob one value or several; several knobs multiply. `settings` are the papers' own, by the
-    names that the method gives them."""
+    names that the method gives them. `stages` are this method's, where they are not the experiment's."""
 
     name: str
     parameters: dict[str, list[float]] = field(default_factory=dict)
     settings: list[str] = field(default_factory=list)
+    stages: list[str] = field(default_factory=list)
 
 
 @dataclass(frozen=True)
@@ -143,6 +144,10 @@ class Experiment:
     prepasses: tuple[Prepass, ...] = ("none",)
     proxies: tuple[Proxy, ...] = ("box",)
     scenes: tuple[Scene, ...] = ()
+    own_stages: Mapping[Variant, tuple[Stage, ...]] = field(default_factory=dict)  # where they are not `stages`
+
+    def stages_of(self, variant: Variant) -> tuple[Stage, ...]:
+        return self.own_stages.get(variant, self.stages)
 
 
 Where = tuple[str | int, ...]
@@ -361,14 +366,19 @@ def load(path: Path, catalog: Catalog) -> Experiment:
     _known(config.proxies, PROXIES, "proxies", source)
 
     variants: list[Variant] = []
+    own_stages: dict[Variant, tuple[Stage, ...]] = {}
     for i, choice in enumerate(config.method):
+        _known(choice.stages, STAGES, "stages", source)
         try:
             plugin = catalog.get(choice.name)
-            variants += [plugin.setting(name) for name in choice.settings]
+            own = [plugin.setting(name) for name in choice.settings]
             if choice.parameters or not choice.settings:
-                variants += [plugin.variant(point) for point in _sweep(choice)]
+                own += [plugin.variant(point) for point in _sweep(choice)]
         except FirsthitError as error:
             raise source.error(("method", i, "name"), str(error)) from None
+        variants += own
+        if choice.stages:
+            own_stages |= dict.fromkeys(own, typing.cast(tuple[Stage, ...], tuple(choice.stages)))
     bound = [(variant.method, variant.parameters) for variant in variants]
     if twice := [variant for variant, key in zip(variants, bound, strict=True) if bound.count(key) > 1]:
         raise source.error(("method",), f"{twice[0]} is named twice")
@@ -376,9 +386,9 @@ def load(path: Path, catalog: Catalog) -> Experiment:
     for name in surfaces.names() if config.surfaces == ["all"] else config.surfaces:
         try:
             if name in config.surface:
-                own = config.surface[name]
-                given = {key: repr(value) for key, value in own.parameters.items()}
-                chosen.append(surfaces.from_formula(own.formula, own.domain, name=name, parameters=given))
+                stated = config.surface[name]
+                given = {key: repr(value) for key, value in stated.parameters.items()}
+                chosen.append(surfaces.from_formula(stated.formula, stated.domain, name=name, parameters=given))
             else:
                 chosen.append(surfaces.get(name))
         except FirsthitError as error:
@@ -395,4 +405,5 @@ def load(path: Path, catalog: Catalog) -> Experiment:
         typing.cast(tuple[Stage, ...], tuple(config.stages)),
         prepasses=typing.cast(tuple[Prepass, ...], tuple(config.prepass)),
         proxies=typing.cast(tuple[Proxy, ...], tuple(config.proxies)),
+        own_stages=own_stages,
     )

@@ -154,7 +154,7 @@ class Parameter:
 
 
 CLAIMS: dict[str, str] = {
-    "no_missed_root": "a ray that meets the surface is never answered as a miss, nor by a later root; near tangency too",
+    "no_missed_root": "a ray that meets the surface is never answered as a miss or by a later root; near tangency too",
     "finds_touch": "where a ray touches the surface without crossing it, that is a hit",
     "no_false_hit": "no hit where the oracle proves that there is none, outside the grazing class",
     "error_below_tolerance": "a right hit is within Method.tolerance of its root, and what rounding must add",

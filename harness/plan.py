@@ -271,13 +271,13 @@ def plan(experiment: Experiment, catalog: Catalog, found: list[DeviceInfo], time
         wanted = "no usable device" if set(config.devices) <= {"all", "any"} else f"none of {', '.join(config.devices)}"
         raise FirsthitError(f"{wanted} found on this machine; see `firsthit devices`", exit_code=3)
     runs_on = list(itertools.product(experiment.variants, experiment.prepasses, devices.items(), experiment.precisions))
-    scenes = itertools.product(
-        experiment.surfaces, config.view, config.sizes, config.samples_per_pixel, experiment.stages
-    )
+    stages = dict.fromkeys(stage for variant in experiment.variants for stage in experiment.stages_of(variant))
+    scenes = itertools.product(experiment.surfaces, config.view, config.sizes, config.samples_per_pixel, stages)
     cells = [
         (Cell(variant, surface, view, size, samples, precision, stage, name, prepass=before, proxy=proxy), info)
         for surface, view, size, samples, stage in scenes
         for variant, before, (name, info), precision in runs_on
+        if stage in experiment.stages_of(variant)
         for proxy in _proxies(stage, variant, experiment, catalog)
     ]
     cells += [

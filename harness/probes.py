@@ -12,7 +12,9 @@ from harness.backends import Device, map_rows, real_type
 from harness.contract import Precision
 
 CASES = 65536
-PEAK_ITEMS = 4096
+PEAK_ITEMS = 4096  # at first: doubled until a launch takes PEAK_MS, since a GPU is not filled by so few
+MOST_ITEMS = 1 << 20
+PEAK_MS = 5.0
 PEAK_OPERATIONS = 131072  # per item, as peak.glsl counts them
 BELIEVABLE = (0.5, 1.05)  # device clock over wall clock, for a launch of some milliseconds, that is to be trusted
 
@@ -64,10 +66,16 @@ def _rounded(values: NDArray[np.float64]) -> NDArray[np.float64]:
 def _peak(device: Device) -> tuple[float, float | None]:
     program = map_program(file_section(KERNELS / "peak.glsl"), "float32", device.language)
     kind = real_type(program)
-    launch = device.launch(device.build(program), [np.ones(PEAK_ITEMS, kind)], [(PEAK_ITEMS, kind)], (PEAK_ITEMS, 1))
-    launch.run()
-    timings = [launch.run() for _ in range(3)]
-    launch.release()
+    built = device.build(program)
+    items = PEAK_ITEMS
+    while True:
+        launch = device.launch(built, [np.ones(items, kind)], [(items, kind)], (items, 1))
+        launch.run()
+        timings = [launch.run() for _ in range(3)]
+        launch.release()
+        if items >= MOST_ITEMS or min(timing.wall_ms for timing in timings) >= PEAK_MS:
+            break
+        items *= 2
     best = min(timings, key=lambda timing: timing.wall_ms)
-    rate = PEAK_OPERATIONS * PEAK_ITEMS / best.wall_ms * 1e-6
+    rate = PEAK_OPERATIONS * items / best.wall_ms * 1e-6
     return rate, None if best.device_ms is None else best.device_ms / best.wall_ms

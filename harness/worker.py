@@ -223,7 +223,7 @@ def serve(connection: Connection, device_name: str) -> None:
     while True:
         try:
             operation, arguments = connection.recv()
-        except EOFError:
+        except (EOFError, ConnectionError):  # reset, where the runner went without reading the last answer
             return
         try:
             answer = ("ok", getattr(worker, operation)(*arguments))
@@ -233,5 +233,5 @@ def serve(connection: Connection, device_name: str) -> None:
             answer = ("failed", f"{type(error).__name__}: {error}")
         try:
             connection.send(answer)
-        except BrokenPipeError:
+        except ConnectionError:
             return

@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import itertools
+from typing import Any
+
 import pandas as pd
 
 from harness.contract import CellStatus
 from reports import tables, wording
 from reports.content import Column, Section, Table
+
+_KERNEL = ["comparison", "variant", "precision"]
 
 
 def sections(frame: pd.DataFrame) -> list[Section]:
@@ -19,10 +24,11 @@ def sections(frame: pd.DataFrame) -> list[Section]:
 def _table(timed: pd.DataFrame) -> Table | None:
     devices = list(dict.fromkeys(timed["device"]))
     named = tables.places(timed)
-    body = []
-    for (scene, variant, precision), rows in timed.groupby(["comparison", "variant", "precision"], sort=False):
-        if rows["device"].nunique() < 2:
-            continue
+    body: list[tuple[Any, ...]] = []
+    timed = timed[[*_KERNEL, "device", "median_ms", "overhead_share"]].drop_duplicates([*_KERNEL, "device"])
+    shared = timed[timed.groupby(_KERNEL)["device"].transform("size") > 1]
+    groups = shared.groupby(_KERNEL, sort=False)
+    for (scene, variant, precision), rows in itertools.islice(groups, tables.ROW_LIMIT):
         by_device = rows.set_index("device")
         slowest = rows["median_ms"].max()
         cells: list[float | None] = []
@@ -32,6 +38,7 @@ def _table(timed: pd.DataFrame) -> Table | None:
         body.append((named[str(scene)], precision, variant, *cells))
     if not body:
         return None
+    cut = f" The first {len(body):,} of {groups.ngroups:,}; results.csv has all." if groups.ngroups > len(body) else ""
     columns = [Column("surface"), Column("precision"), Column("variant", stretch=1)]
     for device in devices:
         columns += [
@@ -45,6 +52,6 @@ def _table(timed: pd.DataFrame) -> Table | None:
         "The same kernel on every device.",
         "Faster is over the slowest device in the row. Overhead is what the harness's submitting and waiting adds to "
         "the kernel's own time, told only where the device has a clock of its own that is believed. Look for a device "
-        "whose lead changes from variant to variant: its compiler makes more, or less, of one of them.",
+        f"whose lead changes from variant to variant: its compiler makes more, or less, of one of them.{cut}",
         group=2,
     )

@@ -155,6 +155,6 @@ def _caption(clouds: list[Cloud], radius: str) -> str:
         own = [cloud for cloud in clouds if cloud.precision == precision]
         worst, best = max(own, key=lambda cloud: cloud.excess), min(own, key=lambda cloud: cloud.excess)
         lowest, highest = (f"{wording.short(cloud.excess)} ({cloud.variant})" for cloud in (best, worst))
-        told.append(f"{precision}: from {lowest} to {highest}")
+        told.append(f"{precision}: {highest}" if best is worst else f"{precision}: from {lowest} to {highest}")
     note = "" if radius == "domain's" else " This run does not tell the domain's radius; the line takes the scene's."
     return f"Worst error over the line, in {'; in '.join(told)}.{note}"

@@ -93,16 +93,23 @@ def _table(table: Table) -> dict[str, Any]:
 
 def _figure(figure: Figure, folder: Path) -> dict[str, Any]:
     file = f"{figure.name}.svg"
-    (folder / file).write_text(figure.svg, encoding="utf-8")
+    _write(folder / file, figure.svg.encode())
     told = {"title": figure.title, "caption": figure.caption, "description": figure.description}
     return {"kind": "figure", "file": file, **told}
+
+
+def _write(path: Path, made: bytes) -> None:
+    """What a name stands for is the same wherever a report uses it: else one page would show another's picture."""
+    if path.exists() and path.read_bytes() != made:
+        raise ValueError(f"two figures of one report are named {path.stem}")
+    path.write_bytes(made)
 
 
 def _gallery(gallery: Gallery, folder: Path) -> dict[str, Any]:
     panels = []
     for panel in gallery.panels:
         for picture in panel.pictures:
-            (folder / f"{picture.name}.png").write_bytes(picture.png)
+            _write(folder / f"{picture.name}.png", picture.png)
         pictures = [{"file": f"{picture.name}.png", "description": picture.description} for picture in panel.pictures]
         panels.append({"title": panel.title, "note": panel.note, "pictures": pictures})
     legend = None if gallery.legend is None else _figure(gallery.legend, folder)

@@ -97,4 +97,4 @@ def _legend(most: int) -> Figure:
         bar.xaxis.set_major_locator(FixedLocator([float(np.log10(tick)) for tick in ticks]))
         bar.xaxis.set_major_formatter(FuncFormatter(lambda place, _: f"{round(10**place):,}"))
         drawing.text(0.41, 0.68, "evaluations of f on a ray; white: none", va="center", fontsize=6.5)
-        return Figure("evaluations-legend", svg(drawing), "Colours of evaluation counts.")
+        return Figure(f"evaluations-legend-{most}", svg(drawing), "Colours of evaluation counts.")

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
+from pathlib import Path
 from typing import Any
 
 import pandas as pd
@@ -35,6 +36,11 @@ class Evidence:
     @cached_property
     def finished(self) -> pd.DataFrame:
         return self.frame[(self.frame["status"] == CellStatus.OK) & self.frame["answers"]]
+
+    def of(self, config: str) -> Evidence:
+        """The rows of `config`'s own run alone, where this collects several and that one is among them; else all."""
+        own = self.frame["run"] == Path(config).stem
+        return replace(self, frame=self.frame[own]) if own.any() and not own.all() else self
 
     def rows(
         self, pick: Pick, surfaces: Iterable[str] | None = None, precision: str | None = "float32"

@@ -36,7 +36,10 @@ def galleries(shelf: Shelf, frame: pd.DataFrame) -> dict[str, Gallery]:
 
 
 def gallery(shelf: Shelf, rows: pd.DataFrame, caption: str, name: str) -> Gallery | None:
-    """Every row of `rows` that has pictures, in its order; `name` sets these pictures apart from others of the rows."""
+    """Every row of `rows` that has pictures, in its order, titled by its column `setting` and, where several are there,
+    its view; `name` sets these pictures apart from others of the rows."""
+    views = rows["view"].nunique() > 1
+    rows = rows.assign(panel=rows["surface_title"] + (", " + rows["view"] if views else "") + ": " + rows["setting"])
     cells = [(row, arrays) for row in rows.itertuples() if (arrays := shelf.get(row)) is not None]
     if not cells:
         return None
@@ -70,7 +73,7 @@ def _panel(row: Any, arrays: Arrays, scale: tuple[int, int], prefix: str, titled
     note = f"max {wording.error(row.error_max)} · {wrong or 'no wrong ray'}"
     if not wording.absent(row.grazing_wrong_rays) and row.grazing_wrong_rays > 0:
         note += f" · {wording.count(row.grazing_wrong_rays)} grazing"
-    return Panel(f"{row.surface_title}: {name}" if titled else name, pictures, note)
+    return Panel(f"{row.panel}, {row.precision}" if titled else name, pictures, note)
 
 
 def _caption(row: Any) -> str:

@@ -8,8 +8,9 @@ from functools import cached_property
 
 import pandas as pd
 
-from reports import style, viewstats
+from reports import claims, style, viewstats
 from reports.arrays import Shelf
+from reports.claims import Claim, Verdict
 from reports.evidence import Evidence
 from reports.load import Run
 from reports.style import Mark
@@ -38,3 +39,8 @@ class Material:
     @cached_property
     def evidence(self) -> Evidence:
         return Evidence(self.frame, self.run.studies, self.shelf)
+
+    @cached_property
+    def judged(self) -> list[tuple[Claim, Verdict]]:
+        """Every claim of the papers with its verdict by this run, in the papers' order."""
+        return [(claim, claims.judge(claim, self.evidence)) for claim in claims.CLAIMS]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from typing import Any
 
+import numpy as np
 import pandas as pd
 
 from harness.measure import Ratio, paired_ratio
@@ -17,14 +18,18 @@ ALIKE = 0.01  # a chance above this is no evidence that two variants differ
 def sections(frame: pd.DataFrame) -> list[Section]:
     """One section where at least two variants of one comparison were timed in the same rounds; else none."""
     rows = tables.worth_printing(derive.contenders(frame))
-    tabled = [table for _, group in rows.groupby("comparison", sort=False) if (table := _table(group))]
-    told = Text(
+    scenes = [group for _, group in rows.groupby("comparison", sort=False)]
+    shown = scenes[: int((np.cumsum([len(group) for group in scenes]) <= tables.ROW_LIMIT).sum())]
+    tabled = [table for group in shown if (table := _table(group))]
+    told = (
         "How many times the time of the fastest variant with every ray right each variant takes: the median of the "
         "ratios within rounds, so that what slows a whole round cancels, with its 95 % interval (order statistics), "
         f"and how often chance alone parts equally fast variants so (signed-rank test). At a chance over {ALIKE:g} the "
         "two are not told apart: neither should be called faster. With under 6 common rounds nothing is proved."
     )
-    blocks: list[Block] = [told, *tabled]
+    if len(shown) < len(scenes):
+        told += f" The first {len(shown):,} of {len(scenes):,} scenes; results.csv has the samples and rounds of all."
+    blocks: list[Block] = [Text(told), *tabled]
     return [Section("Variants compared round by round", tuple(blocks), wide=True)] if tabled else []
 
 

@@ -218,4 +218,4 @@ def error_legend(lowest: int, highest: int) -> Figure:
         labels = [label for _, label in patches]
         spacing = {"handlelength": 1.1, "columnspacing": 1.2, "handletextpad": 0.5}
         drawing.legend(handles, labels, loc="center left", bbox_to_anchor=(0.42, 0.62), ncols=len(labels), **spacing)
-        return Figure("error-legend", svg(drawing), "Colours of errors and of wrong rays.")
+        return Figure(f"error-legend{lowest}{highest:+d}", svg(drawing), "Colours of errors and of wrong rays.")

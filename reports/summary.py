@@ -6,7 +6,7 @@ from collections import Counter
 
 import pandas as pd
 
-from reports import choice, claims, derive, plots, stability, style, tables, wording
+from reports import choice, derive, plots, stability, style, tables, wording
 from reports.claims import Outcome
 from reports.content import Block, Code, Section, Text
 from reports.material import Material
@@ -36,9 +36,9 @@ def section(material: Material) -> Section:
 
 def _claims(material: Material) -> str:
     """How the papers' claims fare; empty where the run decides few."""
-    outcomes = Counter(claims.judge(claim, material.evidence).outcome for claim in claims.CLAIMS)
+    outcomes = Counter(verdict.outcome for _, verdict in material.judged)
     decided = outcomes[Outcome.CONFIRMED] + outcomes[Outcome.REFUTED]
-    if decided < len(claims.CLAIMS) / 4:
+    if decided < len(material.judged) / 4:
         return ""
     return (
         f"Of {decided} claims of the papers that this run decides, {outcomes[Outcome.CONFIRMED]} hold on this device "

@@ -20,10 +20,13 @@ OVERHEAD_LIMIT = 0.05  # a larger share of the time is flagged: the harness prom
 
 
 def places(frame: pd.DataFrame) -> dict[str, str]:
-    """Each comparison's name for people: the surface, and what else of view, size and stage differs within the run."""
-    several = {name for name in ("view", "size", "samples_per_pixel", "stage") if frame[name].nunique() > 1}
+    """Each comparison's name for people: the surface, and what of view, size and stage differs among its scenes."""
+    scenes = frame.drop_duplicates("comparison")
+    counted = scenes.groupby("surface")[["view", "size", "samples_per_pixel", "stage"]].nunique() > 1
+    differs = {surface: {name for name in counted if row[name]} for surface, row in counted.iterrows()}
     named = {}
-    for row in frame.drop_duplicates("comparison").itertuples():
+    for row in scenes.itertuples():
+        several = differs[row.surface]
         parts = [row.surface_title]
         parts += [row.view] if "view" in several else []
         parts += [picture_size(row)] if several & {"size", "samples_per_pixel"} else []

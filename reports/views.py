@@ -9,7 +9,9 @@ import pandas as pd
 from reports import viewplots, viewstats
 from reports.content import Block, Section, Text
 from reports.style import Mark
-from reports.viewstats import ANGLES, DIRECTIONS
+from reports.viewstats import ANGLES, DIRECTIONS, ViewSet
+
+MOST_SETS = 12  # of a run that are all shown
 
 EXPLANATION = (
     "Every surface, device, precision and size that was timed from at least three views of one set. The spread is the "
@@ -22,12 +24,21 @@ EXPLANATION = (
 )
 
 
+def _kept(sets: list[ViewSet]) -> list[ViewSet]:
+    """All of a run with few; of one with more than MOST_SETS the first of each surface, at most so many."""
+    if len(sets) <= MOST_SETS:
+        return sets
+    return list({of.first.surface: of for of in reversed(sets)}.values())[::-1][:MOST_SETS]
+
+
 def sections(frame: pd.DataFrame, marks: Mapping[str, Mark]) -> list[Section]:
     """One section of tables and one of pictures, where some set of views is there; `marks` by variant."""
-    sets = viewstats.view_sets(frame)
-    if not sets:
+    every = viewstats.view_sets(frame)
+    if not every:
         return []
-    tabled: list[Block] = [Text(EXPLANATION)]
+    sets = _kept(every)
+    cut = "" if len(sets) == len(every) else f" {len(sets)} of {len(every):,} such sets, those of the first surfaces."
+    tabled: list[Block] = [Text(EXPLANATION + cut)]
     for of in sets:
         tabled += filter(None, (viewstats.dependence(of), viewstats.wrong_rays(of)))
     made = [Section("View dependence", tuple(tabled), wide=True)]

@@ -17,7 +17,8 @@ FUNCTIONS names what a method may need:
     surface_range_along       Interval surface_range_along(Ray ray, real t0, real t1)
     surface_coefficients_along  void surface_coefficients_along(Ray ray, OUT real c[SURFACE_DEGREE + 1])
                               f(origin + t direction) = c[0] + c[1] t + …, exact expansion; degree 1 to 4
-    surface_polynomial_along  Stretch surface_polynomial_along(Ray ray, real t0, real t1, OUT real c[SURFACE_DEGREE + 1])
+    surface_polynomial_along  Stretch surface_polynomial_along(Ray ray, real t0, real t1,
+                                                               OUT real c[SURFACE_DEGREE + 1])
                               f = c[0] + c[1] x + … with t = middle + reach x. To degree 4 the exact expansion in x = t;
                               beyond, to degree 20, the compensated fit over [t0, t1] as x in [-1, 1] (szente, 2.1), of
                               which POLYNOMIAL_EVALUATIONS says how often it evaluates f. Brings the library fit_samples

@@ -2,8 +2,8 @@ from pathlib import Path
 
 import pytest
 
-from harness import config
-from harness.contract import FirsthitError
+from harness import config, plan
+from harness.contract import DeviceInfo, FirsthitError
 from harness.plugins import find_methods
 
 GOOD = """title = "t"
@@ -122,3 +122,17 @@ def test_studies_need_no_method(tmp_path):
         _load(tmp_path, 'title = "t"\nstudies = ["condition_number"]\n')
     with pytest.raises(FirsthitError, match="lacks 'method'"):
         _load(tmp_path, 'title = "t"\nsurfaces = ["sphere"]\n')
+
+
+def test_a_method_may_have_stages_of_its_own(tmp_path):
+    experiment = _load(tmp_path, GOOD.replace('name = "null"', 'name = "null"\nstages = ["rays"]'))
+    assert [experiment.stages_of(variant) for variant in experiment.variants] == [("compute",), ("compute",), ("rays",)]
+    catalog, device = find_methods(), DeviceInfo("opencl:none", "", "", "", 1, True, "wall", ())
+    planned = plan.plan(experiment, catalog, [device])
+    assert [(p.cell.variant.method, p.cell.stage, p.skip) for p in planned] == [
+        ("newton", "compute", None),
+        ("newton", "compute", None),
+        ("null", "rays", None),
+    ]
+    with pytest.raises(FirsthitError, match="stages: unknown 'beams'"):
+        _load(tmp_path, GOOD.replace('name = "null"', 'name = "null"\nstages = ["beams"]'))

@@ -70,7 +70,10 @@ FINDS_TOUCHES = [name for name, method in CASTERS.items() if "finds_touch" in me
 @pytest.mark.parametrize("method", NEVER_MISSES)
 def test_a_method_that_claims_it_misses_no_root_of_any_hard_case(method, family):
     device = opened(usable_devices()[0].name)
-    for group in stability.groups(family):
+    accepted = [group for group in stability.groups(family) if CASTERS[method].accepts(group.surface) is None]
+    if not accepted:
+        pytest.skip(f"{method} accepts none of the family's surfaces")
+    for group in accepted:
         truth = first_hits(group.surface, group.rays)
         hits = cast(device, method, group.surface, "float32", group.rays)
         there = (truth.status == TruthStatus.CROSSING) | (truth.status == TruthStatus.TOUCH)
@@ -82,6 +85,8 @@ def test_a_method_that_claims_it_misses_no_root_of_any_hard_case(method, family)
 @pytest.mark.parametrize("method", FINDS_TOUCHES)
 def test_a_method_that_claims_it_finds_touches(method):
     surface, rays, truth = _case("plane_squared")
+    if reason := CASTERS[method].accepts(surface):
+        pytest.skip(f"{reason}; tests/test_conformance.py has touches of a sphere and a torus")
     hits = cast(opened(usable_devices()[0].name), method, surface, "float32", rays)
     touches = truth.status == TruthStatus.TOUCH
     assert touches.sum() > 100

@@ -177,7 +177,7 @@ def test_evaluations_are_drawn_and_the_worst_of_many_views_chosen(tmp_path: Path
     for made in seen[:6]:
         np.savez_compressed(folder / made["arrays"], **made_arrays(made))
     frame = derive.derive(load.load(folder).frame)
-    (section,) = evaluations.sections(arrays.Shelf(folder), frame)
+    (section,) = evaluations.sections(arrays.Shelf(load.load(folder).folders), frame)
     (gallery,) = [block for block in section.blocks if isinstance(block, content.Gallery)]
     (panel,) = gallery.panels
     assert panel.title == "ray_march, Torus, angle 54" and "4 wrong" in panel.note

@@ -26,6 +26,7 @@ SHORT = {"intel": "intel", "portable": "pocl", "nvidia": "nvidia", "amd": "amd",
 INTEL_LIBRARIES = ("libintlc.so.5", "libimf.so", "libsvml.so", "libirng.so", "libtbb.so.12")
 SYSTEM_VENDORS = Path("/etc/OpenCL/vendors")
 OPTIONS = {"float32": ["-cl-single-precision-constant"], "float64": []}
+ROUNDED_DIVISION = "-cl-fp32-correctly-rounded-divide-sqrt"  # without it 2.5 ulp may be lost; some devices lack it
 GROUP = 64
 
 
@@ -37,6 +38,8 @@ def _prepare_environment() -> None:
     """
     os.environ.setdefault("PYOPENCL_NO_CACHE", "1")
     os.environ.setdefault("POCL_KERNEL_CACHE", "0")
+    if _has_sixteen_lanes():
+        os.environ.setdefault("CL_CONFIG_CPU_VECTORIZER_MODE", "16")  # else Intel's compiler chooses 8 for some kernels
     driver = Path(sys.prefix) / "lib" / "libintelocl.so"
     if "OCL_ICD_VENDORS" in os.environ or not driver.exists():
         return
@@ -50,6 +53,14 @@ def _prepare_environment() -> None:
         for icd in SYSTEM_VENDORS.glob("*.icd"):
             shutil.copy(icd, vendors / icd.name)
     os.environ["OCL_ICD_VENDORS"] = str(vendors)
+
+
+def _has_sixteen_lanes() -> bool:
+    """Whether the processor's vectors hold 16 float32, as far as it says so."""
+    try:
+        return " avx512f " in Path("/proc/cpuinfo").read_text(encoding="utf-8")
+    except OSError:
+        return False
 
 
 @cache
@@ -131,6 +142,8 @@ class OpenCLDevice(Device):
         cl = _binding()
         self.info = _info(name, device)
         self._context = cl.Context([device])
+        rounds = device.single_fp_config & cl.device_fp_config.CORRECTLY_ROUNDED_DIVIDE_SQRT
+        self._options = {**OPTIONS, "float32": [*OPTIONS["float32"], *([ROUNDED_DIVISION] if rounds else [])]}
         self._queue = cl.CommandQueue(self._context, properties=cl.command_queue_properties.PROFILING_ENABLE)
 
     def build(self, program: Program) -> Any:
@@ -139,7 +152,7 @@ class OpenCLDevice(Device):
         try:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore", cl.CompilerWarning)  # drivers that greet are not in error
-                return source.build(options=OPTIONS[program.precision]), program.entry
+                return source.build(options=self._options[program.precision]), program.entry
         except cl.Error as error:
             raise BuildError(f"{self.info.name}: {explain_log(program, str(error))}") from None
 

@@ -9,7 +9,10 @@ void restrict_to(real x, real width, IN real d[COEFFICIENTS], int degree, OUT re
     }
     real share = width / (1.0 - x);
     for (int r = 1; r <= degree; r++) {
-        for (int j = degree; j >= r; j--) e[j] = e[j - 1] + share * (e[j] - e[j - 1]);
+        for (int j = degree; j >= r; j--) {
+            real before = e[j - 1];  // named once: reading e[j - 1] twice here is miscompiled by Mesa 22.3
+            e[j] = before + share * (e[j] - before);
+        }
     }
 }
 

@@ -11,18 +11,17 @@ chain at one new point each time, since the near end's count stays. A ray withou
   BY_SIGN = 0 counts along the chain to the end, as the paper does.
 - A chain with a member that is no finite number decides nothing, nor does one that counts more roots before the near
   end than before the far one: the ray ends as exhausted.
-- Degrees 1 and 2 and 5 to 16 are a stated extension. Beyond 4 the coefficients are fitted (szente, section 2.1) over the
-  ray's stay as x in [-1, 1]. Each row of the chain is divided by its largest coefficient, so that nothing overflows; rows
-  are kept in two parts for each coefficient (double-word arithmetic), since each division loses digits; a leading
+- Degrees 1 and 2 and 5 to 16 are a stated extension. Beyond 4 the coefficients are fitted (szente, section 2.1) over
+  the ray's stay as x in [-1, 1]. Each row of the chain is divided by its largest coefficient, so that none overflows;
+  rows are kept in two parts for each coefficient (double-word arithmetic), since each division loses digits; a leading
   coefficient under LEAST roundoffs of its row counts as 0, so that degrees may drop by more than one (the 16-ball along
   an axis). Once one root is left, f itself decides which half holds it, not the fit.
 
 One evaluation is counted for each point at which f or the chain is evaluated.
 
-**Accuracy** (opencl:intel, 96x96, 30°/35°, rays outside the grazing class; wrong answers and the 99th percentile of the
-error over the scene radius.) Float32: torus 2 false hits of 8874, Endraß octic 2 wrong roots of 9032, none on the Barth
-sextic, the Barth decic and the 16-ball; 4e-7 to 6e-7. Float64: none anywhere; 2e-7, which is 22 halvings. What breaks in
-float32 is the printed chain on quartics, and beyond degree 4 the fit: ISOLATED
+**Accuracy** (opencl:intel, 96x96, 30°/35°, rays outside the grazing class; wrong answers and the 99th percentile of
+the error over the scene radius.) Float32: torus 2 false hits of 8874, Endraß octic 2 wrong roots of 9032, none on the
+Barth sextic, the Barth decic and the 16-ball; 4e-7 to 6e-7. Float64: none anywhere; 2e-7, which is 22 halvings.
 
 **Speed** (opencl:intel, float32, torus at 1024x1024, 30°/35°, time above the null method's.) Kept: BY_SIGN = 1, 1.5
 times faster than counting to the end, by two loops: one that counts until a single root is left, and one that only

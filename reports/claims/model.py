@@ -40,8 +40,8 @@ class Claim:
 
 
 def judge(claim: Claim, evidence: Evidence) -> Verdict:
-    """The verdict on one claim; what is missing is said where it cannot be had."""
-    verdict = claim.decide(evidence)
+    """The verdict on one claim, by the rows of its own config where they are there; else what is missing is said."""
+    verdict = claim.decide(evidence.of(claim.config))
     if verdict is not None:
         return verdict
     return Verdict(Outcome.UNTESTED, claim.reason or f"this run has no rows for it; configs/{claim.config} gives them")

@@ -7,7 +7,7 @@ from typing import Any
 
 import pandas as pd
 
-from reports import claims, style, wording
+from reports import style, wording
 from reports.claims import Outcome
 from reports.content import Block, Column, Section, Table, Text
 from reports.material import Material
@@ -20,10 +20,9 @@ def sections(material: Material) -> list[Section]:
     told = material.run.plan.methods
     if not told:
         return []
-    judged = [(claim, claims.judge(claim, material.evidence)) for claim in claims.CLAIMS]
     blocks: list[Block] = []
     for name in sorted(told):
-        blocks += _card(name, told[name], material.frame[material.frame["method"] == name], judged)
+        blocks += _card(name, told[name], material.frame[material.frame["method"] == name], material.judged)
     return [Section("Methods", tuple(blocks))]
 
 

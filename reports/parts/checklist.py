@@ -19,10 +19,9 @@ TOLD = (
 
 def sections(material: Material) -> list[Section]:
     """None where the run decides no claim at all."""
-    judged = [(claim, claims.judge(claim, material.evidence)) for claim in claims.CLAIMS]
-    if all(verdict.outcome is Outcome.UNTESTED for _, verdict in judged):
+    if all(verdict.outcome is Outcome.UNTESTED for _, verdict in material.judged):
         return []
-    return [Section("The papers' claims", (Text(TOLD), table(judged)), wide=True)]
+    return [Section("The papers' claims", (Text(TOLD), table(material.judged)), wide=True)]
 
 
 def table(judged: list[tuple[claims.Claim, claims.Verdict]], title: str = "Claims and verdicts.") -> Table:

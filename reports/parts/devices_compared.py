@@ -8,4 +8,4 @@ ORDER = 30
 
 
 def sections(material: Material) -> list[Section]:
-    return across.sections(material.frame)
+    return across.sections(material.listed)

@@ -8,4 +8,4 @@ ORDER = 32
 
 
 def sections(material: Material) -> list[Section]:
-    return pairs.sections(material.frame)
+    return pairs.sections(material.listed)

@@ -28,7 +28,7 @@ _NAMES = {
 
 
 def sections(material: Material) -> list[Section]:
-    ratios = material.evidence.ratios(picks.UNIFORM, picks.ADAPTIVE, _NAMES)
+    ratios = material.evidence.of("beamcasting-tables.toml").ratios(picks.UNIFORM, picks.ADAPTIVE, _NAMES)
     if ratios.empty:
         return []
     ratios = ratios[ratios["device"] == ratios["device"].iloc[0]]

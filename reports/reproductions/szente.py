@@ -113,11 +113,11 @@ def _table_2(figures: pd.DataFrame) -> list[Block]:
 
 
 def _percent(value: Any) -> str:
-    return wording.NONE if wording.absent(value) else f"{value:.2f}".replace("-", "−")
+    return wording.NONE if wording.absent(value) else f"{value:z.2f}".replace("-", "−")
 
 
 def _table_4(material: Material) -> Section | None:
-    evidence = material.evidence
+    evidence = material.evidence.of("szente-table4.toml")
     march = evidence.ratios(picks.MARCH, picks.FIT, picks.TABLE_4)
     if march.empty:
         return None
@@ -140,7 +140,7 @@ def _table_4(material: Material) -> Section | None:
         told += [row.slow_ms, _lookup("szente_table4_runtime", "raymarch_ms", row), row.ratio]
         theirs = _lookup("szente_table4_runtime", "speedup", row)
         body.append((*told, theirs, None if theirs is None else row.ratio / theirs))
-    mean = _means(body, (4, 5, 6, 7, 10, 11), 13)
+    mean = _means(body, (4, 5, 6, 7, 10, 11), 12)
     table = Table(
         (
             Column("surface"),
@@ -163,10 +163,11 @@ def _table_4(material: Material) -> Section | None:
 
 
 def _table_5(material: Material) -> Section | None:
-    ratios = material.evidence.ratios(picks.CONTROL, picks.LU, picks.TABLE_5)
+    evidence = material.evidence.of("szente-table5.toml")
+    ratios = evidence.ratios(picks.CONTROL, picks.LU, picks.TABLE_5)
     if ratios.empty:
         return None
-    march = material.evidence.ratios(picks.MARCH, picks.LU, picks.TABLE_5).set_index("comparison")
+    march = evidence.ratios(picks.MARCH, picks.LU, picks.TABLE_5).set_index("comparison")
     body: list[tuple[Any, ...]] = []
     for row in _in_order(ratios, picks.TABLE_5):
         told: list[Any] = [row.surface_title, row.degree]
@@ -176,7 +177,7 @@ def _table_5(material: Material) -> Section | None:
         told += [row.ratio, theirs, None if theirs is None else row.ratio / theirs]
         over = march["ratio"].get(row.comparison)
         body.append((*told, over, _lookup("szente_table5_lu", "speedup_over_raymarch", row)))
-    mean = _means(body, (6, 7, 9, 10), 11)
+    mean = _means(body, (6, 7, 9, 10), 8)
     table = Table(
         (
             Column("surface"),
@@ -210,12 +211,14 @@ def _both(over: str, show: Callable[[Any], str]) -> tuple[Column, Column]:
 
 
 def _whole(value: Any) -> str:
-    return wording.NONE if wording.absent(value) else f"{value:.0f}".replace("-", "−")
+    return wording.NONE if wording.absent(value) else f"{value:z.0f}".replace("-", "−")
 
 
-def _means(body: list[tuple[Any, ...]], columns: tuple[int, ...], width: int) -> tuple[Any, ...]:
-    means: list[Any] = ["mean", *[None] * (width - 1)]
+def _means(body: list[tuple[Any, ...]], columns: tuple[int, ...], ratio: int) -> tuple[Any, ...]:
+    """The means of `columns`, and in column `ratio` that of the two columns before it."""
+    means: list[Any] = ["mean", *[None] * (len(body[0]) - 1)]
     for i in columns:
         known = [row[i] for row in body if not wording.absent(row[i])]
         means[i] = sum(known) / len(known) if known else None
+    means[ratio] = means[ratio - 2] / means[ratio - 1] if means[ratio - 1] else None
     return tuple(means)

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from reports import claims
 from reports.content import Column, Table
 from reports.material import Material
 
 
 def of(material: Material, config: str) -> list[Table]:
     """The claims decided by the rows of `config`; none where it decides none."""
-    judged = [(claim, claims.judge(claim, material.evidence)) for claim in claims.CLAIMS if claim.config == config]
-    body = [(v.outcome.value, c.section, c.text, v.figure) for c, v in judged]
+    body = [(v.outcome.value, c.section, c.text, v.figure) for c, v in material.judged if c.config == config]
     columns = (Column("verdict"), Column("section"), Column("claim", stretch=4), Column("what was measured", stretch=5))
     return [Table(columns, body, "Verdicts.")] if body else []
