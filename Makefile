@@ -38,6 +38,6 @@ $(READY): pyproject.toml constraints.txt drivers.sh
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' \
 		|| { echo "firsthit needs Python 3.11 or newer; try: make PYTHON=python3.12"; exit 2; }
 	$(PYTHON) -m venv .venv
-	$(BIN)/python -m pip install --quiet --constraint constraints.txt --editable '.[opengl,opencl,report,dev]'
+	$(BIN)/python -m pip install --quiet --constraint constraints.txt --editable '.[opengl,opencl,mesh,report,dev]'
 	sh drivers.sh $(BIN)/python
 	touch $@

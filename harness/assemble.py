@@ -8,10 +8,12 @@ from functools import cache
 from pathlib import Path
 from typing import Literal
 
-from harness.contract import Box, FirsthitError, Method, Precision, Program, Section, Surface, Variant
+from harness.contract import Box, FirsthitError, Method, Precision, Program, Proxy, Section, Surface, Variant
 
 KERNELS = Path(__file__).parent / "kernels"
 AFTER_TABLES = ("fit_samples",)  # libraries that read the surface's degree and the method's tables
+PROXY_SIDES = 16  # of the polygon about a ball's outline: 1.3 % more than the disk
+RAY_OF_PIXEL = ("camera", "raster_view", "raster_ray")
 Language = Literal["glsl", "cl"]
 
 
@@ -88,15 +90,8 @@ def method_program(
     else:
         sections = _head(language, precision, (*libraries_for(method.needs, surface), *early))
         sections += surface_sections(surface, method.needs, precision, language)
-        domain = "domain_box" if isinstance(surface.domain, Box) else "domain_sphere"
-        sections.append(file_section(KERNELS / f"{domain}.glsl"))
-    if variant.parameters:
-        sections.append(_parameter_section(variant, precision, language))
-    if method.tables:
-        tables = method.tables(surface, dict(variant.parameters), precision)
-        sections += [table_section(name, values, precision, language) for name, values in tables.items()]
-    sections += [_library(name) for name in method.libraries if name in AFTER_TABLES]
-    sections.append(file_section(folder / "kernel.glsl"))
+        sections.append(_domain_section(surface))
+    sections += method_sections(method, folder, variant, surface, precision, language)
     if entry != "beams":
         sections.append(file_section(KERNELS / "cast.glsl"))
     if entry == "camera":
@@ -106,6 +101,77 @@ def method_program(
     suffix = "_narrowed" if narrowed else ""
     sections.append(file_section(KERNELS / f"entry_{entry}{suffix}.{language}"))
     return Program(language, precision, entry, tuple(sections))
+
+
+def _domain_section(surface: Surface) -> Section:
+    return file_section(KERNELS / ("domain_box.glsl" if isinstance(surface.domain, Box) else "domain_sphere.glsl"))
+
+
+def method_sections(
+    method: Method, folder: Path, variant: Variant, surface: Surface, precision: Precision, language: Language
+) -> list[Section]:
+    """The method itself, with its knobs bound and its tables; after the surface's sections."""
+    sections = [_parameter_section(variant, precision, language)] if variant.parameters else []
+    if method.tables:
+        tables = method.tables(surface, dict(variant.parameters), precision)
+        sections += [table_section(name, values, precision, language) for name, values in tables.items()]
+    sections += [_library(name) for name in method.libraries if name in AFTER_TABLES]
+    return [*sections, file_section(folder / "kernel.glsl")]
+
+
+def raster_program(
+    method: Method, folder: Path, variant: Variant, surface: Surface, proxy: Proxy, reports: bool, free: bool = False
+) -> Program:
+    """The program whose fragments, of a proxy about each instance of `surface`, cast rays by `variant`, in GLSL and
+    float32. With `reports` it also writes what the check reads. `free`: parameters and domain are each instance's own.
+
+    Raises FirsthitError where the surface lacks a function that the method or the shading needs.
+    """
+    from surfaces.sections import libraries_for, surface_sections
+
+    normal = "surface_distance_normal" if surface.distance else "surface_normal"
+    needs = (*method.needs, normal)
+    early = [name for name in method.libraries if name not in AFTER_TABLES]
+    sections = _head("glsl", "float32", (*libraries_for(needs, surface), *early))
+    if free:
+        sections.append(file_section(KERNELS / "raster_free.glsl"))
+        sections += surface_sections(surface, needs, "float32", "glsl", free=True)
+    else:
+        sections += surface_sections(surface, needs, "float32", "glsl")
+    sections.append(_domain_section(surface))
+    sections += method_sections(method, folder, variant, surface, "float32", "glsl")
+    sections.append(Section("generated: shading", f"#define SHADING_NORMAL {normal}"))
+    parts = ("cast", *RAY_OF_PIXEL, "raster_fragment", "raster_shade", *(["raster_report"] * reports))
+    sections += [file_section(KERNELS / f"{part}.glsl") for part in parts]
+    sections.append(file_section(KERNELS / f"entry_raster{'_check' * reports}.frag.glsl"))
+    vertex = [
+        *_head("glsl", "float32", ()),
+        Section("generated: proxy", f"#define PROXY_SIDES {PROXY_SIDES}"),
+        *(file_section(KERNELS / f"{part}.glsl") for part in ("raster_view", "raster_instance", f"proxy_{proxy}")),
+        file_section(KERNELS / f"raster_{'free' if free else 'baked'}.vert.glsl"),
+        file_section(KERNELS / "entry_raster.vert.glsl"),
+    ]
+    return Program("glsl", "float32", "raster", tuple(sections), tuple(vertex))
+
+
+def mesh_program(folder: Path, reports: bool) -> Program:
+    """The program that draws triangles; `folder` holds the kernel that defines mesh_normal."""
+    head = _head("glsl", "float32", ())
+    parts = (*RAY_OF_PIXEL, "raster_shade", *(["raster_report"] * reports))
+    sections = [*head, *(file_section(KERNELS / f"{part}.glsl") for part in parts)]
+    sections.append(file_section(folder / "kernel.glsl"))
+    sections.append(file_section(KERNELS / f"entry_mesh{'_check' * reports}.frag.glsl"))
+    vertex = [*head, *(file_section(KERNELS / f"{part}.glsl") for part in ("raster_view", "raster_instance"))]
+    vertex.append(file_section(KERNELS / "entry_mesh.vert.glsl"))
+    return Program("glsl", "float32", "mesh", tuple(sections), tuple(vertex))
+
+
+def fill_program() -> Program:
+    """The program that reports every pixel's ray."""
+    head = _head("glsl", "float32", ())
+    sections = [file_section(KERNELS / f"{part}.glsl") for part in (*RAY_OF_PIXEL, "raster_report", "entry_fill.frag")]
+    vertex = (*head, file_section(KERNELS / "entry_fill.vert.glsl"))
+    return Program("glsl", "float32", "fill", (*head, *sections), vertex)
 
 
 def beam_sections(

@@ -16,16 +16,19 @@ from typing import Any
 from harness.contract import (
     PRECISIONS,
     PREPASSES,
+    PROXIES,
     STAGES,
     FirsthitError,
     Precision,
     Prepass,
+    Proxy,
     Stage,
     Surface,
     Variant,
     View,
 )
 from harness.plugins import Catalog
+from harness.scenes import Scene
 from harness.viewsets import AngleChoice, DirectionChoice, by_angle, by_direction
 
 
@@ -116,6 +119,7 @@ class Config:
     precisions: list[str] = field(default_factory=lambda: ["float32"])
     stages: list[str] = field(default_factory=lambda: ["compute"])
     prepass: list[str] = field(default_factory=lambda: ["none"])
+    proxies: list[str] = field(default_factory=lambda: ["box"])  # of stage raster
     devices: list[str] = field(default_factory=lambda: ["all"])
     seed: int = 1
     accuracy: AccuracyChoice = field(default_factory=AccuracyChoice)
@@ -138,6 +142,8 @@ class Experiment:
     stages: tuple[Stage, ...]
     included: tuple[Path, ...] = ()  # of a config that includes others
     prepasses: tuple[Prepass, ...] = ("none",)
+    proxies: tuple[Proxy, ...] = ("box",)
+    scenes: tuple[Scene, ...] = ()
     own_stages: Mapping[Variant, tuple[Stage, ...]] = field(default_factory=dict)  # where they are not `stages`
 
     def stages_of(self, variant: Variant) -> tuple[Stage, ...]:
@@ -357,6 +363,7 @@ def load(path: Path, catalog: Catalog) -> Experiment:
     _known(config.stages, STAGES, "stages", source)
     _check_gate(config.gate, source)
     _known(config.prepass, PREPASSES, "prepass", source)
+    _known(config.proxies, PROXIES, "proxies", source)
 
     variants: list[Variant] = []
     own_stages: dict[Variant, tuple[Stage, ...]] = {}
@@ -397,5 +404,6 @@ def load(path: Path, catalog: Catalog) -> Experiment:
         typing.cast(tuple[Precision, ...], tuple(config.precisions)),
         typing.cast(tuple[Stage, ...], tuple(config.stages)),
         prepasses=typing.cast(tuple[Prepass, ...], tuple(config.prepass)),
+        proxies=typing.cast(tuple[Proxy, ...], tuple(config.proxies)),
         own_stages=own_stages,
     )

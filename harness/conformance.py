@@ -138,6 +138,8 @@ def refusal(plugin: Plugin, surface: Surface, precision: Precision, bench: Bench
         return f"the method has no {precision} form"
     if precision == "float64" and not bench.float64:
         return "the device has no float64"
+    if plugin.method.casts == "mesh":
+        return "it draws triangles, and listed rays meet none"
     if plugin.method.casts != "rays":
         return "it casts the beams of a camera's pixels, and listed rays have none"
     return plugin.method.accepts(surface) or unsupported(surface, precision, bench.language)

@@ -19,13 +19,15 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 Precision = Literal["float32", "float64"]
-Stage = Literal["compute", "rays"]
-Casts = Literal["rays", "beams", "quadtree"]
+Stage = Literal["compute", "rays", "raster"]
+Casts = Literal["rays", "beams", "quadtree", "mesh"]
+Proxy = Literal["box", "sphere", "tetrahedron"]
 Prepass = Literal["none", "beams"]
 PREPASSES: tuple[Prepass, ...] = ("none", "beams")
+PROXIES: tuple[Proxy, ...] = ("box", "sphere", "tetrahedron")
 PRECISIONS: tuple[Precision, ...] = ("float32", "float64")
 UNIT_ROUNDOFF: dict[Precision, float] = {"float32": 2.0**-24, "float64": 2.0**-53}
-STAGES: tuple[Stage, ...] = ("compute", "rays")
+STAGES: tuple[Stage, ...] = ("compute", "rays", "raster")
 
 
 class FirsthitError(Exception):
@@ -182,7 +184,17 @@ class Method:
     answers: bool = True  # False: measures the harness's floor and finds nothing
     precisions: tuple[Precision, ...] = PRECISIONS
     casts: Casts = "rays"  # what the kernel defines: rays, `Hit first_hit(Ray, real t0, real t1)`; beams and quadtree,
-    #   `void cast_cell(Work, Cell)`, for every pixel, or for the quadtree's cells level by level
+    #   `void cast_cell(Work, Cell)`, for every pixel, or for the quadtree's cells level by level; mesh,
+    #   `vec3 mesh_normal(vec3)`, of triangles that are rasterised in place of rays
+    mesh: Callable[[Surface, Mapping[str, float | int]], MeshRecipe] | None = None  # of a method that casts a mesh
+
+
+@dataclass(frozen=True)
+class MeshRecipe:
+    """How a surface is tessellated: its parametric form over N × N, or its contour on a grid of N cells a side."""
+
+    kind: Literal["parametric", "contour"]
+    resolution: int
 
 
 @dataclass(frozen=True)
@@ -226,22 +238,30 @@ class Section:
         return digest(self.text)
 
 
+def source(sections: Sequence[Section]) -> str:
+    """The text of sections in order, each under a line that names it."""
+    return "".join(f"// ==== {s.origin} ====\n{s.text.rstrip()}\n" for s in sections)
+
+
 @dataclass(frozen=True)
 class Program:
-    """One program text made of ordered sections, for one compiler and precision."""
+    """One program text made of ordered sections, for one compiler and precision; of rasterisation, the fragment's, with
+    the vertices' own sections in `vertex`."""
 
     language: Literal["glsl", "cl"]
     precision: Precision
-    entry: str  # "rays", "camera", "beams" or "map"
+    entry: str  # "rays", "camera", "beams", "map", "raster", "mesh" or "fill"
     sections: tuple[Section, ...]
+    vertex: tuple[Section, ...] = ()
 
     @property
     def text(self) -> str:
-        return "".join(f"// ==== {s.origin} ====\n{s.text.rstrip()}\n" for s in self.sections)
+        return source(self.sections)
 
     @property
     def hash(self) -> str:
-        return digest(self.language, self.precision, self.entry, *(s.text for s in self.sections))
+        texts = [*(s.text for s in self.sections), *(["vertex"] if self.vertex else []), *(s.text for s in self.vertex)]
+        return digest(self.language, self.precision, self.entry, *texts)
 
     def locate(self, line: int) -> tuple[str, int]:
         """Section origin and line within it for a 1-based line of `text`."""
@@ -311,11 +331,14 @@ class Cell:
     device: str
     family: str | None = None  # of harness.hardcases; then its rungs' rays take the place of surface and view
     prepass: Prepass = "none"  # beams: the rays are narrowed to where tiles' beams cannot exclude the surface
+    proxy: Proxy = "box"  # of stage raster: the geometry whose fragments cast rays
+    scene: Any = None  # a harness.scenes.Scene of several instances, of which `surface` then is the stand-in
 
     @property
     def caster(self) -> str:
-        """The variant, with the prepass that it works behind."""
-        return str(self.variant) if self.prepass == "none" else f"{self.variant}+{self.prepass}"
+        """The variant, with the prepass that it works behind and the proxy that is not the usual one."""
+        behind = "" if self.prepass == "none" else f"+{self.prepass}"
+        return f"{self.variant}{behind}" + ("" if self.proxy == "box" else f" in a {self.proxy}")
 
     @property
     def slot(self) -> str:

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from harness.backends import INSTALL, Timing
 from harness.contract import CellStatus, DeviceInfo, Program
-from harness.worker import Checked, Frame, Warmed, serve
+from harness.worker import Checked, Frame, Rasterised, Warmed, serve
 
 START_SECONDS = 60.0  # for a worker to start and a driver to load
 _SPAWN = multiprocessing.get_context("spawn")
@@ -84,6 +84,11 @@ class LocalExecutor:
         """Build a frame of beams and run it once; its answers for `pixels`, int32[n]."""
         checked: Checked = self._call(device, "check_frame", frame, pixels)
         return checked
+
+    def rasterise(self, device: str, frame: Frame) -> Rasterised:
+        """Draw a frame of reporting programs once."""
+        drawn: Rasterised = self._call(device, "rasterise", frame)
+        return drawn
 
     def warm(self, device: str, key: str, frame: Frame) -> Warmed:
         """Build a frame and keep it ready for `sample`."""

@@ -14,13 +14,27 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from harness import prepass, stability
-from harness.assemble import method_program
-from harness.backends import LANGUAGES
+from harness import prepass, raster, stability
+from harness.assemble import fill_program, method_program
+from harness.backends import LANGUAGES, RASTERISES
 from harness.camera import camera_for, rays_of
-from harness.config import Experiment
-from harness.contract import Casts, Cell, DeviceInfo, FirsthitError, Program, Surface, View, digest
+from harness.config import Config, Experiment
+from harness.contract import (
+    Casts,
+    Cell,
+    DeviceInfo,
+    FirsthitError,
+    Program,
+    Proxy,
+    Stage,
+    Surface,
+    Variant,
+    View,
+    digest,
+)
 from harness.plugins import Catalog
+from harness.raster import Draw
+from harness.scenes import Scene, single
 from harness.store import Row, Store
 from harness.worker import Frame
 
@@ -39,6 +53,10 @@ DECIDING = (
     "hardcases/*.py",
     "stability.py",
     "prepass.py",
+    "meshes.py",
+    "raster.py",
+    "rastercheck.py",
+    "scenes/*.py",
 )
 
 
@@ -58,6 +76,13 @@ class Planned:
         True  # False: checked only; then only beams and prepasses have a frame, since they are checked on it
     )
     prepass: Program | None = None
+    draws: tuple[Draw, ...] = ()  # of stage raster
+
+    @property
+    def scene(self) -> Scene:
+        """What stage raster draws."""
+        scene: Scene = self.cell.scene or single(self.cell.surface, self.cell.view)
+        return scene
 
     @property
     def camera(self) -> NDArray[np.float32]:
@@ -69,9 +94,24 @@ class Planned:
         """What is timed, if anything."""
         if self.timed is None:
             return None
-        camera, size = self.camera, self.cell.size * round(self.cell.samples_per_pixel**0.5)
+        if self.draws:
+            return self.raster_frame(self.samples, reports=False)
+        camera, size = self.camera, self.samples
         rays = rays_of(camera, size) if self.cell.stage == "rays" else None
         return Frame(self.timed, camera, rays, size, self.casts, self.prepass)
+
+    @property
+    def samples(self) -> int:
+        """Of the frame, per side."""
+        side: float = self.cell.samples_per_pixel**0.5
+        return self.cell.size * round(side)
+
+    def raster_frame(self, size: int, reports: bool) -> Frame:
+        """What stage raster draws, size × size; with `reports`, by programs that say what they answered."""
+        batches = tuple(draw.batch(reports) for draw in self.draws)
+        depths = raster.depth_map(self.scene, self.camera)
+        program = fill_program() if reports else batches[0].program
+        return Frame(program, self.camera, None, size, self.casts, None, batches, depths)
 
 
 @cache
@@ -91,9 +131,11 @@ def processor() -> str:
         return platform.processor() or platform.machine()
 
 
-def choose_devices(wanted: list[str], found: list[DeviceInfo]) -> dict[str, DeviceInfo | None]:
-    """Device names to run on; None for a named one that is not here. `any` is the first that works. `all` leaves out a
-    broken double of a working device (one driver installed twice)."""
+def choose_devices(
+    wanted: list[str], found: list[DeviceInfo], rasterises: bool = False
+) -> dict[str, DeviceInfo | None]:
+    """Device names to run on; None for a named one that is not here. `any` is the first that works, and
+    rasterises if it must. `all` leaves out a broken double of a working device (one driver installed twice)."""
     by_name = {info.name: info for info in found}
     chosen: dict[str, DeviceInfo | None] = {}
     working = {info.name.split("-")[0] for info in found if not info.problem}
@@ -101,10 +143,23 @@ def choose_devices(wanted: list[str], found: list[DeviceInfo]) -> dict[str, Devi
         if name == "all":
             chosen |= {i.name: i for i in found if not i.problem or i.name.split("-")[0] not in working}
         elif name == "any":
-            chosen |= dict([(info.name, info) for info in found if not info.problem][:1])
+            chosen |= dict(
+                [(info.name, info) for info in found if not info.problem and (able(info) or not rasterises)][:1]
+            )
         else:
             chosen[name] = by_name.get(name)
     return chosen
+
+
+def able(info: DeviceInfo) -> bool:
+    """Whether a device rasterises."""
+    return info.name.split(":")[0] in RASTERISES
+
+
+def devices_of(experiment: Experiment, found: list[DeviceInfo]) -> dict[str, DeviceInfo | None]:
+    """The devices that a config's cells run on; where all of them are rasterised, `any` is one that can."""
+    drawn_only = not experiment.config.families and (not experiment.surfaces or set(experiment.stages) == {"raster"})
+    return choose_devices(experiment.config.devices, found, drawn_only)
 
 
 def _refusal(cell: Cell, surface: Surface, info: DeviceInfo | None, catalog: Catalog) -> str | None:
@@ -120,6 +175,17 @@ def _refusal(cell: Cell, surface: Surface, info: DeviceInfo | None, catalog: Cat
         return "the device has no float64"
     if cell.precision not in method.precisions:
         return f"the method has no {cell.precision} form"
+    if cell.stage == "raster":
+        if not able(info):
+            return "the stage raster needs a rasteriser, and the device has none"
+        if cell.precision != "float32":
+            return "the stage raster is float32, as its vertices and its depth buffer are"
+        if cell.prepass == "none":
+            return raster.refusal(cell.scene or single(surface, cell.view), cell.variant, catalog)
+    if cell.scene:
+        return "the stage casts at one surface; several are drawn by stage raster"
+    if method.casts == "mesh":
+        return "the method draws triangles, in stage raster"
     if method.casts != "rays" and cell.stage == "rays":
         return "the method casts the beams of a camera's pixels, and listed rays have none"
     if cell.prepass != "none" and (method.casts != "rays" or cell.stage != "compute"):
@@ -152,15 +218,22 @@ def _planned(cell: Cell, info: DeviceInfo | None, catalog: Catalog, experiment: 
     checks: tuple[Program, ...] = ()
     frame: Program | None = None
     before: Program | None = None
+    drawn: tuple[Draw, ...] = ()
     if skip is None:
         try:
-            checks, frame = _programs(cell, surfaces, catalog)
+            if cell.stage == "raster":
+                scene = cell.scene or single(cell.surface, cell.view)
+                raster.depth_map(scene, camera_for(cell.view, cell.surface))
+                drawn = raster.draws(scene, cell.variant, cell.proxy, catalog)
+                checks, frame = tuple(draw.check for draw in drawn), drawn[0].timed
+            else:
+                checks, frame = _programs(cell, surfaces, catalog)
             if cell.prepass == "beams" and info is not None:
                 before = prepass.program(cell.surface, cell.precision, LANGUAGES[info.name.split(":")[0]])
         except FirsthitError as error:
             skip = str(error)
     frame = frame if timed or before or not checks else None
-    programs = tuple(program for program in (*checks, frame, before) if program)
+    programs = tuple(program for program in (*checks, frame, before, *(draw.timed for draw in drawn)) if program)
     # which clock is believed is found by probing when a run starts, after a plan is printed: no part of the key
     facts = None if info is None else dataclasses.asdict(dataclasses.replace(info, clock="wall"))
     scene = (
@@ -174,8 +247,10 @@ def _planned(cell: Cell, info: DeviceInfo | None, catalog: Catalog, experiment: 
             "budget": dataclasses.asdict(experiment.config.budget) if timed else None,
         }
     )
+    if drawn:
+        scene["raster"] = raster.identity(cell.scene or single(cell.surface, cell.view), cell.proxy, drawn)
     identity = scene | {
-        "program": {s.origin: s.hash for program in programs for s in program.sections},
+        "program": {s.origin: s.hash for program in programs for s in (*program.sections, *program.vertex)},
         "program order": [program.hash for program in programs],
         "parameters": dict(cell.variant.parameters),
         "precision": cell.precision,
@@ -185,13 +260,13 @@ def _planned(cell: Cell, info: DeviceInfo | None, catalog: Catalog, experiment: 
         "skip": skip,
     }
     casts = catalog.get(cell.variant.method).method.casts
-    return Planned(cell, digest(cell.slot, identity), identity, info, checks, frame, skip, casts, timed, before)
+    return Planned(cell, digest(cell.slot, identity), identity, info, checks, frame, skip, casts, timed, before, drawn)
 
 
 def plan(experiment: Experiment, catalog: Catalog, found: list[DeviceInfo], timed: bool = True) -> list[Planned]:
     """Every cell of the grid, comparison by comparison; families last. Untimed cells are only checked."""
     config = experiment.config
-    devices = choose_devices(config.devices, found)
+    devices = devices_of(experiment, found)
     if not any(devices.values()):
         wanted = "no usable device" if set(config.devices) <= {"all", "any"} else f"none of {', '.join(config.devices)}"
         raise FirsthitError(f"{wanted} found on this machine; see `firsthit devices`", exit_code=3)
@@ -199,10 +274,21 @@ def plan(experiment: Experiment, catalog: Catalog, found: list[DeviceInfo], time
     stages = dict.fromkeys(stage for variant in experiment.variants for stage in experiment.stages_of(variant))
     scenes = itertools.product(experiment.surfaces, config.view, config.sizes, config.samples_per_pixel, stages)
     cells = [
-        (Cell(variant, surface, view, size, samples, precision, stage, name, prepass=before), info)
+        (Cell(variant, surface, view, size, samples, precision, stage, name, prepass=before, proxy=proxy), info)
         for surface, view, size, samples, stage in scenes
         for variant, before, (name, info), precision in runs_on
         if stage in experiment.stages_of(variant)
+        for proxy in _proxies(stage, variant, experiment, catalog)
+    ]
+    cells += [
+        (
+            Cell(variant, scene.stand_in, view, size, samples, precision, "raster", name, None, before, proxy, scene),
+            info,
+        )
+        for scene in experiment.scenes
+        for view, size, samples in itertools.product(_views(scene, config), config.sizes, config.samples_per_pixel)
+        for variant, before, (name, info), precision in runs_on
+        for proxy in _proxies("raster", variant, experiment, catalog)
     ]
     cells += [
         (
@@ -224,6 +310,17 @@ def plan(experiment: Experiment, catalog: Catalog, found: list[DeviceInfo], time
         for variant, before, (name, info), precision in runs_on
     ]
     return [_planned(cell, info, catalog, experiment, timed) for cell, info in cells]
+
+
+def _proxies(stage: Stage, variant: Variant, experiment: Experiment, catalog: Catalog) -> tuple[Proxy, ...]:
+    """The proxies that make a difference."""
+    casts_rays = catalog.get(variant.method).method.casts != "mesh"
+    return experiment.proxies if stage == "raster" and casts_rays else experiment.proxies[:1]
+
+
+def _views(scene: Scene, config: Config) -> list[View]:
+    """A scene has its own view; a set of views is cast at it besides, where the config names one."""
+    return [scene.view, *(view for view in config.view if view.set)]
 
 
 def estimate_seconds(planned: list[Planned], store: Store, budget_seconds: float) -> float:

@@ -17,13 +17,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from harness import accuracy, beams, measure, stability
+from harness import accuracy, beams, measure, rastercheck, stability
 from harness.camera import distance_of, meets, pixel_footprint, rays_of, scene_radius
 from harness.config import Config
-from harness.contract import CellStatus, Hits, RayStatus, Surface, Truth, View
+from harness.contract import CellStatus, FirsthitError, Surface, View
 from harness.costs import operations_per_evaluation
 from harness.executor import CellError, LocalExecutor
 from harness.oracle import cached_first_hits
+from harness.pictures import pictures_of
 from harness.plan import Planned, shuffled
 from harness.plugins import Catalog
 from harness.store import Row, Store
@@ -89,11 +90,13 @@ class Runner:
             if planned.skip is not None:
                 rows.append(self._finish(planned, None, CellStatus.SKIPPED, planned.skip))
                 continue
-            state = _Live(planned, planned.frame)
+            state = None
             try:
+                state = _Live(planned, planned.frame)
                 reason = self._prepare(state)
-            except CellError as error:
-                rows.append(self._finish(planned, state, error.status, str(error)))
+            except (CellError, FirsthitError) as error:  # a mesh that cannot be made costs its own rows
+                status = error.status if isinstance(error, CellError) else CellStatus.FAILED
+                rows.append(self._finish(planned, state, status, str(error)))
                 continue
             if reason is not None:
                 rows.append(self._finish(planned, state, CellStatus.FAILED, reason))
@@ -118,6 +121,10 @@ class Runner:
     def _check(self, state: _Live) -> str | None:
         """Cast the accuracy rays and hold them against the oracle; a reason not to time the cell, if there is one."""
         cell, config = state.planned.cell, self._config.accuracy
+        if state.planned.draws:
+            seen = rastercheck.check(self._executor, state.planned, config, self._store.truth)
+            state.summary, state.arrays, state.compile_ms = seen.summary, seen.pictures, seen.compile_ms
+            return self._too_wrong(state)
         rays = rays_of(state.planned.camera, config.size)
         truth = cached_first_hits(cell.surface, rays, self._store.truth)
         casts_beams, checks = state.planned.casts != "rays", state.planned.checks
@@ -149,16 +156,20 @@ class Runner:
         state.summary = {"size": config.size, "domain_rays": inside} | summary
         if checked.prepass_evaluations is not None:
             state.summary["prepass_evaluations_mean"] = checked.prepass_evaluations
-        state.arrays = _pictures(cell.surface, rays, hits, truth, verdicts, config.size)
+        state.arrays = pictures_of(cell.surface, rays, hits, truth, verdicts, config.size)
         if casts_beams:
             assert checked.evaluations is not None and checked.levels is not None
             mean, largest = checked.evaluations  # of the frame: large beams are shared by more pixels than are checked
             counted = {"beam_only": int(beam_only.sum()), "evaluations_mean": mean, "evaluations_max": largest}
             state.summary |= counted
             state.arrays["level"] = checked.levels.reshape(config.size, config.size)
-        share = accuracy.wrong_share(summary)
-        answers = self._catalog.get(cell.variant.method).method.answers
-        if state.frame and answers and share > config.max_wrong_share:
+        return self._too_wrong(state)
+
+    def _too_wrong(self, state: _Live) -> str | None:
+        assert state.summary is not None
+        share = accuracy.wrong_share(state.summary)
+        answers = self._catalog.get(state.planned.cell.variant.method).method.answers
+        if state.frame and answers and share > self._config.accuracy.max_wrong_share:
             return f"wrong on {share:.1%} of the rays outside the grazing class: not timed"
         return None
 
@@ -237,6 +248,8 @@ class Runner:
             "answers": method.answers,
             "casts": method.casts,
             "prepass": cell.prepass,
+            "proxy": cell.proxy if cell.stage == "raster" else None,
+            "instances": cell.scene.instances if cell.scene else None,
             "status": status.value,
             "reason": reason,
             "time": self._time_of(state) if state and state.warmed and status is CellStatus.OK else None,
@@ -301,6 +314,7 @@ def _build_of(state: _Live) -> dict[str, Any]:
         "compile_ms": warmed.compile_ms if warmed else state.compile_ms,
         "upload_ms": warmed.upload_ms if warmed else None,
         "readback_ms": warmed.readback_ms if warmed else None,
+        "bytes": warmed.bytes if warmed else None,
     }
 
 
@@ -308,40 +322,3 @@ def _operations(surface: Surface) -> dict[str, int]:
     import surfaces
 
     return dict(surfaces.operations(surface))
-
-
-def _pictures(
-    surface: Surface,
-    rays: NDArray[np.float32],
-    hits: Hits,
-    truth: Truth,
-    verdicts: accuracy.Verdicts,
-    size: int,
-) -> dict[str, NDArray[Any]]:
-    """The row's answers as [size, size] pictures, row 0 at the top."""
-    pictures: dict[str, NDArray[Any]] = {
-        "status": hits.status,
-        "truth": truth.status,
-        "wrong": verdicts.wrong,
-        "grazing": verdicts.grazing,
-        "error": verdicts.error.astype(np.float32),
-        "evaluations": hits.evaluations,
-        "condition": truth.condition.astype(np.float32),
-        "shade": headlight(surface, rays, hits),
-    }
-    return {name: picture.reshape(size, size) for name, picture in pictures.items()}
-
-
-def headlight(surface: Surface, rays: NDArray[np.float32], hits: Hits) -> NDArray[np.float32]:
-    """float32[n]: the cosine between ray and surface normal at each hit, in [0, 1]; NaN without one."""
-    import surfaces
-
-    shade = np.full(len(hits.t), np.nan, np.float32)
-    hit = hits.status == RayStatus.HIT
-    if hit.any():
-        directions = rays[hit, 3:].astype(np.float64)
-        normals = surfaces.gradient(surface, rays[hit, :3] + hits.t[hit, None] * directions)
-        lengths = np.linalg.norm(normals, axis=1)
-        cosines = np.abs(np.einsum("ij,ij->i", normals, directions)) / np.where(lengths > 0.0, lengths, 1.0)
-        shade[hit] = np.clip(cosines, 0.0, 1.0)
-    return shade

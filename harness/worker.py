@@ -31,6 +31,7 @@ from harness.backends import (
     open_device,
 )
 from harness.backends.beams import beam_hits_from, launch_beams, launch_narrowed_camera, launch_narrowed_rays
+from harness.backends.raster import Batch, Picture, Rasteriser
 from harness.contract import Casts, DeviceInfo, FirsthitError, Hits, Program
 
 ENOUGH_MS = 2.0  # a sample lasts at least about this long; shorter launches are repeated within it
@@ -49,6 +50,9 @@ class Frame:
     size: int  # samples per side
     casts: Casts = "rays"
     prepass: Program | None = None  # whose beams narrow the rays
+    batches: tuple[Batch, ...] = ()  # of a frame that is rasterised, in order; `program` is the first one's, or
+    # for the check the one that reports all pixels' rays
+    depth_map: tuple[float, float] = (0.0, 0.0)  # a, b of its depth buffer's a + b / s
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,6 +66,14 @@ class Checked:
     prepass_evaluations: float | None = None  # the prepass's own, mean over the frame's pixels
 
 
+@dataclass(frozen=True, eq=False)
+class Rasterised:
+    """What a frame whose programs report answered, and what building them cost."""
+
+    picture: Picture
+    compile_ms: float
+
+
 @dataclass(frozen=True)
 class Warmed:
     """What the frame cost apart from running, and how often it is repeated within one sample."""
@@ -70,6 +82,7 @@ class Warmed:
     upload_ms: float
     readback_ms: float
     batch: int
+    bytes: int | None = None  # of instances, triangles and vertices that a rasterised frame keeps on the device
 
 
 class Worker:
@@ -139,7 +152,25 @@ class Worker:
         evaluations = float(hits.evaluations.mean()), int(hits.evaluations.max())
         return Checked(picked, compile_ms, levels[pixels], evaluations)
 
+    def rasterise(self, frame: Frame) -> Rasterised:
+        """Draw a frame of reporting programs once."""
+        built = [self._build(batch.program) for batch in frame.batches]
+        launch = self._raster(frame, self._build(frame.program)[0])
+        launch.run()
+        picture: Picture = launch.picture()
+        launch.release()
+        return Rasterised(picture, sum(compile_ms for _, compile_ms in built))
+
+    def _raster(self, frame: Frame, fill: Any = None) -> Any:
+        programs = [self._build(batch.program)[0] for batch in frame.batches]
+        if not isinstance(self._device, Rasteriser):
+            raise FirsthitError(f"{self._name} draws no triangles")
+        return self._device.launch_raster(frame.batches, programs, frame.camera, frame.depth_map, frame.size, fill)
+
     def _launch(self, frame: Frame, built: Any) -> Launch:
+        if frame.batches:
+            launch: Launch = self._raster(frame)
+            return launch
         if frame.prepass:
             before, _ = self._build(frame.prepass)
             programs = frame.prepass, frame.program
@@ -155,6 +186,9 @@ class Worker:
         """Build and upload a frame, run it until warm, read it back once, and keep it ready under `key`."""
         built, compile_ms = self._build(frame.program)
         compile_ms += self._build(frame.prepass)[1] if frame.prepass else 0.0
+        compile_ms += sum(
+            self._build(program)[1] for program in {b.program.hash: b.program for b in frame.batches[1:]}.values()
+        )
         launch = self._launch(frame, built)
         duration = launch.run().wall_ms
         if duration < WARM_MS:
@@ -164,7 +198,7 @@ class Worker:
         readback_ms = (time.perf_counter() - start) * 1e3
         self._frames[key] = launch
         batch = min(MOST_REPEATS, max(1, round(ENOUGH_MS / max(duration, 1e-6))))
-        return Warmed(compile_ms, launch.upload_ms, readback_ms, batch)
+        return Warmed(compile_ms, launch.upload_ms, readback_ms, batch, getattr(launch, "bytes", None))
 
     def sample(self, key: str, batch: int) -> Timing:
         return self._frames[key].run(batch)

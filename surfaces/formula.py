@@ -62,16 +62,17 @@ def exact(text: str) -> Fraction:
 
 
 @lru_cache(maxsize=1024)
-def _parsed(text: str, parameters: tuple[tuple[str, str], ...]) -> Tape:
-    return _Parser(text, dict(parameters)).formula()
+def _parsed(text: str, parameters: tuple[tuple[str, str], ...], free: bool) -> Tape:
+    return _Parser(text, dict(parameters), free).formula()
 
 
-def parse(text: str, parameters: Mapping[str, str] | None = None) -> Tape:
-    """The tape of a formula, its operations in the order written; parameters are exact decimals by name.
+def parse(text: str, parameters: Mapping[str, str] | None = None, free: bool = False) -> Tape:
+    """The tape of a formula, its operations in the order written; parameters are exact decimals by name, or, where they
+    are `free`, variables like the coordinates.
 
     Raises FirsthitError with the column and a caret under it.
     """
-    return _parsed(text, tuple(sorted((parameters or {}).items())))
+    return _parsed(text, tuple(sorted((parameters or {}).items())), free)
 
 
 def expression(tape: Tape) -> Any:
@@ -124,8 +125,9 @@ class _Token:
 class _Parser:
     """Precedence climbing over tokens; values are operations of one `Builder`."""
 
-    def __init__(self, text: str, parameters: Mapping[str, str]) -> None:
+    def __init__(self, text: str, parameters: Mapping[str, str], free: bool) -> None:
         self.text = text
+        self.free = free
         self.parameters = parameters
         self.builder = Builder()
         self.weights: list[int] = []  # for each operation: its degree, counting a function's value as degree 1
@@ -238,7 +240,7 @@ class _Parser:
         if name in COORDINATES:
             return builder.var(name)
         if name in self.parameters:
-            return builder.const(exact(self.parameters[name]))
+            return builder.var(name) if self.free else builder.const(exact(self.parameters[name]))
         if name in ("pi", "e"):
             return builder.pi() if name == "pi" else builder.e()
         if name == "phi":

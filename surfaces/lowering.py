@@ -125,13 +125,14 @@ def gradient(tape: Tape, names: tuple[str, ...] = ("x", "y", "z")) -> Tape:
 
 
 def tangent(tape: Tape, seeds: Mapping[str, str]) -> Tape:
-    """Each output followed by its derivative in the direction whose component of variable v is named seeds[v]."""
+    """Each output followed by its derivative in the direction whose component of variable v is named seeds[v]; other
+    variables stay as they are."""
     b = _copied(tape)
     rates: list[int] = []
     zero = b.const(0)
     for index, op in enumerate(tape.ops):
         if op.name in LEAVES:
-            rates.append(b.var(seeds[op.args[0]]) if op.name == "var" else zero)
+            rates.append(b.var(seeds[op.args[0]]) if op.name == "var" and op.args[0] in seeds else zero)
             continue
         partials = _partials(b, op, index) if any(rates[i] != zero for i in op.inputs) else ()
         rates.append(reduce(b.add, (b.mul(p, rates[i]) for p, i in zip(partials, op.inputs, strict=False)), zero))
@@ -189,13 +190,14 @@ class _Coefficients:
 
 
 def coefficients_along(tape: Tape, degree: int) -> Tape:
-    """Coefficients in t of f(o + t d), t^0 first, degree + 1 outputs; variables ox oy oz dx dy dz.
+    """Coefficients in t of f(o + t d), t^0 first, degree + 1 outputs; variables ox oy oz dx dy dz, and the tape's own
+    beside x, y, z.
 
     `tape` is a real tape built as a polynomial of this total degree; what cancels above the degree is left out.
     """
     b = Builder()
     ray = {name: [b.var(f"o{name}"), b.var(f"d{name}")] for name in ("x", "y", "z")}
-    along = walk(tape, _Coefficients(b), ray)[0]
+    along = walk(tape, _Coefficients(b), lambda name: ray[name] if name in ray else [b.var(name)])[0]
     along += [b.const(0)] * (degree + 1 - len(along))
     return b.tape(*along[: degree + 1])
 

@@ -118,16 +118,17 @@ def unsupported(surface: Surface, precision: Precision, language: Language) -> s
 
 
 def surface_sections(
-    surface: Surface, needs: Iterable[str], precision: Precision, language: Language
+    surface: Surface, needs: Iterable[str], precision: Precision, language: Language, free: bool = False
 ) -> tuple[Section, ...]:
-    """The constants and the needed functions, one section each, in order of need.
+    """The constants and the needed functions, one section each, in order of need. Where the surface is `free`, its
+    domain and parameters are no constants but what harness/kernels/raster_free.glsl names.
 
     Raises FirsthitError for an unknown name and for a function this surface does not have here.
     """
     wanted = _closure(surface, needs)
     if reason := unsupported(surface, precision, language):
         raise FirsthitError(f"{surface.name}: {reason}")
-    writer = _Writer(surface, precision, language)
+    writer = _Writer(surface, precision, language, free)
     makers: dict[str, Callable[[], str]] = {
         name: getattr(writer, name) for name in dict.fromkeys(["constants", *wanted])
     }
@@ -164,16 +165,20 @@ def _function(head: str, lines: list[str], *last: str) -> str:
 class _Writer:
     """One method per name of FUNCTIONS."""
 
-    def __init__(self, surface: Surface, precision: Precision, language: Language) -> None:
+    def __init__(self, surface: Surface, precision: Precision, language: Language, free: bool) -> None:
         self.surface = surface
-        self.exact = tape_of(surface)
+        self.free = free
+        self.exact = parse(surface.formula, dict(surface.parameters), free)
         self.real = real_tape(self.exact)
         self.precision = precision
         self.language = language
-        self.intervals = IntervalPrinter({axis: axis for axis in "xyz"}, precision, language)
+        names = sorted(dict(surface.parameters)) if free else []
+        self.parameters = {name: f"instance_parameters.{part}" for name, part in zip(names, "xyzw", strict=False)}
+        intervals = {name: f"make_interval({value}, {value})" for name, value in self.parameters.items()}
+        self.intervals = IntervalPrinter({axis: axis for axis in "xyz"} | intervals, precision, language)
 
     def _printer(self, variables: Mapping[str, str]) -> RealPrinter:
-        return RealPrinter(variables, self.precision, self.language)
+        return RealPrinter({**variables, **self.parameters}, self.precision, self.language)
 
     def constants(self) -> str:
         surface, domain = self.surface, self.surface.domain
@@ -198,7 +203,8 @@ class _Writer:
             "BOUNDING_RADIUS": real(surface.bounding_radius),
             "FEATURE_RADIUS": real(surface.feature_radius),
         }
-        return "\n".join(f"#define {name} {value}" for name, value in values.items())
+        named = ("SURFACE_DEGREE", "DOMAIN_IS_BOX") if self.free else tuple(values)
+        return "\n".join(f"#define {name} {values[name]}" for name in named)
 
     def _scalar(self, name: str, tape: Tape) -> str:
         lines, (value,) = self._printer(_POINT).body(tape)
@@ -227,13 +233,13 @@ class _Writer:
     def _distance(self, needed_by: str) -> Tape:
         if self.surface.distance is None:
             raise FirsthitError(f"{self.surface.name} states no distance function, which {needed_by} needs")
-        return real_tape(parse(self.surface.distance, dict(self.surface.parameters)))
+        return real_tape(parse(self.surface.distance, dict(self.surface.parameters), self.free))
 
     def surface_distance(self) -> str:
         return self._scalar("surface_distance", self._distance("surface_distance"))
 
     def surface_range(self) -> str:
-        used = {op.args[0] for op in self.exact.ops if op.name == "var"}
+        used = {op.args[0] for op in self.exact.ops if op.name == "var"} - self.parameters.keys()
         checks = [f"{axis} = finite_or_whole({axis}.lo, {axis}.hi);" for axis in sorted(used)]
         lines, (value,) = self.intervals.body(self.exact)
         head = "Interval surface_range(Interval x, Interval y, Interval z)"

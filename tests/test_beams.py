@@ -21,7 +21,7 @@ from surfaces.sections import surface_sections, unsupported
 from .conftest import opened, usable_devices
 from .test_renders import _case, _view
 
-METHODS = [name for name, plugin in find_methods().plugins.items() if plugin.method.casts != "rays"]
+METHODS = [name for name, plugin in find_methods().plugins.items() if plugin.method.casts in ("beams", "quadtree")]
 TYPICAL = ("torus", "dingdong_beamcasting", "blinn_blob")
 VIEW = View("oblique", azimuth=30, elevation=35)
 SIZE = 80  # twice test_renders' rays; no power of two

@@ -22,6 +22,7 @@ from harness.contract import DeviceInfo, FirsthitError, Hits, Program, RayStatus
 Array = NDArray[Any]
 INSTALL = {"opencl": "pyopencl", "opengl": "moderngl"}
 LANGUAGES: dict[str, Language] = {"opengl": "glsl", "opencl": "cl"}
+RASTERISES = ("opengl",)  # backends whose devices draw triangles
 
 
 class BuildError(Exception):

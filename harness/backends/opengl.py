@@ -1,7 +1,8 @@
-"""OpenGL through moderngl, without a window (EGL): compute shaders."""
+"""OpenGL through moderngl, without a window (EGL): compute shaders; opengl_raster has its frames of triangles."""
 
 from __future__ import annotations
 
+import dataclasses
 import os
 import re
 import time
@@ -14,7 +15,9 @@ import numpy as np
 
 from harness.assemble import explain_log
 from harness.backends import Array, BuildError, Device, Launch, Reserved, Step, Timing
-from harness.contract import DeviceInfo, FirsthitError, Program
+from harness.backends.opengl_raster import RasterLaunch
+from harness.backends.raster import Batch, Rasteriser
+from harness.contract import DeviceInfo, FirsthitError, Program, source
 
 SHORT = ("llvmpipe", "softpipe", "nvidia", "geforce", "radeon", "intel", "apple")
 GROUP = 64
@@ -68,7 +71,7 @@ def open(_name: str) -> OpenGLDevice:
     return OpenGLDevice()
 
 
-class OpenGLDevice(Device):
+class OpenGLDevice(Device, Rasteriser):
     language = "glsl"
 
     def __init__(self) -> None:
@@ -79,9 +82,25 @@ class OpenGLDevice(Device):
         import moderngl
 
         try:
+            if program.vertex:
+                vertex = source(program.vertex)
+                return self._context.program(vertex_shader=vertex, fragment_shader=program.text)
             return self._context.compute_shader(program.text)
         except moderngl.Error as error:
-            raise BuildError(f"{self.info.name}: {explain_log(program, str(error))}") from None
+            log = str(error)
+            at = dataclasses.replace(program, sections=program.vertex) if "vertex_shader" in log else program
+            raise BuildError(f"{self.info.name}: {explain_log(at, log)}") from None
+
+    def launch_raster(
+        self,
+        batches: Sequence[Batch],
+        built: Sequence[Any],
+        camera: Array,
+        depth_map: tuple[float, float],
+        size: int,
+        fill: Any = None,
+    ) -> RasterLaunch:
+        return RasterLaunch(self._context, batches, built, camera, depth_map, size, fill)
 
     def launch_steps(
         self, buffers: Sequence[Array | Reserved], outputs: Sequence[int], steps: Sequence[Step]

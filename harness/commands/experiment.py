@@ -129,7 +129,7 @@ def _run_one(
     store = Store(options.runs / experiment.name)
     executor = LocalExecutor(experiment.config.budget.timeout)
     try:
-        chosen = plan.choose_devices(experiment.config.devices, found) if experiment.variants else {}
+        chosen = plan.devices_of(experiment, found) if experiment.variants else {}
         tried = [probed(executor, info, store.folder / "probes") for info in chosen.values() if info]
         planned = plan.plan(experiment, catalog, [info for info, _ in tried]) if experiment.variants else []
         described = _described(experiment)

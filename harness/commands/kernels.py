@@ -7,13 +7,15 @@ import itertools
 import sys
 from typing import Literal
 
-from harness.assemble import method_program
+from harness.assemble import mesh_program, method_program, raster_program
 from harness.backends import LANGUAGES
-from harness.contract import PRECISIONS, Casts, FirsthitError
+from harness.contract import PRECISIONS, Casts, FirsthitError, Program, Surface
 from harness.executor import START_SECONDS, CellError, LocalExecutor, discover_devices
-from harness.plugins import find_methods
+from harness.plan import able
+from harness.plugins import Plugin, find_methods
 
 ENTRIES: dict[Casts, tuple[Literal["rays", "camera", "beams"], ...]] = {
+    "mesh": (),
     "rays": ("rays", "camera"),
     "beams": ("beams",),
     "quadtree": ("beams",),
@@ -31,6 +33,16 @@ def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -
     parser.add_argument("--formula", metavar="F", help="f(x, y, z) of your own beside them")
     parser.add_argument("--domain", metavar="D", default="sphere:1.5", help="its domain (default: sphere:1.5)")
     parser.set_defaults(run=_compile)
+
+
+def _rastered(plugin: Plugin, surface: Surface) -> list[Program]:
+    """The method's programs of stage raster: those that report hold the others' text too."""
+    method = plugin.method
+    if method.casts == "mesh":
+        return [mesh_program(plugin.folder, True)]
+    if method.casts != "rays":
+        return []
+    return [raster_program(method, plugin.folder, plugin.variant({}), surface, "box", True)]
 
 
 def _compile(options: argparse.Namespace) -> int:
@@ -53,10 +65,13 @@ def _compile(options: argparse.Namespace) -> int:
             if refused or precision not in method.precisions or (precision == "float64" and not info.float64):
                 continue
             try:
-                for entry in ENTRIES[method.casts]:
-                    program = method_program(
-                        method, plugin.folder, plugin.variant({}), surface, precision, language, entry
-                    )
+                programs = [
+                    method_program(method, plugin.folder, plugin.variant({}), surface, precision, language, entry)
+                    for entry in ENTRIES[method.casts]
+                ]
+                if precision == "float32" and able(info):
+                    programs += _rastered(plugin, surface)
+                for program in programs:
                     executor.build(info.name, program)
                     built += 1
             except (CellError, FirsthitError) as error:

@@ -98,6 +98,8 @@ def cast(
     if reason := plugin.method.accepts(surface) or unsupported(surface, precision, language):
         raise FirsthitError(f"{variant} cannot draw {surface.name} here: {reason}")
     casts = plugin.method.casts
+    if casts == "mesh":
+        raise FirsthitError(f'{variant} draws triangles, in stage raster: name it in a config with stages = ["raster"]')
     if casts != "rays" and camera is None:
         raise FirsthitError(f"{variant} casts the beams of a camera's pixels, and listed rays have none")
     entry: Literal["rays", "beams"] = "rays" if casts == "rays" else "beams"

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from harness.camera import camera_for, rays_of
 from harness.commands.options import add_method, add_surface, cast, surface_of, writable
 from harness.contract import FirsthitError, Hits, RayStatus, Surface, View
-from harness.runner import headlight
+from harness.pictures import headlight
 from harness.store import write_atomically
 
 if TYPE_CHECKING:

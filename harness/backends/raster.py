@@ -1,0 +1,67 @@
+"""What a device draws by rasterisation, and what the check reads of it. Devices without a rasteriser say so."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from harness.contract import Hits, Program, RayStatus
+
+RECORD = 32  # float32 of an instance, see harness/kernels/raster_instance.glsl
+
+
+@dataclass(frozen=True, eq=False)
+class Batch:
+    """One draw call."""
+
+    program: Program
+    instances: NDArray[np.float32]  # [n, RECORD]
+    triangles: NDArray[np.uint32]  # [3 k] corners of the proxy, or vertices
+    vertices: NDArray[np.float32] | None  # [v, 6] position and normal, local units; None for a proxy
+    closed: bool  # back faces are not seen
+
+
+@dataclass(frozen=True, eq=False)
+class Picture:
+    """What a frame with reporting programs answered, row by row from the top left, n pixels in all."""
+
+    colours: NDArray[np.uint8]  # [n, 4]
+    rays: NDArray[np.float32]  # [n, 6] in world coordinates
+    local_rays: NDArray[np.float32]  # [n, 6] in the coordinates of who is seen
+    t: NDArray[np.float64]  # [n] along the local ray, in local lengths; NaN where nothing is seen
+    batch: NDArray[np.int32]  # [n] of who is seen; -1 where nothing is
+    instance: NDArray[np.int32]  # [n] of who is seen, within the batch
+    in_world: NDArray[np.bool_]  # [n] a triangle of a mesh is seen: its t and ray are the world's
+    fragments: NDArray[np.int32]  # [n] of proxies and triangles, drawn or not
+    fragment_hits: NDArray[np.int32]  # [n] those with a hit, seen or hidden
+    exhausted: NDArray[np.int32]  # [n] those that gave up
+    evaluations: NDArray[np.int32]  # [n] spent by all of them
+
+    def hits(self, scale: NDArray[np.float64]) -> Hits:
+        """As any stage answers: t in world units, where `scale` float64[n] is that of who is seen. Where nothing is, a
+        pixel with a fragment that gave up is exhausted, and a miss otherwise."""
+        gave_up = np.where(self.exhausted > 0, RayStatus.EXHAUSTED, RayStatus.MISS)
+        status = np.where(self.batch >= 0, RayStatus.HIT, gave_up).astype(np.uint8)
+        return Hits(self.t * scale, status, self.evaluations)
+
+
+class Rasteriser(ABC):
+    """What a device that draws triangles has beside the rest."""
+
+    @abstractmethod
+    def launch_raster(
+        self,
+        batches: Sequence[Batch],
+        built: Sequence[Any],
+        camera: NDArray[np.float32],
+        depth_map: tuple[float, float],
+        size: int,
+        fill: Any = None,
+    ) -> Any:
+        """A Launch that draws batches by their built programs into a size × size target. With the built `fill` program,
+        the batches' programs report, and it has `picture()`."""

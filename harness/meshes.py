@@ -1,0 +1,206 @@
+"""Tessellations, made by pyvista and kept on disk. The only module that imports pyvista."""
+
+from __future__ import annotations
+
+import importlib.util
+import os
+from dataclasses import dataclass
+from functools import lru_cache
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from harness.contract import Box, FirsthitError, MeshRecipe, Surface, digest
+from harness.store import savez_atomically
+
+VERSION = 1  # raise when meshes change: old cache files are then not found
+PARAMETRIC = ("torus", "sphere", "cylinder", "cone", "plane")  # families with a parametric form here
+
+
+@dataclass(frozen=True, eq=False)
+class Mesh:
+    """Triangles counterclockwise from outside; positions in the surface's own units."""
+
+    vertices: NDArray[np.float32]  # [v, 6] position and unit normal
+    triangles: NDArray[np.uint32]  # [f, 3]
+    closed: bool
+
+
+def missing() -> str | None:
+    """Why meshes cannot be made here, if they cannot."""
+    if importlib.util.find_spec("pyvista") is None:
+        return "a mesh needs the package pyvista: pip install 'firsthit[mesh]'"
+    return None
+
+
+def mesher() -> str:
+    """What decides a mesh beside surface and recipe."""
+    return f"pyvista {version('pyvista')}, vtk {version('vtk')}, {VERSION}"
+
+
+def folder() -> Path:
+    """Where meshes are kept: $FIRSTHIT_CACHE, or the user's cache folder."""
+    base = os.environ.get("FIRSTHIT_CACHE") or os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
+    return Path(base) / "firsthit" / "meshes"
+
+
+@lru_cache(maxsize=16)
+def mesh(surface: Surface, recipe: MeshRecipe) -> Mesh:
+    """The surface tessellated by `recipe`; FirsthitError where it has no such form, or pyvista is not there."""
+    if reason := missing():
+        raise FirsthitError(reason)
+    key = digest(surface.identity, recipe.kind, recipe.resolution, mesher())
+    path = folder() / f"{surface.name}-{recipe.kind}-{recipe.resolution}-{key}.npz"
+    if stored := _stored(path):
+        return stored
+    made = _parametric(surface, recipe.resolution) if recipe.kind == "parametric" else _contour(surface, recipe)
+    savez_atomically(path, vertices=made.vertices, triangles=made.triangles, closed=np.array(made.closed))
+    return made
+
+
+def _stored(path: Path) -> Mesh | None:
+    """None where there is none or the file is damaged."""
+    try:
+        with np.load(path, allow_pickle=False) as arrays:
+            return Mesh(arrays["vertices"], arrays["triangles"], bool(arrays["closed"]))
+    except Exception:  # whatever is wrong with it, it is made anew
+        return None
+
+
+def parametric_refusal(surface: Surface) -> str | None:
+    """Why a surface has no parametric mesh, if it has none."""
+    if surface.name not in PARAMETRIC:
+        return "no parametric form is stated; contour it"
+    return None
+
+
+def _parametric(surface: Surface, n: int) -> Mesh:
+    """`n` points around, and around the tube of a torus too; an arc of a torus has its share of them, rounded up."""
+    import pyvista
+
+    if reason := parametric_refusal(surface):
+        raise FirsthitError(f"{surface.name} has no parametric mesh: {reason}")
+    values = {name: float(text) for name, text in surface.parameters}
+    box = surface.domain if isinstance(surface.domain, Box) else None
+    if surface.name == "torus":
+        assert box
+        shape: Any = _torus(values["R"], values["r"], box, n)
+    elif surface.name == "sphere":
+        shape = pyvista.Sphere(radius=values["R"], theta_resolution=n, phi_resolution=max(3, n // 2 + 1))
+    else:
+        assert box
+        heights = np.array([box.lower[2], box.upper[2]])
+        if surface.name == "plane":
+            shape = pyvista.Plane(i_size=1.0, j_size=1.0, i_resolution=1, j_resolution=1).triangulate()
+            lower, upper = np.array(box.lower), np.array(box.upper)
+            shape.points = (0.5 * (lower + upper) + shape.points * (upper - lower)) * [1.0, 1.0, 0.0]
+        else:
+            radii = np.array([values["r"]] * 2) if surface.name == "cylinder" else values["a"] + values["b"] * heights
+            turn = np.linspace(0.0, 2.0 * np.pi, n + 1)
+            x, y = (radii[:, None] * part(turn) for part in (np.cos, np.sin))
+            grid = pyvista.StructuredGrid(x, y, np.broadcast_to(heights[:, None], x.shape).copy())
+            shape = grid.extract_surface(algorithm=None).clean(tolerance=1e-9).triangulate()
+    whole = surface.name == "sphere" or (surface.name == "torus" and box is not None and min(box.lower) < 0.0)
+    return _finished(surface, shape, closed=whole)
+
+
+def _torus(ring: float, tube: float, box: Box, n: int) -> Any:
+    """The part of a torus in a box that is its own, or half or a quarter of it: x or x and y from 0."""
+    import pyvista
+    from vtkmodules.vtkCommonComputationalGeometry import vtkParametricTorus
+
+    outer = ring + tube
+    starts = [box.lower[0] >= 0.0, box.lower[1] >= 0.0]
+    expected = [0.0 if starts[0] else -outer, 0.0 if starts[1] else -outer, -tube]
+    if not np.allclose([*box.lower, *box.upper], [*expected, outer, outer, tube], atol=1e-6):
+        raise FirsthitError(f"a torus is tessellated whole, by halves or by quarters, and its box is {box}")
+    form = vtkParametricTorus()
+    form.SetRingRadius(ring)
+    form.SetCrossSectionRadius(tube)
+    if any(starts):
+        form.JoinUOff()
+        form.SetMinimumU(0.0 if starts[0] else -np.pi / 2)  # x = sin u, y = cos u
+        form.SetMaximumU(np.pi / 2 if starts[1] else np.pi)
+        share = (form.GetMaximumU() - form.GetMinimumU()) / (2.0 * np.pi)
+        n_ring = int(np.ceil(n * share)) + 1
+    else:
+        n_ring = n + 1
+    return pyvista.surface_from_para(form, u_res=n_ring, v_res=n + 1, w_res=n + 1, clean=True)
+
+
+def _contour(surface: Surface, recipe: MeshRecipe) -> Mesh:
+    """f = 0 by flying edges on a grid of n cells along the longest side of the domain's box, clipped by a ball."""
+    import pyvista
+
+    import surfaces
+
+    domain = surface.domain
+    if isinstance(domain, Box):
+        lower, upper = np.array(domain.lower), np.array(domain.upper)
+    else:
+        lower, upper = np.array(domain.center) - domain.radius, np.array(domain.center) + domain.radius
+    cell = (upper - lower).max() / recipe.resolution
+    cells = np.maximum(1, np.ceil((upper - lower) / cell - 1e-9)).astype(int)
+    spacing = (upper - lower) / cells
+    grid = pyvista.ImageData(dimensions=tuple(cells + 1), spacing=tuple(spacing), origin=tuple(lower))
+    grid["f"] = surfaces.evaluate(surface, np.asarray(grid.points))
+    shape: Any = grid.contour([0.0], scalars="f", method="flying_edges")
+    if not shape.n_points:
+        raise FirsthitError(f"a grid of {recipe.resolution} cells shows nothing of {surface.name}; take a finer one")
+    if not isinstance(domain, Box):
+        shape["away"] = np.linalg.norm(np.asarray(shape.points) - np.array(domain.center), axis=1)
+        shape = shape.clip_scalar(scalars="away", value=domain.radius).triangulate()
+    return _finished(surface, shape, closed=False)
+
+
+def _finished(surface: Surface, shape: Any, closed: bool) -> Mesh:
+    """With normals along f's gradient, which point out of f < 0, and triangles that agree with them."""
+    import surfaces
+
+    points = np.asarray(shape.points, np.float64)
+    triangles = np.array(shape.faces, np.int64).reshape(-1, 4)[:, 1:]
+    gradients = surfaces.gradient(surface, points)
+    lengths = np.linalg.norm(gradients, axis=1, keepdims=True)
+    normals = np.where(lengths > 0.0, gradients / np.where(lengths > 0.0, lengths, 1.0), [0.0, 0.0, 1.0])
+    a, b, c = (points[triangles[:, k]] for k in range(3))
+    inwards = np.einsum("ij,ij->i", np.cross(b - a, c - a), normals[triangles].mean(axis=1)) < 0.0
+    triangles[inwards] = triangles[inwards][:, ::-1]
+    vertices = np.concatenate([points, normals], axis=1).astype(np.float32)
+    return Mesh(vertices, triangles.astype(np.uint32), closed)
+
+
+def geometric_error(surface: Surface, made: Mesh, pieces: int = 4) -> tuple[float, float]:
+    """(mesh to surface, surface to mesh), the largest distances over samples, scene units.
+
+    Sampled are `pieces` + 1 points along each side of every triangle and those between; the surface's samples are
+    theirs brought onto it along its gradient. Distances to the surface are its stated distance, or |f| / |grad f|.
+    """
+    import pyvista
+
+    import surfaces
+    from surfaces.evaluation import evaluate_tape
+    from surfaces.formula import parse
+    from surfaces.lowering import real_tape
+
+    corners = made.vertices[:, :3].astype(np.float64)[made.triangles]
+    weights = [(i, j, pieces - i - j) for i in range(pieces + 1) for j in range(pieces + 1 - i)]
+    points = np.einsum("wk,fkx->fwx", np.array(weights) / pieces, corners).reshape(-1, 3)
+
+    def off(at: NDArray[np.float64]) -> NDArray[np.float64]:
+        f, slope = surfaces.evaluate(surface, at), surfaces.gradient(surface, at)
+        return np.asarray(f[:, None] * slope / np.einsum("ij,ij->i", slope, slope)[:, None])
+
+    if surface.distance:
+        away = evaluate_tape(real_tape(parse(surface.distance, dict(surface.parameters))), points)[:, 0]
+    else:
+        away = np.linalg.norm(off(points), axis=1)
+    onto = points
+    for _ in range(6):
+        onto = onto - off(onto)
+    faces = np.column_stack([np.full(len(made.triangles), 3), made.triangles]).ravel()
+    shape = pyvista.PolyData(made.vertices[:, :3].astype(np.float64), faces)
+    back = pyvista.PolyData(onto).compute_implicit_distance(shape)["implicit_distance"]
+    return float(np.abs(away).max()), float(np.abs(back).max())

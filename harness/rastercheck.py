@@ -1,0 +1,72 @@
+"""A rasterised frame held against the oracle, on the very rays that its fragments cast.
+
+The accuracy grid is drawn as a picture of its own by programs that write their rays. A pixel that no proxy covers was
+answered by the rasteriser: its answer is a miss. Fragments are counted on the frame that is timed.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from harness import accuracy
+from harness.camera import meets, pixel_footprint, scene_radius
+from harness.config import AccuracyChoice
+from harness.executor import LocalExecutor
+from harness.pictures import pictures_of
+from harness.plan import Planned
+from harness.scenes.truth import Seen, scales, scene_truth
+
+
+@dataclass(frozen=True, eq=False)
+class Outcome:
+    summary: dict[str, Any]
+    pictures: dict[str, NDArray[Any]]
+    compile_ms: float
+
+
+def check(executor: LocalExecutor, planned: Planned, config: AccuracyChoice, folder: Path) -> Outcome:
+    """Draw the accuracy grid and the frame once with reporting programs; `folder` keeps the oracle's answers."""
+    cell, camera, scene = planned.cell, planned.camera, planned.scene
+    drawn = executor.rasterise(cell.device, planned.raster_frame(config.size, reports=True))
+    picture = drawn.picture
+    rays = picture.rays
+    truth: Seen = scene_truth(scene, rays, picture, folder)
+    hits = picture.hits(scales(scene, picture))
+    verdicts = accuracy.judge(hits, truth.truth, scene_radius(cell.surface), config.grazing_margin)
+    alone = cell.scene is None
+    deviations = (
+        accuracy.deviations(cell.surface, rays, hits, truth.truth, verdicts)
+        if alone
+        else accuracy.Deviations(np.full(len(rays), np.nan), np.full(len(rays), np.nan))
+    )
+    summary = accuracy.summarize(
+        cell.surface,
+        hits,
+        truth.truth,
+        verdicts,
+        deviations,
+        precision=cell.precision,
+        footprint=pixel_footprint(camera, cell.size),
+        grazing_margin=config.grazing_margin,
+    )
+    frame = executor.rasterise(cell.device, planned.raster_frame(planned.samples, reports=True)).picture
+    fragments, found = int(frame.fragments.sum(dtype=np.int64)), int(frame.fragment_hits.sum(dtype=np.int64))
+    summary = {"size": config.size, "domain_rays": int(meets(cell.surface.domain, rays).sum())} | summary
+    summary |= {
+        "fragments": fragments,
+        "fragments_discarded": fragments - found,
+        "pixels_drawn": int((frame.batch >= 0).sum()),
+        "other_instance": int((truth.other_instance(picture) & ~verdicts.grazing).sum()),
+    }
+    pictures = pictures_of(cell.surface, rays, hits, truth.truth, verdicts, config.size)
+    if not alone:
+        grey = picture.colours[:, :3].astype(np.float32).mean(axis=1) / 255.0
+        pictures["shade"] = (
+            np.where(picture.batch >= 0, grey, np.nan).astype(np.float32).reshape(config.size, config.size)
+        )
+    return Outcome(summary, pictures, drawn.compile_ms)

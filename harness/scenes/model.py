@@ -1,0 +1,133 @@
+"""What a scene is made of. Instances that share a formula form a group, which is drawn by one call."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from harness.contract import FirsthitError, Sphere, Surface, Variant, View, digest
+
+Floats = NDArray[np.float64]
+COLOUR = (0.36, 0.58, 0.82)
+
+
+@dataclass(frozen=True, eq=False)
+class Group:
+    """n instances of one formula: world = place + scale · turn · local.
+
+    `surfaces` is one for all instances or one for each; then they differ in parameters and domain alone.
+    """
+
+    surfaces: tuple[Surface, ...]
+    place: Floats  # [n, 3], world units
+    turn: Floats  # [n, 3, 3], rotations, world from local
+    scale: Floats  # [n]
+    colours: Floats  # [n, 3], in [0, 1]
+    variant: Variant | None = None  # of its own, where it does not take the experiment's
+
+    def __post_init__(self) -> None:
+        n = len(self.place)
+        if len(self.surfaces) not in (1, n) or not n:
+            raise FirsthitError(f"a group of {n} instances cannot have {len(self.surfaces)} surfaces")
+        if len({surface.formula for surface in self.surfaces}) > 1:
+            raise FirsthitError("the instances of a group share one formula")
+        shapes = (self.turn.shape, self.scale.shape, self.colours.shape)
+        if shapes != ((n, 3, 3), (n,), (n, 3)) or not (self.scale > 0.0).all():
+            raise FirsthitError(f"a group of {n} instances needs as many turns, positive scales and colours")
+
+    def __len__(self) -> int:
+        return len(self.place)
+
+    def surface(self, index: int) -> Surface:
+        return self.surfaces[index if len(self.surfaces) > 1 else 0]
+
+    @cached_property
+    def distinct(self) -> tuple[Surface, ...]:
+        return tuple(dict.fromkeys(self.surfaces))
+
+    @property
+    def varies(self) -> bool:
+        """Whether instances differ in more than their place."""
+        return len(self.distinct) > 1
+
+    @cached_property
+    def spheres(self) -> Floats:
+        """[n, 4]: centre and radius of each instance's bounding sphere, world units."""
+        centers = np.array([surface.domain.center for surface in self.surfaces])
+        radii = np.array([bounding_radius(surface) for surface in self.surfaces])
+        world = self.place + self.scale[:, None] * np.einsum(
+            "nij,nj->ni", self.turn, np.broadcast_to(centers, (len(self), 3))
+        )
+        return np.column_stack([world, self.scale * radii])
+
+    @property
+    def identity(self) -> dict[str, Any]:
+        """What decides a picture of it: goes into cache keys."""
+        arrays = [np.ascontiguousarray(a).tobytes().hex() for a in (self.place, self.turn, self.scale, self.colours)]
+        own = [surface.identity for surface in self.surfaces]
+        variant = None if self.variant is None else [self.variant.method, dict(self.variant.parameters)]
+        return {"surfaces": digest(own), "places": digest(arrays), "variant": variant}
+
+
+@dataclass(frozen=True, eq=False)
+class Scene:
+    """Groups of instances, seen by `view`."""
+
+    name: str
+    title: str
+    groups: tuple[Group, ...]
+    view: View
+
+    @property
+    def instances(self) -> int:
+        return sum(map(len, self.groups))
+
+    @cached_property
+    def sphere(self) -> Floats:
+        """[4]: centre and radius of a sphere about all instances."""
+        spheres = np.concatenate([group.spheres for group in self.groups])
+        lower = (spheres[:, :3] - spheres[:, 3:]).min(axis=0)
+        upper = (spheres[:, :3] + spheres[:, 3:]).max(axis=0)
+        center = 0.5 * (lower + upper)
+        radius = (np.linalg.norm(spheres[:, :3] - center, axis=1) + spheres[:, 3]).max()
+        return np.array([*center, radius])
+
+    @property
+    def identity(self) -> dict[str, Any]:
+        return {"groups": [group.identity for group in self.groups]}
+
+    @cached_property
+    def stand_in(self) -> Surface:
+        """What rows, cameras and errors take for the scene's surface: its name and size, the first group's formula."""
+        first, (x, y, z, radius) = self.groups[0].distinct[0], self.sphere
+        degrees = [surface.degree for group in self.groups for surface in group.distinct]
+        features = [
+            float((s.feature_radius or s.domain.radius) * group.scale.min())
+            for group in self.groups
+            for s in group.distinct
+        ]
+        return Surface(
+            name=self.name,
+            title=self.title,
+            formula=first.formula,
+            domain=Sphere(radius, (x, y, z)),
+            source="a scene",
+            degree=None if None in degrees else max(degree for degree in degrees if degree is not None),
+            parameters=first.parameters,
+            feature_radius=min(features),
+        )
+
+
+def bounding_radius(surface: Surface) -> float:
+    """Of a sphere about the domain's centre that holds what is seen of the surface, in its own units."""
+    return min(surface.bounding_radius or surface.domain.radius, surface.domain.radius)
+
+
+def single(surface: Surface, view: View) -> Scene:
+    """One surface in its own coordinates: what every other stage draws."""
+    group = Group((surface,), np.zeros((1, 3)), np.eye(3)[None], np.ones(1), np.array([COLOUR]))
+    return Scene(surface.name, surface.title, (group,), view)

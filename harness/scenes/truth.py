@@ -1,0 +1,151 @@
+"""What is seen of a scene, by the oracle: each instance that a ray may meet is certified in its own coordinates."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from harness.backends.raster import Picture
+from harness.contract import Surface, Truth, TruthStatus
+from harness.oracle import cached_first_hits
+from harness.raster import pack
+from harness.scenes.model import Group, Scene
+
+CHUNK = 2**22  # pairs of ray and instance that are looked at together
+SLACK = 1e-5  # of a bounding sphere's radius: instances that a ray nearly meets are certified too
+DEPTH_SHARE = 1e-6  # of the depth: what the depth buffer may not tell apart
+
+
+@dataclass(frozen=True, eq=False)
+class Seen:
+    """The certified picture of n rays, in world units."""
+
+    truth: Truth
+    batch: NDArray[np.int32]  # [n] the group of the first hit; -1 without one
+    instance: NDArray[np.int32]  # [n] within it
+    gap: NDArray[np.float64]  # [n] from the first hit to the next instance's; inf where there is none
+
+    def other_instance(self, picture: Picture) -> NDArray[np.bool_]:
+        """bool[n]: another instance is seen than is first, by more than the depth buffer may confuse."""
+        both = (self.batch >= 0) & (picture.batch >= 0)
+        other = (self.batch != picture.batch) | (self.instance != picture.instance)
+        return np.asarray(both & other & (self.gap > DEPTH_SHARE * self.truth.upper))
+
+
+@dataclass(frozen=True, eq=False)
+class _Part:
+    """Pairs [k] of a ray and an instance that it may meet."""
+
+    local: NDArray[np.float32]  # [k, 6]
+    pixel: NDArray[np.intp]
+    batch: NDArray[np.int_]
+    instance: NDArray[np.intp]
+    scale: NDArray[np.float64]
+
+
+def scales(scene: Scene, picture: Picture) -> NDArray[np.float64]:
+    """float64[n]: the scale of who is seen; 1 where nothing is."""
+    found = np.ones(len(picture.t))
+    for number, group in enumerate(scene.groups):
+        mine = (picture.batch == number) & ~picture.in_world
+        found[mine] = pack(group)[picture.instance[mine], 15]
+    return found
+
+
+def scene_truth(scene: Scene, rays: NDArray[np.float32], picture: Picture, folder: Path) -> Seen:
+    """Certified first hits for rays float32[n, 6] in world coordinates; `folder` keeps the oracle's answers.
+
+    Who is seen in the picture is certified on the local ray that its fragment cast, others on the world's ray as the
+    instance's float32 record places it.
+    """
+    wide = rays.astype(np.float64)
+    work: dict[Surface, list[_Part]] = defaultdict(list)
+    for number, group in enumerate(scene.groups):
+        records = pack(group)
+        pixel, who = _candidates(group, wide)
+        for surface in group.distinct:
+            mine = np.array([group.surface(int(i)) is surface for i in who], bool) if group.varies else slice(None)
+            at, own = pixel[mine], who[mine]
+            if not len(at):
+                continue
+            local = _local(records[own], wide[at])
+            seen = (picture.batch[at] == number) & (picture.instance[at] == own) & ~picture.in_world[at]
+            local[seen] = picture.local_rays[at[seen]]
+            work[surface].append(_Part(local, at, np.full(len(at), number), own, records[own, 15].astype(np.float64)))
+    return _nearest(len(rays), [_certified(surface, parts, folder) for surface, parts in work.items()])
+
+
+def _candidates(group: Group, rays: NDArray[np.float64]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Pairs (ray, instance) where the ray runs through the instance's bounding sphere, or nearly."""
+    origins, directions = rays[:, :3], rays[:, 3:]
+    pixels, instances = [], []
+    step = max(1, CHUNK // len(rays))
+    for start in range(0, len(group), step):
+        spheres = group.spheres[start : start + step]
+        # |c - o|² - ((c - o)·d)² over all pairs, d of length 1
+        along = spheres[:, :3] @ directions.T - np.einsum("ij,ij->i", origins, directions)[None]
+        squared = (
+            np.einsum("ij,ij->i", spheres[:, :3], spheres[:, :3])[:, None]
+            - 2.0 * spheres[:, :3] @ origins.T
+            + np.einsum("ij,ij->i", origins, origins)[None]
+        )
+        reach = spheres[:, 3] * (1.0 + SLACK)
+        who, pixel = np.nonzero(squared - along * along <= (reach * reach)[:, None] + 1e-12 * squared)
+        pixels.append(pixel)
+        instances.append(who + start)
+    return np.concatenate(pixels), np.concatenate(instances)
+
+
+def _local(records: NDArray[np.float32], rays: NDArray[np.float64]) -> NDArray[np.float32]:
+    """float32[k, 6]: each world ray in the coordinates of its instance."""
+    rows = records[:, :12].astype(np.float64).reshape(-1, 3, 4)
+    origins = np.einsum("kij,kj->ki", rows[:, :, :3], rays[:, :3]) + rows[:, :, 3]
+    directions = np.einsum("kij,kj->ki", rows[:, :, :3], rays[:, 3:]) * records[:, 15:16].astype(np.float64)
+    return np.concatenate([origins, directions], axis=1).astype(np.float32)
+
+
+def _certified(surface: Surface, parts: list[_Part], folder: Path) -> tuple[_Part, Truth]:
+    whole = _Part(*(np.concatenate([getattr(part, name) for part in parts]) for name in _Part.__dataclass_fields__))
+    return whole, cached_first_hits(surface, whole.local, folder)
+
+
+def _nearest(n: int, found: list[tuple[_Part, Truth]]) -> Seen:
+    """Of all pairs, what each ray sees first."""
+    lower, upper, following, condition = (np.full(n, np.nan) for _ in range(4))
+    margin, second = np.full(n, np.inf), np.full(n, np.inf)
+    status = np.full(n, TruthStatus.MISS, np.uint8)
+    batch, instance = np.full(n, -1, np.int32), np.full(n, -1, np.int32)
+    if found:
+        names = ("pixel", "batch", "instance", "scale")
+        pixel, group, who, scale = (np.concatenate([getattr(part, name) for part, _ in found]) for name in names)
+        low, high, after, near, ill, kind = (
+            np.concatenate([getattr(truth, name) for _, truth in found])
+            for name in ("lower", "upper", "following", "margin", "condition", "status")
+        )
+        low, high, after, near = low * scale, high * scale, after * scale, near * scale
+        there = np.isin(kind, (TruthStatus.CROSSING, TruthStatus.TOUCH))
+        order = np.lexsort((np.where(there, low, np.inf), pixel))
+        first = np.ones(len(order), bool)
+        first[1:] = pixel[order][1:] != pixel[order][:-1]
+        best, rest = order[first], order[~first]
+        at = pixel[best]
+        hit = there[best]
+        lower[at[hit]], upper[at[hit]], condition[at[hit]] = low[best][hit], high[best][hit], ill[best][hit]
+        status[at[hit]] = kind[best][hit]
+        batch[at[hit]], instance[at[hit]] = group[best][hit], who[best][hit]
+        following[at] = np.where(hit, after[best], np.inf)
+        np.minimum.at(second, pixel[rest], np.where(there[rest], low[rest], np.inf))
+        np.minimum.at(margin, pixel, near)
+        undecided = np.zeros(n, bool)
+        np.logical_or.at(undecided, pixel, kind == TruthStatus.UNDECIDED)
+        status[undecided] = TruthStatus.UNDECIDED
+    following = np.fmin(following, second)
+    following[np.isnan(following)] = np.inf
+    with np.errstate(invalid="ignore"):
+        gap = np.where(batch >= 0, second - upper, np.inf)
+        margin = np.minimum(margin, np.where(batch >= 0, gap, np.inf))
+    return Seen(Truth(lower, upper, status, following, condition, margin), batch, instance, gap)
