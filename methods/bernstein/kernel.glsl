@@ -1,0 +1,194 @@
+// The first root of f along the ray: the fit's Bernstein form, halved from the near end on, where signs of coefficients
+// count only outside their error bounds. f is taken as positive at the near end: `sign` makes it so.
+#define N SURFACE_DEGREE
+#define SHELLS 16  // sizes of the tables VALUE_ERRORS and GROWTH
+#define DEPTHS 6
+
+// Of a piece's coefficients: the least, the largest magnitude, how often they rise past -error or error, and how many
+// lie between.
+STRUCT(Signs) struct Signs { real least; real size; int rises; int near; };
+
+Signs signs_of(IN real c[COEFFICIENTS], real error) {
+    Signs signs;
+    signs.least = c[0];
+    signs.size = fabs(c[0]);
+    signs.rises = 0;
+    signs.near = fabs(c[0]) <= error ? 1 : 0;
+    for (int j = 1; j <= N; j++) {
+        signs.least = min(signs.least, c[j]);
+        signs.size = max(signs.size, fabs(c[j]));
+        signs.rises += (c[j] > error && c[j - 1] <= error) || (c[j] >= -error && c[j - 1] < -error) ? 1 : 0;
+        signs.near += fabs(c[j]) <= error ? 1 : 0;
+    }
+    return signs;
+}
+
+real largest(IN real c[COEFFICIENTS]) {
+    real size = fabs(c[0]);
+    for (int j = 1; j <= N; j++) size = max(size, fabs(c[j]));
+    return size;
+}
+
+// De Casteljau's algorithm: `near` gets the coefficients on the first `share` of the interval, `far` keeps the rest's.
+void divide(real share, INOUT real far[COEFFICIENTS], OUT real near[COEFFICIENTS]) {
+    near[0] = far[0];
+    for (int r = 1; r <= N; r++) {
+        for (int j = 0; j <= N - r; j++) far[j] = (1.0 - share) * far[j] + share * far[j + 1];
+        near[r] = far[0];
+    }
+}
+
+Hit first_hit(Ray ray, real t0, real t1) {
+    Hit hit = no_hit(t1);
+    real smallest = RESOLUTION * (t1 - t0);
+    real s[COEFFICIENTS];
+    real b[COEFFICIENTS];
+    real c[COEFFICIENTS];
+    real far[COEFFICIENTS];
+    real sign = 1.0;
+    real start = t0;  // [start, end]: what is fitted; before `start` there is no root
+    real end = t1;
+    real a = t0;      // f is positive there
+    real fa = 0.0;
+    real near = t0;   // so it is there by the coefficients
+    real z = t0;      // and negative here, where the search ends by a hit
+    real fz = 0.0;
+    while (start < t1) {
+        real reach = end - start;
+        for (int i = 0; i <= N; i++) s[i] = surface_value(ray_point(ray, start + reach * NODES[i]));
+        hit.evaluations += N + 1;
+        if (hit.evaluations == N + 1) sign = s[0] < 0.0 ? real(-1) : real(1);
+        for (int i = 0; i <= N; i++) s[i] = sign * s[i];
+        fit(s, true, EFT == 1, b);
+        for (int j = 0; j <= N; j++) c[j] = b[j];
+
+        // what a sample may be off by, and the fit's and the halvings' own roundings
+        vec3 p = difference(ray_point(ray, start), DOMAIN_CENTER);
+        vec3 q = difference(ray_point(ray, end), DOMAIN_CENTER);
+        real away = sqrt(max(inner_product(p, p), inner_product(q, q))) / DOMAIN_RADIUS;
+        real off = UNIT_ROUNDOFF * VALUE_ERRORS[min(int(away * real(SHELLS)), SHELLS - 1)];
+        real unit = UNIT_ROUNDOFF * largest(b);
+        real kept = EFT == 1 ? 2.0 * unit : real(N / 2 + 6) * UNIT_ROUNDOFF * GROWTH[0] * largest(s);
+        real noise = kept;
+
+        int path = 1;
+        int pieces = 1;
+        int depth = 0;
+        real width = reach;
+        if (s[0] < 0.0) {
+            near = a;
+            z = start;
+            fz = s[0];
+        } else {
+            a = start;
+            fa = s[0];
+        }
+        real under = end;  // the first sample that is negative, and the one before it
+        real f_under = 0.0;
+        real above = start;
+        for (int i = N; i > 0; i--) {
+            if (s[i] < 0.0) {
+                under = start + reach * NODES[i];
+                f_under = s[i];
+                above = start + reach * NODES[i - 1];
+            }
+        }
+        // what is all noise is decided by f itself, at the samples
+        bool noisy = reach <= smallest || unit <= NOISE * TRUST * UNIT_ROUNDOFF * (GROWTH[DEPTHS] * off + kept);
+        bool walking = s[0] >= 0.0 && !noisy;
+        bool again = false;
+        while (walking) {
+            real error = TRUST * (GROWTH[depth] * off + noise);
+            Signs signs = signs_of(c, error);
+            real x = start + width * real(path - pieces);
+            bool empty = signs.least > error;
+            bool single = c[N] < -error && signs.rises == 0 && (signs.near <= 1 || reach < t1 - t0);
+            bool handed = !empty && width <= smallest;
+            if (single || handed) {
+                real f = sign * surface_value(ray_point(ray, x + width));
+                hit.evaluations += 1;
+                if (f < 0.0) {
+                    near = x;
+                    z = x + width;
+                    fz = f;
+                }
+                empty = handed;
+            }
+            again = !empty && signs.near > 1 && depth >= TRUSTED;
+            walking = fz >= 0.0 && !again && hit.evaluations < MAX_EVALUATIONS;
+            if (again) {
+                start = x;
+                end = x + width;
+            } else if (empty) {
+                path += 1;
+                if ((path & 1) == 1) {
+                    for (int j = 0; j <= N; j++) c[j] = far[j];
+                } else {
+                    int up = path & (-path);
+                    path = path / up;
+                    pieces = pieces / up;
+                    width = width * real(up);
+                    depth = 0;
+                    for (int d = 1; d <= DEPTHS; d++) depth += (pieces >> d) > 0 ? 1 : 0;
+                    real part = width / reach;
+                    for (int j = 0; j <= N; j++) far[j] = b[j];
+                    divide(part * real(path - pieces), far, c);
+                    divide(part / (1.0 - part * real(path - pieces)), far, c);
+                    noise = kept + real(6 * N) * unit;
+                    walking = walking && path > 1;
+                }
+            } else {
+                noise += real(N) * UNIT_ROUNDOFF * signs.size;
+                for (int j = 0; j <= N; j++) far[j] = c[j];
+                divide(0.5, far, c);
+                path = 2 * path;
+                pieces = 2 * pieces;
+                depth = min(depth + 1, DEPTHS);
+                width = 0.5 * width;
+            }
+        }
+        if (!again) {
+            if (fz >= 0.0 && f_under < 0.0) {
+                near = above;
+                z = under;
+                fz = f_under;
+            }
+            start = fz < 0.0 || hit.evaluations >= MAX_EVALUATIONS ? t1 : end;
+            end = min(end + WIDENING * reach, t1);
+        }
+    }
+    if (fz >= 0.0 && hit.evaluations >= MAX_EVALUATIONS) return exhausted(hit, a);
+    if (fz >= 0.0) return hit;
+
+    real f_near = sign * surface_value(ray_point(ray, near));
+    hit.evaluations += 1;
+    if (f_near < 0.0) {
+        z = near;
+        fz = f_near;
+    } else {
+        a = near;
+        fa = f_near;
+    }
+
+    // Illinois: regula falsi between a and z, where the end that stays twice counts half
+    real tolerance = TOLERANCE * (t1 - t0);
+    real x = z;
+    real step = z - a;
+    for (int i = 0; i < MOST_STEPS && step > tolerance && fz != 0.0; i++) {
+        real next = z - fz * ((z - a) / (fz - fa));
+        if (!(next >= min(a, z) && next <= max(a, z))) next = 0.5 * (a + z);
+        real f = sign * surface_value(ray_point(ray, next));
+        hit.evaluations += 1;
+        step = fabs(next - x);
+        x = next;
+        if ((f > 0.0) != (fz > 0.0)) {
+            a = z;
+            fa = fz;
+        } else {
+            fa = 0.5 * fa;
+        }
+        z = next;
+        fz = f;
+    }
+    return hit_at(hit, x);
+}
