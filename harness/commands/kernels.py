@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import itertools
+import statistics
 import sys
 from typing import Literal
 
@@ -45,7 +46,8 @@ def _compile(options: argparse.Namespace) -> int:
     if not usable:
         raise FirsthitError("no usable device; `firsthit devices` says why", exit_code=3)
     executor = LocalExecutor(START_SECONDS)
-    built, failed = 0, [f"{name}: {reason}" for name, reason in catalog.broken.items() if not options.method]
+    built: dict[str, list[tuple[float, str]]] = {info.name: [] for info in usable}
+    failed = [f"{name}: {reason}" for name, reason in catalog.broken.items() if not options.method]
     try:
         for plugin, surface, info, precision in itertools.product(plugins, chosen, usable, PRECISIONS):
             method, language = plugin.method, LANGUAGES[info.name.partition(":")[0]]
@@ -57,13 +59,20 @@ def _compile(options: argparse.Namespace) -> int:
                     program = method_program(
                         method, plugin.folder, plugin.variant({}), surface, precision, language, entry
                     )
-                    executor.build(info.name, program)
-                    built += 1
+                    took = executor.build(info.name, program)
+                    built[info.name].append((took, f"{method.name} {surface.name} {precision} {entry}"))
             except (CellError, FirsthitError) as error:
                 failed.append(f"{method.name} {surface.name} {precision} {info.name}: {error}")
     finally:
         executor.close()
     for line in failed:
         print(line, file=sys.stderr)
-    print(f"{built} programs compiled on {len(usable)} devices, {len(failed)} failed")
+    for name, programs in built.items():
+        if programs:
+            typical, (most, which) = statistics.median(took for took, _ in programs), max(programs)
+            print(
+                f"{name}: {len(programs)} programs, {typical * 1e-3:.2f} s each, at most {most * 1e-3:.2f} s: {which}"
+            )
+    total = sum(map(len, built.values()))
+    print(f"{total} programs compiled on {len(usable)} devices, {len(failed)} failed")
     return 3 if failed else 0
