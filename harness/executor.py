@@ -71,9 +71,10 @@ class LocalExecutor:
     def probe(self, device: str) -> Any:
         return self._call(device, "probe")
 
-    def build(self, device: str, program: Program) -> None:
-        """Compile, and no more."""
-        self._call(device, "build", program)
+    def build(self, device: str, program: Program) -> float:
+        """Compile, and no more; the milliseconds that it took."""
+        compile_ms: float = self._call(device, "build", program)
+        return compile_ms
 
     def check(self, device: str, program: Program, rays: NDArray[np.float32]) -> Checked:
         """Build a listed-rays program and cast rays float32[n, 6] once."""
