@@ -115,9 +115,10 @@ class Worker:
             start = time.perf_counter()
             built = self._device.build(program)
             compile_ms = (time.perf_counter() - start) * 1e3
-            trial = trial_launch(self._device, program, built)
-            compile_ms += trial.run().wall_ms
-            trial.release()
+            if not program.vertex:  # a rasterised program is drawn, not launched
+                trial = trial_launch(self._device, program, built)
+                compile_ms += trial.run().wall_ms
+                trial.release()
             self._built[program.hash] = built, compile_ms
             if len(self._built) > KEPT_PROGRAMS:
                 self._built.popitem(last=False)

@@ -7,8 +7,8 @@ halving in one integer instead of a stack, as in beamcasting.
 **Theory** Along the ray f is a polynomial; on a piece of it f has at most as many roots as the piece's Bernstein
 coefficients have changes of sign, and as many but for an even number. A piece without a change has no root, and one
 with a single change has one. So the ray's stay is halved from the near end, depth first, pieces without a change are
-left out, and the first piece with one change, whose ends f itself confirms, holds the first root. A sign counts only outside
-an error bound: what f's own roundings may be in the samples (harness/rounding.py), times what a piece's depth makes of
+left out, and the first piece with one change, whose ends f itself confirms, holds the first root. A sign counts only
+outside an error bound: what f's own roundings may be in the samples (harness/rounding.py), times what a piece's depth makes of
 them (GROWTH: it falls from the inverse's norm to Lebesgue's constant), and the roundings of fit and halvings, which run
 along. Coefficients inside the bound leave a piece open. An open piece is halved; after TRUSTED halvings it is sampled
 and fitted anew, so that errors are those of its own surroundings, not of the far ends of the ray, where f is a thousand
