@@ -174,7 +174,7 @@ Hit first_hit(Ray ray, real t0, real t1) {
     real tolerance = TOLERANCE * (t1 - t0);
     real spread = 2.0 * tolerance;  // at least z - a, doubled
     while (spread < 2.0 * (z - a)) spread = 2.0 * spread;
-    real pull = 0.2 / (z - a);
+    real pull = 0.1875 / (z - a);
     for (int i = 0; i < MOST_STEPS && z - a > tolerance; i++) {
         real middle = 0.5 * (a + z);
         real x = z - fz * ((z - a) / (fz - fa));
