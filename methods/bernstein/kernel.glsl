@@ -170,25 +170,29 @@ Hit first_hit(Ray ray, real t0, real t1) {
         fa = f_near;
     }
 
-    // Illinois: regula falsi between a and z, where the end that stays twice counts half
+    // ITP (Oliveira, Takahashi 2020): regula falsi, drawn towards the middle and kept within bisection's worst case
     real tolerance = TOLERANCE * (t1 - t0);
-    real x = z;
-    real step = z - a;
-    for (int i = 0; i < MOST_STEPS && step > tolerance && fz != 0.0; i++) {
-        real next = z - fz * ((z - a) / (fz - fa));
-        if (!(next >= min(a, z) && next <= max(a, z))) next = 0.5 * (a + z);
-        real f = sign * surface_value(ray_point(ray, next));
+    real spread = 2.0 * tolerance;  // at least z - a, doubled
+    while (spread < 2.0 * (z - a)) spread = 2.0 * spread;
+    real pull = 0.1875 / (z - a);
+    for (int i = 0; i < MOST_STEPS && z - a > tolerance; i++) {
+        real middle = 0.5 * (a + z);
+        real x = z - fz * ((z - a) / (fz - fa));
+        real delta = pull * (z - a) * (z - a);
+        real towards = middle < x ? real(-1) : real(1);
+        x = fabs(middle - x) > delta ? x + towards * delta : middle;
+        real radius = 0.5 * (spread - (z - a));
+        if (fabs(middle - x) > radius) x = middle - towards * radius;
+        real f = sign * surface_value(ray_point(ray, x));
         hit.evaluations += 1;
-        step = fabs(next - x);
-        x = next;
-        if ((f > 0.0) != (fz > 0.0)) {
-            a = z;
-            fa = fz;
+        if (f > 0.0) {
+            a = x;
+            fa = f;
         } else {
-            fa = 0.5 * fa;
+            z = x;
+            fz = f;
         }
-        z = next;
-        fz = f;
+        spread = 0.5 * spread;
     }
-    return hit_at(hit, x);
+    return hit_at(hit, fa > fz ? z - fz * ((z - a) / (fz - fa)) : z);
 }

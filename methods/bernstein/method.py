@@ -8,12 +8,13 @@ halving in one integer instead of a stack, as in beamcasting.
 coefficients have changes of sign, and as many but for an even number. A piece without a change has no root, and one
 with a single change has one. So the ray's stay is halved from the near end, depth first, pieces without a change are
 left out, and the first piece with one change, whose ends f itself confirms, holds the first root. A sign counts only
-outside an error bound: what f's own roundings may be in the samples (harness/rounding.py), times what a piece's depth makes of
-them (GROWTH: it falls from the inverse's norm to Lebesgue's constant), and the roundings of fit and halvings, which run
-along. Coefficients inside the bound leave a piece open. An open piece is halved; after TRUSTED halvings it is sampled
-and fitted anew, so that errors are those of its own surroundings, not of the far ends of the ray, where f is a thousand
-times larger; and where even that is all noise, f's signs at the samples decide. A right half is either what the halving
-of its parent left over, or comes from the coefficients that were fitted, so that errors do not pile up.
+outside an error bound: what f's own roundings may be in the samples (harness/rounding.py), times what a piece's depth
+makes of them (GROWTH: it falls from the inverse's norm to Lebesgue's constant), and the roundings of fit and halvings,
+which run along. Coefficients inside the bound leave a piece open. An open piece is halved; after TRUSTED halvings it
+is sampled and fitted anew, so that errors are those of its own surroundings, not of the far ends of the ray, where f
+is a thousand times larger; and where even that is all noise, f's signs at the samples decide. A right half is either
+what the halving of its parent left over, or comes from the coefficients that were fitted, so that errors do not pile
+up.
 
 **What is claimed** Hits are where f itself changes its sign, so there are no false ones outside the grazing class. What
 can be lost lies inside the error bound: pairs of roots, and touches, between which f does not rise above its own noise.
@@ -59,7 +60,7 @@ METHOD = Method(
         Parameter(
             "TOLERANCE",
             2.0**-18,
-            "last step of the refinement, over the ray's length in the domain",
+            "width of the last bracket, over the ray's length in the domain",
             finer="down",
             sweep=(2.0**-8, 2.0**-12, 2.0**-22),
         ),
