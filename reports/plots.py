@@ -25,10 +25,11 @@ PANELS_ACROSS = 5
 
 
 def speed_against_error(rows: pd.DataFrame, marks: Mapping[str, Mark], name: str, title: str) -> list[Figure]:
-    """For one comparison: a panel for each device and precision, `PANELS_ACROSS` devices to a figure."""
+    """For one comparison: a panel for each device and precision, `PANELS_ACROSS` devices to a figure; none for fewer
+    than two rows, which leave nothing to compare."""
     shown = derive.contenders(rows)
     shown = shown[shown["error_max"].notna() & np.isfinite(shown["mrays_per_s"]) & (shown["mrays_per_s"] > 0)]
-    if shown.empty:
+    if len(shown) < 2:
         return []
     devices = list(dict.fromkeys(shown["device"]))
     batches = [devices[i : i + PANELS_ACROSS] for i in range(0, len(devices), PANELS_ACROSS)]

@@ -218,7 +218,7 @@ def units(rows: pd.DataFrame) -> Table | None:
 
 
 def scene(rows: pd.DataFrame) -> str:
-    first = next(rows.itertuples())
+    first = next(rows.head(1).itertuples())
     return f"{first.surface_title}, view {first.view}, {picture_size(first)}, {first.stage}."
 
 

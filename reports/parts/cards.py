@@ -5,14 +5,18 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+import matplotlib
 import pandas as pd
+from matplotlib.figure import Figure as Drawing
 
 from reports import style, wording
 from reports.claims import Outcome
-from reports.content import Block, Column, Section, Table, Text
+from reports.content import Block, Column, Figure, Section, Table
+from reports.drawing import NARROW, RC, Key, line_of, svg
 from reports.material import Material
 
 ORDER = 70
+TEXT_LIMIT = 1500  # characters of a paragraph or point
 
 
 def sections(material: Material) -> list[Section]:
@@ -20,7 +24,7 @@ def sections(material: Material) -> list[Section]:
     told = material.run.plan.methods
     if not told:
         return []
-    blocks: list[Block] = []
+    blocks: list[Block] = [_key(sorted(told))]
     for name in sorted(told):
         blocks += _card(name, told[name], material.frame[material.frame["method"] == name], material.judged)
     return [Section("Methods", tuple(blocks))]
@@ -32,7 +36,7 @@ def _card(name: str, told: Mapping[str, Any], rows: pd.DataFrame, judged: list[A
     )
     body = [
         ("source", told.get("source")),
-        *((part.lower(), wording.excerpt(text, 1500)) for part, text in told.get("doc", {}).items()),
+        *((part.lower(), _points(text)) for part, text in told.get("doc", {}).items()),
         ("knobs, with defaults", knobs or "none"),
         ("claims", _claims(told.get("claims", []), rows)),
     ]
@@ -44,9 +48,26 @@ def _card(name: str, told: Mapping[str, Any], rows: pd.DataFrame, judged: list[A
                     f"{claim.text} {verdict.outcome.value.capitalize()}: {verdict.figure}.",
                 )
             )
-    mark = style.marks([name])[name]
     title = f"{name}: {told.get('title', '')}"
-    return [Text(""), Table((Column(""), Column("", stretch=1)), body, title, _drawn(mark))]
+    return [Table((Column(""), Column("", stretch=1)), body, title)]
+
+
+def _points(text: str) -> str:
+    """A text whose list, if it has one, keeps its lines."""
+    first, *points = text.split("\n- ") if not text.startswith("- ") else ["", *text[2:].split("\n- ")]
+    lines = [wording.excerpt(first, TEXT_LIMIT), *(f"• {wording.excerpt(point, TEXT_LIMIT)}" for point in points)]
+    return "\n".join(filter(None, lines))
+
+
+def _key(names: list[str]) -> Figure:
+    marks = style.marks(names)
+    key = Key([line_of(marks[name]) for name in names], names, NARROW)
+    with matplotlib.rc_context(RC):
+        drawing = Drawing(figsize=(NARROW, key.height + 0.06))
+        key.draw(drawing)
+        drawn = svg(drawing)
+    caption = "The same on every page; a variant has its method's mark, and a line of its own."
+    return Figure("methods-key", drawn, f"Marks of {wording.listed(names)}.", "How each method is drawn.", caption)
 
 
 def _claims(stated: list[str], rows: pd.DataFrame) -> str:
@@ -65,7 +86,3 @@ def _claims(stated: list[str], rows: pd.DataFrame) -> str:
         held = "held" if bad == 0 else f"broken by {bad:,} of"
         words.append(f"{name.replace('_', ' ')}: {held} {int(known['accuracy_rays'].sum()):,} rays here")
     return "; ".join(words)
-
-
-def _drawn(mark: style.Mark) -> str:
-    return f"Drawn in {mark.color} with marker “{mark.marker}” on every page."
