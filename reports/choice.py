@@ -14,14 +14,12 @@ LINES = 26  # surfaces that fit on the first page
 
 
 def scenes(frame: pd.DataFrame) -> pd.DataFrame:
-    """The contenders of one scene for each surface, the one with most methods, on the device with most rows of all."""
+    """The contenders of one scene for each surface, the fullest, on the device with most rows of all."""
     rows = derive.contenders(frame)
     if rows.empty:
         return rows
     rows = rows[rows["device"] == rows["device"].value_counts(sort=False).idxmax()]
-    counted = rows.groupby(["surface", "comparison"], sort=False)[["method", "variant"]].nunique().reset_index()
-    most = counted.sort_values(["method", "variant"], ascending=False, kind="stable").drop_duplicates("surface")
-    return rows[rows["comparison"].isin(most["comparison"])]
+    return rows[rows["comparison"].isin([derive.fullest(own) for _, own in rows.groupby("surface", sort=False)])]
 
 
 def fastest(rows: pd.DataFrame, error: float) -> Any | None:

@@ -74,7 +74,7 @@ def _load(options: argparse.Namespace) -> tuple[config.Experiment, list[config.E
         )
     if getattr(options, "device", None):
         parts = [dataclasses.replace(p, config=dataclasses.replace(p.config, devices=options.device)) for p in parts]
-    return whole, parts, catalog, discover_devices()
+    return whole, parts, catalog, discover_devices({name for part in parts for name in part.config.devices})
 
 
 def _plan(options: argparse.Namespace) -> int:

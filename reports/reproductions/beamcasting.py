@@ -70,7 +70,11 @@ def _tables(material: Material) -> list[Section]:
         "the ratio of the two methods is what is compared.",
         group=2,
     )
-    return [Section("beamcasting, Tables I and II", (table, *verdicts.of(material, "beamcasting-tables.toml")))]
+    return [
+        Section(
+            "beamcasting, Tables I and II", (table, *verdicts.of(material, "beamcasting-tables.toml", "beamcasting"))
+        )
+    ]
 
 
 def _figure_1(material: Material) -> list[Section]:

@@ -43,7 +43,11 @@ def _table_1_and_2(material: Material) -> Section | None:
         blocks += _table_2(figures)
     if not blocks:
         return None
-    return Section("szente, Tables 1 and 2", (*blocks, *verdicts.of(material, "szente-tables-1-2.toml")), wide=True)
+    return Section(
+        "szente, Tables 1 and 2",
+        (*blocks, *verdicts.of(material, "szente-tables-1-2.toml", "szente, Tables 1 and 2")),
+        wide=True,
+    )
 
 
 def _table_1(ours: pd.DataFrame) -> Table:
@@ -159,7 +163,7 @@ def _table_4(material: Material) -> Section | None:
         "NVIDIA 1660 Ti mobile. Milliseconds are of two devices and not to be compared; percentages and speed-ups are. "
         "EFT and EVAL are the share of the time that is saved with that part switched off.",
     )
-    return Section("szente, Table 4", (table, *verdicts.of(material, "szente-table4.toml")), wide=True)
+    return Section("szente, Table 4", (table, *verdicts.of(material, "szente-table4.toml", "szente, Table 4")))
 
 
 def _table_5(material: Material) -> Section | None:
@@ -193,7 +197,7 @@ def _table_5(material: Material) -> Section | None:
         f"Ours on {ratios['device'].iloc[0]}, {ratios['size'].iloc[0]} × {ratios['size'].iloc[0]}; the paper's on an "
         "NVIDIA 1660 Ti mobile. As printed: one bound for the whole ray; culling with LU bounds only.",
     )
-    return Section("szente, Table 5", (table, *verdicts.of(material, "szente-table5.toml")), wide=True)
+    return Section("szente, Table 5", (table, *verdicts.of(material, "szente-table5.toml", "szente, Table 5")))
 
 
 def _in_order(ratios: pd.DataFrame, surfaces: tuple[str, ...]) -> list[Any]:
