@@ -61,6 +61,7 @@ Hit first_hit(Ray ray, real t0, real t1) {
     real a = t0;      // f is positive there
     real z = t0;      // and negative here, where the search ends by a hit
     real fz = 0.0;
+    bool again = false;  // the piece was open before, and is fitted anew
     while (start < t1) {
         real reach = end - start;
         for (int i = 0; i <= N; i++) s[i] = surface_value(ray_point(ray, start + reach * NODES[i]));
@@ -95,7 +96,7 @@ Hit first_hit(Ray ray, real t0, real t1) {
         real error = GROWTH[0] * off + noise;
         Signs signs = signs_of(c, error);
         bool empty = signs.least > error;
-        real most = reach < t1 - t0 ? error : -error;
+        real most = again ? error : -error;
         bool single = c[N] < -error && signs.after < most;
         // what is all noise is decided by f itself, at the samples
         bool noisy = reach <= smallest || unit <= NOISE * TRUST * UNIT_ROUNDOFF * (GROWTH[DEPTHS] * off + noise);
@@ -129,14 +130,14 @@ Hit first_hit(Ray ray, real t0, real t1) {
                 signs = signs_of(c, error);
                 empty = signs.least > error;
             }
-            most = reach < t1 - t0 ? error : -error;
+            most = again ? error : -error;
             single = c[N] < -error && signs.after < most;
             // all ones: the last piece
             walking = !single && (empty ? path + 1 < 2 * pieces : depth < TRUSTED);
         }
         real width = reach / real(pieces);
         real x = start + width * real(path - pieces);
-        bool again = false;
+        again = false;
         if (s[0] < 0.0) {
             z = start;
             fz = s[0];
