@@ -4,21 +4,16 @@
 #define SHELLS 16  // sizes of the tables VALUE_ERRORS and GROWTH
 #define DEPTHS 6
 
-// Of a piece's coefficients: the least, the largest magnitude, how often they rise past -error or error, and how many
-// lie between.
-STRUCT(Signs) struct Signs { real least; real size; int rises; int near; };
+// Of a piece's coefficients: the least, and the largest of those after the first that is not certainly positive.
+STRUCT(Signs) struct Signs { real least; real after; };
 
 Signs signs_of(IN real c[COEFFICIENTS], real error) {
     Signs signs;
     signs.least = c[0];
-    signs.size = fabs(c[0]);
-    signs.rises = 0;
-    signs.near = fabs(c[0]) <= error ? 1 : 0;
+    signs.after = -REAL_INFINITY;
     for (int j = 1; j <= N; j++) {
+        signs.after = signs.least <= error ? max(signs.after, c[j]) : signs.after;
         signs.least = min(signs.least, c[j]);
-        signs.size = max(signs.size, fabs(c[j]));
-        signs.rises += (c[j] > error && c[j - 1] <= error) || (c[j] >= -error && c[j - 1] < -error) ? 1 : 0;
-        signs.near += fabs(c[j]) <= error ? 1 : 0;
     }
     return signs;
 }
@@ -29,11 +24,26 @@ real largest(IN real c[COEFFICIENTS]) {
     return size;
 }
 
+// De Casteljau's algorithm in the middle: `near` gets the near half's coefficients, `far` what it was and the far half's.
+void halve(INOUT real far[COEFFICIENTS], OUT real near[COEFFICIENTS]) {
+    real share = 1.0;
+    near[0] = far[0];
+    for (int r = 1; r <= N; r++) {
+        share = 0.5 * share;
+        for (int j = 0; j <= N - r; j++) far[j] = far[j] + far[j + 1];
+        near[r] = share * far[0];
+    }
+    for (int j = 0; j < N; j++) {
+        far[j] = share * far[j];
+        share = 2.0 * share;
+    }
+}
+
 // De Casteljau's algorithm: `near` gets the coefficients on the first `share` of the interval, `far` keeps the rest's.
 void divide(real share, INOUT real far[COEFFICIENTS], OUT real near[COEFFICIENTS]) {
     near[0] = far[0];
     for (int r = 1; r <= N; r++) {
-        for (int j = 0; j <= N - r; j++) far[j] = (1.0 - share) * far[j] + share * far[j + 1];
+        for (int j = 0; j <= N - r; j++) far[j] = far[j] + share * (far[j + 1] - far[j]);
         near[r] = far[0];
     }
 }
@@ -49,10 +59,9 @@ Hit first_hit(Ray ray, real t0, real t1) {
     real start = t0;  // [start, end]: what is fitted; before `start` there is no root
     real end = t1;
     real a = t0;      // f is positive there
-    real fa = 0.0;
-    real near = t0;   // so it is there by the coefficients
     real z = t0;      // and negative here, where the search ends by a hit
     real fz = 0.0;
+    bool again = false;  // the piece was open before, and is fitted anew
     while (start < t1) {
         real reach = end - start;
         for (int i = 0; i <= N; i++) s[i] = surface_value(ray_point(ray, start + reach * NODES[i]));
@@ -66,23 +75,10 @@ Hit first_hit(Ray ray, real t0, real t1) {
         vec3 p = difference(ray_point(ray, start), DOMAIN_CENTER);
         vec3 q = difference(ray_point(ray, end), DOMAIN_CENTER);
         real away = sqrt(max(inner_product(p, p), inner_product(q, q))) / DOMAIN_RADIUS;
-        real off = UNIT_ROUNDOFF * VALUE_ERRORS[min(int(away * real(SHELLS)), SHELLS - 1)];
-        real unit = UNIT_ROUNDOFF * largest(b);
-        real kept = EFT == 1 ? 2.0 * unit : real(N / 2 + 6) * UNIT_ROUNDOFF * GROWTH[0] * largest(s);
-        real noise = kept;
+        real off = TRUST * UNIT_ROUNDOFF * VALUE_ERRORS[min(int(away * real(SHELLS)), SHELLS - 1)];
+        real unit = TRUST * UNIT_ROUNDOFF * largest(b);
+        real noise = EFT == 1 ? 2.0 * unit : real(N / 2 + 6) * TRUST * UNIT_ROUNDOFF * GROWTH[0] * largest(s);
 
-        int path = 1;
-        int pieces = 1;
-        int depth = 0;
-        real width = reach;
-        if (s[0] < 0.0) {
-            near = a;
-            z = start;
-            fz = s[0];
-        } else {
-            a = start;
-            fa = s[0];
-        }
         real under = end;  // the first sample that is negative, and the one before it
         real f_under = 0.0;
         real above = start;
@@ -93,82 +89,86 @@ Hit first_hit(Ray ray, real t0, real t1) {
                 above = start + reach * NODES[i - 1];
             }
         }
+
+        int path = 1;
+        int pieces = 1;
+        int depth = 0;
+        real error = GROWTH[0] * off + noise;
+        Signs signs = signs_of(c, error);
+        bool empty = signs.least > error;
+        real most = again ? error : -error;
+        bool single = c[N] < -error && signs.after < most;
         // what is all noise is decided by f itself, at the samples
-        bool noisy = reach <= smallest || unit <= NOISE * TRUST * UNIT_ROUNDOFF * (GROWTH[DEPTHS] * off + kept);
-        bool walking = s[0] >= 0.0 && !noisy;
-        bool again = false;
+        bool noisy = reach <= smallest || unit <= NOISE * TRUST * UNIT_ROUNDOFF * (GROWTH[DEPTHS] * off + noise);
+        bool walking = s[0] >= 0.0 && !noisy && !empty && !single;
         while (walking) {
-            real error = TRUST * (GROWTH[depth] * off + noise);
-            Signs signs = signs_of(c, error);
-            real x = start + width * real(path - pieces);
-            bool empty = signs.least > error;
-            bool single = c[N] < -error && signs.rises == 0 && (signs.near <= 1 || reach < t1 - t0);
-            bool handed = !empty && width <= smallest;
-            if (single || handed) {
-                real f = sign * surface_value(ray_point(ray, x + width));
-                hit.evaluations += 1;
-                if (f < 0.0) {
-                    near = x;
-                    z = x + width;
-                    fz = f;
-                }
-                empty = handed;
-            }
-            again = !empty && signs.near > 1 && depth >= TRUSTED;
-            walking = fz >= 0.0 && !again && hit.evaluations < MAX_EVALUATIONS;
-            if (again) {
-                start = x;
-                end = x + width;
-            } else if (empty) {
+            if (empty) {
                 path += 1;
-                if ((path & 1) == 1) {
-                    for (int j = 0; j <= N; j++) c[j] = far[j];
-                } else {
-                    int up = path & (-path);
-                    path = path / up;
-                    pieces = pieces / up;
-                    width = width * real(up);
-                    depth = 0;
-                    for (int d = 1; d <= DEPTHS; d++) depth += (pieces >> d) > 0 ? 1 : 0;
-                    real part = width / reach;
-                    for (int j = 0; j <= N; j++) far[j] = b[j];
-                    divide(part * real(path - pieces), far, c);
-                    divide(part / (1.0 - part * real(path - pieces)), far, c);
-                    noise = kept + real(6 * N) * unit;
-                    walking = walking && path > 1;
-                }
+                int up = path & (-path);
+                path = path / up;
+                pieces = pieces / up;
+                depth = 0;
+                for (int d = 1; d <= DEPTHS; d++) depth += (pieces >> d) > 0 ? 1 : 0;
+                real part = 1.0 / real(pieces);
+                real x = part * real(path - pieces);
+                for (int j = 0; j <= N; j++) far[j] = b[j];
+                divide(x, far, c);
+                divide(part / (1.0 - x), far, c);
             } else {
-                noise += real(N) * UNIT_ROUNDOFF * signs.size;
                 for (int j = 0; j <= N; j++) far[j] = c[j];
-                divide(0.5, far, c);
+                halve(far, c);
                 path = 2 * path;
                 pieces = 2 * pieces;
-                depth = min(depth + 1, DEPTHS);
-                width = 0.5 * width;
+                depth = depth + 1;
             }
-        }
-        if (!again) {
-            if (fz >= 0.0 && f_under < 0.0) {
-                near = above;
-                z = under;
-                fz = f_under;
+            error = GROWTH[min(depth, DEPTHS)] * off + noise + real(N * (depth + 1)) * unit;
+            signs = signs_of(c, error);
+            empty = signs.least > error;
+            if (empty && (path & 1) == 0) {
+                path += 1;
+                for (int j = 0; j <= N; j++) c[j] = far[j];
+                signs = signs_of(c, error);
+                empty = signs.least > error;
             }
-            start = fz < 0.0 || hit.evaluations >= MAX_EVALUATIONS ? t1 : end;
-            end = min(end + WIDENING * reach, t1);
+            most = again ? error : -error;
+            single = c[N] < -error && signs.after < most;
+            // all ones: the last piece
+            walking = !single && (empty ? path + 1 < 2 * pieces : depth < TRUSTED);
         }
+        real width = reach / real(pieces);
+        real x = start + width * real(path - pieces);
+        again = false;
+        if (s[0] < 0.0) {
+            z = start;
+            fz = s[0];
+        } else if (single) {
+            real f = sign * surface_value(ray_point(ray, x + width));
+            hit.evaluations += 1;
+            if (f < 0.0) {
+                a = x;
+                z = x + width;
+                fz = f;
+            } else {
+                again = true;
+            }
+        } else {
+            again = !empty && !noisy;
+        }
+        if (!again && fz >= 0.0 && f_under < 0.0) {
+            a = above;
+            z = under;
+            fz = f_under;
+        }
+        if (fz >= 0.0) a = again ? x : end;
+        start = again ? x : end;
+        end = again ? x + width : min(end + WIDENING * reach, t1);
+        if (fz < 0.0 || hit.evaluations >= MAX_EVALUATIONS) start = t1;
     }
     if (fz >= 0.0 && hit.evaluations >= MAX_EVALUATIONS) return exhausted(hit, a);
     if (fz >= 0.0) return hit;
 
-    real f_near = sign * surface_value(ray_point(ray, near));
+    real fa = sign * surface_value(ray_point(ray, a));
     hit.evaluations += 1;
-    if (f_near < 0.0) {
-        z = near;
-        fz = f_near;
-    } else {
-        a = near;
-        fa = f_near;
-    }
 
     // ITP (Oliveira, Takahashi 2020): regula falsi, drawn towards the middle and kept within bisection's worst case
     real tolerance = TOLERANCE * (t1 - t0);
