@@ -60,7 +60,7 @@ def test_published_tables_cite_their_paper():
 
 
 def test_polygonal_tori_are_off_by_both_chords_where_they_add(monkeypatch, tmp_path):
-    """Within 5 %, from 32 × 32 on; the paper's formula, of the ring alone, is what Table 1 prints, to its last digit."""
+    """Within 5 %, from 32 × 32 on; the formula of the ring alone is what Table 1 prints, to its last digit."""
     pytest.importorskip("pyvista")
     monkeypatch.setenv("FIRSTHIT_CACHE", str(tmp_path))
     monkeypatch.setattr(mesh_errors, "SIZES", (32, 64, 128))

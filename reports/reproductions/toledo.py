@@ -117,8 +117,8 @@ def _frames(rows: pd.DataFrame, angles: list[str]) -> Table:
         ),
         body,
         "toledo2007, Table 1: frames per second, by projection angle.",
-        f"Ours on {rows['device'].iloc[0]}, shaded, with depth; the paper's on a GeForce 7900. Frames per second are of "
-        "two devices; what is compared is the last column, a technique's mean over that of "
+        f"Ours on {rows['device'].iloc[0]}, shaded, with depth; the paper's on a GeForce 7900. Frames per second are "
+        "of two devices; what is compared is the last column, a technique's mean over that of "
         f"{REFERENCE.words}.",
         group=1,
     )
@@ -149,8 +149,8 @@ def _rates(rows: pd.DataFrame) -> Table:
         ),
         body,
         "toledo2007, Table 1: megapixels per second, and how they depend on the view.",
-        "Frames per second times the pixels of the box: how often the ray caster ran. The spread over six angles is the "
-        "paper's measure of view dependence; it says something only well above the noise of a single view.",
+        "Frames per second times the pixels of the box: how often the ray caster ran. The spread over six angles is "
+        "the paper's measure of view dependence; it says something only well above the noise of a single view.",
     )
 
 
