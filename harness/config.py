@@ -28,7 +28,7 @@ from harness.contract import (
     View,
 )
 from harness.plugins import Catalog
-from harness.scenes import Scene
+from harness.scenes import Scene, SceneChoice, cut, scenes_of
 from harness.viewsets import AngleChoice, DirectionChoice, by_angle, by_direction
 
 
@@ -68,12 +68,14 @@ class AccuracyChoice:
 @dataclass(frozen=True)
 class BudgetChoice:
     """Per cell: `seconds` of timing, stopped early once the 95 % interval of the median is within `interval`;
-    `timeout` seconds for any one step (build, check, one repetition), after which the worker is killed."""
+    `timeout` seconds for any one step (build, check, one repetition), after which the worker is killed. A frame of more
+    than so many `triangles` is skipped."""
 
     seconds: float = 2.0
     interval: float = 0.02
     repetitions: int = 200
     timeout: float = 60.0
+    triangles: int = 1_000_000_000
 
 
 @dataclass(frozen=True)
@@ -125,6 +127,7 @@ class Config:
     accuracy: AccuracyChoice = field(default_factory=AccuracyChoice)
     budget: BudgetChoice = field(default_factory=BudgetChoice)
     surface: dict[str, SurfaceChoice] = field(default_factory=dict)
+    scene: dict[str, SceneChoice] = field(default_factory=dict)  # drawn by stage raster, each from its own view
     gate: GateChoice = field(default_factory=GateChoice)
 
 
@@ -331,6 +334,17 @@ def _collection(path: Path, text: str, config: Config, table: dict[str, Any], so
     return Experiment(path.stem, path, text, config, (), (), (), (), tuple(paths))
 
 
+def _surface(name: str, parameters: Mapping[str, float], config: Config) -> Surface:
+    """A surface of the config's own, or of the catalog, with `parameters` bound."""
+    import surfaces
+
+    if name not in config.surface:
+        return surfaces.get(name, **parameters)
+    stated = config.surface[name]
+    given = {key: repr(value) for key, value in {**stated.parameters, **parameters}.items()}
+    return surfaces.from_formula(stated.formula, stated.domain, name=name, parameters=given)
+
+
 def load(path: Path, catalog: Catalog) -> Experiment:
     """Read and resolve a config. Raises FirsthitError with file and line for anything wrong in it."""
     import surfaces
@@ -351,9 +365,11 @@ def load(path: Path, catalog: Catalog) -> Experiment:
         return _collection(path, text, config, table, source)
     _positive(config, source)
     config = _with_view_sets(config)
-    if not config.surfaces and not config.families and not config.studies:
-        raise source.error((), "name surfaces to draw, or families of hard rays, or studies, or some of each")
-    if (config.surfaces or config.families) and not config.method:
+    if not (config.surfaces or config.scene or config.families or config.studies):
+        raise source.error(
+            (), "name surfaces to draw, or scenes, or families of hard rays, or studies, or some of each"
+        )
+    if (config.surfaces or config.scene or config.families) and not config.method:
         raise source.error((), "the top level lacks 'method'")
     _known(config.studies, studies.NAMES, "studies", source)
     if config.families == ["all"]:
@@ -385,15 +401,21 @@ def load(path: Path, catalog: Catalog) -> Experiment:
     chosen: list[Surface] = []
     for name in surfaces.names() if config.surfaces == ["all"] else config.surfaces:
         try:
-            if name in config.surface:
-                stated = config.surface[name]
-                given = {key: repr(value) for key, value in stated.parameters.items()}
-                chosen.append(surfaces.from_formula(stated.formula, stated.domain, name=name, parameters=given))
-            else:
-                chosen.append(surfaces.get(name))
+            chosen.append(_surface(name, {}, config))
         except FirsthitError as error:
             where: Where = ("surface", name, "formula") if name in config.surface else ("surfaces",)
             raise source.error(where, str(error)) from None
+    scenes: list[Scene] = []
+    for name, choice_of_scene in config.scene.items():
+        try:
+            scenes += scenes_of(
+                name,
+                choice_of_scene,
+                lambda one: cut(_surface(one.surface, one.parameters, config), one.domain),
+                lambda one: catalog.get(one.method).variant(one.knobs),
+            )
+        except FirsthitError as error:
+            raise source.error(("scene", name), str(error)) from None
     return Experiment(
         path.stem,
         path,
@@ -405,5 +427,6 @@ def load(path: Path, catalog: Catalog) -> Experiment:
         typing.cast(tuple[Stage, ...], tuple(config.stages)),
         prepasses=typing.cast(tuple[Prepass, ...], tuple(config.prepass)),
         proxies=typing.cast(tuple[Proxy, ...], tuple(config.proxies)),
+        scenes=tuple(scenes),
         own_stages=own_stages,
     )

@@ -17,7 +17,14 @@ from harness.contract import Box, FirsthitError, MeshRecipe, Surface, digest
 from harness.store import savez_atomically
 
 VERSION = 1  # raise when meshes change: old cache files are then not found
-PARAMETRIC = ("torus", "sphere", "cylinder", "cone", "plane")  # families with a parametric form here
+FARTHEST = 5000  # samples of a surface that are held against its mesh
+PARAMETRIC = {  # formulas whose parametric form is known here
+    "(x^2 + y^2 + z^2 + R^2 - r^2)^2 - 4*R^2*(x^2 + y^2)": "torus",
+    "x^2 + y^2 + z^2 - R^2": "sphere",
+    "x^2 + y^2 - r^2": "cylinder",
+    "x^2 + y^2 - (a + b*z)^2": "cone",
+    "z": "plane",
+}
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,10 +77,18 @@ def _stored(path: Path) -> Mesh | None:
         return None
 
 
+def triangles(surface: Surface, n: int) -> int:
+    """About how many a parametric mesh has, without making it."""
+    return {"torus": 2 * n * n, "sphere": n * n, "plane": 2}.get(PARAMETRIC.get(surface.formula, ""), 2 * n)
+
+
 def parametric_refusal(surface: Surface) -> str | None:
     """Why a surface has no parametric mesh, if it has none."""
-    if surface.name not in PARAMETRIC:
-        return "no parametric form is stated; contour it"
+    form = PARAMETRIC.get(surface.formula)
+    if form is None:
+        return f"only {', '.join(PARAMETRIC.values())} have a parametric form here; take the method contour"
+    if form not in ("sphere", "torus") and not isinstance(surface.domain, Box):
+        return f"a {form} is tessellated in a box"
     return None
 
 
@@ -85,25 +100,26 @@ def _parametric(surface: Surface, n: int) -> Mesh:
         raise FirsthitError(f"{surface.name} has no parametric mesh: {reason}")
     values = {name: float(text) for name, text in surface.parameters}
     box = surface.domain if isinstance(surface.domain, Box) else None
-    if surface.name == "torus":
+    form = PARAMETRIC[surface.formula]
+    if form == "torus":
         assert box
         shape: Any = _torus(values["R"], values["r"], box, n)
-    elif surface.name == "sphere":
+    elif form == "sphere":
         shape = pyvista.Sphere(radius=values["R"], theta_resolution=n, phi_resolution=max(3, n // 2 + 1))
     else:
         assert box
         heights = np.array([box.lower[2], box.upper[2]])
-        if surface.name == "plane":
+        if form == "plane":
             shape = pyvista.Plane(i_size=1.0, j_size=1.0, i_resolution=1, j_resolution=1).triangulate()
             lower, upper = np.array(box.lower), np.array(box.upper)
             shape.points = (0.5 * (lower + upper) + shape.points * (upper - lower)) * [1.0, 1.0, 0.0]
         else:
-            radii = np.array([values["r"]] * 2) if surface.name == "cylinder" else values["a"] + values["b"] * heights
+            radii = np.array([values["r"]] * 2) if form == "cylinder" else values["a"] + values["b"] * heights
             turn = np.linspace(0.0, 2.0 * np.pi, n + 1)
             x, y = (radii[:, None] * part(turn) for part in (np.cos, np.sin))
             grid = pyvista.StructuredGrid(x, y, np.broadcast_to(heights[:, None], x.shape).copy())
             shape = grid.extract_surface(algorithm=None).clean(tolerance=1e-9).triangulate()
-    whole = surface.name == "sphere" or (surface.name == "torus" and box is not None and min(box.lower) < 0.0)
+    whole = form == "sphere" or (form == "torus" and box is not None and max(box.lower[:2]) < 0.0)
     return _finished(surface, shape, closed=whole)
 
 
@@ -172,11 +188,12 @@ def _finished(surface: Surface, shape: Any, closed: bool) -> Mesh:
     return Mesh(vertices, triangles.astype(np.uint32), closed)
 
 
-def geometric_error(surface: Surface, made: Mesh, pieces: int = 4) -> tuple[float, float]:
+def geometric_error(surface: Surface, made: Mesh, pieces: int = 2) -> tuple[float, float]:
     """(mesh to surface, surface to mesh), the largest distances over samples, scene units.
 
-    Sampled are `pieces` + 1 points along each side of every triangle and those between; the surface's samples are
-    theirs brought onto it along its gradient. Distances to the surface are its stated distance, or |f| / |grad f|.
+    Sampled are `pieces` + 1 points along each side of every triangle and those between. Distances to the surface are
+    its stated distance, or |f| / |grad f|. The surface's own samples are the FARTHEST of them, brought onto it along its
+    gradient.
     """
     import pyvista
 
@@ -197,7 +214,7 @@ def geometric_error(surface: Surface, made: Mesh, pieces: int = 4) -> tuple[floa
         away = evaluate_tape(real_tape(parse(surface.distance, dict(surface.parameters))), points)[:, 0]
     else:
         away = np.linalg.norm(off(points), axis=1)
-    onto = points
+    onto = points[np.argsort(-np.abs(away), kind="stable")[:FARTHEST]]
     for _ in range(6):
         onto = onto - off(onto)
     faces = np.column_stack([np.full(len(made.triangles), 3), made.triangles]).ravel()

@@ -162,7 +162,9 @@ def devices_of(experiment: Experiment, found: list[DeviceInfo]) -> dict[str, Dev
     return choose_devices(experiment.config.devices, found, drawn_only)
 
 
-def _refusal(cell: Cell, surface: Surface, info: DeviceInfo | None, catalog: Catalog) -> str | None:
+def _refusal(
+    cell: Cell, surface: Surface, info: DeviceInfo | None, catalog: Catalog, most_triangles: int
+) -> str | None:
     """Why a cell cannot run, if it cannot."""
     from surfaces.sections import unsupported
 
@@ -181,7 +183,10 @@ def _refusal(cell: Cell, surface: Surface, info: DeviceInfo | None, catalog: Cat
         if cell.precision != "float32":
             return "the stage raster is float32, as its vertices and its depth buffer are"
         if cell.prepass == "none":
-            return raster.refusal(cell.scene or single(surface, cell.view), cell.variant, catalog)
+            scene = cell.scene or single(surface, cell.view)
+            return raster.refusal(scene, cell.variant, catalog) or raster.too_many(
+                scene, cell.variant, catalog, most_triangles
+            )
     if cell.scene:
         return "the stage casts at one surface; several are drawn by stage raster"
     if method.casts == "mesh":
@@ -214,7 +219,8 @@ def _programs(cell: Cell, surfaces: list[Surface], catalog: Catalog) -> tuple[tu
 
 def _planned(cell: Cell, info: DeviceInfo | None, catalog: Catalog, experiment: Experiment, timed: bool) -> Planned:
     surfaces = [group.surface for group in stability.groups(cell.family)] if cell.family else [cell.surface]
-    skip = next(filter(None, (_refusal(cell, surface, info, catalog) for surface in surfaces)), None)
+    most = experiment.config.budget.triangles
+    skip = next(filter(None, (_refusal(cell, surface, info, catalog, most) for surface in surfaces)), None)
     checks: tuple[Program, ...] = ()
     frame: Program | None = None
     before: Program | None = None

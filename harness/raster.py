@@ -73,6 +73,21 @@ def refusal(scene: Scene, variant: Variant, catalog: Catalog) -> str | None:
     return None
 
 
+def too_many(scene: Scene, variant: Variant, catalog: Catalog, most: int) -> str | None:
+    """Why a scene's meshes are too fine for a frame of at most `most` triangles, if they are; contours are not counted
+    before they are made."""
+    count = 0
+    for group in scene.groups:
+        chosen = group.variant or variant
+        method = catalog.get(chosen.method).method
+        recipe = method.mesh(group.distinct[0], dict(chosen.parameters)) if method.mesh else None
+        if recipe and recipe.kind == "parametric":
+            from harness import meshes
+
+            count += len(group) * meshes.triangles(group.distinct[0], recipe.resolution)
+    return f"{count / 1e6:,.0f} million triangles a frame, over [budget] triangles" if count > most else None
+
+
 def _differ(group: Group) -> str:
     names = [name for name in dict(group.distinct[0].parameters) if _several(group, name)]
     return ", ".join(names) or "their domains"

@@ -19,7 +19,7 @@ from harness.config import AccuracyChoice
 from harness.executor import LocalExecutor
 from harness.pictures import pictures_of
 from harness.plan import Planned
-from harness.scenes.truth import Seen, scales, scene_truth
+from harness.scenes.truth import Seen, scale_of, scene_truth
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,7 +36,7 @@ def check(executor: LocalExecutor, planned: Planned, config: AccuracyChoice, fol
     picture = drawn.picture
     rays = picture.rays
     truth: Seen = scene_truth(scene, rays, picture, folder)
-    hits = picture.hits(scales(scene, picture))
+    hits = picture.hits(scale_of(scene, picture))
     verdicts = accuracy.judge(hits, truth.truth, scene_radius(cell.surface), config.grazing_margin)
     alone = cell.scene is None
     deviations = (

@@ -49,6 +49,8 @@ def _judged(
     truth: Path,
 ) -> Judged:
     base = Judged(f"{slot_of(planned)}: speed", planned.cell.device, planned.cell.variant.method, Verdict.PASS)
+    if planned.draws:
+        return replace(base, verdict=Verdict.INCOMPARABLE, reason="stage raster's pictures are not raced")
     if former is None:
         return replace(base, verdict=Verdict.NEW, reason="the other revision has no such cell")
     if former.timed is None:

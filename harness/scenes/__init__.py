@@ -1,5 +1,10 @@
-"""Scenes: surface instances with transforms, meshes, and one view. Nothing more: no materials, and a headlight only."""
+"""Scenes: surface instances with transforms, meshes among them, and one view. Nothing more: no materials, no lights but
+the headlight.
 
+A mesh is a surface that a method of triangles draws; so the oracle knows what it should be.
+"""
+
+from harness.scenes.choice import PlacedChoice, SceneChoice, cut, scenes_of
 from harness.scenes.model import Group, Scene, single
 
-__all__ = ["Group", "Scene", "single"]
+__all__ = ["Group", "PlacedChoice", "Scene", "SceneChoice", "cut", "scenes_of", "single"]

@@ -42,9 +42,6 @@ class Group:
     def __len__(self) -> int:
         return len(self.place)
 
-    def surface(self, index: int) -> Surface:
-        return self.surfaces[index if len(self.surfaces) > 1 else 0]
-
     @cached_property
     def distinct(self) -> tuple[Surface, ...]:
         return tuple(dict.fromkeys(self.surfaces))

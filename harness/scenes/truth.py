@@ -40,14 +40,15 @@ class Seen:
 class _Part:
     """Pairs [k] of a ray and an instance that it may meet."""
 
-    local: NDArray[np.float32]  # [k, 6]
+    local: NDArray[np.float32]  # [k, 6] the world's ray in the instance's coordinates
+    cast: NDArray[np.float32]  # [k, 6] the ray that the fragment cast, where the instance is seen
     pixel: NDArray[np.intp]
     batch: NDArray[np.int_]
     instance: NDArray[np.intp]
     scale: NDArray[np.float64]
 
 
-def scales(scene: Scene, picture: Picture) -> NDArray[np.float64]:
+def scale_of(scene: Scene, picture: Picture) -> NDArray[np.float64]:
     """float64[n]: the scale of who is seen; 1 where nothing is."""
     found = np.ones(len(picture.t))
     for number, group in enumerate(scene.groups):
@@ -67,15 +68,18 @@ def scene_truth(scene: Scene, rays: NDArray[np.float32], picture: Picture, folde
     for number, group in enumerate(scene.groups):
         records = pack(group)
         pixel, who = _candidates(group, wide)
-        for surface in group.distinct:
-            mine = np.array([group.surface(int(i)) is surface for i in who], bool) if group.varies else slice(None)
+        numbers = {surface: k for k, surface in enumerate(group.distinct)}
+        kind = np.array([numbers[surface] for surface in group.surfaces])
+        for surface, k in numbers.items():
+            mine = np.broadcast_to(kind, len(group))[who] == k
             at, own = pixel[mine], who[mine]
             if not len(at):
                 continue
             local = _local(records[own], wide[at])
             seen = (picture.batch[at] == number) & (picture.instance[at] == own) & ~picture.in_world[at]
-            local[seen] = picture.local_rays[at[seen]]
-            work[surface].append(_Part(local, at, np.full(len(at), number), own, records[own, 15].astype(np.float64)))
+            cast = np.where(seen[:, None], picture.local_rays[at], local)
+            scale = records[own, 15].astype(np.float64)
+            work[surface].append(_Part(local, cast, at, np.full(len(at), number), own, scale))
     return _nearest(len(rays), [_certified(surface, parts, folder) for surface, parts in work.items()])
 
 
@@ -110,7 +114,15 @@ def _local(records: NDArray[np.float32], rays: NDArray[np.float64]) -> NDArray[n
 
 def _certified(surface: Surface, parts: list[_Part], folder: Path) -> tuple[_Part, Truth]:
     whole = _Part(*(np.concatenate([getattr(part, name) for part in parts]) for name in _Part.__dataclass_fields__))
-    return whole, cached_first_hits(surface, whole.local, folder)
+    truth = cached_first_hits(surface, whole.local, folder)  # the same for all methods
+    other = (whole.cast != whole.local).any(axis=1)
+    if other.any():
+        own = cached_first_hits(surface, whole.cast[other], folder)
+        values = {name: np.array(value) for name, value in vars(truth).items()}
+        for name, value in vars(own).items():
+            values[name][other] = value
+        truth = Truth(**values)
+    return whole, truth
 
 
 def _nearest(n: int, found: list[tuple[_Part, Truth]]) -> Seen:

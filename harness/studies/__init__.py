@@ -17,7 +17,7 @@ from typing import Any
 from harness.contract import digest
 from harness.store import FORMAT, write_atomically
 
-NAMES = ("condition_numbers", "extrema_bounds")
+NAMES = ("condition_numbers", "extrema_bounds", "mesh_errors")
 
 
 def _module(name: str) -> Any:

@@ -34,3 +34,5 @@ TORUS = ("torus",)
 TABLE_4 = ("sphere", "torus", "calyx", "barth_sextic", "endrass_octic", "barth_decic", "sixteen_ball")
 TABLE_5 = ("sphere", "flirt", "calyx", "barth_sextic")
 HIGH_DEGREE = ("endrass_octic", "barth_decic", "sixteen_ball")
+
+POLYGONS = tuple(Pick(f"Polygon {n}*{n}", "polygon", {"N": n}) for n in (32, 64, 128, 256, 512))

@@ -1,0 +1,100 @@
+"""Scenes as a config states them: tables [scene.NAME]."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from harness.contract import FirsthitError, Surface, Variant, View
+from harness.scenes.generate import GENERATORS, generate
+from harness.scenes.model import COLOUR, Floats, Group, Scene
+
+
+@dataclass(frozen=True)
+class PlacedChoice:
+    """One instance: world = at + scale · turn · local. `turn` is in degrees about x, then y, then z. `domain` cuts out
+    a part: a quarter torus is a torus in a box from 0. `method`, with its knobs, draws this one, whatever the experiment
+    compares: `polygon` or `contour` makes it a mesh."""
+
+    surface: str
+    parameters: dict[str, float] = field(default_factory=dict)
+    domain: str = ""
+    at: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    turn: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    scale: float = 1.0
+    colour: tuple[float, float, float] = COLOUR
+    method: str = ""
+    knobs: dict[str, float] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class SceneChoice:
+    """Instances placed one by one, or made by `generate` (lattice, scattered, pipes, molecule), a scene for each of
+    `counts`; and one view."""
+
+    title: str = ""
+    placed: list[PlacedChoice] = field(default_factory=list)
+    generate: str = ""
+    counts: list[int] = field(default_factory=lambda: [100])
+    seed: int = 1
+    azimuth: float = 30.0
+    elevation: float = 30.0
+    fov: float = 30.0
+    distance: float | None = None
+
+
+def scenes_of(
+    name: str,
+    choice: SceneChoice,
+    surface_of: Callable[[PlacedChoice], Surface],
+    variant_of: Callable[[PlacedChoice], Variant],
+) -> list[Scene]:
+    """The scenes that a table stands for; FirsthitError where it is none."""
+    view = View(name, choice.azimuth, choice.elevation, choice.fov, choice.distance)
+    if bool(choice.placed) == bool(choice.generate):
+        raise FirsthitError(f"scene {name!r} needs instances in `placed`, or a way to `generate` them, and not both")
+    if choice.generate:
+        if choice.generate not in GENERATORS:
+            raise FirsthitError(f"scene {name!r}: generate is one of {', '.join(GENERATORS)}, not {choice.generate!r}")
+        return [generate(choice.generate, count, choice.seed, view) for count in choice.counts]
+    groups = []
+    for one in choice.placed:
+        if not one.scale > 0.0:
+            raise FirsthitError(f"scene {name!r}: a scale is positive, not {one.scale:g}")
+        groups.append(
+            Group(
+                (surface_of(one),),
+                np.array([one.at]),
+                rotation(*one.turn)[None],
+                np.array([one.scale]),
+                np.array([one.colour]),
+                variant_of(one) if one.method else None,
+            )
+        )
+    return [Scene(name, choice.title or name, tuple(groups), view)]
+
+
+def rotation(x: float, y: float, z: float) -> Floats:
+    """[3, 3], by x degrees about the x axis, then y about y, then z about z."""
+    made = np.eye(3)
+    for axis, degrees in enumerate((x, y, z)):
+        angle, (i, j) = math.radians(degrees), [(1, 2), (2, 0), (0, 1)][axis]
+        turn = np.eye(3)
+        turn[i, i] = turn[j, j] = math.cos(angle)
+        turn[i, j], turn[j, i] = -math.sin(angle), math.sin(angle)
+        made = turn @ made
+    return made
+
+
+def cut(surface: Surface, domain: str) -> Surface:
+    """The surface in another domain; its bounding sphere was about the old one's centre."""
+    import surfaces
+
+    if not domain:
+        return surface
+    other = surfaces.from_formula(surface.formula, domain, parameters=dict(surface.parameters)).domain
+    return dataclasses.replace(surface, domain=other, bounding_radius=None, facts=())
