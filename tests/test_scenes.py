@@ -119,7 +119,7 @@ def test_generated_scenes_have_their_count_and_follow_their_seed(kind):
         assert (np.linalg.det(group.turn) > 0.99).all()
 
 
-def test_pipes_join(tmp_path):
+def test_pipes_join():
     """Each part's ends are where its neighbours' are: the ends of all pipes but plates pair up or end at a plate."""
     scene = generate("pipes", 200, 5, VIEW)
     ends, plates = [], []
