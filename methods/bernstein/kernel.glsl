@@ -58,8 +58,10 @@ Hit first_hit(Ray ray, real t0, real t1) {
     real sign = 1.0;
     real start = t0;  // [start, end]: what is fitted; before `start` there is no root
     real end = t1;
-    real a = t0;      // f is positive there
-    real z = t0;      // and negative here, where the search ends by a hit
+    real base = t0;   // c belongs to t = base + size u for u in [0, 1]; there f is positive at u = a,
+    real size = 0.0;  // and negative at u = z, where the search ends by a hit
+    real a = 0.0;
+    real z = 1.0;
     real fz = 0.0;
     bool again = false;  // the piece was open before, and is fitted anew
     while (start < t1) {
@@ -68,7 +70,7 @@ Hit first_hit(Ray ray, real t0, real t1) {
         hit.evaluations += N + 1;
         if (hit.evaluations == N + 1) sign = s[0] < 0.0 ? real(-1) : real(1);
         for (int i = 0; i <= N; i++) s[i] = sign * s[i];
-        fit(s, true, EFT == 1, b);
+        fit(s, true, N >= COMPENSATED, b);
         for (int j = 0; j <= N; j++) c[j] = b[j];
 
         // what a sample may be off by, and the fit's and the halvings' own roundings
@@ -77,16 +79,16 @@ Hit first_hit(Ray ray, real t0, real t1) {
         real away = sqrt(max(inner_product(p, p), inner_product(q, q))) / DOMAIN_RADIUS;
         real off = TRUST * UNIT_ROUNDOFF * VALUE_ERRORS[min(int(away * real(SHELLS)), SHELLS - 1)];
         real unit = TRUST * UNIT_ROUNDOFF * largest(b);
-        real noise = EFT == 1 ? 2.0 * unit : real(N / 2 + 6) * TRUST * UNIT_ROUNDOFF * GROWTH[0] * largest(s);
+        real noise = N >= COMPENSATED ? 2.0 * unit : real(N / 2 + 6) * TRUST * UNIT_ROUNDOFF * GROWTH[0] * largest(s);
 
-        real under = end;  // the first sample that is negative, and the one before it
+        real above = 0.0;  // of the first sample that is negative, the one before it
+        real under = 1.0;
         real f_under = 0.0;
-        real above = start;
         for (int i = N; i > 0; i--) {
             if (s[i] < 0.0) {
-                under = start + reach * NODES[i];
+                above = NODES[i - 1];
+                under = NODES[i];
                 f_under = s[i];
-                above = start + reach * NODES[i - 1];
             }
         }
 
@@ -137,62 +139,41 @@ Hit first_hit(Ray ray, real t0, real t1) {
         }
         real width = reach / real(pieces);
         real x = start + width * real(path - pieces);
-        again = false;
-        if (s[0] < 0.0) {
-            z = start;
-            fz = s[0];
-        } else if (single) {
-            real f = sign * surface_value(ray_point(ray, x + width));
+        bool before = s[0] < 0.0;  // a root was passed before the piece
+        again = !before && !single && !empty && !noisy;
+        if (single && !before) {
+            base = x;
+            size = width;
+            fz = min(sign * surface_value(ray_point(ray, x + width)), real(0));
             hit.evaluations += 1;
-            if (f < 0.0) {
-                a = x;
-                z = x + width;
-                fz = f;
-            } else {
-                again = true;
-            }
-        } else {
-            again = !empty && !noisy;
+            again = fz >= 0.0;
         }
-        if (!again && fz >= 0.0 && f_under < 0.0) {
-            a = above;
-            z = under;
-            fz = f_under;
+        if (before || (!again && fz >= 0.0 && f_under < 0.0)) {
+            for (int j = 0; j <= N; j++) c[j] = b[j];
+            base = start;
+            size = reach;
+            a = before ? -1.0 / WIDENING : above;
+            z = before ? real(0) : under;
+            fz = before ? s[0] : f_under;
         }
-        if (fz >= 0.0) a = again ? x : end;
         start = again ? x : end;
         end = again ? x + width : min(end + WIDENING * reach, t1);
         if (fz < 0.0 || hit.evaluations >= MAX_EVALUATIONS) start = t1;
     }
-    if (fz >= 0.0 && hit.evaluations >= MAX_EVALUATIONS) return exhausted(hit, a);
+    if (fz >= 0.0 && hit.evaluations >= MAX_EVALUATIONS) return exhausted(hit, base);
     if (fz >= 0.0) return hit;
 
-    real fa = sign * surface_value(ray_point(ray, a));
+    // Newton's method within the bracket, with f's own value and the fit's slope
+    for (int j = 0; j <= N; j++) c[j] = BINOMIALS[j] * c[j];
+    real fa = sign * surface_value(ray_point(ray, base + size * a));
     hit.evaluations += 1;
-
-    // ITP (Oliveira, Takahashi 2020): regula falsi, drawn towards the middle and kept within bisection's worst case
-    real tolerance = TOLERANCE * (t1 - t0);
-    real spread = 2.0 * tolerance;  // at least z - a, doubled
-    while (spread < 2.0 * (z - a)) spread = 2.0 * spread;
-    real pull = 0.1875 / (z - a);
-    for (int i = 0; i < MOST_STEPS && z - a > tolerance; i++) {
-        real middle = 0.5 * (a + z);
-        real x = z - fz * ((z - a) / (fz - fa));
-        real delta = pull * (z - a) * (z - a);
-        real towards = middle < x ? real(-1) : real(1);
-        x = fabs(middle - x) > delta ? x + towards * delta : middle;
-        real radius = 0.5 * (spread - (z - a));
-        if (fabs(middle - x) > radius) x = middle - towards * radius;
-        real f = sign * surface_value(ray_point(ray, x));
+    real tolerance = TOLERANCE * (t1 - t0) / size;
+    Bracket bracket = make_bracket(a, z, max(fa, real(0)), fz);
+    for (int i = 0; i < MOST_STEPS && bracket.step > tolerance; i++) {
+        Dual f = polynomial_dual(c, N, true, bracket.x);
+        f.value = sign * surface_value(ray_point(ray, base + size * bracket.x));
         hit.evaluations += 1;
-        if (f > 0.0) {
-            a = x;
-            fa = f;
-        } else {
-            z = x;
-            fz = f;
-        }
-        spread = 0.5 * spread;
+        bracket = newton_step(bracket, f, false);
     }
-    return hit_at(hit, fa > fz ? z - fz * ((z - a) / (fz - fa)) : z);
+    return hit_at(hit, base + size * bracket.x);
 }
