@@ -43,7 +43,7 @@ void halve(INOUT real far[COEFFICIENTS], OUT real near[COEFFICIENTS]) {
 void divide(real share, INOUT real far[COEFFICIENTS], OUT real near[COEFFICIENTS]) {
     near[0] = far[0];
     for (int r = 1; r <= N; r++) {
-        for (int j = 0; j <= N - r; j++) far[j] = far[j] + share * (far[j + 1] - far[j]);
+        for (int j = 0; j <= N - r; j++) far[j] = fma(share, far[j + 1] - far[j], far[j]);
         near[r] = far[0];
     }
 }
@@ -101,7 +101,7 @@ Hit first_hit(Ray ray, real t0, real t1) {
         real most = again ? error : -error;
         bool single = c[N] < -error && signs.after < most;
         // what is all noise is decided by f itself, at the samples
-        bool noisy = reach <= smallest || unit <= NOISE * TRUST * UNIT_ROUNDOFF * (GROWTH[DEPTHS] * off + noise);
+        bool noisy = reach <= smallest || hit.evaluations > FITS * (N + 1) || unit <= NOISE * TRUST * UNIT_ROUNDOFF * (GROWTH[DEPTHS] * off + noise);
         bool walking = s[0] >= 0.0 && !noisy && !empty && !single;
         while (walking) {
             if (empty) {

@@ -72,6 +72,7 @@ METHOD = Method(
         Parameter("NOISE", 1.0, "a fitted piece under this many errors is decided by f's signs at the samples"),
         Parameter("RESOLUTION", 2.0**-14, "shortest piece, over the ray's length in the domain"),
         Parameter("WIDENING", 8.0, "how much longer the piece after one that was fitted anew is"),
+        Parameter("FITS", 12, "fits of one ray after which f's signs at the samples decide what is open"),
         Parameter("MAX_EVALUATIONS", 4096, "evaluations spent on one ray"),
     ),
     claims=frozenset({"no_false_hit"}),
