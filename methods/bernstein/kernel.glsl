@@ -39,13 +39,44 @@ void halve(INOUT real far[COEFFICIENTS], OUT real near[COEFFICIENTS]) {
     }
 }
 
-// De Casteljau's algorithm: `near` gets the coefficients on the first `share` of the interval, `far` keeps the rest's.
-void divide(real share, INOUT real far[COEFFICIENTS], OUT real near[COEFFICIENTS]) {
-    near[0] = far[0];
-    for (int r = 1; r <= N; r++) {
-        for (int j = 0; j <= N - r; j++) far[j] = fma(share, far[j + 1] - far[j], far[j]);
-        near[r] = far[0];
+// Bounds of a piece's errors: what samples are off by; the fit's and the halvings' roundings. `most` is 1 where an open
+// run of coefficients may be taken for one change of sign, and -1 where not.
+STRUCT(Errors) struct Errors { real off; real noise; real unit; real most; };
+
+real error_at(Errors errors, int depth) {
+    return GROWTH[min(depth, DEPTHS)] * errors.off + errors.noise + real(N * (depth + 1)) * errors.unit;
+}
+
+// A piece of the fitted interval: the digits of `path` after its first lead to it from the whole; `pieces` are as long.
+STRUCT(Piece) struct Piece { int path; int pieces; int depth; bool empty; bool single; };
+
+Piece judged(Piece piece, IN real c[COEFFICIENTS], Errors errors) {
+    Piece result = piece;
+    real error = error_at(errors, piece.depth);
+    Signs signs = signs_of(c, error);
+    result.empty = signs.least > error;
+    result.single = c[N] < -error && signs.after < errors.most * error;
+    return result;
+}
+
+// Halves the piece, and the first half of it that may hold a root, until that is none or has one.
+Piece descended(Piece start, INOUT real c[COEFFICIENTS], Errors errors) {
+    real far[COEFFICIENTS];
+    Piece piece = start;
+    while (!piece.empty && !piece.single && piece.depth < TRUSTED) {
+        for (int j = 0; j <= N; j++) far[j] = c[j];
+        halve(far, c);
+        piece.path = 2 * piece.path;
+        piece.pieces = 2 * piece.pieces;
+        piece.depth += 1;
+        real least = c[0];
+        for (int j = 1; j <= N; j++) least = min(least, c[j]);
+        bool beyond = least > error_at(errors, piece.depth);
+        piece.path += beyond ? 1 : 0;
+        for (int j = 0; j <= N; j++) c[j] = beyond ? far[j] : c[j];
+        piece = judged(piece, c, errors);
     }
+    return piece;
 }
 
 Hit first_hit(Ray ray, real t0, real t1) {
@@ -92,53 +123,24 @@ Hit first_hit(Ray ray, real t0, real t1) {
             }
         }
 
-        int path = 1;
-        int pieces = 1;
-        int depth = 0;
-        real error = GROWTH[0] * off + noise;
-        Signs signs = signs_of(c, error);
-        bool empty = signs.least > error;
-        real most = again ? error : -error;
-        bool single = c[N] < -error && signs.after < most;
+        Errors errors;
+        errors.off = off;
+        errors.noise = noise;
+        errors.unit = unit;
+        errors.most = again ? real(1) : real(-1);
+        Piece piece;
+        piece.path = 1;
+        piece.pieces = 1;
+        piece.depth = 0;
+        piece = judged(piece, c, errors);
         // what is all noise is decided by f itself, at the samples
         bool noisy = reach <= smallest || hit.evaluations > FITS * (N + 1) || unit <= NOISE * TRUST * UNIT_ROUNDOFF * (GROWTH[DEPTHS] * off + noise);
-        bool walking = s[0] >= 0.0 && !noisy && !empty && !single;
-        while (walking) {
-            if (empty) {
-                path += 1;
-                int up = path & (-path);
-                path = path / up;
-                pieces = pieces / up;
-                depth = 0;
-                for (int d = 1; d <= DEPTHS; d++) depth += (pieces >> d) > 0 ? 1 : 0;
-                real part = 1.0 / real(pieces);
-                real x = part * real(path - pieces);
-                for (int j = 0; j <= N; j++) far[j] = b[j];
-                divide(x, far, c);
-                divide(part / (1.0 - x), far, c);
-            } else {
-                for (int j = 0; j <= N; j++) far[j] = c[j];
-                halve(far, c);
-                path = 2 * path;
-                pieces = 2 * pieces;
-                depth = depth + 1;
-            }
-            error = GROWTH[min(depth, DEPTHS)] * off + noise + real(N * (depth + 1)) * unit;
-            signs = signs_of(c, error);
-            empty = signs.least > error;
-            if (empty && (path & 1) == 0) {
-                path += 1;
-                for (int j = 0; j <= N; j++) c[j] = far[j];
-                signs = signs_of(c, error);
-                empty = signs.least > error;
-            }
-            most = again ? error : -error;
-            single = c[N] < -error && signs.after < most;
-            // all ones: the last piece
-            walking = !single && (empty ? path + 1 < 2 * pieces : depth < TRUSTED);
-        }
-        real width = reach / real(pieces);
-        real x = start + width * real(path - pieces);
+        if (s[0] < 0.0 || noisy) piece.depth = TRUSTED;
+        piece = descended(piece, c, errors);
+        bool empty = piece.empty;
+        bool single = piece.single && !noisy;
+        real width = reach / real(piece.pieces);
+        real x = start + width * real(piece.path - piece.pieces);
         bool before = s[0] < 0.0;  // a root was passed before the piece
         again = !before && !single && !empty && !noisy;
         if (single && !before) {
@@ -148,7 +150,9 @@ Hit first_hit(Ray ray, real t0, real t1) {
             hit.evaluations += 1;
             again = fz >= 0.0;
         }
-        if (before || (!again && fz >= 0.0 && f_under < 0.0)) {
+        bool last = noisy || piece.path + 1 == 2 * piece.pieces;
+        real behind = last ? end : x + width;
+        if (before || (last && !again && fz >= 0.0 && f_under < 0.0)) {
             for (int j = 0; j <= N; j++) c[j] = b[j];
             base = start;
             size = reach;
@@ -156,8 +160,8 @@ Hit first_hit(Ray ray, real t0, real t1) {
             z = before ? real(0) : under;
             fz = before ? s[0] : f_under;
         }
-        start = again ? x : end;
-        end = again ? x + width : min(end + WIDENING * reach, t1);
+        start = again ? x : behind;
+        end = again ? behind : min(behind + WIDENING * width, t1);
         if (fz < 0.0 || hit.evaluations >= MAX_EVALUATIONS) start = t1;
     }
     if (fz >= 0.0 && hit.evaluations >= MAX_EVALUATIONS) return exhausted(hit, base);
