@@ -133,8 +133,17 @@ Hit first_hit(Ray ray, real t0, real t1) {
         piece.pieces = 1;
         piece.depth = 0;
         piece = judged(piece, c, errors);
+        // as many changes in the coefficients as in the samples: each root is between two samples
+        real certain = error_at(errors, 0);
+        int more = 0;
+        for (int i = 1; i <= N; i++) {
+            more += (b[i] < 0.0) != (b[i - 1] < 0.0) ? 1 : 0;
+            more -= (s[i] < 0.0) != (s[i - 1] < 0.0) ? 1 : 0;
+            certain = min(certain, fabs(b[i]));
+        }
+        bool counted = more == 0 && certain == error_at(errors, 0);
         // what is all noise is decided by f itself, at the samples
-        bool noisy = reach <= smallest || hit.evaluations > FITS * (N + 1) || unit <= NOISE * TRUST * UNIT_ROUNDOFF * (GROWTH[DEPTHS] * off + noise);
+        bool noisy = counted || reach <= smallest || hit.evaluations > FITS * (N + 1) || unit <= NOISE * TRUST * UNIT_ROUNDOFF * (GROWTH[DEPTHS] * off + noise);
         if (s[0] < 0.0 || noisy) piece.depth = TRUSTED;
         piece = descended(piece, c, errors);
         bool empty = piece.empty;
