@@ -81,7 +81,7 @@ Piece descended(Piece start, INOUT real c[COEFFICIENTS], Errors errors) {
 
 Hit first_hit(Ray ray, real t0, real t1) {
     Hit hit = no_hit(t1);
-    real smallest = RESOLUTION * (t1 - t0);
+    real smallest = max(RESOLUTION * (t1 - t0), 64.0 * UNIT_ROUNDOFF * max(fabs(t0), fabs(t1)));
     real s[COEFFICIENTS];
     real b[COEFFICIENTS];
     real c[COEFFICIENTS];
