@@ -192,8 +192,8 @@ def geometric_error(surface: Surface, made: Mesh, pieces: int = 2) -> tuple[floa
     """(mesh to surface, surface to mesh), the largest distances over samples, scene units.
 
     Sampled are `pieces` + 1 points along each side of every triangle and those between. Distances to the surface are
-    its stated distance, or |f| / |grad f|. The surface's own samples are the FARTHEST of them, brought onto it along its
-    gradient.
+    its stated distance, or |f| / |grad f|. The surface's own samples are the FARTHEST of them, brought onto it along
+    its gradient.
     """
     import pyvista
 

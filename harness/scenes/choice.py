@@ -17,8 +17,8 @@ from harness.scenes.model import COLOUR, Floats, Group, Scene
 @dataclass(frozen=True)
 class PlacedChoice:
     """One instance: world = at + scale · turn · local. `turn` is in degrees about x, then y, then z. `domain` cuts out
-    a part: a quarter torus is a torus in a box from 0. `method`, with its knobs, draws this one, whatever the experiment
-    compares: `polygon` or `contour` makes it a mesh."""
+    a part: a quarter torus is a torus in a box from 0. `method`, with its knobs, draws this one, whatever the
+    experiment compares: `polygon` or `contour` makes it a mesh."""
 
     surface: str
     parameters: dict[str, float] = field(default_factory=dict)
