@@ -12,12 +12,13 @@ _PART = re.compile(r"^\*\*(.+?)\*\*", re.MULTILINE)
 
 
 def card(plugin: Plugin) -> dict[str, Any]:
-    """JSON-able: title, source, doc (the docstring's bold parts but Source, by name), parameters, claims."""
+    """JSON-able: title, source, doc (the docstring's bold parts but Source, by name; a line for each of its points),
+    parameters, claims."""
     method = plugin.method
     text = ast.get_docstring(ast.parse((plugin.folder / "method.py").read_text(encoding="utf-8"))) or ""
     title, *_ = text.split("\n", 1)
     pieces = _PART.split(text)
-    doc = {name: " ".join(body.split()) for name, body in zip(pieces[1::2], pieces[2::2], strict=True)}
+    doc = {name: _folded(body) for name, body in zip(pieces[1::2], pieces[2::2], strict=True)}
     return {
         "title": title,
         "source": doc.pop("Source", method.source),
@@ -25,3 +26,8 @@ def card(plugin: Plugin) -> dict[str, Any]:
         "parameters": [{"name": p.name, "default": p.default, "meaning": p.meaning} for p in method.parameters],
         "claims": sorted(method.claims),
     }
+
+
+def _folded(text: str) -> str:
+    """One line for the text and one for each point of its list, which start with "- "."""
+    return "\n- ".join(" ".join(part.split()) for part in re.split(r"(?:^|\n)- ", text)).lstrip(" ,.:;\n")

@@ -8,6 +8,8 @@ from __future__ import annotations
 import importlib.util
 import multiprocessing
 import signal
+from collections.abc import Iterable
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
 from multiprocessing.context import SpawnProcess
@@ -38,22 +40,26 @@ class _Process:
     connection: Connection
 
 
-def discover_devices() -> list[DeviceInfo]:
-    """Every device of every installed backend, found in processes of their own: a driver that crashes costs itself."""
-    found: list[DeviceInfo] = []
+def discover_devices(wanted: Iterable[str] = ("all",)) -> list[DeviceInfo]:
+    """Every device of every installed backend, side by side in processes of their own: a driver that crashes costs
+    itself. Where `wanted` names devices, as a config does, only of the backends that it names."""
+    named = {name.partition(":")[0] for name in wanted}
+    backends = [backend for backend, package in INSTALL.items() if importlib.util.find_spec(package)]
+    if named <= set(INSTALL):
+        backends = [backend for backend in backends if backend in named]
+    with ThreadPoolExecutor() as pool:
+        return [info for found in pool.map(_find, backends) for info in found]
+
+
+def _find(backend: str) -> list[DeviceInfo]:
     executor = LocalExecutor(START_SECONDS)
-    for backend, package in INSTALL.items():
-        if importlib.util.find_spec(package):
-            try:
-                found += executor.find(backend)
-            except CellError as error:
-                found.append(
-                    DeviceInfo(
-                        f"{backend}:none", "none", "none", "none", None, False, "wall", (), f"looking for it: {error}"
-                    )
-                )
-    executor.close()
-    return found
+    try:
+        return executor.find(backend)
+    except CellError as error:
+        problem = f"looking for it: {error}"
+        return [DeviceInfo(f"{backend}:none", "none", "none", "none", None, False, "wall", (), problem)]
+    finally:
+        executor.close()
 
 
 class LocalExecutor:
@@ -71,9 +77,10 @@ class LocalExecutor:
     def probe(self, device: str) -> Any:
         return self._call(device, "probe")
 
-    def build(self, device: str, program: Program) -> None:
-        """Compile, and no more."""
-        self._call(device, "build", program)
+    def build(self, device: str, program: Program) -> float:
+        """Compile, and no more; the milliseconds that it took."""
+        compile_ms: float = self._call(device, "build", program)
+        return compile_ms
 
     def check(self, device: str, program: Program, rays: NDArray[np.float32]) -> Checked:
         """Build a listed-rays program and cast rays float32[n, 6] once."""

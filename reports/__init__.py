@@ -34,8 +34,7 @@ def build(run: Path) -> Path:
             made = Path(name)
             document.write_pdf(content, made / "pdf", made / "report.pdf", loaded.plan.created)
             html.write_html(content, style.marks([*frame["method"], *loaded.families["method"]]), made / "report.html")
-            store.write_csv(frame, made / "results.csv")
-            store.write_parquet(frame, made / "results.parquet")
+            store.write(frame, made / "results.csv", made / "results.parquet")
             files = ["results.csv", "results.parquet", "report.html", "report.pdf"]
             if not rungs.empty:
                 rungs.to_csv(made / "stability.csv", index=False)

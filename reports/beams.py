@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from harness.contract import CellStatus, RayStatus
 from reports import derive, images, style, tables, wording
-from reports.arrays import Shelf
+from reports.arrays import Arrays, Shelf
 from reports.content import Block, Column, Gallery, Panel, Picture, Section, Table, Text
 
 MOST_PANELS = 12
@@ -23,6 +23,11 @@ MEANING = (
     "off than the beam's farthest edge; these are neither right nor wrong. Hits further off are false hits or wrong "
     "roots, the price of overestimating boxes. Misses would refute the method. Evaluations are of the interval "
     "extension, large beams shared among their pixels."
+)
+LEVELS = (
+    "The level at which a box was eliminated, as beamcasting's Fig. 1 shows for the Octdong: dark, large boxes thrown "
+    "away early; bright, at the pixels' own level; white, the surface. Look for wide bright borders: there boxes hold "
+    "no surface and their ranges cannot tell."
 )
 
 
@@ -82,20 +87,16 @@ def _gallery(shelf: Shelf, rows: pd.DataFrame) -> Gallery | None:
     for row in kept.itertuples():
         arrays = shelf.get(row)
         if arrays is not None and arrays.level is not None and arrays.status is not None:
-            panels.append(_panel(row, arrays.level, arrays.status == RayStatus.HIT))
-    if not panels:
-        return None
-    caption = (
-        "The level at which a box was eliminated, as beamcasting's Fig. 1 shows for the Octdong: dark, large boxes "
-        "thrown away early; bright, at the pixels' own level; white, the surface. Look for wide bright borders: there "
-        "boxes hold no surface and their ranges cannot tell."
-    )
-    return Gallery(tuple(panels), caption)
+            panels.append(level_panel(row, arrays))
+    return Gallery(tuple(panels), LEVELS) if panels else None
 
 
-def _panel(row: Any, level: NDArray[np.uint8], hit: NDArray[np.bool_]) -> Panel:
+def level_panel(row: Any, arrays: Arrays, prefix: str = "") -> Panel:
+    """The levels of a row whose arrays have them; `prefix` sets its picture apart from others of the row."""
+    assert arrays.level is not None and arrays.status is not None
+    level, hit = arrays.level, arrays.status == RayStatus.HIT
     name = f"{row.surface_title}, {tables.picture_size(row)}"
-    picture = Picture(f"{row.key}-level", images.png(level_map(level, hit)), f"Levels of elimination of {name}")
+    picture = Picture(f"{prefix}{row.key}-level", images.png(level_map(level, hit)), f"Levels of elimination of {name}")
     last = int(level.max())
     early = float(np.mean(~hit & (level < last)))
     late = float(np.mean(~hit & (level == last)))

@@ -14,20 +14,18 @@ LINES = 26  # surfaces that fit on the first page
 
 
 def scenes(frame: pd.DataFrame) -> pd.DataFrame:
-    """The contenders of one scene for each surface, the one with most of them, on the device with most of all."""
+    """The contenders of one scene for each surface, the fullest, on the device with most rows of all."""
     rows = derive.contenders(frame)
     if rows.empty:
         return rows
     rows = rows[rows["device"] == rows["device"].value_counts(sort=False).idxmax()]
-    counted = rows.groupby(["surface", "comparison"], sort=False)["variant"].nunique()
-    chosen = counted.groupby("surface", sort=False).idxmax()
-    return rows[rows["comparison"].isin([comparison for _, comparison in chosen])]
+    return rows[rows["comparison"].isin([derive.fullest(own) for _, own in rows.groupby("surface", sort=False)])]
 
 
 def fastest(rows: pd.DataFrame, error: float) -> Any | None:
     """The fastest row of one scene with no wrong ray away from silhouettes and at most this error; None without one."""
     good = rows[derive.all_right(rows) & (rows["relative_error_max"] <= error)]
-    return None if good.empty else next(good.sort_values("median_ms", kind="stable").itertuples())
+    return None if good.empty else next(good.nsmallest(1, "median_ms").itertuples())
 
 
 def table(frame: pd.DataFrame) -> Table | None:
@@ -48,7 +46,7 @@ def table(frame: pd.DataFrame) -> Table | None:
     more = "" if len(shown) == len(body) else f" {len(shown)} of {len(body)} surfaces; “Winners” has all."
     columns: list[Column] = [Column("surface")]
     for error in ERRORS:
-        over = f"error at most {wording.level(error)} of the radius"
+        over = f"error at most {wording.level(error)}"
         columns += [
             Column("fastest", stretch=1, over=over),
             Column("ms", wording.number, numeric=True, over=over),
@@ -59,8 +57,9 @@ def table(frame: pd.DataFrame) -> Table | None:
         tuple(columns),
         shown,
         f"Which method, at which error, on {rows['device'].iloc[0]}.",
-        "Only variants with every ray away from silhouettes right. Cost is the time of the second over that of the "
-        f"first; “none” where no variant of this run is that exact.{more}",
+        "The fastest variant with every ray away from silhouettes right and a largest error over the radius of the "
+        "scene of at most this; max error is in scene units. Cost is the time of the second over that of the first; "
+        f"“none” where no variant of this run is that exact.{more}",
     )
 
 

@@ -53,15 +53,22 @@ def contenders(frame: pd.DataFrame) -> pd.DataFrame:
 def drawn(rows: pd.DataFrame, per_method: int = 1) -> pd.DataFrame:
     """The rows of one surface to show ray by ray: on the device with most results, some of each method and precision.
 
-    The variants are the first of their method in the plan's order, for every precision the same where it can be.
+    Of several scenes the fullest. The variants are the first of their method in the plan's order, for every precision
+    the same where it can be.
     """
     rows = rows[(rows["status"] == CellStatus.OK) & rows["answers"] & rows["arrays"].notna()]
     if rows.empty:
         return rows
-    first = rows[rows["comparison"] == rows["comparison"].iloc[0]]
+    first = rows[rows["comparison"] == fullest(rows)]
     kept = first[first["device"] == first["device"].value_counts(sort=False).idxmax()]
     kept = kept[kept.groupby(["method", "precision"]).cumcount() < per_method]
     return kept.sort_values(["method", "precision"], kind="stable")
+
+
+def fullest(rows: pd.DataFrame) -> str:
+    """The scene of one surface's rows with most methods, among equals with most variants, then the first."""
+    counted = rows.groupby("comparison", sort=False)[["method", "variant"]].nunique()
+    return str(counted.sort_values(["method", "variant"], ascending=False, kind="stable").index[0])
 
 
 def all_right(frame: pd.DataFrame) -> pd.Series:

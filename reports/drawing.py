@@ -15,9 +15,10 @@ from urllib.parse import quote
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.axis import Axis
 from matplotlib.figure import Figure as Drawing
 from matplotlib.lines import Line2D
-from matplotlib.ticker import FixedLocator, FuncFormatter
+from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullLocator
 from numpy.typing import ArrayLike
 
 from reports import style, wording
@@ -116,6 +117,15 @@ class Key:
     def draw(self, drawing: Drawing) -> None:
         told: dict[str, Any] = {"ncols": self._columns, "borderaxespad": 0.1, "handlelength": 2.6}
         drawing.legend(self.handles, self.labels, loc="upper center", **told)
+
+
+def label_decades(axis: Axis, few: bool = False) -> None:
+    """Plain numbers on a logarithmic axis whose limits are set: some on a short one, not too many on a long one."""
+    low, high = axis.get_view_interval()
+    within_decades = (1.0, 2.0, 5.0) if high / low < (30 if few else 300) else (1.0,)
+    axis.set_major_locator(LogLocator(subs=within_decades, numticks=5 if few else 9))
+    axis.set_minor_locator(NullLocator())
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,.0f}" if value >= 1 else f"{value:g}"))
 
 
 def series(method: str, *variants: str) -> str:

@@ -39,8 +39,16 @@ class Evidence:
 
     def of(self, config: str) -> Evidence:
         """The rows of `config`'s own run alone, where this collects several and that one is among them; else all."""
-        own = self.frame["run"] == Path(config).stem
-        return replace(self, frame=self.frame[own]) if own.any() and not own.all() else self
+        return self._runs.get(Path(config).stem, self)
+
+    @cached_property
+    def _runs(self) -> dict[str, Evidence]:
+        runs = self.frame.groupby("run", sort=False)
+        return {str(run): replace(self, frame=rows) for run, rows in runs} if runs.ngroups > 1 else {}
+
+    @cached_property
+    def _methods(self) -> dict[str, pd.DataFrame]:
+        return {str(method): rows for method, rows in self.finished.groupby("method", sort=False)}
 
     def rows(
         self, pick: Pick, surfaces: Iterable[str] | None = None, precision: str | None = "float32"
@@ -49,7 +57,7 @@ class Evidence:
 
         `precision` None takes all precisions, `surfaces` None all surfaces.
         """
-        rows = self.finished[self.finished["method"] == pick.method]
+        rows = self._methods.get(pick.method, self.finished.head(0))
         if precision is not None:
             rows = rows[rows["precision"] == precision]
         if surfaces is not None:

@@ -10,12 +10,12 @@ import matplotlib
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure as Drawing
-from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullLocator
+from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from harness.contract import CellStatus
 from reports import style, wording
 from reports.content import Block, Column, Figure, Section, Table, Text
-from reports.drawing import LINE, NARROW, RC, Key, line_of, svg
+from reports.drawing import LINE, NARROW, RC, Key, label_decades, line_of, svg
 from reports.fits import Power, power_law
 from reports.style import Mark
 
@@ -195,9 +195,7 @@ def _figure(
         first.xaxis.set_minor_locator(NullLocator())
         show = (lambda x, _: f"{round(x**0.5)}²") if axis.name == "pixels" else (lambda x, _: f"{x:,.0f}")
         first.xaxis.set_major_formatter(FuncFormatter(show))
-        first.yaxis.set_major_locator(LogLocator(numticks=9))
-        first.yaxis.set_minor_locator(NullLocator())
-        first.yaxis.set_major_formatter(FuncFormatter(lambda y, _: f"{y:,.0f}" if y >= 1 else f"{y:g}"))
+        label_decades(first.yaxis)
         drawing.supxlabel(axis.unit, y=0.1 / height, va="center", fontsize=6.5)
         drawing.supylabel(
             "ms above the floor" if axis.above_floor else "ms", x=0.08 / NARROW, ha="center", fontsize=6.5

@@ -54,9 +54,10 @@ def _gallery(
 
 
 def scale_of(every: list[Arrays]) -> tuple[int, int]:
-    """The decades that hold every picture's positive errors, at most WIDEST_SCALE of them: one scale for the report."""
+    """The decades of the pictures' positive errors but for each one's smallest hundredth, at most WIDEST_SCALE of them:
+    one scale for the report."""
     positive = [arrays.error[(arrays.error > 0) & np.isfinite(arrays.error)] for arrays in every]
-    low = min((float(e.min()) for e in positive if e.size), default=1e-7)
+    low = min((float(np.quantile(e, 0.01)) for e in positive if e.size), default=1e-7)
     high = max((float(e.max()) for e in positive if e.size), default=1e-3)
     highest = max(math.ceil(math.log10(high)), math.floor(math.log10(low)) + 1)
     return max(math.floor(math.log10(low)), highest - WIDEST_SCALE), highest

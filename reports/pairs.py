@@ -12,14 +12,18 @@ from harness.measure import Ratio, paired_ratio
 from reports import derive, tables, wording
 from reports.content import Block, Column, Section, Table, Text
 
+_NEEDED = [
+    *("comparison", "device", "precision", "key", "variant", "wrong_rays", "session", "rounds", "samples_ms"),
+    *("surface_title", "view", "size", "samples_per_pixel", "stage"),
+]
 ALIKE = 0.01  # a chance above this is no evidence that two variants differ
 
 
 def sections(frame: pd.DataFrame) -> list[Section]:
     """One section where at least two variants of one comparison were timed in the same rounds; else none."""
-    rows = tables.worth_printing(derive.contenders(frame))
+    rows = tables.worth_printing(derive.contenders(frame))[_NEEDED]
     scenes = [group for _, group in rows.groupby("comparison", sort=False)]
-    shown = scenes[: int((np.cumsum([len(group) for group in scenes]) <= tables.ROW_LIMIT).sum())]
+    shown = scenes[: max(1, int((np.cumsum([len(group) for group in scenes]) <= tables.ROW_LIMIT).sum()))]
     tabled = [table for group in shown if (table := _table(group))]
     told = (
         "How many times the time of the fastest variant with every ray right each variant takes: the median of the "
@@ -39,7 +43,7 @@ def _table(rows: pd.DataFrame) -> Table | None:
         right = group[derive.all_right(group)]
         if right.empty:
             continue
-        best = next(right.itertuples())
+        best = next(right.head(1).itertuples())
         for row in group.itertuples():
             if row.key != best.key and (ratio := _ratio(row, best)):
                 body.append((device, precision, best.variant, row.variant, *_figures(ratio), _verdict(ratio)))

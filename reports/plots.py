@@ -10,25 +10,25 @@ import matplotlib
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
-from matplotlib.axis import Axis
 from matplotlib.figure import Figure as Drawing
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
-from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullLocator
+from matplotlib.ticker import FixedLocator, FuncFormatter
 
 from reports import derive, style, wording
 from reports.content import Figure
-from reports.drawing import NARROW, RC, WIDE, ErrorAxis, Key, series, svg
+from reports.drawing import NARROW, RC, WIDE, ErrorAxis, Key, label_decades, series, svg
 from reports.style import Mark
 
 PANELS_ACROSS = 5
 
 
 def speed_against_error(rows: pd.DataFrame, marks: Mapping[str, Mark], name: str, title: str) -> list[Figure]:
-    """For one comparison: a panel for each device and precision, `PANELS_ACROSS` devices to a figure."""
+    """For one comparison: a panel for each device and precision, `PANELS_ACROSS` devices to a figure; none for fewer
+    than two rows, which leave nothing to compare."""
     shown = derive.contenders(rows)
     shown = shown[shown["error_max"].notna() & np.isfinite(shown["mrays_per_s"]) & (shown["mrays_per_s"] > 0)]
-    if shown.empty:
+    if len(shown) < 2:
         return []
     devices = list(dict.fromkeys(shown["device"]))
     batches = [devices[i : i + PANELS_ACROSS] for i in range(0, len(devices), PANELS_ACROSS)]
@@ -75,7 +75,7 @@ def overview(frame: pd.DataFrame, marks: Mapping[str, Mark], titles: Mapping[str
         first.set_ylim(len(scenes) - 0.5, -0.5)
         first.set_xscale("log")
         first.set_xlim(rows["mrays_per_s"].min() / 2, rows["mrays_per_s"].max() * 2)
-        _label_speeds(first.xaxis, few=True)
+        label_decades(first.xaxis, few=True)
         drawing.supxlabel("Mrays/s", fontsize=6.5)
         handles = [Line2D([], [], color=marks[m].color, marker=marks[m].marker, ms=4.5, lw=0) for m in _methods(rows)]
         drawing.legend(handles, _methods(rows), loc="outside upper center", ncols=9)
@@ -92,10 +92,6 @@ def overview(frame: pd.DataFrame, marks: Mapping[str, Mark], titles: Mapping[str
 
 def _methods(rows: pd.DataFrame) -> list[str]:
     return sorted(set(rows["method"]))
-
-
-def _plain(value: float, _: object) -> str:
-    return f"{value:,.0f}" if value >= 1 else f"{value:g}"
 
 
 def _speed_against_error(shown: pd.DataFrame, devices: Sequence[str], marks: Mapping[str, Mark]) -> str:
@@ -121,7 +117,7 @@ def _speed_against_error(shown: pd.DataFrame, devices: Sequence[str], marks: Map
                 _draw_group(axes, group, axis, marks)
         panels[0, 0].set_yscale("log")
         panels[0, 0].set_ylim(shown["mrays_per_s"].min() / 2, shown["mrays_per_s"].max() * 2)
-        _label_speeds(panels[0, 0].yaxis)
+        label_decades(panels[0, 0].yaxis)
         drawing.supxlabel("largest error |t − t*|, scene units", y=0.12 / height, va="center", fontsize=6.5)
         drawing.supylabel("Mrays/s", x=0.1 / width, ha="center", fontsize=6.5)
         key.draw(drawing)
@@ -159,15 +155,6 @@ def _draw_group(axes: Axes, group: pd.DataFrame, axis: ErrorAxis, marks: Mapping
         ends, speeds = (front.iloc[0], front.iloc[-1] + 99), y[front.index]
         edge_x, edge_y = np.r_[ends[0], front, ends[1]], np.r_[speeds.iloc[0] * 1e-9, speeds, speeds.iloc[-1]]
         axes.step(edge_x, edge_y, where="post", color=style.INK, lw=0.8, zorder=2)
-
-
-def _label_speeds(axis: Axis, few: bool = False) -> None:
-    """Labels for a logarithmic axis whose limits are set: some on a short one, not too many on a long one."""
-    low, high = axis.get_view_interval()
-    within_decades = (1.0, 2.0, 5.0) if high / low < (30 if few else 300) else (1.0,)
-    axis.set_major_locator(LogLocator(subs=within_decades, numticks=5 if few else 9))
-    axis.set_minor_locator(NullLocator())
-    axis.set_major_formatter(FuncFormatter(_plain))
 
 
 def _key(shown: pd.DataFrame, marks: Mapping[str, Mark]) -> tuple[list[Any], list[str]]:

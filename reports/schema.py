@@ -12,6 +12,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, Literal
 
 Kind = Literal["text", "real", "whole", "flag", "json", "reals"]
@@ -25,6 +26,11 @@ class Field:
     kind: Kind
     path: tuple[str, ...] = ()
     required: bool = False
+
+    @cached_property
+    def inside(self) -> tuple[str, ...]:
+        """The path of the object that holds the value."""
+        return self.path[:-1]
 
 
 def _fields(kind: Kind, names: str, at: str = "", prefix: str = "", required: bool = False) -> Iterator[Field]:
@@ -128,7 +134,7 @@ def _object(path: tuple[str, ...], around: dict[tuple[str, ...], Any]) -> Any:
 
 
 def _value(field: Field, around: dict[tuple[str, ...], Any]) -> Any:
-    found = _object(field.path[:-1], around)
+    found = _object(field.inside, around)
     value = None if found is None else found.get(field.path[-1])
     if value is None:
         if field.required:
@@ -163,13 +169,19 @@ def _whole(value: Any) -> int:
     return value
 
 
+def _reals(value: Any) -> list[float]:
+    if type(value) is not list or not {float, int}.issuperset(map(type, value)):
+        raise TypeError
+    return list(map(float, value))
+
+
 _READERS: dict[Kind, Callable[[Any], Any]] = {
     "text": lambda value: _exactly(str)(value).encode(errors="replace").decode(),  # half a surrogate pair is no text
     "real": _real,
     "whole": _whole,
     "flag": _exactly(bool),
-    "json": lambda value: json.dumps(value, sort_keys=True),
-    "reals": lambda value: [_real(item) for item in _exactly(list)(value)],
+    "json": json.JSONEncoder(sort_keys=True).encode,
+    "reals": _reals,
 }
 _NOUNS: dict[Kind, str] = {
     "text": "text",

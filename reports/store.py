@@ -9,6 +9,7 @@ from typing import Any
 
 import pandas as pd
 import pyarrow as pa
+import pyarrow.csv as pa_csv
 import pyarrow.parquet as pq
 
 from reports.schema import DERIVED, SCHEMA, Field, Kind
@@ -37,13 +38,12 @@ def frame(fields: Sequence[Field], rows: Sequence[tuple[Any, ...]]) -> pd.DataFr
     return pd.DataFrame({f.name: pd.Series(c, dtype=_DTYPES[f.kind]) for f, c in zip(fields, columns, strict=True)})
 
 
-def write_csv(frame: pd.DataFrame, path: Path) -> None:
-    """One line for each cell; lists and objects as JSON."""
-    samples = [None if value is None else json.dumps(value) for value in frame["samples_ms"]]
-    frame.assign(samples_ms=samples).to_csv(path, index=False)
-
-
-def write_parquet(frame: pd.DataFrame, path: Path) -> None:
-    """One row for each cell; time samples as a list column, missing values as nulls."""
+def write(frame: pd.DataFrame, csv: Path, parquet: Path) -> None:
+    """Every column of every cell. In Parquet time samples are a list and missing values nulls; in CSV lists and objects
+    are JSON and missing values empty."""
     schema = pa.schema([(field.name, _ARROW[field.kind]) for field in (*SCHEMA, *DERIVED)])
-    pq.write_table(pa.Table.from_pandas(frame, schema=schema, preserve_index=False).replace_schema_metadata(None), path)
+    table = pa.Table.from_pandas(frame, schema=schema, preserve_index=False).replace_schema_metadata(None)
+    pq.write_table(table, parquet)
+    samples = pa.array([None if value is None else json.dumps(value) for value in frame["samples_ms"]], pa.string())
+    at = schema.get_field_index("samples_ms")
+    pa_csv.write_csv(table.set_column(at, "samples_ms", samples), csv, pa_csv.WriteOptions(quoting_style="needed"))

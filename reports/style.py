@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from typing import Literal
 
 INK = "#222222"
 FAINT = "#8a8a8a"
@@ -25,7 +26,7 @@ class Mark:
     """How a method is drawn, or with a `line` of its own a variant; `marker` and `line` are matplotlib's."""
 
     color: str
-    marker: str
+    marker: str | tuple[int, Literal[0, 1, 2], int]
     line: str = "-"
 
 
@@ -46,6 +47,7 @@ _HOUSE: dict[str, Mark] = {
     "interval_adaptive": Mark(_BLUE, "*"),
     "bernstein": Mark(_GREEN, "H"),
     "polygon": Mark(_GREY, "8"),
+    "contour": Mark(_SKY, (4, 1, 0)),  # a star with four points
 }
 _SPARE_COLORS = (_PURPLE, _GREEN, _VERMILLION, _SKY, _ORANGE, _BLUE, _YELLOW)
 _SPARE_MARKERS = ("p", ">", "X", "8", "H", "D", "v", "s")  # 7 and 8 have no common factor: 56 different pairs

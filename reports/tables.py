@@ -69,15 +69,15 @@ def winners(frame: pd.DataFrame) -> Table:
         values = (row.median_ms, row.speedup, row.error_max, row.wrong_rays)
         body.append((named[row.comparison], row.precision, row.device, row.variant, *values, *instead))
     columns: tuple[Column, ...] = (
-        Column("surface"),
+        Column("surface", stretch=4),
         Column("precision"),
         Column("device"),
-        Column("fastest variant", stretch=1),
+        Column("fastest variant", stretch=3),
         Column("ms", wording.number, numeric=True),
         Column("speed-\nup", wording.factor, numeric=True),
         Column("max\nerror", wording.error, numeric=True),
         Column("wrong\nrays", wording.count, numeric=True),
-        Column("fastest with no wrong ray", stretch=1),
+        Column("fastest with no wrong ray", stretch=3),
         Column("ms", wording.number, numeric=True),
     )
     note = " Where the last columns name another variant, the fastest buys its speed with wrong answers."
@@ -218,7 +218,7 @@ def units(rows: pd.DataFrame) -> Table | None:
 
 
 def scene(rows: pd.DataFrame) -> str:
-    first = next(rows.itertuples())
+    first = next(rows.head(1).itertuples())
     return f"{first.surface_title}, view {first.view}, {picture_size(first)}, {first.stage}."
 
 

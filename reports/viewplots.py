@@ -13,12 +13,12 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure as Drawing
 from matplotlib.lines import Line2D
-from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullLocator
+from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 from numpy.typing import NDArray
 
 from reports import style, wording
 from reports.content import Figure
-from reports.drawing import LINE, NARROW, RC, WIDE, ErrorAxis, Key, line_of, svg
+from reports.drawing import LINE, NARROW, RC, WIDE, ErrorAxis, Key, label_decades, line_of, svg
 from reports.style import Mark
 from reports.viewstats import ViewSet
 
@@ -53,7 +53,7 @@ def over_angle(of: ViewSet, marks: Mapping[str, Mark], name: str) -> Figure:
             if rows["answers"].iloc[0]:
                 wrongs.plot(x, rows["wrong_rays"].fillna(0).astype(float), **look)
         times.set_yscale("log")
-        _label_times(times)
+        label_decades(times.yaxis)
         wrongs.set_yscale("symlog", linthresh=1.0)
         most = float(of.rows["wrong_rays"].fillna(0).max())
         top = max(12.0, 2 * most)
@@ -79,13 +79,6 @@ def over_angle(of: ViewSet, marks: Mapping[str, Mark], name: str) -> Figure:
         f"{of.place}.",
         "A level line does not depend on the view. On the right, marks of one angle stand side by side.",
     )
-
-
-def _label_times(axes: Axes) -> None:
-    low, high = axes.get_ylim()
-    axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if high / low < 100 else (1.0,), numticks=9))
-    axes.yaxis.set_minor_locator(NullLocator())
-    axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,.0f}" if value >= 1 else f"{value:g}"))
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,7 +11,7 @@ from reports.content import Block, Section, Text
 from reports.style import Mark
 from reports.viewstats import ANGLES, DIRECTIONS, ViewSet
 
-MOST_SETS = 12  # of a run that are all shown
+MOST_SETS = 6  # of a run that are all shown
 
 EXPLANATION = (
     "Every surface, device, precision and size that was timed from at least three views of one set. The spread is the "

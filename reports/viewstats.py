@@ -29,7 +29,7 @@ class ViewSet:
 
     @property
     def first(self) -> Any:
-        return next(self.rows.itertuples())
+        return next(self.rows.head(1).itertuples())
 
     @property
     def kind(self) -> str:

@@ -25,6 +25,7 @@ METHODS = [name for name, plugin in find_methods().plugins.items() if plugin.met
 TYPICAL = ("torus", "dingdong_beamcasting", "blinn_blob")
 VIEW = View("oblique", azimuth=30, elevation=35)
 SIZE = 80  # twice test_renders' rays; no power of two
+FIRST = 3  # the quadtree's first level, whatever fills the device
 
 
 def frame(device, method, surface, camera, size, precision="float32", first=None, edit=None, **knobs):
@@ -74,7 +75,8 @@ def test_adaptive_and_uniform_answer_alike_and_miss_nothing(device, name, precis
     if precision == "float64" and (not device.info.float64 or unsupported(surface, precision, device.language)):
         pytest.skip("the surface has no float64 here")
     camera = camera_for(_view(name), surface)
-    (uniform, _), (adaptive, _) = (frame(device, method, surface, camera, SIZE, precision) for method in METHODS[::-1])
+    uniform, _ = frame(device, "interval_uniform", surface, camera, SIZE, precision)
+    adaptive, _ = frame(device, "interval_adaptive", surface, camera, SIZE, precision, first=FIRST)
     missed, late = deviating(adaptive, truth, surface, beams.pixels_of(camera, round(len(rays) ** 0.5), SIZE))
     assert not missed.any()
     assert not late.any()
@@ -243,8 +245,11 @@ def test_a_launch_of_more_groups_than_the_device_runs_at_once_is_refused_not_dro
         "#define INPUTS 1\n#define OUTPUTS 1\nvoid map_item(IN real x[INPUTS], OUT real y[OUTPUTS]) { y[0] = 1.0; }",
     )
     built = device.build(map_program(section, "float32", "glsl"))
+    most = device.most_groups
+    if 64 * most >= 2**31:
+        pytest.skip("the device runs as many as an index can count")
     with pytest.raises(FirsthitError, match="work groups"):
-        device.launch(built, [np.ones(1, np.float32)], [(1, np.float32)], (64 * 2**17, 1))
+        device.launch(built, [np.ones(1, np.float32)], [(1, np.float32)], (64 * (most + 1), 1))
 
 
 def test_more_pixels_than_a_launch_has_work_items_are_all_cast(device):

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 from harness.contract import digest
-from reports import claims, derive, load, published
+from reports import claims, content, derive, load, published
 from reports.arrays import Shelf
 from reports.claims import Claim, Outcome, picks
 from reports.evidence import Evidence, Pick
@@ -152,3 +154,25 @@ def test_figures_of_the_papers_name_configs_and_surfaces_that_exist() -> None:
     assert checklist.ORDER < 100
     assert published.table("szente_table4_runtime").number("speedup", surface="16-Ball") == 3.3
     assert published.table("szente_table4_runtime").number("speedup", surface="Flirt") is None
+
+
+def test_the_levels_of_beamcastings_figure_1_add_up_to_the_picture(tmp_path: Path) -> None:
+    made = planted(picks.ADAPTIVE, "octdong", 1.0) | {"size": 8, "casts": "quadtree"}
+    made["arrays"] = f"arrays/{made['key']}.npz"
+    folder = tiny_run(tmp_path / "run", made)
+    told = json.loads((folder / "plan.json").read_text()) | {"name": "beamcasting-fig1"}
+    (folder / "plan.json").write_text(json.dumps(told))
+    (folder / "arrays").mkdir()
+    level = np.full((8, 8), 3, np.uint8)
+    level[:4] = 1
+    status = np.zeros((8, 8), np.uint8)
+    status[6:] = 1
+    blank = {"truth": status, "wrong": np.zeros((8, 8), np.uint8), "grazing": np.zeros((8, 8), bool)}
+    blank |= dict.fromkeys(("error", "shade"), np.zeros((8, 8), np.float32))
+    np.savez_compressed(folder / made["arrays"], level=level, status=status, **blank)
+    _, report = reported(folder)
+    (section,) = [section for section in report.sections if section.title == "beamcasting, Figure 1"]
+    (table,) = [block for block in section.blocks if isinstance(block, content.Table)]
+    assert table.rows == [(8, 1, 4, 0.5), (8, 2, 2, 0.0), (8, 3, 1, 0.25), (8, "surface", None, 0.25)]
+    (gallery,) = [block for block in section.blocks if isinstance(block, content.Gallery)]
+    assert [panel.title for panel in gallery.panels] == ["octdong, 8 × 8"]

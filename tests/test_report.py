@@ -25,10 +25,12 @@ from reports import (
     document,
     images,
     load,
+    plots,
     schema,
     tables,
     wording,
 )
+from reports.evidence import Evidence
 from reports.parts import surfaces as surface_pages
 from tests.synthetic_run import cell, plan, printed, reported, tiny_run, troubled, write_run
 
@@ -294,6 +296,19 @@ def test_large_runs_print_only_what_matters(run: Path, frame: pd.DataFrame, monk
     kept = int((finished["front"] | finished["method"].isin(["ray_march", "null"])).sum())
     assert f"Printed are {kept} of {len(finished)} rows" in by_title["How to read the surfaces' pages"]
     assert "The first 10 of" in by_title["Skipped, failed and missing"]
+    for title in ("The same kernel on every device", "Variants compared round by round"):
+        assert "The first " in by_title[title]
+
+
+def test_one_name_stands_for_one_figure(tmp_path: Path) -> None:
+    """Two galleries with scales of their own have keys of their own; one name for both would show the last for all."""
+    keys = [plots.error_legend(*scale) for scale in ((-7, -3), (-4, 0), (-4, 0))]
+    shown = content.Section("", tuple(content.Gallery((), "", key) for key in keys))
+    document._section(shown, tmp_path)
+    assert len(list(tmp_path.iterdir())) == 2
+    clash = content.Section("", (content.Figure("a", "<svg/>", ""), content.Figure("a", "<svg></svg>", "")))
+    with pytest.raises(ValueError, match="two figures of one report are named a"):
+        document._section(clash, tmp_path)
 
 
 def test_repeated_group_values_are_printed_once(tmp_path: Path) -> None:
@@ -440,6 +455,9 @@ def test_a_run_that_collects_others_keeps_their_rows_apart(tmp_path: Path) -> No
     assert frame["speedup"].notna().tolist() == [True, True, False], "nothing is compared across runs"
     assert sorted(set(tables.places(frame).values())) == ["Torus (one)", "Torus (two)"]
     assert [file.file for file in loaded.unreadable] == ["three"]
+    rows = Evidence(frame, {}, arrays.Shelf(loaded.folders))
+    assert rows.of("two.toml").frame["run"].tolist() == ["two"]
+    assert rows.of("elsewhere.toml").frame["run"].tolist() == ["one", "one", "two"]
     assert reports.build(tmp_path / "all").stat().st_size > 0
 
 

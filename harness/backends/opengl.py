@@ -22,6 +22,15 @@ from harness.contract import DeviceInfo, FirsthitError, Program, source
 SHORT = ("llvmpipe", "softpipe", "nvidia", "geforce", "radeon", "intel", "apple")
 GROUP = 64
 REQUIRED = 430
+DOUBLES = """#version 430
+layout(local_size_x = 1) in;
+layout(std430, binding = 0) buffer Kept { double x[]; };
+void main() {
+    double a[4];
+    for (int k = 0; k < 4; k++) a[k] = x[k];
+    x[4] = a[int(x[0])];
+}
+"""
 
 
 @cache
@@ -54,12 +63,25 @@ def find() -> list[DeviceInfo]:
             driver=info["GL_VERSION"],
             compiler=_compiler(info["GL_RENDERER"], info["GL_VERSION"]),
             compute_units=None,
-            float64="GL_ARB_gpu_shader_fp64" in context.extensions or context.version_code >= 400,
+            float64=problem is None and _keeps_doubles(context),
             clock="device",
             versions=versions,
             problem=problem,
         )
     ]
+
+
+def _keeps_doubles(context: Any) -> bool:
+    """Whether an array of doubles that is indexed at run time keeps them: NVIDIA's 580 rounds them to float32."""
+    kept = np.array([3.0, 0.0, 0.0, 1.0 / 3.0, 0.0])
+    buffer = context.buffer(kept.tobytes())
+    buffer.bind_to_storage_buffer(0)
+    try:
+        context.compute_shader(DOUBLES).run(1)
+    except Exception:  # moderngl.Error: the compiler knows no doubles
+        return False
+    context.finish()
+    return bool(np.frombuffer(buffer.read())[4] == kept[3])
 
 
 def _compiler(renderer: str, version: str) -> str:
@@ -77,6 +99,7 @@ class OpenGLDevice(Device, Rasteriser):
     def __init__(self) -> None:
         self.info = find()[0]
         self._context = _context()
+        self.most_groups = _most_groups(self._context)  # of one launch
 
     def build(self, program: Program) -> Any:
         import moderngl
@@ -108,6 +131,10 @@ class OpenGLDevice(Device, Rasteriser):
         return OpenGLLaunch(self._context, buffers, outputs, steps)
 
 
+def _most_groups(context: Any) -> int:
+    return int(context.info["GL_MAX_COMPUTE_WORK_GROUP_COUNT"][0])
+
+
 def _groups(step: Step) -> int:
     return -(-step.grid[0] // GROUP)
 
@@ -117,7 +144,7 @@ class OpenGLLaunch(Launch):
         self, context: Any, buffers: Sequence[Array | Reserved], outputs: Sequence[int], steps: Sequence[Step]
     ) -> None:
         self._context, self._steps = context, steps
-        groups, most = max(_groups(step) for step in steps), context.info["GL_MAX_COMPUTE_WORK_GROUP_COUNT"][0]
+        groups, most = max(_groups(step) for step in steps), _most_groups(context)
         if groups > most:
             raise FirsthitError(
                 f"{groups} work groups are needed, and this device runs {most} at once: take a smaller size"

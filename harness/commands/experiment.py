@@ -74,7 +74,7 @@ def _load(options: argparse.Namespace) -> tuple[config.Experiment, list[config.E
         )
     if getattr(options, "device", None):
         parts = [dataclasses.replace(p, config=dataclasses.replace(p.config, devices=options.device)) for p in parts]
-    return whole, parts, catalog, discover_devices()
+    return whole, parts, catalog, discover_devices({name for part in parts for name in part.config.devices})
 
 
 def _plan(options: argparse.Namespace) -> int:
@@ -149,6 +149,8 @@ def _run_one(
             if options.force or not studies.is_done(name, store.folder):
                 done = studies.run(name, store.folder)
                 print(f"study {name}: {len(done['rows'])} rows, {console.duration(done['seconds'])}")
+            else:
+                print(f"study {name}: reused")
         before = {p.key: store.read(p.key) for p in planned}
         for message in store.unreadable.values():
             print(f"firsthit: {message}; running that cell again", file=sys.stderr)
@@ -169,7 +171,8 @@ def _is_due(row: Row | None, options: argparse.Namespace) -> bool:
 def _summary(folder: Path, rows: list[Row], kept: list[Row]) -> int:
     counts = {status: sum(row["status"] == status for row in (*rows, *kept)) for status in CellStatus}
     told = ", ".join(f"{count} {status}" for status, count in counts.items() if count)
-    print(f"{folder}: {len(rows)} cells run, {len(kept)} reused; {told or 'nothing to do'}")
+    if told:
+        print(f"{folder}: {len(rows)} cells run, {len(kept)} reused; {told}")
     for line in console.warnings(rows):
         print(f"firsthit: {line}", file=sys.stderr)
     return 3 if any(counts[status] for status in UNFINISHED) else 0

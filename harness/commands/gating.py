@@ -88,7 +88,7 @@ def _checked(options: argparse.Namespace) -> _Checked:
     if options.device:
         chosen = dataclasses.replace(experiment.config, devices=options.device)
         experiment = dataclasses.replace(experiment, config=chosen)
-    planned = plan.plan(experiment, catalog, discover_devices(), timed=False)
+    planned = plan.plan(experiment, catalog, discover_devices(experiment.config.devices), timed=False)
     executor = LocalExecutor(experiment.config.budget.timeout)
     try:
         folder = options.runs / f"gate-{experiment.name}"

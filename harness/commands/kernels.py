@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import itertools
+import statistics
 import sys
 from typing import Literal
 
@@ -35,14 +36,14 @@ def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -
     parser.set_defaults(run=_compile)
 
 
-def _rastered(plugin: Plugin, surface: Surface) -> list[Program]:
-    """The method's programs of stage raster: those that report hold the others' text too."""
+def _rastered(plugin: Plugin, surface: Surface) -> dict[str, Program]:
+    """The method's program of stage raster: the one that reports, which holds the other's text too."""
     method = plugin.method
     if method.casts == "mesh":
-        return [mesh_program(plugin.folder, True)]
+        return {"raster": mesh_program(plugin.folder, True)}
     if method.casts != "rays":
-        return []
-    return [raster_program(method, plugin.folder, plugin.variant({}), surface, "box", True)]
+        return {}
+    return {"raster": raster_program(method, plugin.folder, plugin.variant({}), surface, "box", True)}
 
 
 def _compile(options: argparse.Namespace) -> int:
@@ -57,7 +58,8 @@ def _compile(options: argparse.Namespace) -> int:
     if not usable:
         raise FirsthitError("no usable device; `firsthit devices` says why", exit_code=3)
     executor = LocalExecutor(START_SECONDS)
-    built, failed = 0, [f"{name}: {reason}" for name, reason in catalog.broken.items() if not options.method]
+    built: dict[str, list[tuple[float, str]]] = {info.name: [] for info in usable}
+    failed = [f"{name}: {reason}" for name, reason in catalog.broken.items() if not options.method]
     try:
         for plugin, surface, info, precision in itertools.product(plugins, chosen, usable, PRECISIONS):
             method, language = plugin.method, LANGUAGES[info.name.partition(":")[0]]
@@ -65,20 +67,29 @@ def _compile(options: argparse.Namespace) -> int:
             if refused or precision not in method.precisions or (precision == "float64" and not info.float64):
                 continue
             try:
-                programs = [
-                    method_program(method, plugin.folder, plugin.variant({}), surface, precision, language, entry)
+                texts: dict[str, Program] = {
+                    entry: method_program(
+                        method, plugin.folder, plugin.variant({}), surface, precision, language, entry
+                    )
                     for entry in ENTRIES[method.casts]
-                ]
+                }
                 if precision == "float32" and able(info):
-                    programs += _rastered(plugin, surface)
-                for program in programs:
-                    executor.build(info.name, program)
-                    built += 1
+                    texts |= _rastered(plugin, surface)
+                for entry, program in texts.items():
+                    took = executor.build(info.name, program)
+                    built[info.name].append((took, f"{method.name} {surface.name} {precision} {entry}"))
             except (CellError, FirsthitError) as error:
                 failed.append(f"{method.name} {surface.name} {precision} {info.name}: {error}")
     finally:
         executor.close()
     for line in failed:
         print(line, file=sys.stderr)
-    print(f"{built} programs compiled on {len(usable)} devices, {len(failed)} failed")
+    for name, programs in built.items():
+        if programs:
+            typical, (most, which) = statistics.median(took for took, _ in programs), max(programs)
+            print(
+                f"{name}: {len(programs)} programs, {typical * 1e-3:.2f} s each, at most {most * 1e-3:.2f} s: {which}"
+            )
+    total = sum(map(len, built.values()))
+    print(f"{total} programs compiled on {len(usable)} devices, {len(failed)} failed")
     return 3 if failed else 0

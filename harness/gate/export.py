@@ -24,7 +24,7 @@ def export(path: str, plugins: str, devices: list[str]) -> dict[str, Any]:
     catalog = find_methods(Path(plugins) if plugins else None)
     experiment = config.load(Path(path), catalog)
     experiment = dataclasses.replace(experiment, config=dataclasses.replace(experiment.config, devices=devices))
-    planned = plan.plan(experiment, catalog, discover_devices())
+    planned = plan.plan(experiment, catalog, discover_devices(experiment.config.devices))
     return {
         p.cell.slot: {
             "skip": p.skip,

@@ -1,8 +1,8 @@
 """How far a polygonal torus is from the torus (toledo2007, Table 1, last columns).
 
 The paper prints 1 - cos(π/N) of R + r: the chord of the ring. The tube has a chord too; where both add, at facet
-centres near the outer equator, (R + 2 r) (1 - cos(π/N)) are left. Both are computed,
-and the mesh is measured, both ways.
+centres near the outer equator, (R + 2 r) (1 - cos(π/N)) are left. Both are computed, and the mesh is measured, both
+ways.
 """
 
 from __future__ import annotations

@@ -1,4 +1,6 @@
 // Equidistant steps until f changes sign, then bisection of that step (szente's baseline).
+#define BLOCK 8
+
 Hit first_hit(Ray ray, real t0, real t1) {
     Hit hit = no_hit(t1);
     Along along = surface_along(ray);
@@ -7,12 +9,30 @@ Hit first_hit(Ray ray, real t0, real t1) {
     real b = t0;
     real fa = surface_value_along(along, t0);
     real fb = fa;
+    bool below = fa < 0.0;
     hit.evaluations = 1;
-    while (fb != 0.0 && (fa < 0.0) == (fb < 0.0)) {
+    // whole blocks without a change; their evaluations do not wait for one another
+    int k = 0;
+    bool same = fa != 0.0;
+    while (same && t0 + step * real(k + BLOCK) < t1) {
+        real last = 0.0;
+        for (int i = 1; i <= BLOCK; i++) {
+            last = surface_value_along(along, t0 + step * real(k + i));
+            same = same && last != 0.0 && (last < 0.0) == below;
+        }
+        hit.evaluations += BLOCK;
+        if (same) {
+            k += BLOCK;
+            fb = last;
+        }
+    }
+    b = t0 + step * real(k);
+    while (fb != 0.0 && below == (fb < 0.0)) {
         if (b >= t1) return hit;
         a = b;
         fa = fb;
-        b = min(t0 + step * real(hit.evaluations), t1);
+        k += 1;
+        b = min(t0 + step * real(k), t1);
         fb = surface_value_along(along, b);
         hit.evaluations += 1;
     }
@@ -21,7 +41,7 @@ Hit first_hit(Ray ray, real t0, real t1) {
     for (int i = 0; i < REFINEMENTS; i++) {
         real m = 0.5 * (a + b);
         real fm = surface_value_along(along, m);
-        if ((fa < 0.0) == (fm < 0.0)) { a = m; fa = fm; } else { b = m; fb = fm; }
+        if (below == (fm < 0.0)) { a = m; fa = fm; } else { b = m; fb = fm; }
     }
     hit.evaluations += REFINEMENTS;
     return hit_at(hit, a + (b - a) * (fa / (fa - fb)));

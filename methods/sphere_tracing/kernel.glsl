@@ -1,41 +1,49 @@
 // Steps as long as the distance to the surface, until it is nearly 0 (toledo2007, 4.3). With RAYS 2 the march jumps to
 // t_M as soon as the distance grows, and ends where it has fallen again and grows again.
-#define FIRST_MARCH 1
-#define SECOND_MARCH 2
-#define ONLY_MARCH 3
-
 Hit first_hit(Ray ray, real t0, real t1) {
     Hit hit = no_hit(t1);
     real near_enough = EPSILON * FEATURE_RADIUS;
     real t_m = inner_product(difference(DOMAIN_CENTER, ray.origin), ray.direction);
     real t = t0;
-    real way = 1.0;
-    real before = REAL_INFINITY;
-    bool fell = false;
-    int march = RAYS == 2 ? FIRST_MARCH : ONLY_MARCH;
-    while (t <= t1) {
-        if (hit.evaluations == MAX_EVALUATIONS) return exhausted(hit, t);
-        real distance_here = surface_distance(ray_point(ray, t));
-        hit.evaluations += 1;
-        if (fabs(distance_here) < near_enough) return hit_at(hit, t);
-
-        bool grows = distance_here > before;
-        if (march == SECOND_MARCH && fell && grows) return missed(hit);
-        fell = before < REAL_INFINITY && !grows;
-        before = distance_here;
-        if (march != ONLY_MARCH && distance_here < 0.0) {
-            way = march == SECOND_MARCH ? -1.0 : 1.0;
-            march = ONLY_MARCH;
-        }
-        t += way * fabs(distance_here);
-        if (march == FIRST_MARCH && grows) {
-            march = SECOND_MARCH;
-            fell = false;
-            if (t < t_m) {
-                t = t_m;
-                before = REAL_INFINITY;
+    real distance_here = 0.0;
+    bool second = false;
+    bool searching = true;
+    if (RAYS == 2) {
+        real before = REAL_INFINITY;
+        bool fell = true;
+        while (searching) {
+            distance_here = surface_distance(ray_point(ray, t));
+            hit.evaluations += 1;
+            bool grows = distance_here > before;
+            bool turned = grows && fell;
+            fell = !grows;
+            before = distance_here;
+            real next = t + distance_here;
+            if (turned) {
+                fell = false;
+                before = next < t_m ? -REAL_INFINITY : before;
+                next = max(next, t_m);
             }
+            searching = !(distance_here < near_enough || next > t1 || (turned && second)
+                          || hit.evaluations == MAX_EVALUATIONS);
+            second = second || turned;
+            if (searching) t = next;
         }
     }
+    // one start, or from inside: back from the second start, on from the first
+    real way = second ? -1.0 : 1.0;
+    if (RAYS == 2) {
+        searching = distance_here <= -near_enough;
+        t += searching ? way * fabs(distance_here) : real(0);
+    }
+    while (searching) {
+        distance_here = fabs(surface_distance(ray_point(ray, t)));
+        hit.evaluations += 1;
+        real next = t + way * distance_here;
+        searching = !(distance_here < near_enough || next > t1 || hit.evaluations >= MAX_EVALUATIONS);
+        if (searching) t = next;
+    }
+    if (fabs(distance_here) < near_enough) return hit_at(hit, t);
+    if (hit.evaluations >= MAX_EVALUATIONS) return exhausted(hit, t);
     return hit;
 }

@@ -15,6 +15,8 @@ the other one; once it grows there after it fell, both are behind and there is n
 - A start inside the surface marches by the distance's absolute value, and has no second start.
 - Any surface that states a distance is accepted. Two starts are proved for the torus and the sphere only, where no
   third minimum can be. Surfaces without a distance: see sphere_tracing_lipschitz.
+- No claim that grazing roots are never missed: in float32 a distance that falls by less than its rounding is seen to
+  grow, and within 1e-5 of tangency 38 of 384 rays of the family `grazing` end there (none in float64).
 
 **Speed** (opencl:intel, float32, torus at 1024x1024, 30°/35°, time above the null method's.) Table 1's factor of 3.6
 between two starts and one is not met: 1.1 at EPSILON = 0.00003, 0.9 at 0.001. A second start saves the way out of a
@@ -44,7 +46,7 @@ METHOD = Method(
         Parameter("RAYS", 2, "starts on a ray: 1 where it enters the domain, 2 also the point nearest its centre"),
         Parameter("MAX_EVALUATIONS", 2000, "evaluations of the distance spent on one ray"),
     ),
-    claims=frozenset({"no_missed_root", "finds_touch"}),
+    claims=frozenset({"conservative_bound", "finds_touch"}),
     settings={
         "Sphere Tracing": {"EPSILON": 0.001, "RAYS": 1},
         "2-rays S. Tracing": {"EPSILON": 0.001, "RAYS": 2},

@@ -10,6 +10,7 @@ from reports.content import Column, Section, Table, Text
 from reports.material import Material
 
 ORDER = 60
+LEADS = True
 TOLD = (
     "Each paper's claims, in our words, judged by the rows of this run: confirmed, refuted, or not testable here. Only "
     "times taken in turns are compared, on this device; a claim about a graphics card of 2006 or 2010 may be true "

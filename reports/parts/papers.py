@@ -5,6 +5,7 @@ from reports.content import Section
 from reports.material import Material
 
 ORDER = 65
+LEADS = True
 
 
 def sections(material: Material) -> list[Section]:

@@ -10,7 +10,7 @@ from reports.content import Block, Section, Text
 from reports.material import Material
 
 ORDER = 20
-SCENES = 40  # comparisons of a run whose fronts are all drawn; of a larger one those of each surface's first
+SCENES = 40  # comparisons of a run whose fronts are all drawn; of a larger one those of each surface's fullest
 
 LEGEND = (
     f"Speed-up is over {derive.BASELINE}. Flags: front, no other variant with all rays right is both faster and more "
@@ -54,7 +54,8 @@ def sections(material: Material) -> list[Section]:
         own = printed[printed["surface"] == surface]
         scenes = [scene for _, scene in rows.groupby("comparison", sort=False)]
         blocks: list[Block] = [Text(_facts(rows))]
-        for j, scene in enumerate(scenes if all_fronts else scenes[:1]):
+        fullest = derive.fullest(rows)
+        for j, scene in enumerate(s for s in scenes if all_fronts or s["comparison"].iloc[0] == fullest):
             title = named[str(scene["comparison"].iloc[0])]
             blocks += plots.speed_against_error(scene, marks, f"front-{i}-{j}", title)
         blocks += [pictures[str(surface)]] if str(surface) in pictures else []

@@ -26,6 +26,7 @@ class Figure:
     config: str
     surfaces: tuple[str, ...]
     settings: tuple[Pick, ...]
+    judged: bool = True  # the verdicts of the config's claims stand here, not beside a table of it
 
 
 _CUBICS = ("cayley", "clebsch", "ding_dong", "monkey_saddle", "whitney_umbrella", "cartan_umbrella")
@@ -94,6 +95,7 @@ FIGURES = (
         "beamcasting-tables.toml",
         _ANY_BEAM,
         (picks.ADAPTIVE,),
+        judged=False,
     ),
 )
 
@@ -120,7 +122,8 @@ def _section(material: Material, figure: Figure) -> Section | None:
     blocks: list[Block] = [Text(figure.told), _counts(rows, figure.title)]
     gallery = images.gallery(material.shelf, rows, figure.caption, figure.config.removesuffix(".toml"))
     blocks += [gallery] if gallery else []
-    return Section(figure.title, (*blocks, *verdicts.of(material, figure.config)))
+    blocks += verdicts.of(material, figure.config, figure.title) if figure.judged else []
+    return Section(figure.title, tuple(blocks))
 
 
 def _counts(rows: pd.DataFrame, title: str) -> Table:

@@ -43,7 +43,11 @@ def _table_1_and_2(material: Material) -> Section | None:
         blocks += _table_2(figures)
     if not blocks:
         return None
-    return Section("szente, Tables 1 and 2", (*blocks, *verdicts.of(material, "szente-tables-1-2.toml")), wide=True)
+    return Section(
+        "szente, Tables 1 and 2",
+        (*blocks, *verdicts.of(material, "szente-tables-1-2.toml", "szente, Tables 1 and 2")),
+        wide=True,
+    )
 
 
 def _table_1(ours: pd.DataFrame) -> Table:
@@ -145,10 +149,10 @@ def _table_4(material: Material) -> Section | None:
         (
             Column("surface"),
             Column("degree", wording.count, numeric=True),
-            *_both("EFT + EVAL, ms", wording.number),
-            *_both("EFT, % of it", _whole),
-            *_both("EVAL, % of it", _whole),
-            *_both("ray marching, ms", wording.number),
+            *_both("EFT + EVAL,\nms", wording.number),
+            *_both("EFT,\n% of it", _whole),
+            *_both("EVAL,\n% of it", _whole),
+            *_both("ray marching,\nms", wording.number),
             Column("ours", wording.factor, numeric=True, over="speed-up"),
             Column("paper", wording.factor, numeric=True, over="speed-up"),
             Column("ours over\npaper", wording.factor, numeric=True),
@@ -159,7 +163,7 @@ def _table_4(material: Material) -> Section | None:
         "NVIDIA 1660 Ti mobile. Milliseconds are of two devices and not to be compared; percentages and speed-ups are. "
         "EFT and EVAL are the share of the time that is saved with that part switched off.",
     )
-    return Section("szente, Table 4", (table, *verdicts.of(material, "szente-table4.toml")), wide=True)
+    return Section("szente, Table 4", (table, *verdicts.of(material, "szente-table4.toml", "szente, Table 4")))
 
 
 def _table_5(material: Material) -> Section | None:
@@ -182,18 +186,18 @@ def _table_5(material: Material) -> Section | None:
         (
             Column("surface"),
             Column("degree", wording.count, numeric=True),
-            *_both("LU bound, ms", wording.number),
-            *_both("control points, ms", wording.number),
-            *_both("LU over control points", wording.factor),
+            *_both("LU bound,\nms", wording.number),
+            *_both("control points,\nms", wording.number),
+            *_both("LU over\ncontrol points", wording.factor),
             Column("ours over\npaper", wording.factor, numeric=True),
-            *_both("LU over ray marching", wording.factor),
+            *_both("LU over\nray marching", wording.factor),
         ),
         [*body, mean],
         "szente, Table 5: Lipschitz tracing by two bounds.",
         f"Ours on {ratios['device'].iloc[0]}, {ratios['size'].iloc[0]} × {ratios['size'].iloc[0]}; the paper's on an "
         "NVIDIA 1660 Ti mobile. As printed: one bound for the whole ray; culling with LU bounds only.",
     )
-    return Section("szente, Table 5", (table, *verdicts.of(material, "szente-table5.toml")), wide=True)
+    return Section("szente, Table 5", (table, *verdicts.of(material, "szente-table5.toml", "szente, Table 5")))
 
 
 def _in_order(ratios: pd.DataFrame, surfaces: tuple[str, ...]) -> list[Any]:

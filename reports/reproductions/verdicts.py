@@ -6,8 +6,8 @@ from reports.content import Column, Table
 from reports.material import Material
 
 
-def of(material: Material, config: str) -> list[Table]:
+def of(material: Material, config: str, of_what: str) -> list[Table]:
     """The claims decided by the rows of `config`; none where it decides none."""
     body = [(v.outcome.value, c.section, c.text, v.figure) for c, v in material.judged if c.config == config]
     columns = (Column("verdict"), Column("section"), Column("claim", stretch=4), Column("what was measured", stretch=5))
-    return [Table(columns, body, "Verdicts.")] if body else []
+    return [Table(columns, body, f"{of_what}: verdicts.")] if body else []
