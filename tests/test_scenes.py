@@ -36,7 +36,7 @@ def placed(*choices, **view):
 def seen(gl, scene, chosen, folder, tolerance):  # noqa: F811
     """The picture and its truth, every pixel held against the oracle but those at silhouettes and near ties."""
     picture = draw(gl, scene, chosen, SIZE)
-    truth = scene_truth(scene, picture.rays, picture, folder)
+    truth = scene_truth(scene, picture.rays, picture, folder, 1e-3 * scene.stand_in.domain.radius)
     hits, radius = picture.hits(scale_of(scene, picture)), scene.stand_in.domain.radius
     verdicts = judge(hits, truth.truth, radius, 1e-3)
     clear = ~verdicts.grazing
@@ -175,4 +175,4 @@ def test_a_group_is_checked():
     for wrong in ({"scale": np.zeros(1)}, {"surfaces": (torus, torus)}, {"turn": np.eye(3)}):
         with pytest.raises(config.FirsthitError, match="group"):
             dataclasses.replace(group, **wrong)
-    assert Scene("s", "s", (group,), VIEW).sphere == pytest.approx([0, 0, 0, 1.0])
+    assert Scene("s", "s", (group,), VIEW, "s").sphere == pytest.approx([0, 0, 0, 1.0])

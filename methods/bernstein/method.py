@@ -63,6 +63,7 @@ METHOD = Method(
             "width of the last bracket, over the ray's length in the domain",
             finer="down",
             sweep=(2.0**-8, 2.0**-12, 2.0**-22),
+            per="2.0 * DOMAIN_RADIUS",
         ),
         Parameter("EFT", 1, "1: compensated fit, 0: plain products and sums"),
         Parameter("TRUST", 0.125, "share of the worst case up to which errors are reckoned with"),
