@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from functools import cache
 from pathlib import Path
 from typing import Literal
 
-from harness.contract import Box, FirsthitError, Method, Precision, Program, Proxy, Section, Surface, Variant
+from harness.contract import Box, FirsthitError, Method, Parameter, Precision, Program, Proxy, Section, Surface, Variant
 
 KERNELS = Path(__file__).parent / "kernels"
 AFTER_TABLES = ("fit_samples",)  # libraries that read the surface's degree and the method's tables
@@ -55,8 +55,20 @@ def literal(value: float | int, precision: Precision, language: Language) -> str
     return f"({text}{suffix})" if value < 0 else text + suffix
 
 
-def _parameter_section(variant: Variant, precision: Precision, language: Language) -> Section:
-    lines = [f"#define {name} {literal(value, precision, language)}" for name, value in variant.parameters]
+def _parameter_section(
+    variant: Variant, precision: Precision, language: Language, loosened: Mapping[str, Parameter] | None = None
+) -> Section:
+    """The knobs as constants; `loosened` ones stop where the instance's tolerance is reached."""
+    lines = []
+    for name, value in variant.parameters:
+        text = literal(value, precision, language)
+        if loosened and name in loosened:
+            per = loosened[name].per
+            if loosened[name].finer == "up":
+                text = f"min({text}, max(1, int(ceil(log2(({per}) / instance_tolerance)))))"
+            else:
+                text = f"max({text}, instance_tolerance / ({per}))"
+        lines.append(f"#define {name} {text}")
     return Section(f"generated: parameters of {variant.method}", "\n".join(lines))
 
 
@@ -108,10 +120,17 @@ def _domain_section(surface: Surface) -> Section:
 
 
 def method_sections(
-    method: Method, folder: Path, variant: Variant, surface: Surface, precision: Precision, language: Language
+    method: Method,
+    folder: Path,
+    variant: Variant,
+    surface: Surface,
+    precision: Precision,
+    language: Language,
+    loose: bool = False,
 ) -> list[Section]:
     """The method itself, with its knobs bound and its tables; after the surface's sections."""
-    sections = [_parameter_section(variant, precision, language)] if variant.parameters else []
+    loosened = {p.name: p for p in method.parameters if p.per} if loose else None
+    sections = [_parameter_section(variant, precision, language, loosened)] if variant.parameters else []
     if method.tables:
         tables = method.tables(surface, dict(variant.parameters), precision)
         sections += [table_section(name, values, precision, language) for name, values in tables.items()]
@@ -120,10 +139,18 @@ def method_sections(
 
 
 def raster_program(
-    method: Method, folder: Path, variant: Variant, surface: Surface, proxy: Proxy, reports: bool, free: bool = False
+    method: Method,
+    folder: Path,
+    variant: Variant,
+    surface: Surface,
+    proxy: Proxy,
+    reports: bool,
+    free: bool = False,
+    pixels: float = 0.0,
 ) -> Program:
     """The program whose fragments, of a proxy about each instance of `surface`, cast rays by `variant`, in GLSL and
     float32. With `reports` it also writes what the check reads. `free`: parameters and domain are each instance's own.
+    `pixels`: how many footprints of a pixel the method's tolerance may grow to; 0 leaves it alone.
 
     Raises FirsthitError where the surface lacks a function that the method or the shading needs.
     """
@@ -139,16 +166,19 @@ def raster_program(
     else:
         sections += surface_sections(surface, needs, "float32", "glsl")
     sections.append(_domain_section(surface))
-    sections += method_sections(method, folder, variant, surface, "float32", "glsl")
+    if pixels:
+        sections.append(file_section(KERNELS / "raster_tolerance.glsl"))
+    sections += method_sections(method, folder, variant, surface, "float32", "glsl", pixels > 0.0)
     sections.append(Section("generated: shading", f"#define SHADING_NORMAL {normal}"))
     parts = ("cast", *RAY_OF_PIXEL, "raster_fragment", "raster_shade", *(["raster_report"] * reports))
     sections += [file_section(KERNELS / f"{part}.glsl") for part in parts]
     sections.append(file_section(KERNELS / f"entry_raster{'_check' * reports}.frag.glsl"))
     vertex = [
         *_head("glsl", "float32", ()),
-        Section("generated: proxy", f"#define PROXY_SIDES {PROXY_SIDES}"),
+        Section("generated: proxy", f"#define PROXY_SIDES {PROXY_SIDES}\n#define PIXELS {float(pixels)!r}"),
         *(file_section(KERNELS / f"{part}.glsl") for part in ("raster_view", "raster_instance", f"proxy_{proxy}")),
         file_section(KERNELS / f"raster_{'free' if free else 'baked'}.vert.glsl"),
+        file_section(KERNELS / f"raster_{'tolerance' if pixels else 'exact'}.vert.glsl"),
         file_section(KERNELS / "entry_raster.vert.glsl"),
     ]
     return Program("glsl", "float32", "raster", tuple(sections), tuple(vertex))

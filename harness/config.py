@@ -122,6 +122,7 @@ class Config:
     stages: list[str] = field(default_factory=lambda: ["compute"])
     prepass: list[str] = field(default_factory=lambda: ["none"])
     proxies: list[str] = field(default_factory=lambda: ["box"])  # of stage raster
+    tolerances: list[float] = field(default_factory=lambda: [0.0])  # of stage raster, in pixels; 0: the method's own
     devices: list[str] = field(default_factory=lambda: ["all"])
     seed: int = 1
     accuracy: AccuracyChoice = field(default_factory=AccuracyChoice)

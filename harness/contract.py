@@ -151,6 +151,10 @@ class Parameter:
     meaning: str  # one phrase with its unit
     finer: Literal["up", "down"] | None = None  # which way the error falls; tested, as claims are
     sweep: tuple[float | int, ...] = ()  # values beside the default that trade speed for error, for `recommend` to try
+    per: str | None = (
+        None  # the length, as kernels write it, that a tolerance is a share of, or that is halved so often
+    )
+    #   where more is finer: such a knob may be loosened to what a pixel shows
 
 
 CLAIMS: dict[str, str] = {
@@ -332,13 +336,15 @@ class Cell:
     family: str | None = None  # of harness.hardcases; then its rungs' rays take the place of surface and view
     prepass: Prepass = "none"  # beams: the rays are narrowed to where tiles' beams cannot exclude the surface
     proxy: Proxy = "box"  # of stage raster: the geometry whose fragments cast rays
+    tolerance: float = 0.0  # of stage raster: pixel footprints that a method's own tolerance may grow to
     scene: Any = None  # a harness.scenes.Scene of several instances, of which `surface` then is the stand-in
 
     @property
     def caster(self) -> str:
-        """The variant, with the prepass that it works behind and the proxy that is not the usual one."""
+        """The variant, with the prepass that it works behind, its tolerance in pixels and a proxy that is no box."""
         behind = "" if self.prepass == "none" else f"+{self.prepass}"
-        return f"{self.variant}{behind}" + ("" if self.proxy == "box" else f" in a {self.proxy}")
+        loose = f" to {self.tolerance:g} pixels" if self.tolerance else ""
+        return f"{self.variant}{behind}{loose}" + ("" if self.proxy == "box" else f" in a {self.proxy}")
 
     @property
     def slot(self) -> str:

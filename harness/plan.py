@@ -230,7 +230,7 @@ def _planned(cell: Cell, info: DeviceInfo | None, catalog: Catalog, experiment: 
             if cell.stage == "raster":
                 scene = cell.scene or single(cell.surface, cell.view)
                 raster.depth_map(scene, camera_for(cell.view, cell.surface))
-                drawn = raster.draws(scene, cell.variant, cell.proxy, catalog)
+                drawn = raster.draws(scene, cell.variant, cell.proxy, catalog, cell.tolerance)
                 checks, frame = tuple(draw.check for draw in drawn), drawn[0].timed
             else:
                 checks, frame = _programs(cell, surfaces, catalog)
@@ -280,21 +280,35 @@ def plan(experiment: Experiment, catalog: Catalog, found: list[DeviceInfo], time
     stages = dict.fromkeys(stage for variant in experiment.variants for stage in experiment.stages_of(variant))
     scenes = itertools.product(experiment.surfaces, config.view, config.sizes, config.samples_per_pixel, stages)
     cells = [
-        (Cell(variant, surface, view, size, samples, precision, stage, name, prepass=before, proxy=proxy), info)
+        (Cell(variant, surface, view, size, samples, precision, stage, name, None, before, proxy, pixels), info)
         for surface, view, size, samples, stage in scenes
         for variant, before, (name, info), precision in runs_on
         if stage in experiment.stages_of(variant)
-        for proxy in _proxies(stage, variant, experiment, catalog)
+        for proxy, pixels in _rasterings(stage, variant, experiment, catalog)
     ]
     cells += [
         (
-            Cell(variant, scene.stand_in, view, size, samples, precision, "raster", name, None, before, proxy, scene),
+            Cell(
+                variant,
+                scene.stand_in,
+                view,
+                size,
+                samples,
+                precision,
+                "raster",
+                name,
+                None,
+                before,
+                proxy,
+                pixels,
+                scene,
+            ),
             info,
         )
         for scene in experiment.scenes
         for view, size, samples in itertools.product(_views(scene, config), config.sizes, config.samples_per_pixel)
         for variant, before, (name, info), precision in runs_on
-        for proxy in _proxies("raster", variant, experiment, catalog)
+        for proxy, pixels in _rasterings("raster", variant, experiment, catalog)
     ]
     cells += [
         (
@@ -318,10 +332,13 @@ def plan(experiment: Experiment, catalog: Catalog, found: list[DeviceInfo], time
     return [_planned(cell, info, catalog, experiment, timed) for cell, info in cells]
 
 
-def _proxies(stage: Stage, variant: Variant, experiment: Experiment, catalog: Catalog) -> tuple[Proxy, ...]:
-    """The proxies that make a difference."""
-    casts_rays = catalog.get(variant.method).method.casts != "mesh"
-    return experiment.proxies if stage == "raster" and casts_rays else experiment.proxies[:1]
+def _rasterings(stage: Stage, variant: Variant, experiment: Experiment, catalog: Catalog) -> list[tuple[Proxy, float]]:
+    """The proxies and the tolerances in pixels that make a difference to a method in a stage."""
+    method = catalog.get(variant.method).method
+    if stage != "raster" or method.casts == "mesh":
+        return [("box", 0.0)]
+    tolerances = experiment.config.tolerances if any(knob.per for knob in method.parameters) else [0.0]
+    return list(itertools.product(experiment.proxies, tolerances))
 
 
 def _views(scene: Scene, config: Config) -> list[View]:

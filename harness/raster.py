@@ -43,9 +43,13 @@ class Draw:
         return Batch(program, records, made.triangles.ravel(), made.vertices, made.closed)
 
 
-def draws(scene: Scene, variant: Variant, proxy: Proxy, catalog: Catalog) -> tuple[Draw, ...]:
-    """A draw for each group; FirsthitError where its method cannot draw it."""
-    return tuple(_draw(group, group.variant or variant, proxy, catalog) for group in scene.groups)
+def draws(scene: Scene, variant: Variant, proxy: Proxy, catalog: Catalog, pixels: float = 0.0) -> tuple[Draw, ...]:
+    """A draw for each group; FirsthitError where its method cannot draw it. `pixels` as for raster_program; a group
+    with a variant of its own keeps that one's tolerance."""
+    return tuple(
+        _draw(group, group.variant or variant, proxy, catalog, 0.0 if group.variant else pixels)
+        for group in scene.groups
+    )
 
 
 def refusal(scene: Scene, variant: Variant, catalog: Catalog) -> str | None:
@@ -97,7 +101,7 @@ def _several(group: Group, name: str) -> bool:
     return len({dict(surface.parameters)[name] for surface in group.distinct}) > 1
 
 
-def _draw(group: Group, variant: Variant, proxy: Proxy, catalog: Catalog) -> Draw:
+def _draw(group: Group, variant: Variant, proxy: Proxy, catalog: Catalog, pixels: float) -> Draw:
     plugin: Plugin = catalog.get(variant.method)
     method, surface = plugin.method, group.distinct[0]
     if method.casts == "mesh":
@@ -107,7 +111,7 @@ def _draw(group: Group, variant: Variant, proxy: Proxy, catalog: Catalog) -> Dra
     if group.varies and len(surface.parameters) > MOST_PARAMETERS:
         raise FirsthitError(f"instances of {surface.name} cannot differ: it has over {MOST_PARAMETERS} parameters")
     timed, check = (
-        raster_program(method, plugin.folder, variant, surface, proxy, reports, group.varies)
+        raster_program(method, plugin.folder, variant, surface, proxy, reports, group.varies, pixels)
         for reports in (False, True)
     )
     return Draw(group, proxy, None, timed, check)

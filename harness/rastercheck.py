@@ -35,7 +35,7 @@ def check(executor: LocalExecutor, planned: Planned, config: AccuracyChoice, fol
     drawn = executor.rasterise(cell.device, planned.raster_frame(config.size, reports=True))
     picture = drawn.picture
     rays = picture.rays
-    truth: Seen = scene_truth(scene, rays, picture, folder)
+    truth: Seen = scene_truth(scene, rays, picture, folder, config.grazing_margin * scene_radius(cell.surface))
     hits = picture.hits(scale_of(scene, picture))
     verdicts = accuracy.judge(hits, truth.truth, scene_radius(cell.surface), config.grazing_margin)
     alone = cell.scene is None

@@ -249,6 +249,8 @@ class Runner:
             "casts": method.casts,
             "prepass": cell.prepass,
             "proxy": cell.proxy if cell.stage == "raster" else None,
+            "pixel_tolerance": cell.tolerance if cell.stage == "raster" else None,
+            "scene": cell.scene.family if cell.scene else None,
             "instances": cell.scene.instances if cell.scene else None,
             "status": status.value,
             "reason": reason,

@@ -61,7 +61,7 @@ AXES = (
         "instances",
         "instances in the scene",
         lambda rows: rows["instances"],
-        ("surface", "size", "view", *_ELSE),
+        ("scene", "size", "view", *_ELSE),
         needs="instances",
         expected="An exponent of 0 is a cost that pixels alone decide, 1 one in proportion to the instances.",
     ),

@@ -10,7 +10,7 @@ from harness import raster
 from harness.accuracy import judge
 from harness.assemble import fill_program
 from harness.backends.raster import Rasteriser
-from harness.camera import camera_for, rays_of, scene_radius
+from harness.camera import camera_for, pixel_footprint, rays_of, scene_radius
 from harness.contract import PROXIES, FirsthitError, RayStatus, View
 from harness.oracle import first_hits
 from harness.plugins import find_methods
@@ -42,10 +42,10 @@ def variant(method, **knobs):
     return find_methods().get(method).variant(knobs)
 
 
-def draw(gl, scene, chosen, size, proxy="box", reports=True, view=None):
+def draw(gl, scene, chosen, size, proxy="box", reports=True, pixels=0.0):
     """The picture of a scene by a variant; without reports, its colours alone."""
-    camera = camera_for(view or scene.view, scene.stand_in if scene.instances > 1 else scene.groups[0].distinct[0])
-    batches = [d.batch(reports) for d in raster.draws(scene, chosen, proxy, find_methods())]
+    camera = camera_for(scene.view, scene.stand_in if scene.instances > 1 else scene.groups[0].distinct[0])
+    batches = [d.batch(reports) for d in raster.draws(scene, chosen, proxy, find_methods(), pixels)]
     built = [gl.build(batch.program) for batch in batches]
     fill = gl.build(fill_program()) if reports else None
     launch = gl.launch_raster(batches, built, camera, raster.depth_map(scene, camera), size, fill)
@@ -113,3 +113,15 @@ def test_an_eye_among_the_proxies_is_refused():
     surface = surfaces.get("torus")
     with pytest.raises(FirsthitError, match="inside the bounding spheres of 1 instances"):
         raster.depth_map(single(surface, VIEW), camera_for(View("inside", distance=0.5), surface))
+
+
+@pytest.mark.parametrize("method", ["newton", "sturm", "sphere_tracing", "interval_march"])
+def test_a_tolerance_in_pixels_saves_evaluations_and_costs_an_error_of_its_size(gl, method):
+    surface, chosen = surfaces.get("torus"), variant(method)
+    scene, camera = single(surface, VIEW), camera_for(VIEW, surface)
+    exact, loose = (draw(gl, scene, chosen, SIZE, pixels=pixels) for pixels in (0.0, 0.5))
+    assert loose.evaluations.sum() < 0.97 * exact.evaluations.sum()
+    both = (exact.batch >= 0) & (loose.batch >= 0)
+    assert both.sum() > 0.97 * (exact.batch >= 0).sum()
+    footprint = pixel_footprint(camera, SIZE) * exact.t[both]
+    assert 0.001 < np.quantile(np.abs(loose.t - exact.t)[both] / footprint, 0.9) < 4 * 0.5

@@ -36,7 +36,7 @@ def placed(*choices, **view):
 def seen(gl, scene, chosen, folder, tolerance):  # noqa: F811
     """The picture and its truth, every pixel held against the oracle but those at silhouettes and near ties."""
     picture = draw(gl, scene, chosen, SIZE)
-    truth = scene_truth(scene, picture.rays, picture, folder)
+    truth = scene_truth(scene, picture.rays, picture, folder, 1e-3 * scene.stand_in.domain.radius)
     hits, radius = picture.hits(scale_of(scene, picture)), scene.stand_in.domain.radius
     verdicts = judge(hits, truth.truth, radius, 1e-3)
     clear = ~verdicts.grazing
@@ -58,13 +58,10 @@ def test_a_torus_and_a_mesh_hide_each_other_as_the_oracle_says(gl, tmp_path, mes
         azimuth=10,
         elevation=40,
     )
-    picture, truth = seen(gl, scene, variant("newton"), tmp_path, 1e-4)
-    hidden = (truth.gap < np.inf) & (truth.batch == (1 if mesh_at > 0 else 0))
-    assert hidden.sum() > 50, "one stands in front of the other"
-    assert (
-        np.array_equal(picture.batch[hidden] == 1, np.full(hidden.sum(), mesh_at > 0))
-        or ((picture.batch[hidden] == 1) == (mesh_at > 0)).mean() > 0.98
-    )
+    _, truth = seen(gl, scene, variant("newton"), tmp_path, 3e-4)
+    both = truth.gap < np.inf
+    assert both.sum() > 300
+    assert (truth.batch[both] == (1 if mesh_at > 0 else 0)).all(), "one stands in front of the other"
 
 
 def test_interpenetrating_tori_of_two_methods_part_where_the_oracle_says(gl, tmp_path):  # noqa: F811
@@ -178,4 +175,4 @@ def test_a_group_is_checked():
     for wrong in ({"scale": np.zeros(1)}, {"surfaces": (torus, torus)}, {"turn": np.eye(3)}):
         with pytest.raises(config.FirsthitError, match="group"):
             dataclasses.replace(group, **wrong)
-    assert Scene("s", "s", (group,), VIEW).sphere == pytest.approx([0, 0, 0, 1.0])
+    assert Scene("s", "s", (group,), VIEW, "s").sphere == pytest.approx([0, 0, 0, 1.0])

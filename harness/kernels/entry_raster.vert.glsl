@@ -15,6 +15,7 @@ void main() {
     instance_row_z = scale * at.row_z.xyz;
     instance_colour_scale = vec4(at.colour_feature.xyz, scale);
     pass_on(at);
+    set_tolerance(at, instance_eye);
     vec3 corner = proxy_corner(gl_VertexID, at.lower_scale.xyz, at.upper_bounding.xyz, at.upper_bounding.w, instance_eye);
     gl_Position = clip_position(world_vector(at, corner - instance_eye));
 }

@@ -75,7 +75,7 @@ def scenes_of(
                 variant_of(one) if one.method else None,
             )
         )
-    return [Scene(name, choice.title or name, tuple(groups), view)]
+    return [Scene(name, choice.title or name, tuple(groups), view, name)]
 
 
 def rotation(x: float, y: float, z: float) -> Floats:

@@ -45,7 +45,7 @@ def lattice(count: int, seed: int, view: View) -> Scene:
     cells = np.stack(np.unravel_index(np.arange(count), (side, side, side)), axis=1)
     place = SPACING * (cells - 0.5 * (side - 1))
     group = Group((surfaces.get("torus"),), place, turns(source, count), np.ones(count), _colours(source, count))
-    return Scene(f"lattice {count}", f"{count:,} tori on a lattice", (group,), view)
+    return Scene(f"lattice {count}", f"{count:,} tori on a lattice", (group,), view, "lattice")
 
 
 def scattered(count: int, seed: int, view: View) -> Scene:
@@ -59,25 +59,25 @@ def scattered(count: int, seed: int, view: View) -> Scene:
     place = radius * source.random((count, 1)) ** (1.0 / 3.0) * _unit(source.normal(size=(count, 3)))
     scale = source.uniform(0.5, 1.5, count)
     group = Group(chosen, place, turns(source, count), scale, _colours(source, count))
-    return Scene(f"scattered {count}", f"{count:,} scattered tori", (group,), view)
+    return Scene(f"scattered {count}", f"{count:,} scattered tori", (group,), view, "scattered")
 
 
 def molecule(count: int, seed: int, view: View) -> Scene:
     """`count` spheres of four elements' van der Waals radii, along a chain that winds at random."""
     import surfaces
 
-    source = np.random.default_rng([seed, count, 2])
-    bends = np.cumsum(0.7 * source.normal(size=(count, 3)), axis=0) + source.normal(size=(count, 3))
-    pull = np.zeros(3)
-    place = np.zeros((count, 3))
-    for i in range(1, count):  # drawn back to the middle, so that it balls up
-        pull = _unit(bends[i] - 0.05 * place[i - 1])
-        place[i] = place[i - 1] + 1.5 * pull
+    source, radius = np.random.default_rng([seed, count, 2]), 1.1 * count ** (1.0 / 3.0)
+    place, way = np.zeros((count, 3)), np.array([0.0, 0.0, 1.0])
+    for i in range(1, count):
+        way = _unit(way + source.normal(size=3))
+        if np.linalg.norm(place[i - 1] + 1.5 * way) > radius:  # turned back at the ball's edge
+            way = _unit(0.5 * source.normal(size=3) - _unit(place[i - 1]) if i > 1 else -way)
+        place[i] = place[i - 1] + 1.5 * way
     elements = source.choice(list(RADII), size=count, p=(0.4, 0.12, 0.13, 0.35))
     scale = np.array([RADII[element] for element in elements])
     colours = np.array([COLOURS[element] for element in elements])
     group = Group((surfaces.get("sphere"),), place, turns(source, count), scale, colours)
-    return Scene(f"molecule {count}", f"A molecule of {count:,} spheres", (group,), view)
+    return Scene(f"molecule {count}", f"A molecule of {count:,} spheres", (group,), view, "molecule")
 
 
 def _part(name: str, formula: str, box: Box, distance: str | None = None, **parameters: str) -> Surface:
@@ -174,7 +174,7 @@ def pipes(count: int, seed: int, view: View) -> Scene:
             place, turn, colours = (np.array(values, float) for values in zip(*parts, strict=True))
             own = Variant("polygon", (("N", 4),), "plates of triangles") if kind == "plate" else None
             groups.append(Group((surface,), place, turn, np.ones(len(parts)), colours, own))
-    return Scene(f"pipes {count}", f"A pipe assembly of {count:,} parts", tuple(groups), view)
+    return Scene(f"pipes {count}", f"A pipe assembly of {count:,} parts", tuple(groups), view, "pipes")
 
 
 def _frame(axis: Floats) -> Floats:

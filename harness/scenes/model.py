@@ -78,6 +78,7 @@ class Scene:
     title: str
     groups: tuple[Group, ...]
     view: View
+    family: str  # scenes of one family differ in their count alone
 
     @property
     def instances(self) -> int:
@@ -115,6 +116,7 @@ class Scene:
             source="a scene",
             degree=None if None in degrees else max(degree for degree in degrees if degree is not None),
             parameters=first.parameters,
+            distance=first.distance,
             feature_radius=min(features),
         )
 
@@ -127,4 +129,4 @@ def bounding_radius(surface: Surface) -> float:
 def single(surface: Surface, view: View) -> Scene:
     """One surface in its own coordinates: what every other stage draws."""
     group = Group((surface,), np.zeros((1, 3)), np.eye(3)[None], np.ones(1), np.array([COLOUR]))
-    return Scene(surface.name, surface.title, (group,), view)
+    return Scene(surface.name, surface.title, (group,), view, surface.name)

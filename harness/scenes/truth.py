@@ -16,7 +16,7 @@ from harness.raster import pack
 from harness.scenes.model import Group, Scene
 
 CHUNK = 2**22  # pairs of ray and instance that are looked at together
-SLACK = 1e-5  # of a bounding sphere's radius: instances that a ray nearly meets are certified too
+SLACK = 1e-5  # of a bounding sphere's radius, for rounding
 DEPTH_SHARE = 1e-6  # of the depth: what the depth buffer may not tell apart
 
 
@@ -57,9 +57,10 @@ def scale_of(scene: Scene, picture: Picture) -> NDArray[np.float64]:
     return found
 
 
-def scene_truth(scene: Scene, rays: NDArray[np.float32], picture: Picture, folder: Path) -> Seen:
+def scene_truth(scene: Scene, rays: NDArray[np.float32], picture: Picture, folder: Path, margin: float) -> Seen:
     """Certified first hits for rays float32[n, 6] in world coordinates; `folder` keeps the oracle's answers.
 
+    Instances that a ray passes by within `margin`, in world units, are certified too: they make it a grazing one.
     Who is seen in the picture is certified on the local ray that its fragment cast, others on the world's ray as the
     instance's float32 record places it.
     """
@@ -67,7 +68,7 @@ def scene_truth(scene: Scene, rays: NDArray[np.float32], picture: Picture, folde
     work: dict[Surface, list[_Part]] = defaultdict(list)
     for number, group in enumerate(scene.groups):
         records = pack(group)
-        pixel, who = _candidates(group, wide)
+        pixel, who = _candidates(group, wide, margin)
         numbers = {surface: k for k, surface in enumerate(group.distinct)}
         kind = np.array([numbers[surface] for surface in group.surfaces])
         for surface, k in numbers.items():
@@ -83,8 +84,8 @@ def scene_truth(scene: Scene, rays: NDArray[np.float32], picture: Picture, folde
     return _nearest(len(rays), [_certified(surface, parts, folder) for surface, parts in work.items()])
 
 
-def _candidates(group: Group, rays: NDArray[np.float64]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Pairs (ray, instance) where the ray runs through the instance's bounding sphere, or nearly."""
+def _candidates(group: Group, rays: NDArray[np.float64], margin: float) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Pairs (ray, instance) where the ray passes the instance's bounding sphere within `margin`."""
     origins, directions = rays[:, :3], rays[:, 3:]
     pixels, instances = [], []
     step = max(1, CHUNK // len(rays))
@@ -97,7 +98,7 @@ def _candidates(group: Group, rays: NDArray[np.float64]) -> tuple[NDArray[np.int
             - 2.0 * spheres[:, :3] @ origins.T
             + np.einsum("ij,ij->i", origins, origins)[None]
         )
-        reach = spheres[:, 3] * (1.0 + SLACK)
+        reach = spheres[:, 3] * (1.0 + SLACK) + margin
         who, pixel = np.nonzero(squared - along * along <= (reach * reach)[:, None] + 1e-12 * squared)
         pixels.append(pixel)
         instances.append(who + start)

@@ -65,6 +65,7 @@ METHOD = Method(
             "last step of the refinement, over the ray's length in the domain",
             finer="down",
             sweep=(2.0**-8, 2.0**-12, 2.0**-22),
+            per="2.0 * DOMAIN_RADIUS",
         ),
         Parameter("COMPENSATED", 12, "degree from which on the fit is compensated; below, plain products and sums"),
         Parameter("TRUST", 0.015625, "share of the worst case up to which errors are reckoned with"),

@@ -63,7 +63,9 @@ METHOD = Method(
     source="toledo2007",
     needs=("surface_along", "surface_dual_along"),
     parameters=(
-        Parameter("ITERATIONS", 22, "halvings of each piece", finer="up", sweep=(12, 16, 30)),
+        Parameter(
+            "ITERATIONS", 22, "halvings of each piece", finer="up", sweep=(12, 16, 30), per="2.0 * DOMAIN_RADIUS"
+        ),
         Parameter("SPLIT", 1, "1: at the roots of f''; 0: at t_M, the root of f''', as printed"),
     ),
     claims=frozenset({"no_false_hit", "error_below_tolerance"}),

@@ -72,6 +72,7 @@ METHOD = Method(
             "last Newton step of the root, in the fit's variable",
             finer="down",
             sweep=(2.0**-8, 2.0**-12, 2.0**-22),
+            per="2.0 * DOMAIN_RADIUS",
         ),
         Parameter("ISOLATION", 2.0**-10, "the same for the derivatives' roots"),
     ),

@@ -27,6 +27,7 @@ METHOD = Method(
             "width of the final piece, over the domain's radius",
             finer="down",
             sweep=(2.0**-12, 2.0**-16, 2.0**-22),
+            per="DOMAIN_RADIUS",
         ),
         Parameter("MAX_EVALUATIONS", 8192, "evaluations spent on one ray"),
     ),

@@ -70,6 +70,7 @@ METHOD = Method(
             "shortest step, over the ray's length in the domain",
             finer="down",
             sweep=(2.0**-10, 2.0**-13, 2.0**-20),
+            per="2.0 * DOMAIN_RADIUS",
         ),
         Parameter("MAX_EVALUATIONS", 10000, "evaluations spent on one ray"),
     ),

@@ -32,6 +32,7 @@ METHOD = Method(
             "last step allowed, over the surface's feature radius",
             finer="down",
             sweep=(0.03, 0.01, 0.0003, 0.0001, 0.00003, 0.00001),
+            per="FEATURE_RADIUS",
         ),
         Parameter("STEP_BOUND", 0.15, "longest step λ, over the bounding radius"),
         Parameter("FORWARD", 1, "1: forwards outside the surface, backwards inside; 0: signed steps as printed"),

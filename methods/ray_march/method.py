@@ -19,7 +19,9 @@ METHOD = Method(
     needs=("surface_along", "surface_value_along"),
     parameters=(
         Parameter("STEPS", 10000, "steps across the domain's diameter", finer="up", sweep=(100, 300, 1000)),
-        Parameter("REFINEMENTS", 12, "bisections of the bracketing step", finer="up"),
+        Parameter(
+            "REFINEMENTS", 12, "bisections of the bracketing step", finer="up", per="2.0 * DOMAIN_RADIUS / real(STEPS)"
+        ),
     ),
     claims=frozenset({"no_false_hit", "error_below_tolerance"}),
     tolerance=lambda surface, knobs: 2.0 * surface.domain.radius / knobs["STEPS"] * 0.5 ** knobs["REFINEMENTS"],

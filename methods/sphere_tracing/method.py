@@ -42,6 +42,7 @@ METHOD = Method(
             "distance that counts as a hit, over the surface's feature radius",
             finer="down",
             sweep=(0.01, 0.001, 0.000003),
+            per="FEATURE_RADIUS",
         ),
         Parameter("RAYS", 2, "starts on a ray: 1 where it enters the domain, 2 also the point nearest its centre"),
         Parameter("MAX_EVALUATIONS", 2000, "evaluations of the distance spent on one ray"),

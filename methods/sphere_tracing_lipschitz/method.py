@@ -108,6 +108,7 @@ METHOD = Method(
             "shortest step, and the secant's reach that counts as a hit, over the domain's radius",
             finer="down",
             sweep=(2.0**-10, 2.0**-12, 2.0**-18),
+            per="DOMAIN_RADIUS",
         ),
         Parameter("SHELLS", 64, "shells with a bound of their own; 1: one bound for the whole domain"),
         Parameter("MAX_EVALUATIONS", 20000, "evaluations of f spent on one ray"),

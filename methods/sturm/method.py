@@ -46,7 +46,14 @@ METHOD = Method(
     needs=("surface_polynomial_along", "surface_along", "surface_value_along"),
     libraries=("double_word",),
     parameters=(
-        Parameter("ITERATIONS", 22, "halvings of the ray's stay in the domain", finer="up", sweep=(12, 16, 30)),
+        Parameter(
+            "ITERATIONS",
+            22,
+            "halvings of the ray's stay in the domain",
+            finer="up",
+            sweep=(12, 16, 30),
+            per="2.0 * DOMAIN_RADIUS",
+        ),
         Parameter("BY_SIGN", 1, "1: bisect by the sign of f once one root is left; 0: count to the end, as printed"),
         Parameter(
             "LEAST", 64.0, "beyond degree 4: least leading coefficient of a row, over its largest one, in roundoffs"

@@ -52,6 +52,7 @@ METHOD = Method(
             "last Newton step of the root, over the ray's length in the domain",
             finer="down",
             sweep=(2.0**-8, 2.0**-12, 2.0**-22),
+            per="2.0 * DOMAIN_RADIUS",
         ),
         Parameter("ISOLATION", 2.0**-10, "the same for the derivatives' roots"),
     ),
