@@ -117,19 +117,31 @@ Interval interval_sqr(Interval a) {
     return checked(bounded_sqr(a));
 }
 
-// a^n by squaring, n >= 1; within (n - 1) u.
+bool is_odd(int n) {
+    return n - 2 * (n / 2) == 1;
+}
+
+// a^n by squaring, n >= 1; within (n - 1) u. Without a loop to n = 31: Mesa ends all of a shader's loops, inner ones too,
+// once they have turned 65535 times together, and a marching method takes thousands of powers.
 real whole_power(real a, int n) {
-    real power = 1.0;
-    real square = a;
-    for (int k = n; k > 0; k = k / 2) {
-        if (k - 2 * (k / 2) == 1) power = power * square;
+    real power = is_odd(n) ? a : real(1);
+    real square = a * a;
+    if (is_odd(n / 2)) power = power * square;
+    square = square * square;
+    if (is_odd(n / 4)) power = power * square;
+    square = square * square;
+    if (is_odd(n / 8)) power = power * square;
+    square = square * square;
+    if (is_odd(n / 16)) power = power * square;
+    for (int k = n / 32; k > 0; k = k / 2) {
         square = square * square;
+        if (is_odd(k)) power = power * square;
     }
     return power;
 }
 
 Interval bounded_powi(Interval a, int n) {
-    if (n - 2 * (n / 2) == 1) return widened_by_rounding(whole_power(a.lo, n), whole_power(a.hi, n), real(n));
+    if (is_odd(n)) return widened_by_rounding(whole_power(a.lo, n), whole_power(a.hi, n), real(n));
     return widened_by_rounding(whole_power(interval_mignitude(a), n), whole_power(interval_magnitude(a), n), real(n));
 }
 
