@@ -8,7 +8,8 @@ from reports.claims.beamcasting import CLAIMS as _BEAMCASTING
 from reports.claims.model import Claim, Outcome, Verdict, judge
 from reports.claims.szente import CLAIMS as _SZENTE
 from reports.claims.toledo import CLAIMS as _TOLEDO
+from reports.claims.toledo_tori import CLAIMS as _TORI
 
-CLAIMS: tuple[Claim, ...] = (*_TOLEDO, *_SZENTE, *_BEAMCASTING)
+CLAIMS: tuple[Claim, ...] = (*_TOLEDO, *_TORI, *_SZENTE, *_BEAMCASTING)
 
 __all__ = ["CLAIMS", "Claim", "Outcome", "Verdict", "judge"]

@@ -1,0 +1,188 @@
+"""Scenes: ray casting against tessellation at equal image error, and what tolerances in pixels save."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import pandas as pd
+
+from harness.contract import CellStatus
+from reports import wording
+from reports.content import Block, Column, Section, Table, Text
+
+LEVELS = (1.0, 0.1, 0.01, 0.001)  # pixel footprints
+MESHES = "mesh"
+PLACE = ["surface", "surface_title", "view", "size", "samples_per_pixel", "precision", "device"]
+
+
+def sections(frame: pd.DataFrame) -> list[Section]:
+    """One section where scenes were drawn, one where tolerances in pixels were compared."""
+    rows = frame[(frame["status"] == CellStatus.OK) & frame["answers"] & frame["median_ms"].notna()]
+    drawn = rows[rows["scene"].notna() & ~(rows["pixel_tolerance"] > 0.0)]
+    blocks: list[Block] = [table for table in (_equal_error(drawn), _each(drawn)) if table]
+    made = []
+    if blocks:
+        lead = (
+            "Instances of surfaces, each with a transform, in one depth buffer. The image error is |t − t*| against "
+            "the oracle's certified first hit over all instances, in pixel footprints, on the rays that fragments cast."
+        )
+        made.append(Section("Scenes", (Text(lead), *blocks), wide=True))
+    if loosened := _detail(rows[rows["pixel_tolerance"].notna()]):
+        made.append(Section("Detail where the scene needs it", (loosened,), wide=True))
+    return made
+
+
+def _right(rows: pd.DataFrame) -> pd.DataFrame:
+    """Those with no more than 1 in 1,000 rays wrong outside the grazing class."""
+    return rows[rows["wrong_rays"].astype("float64") <= 1e-3 * rows["accuracy_rays"].astype("float64")]
+
+
+def _equal_error(rows: pd.DataFrame) -> Table | None:
+    """At each level of image error, the fastest ray caster and the fastest tessellation that keep it."""
+    body: list[tuple[Any, ...]] = []
+    for _, own in rows.groupby(PLACE, sort=False):
+        usable = _right(own)
+        meshes, casters = usable[usable["casts"] == MESHES], usable[usable["casts"] != MESHES]
+        if not (own["casts"] == MESHES).any() or casters.empty:
+            continue
+        first = own.iloc[0]
+        for level in LEVELS:
+            cast, mesh = (_fastest(of[of["pixel_error_p99"] <= level]) for of in (casters, meshes))
+            if cast is None:
+                continue
+            told = [first["surface_title"], level]
+            for one in (cast, mesh):
+                told += (
+                    [None] * 4
+                    if one is None
+                    else [one["variant"], one["pixel_error_p99"], one["median_ms"], one["bytes"]]
+                )
+            body.append((*told, None if mesh is None else mesh["median_ms"] / cast["median_ms"]))
+    if not body:
+        return None
+    columns = [Column("scene", stretch=1), Column("99 % of\nerrors under,\npixels", wording.number, numeric=True)]
+    for over in ("ray cast", "tessellated"):
+        columns += [
+            Column("the fastest", over=over),
+            Column("99 %,\npixels", wording.short, numeric=True, over=over),
+            Column("ms", wording.number, numeric=True, over=over),
+            Column("bytes", wording.count, numeric=True, over=over),
+        ]
+    return Table(
+        (*columns, Column("tessellated\nover ray cast", wording.factor, numeric=True)),
+        body,
+        "Time and memory at equal image error.",
+        "The fastest of either kind that keeps the error, with at most 1 in 1,000 rays wrong away from silhouettes; "
+        "none where no setting of this run does. Bytes are those of instances, triangles and vertices on the device.",
+        group=1,
+    )
+
+
+def _fastest(rows: pd.DataFrame) -> Any:
+    return None if rows.empty else rows.loc[rows["median_ms"].idxmin()]
+
+
+def _each(rows: pd.DataFrame) -> Table | None:
+    if rows.empty:
+        return None
+    body = [
+        (
+            r.surface_title,
+            r.variant,
+            r.instances,
+            r.median_ms,
+            r.bytes,
+            r.fragments,
+            None if r.casts == MESHES else r.fragments_discarded / max(1, r.fragments),
+            r.pixels_drawn,
+            r.pixel_error_p50,
+            r.pixel_error_p99,
+            r.wrong_rays,
+            r.other_instance,
+        )
+        for r in rows.itertuples()
+    ]
+    return Table(
+        (
+            Column("scene", stretch=1),
+            Column("variant"),
+            Column("instances", wording.count, numeric=True),
+            Column("ms", wording.number, numeric=True),
+            Column("bytes", wording.count, numeric=True),
+            Column("fragments", wording.count, numeric=True),
+            Column("discarded", wording.share, numeric=True),
+            Column("pixels\ndrawn", wording.count, numeric=True),
+            Column("50 %", wording.short, numeric=True, over="error, pixels"),
+            Column("99 %", wording.short, numeric=True, over="error, pixels"),
+            Column("wrong\nrays", wording.count, numeric=True),
+            Column("of them, another\ninstance", wording.count, numeric=True),
+        ),
+        body,
+        "Every scene by every variant.",
+        "Fragments are those of all proxies or triangles, hidden ones too; discarded are a proxy's without a hit.",
+        group=1,
+    )
+
+
+def _detail(rows: pd.DataFrame) -> Table | None:
+    """What a tolerance in pixels saves over the method's own, and what it costs."""
+    body = list(_savings(rows))
+    if not body:
+        return None
+    return Table(
+        (
+            Column("scene", stretch=1),
+            Column("variant"),
+            Column("its own", wording.number, numeric=True, over="evaluations per pixel"),
+            Column("tolerant", wording.number, numeric=True, over="evaluations per pixel"),
+            Column("saved", wording.share, numeric=True, over="evaluations per pixel"),
+            Column("its own", wording.number, numeric=True, over="ms"),
+            Column("tolerant", wording.number, numeric=True, over="ms"),
+            Column("saved", _signed, numeric=True, over="ms"),
+            Column("50 %", wording.short, numeric=True, over="error, pixels"),
+            Column("99 %", wording.short, numeric=True, over="error, pixels"),
+            Column("its own", wording.count, numeric=True, over="wrong rays"),
+            Column("tolerant", wording.count, numeric=True, over="wrong rays"),
+        ),
+        body,
+        "Tolerances as large as pixels show, against the methods' own.",
+        "A method's tolerance may grow to so many footprints of a pixel at the instance's distance. Evaluations are "
+        "those of all fragments of a pixel. What ends a march by its distance to the surface ends it beside silhouettes too: "
+        "these hits are the wrong rays that come.",
+        group=1,
+    )
+
+
+def _signed(value: Any) -> str:
+    return wording.NONE if wording.absent(value) else f"{100 * value:.0f} %".replace("-", "−")
+
+
+def _savings(rows: pd.DataFrame) -> Iterator[tuple[Any, ...]]:
+    loose = rows[rows["pixel_tolerance"] > 0.0]
+    for row in loose.itertuples():
+        own = rows[
+            (rows["comparison"] == row.comparison)
+            & (rows["device"] == row.device)
+            & (rows["method"] == row.method)
+            & (rows["parameters"] == row.parameters)
+            & (rows["proxy"] == row.proxy)
+            & (rows["pixel_tolerance"] == 0.0)
+        ]
+        if own.empty:
+            continue
+        base = own.iloc[0]
+        yield (
+            row.surface_title,
+            row.variant,
+            base["evaluations_mean"],
+            row.evaluations_mean,
+            1.0 - row.evaluations_mean / base["evaluations_mean"],
+            base["median_ms"],
+            row.median_ms,
+            1.0 - row.median_ms / base["median_ms"],
+            row.pixel_error_p50,
+            row.pixel_error_p99,
+            base["wrong_rays"],
+            row.wrong_rays,
+        )
