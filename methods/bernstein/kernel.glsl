@@ -110,7 +110,9 @@ Hit first_hit(Ray ray, real t0, real t1) {
         real away = sqrt(max(inner_product(p, p), inner_product(q, q))) / DOMAIN_RADIUS;
         real off = TRUST * UNIT_ROUNDOFF * VALUE_ERRORS[min(int(away * real(SHELLS)), SHELLS - 1)];
         real unit = TRUST * UNIT_ROUNDOFF * largest(b);
-        real noise = N >= COMPENSATED ? 2.0 * unit : real(N / 2 + 6) * TRUST * UNIT_ROUNDOFF * GROWTH[0] * largest(s);
+        real weighted = 0.0;
+        for (int i = 0; i <= N; i++) weighted += COLUMNS[i] * fabs(s[i]);
+        real noise = TRUST * UNIT_ROUNDOFF * (N >= COMPENSATED ? 2.0 * largest(b) : real(N / 2 + 6) * weighted);
 
         real above = 0.0;  // of the first sample that is negative, the one before it
         real under = 1.0;

@@ -34,13 +34,15 @@ COORDINATES = 6.0  # unit roundoffs of a point's distance from the centre by whi
 
 
 def _tables(surface: Surface, _knobs: Mapping[str, float | int], precision: Precision) -> dict[str, list[float]]:
-    from harness.fitting import fit_tables
+    from harness.fitting import fit_tables, inverse
     from harness.rounding import sample_errors_grow, value_errors
 
     assert surface.degree is not None
+    matrix = inverse(surface.degree, "bernstein", precision)
     return fit_tables(surface.degree, "bernstein", precision) | {
         "VALUE_ERRORS": list(value_errors(surface, SHELLS, COORDINATES)),
         "BINOMIALS": [float(comb(surface.degree, j)) for j in range(surface.degree + 1)],
+        "COLUMNS": [max(float(abs(row[i])) for row in matrix) for i in range(surface.degree + 1)],
         "GROWTH": sample_errors_grow(surface.degree, precision, DEPTHS),
     }
 
