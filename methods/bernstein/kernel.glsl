@@ -39,6 +39,21 @@ void halve(INOUT real far[COEFFICIENTS], OUT real near[COEFFICIENTS]) {
     }
 }
 
+// About where b has its least minimum inside (0, 1), from where its derivative's control polygon rises through zero.
+real lowest_place(IN real b[COEFFICIENTS]) {
+    real place = 0.5;
+    real lowest = REAL_INFINITY;
+    for (int j = 1; j < N; j++) {
+        real before = b[j] - b[j - 1];
+        real behind = b[j + 1] - b[j];
+        if (before < 0.0 && behind >= 0.0 && b[j] < lowest) {
+            lowest = b[j];
+            place = (real(j - 1) + before / (before - behind)) / real(N - 1);
+        }
+    }
+    return place;
+}
+
 // Bounds of a piece's errors: what samples are off by; the fit's and the halvings' roundings. `most` is 1 where an open
 // run of coefficients may be taken for one change of sign, and -1 where not.
 STRUCT(Errors) struct Errors { real off; real noise; real unit; real most; };
@@ -146,6 +161,16 @@ Hit first_hit(Ray ray, real t0, real t1) {
         bool counted = more == 0 && certain == error_at(errors, 0);
         // what is all noise is decided by f itself, at the samples
         bool noisy = counted || reach <= smallest || hit.evaluations > FITS * (N + 1) || unit <= NOISE * TRUST * UNIT_ROUNDOFF * (GROWTH[DEPTHS] * off + noise);
+        if (noisy && f_under >= 0.0) {
+            real u = lowest_place(b);
+            real f = sign * surface_value(ray_point(ray, start + reach * u));
+            hit.evaluations += 1;
+            if (f < 0.0) {
+                above = 0.0;
+                under = u;
+                f_under = f;
+            }
+        }
         if (s[0] < 0.0 || noisy) piece.depth = TRUSTED;
         piece = descended(piece, c, errors);
         bool empty = piece.empty;
