@@ -100,7 +100,6 @@ Hit first_hit(Ray ray, real t0, real t1) {
     real s[COEFFICIENTS];
     real b[COEFFICIENTS];
     real c[COEFFICIENTS];
-    real far[COEFFICIENTS];
     real sign = 1.0;
     real start = t0;  // [start, end]: what is fitted; before `start` there is no root
     real end = t1;
@@ -159,9 +158,10 @@ Hit first_hit(Ray ray, real t0, real t1) {
             certain = min(certain, fabs(b[i]));
         }
         bool counted = more == 0 && certain == error_at(errors, 0);
-        // what is all noise is decided by f itself, at the samples
-        bool noisy = counted || reach <= smallest || hit.evaluations > FITS * (N + 1) || unit <= NOISE * TRUST * UNIT_ROUNDOFF * (GROWTH[DEPTHS] * off + noise);
-        if (noisy && f_under >= 0.0) {
+        // what is all noise is decided by f itself, at the samples and where the fit has its minimum
+        bool settled = unit <= NOISE * TRUST * UNIT_ROUNDOFF * (GROWTH[DEPTHS] * off + noise);
+        settled = settled || reach <= smallest || hit.evaluations > FITS * (N + 1);
+        if (settled && !counted && f_under >= 0.0) {
             real u = lowest_place(b);
             real f = sign * surface_value(ray_point(ray, start + reach * u));
             hit.evaluations += 1;
@@ -171,14 +171,15 @@ Hit first_hit(Ray ray, real t0, real t1) {
                 f_under = f;
             }
         }
-        if (s[0] < 0.0 || noisy) piece.depth = TRUSTED;
+        settled = settled || counted;
+        if (s[0] < 0.0 || settled) piece.depth = TRUSTED;
         piece = descended(piece, c, errors);
         bool empty = piece.empty;
-        bool single = piece.single && !noisy;
+        bool single = piece.single && !settled;
         real width = reach / real(piece.pieces);
         real x = start + width * real(piece.path - piece.pieces);
         bool before = s[0] < 0.0;  // a root was passed before the piece
-        again = !before && !single && !empty && !noisy;
+        again = !before && !single && !empty && !settled;
         if (single && !before) {
             base = x;
             size = width;
@@ -186,7 +187,7 @@ Hit first_hit(Ray ray, real t0, real t1) {
             hit.evaluations += 1;
             again = fz >= 0.0;
         }
-        bool last = noisy || piece.path + 1 == 2 * piece.pieces;
+        bool last = settled || piece.path + 1 == 2 * piece.pieces;
         real behind = last ? end : x + width;
         if (before || (last && !again && fz >= 0.0 && f_under < 0.0)) {
             for (int j = 0; j <= N; j++) c[j] = b[j];

@@ -11,12 +11,12 @@ from reports.content import Block, Column, Section, Table, Text
 from reports.material import Material
 
 ORDER = 12
-OWN = "firsthit"  # the source that a method of our own states
+OWN = "firsthit"  # what the source that a method of our own states begins with
 
 
 def sections(material: Material) -> list[Section]:
     """None where a run holds no method of our own beside another one."""
-    own = sorted(name for name, told in material.run.plan.methods.items() if told.get("source") == OWN)
+    own = sorted(name for name, told in material.run.plan.methods.items() if str(told.get("source")).startswith(OWN))
     return [section for name in own for section in _of(name, material.listed)]
 
 
