@@ -12,7 +12,8 @@ from harness.contract import Surface
 
 POINT = 6  # origin + t direction
 FREE = frozenset({"neg", "abs", "sign", "below"})
-OUTWARD = 7  # interval.glsl: rounding both ends outwards, and the check that they are finite
+WIDENED = 6  # interval.glsl: rounding both ends outwards
+OUTWARD = WIDENED + 1  # and the check that they are finite
 INTERVAL = {
     **dict.fromkeys(("add", "sub", "scale"), 2 + OUTWARD),
     "neg": 0,
@@ -27,7 +28,7 @@ INTERVAL = {
     **dict.fromkeys(("sin", "cos"), 138),
     "tan": 2 * 138 + 13 + OUTWARD,
 }
-AFFINE = 10 + OUTWARD  # interval_affine, one coordinate of a piece of a ray
+AFFINE = 10 + WIDENED  # bounded_affine, one coordinate of a piece of a ray
 
 
 def _value(surface: Surface) -> int:
@@ -68,18 +69,22 @@ def _distance(surface: Surface) -> int:
 def _range(surface: Surface) -> int:
     from surfaces import tape_of
     from surfaces.lowering import enclosures
+    from surfaces.magnitudes import safe_reach
+    from surfaces.printing import BOUNDED
 
     tape = tape_of(surface)
     constants = enclosures(tape)
-    exact = {i for i, (lower, upper) in constants.items() if lower == upper}
-    total = 0
+    bounded = safe_reach(surface, "float32") is not None
+    ends = 2 * sum(op.name == "var" for op in tape.ops)
+    total = max(0, ends - 1) if bounded else ends // 2
     for index, op in enumerate(tape.ops):
         if index in constants or op.name == "var":
             continue
         if op.name == "powi":
             total += _interval_power(op.args[1])
         else:
-            total += INTERVAL["scale" if op.name == "mul" and exact & set(op.inputs) else op.name]
+            total += INTERVAL["scale" if op.name == "mul" and constants.keys() & set(op.inputs) else op.name]
+        total -= bounded and op.name in BOUNDED  # the check that it is finite
     return total
 
 

@@ -111,21 +111,37 @@ class RealPrinter:
         return f"{op.name}({', '.join(args)})"
 
 
-class IntervalPrinter:
-    """Statements `Interval NAME = …;` for a tape as parsed, constants exact and powers whole."""
+BOUNDED = frozenset({"add", "sub", "mul", "scale", "sqr", "powi"})  # have forms that do not look for overflow
 
-    def __init__(self, variables: Mapping[str, str], precision: Precision, language: Language) -> None:
+
+class IntervalPrinter:
+    """Statements `Interval NAME = …;` for a tape as parsed, constants exact and powers whole; `bounded` where nothing
+    in it can overflow."""
+
+    def __init__(
+        self, variables: Mapping[str, str], precision: Precision, language: Language, bounded: bool = False
+    ) -> None:
         self.variables = variables
         self.precision = precision
         self.language = language
+        self.bounded = bounded
 
     def _constant(self, lower: Fraction, upper: Fraction) -> tuple[str, str]:
         lo, hi = (number(n, self.precision, self.language) for n in bounds(lower, upper, self.precision))
         return lo, hi
 
+    def _factor(self, lower: Fraction, upper: Fraction) -> str | None:
+        """The nearest number to a constant, and how many roundings it is off, as arguments; None for one so small that
+        it is off by more."""
+        lo, hi = bounds(lower, upper, self.precision)
+        if lo != hi and not abs(lo) > 2 * np.finfo(_TYPES[self.precision]).tiny:
+            return None
+        return f"{number(nearest(lower, self.precision), self.precision, self.language)}, {{}}, {1 + (lo != hi)}.0"
+
     def body(self, tape: Tape) -> tuple[list[str], list[str]]:
         """The statements, and the outputs as names or expressions."""
         constants = {i: self._constant(*ends) for i, ends in enclosures(tape).items()}
+        factors = {i: self._factor(*ends) for i, ends in enclosures(tape).items()}
         names: list[str] = []
         lines: list[str] = []
         for index, op in enumerate(tape.ops):
@@ -136,16 +152,19 @@ class IntervalPrinter:
                 names.append(self.variables[op.args[0]])
             else:
                 names.append(f"a{len(lines)}")
-                lines.append(f"Interval {names[-1]} = {self.operation(op, names, constants)};")
+                lines.append(f"Interval {names[-1]} = {self.operation(op, names, factors)};")
         return lines, [names[i] for i in tape.outputs]
 
-    def operation(self, op: Op, names: list[str], constants: Mapping[int, tuple[str, str]]) -> str:
+    def operation(self, op: Op, names: list[str], factors: Mapping[int, str | None]) -> str:
         if op.name == "powi":
-            return f"interval_powi({names[op.args[0]]}, {op.args[1]})"
+            return f"{self._kind('powi')}_powi({names[op.args[0]]}, {op.args[1]})"
         for i, j in (op.args, reversed(op.args)) if op.name == "mul" else ():
-            if i in constants and constants[i][0] == constants[i][1]:
-                return f"interval_scale({constants[i][0]}, {names[j]})"
-        return f"interval_{op.name}({', '.join(names[i] for i in op.args)})"
+            if factor := factors.get(i):
+                return f"{self._kind('scale')}_scale({factor.format(names[j])})"
+        return f"{self._kind(op.name)}_{op.name}({', '.join(names[i] for i in op.args)})"
+
+    def _kind(self, name: str) -> str:
+        return "bounded" if self.bounded and name in BOUNDED else "interval"
 
 
 def functions_used(tape: Tape) -> list[str]:

@@ -39,6 +39,7 @@ from harness.contract import Box, FirsthitError, Precision, Section, Surface
 from surfaces.evaluation import tape_of
 from surfaces.formula import parse
 from surfaces.lowering import coefficients_along, gradient, hessian_product, real_tape, tangent
+from surfaces.magnitudes import safe_reach
 from surfaces.printing import IntervalPrinter, Language, RealPrinter, functions_used, table
 from surfaces.tape import Tape
 
@@ -174,8 +175,6 @@ class _Writer:
         self.language = language
         names = sorted(dict(surface.parameters)) if free else []
         self.parameters = {name: f"instance_parameters.{part}" for name, part in zip(names, "xyzw", strict=False)}
-        intervals = {name: f"make_interval({value}, {value})" for name, value in self.parameters.items()}
-        self.intervals = IntervalPrinter({axis: axis for axis in "xyz"} | intervals, precision, language)
 
     def _printer(self, variables: Mapping[str, str]) -> RealPrinter:
         return RealPrinter({**variables, **self.parameters}, self.precision, self.language)
@@ -239,14 +238,28 @@ class _Writer:
         return self._scalar("surface_distance", self._distance("surface_distance"))
 
     def surface_range(self) -> str:
-        used = {op.args[0] for op in self.exact.ops if op.name == "var"} - self.parameters.keys()
-        checks = [f"{axis} = finite_or_whole({axis}.lo, {axis}.hi);" for axis in sorted(used)]
-        lines, (value,) = self.intervals.body(self.exact)
+        used = sorted({op.args[0] for op in self.exact.ops if op.name == "var"} - self.parameters.keys())
+        intervals = {name: f"make_interval({value}, {value})" for name, value in self.parameters.items()}
         head = "Interval surface_range(Interval x, Interval y, Interval z)"
-        return _function(head, checks + lines, f"return {value};")
+        reach = None if self.parameters else safe_reach(self.surface, self.precision)  # theirs are known when drawn
+        variables = {axis: axis for axis in "xyz"} | intervals
+        printer = IntervalPrinter(variables, self.precision, self.language, reach is not None)
+        lines, (value,) = printer.body(self.exact)
+        if reach is None or not used:
+            checks = [f"{axis} = finite_or_whole({axis}.lo, {axis}.hi);" for axis in used]
+            return _function(head, checks + lines, f"return {value};")
+        ends = " + ".join(f"fabs({axis}.{end})" for axis in used for end in ("lo", "hi"))
+        lines = [
+            f"PRECISE real reach = {ends};",
+            *lines,
+            f"Interval value = {value};",
+            f"bool safe = reach <= {self._printer({}).literal(Fraction(reach))};",
+        ]
+        ends = "safe ? value.lo : -REAL_INFINITY, safe ? value.hi : REAL_INFINITY"
+        return _function(head, lines, f"return make_interval({ends});")
 
     def surface_range_along(self) -> str:
-        axes = [f"interval_affine(ray.origin.{a}, ray.direction.{a}, t0, t1)" for a in "xyz"]
+        axes = [f"bounded_affine(ray.origin.{a}, ray.direction.{a}, t0, t1)" for a in "xyz"]
         head = "Interval surface_range_along(Ray ray, real t0, real t1)"
         return _function(
             head,

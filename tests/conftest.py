@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from functools import cache
 
 import numpy as np
@@ -9,11 +10,26 @@ import pytest
 
 from harness.backends import Device, find_devices, open_device
 from harness.contract import DeviceInfo
+from harness.executor import LocalExecutor
+
+
+@cache
+def _found(backend: str) -> list[DeviceInfo]:
+    return find_devices(backend)
 
 
 @cache
 def usable_devices() -> tuple[DeviceInfo, ...]:
-    return tuple(info for backend in ("opencl", "opengl") for info in find_devices(backend) if not info.problem)
+    return tuple(info for backend in ("opencl", "opengl") for info in _found(backend) if not info.problem)
+
+
+@pytest.fixture(scope="module")
+def devices_found_once() -> Iterator[None]:
+    """Commands run in this process find its devices at once, instead of in a process of their own each time: that takes
+    longer than what most tests are about, and tests that run commands in processes of their own do it still."""
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr(LocalExecutor, "find", lambda _, backend: _found(backend))
+        yield
 
 
 @cache

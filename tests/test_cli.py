@@ -10,6 +10,8 @@ from harness.cli import build_parser, main
 
 from .conftest import usable_devices
 
+pytestmark = pytest.mark.usefixtures("devices_found_once")
+
 COMMANDS = ("devices", "list", "plan", "run", "why", "report", "show", "sheet", "trace", "oracle", "compile")
 COMMANDS += ("gate", "bless", "recommend")
 

@@ -10,6 +10,8 @@ from harness.environment import ROOT
 
 from .conftest import usable_devices
 
+pytestmark = pytest.mark.usefixtures("devices_found_once")
+
 CONFIG = """title = "Gate of a plugin"
 surfaces = ["torus"]
 families = ["double_root"]
@@ -72,7 +74,7 @@ def gated(tmp_path, one_device, capsys, blessed_text):
 
 
 @pytest.fixture(scope="module")
-def blessed_text(tmp_path_factory, one_device):
+def blessed_text(tmp_path_factory, one_device, devices_found_once):  # noqa: ARG001
     """The baseline of the copies as they are, blessed once."""
     folder = tmp_path_factory.mktemp("blessed")
     _copy(folder / "plugins", MINE, "mine")

@@ -20,6 +20,8 @@ from harness.recommend.search import Search, Wish, certified_error
 from .conftest import opened, usable_devices
 from .test_devices import cast
 
+pytestmark = pytest.mark.usefixtures("devices_found_once")
+
 FORMULAS = {
     "rounded cube": ("x^4 + y^4 + z^4 - 0.7", "sphere:1.5"),
     "cassinian": ("(x^2 + y^2 + z^2)^2 - 2*(x^2 - y^2) - 0.3", "sphere:1.8"),

@@ -57,9 +57,9 @@ def config(tmp_path):
     if not devices:
         pytest.skip("no OpenCL device")
 
-    def write(seconds=0.3, more=""):
+    def write(seconds=0.05, more=""):
         path = tmp_path / "t.toml"
-        path.write_text(CONFIG.format(device=devices[-1], seconds=seconds, more=more))
+        path.write_text(CONFIG.format(device=devices[0], seconds=seconds, more=more))
         return path
 
     return write
@@ -212,7 +212,7 @@ def test_plugins_that_do_not_compile_hang_or_crash_cost_a_row_each(tmp_path, con
 
 
 def test_a_truncated_row_is_told_and_run_again(tmp_path, config):
-    path, runs = config(seconds=0.05), tmp_path / "runs"
+    path, runs = config(), tmp_path / "runs"
     assert run("run", path, "--runs", runs).returncode == 0
     victim = next((runs / "t" / "cells").glob("*.json"))
     victim.write_bytes(victim.read_bytes()[:100])
@@ -223,7 +223,7 @@ def test_a_truncated_row_is_told_and_run_again(tmp_path, config):
 
 
 def test_why_names_what_changed(tmp_path, config):
-    path, runs = config(seconds=0.05), tmp_path / "runs"
+    path, runs = config(), tmp_path / "runs"
     assert run("run", path, "--runs", runs).returncode == 0
     path.write_text(path.read_text().replace("size = 16", "size = 17"))
     assert run("run", path, "--runs", runs).returncode == 0

@@ -45,10 +45,11 @@ def test_a_run_stores_studies_and_reuses_them(tmp_path, capsys):
     config = tmp_path / "s.toml"
     config.write_text('title = "s"\nstudies = ["condition_numbers"]\n')
     assert main(["run", str(config), "--runs", str(tmp_path)]) == 0
-    assert "study condition_numbers" in capsys.readouterr().out
+    first = capsys.readouterr().out
+    assert "study condition_numbers" in first and "reused" not in first
     assert studies.is_done("condition_numbers", tmp_path / "s")
     assert main(["run", str(config), "--runs", str(tmp_path)]) == 0
-    assert "study" not in capsys.readouterr().out
+    assert capsys.readouterr().out.startswith("study condition_numbers: reused")
 
 
 def test_published_tables_cite_their_paper():

@@ -39,18 +39,49 @@ void halve(INOUT real far[COEFFICIENTS], OUT real near[COEFFICIENTS]) {
     }
 }
 
-// De Casteljau's algorithm: `near` gets the coefficients on the first `share` of the interval, `far` keeps the rest's.
-void divide(real share, INOUT real far[COEFFICIENTS], OUT real near[COEFFICIENTS]) {
-    near[0] = far[0];
-    for (int r = 1; r <= N; r++) {
-        for (int j = 0; j <= N - r; j++) far[j] = far[j] + share * (far[j + 1] - far[j]);
-        near[r] = far[0];
+// Bounds of a piece's errors: what samples are off by; the fit's and the halvings' roundings. `most` is 1 where an open
+// run of coefficients may be taken for one change of sign, and -1 where not.
+STRUCT(Errors) struct Errors { real off; real noise; real unit; real most; };
+
+real error_at(Errors errors, int depth) {
+    return GROWTH[min(depth, DEPTHS)] * errors.off + errors.noise + real(N * (depth + 1)) * errors.unit;
+}
+
+// A piece of the fitted interval: the digits of `path` after its first lead to it from the whole; `pieces` are as long.
+STRUCT(Piece) struct Piece { int path; int pieces; int depth; bool empty; bool single; };
+
+Piece judged(Piece piece, IN real c[COEFFICIENTS], Errors errors) {
+    Piece result = piece;
+    real error = error_at(errors, piece.depth);
+    Signs signs = signs_of(c, error);
+    result.empty = signs.least > error;
+    result.single = c[N] < -error && signs.after < errors.most * error;
+    return result;
+}
+
+// Halves the piece, and the first half of it that may hold a root, until that is none or has one.
+Piece descended(Piece start, INOUT real c[COEFFICIENTS], Errors errors) {
+    real far[COEFFICIENTS];
+    Piece piece = start;
+    while (!piece.empty && !piece.single && piece.depth < TRUSTED) {
+        for (int j = 0; j <= N; j++) far[j] = c[j];
+        halve(far, c);
+        piece.path = 2 * piece.path;
+        piece.pieces = 2 * piece.pieces;
+        piece.depth += 1;
+        real least = c[0];
+        for (int j = 1; j <= N; j++) least = min(least, c[j]);
+        bool beyond = least > error_at(errors, piece.depth);
+        piece.path += beyond ? 1 : 0;
+        for (int j = 0; j <= N; j++) c[j] = beyond ? far[j] : c[j];
+        piece = judged(piece, c, errors);
     }
+    return piece;
 }
 
 Hit first_hit(Ray ray, real t0, real t1) {
     Hit hit = no_hit(t1);
-    real smallest = RESOLUTION * (t1 - t0);
+    real smallest = max(RESOLUTION * (t1 - t0), 64.0 * UNIT_ROUNDOFF * max(fabs(t0), fabs(t1)));
     real s[COEFFICIENTS];
     real b[COEFFICIENTS];
     real c[COEFFICIENTS];
@@ -58,8 +89,10 @@ Hit first_hit(Ray ray, real t0, real t1) {
     real sign = 1.0;
     real start = t0;  // [start, end]: what is fitted; before `start` there is no root
     real end = t1;
-    real a = t0;      // f is positive there
-    real z = t0;      // and negative here, where the search ends by a hit
+    real base = t0;   // c belongs to t = base + size u for u in [0, 1]; there f is positive at u = a,
+    real size = 0.0;  // and negative at u = z, where the search ends by a hit
+    real a = 0.0;
+    real z = 1.0;
     real fz = 0.0;
     bool again = false;  // the piece was open before, and is fitted anew
     while (start < t1) {
@@ -68,7 +101,7 @@ Hit first_hit(Ray ray, real t0, real t1) {
         hit.evaluations += N + 1;
         if (hit.evaluations == N + 1) sign = s[0] < 0.0 ? real(-1) : real(1);
         for (int i = 0; i <= N; i++) s[i] = sign * s[i];
-        fit(s, true, EFT == 1, b);
+        fit(s, true, N >= COMPENSATED, b);
         for (int j = 0; j <= N; j++) c[j] = b[j];
 
         // what a sample may be off by, and the fit's and the halvings' own roundings
@@ -77,122 +110,83 @@ Hit first_hit(Ray ray, real t0, real t1) {
         real away = sqrt(max(inner_product(p, p), inner_product(q, q))) / DOMAIN_RADIUS;
         real off = TRUST * UNIT_ROUNDOFF * VALUE_ERRORS[min(int(away * real(SHELLS)), SHELLS - 1)];
         real unit = TRUST * UNIT_ROUNDOFF * largest(b);
-        real noise = EFT == 1 ? 2.0 * unit : real(N / 2 + 6) * TRUST * UNIT_ROUNDOFF * GROWTH[0] * largest(s);
+        real noise = N >= COMPENSATED ? 2.0 * unit : real(N / 2 + 6) * TRUST * UNIT_ROUNDOFF * GROWTH[0] * largest(s);
 
-        real under = end;  // the first sample that is negative, and the one before it
+        real above = 0.0;  // of the first sample that is negative, the one before it
+        real under = 1.0;
         real f_under = 0.0;
-        real above = start;
         for (int i = N; i > 0; i--) {
             if (s[i] < 0.0) {
-                under = start + reach * NODES[i];
+                above = NODES[i - 1];
+                under = NODES[i];
                 f_under = s[i];
-                above = start + reach * NODES[i - 1];
             }
         }
 
-        int path = 1;
-        int pieces = 1;
-        int depth = 0;
-        real error = GROWTH[0] * off + noise;
-        Signs signs = signs_of(c, error);
-        bool empty = signs.least > error;
-        real most = again ? error : -error;
-        bool single = c[N] < -error && signs.after < most;
+        Errors errors;
+        errors.off = off;
+        errors.noise = noise;
+        errors.unit = unit;
+        errors.most = again ? real(1) : real(-1);
+        Piece piece;
+        piece.path = 1;
+        piece.pieces = 1;
+        piece.depth = 0;
+        piece = judged(piece, c, errors);
+        // as many changes in the coefficients as in the samples: each root is between two samples
+        real certain = error_at(errors, 0);
+        int more = 0;
+        for (int i = 1; i <= N; i++) {
+            more += (b[i] < 0.0) != (b[i - 1] < 0.0) ? 1 : 0;
+            more -= (s[i] < 0.0) != (s[i - 1] < 0.0) ? 1 : 0;
+            certain = min(certain, fabs(b[i]));
+        }
+        bool counted = more == 0 && certain == error_at(errors, 0);
         // what is all noise is decided by f itself, at the samples
-        bool noisy = reach <= smallest || unit <= NOISE * TRUST * UNIT_ROUNDOFF * (GROWTH[DEPTHS] * off + noise);
-        bool walking = s[0] >= 0.0 && !noisy && !empty && !single;
-        while (walking) {
-            if (empty) {
-                path += 1;
-                int up = path & (-path);
-                path = path / up;
-                pieces = pieces / up;
-                depth = 0;
-                for (int d = 1; d <= DEPTHS; d++) depth += (pieces >> d) > 0 ? 1 : 0;
-                real part = 1.0 / real(pieces);
-                real x = part * real(path - pieces);
-                for (int j = 0; j <= N; j++) far[j] = b[j];
-                divide(x, far, c);
-                divide(part / (1.0 - x), far, c);
-            } else {
-                for (int j = 0; j <= N; j++) far[j] = c[j];
-                halve(far, c);
-                path = 2 * path;
-                pieces = 2 * pieces;
-                depth = depth + 1;
-            }
-            error = GROWTH[min(depth, DEPTHS)] * off + noise + real(N * (depth + 1)) * unit;
-            signs = signs_of(c, error);
-            empty = signs.least > error;
-            if (empty && (path & 1) == 0) {
-                path += 1;
-                for (int j = 0; j <= N; j++) c[j] = far[j];
-                signs = signs_of(c, error);
-                empty = signs.least > error;
-            }
-            most = again ? error : -error;
-            single = c[N] < -error && signs.after < most;
-            // all ones: the last piece
-            walking = !single && (empty ? path + 1 < 2 * pieces : depth < TRUSTED);
-        }
-        real width = reach / real(pieces);
-        real x = start + width * real(path - pieces);
-        again = false;
-        if (s[0] < 0.0) {
-            z = start;
-            fz = s[0];
-        } else if (single) {
-            real f = sign * surface_value(ray_point(ray, x + width));
+        bool noisy = counted || reach <= smallest || hit.evaluations > FITS * (N + 1) || unit <= NOISE * TRUST * UNIT_ROUNDOFF * (GROWTH[DEPTHS] * off + noise);
+        if (s[0] < 0.0 || noisy) piece.depth = TRUSTED;
+        piece = descended(piece, c, errors);
+        bool empty = piece.empty;
+        bool single = piece.single && !noisy;
+        real width = reach / real(piece.pieces);
+        real x = start + width * real(piece.path - piece.pieces);
+        bool before = s[0] < 0.0;  // a root was passed before the piece
+        again = !before && !single && !empty && !noisy;
+        if (single && !before) {
+            base = x;
+            size = width;
+            fz = min(sign * surface_value(ray_point(ray, x + width)), real(0));
             hit.evaluations += 1;
-            if (f < 0.0) {
-                a = x;
-                z = x + width;
-                fz = f;
-            } else {
-                again = true;
-            }
-        } else {
-            again = !empty && !noisy;
+            again = fz >= 0.0;
         }
-        if (!again && fz >= 0.0 && f_under < 0.0) {
-            a = above;
-            z = under;
-            fz = f_under;
+        bool last = noisy || piece.path + 1 == 2 * piece.pieces;
+        real behind = last ? end : x + width;
+        if (before || (last && !again && fz >= 0.0 && f_under < 0.0)) {
+            for (int j = 0; j <= N; j++) c[j] = b[j];
+            base = start;
+            size = reach;
+            a = before ? -1.0 / WIDENING : above;
+            z = before ? real(0) : under;
+            fz = before ? s[0] : f_under;
         }
-        if (fz >= 0.0) a = again ? x : end;
-        start = again ? x : end;
-        end = again ? x + width : min(end + WIDENING * reach, t1);
+        start = again ? x : behind;
+        end = again ? behind : min(behind + WIDENING * width, t1);
         if (fz < 0.0 || hit.evaluations >= MAX_EVALUATIONS) start = t1;
     }
-    if (fz >= 0.0 && hit.evaluations >= MAX_EVALUATIONS) return exhausted(hit, a);
+    if (fz >= 0.0 && hit.evaluations >= MAX_EVALUATIONS) return exhausted(hit, base);
     if (fz >= 0.0) return hit;
 
-    real fa = sign * surface_value(ray_point(ray, a));
+    // Newton's method within the bracket, with f's own value and the fit's slope
+    for (int j = 0; j <= N; j++) c[j] = BINOMIALS[j] * c[j];
+    real fa = sign * surface_value(ray_point(ray, base + size * a));
     hit.evaluations += 1;
-
-    // ITP (Oliveira, Takahashi 2020): regula falsi, drawn towards the middle and kept within bisection's worst case
-    real tolerance = TOLERANCE * (t1 - t0);
-    real spread = 2.0 * tolerance;  // at least z - a, doubled
-    while (spread < 2.0 * (z - a)) spread = 2.0 * spread;
-    real pull = 0.1875 / (z - a);
-    for (int i = 0; i < MOST_STEPS && z - a > tolerance; i++) {
-        real middle = 0.5 * (a + z);
-        real x = z - fz * ((z - a) / (fz - fa));
-        real delta = pull * (z - a) * (z - a);
-        real towards = middle < x ? real(-1) : real(1);
-        x = fabs(middle - x) > delta ? x + towards * delta : middle;
-        real radius = 0.5 * (spread - (z - a));
-        if (fabs(middle - x) > radius) x = middle - towards * radius;
-        real f = sign * surface_value(ray_point(ray, x));
+    real tolerance = TOLERANCE * (t1 - t0) / size;
+    Bracket bracket = make_bracket(a, z, max(fa, real(0)), fz);
+    for (int i = 0; i < MOST_STEPS && bracket.step > tolerance; i++) {
+        Dual f = polynomial_dual(c, N, true, bracket.x);
+        f.value = sign * surface_value(ray_point(ray, base + size * bracket.x));
         hit.evaluations += 1;
-        if (f > 0.0) {
-            a = x;
-            fa = f;
-        } else {
-            z = x;
-            fz = f;
-        }
-        spread = 0.5 * spread;
+        bracket = newton_step(bracket, f, false);
     }
-    return hit_at(hit, fa > fz ? z - fz * ((z - a) / (fz - fa)) : z);
+    return hit_at(hit, base + size * bracket.x);
 }

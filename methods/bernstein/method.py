@@ -23,6 +23,7 @@ Evaluations counted are those of f.
 """
 
 from collections.abc import Mapping
+from math import comb
 
 from harness.contract import Method, Parameter, Precision, Surface
 
@@ -39,6 +40,7 @@ def _tables(surface: Surface, _knobs: Mapping[str, float | int], precision: Prec
     assert surface.degree is not None
     return fit_tables(surface.degree, "bernstein", precision) | {
         "VALUE_ERRORS": list(value_errors(surface, SHELLS, COORDINATES)),
+        "BINOMIALS": [float(comb(surface.degree, j)) for j in range(surface.degree + 1)],
         "GROWTH": sample_errors_grow(surface.degree, precision, DEPTHS),
     }
 
@@ -60,17 +62,18 @@ METHOD = Method(
         Parameter(
             "TOLERANCE",
             2.0**-18,
-            "width of the last bracket, over the ray's length in the domain",
+            "last step of the refinement, over the ray's length in the domain",
             finer="down",
             sweep=(2.0**-8, 2.0**-12, 2.0**-22),
             per="2.0 * DOMAIN_RADIUS",
         ),
-        Parameter("EFT", 1, "1: compensated fit, 0: plain products and sums"),
-        Parameter("TRUST", 0.125, "share of the worst case up to which errors are reckoned with"),
+        Parameter("COMPENSATED", 12, "degree from which on the fit is compensated; below, plain products and sums"),
+        Parameter("TRUST", 0.015625, "share of the worst case up to which errors are reckoned with"),
         Parameter("TRUSTED", 4, "halvings after which an open piece is fitted anew"),
         Parameter("NOISE", 1.0, "a fitted piece under this many errors is decided by f's signs at the samples"),
         Parameter("RESOLUTION", 2.0**-14, "shortest piece, over the ray's length in the domain"),
         Parameter("WIDENING", 8.0, "how much longer the piece after one that was fitted anew is"),
+        Parameter("FITS", 24, "fits of one ray after which f's signs at the samples decide what is open"),
         Parameter("MAX_EVALUATIONS", 4096, "evaluations spent on one ray"),
     ),
     claims=frozenset({"no_false_hit"}),

@@ -18,5 +18,5 @@ Hit first_hit(Ray ray, real t0, real t1) {
             return hit_at(hit, t + 0.5 * (end - t));
         }
     }
-    return hit;
+    return t < t1 ? exhausted(hit, t) : hit;
 }

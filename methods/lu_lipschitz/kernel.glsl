@@ -75,5 +75,6 @@ Hit first_hit(Ray ray, real t0, real t1) {
         hit.evaluations += 1;
         window = LOCAL == 1 ? min(2.0 * step, 1.0 - x) : 1.0;
     }
+    if (!(fx <= 0.0)) return exhausted(hit, t0 + reach * x);
     return hit_at(hit, t0 + reach * (fx < fa ? a + (x - a) * (fa / (fa - fx)) : x));
 }

@@ -26,5 +26,5 @@ Hit first_hit(Ray ray, real t0, real t1) {
         f = surface_dual_along(along, t);
         hit.evaluations += 1;
     }
-    return hit;
+    return exhausted(hit, t);
 }

@@ -37,6 +37,7 @@ Hit first_hit(Ray ray, real t0, real t1) {
         hit.evaluations += 1;
     }
     if (fb == 0.0) return hit_at(hit, b);
+    if (below == (fb < 0.0)) return exhausted(hit, b);
 
     for (int i = 0; i < REFINEMENTS; i++) {
         real m = 0.5 * (a + b);

@@ -44,6 +44,6 @@ Hit first_hit(Ray ray, real t0, real t1) {
         if (searching) t = next;
     }
     if (fabs(distance_here) < near_enough) return hit_at(hit, t);
-    if (hit.evaluations >= MAX_EVALUATIONS) return exhausted(hit, t);
+    if (searching || hit.evaluations >= MAX_EVALUATIONS) return exhausted(hit, t);
     return hit;
 }

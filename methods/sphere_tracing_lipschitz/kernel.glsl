@@ -35,5 +35,5 @@ Hit first_hit(Ray ray, real t0, real t1) {
         step = max(min(fabs(f) * REACH[shell], thickness), least);
         t += step;
     }
-    return hit;
+    return t <= t1 ? exhausted(hit, t) : hit;
 }

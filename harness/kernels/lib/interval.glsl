@@ -2,8 +2,9 @@
 //
 // A rounded result r of one operation is within u |r| of the exact one (u = UNIT_ROUNDOFF), or within the smallest
 // normal number where it underflows. Subtracting 2 u |r| lowers r by at least one unit in its last place, however that
-// subtraction rounds; REAL_TINY, four times the smallest normal number, beyond it covers underflow and flushed
-// denormals. What overflows or is no number becomes the whole line.
+// subtraction rounds, and whether or not fma fuses; REAL_TINY, four times the smallest normal number, beyond it covers
+// underflow and flushed denormals. What overflows or is no number becomes the whole line, save in the operations called
+// bounded: they are for surfaces and boxes on which nothing overflows (surfaces/magnitudes.py).
 // Division and sqrt are widened by what the GLSL 4.3 and OpenCL 1.2 (full profile) specifications allow them, whichever
 // is more; sin and cos, which GLSL leaves unspecified, are computed here; exp and log are in interval_exp_log.
 STRUCT(Interval) struct Interval { real lo; real hi; };
@@ -28,43 +29,68 @@ Interval whole_line() {
     return make_interval(-REAL_INFINITY, REAL_INFINITY);
 }
 
-// Holds the exact values whose computed ones are lo and hi, each within k u of its size.
-Interval outward(real lo, real hi, real k) {
+// Holds the exact values whose computed ones are lo and hi, each within k u of its size; finite where they are.
+Interval widened_by_rounding(real lo, real hi, real k) {
     real relative = 2.0 * k * UNIT_ROUNDOFF;
-    return finite_or_whole((lo - fabs(lo) * relative) - REAL_TINY, (hi + fabs(hi) * relative) + REAL_TINY);
+    return make_interval(fma(fabs(lo), -relative, lo) - REAL_TINY, fma(fabs(hi), relative, hi) + REAL_TINY);
+}
+
+Interval checked(Interval a) {
+    return finite_or_whole(a.lo, a.hi);
+}
+
+Interval outward(real lo, real hi, real k) {
+    return checked(widened_by_rounding(lo, hi, k));
 }
 
 Interval interval_neg(Interval a) {
     return make_interval(-a.hi, -a.lo);
 }
 
+Interval bounded_add(Interval a, Interval b) {
+    return widened_by_rounding(a.lo + b.lo, a.hi + b.hi, 1.0);
+}
+
 Interval interval_add(Interval a, Interval b) {
-    return outward(a.lo + b.lo, a.hi + b.hi, 1.0);
+    return checked(bounded_add(a, b));
+}
+
+Interval bounded_sub(Interval a, Interval b) {
+    return widened_by_rounding(a.lo - b.hi, a.hi - b.lo, 1.0);
 }
 
 Interval interval_sub(Interval a, Interval b) {
-    return outward(a.lo - b.hi, a.hi - b.lo, 1.0);
+    return checked(bounded_sub(a, b));
 }
 
-Interval interval_mul(Interval a, Interval b) {
+Interval bounded_mul(Interval a, Interval b) {
     real p = a.lo * b.lo;
     real q = a.lo * b.hi;
     real r = a.hi * b.lo;
     real s = a.hi * b.hi;
-    return outward(min(min(p, q), min(r, s)), max(max(p, q), max(r, s)), 1.0);
+    return widened_by_rounding(min(min(p, q), min(r, s)), max(max(p, q), max(r, s)), 1.0);
 }
 
-// c a, for a number c.
-Interval interval_scale(real c, Interval a) {
-    return c < 0.0 ? outward(c * a.hi, c * a.lo, 1.0) : outward(c * a.lo, c * a.hi, 1.0);
+Interval interval_mul(Interval a, Interval b) {
+    return checked(bounded_mul(a, b));
+}
+
+// c a, for a number c that is exact (k 1) or rounded to nearest (k 2).
+Interval bounded_scale(real c, Interval a, real k) {
+    bool turned = c < 0.0;
+    return widened_by_rounding(c * (turned ? a.hi : a.lo), c * (turned ? a.lo : a.hi), k);
+}
+
+Interval interval_scale(real c, Interval a, real k) {
+    return checked(bounded_scale(c, a, k));
 }
 
 // o + [t0, t1] d, for numbers o and d: one coordinate of a piece of a ray.
-Interval interval_affine(real o, real d, real t0, real t1) {
+Interval bounded_affine(real o, real d, real t0, real t1) {
     real p = t0 * d;
     real q = t1 * d;
     real product_error = 2.0 * UNIT_ROUNDOFF * max(fabs(p), fabs(q));
-    return outward((o + min(p, q)) - product_error, (o + max(p, q)) + product_error, 1.0);
+    return widened_by_rounding((o + min(p, q)) - product_error, (o + max(p, q)) + product_error, 1.0);
 }
 
 // The least absolute value in a.
@@ -81,26 +107,46 @@ Interval interval_abs(Interval a) {
     return finite_or_whole(interval_mignitude(a), interval_magnitude(a));
 }
 
-Interval interval_sqr(Interval a) {
+Interval bounded_sqr(Interval a) {
     real least = interval_mignitude(a);
     real greatest = interval_magnitude(a);
-    return outward(least * least, greatest * greatest, 1.0);
+    return widened_by_rounding(least * least, greatest * greatest, 1.0);
 }
 
-// a^n by squaring, n >= 1; within (n - 1) u.
+Interval interval_sqr(Interval a) {
+    return checked(bounded_sqr(a));
+}
+
+bool is_odd(int n) {
+    return n - 2 * (n / 2) == 1;
+}
+
+// a^n by squaring, n >= 1; within (n - 1) u. Without a loop to n = 31: Mesa ends all of a shader's loops, inner ones too,
+// once they have turned 65535 times together, and a marching method takes thousands of powers.
 real whole_power(real a, int n) {
-    real power = 1.0;
-    real square = a;
-    for (int k = n; k > 0; k = k / 2) {
-        if (k - 2 * (k / 2) == 1) power = power * square;
+    real power = is_odd(n) ? a : real(1);
+    real square = a * a;
+    if (is_odd(n / 2)) power = power * square;
+    square = square * square;
+    if (is_odd(n / 4)) power = power * square;
+    square = square * square;
+    if (is_odd(n / 8)) power = power * square;
+    square = square * square;
+    if (is_odd(n / 16)) power = power * square;
+    for (int k = n / 32; k > 0; k = k / 2) {
         square = square * square;
+        if (is_odd(k)) power = power * square;
     }
     return power;
 }
 
+Interval bounded_powi(Interval a, int n) {
+    if (is_odd(n)) return widened_by_rounding(whole_power(a.lo, n), whole_power(a.hi, n), real(n));
+    return widened_by_rounding(whole_power(interval_mignitude(a), n), whole_power(interval_magnitude(a), n), real(n));
+}
+
 Interval interval_powi(Interval a, int n) {
-    if (n - 2 * (n / 2) == 1) return outward(whole_power(a.lo, n), whole_power(a.hi, n), real(n));
-    return outward(whole_power(interval_mignitude(a), n), whole_power(interval_magnitude(a), n), real(n));
+    return checked(bounded_powi(a, n));
 }
 
 // GLSL allows 2.5 ulp. The whole line where b reaches zero.

@@ -1,0 +1,37 @@
+"""How large a box a surface's interval extension can be given without a chance of overflow.
+
+Balls over the whole box bound every operation on any part of it. Where that bound is far below the precision's largest
+number, operations need not look for overflow one by one: the box is looked at once.
+"""
+
+from __future__ import annotations
+
+import math
+
+from harness.contract import Box, Precision, Surface
+from surfaces.evaluation import tape_of
+from surfaces.numbers import Balls
+from surfaces.tape import LEAVES, Tape, walk
+
+SAFE = LEAVES | {"add", "sub", "mul", "sqr", "powi", "neg", "abs", "min", "max", "exp", "sin", "cos"}
+LARGEST: dict[Precision, int] = {"float32": 2**100, "float64": 2**1000}  # of 2^128 and 2^1024
+MARGIN = 2.0  # how much farther than the domain a box may reach
+
+
+def safe_reach(surface: Surface, precision: Precision) -> float | None:
+    """A power of two: boxes whose ends' absolute values, all axes' together, do not exceed it, the domain's among them,
+    overflow nowhere. None where that is not proved: a division, root, logarithm or tangent, or too large a value."""
+    import flint
+
+    tape = tape_of(surface)
+    constant = tape.constants()
+    if any(op.name not in SAFE for op, fixed in zip(tape.ops, constant, strict=True) if not fixed):
+        return None
+    domain = surface.domain
+    corners = (domain.lower, domain.upper) if isinstance(domain, Box) else (domain.center,)
+    ends = [max(abs(corner[axis]) for corner in corners) for axis in range(3)]
+    farthest = sum(ends) + (0.0 if isinstance(domain, Box) else 3.0 * domain.radius)
+    reach = 2.0 ** math.ceil(math.log2(MARGIN * 2.0 * farthest))
+    box = dict.fromkeys("xyz", flint.arb(0, reach))
+    values = walk(Tape(tape.ops, tuple(range(len(tape.ops)))), Balls(), box)
+    return reach if all(abs(value) < LARGEST[precision] for value in values) else None
