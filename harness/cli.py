@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from harness import __version__
-from harness.commands import advice, conforming, experiment, gating, kernels, looking, pictures, rays
+from harness.commands import advice, conforming, experiment, gating, kernels, looking, pictures, rays, scenes
 from harness.contract import FirsthitError
 
 INTERRUPTED = 3
@@ -24,7 +24,7 @@ def build_parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=f"firsthit {__version__}")
     parser.add_argument("--plugins", type=Path, metavar="DIR", help="a folder of further methods, one folder each")
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
-    for module in (experiment, gating, advice, looking, pictures, rays, kernels, conforming):
+    for module in (experiment, gating, advice, looking, pictures, scenes, rays, kernels, conforming):
         module.add_parsers(commands)
     return parser
 

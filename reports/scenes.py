@@ -148,8 +148,8 @@ def _detail(rows: pd.DataFrame) -> Table | None:
         body,
         "Tolerances as large as pixels show, against the methods' own.",
         "A method's tolerance may grow to so many footprints of a pixel at the instance's distance. Evaluations are "
-        "those of all fragments of a pixel. What ends a march by its distance to the surface ends it beside silhouettes too: "
-        "these hits are the wrong rays that come.",
+        "those of all fragments of a pixel. What ends a march by its distance to the surface ends it beside "
+        "silhouettes too: these hits are the wrong rays that come.",
         group=1,
     )
 

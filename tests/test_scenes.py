@@ -8,6 +8,7 @@ import pytest
 import surfaces
 from harness import config, meshes
 from harness.accuracy import judge
+from harness.cli import main
 from harness.contract import View
 from harness.plugins import find_methods
 from harness.scenes import Group, Scene, scenes_of
@@ -176,3 +177,17 @@ def test_a_group_is_checked():
         with pytest.raises(config.FirsthitError, match="group"):
             dataclasses.replace(group, **wrong)
     assert Scene("s", "s", (group,), VIEW, "s").sphere == pytest.approx([0, 0, 0, 1.0])
+
+
+@pytest.mark.usefixtures("gl")
+def test_a_scene_of_a_config_is_drawn(tmp_path, capsys):
+    image = pytest.importorskip("PIL.Image")
+    path, output = tmp_path / "c.toml", tmp_path / "s.png"
+    path.write_text('title = "t"\n[[method]]\nname = "newton"\n[scene.mine]\ngenerate = "lattice"\ncounts = [8]\n')
+    assert main(["scene", str(path), "--method", "newton", "--size", "48", "-o", str(output)]) == 0
+    assert "8 tori on a lattice" in capsys.readouterr().out
+    with image.open(output) as drawn:
+        assert drawn.size == (48, 48)
+        assert 0.2 < (np.asarray(drawn) < 255).any(axis=2).mean() < 0.9
+    assert main(["scene", str(path), "--name", "latice 8", "--method", "newton", "-o", str(output)]) == 2
+    assert "did you mean 'lattice 8'?" in capsys.readouterr().err

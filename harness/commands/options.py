@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from harness.assemble import method_program
 from harness.backends import LANGUAGES
-from harness.contract import PRECISIONS, CellStatus, FirsthitError, Hits, Precision, Surface
+from harness.contract import PRECISIONS, CellStatus, FirsthitError, Hits, Precision, Surface, Variant
 from harness.executor import CellError, LocalExecutor, discover_devices
-from harness.plugins import find_methods
+from harness.plugins import Catalog, find_methods
 from harness.worker import Frame
 
 
@@ -64,6 +64,12 @@ def _number(text: str, name: str) -> float | int:
     return int(value) if value.is_integer() and "." not in text and "e" not in text.lower() else value
 
 
+def given_variant(options: argparse.Namespace, catalog: Catalog) -> Variant:
+    """The method that --method names, with the knobs that --knob turns."""
+    given = _assignments(options.knob, "--knob")
+    return catalog.get(options.method).variant({name: _number(text, name) for name, text in given.items()})
+
+
 def _device(name: str | None) -> str:
     if name:
         return name
@@ -87,9 +93,8 @@ def cast(
     """
     from surfaces.sections import unsupported
 
-    plugin = find_methods(options.plugins).get(options.method)
-    given = _assignments(options.knob, "--knob")
-    variant = plugin.variant({name: _number(text, name) for name, text in given.items()})
+    catalog = find_methods(options.plugins)
+    plugin, variant = catalog.get(options.method), given_variant(options, catalog)
     precision: Precision = options.precision
     device = _device(options.device)
     language = LANGUAGES.get(device.partition(":")[0])

@@ -64,7 +64,7 @@ def _view(options: argparse.Namespace) -> View:
     return View("shown", azimuth=azimuth, elevation=elevation, fov=options.fov)
 
 
-def _pillow() -> None:
+def need_pillow() -> None:
     """Raise where the one package that pictures need is missing, before any work is done."""
     import importlib.util
 
@@ -83,24 +83,24 @@ def _picture(options: argparse.Namespace, surface: Surface, view: View) -> tuple
     return Image.fromarray(np.round(255.0 * colours.mean(axis=(1, 3))).astype(np.uint8)), hits
 
 
-def _save(picture: Image, output: Path) -> None:
+def save(picture: Image, output: Path) -> None:
     buffer = io.BytesIO()
     picture.save(buffer, "png", optimize=True)
     write_atomically(output, buffer.getvalue())
 
 
 def _show(options: argparse.Namespace) -> int:
-    _pillow()
+    need_pillow()
     view, surface, output = _view(options), surface_of(options), writable(options.output)
     picture, hits = _picture(options, surface, view)
-    _save(picture, output)
+    save(picture, output)
     exhausted = int((hits.status == RayStatus.EXHAUSTED).sum())
     print(f"{output}: {np.mean(hits.status == RayStatus.HIT):.1%} of {len(hits.t)} rays hit, {exhausted} exhausted")
     return 0
 
 
 def _sheet(options: argparse.Namespace) -> int:
-    _pillow()
+    need_pillow()
     from PIL import Image, ImageDraw
 
     import surfaces
@@ -115,7 +115,7 @@ def _sheet(options: argparse.Namespace) -> int:
         picture, _ = _picture(options, surfaces.get(name), view)
         sheet.paste(picture, (x, y))
         draw.text((x + width // 2, y + options.size + label // 2), name, fill="black", anchor="mm")
-    _save(sheet, output)
+    save(sheet, output)
     print(f"{output}: {len(names)} surfaces")
     return 0
 

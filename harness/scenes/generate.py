@@ -37,6 +37,10 @@ def _colours(source: np.random.Generator, count: int) -> Floats:
     return np.asarray(0.25 + 0.65 * source.random((count, 3)))
 
 
+def _tori(count: int, where: str) -> str:
+    return "One torus" if count == 1 else f"{count:,} tori {where}"
+
+
 def lattice(count: int, seed: int, view: View) -> Scene:
     """`count` tori R = 0.7, r = 0.3 in the first cells of a cubic lattice, each turned at random (toledo2007, 5.2)."""
     import surfaces
@@ -45,7 +49,7 @@ def lattice(count: int, seed: int, view: View) -> Scene:
     cells = np.stack(np.unravel_index(np.arange(count), (side, side, side)), axis=1)
     place = SPACING * (cells - 0.5 * (side - 1))
     group = Group((surfaces.get("torus"),), place, turns(source, count), np.ones(count), _colours(source, count))
-    return Scene(f"lattice {count}", f"{count:,} tori on a lattice", (group,), view, "lattice")
+    return Scene(f"lattice {count}", _tori(count, "on a lattice"), (group,), view, "lattice")
 
 
 def scattered(count: int, seed: int, view: View) -> Scene:
@@ -59,14 +63,15 @@ def scattered(count: int, seed: int, view: View) -> Scene:
     place = radius * source.random((count, 1)) ** (1.0 / 3.0) * _unit(source.normal(size=(count, 3)))
     scale = source.uniform(0.5, 1.5, count)
     group = Group(chosen, place, turns(source, count), scale, _colours(source, count))
-    return Scene(f"scattered {count}", f"{count:,} scattered tori", (group,), view, "scattered")
+    return Scene(f"scattered {count}", _tori(count, "anywhere in a ball"), (group,), view, "scattered")
 
 
 def molecule(count: int, seed: int, view: View) -> Scene:
-    """`count` spheres of four elements' van der Waals radii, along a chain that winds at random."""
+    """`count` spheres of four elements' van der Waals radii, along a chain that winds at random through a ball of about
+    10 Å³ for each."""
     import surfaces
 
-    source, radius = np.random.default_rng([seed, count, 2]), 1.1 * count ** (1.0 / 3.0)
+    source, radius = np.random.default_rng([seed, count, 2]), 1.34 * count ** (1.0 / 3.0)
     place, way = np.zeros((count, 3)), np.array([0.0, 0.0, 1.0])
     for i in range(1, count):
         way = _unit(way + source.normal(size=3))

@@ -1,0 +1,87 @@
+"""scene: what a config's scenes look like."""
+
+from __future__ import annotations
+
+import argparse
+import difflib
+from pathlib import Path
+
+import numpy as np
+
+from harness import config, raster
+from harness.assemble import fill_program
+from harness.camera import camera_for
+from harness.commands.options import given_variant, writable
+from harness.commands.pictures import need_pillow, save
+from harness.contract import PROXIES, FirsthitError
+from harness.executor import CellError, LocalExecutor, discover_devices
+from harness.plan import able
+from harness.plugins import find_methods
+from harness.scenes import Scene
+from harness.worker import Frame
+
+
+def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    text = "draw a scene of a config, by rasterisation"
+    parser = commands.add_parser(
+        "scene",
+        help=text,
+        description=text,
+        epilog="example: firsthit scene configs/pipes.toml --name 'pipes 2000' --method newton -o pipes.png",
+    )
+    parser.add_argument("config", type=Path, metavar="CONFIG", help="a TOML file with [scene.NAME] tables")
+    parser.add_argument("--name", metavar="NAME", help="which scene, as `firsthit plan` names it (default: the first)")
+    parser.add_argument("--method", required=True, metavar="NAME", help="of instances without a method of their own")
+    parser.add_argument("--knob", action="append", default=[], metavar="NAME=VALUE", help="a parameter of the method")
+    parser.add_argument("--proxy", choices=PROXIES, default="box", help="what triggers fragments (default: box)")
+    parser.add_argument("--size", type=int, default=512, help="pixels per side (default: 512)")
+    parser.add_argument("--timeout", type=float, default=60.0, metavar="SECONDS", help="give up after (default: 60)")
+    parser.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help=".png file to write")
+    parser.set_defaults(run=_scene)
+
+
+def _chosen(scenes: tuple[Scene, ...], name: str | None, path: Path) -> Scene:
+    if not scenes:
+        raise FirsthitError(f"{path} has no scenes; see configs/pipes.toml for how they are stated")
+    names = {scene.name: scene for scene in scenes}
+    if name is not None and name not in names:
+        near = difflib.get_close_matches(name, names, 1)
+        hint = f"did you mean {near[0]!r}?" if near else f"there are: {', '.join(names)}"
+        raise FirsthitError(f"{path} has no scene {name!r}; {hint}")
+    return names[name] if name else scenes[0]
+
+
+def _scene(options: argparse.Namespace) -> int:
+    need_pillow()
+    from PIL import Image
+
+    if not 1 <= options.size <= 8192:
+        raise FirsthitError(f"--size {options.size}: an image has 1 to 8192 pixels per side")
+    output, catalog = writable(options.output), find_methods(options.plugins)
+    scene = _chosen(config.load(options.config, catalog).scenes, options.name, options.config)
+    variant = given_variant(options, catalog)
+    if reason := raster.refusal(scene, variant, catalog):
+        raise FirsthitError(f"{variant} cannot draw {scene.name}: {reason}")
+    usable = [info.name for info in discover_devices() if able(info) and not info.problem]
+    if not usable:
+        raise FirsthitError("no device that rasterises; `firsthit devices` says what is here", exit_code=3)
+    camera = camera_for(scene.view, scene.stand_in)
+    batches = tuple(draw.batch(True) for draw in raster.draws(scene, variant, options.proxy, catalog))
+    depths, side = raster.depth_map(scene, camera), 2 * options.size
+    executor = LocalExecutor(options.timeout)
+    try:
+        frame = Frame(fill_program(), camera, None, side, batches=batches, depth_map=depths)
+        picture = executor.rasterise(usable[0], frame).picture
+    except CellError as error:
+        raise FirsthitError(f"{variant} on {usable[0]}: {error}", exit_code=3) from None
+    finally:
+        executor.close()
+    colours = np.where((picture.batch >= 0)[:, None], picture.colours[:, :3], np.uint8(255)).astype(np.float64)
+    four = colours.reshape(options.size, 2, options.size, 2, 3)
+    save(Image.fromarray(np.round(four.mean(axis=(1, 3))).astype(np.uint8)), output)
+    fragments, hits = int(picture.fragments.sum(dtype=np.int64)), int(picture.fragment_hits.sum(dtype=np.int64))
+    print(
+        f"{output}: {scene.title}; {np.mean(picture.batch >= 0):.1%} of the pixels drawn, "
+        f"{1.0 - hits / max(1, fragments):.1%} of {fragments:,} fragments discarded"
+    )
+    return 0
