@@ -119,6 +119,32 @@ def test_planted_wrong_rays_flip_a_verdict(tmp_path: Path) -> None:
         assert outcome(name, bisection, cells, paper="toledo2007") is expected
 
 
+def test_planted_work_and_errors_flip_a_verdict(tmp_path: Path) -> None:
+    def outcome(name: str, paper: str, words: str, *cells: dict[str, Any]) -> Outcome:
+        return claims.judge(claim(paper, words), evidence(tmp_path / name, *cells)).outcome
+
+    for more, expected in ((0.4, Outcome.CONFIRMED), (40.0, Outcome.REFUTED)):
+        cells = [
+            planted(pick, "torus", 1.0, evaluations_mean=9.0 + n)
+            for pick, n in ((picks.NEWTON_3, 0.0), (picks.NEWTON_5, more))
+        ]
+        assert outcome(f"steps {more}", "toledo2007", "quadratically", *cells) is expected
+    for skipped, expected in ((3, Outcome.CONFIRMED), (0, Outcome.REFUTED)):
+        cells = [planted(picks.MARCH, "torus", 1.0, misses=skipped)]
+        assert outcome(f"skipped {skipped}", "szente", "smaller than its step", *cells) is expected
+    for gain, expected in ((1.2, Outcome.CONFIRMED), (1.0, Outcome.REFUTED)):
+        cells = []
+        for surface, degree, ratio in (("sphere", 2, gain), ("calyx", 5, 1.0)):
+            cells += [planted(picks.LU_UNCULLED, surface, ratio), planted(picks.LU, surface, 1.0)]
+            for made in cells[-2:]:
+                made["degree"] = degree
+        assert outcome(f"culling {gain}", "szente", "Culling by LU bounds", *cells) is expected
+    for error, expected in ((1e-4, Outcome.CONFIRMED), (1e-2, Outcome.REFUTED)):
+        cells = [planted(picks.UNIFORM, "heart", 1.0, error={"p99": e}) for e in (1e-3, error)]
+        cells[1] |= {"samples_per_pixel": 4, "slot": "finer", "key": digest("finer"), "comparison": "heart finer"}
+        assert outcome(f"samples {error}", "beamcasting", "approximate the surface better", *cells) is expected
+
+
 def test_a_study_decides_and_a_changed_digit_refutes(tmp_path: Path) -> None:
     from harness.studies import condition_numbers
 

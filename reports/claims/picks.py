@@ -25,6 +25,7 @@ BERNSTEIN_NEITHER = Pick("neither, Bernstein", "eft_yuksel", {"BASIS": 1, "EFT":
 BERNSTEIN_NO_EVAL = Pick("EFT without EVAL, Bernstein", "eft_yuksel", {"BASIS": 1, "EFT": 1, "EVAL": 0})
 LU = Pick("LU bound", "lu_lipschitz", {"BOUND": 1, "CULL": 1, "LOCAL": 0})
 CONTROL = Pick("control point bound", "lu_lipschitz", {"BOUND": 0, "CULL": 0, "LOCAL": 0})
+LU_UNCULLED = Pick("LU bound without culling", "lu_lipschitz", {"BOUND": 1, "SIDES": 2, "CULL": 0, "LOCAL": 0})
 LU_LOCAL = Pick("LU bound that follows the ray", "lu_lipschitz", {"BOUND": 1, "CULL": 1, "LOCAL": 1})
 
 UNIFORM = Pick("uniform", "interval_uniform")

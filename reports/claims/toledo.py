@@ -8,7 +8,7 @@ from collections.abc import Callable
 import numpy as np
 import pandas as pd
 
-from reports import wording
+from reports import derive, wording
 from reports.claims import picks
 from reports.claims.model import Claim, Verdict, faster, quantities, untestable, verdict, wrong
 from reports.evidence import Evidence, Pick
@@ -16,6 +16,7 @@ from reports.evidence import Evidence, Pick
 PAPER = "toledo2007"
 VIEWS = "toledo-fig4.toml"
 UNEVEN = 2.0  # a view has more failures than another where it has this many times as many
+MORE_STEPS = 1.0  # doubling the digits of 0.001 r gives more than 0.00003 r has
 SLOWER = 1.5  # more evaluations near grazing than elsewhere, to call it slow there
 
 
@@ -121,6 +122,16 @@ def _thresholds_hold(evidence: Evidence) -> Verdict | None:
             held = held and largest <= limit
             told.append(f"{pick.words}: largest error {wording.error(largest)} r over {len(rows)} views")
     return verdict(held, "; ".join(told)) if told else None
+
+
+def _quadratic(evidence: Evidence) -> Verdict | None:
+    coarse, fine = (evidence.rows(pick, picks.TORUS) for pick in (picks.NEWTON_3, picks.NEWTON_5))
+    both = coarse.merge(fine, on=derive.GROUP, suffixes=("", "_fine"))
+    if both.empty:
+        return None
+    more = (both["evaluations_mean_fine"] - both["evaluations_mean"]) / (both["truth_hits"] / both["accuracy_rays"])
+    told = f"{wording.number(more.mean())} more evaluations for each hit (at most {wording.number(more.max())})"
+    return verdict(bool(more.max() <= MORE_STEPS), f"{told} at 0.00003 r than at 0.001 r, over {len(both)} views")
 
 
 def _step_bound(evidence: Evidence) -> Verdict | None:
@@ -242,6 +253,15 @@ CLAIMS = (
         "The step bound λ = 0.15 avoids vanishing rays without losing speed.",
         "Wrong rays and time of Newton 0.001 with the bound and without",
         _step_bound,
+        ("newton",),
+        VIEWS,
+    ),
+    Claim(
+        PAPER,
+        "4.4",
+        "Newton's method converges quadratically near a root.",
+        f"Evaluations at 0.00003 r over those at 0.001 r: at most {MORE_STEPS:g} more for each hit",
+        _quadratic,
         ("newton",),
         VIEWS,
     ),
