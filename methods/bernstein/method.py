@@ -32,10 +32,10 @@ fitted anew: its errors are smaller, and on a vector of rays it is cheaper, see 
 Evaluations counted are those of f.
 
 **Speed** Processor time on opencl:intel, float32, 512x512, in ms, on calyx, Barth sextic, Endraß octic, Barth decic
-and 16-ball: 4.4, 6.2, 13.8, 15.7, 17.3; eft_yuksel 4.5, 9.5, 18, 28, 50. That is 1.0 to 2.9 times, 1.7 in the mean, at
-its errors. What keeps it from more: sampling and fitting alone take a fourth (decic) to a half (16-ball) of it, and a
-vector of rays waits for the one that is fitted most often (decic: 19 evaluations a ray, more than 30 for the worst of
-16).
+and 16-ball: 4.3, 6.6, 14.7, 16.9, 19.2; eft_yuksel 4.6, 9.5, 18.2, 28.0, 49.6. That is 1.1 to 2.6 times, 1.6 in the
+mean, at its errors; behind beams 1.7. What keeps it from more: sampling and fitting alone take a fifth (decic) to a
+half (16-ball) of it, and a vector of rays waits for the one that is fitted most often (decic: 19 evaluations a ray,
+some 30 for the worst of 16).
 - Refinement, tried on all: Illinois ended early where f has two scales (errors to 3e-4); ITP never did, but the
   slowest of 16 rays took 18 evaluations; bracketed Newton steps with f's value and the fit's slope take 5: kept.
 - Right siblings from kept coefficients: 16-ball 34, decic 21, octic 17; fitted anew 18, 17, 15: kept. Intel's compiler
@@ -43,8 +43,11 @@ vector of rays waits for the one that is fitted most often (decic: 19 evaluation
 - States in one variable, bits of coefficients in an integer, a loop for everything: not vectorised, ten times slower.
 - Compensated products below degree 12: 10 % slower, no better answers; their gain is undone by the samples' own
   errors. At 12 and above they save more fits than they cost.
-- TRUST 1/64: f's own errors reach 1/25 to 1/12 of their worst case, and sums of them less. 1/8 takes up to 1.5 times
-  longer; 1, 3 times. Going on halving after TRUSTED where nothing is open: fewer evaluations, and slower.
+- TRUST 1/64: f's own errors reach 1/25 to 1/12 of their worst case at single points, and sums of them less. 1/8 gives
+  the same answers in 1.05 to 1.8 times the time. Going on halving after TRUSTED where nothing is open: fewer
+  evaluations, and slower.
+- f at the fit's minimum, beside the samples, where all is noise: without it, close pairs of roots are lost at ten
+  times the distance (clustered roots, nodes, double lines). Up to 10 % slower.
 - f's sign at the far end of an open piece, instead of a new fit: loses pairs of roots by the hundred.
 """
 
