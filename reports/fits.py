@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -41,6 +42,7 @@ def power_law(x: ArrayLike, y: ArrayLike) -> Power | None:
     return Power(exponent, student(freedom) * scatter / math.sqrt(spread), math.exp(level), len(u), scatter)
 
 
+@cache
 def student(freedom: int, share: float = 0.975) -> float:
     """The quantile of Student's distribution at `share` > 1/2, found by bisection on its integrated density."""
     constant = math.exp(math.lgamma((freedom + 1) / 2) - math.lgamma(freedom / 2)) / math.sqrt(freedom * math.pi)

@@ -13,13 +13,14 @@ from matplotlib.figure import Figure as Drawing
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from harness.contract import CellStatus
-from reports import style, wording
+from reports import style, tables, wording
 from reports.content import Block, Column, Figure, Section, Table, Text
 from reports.drawing import LINE, NARROW, RC, Key, label_decades, line_of, svg
-from reports.fits import Power, power_law
+from reports.fits import FEWEST, Power, power_law
 from reports.style import Mark
 
 PANELS = 6  # of one figure
+MOST_FIGURES = 4  # along one axis
 ACROSS = 3
 
 
@@ -88,9 +89,11 @@ def curves(frame: pd.DataFrame, axis: Axis) -> list[Curve]:
     rows = rows.assign(x=axis.of(rows).astype("float64"), ms=rows["median_ms"])
     if axis.above_floor:
         rows = rows.assign(ms=rows["ms"] - rows["floor_ms"].fillna(0.0))[rows["answers"].astype(bool)]
-    rows = rows[(rows["x"] > 0) & (rows["ms"] > 0)]
+    by = [*axis.fixed, "variant"]
+    rows = rows.loc[(rows["x"] > 0) & (rows["ms"] > 0), [*by, "x", "ms"]]
+    rows = rows[rows.groupby(by, sort=False)["x"].transform("nunique") >= FEWEST]
     found = []
-    for (*place, variant), own in rows.groupby([*axis.fixed, "variant"], sort=False):
+    for (*place, variant), own in rows.groupby(by, sort=False):
         own = own.sort_values("x", kind="stable")
         fit = power_law(own["x"], own["ms"])
         if fit is not None:
@@ -127,9 +130,13 @@ def table(axis: Axis, found: list[Curve], titles: Mapping[str, str]) -> Table:
             Column("±", lambda k: f"{k:.2f}", numeric=True),
             Column("scatter", wording.share, numeric=True),
         ),
-        [(named[c.place], c.variant, c.fit.points, c.fit.exponent, c.fit.half_width, c.fit.scatter) for c in lines],
+        [
+            (named[c.place], c.variant, c.fit.points, c.fit.exponent, c.fit.half_width, c.fit.scatter)
+            for c in lines[: tables.ROW_LIMIT]
+        ],
         f"Exponents of time over {axis.name}.",
-        "The fastest growing first. ± is half the 95 % interval; scatter, how far the points lie off the line.",
+        "The fastest growing first. ± is half the 95 % interval; scatter, how far the points lie off the line."
+        + (f" The first {tables.ROW_LIMIT:,} of {len(lines):,}." if len(lines) > tables.ROW_LIMIT else ""),
         group=1,
     )
 
@@ -153,7 +160,7 @@ def _places(axis: Axis, found: list[Curve], titles: Mapping[str, str]) -> dict[t
 def _figures(axis: Axis, found: list[Curve], marks: Mapping[str, Mark], titles: Mapping[str, str]) -> Iterator[Figure]:
     named = _places(axis, found, titles)
     places = list(named)
-    for start in range(0, len(places), PANELS):
+    for start in range(0, min(len(places), MOST_FIGURES * PANELS), PANELS):
         batch = places[start : start + PANELS]
         yield _figure(axis, [c for c in found if c.place in batch], batch, named, marks, f"{axis.name}-{start}")
 

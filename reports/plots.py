@@ -137,14 +137,14 @@ def _draw_group(axes: Axes, group: pd.DataFrame, axis: ErrorAxis, marks: Mapping
         )
     x = pd.Series(axis.position(group["error_max"]), group.index)
     y = group["mrays_per_s"]
-    colors = [marks[method].color for method in group["method"]]
     low, high = y * group["median_ms"] / group["upper_ms"], y * group["median_ms"] / group["lower_ms"]
-    axes.vlines(x, low, high, color=colors, lw=0.8, zorder=3)
     right = derive.all_right(group)
     for method, rows in x.sort_index().groupby(group["method"]):  # a knob's settings joined in the plan's order
         mark = marks[str(method)]
         look: dict[str, Any] = {"color": mark.color, "marker": mark.marker, "ms": 4.5, "mew": 0.9, "zorder": 4}
         names = group["variant"][rows.index]
+        ends = low[rows.index], high[rows.index]
+        axes.vlines(rows, *ends, color=mark.color, lw=0.8, zorder=3, gid=series(str(method)))
         axes.plot(rows, y[rows.index], lw=0.5, gid=series(str(method), *names), **look)
         hollow = rows[~right[rows.index]]
         if len(hollow):

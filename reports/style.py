@@ -45,7 +45,7 @@ _HOUSE: dict[str, Mark] = {
     "interval_march": Mark(_BLUE, "d"),
     "interval_uniform": Mark(_ORANGE, "p"),
     "interval_adaptive": Mark(_BLUE, "*"),
-    "bernstein": Mark(_GREEN, "H"),
+    "bernstein": Mark(_GREEN, (3, 1, 0)),  # a star with three points
     "polygon": Mark(_GREY, "8"),
     "contour": Mark(_SKY, (4, 1, 0)),  # a star with four points
 }

@@ -60,8 +60,9 @@ def winners(frame: pd.DataFrame) -> Table:
     safest = {(r.comparison, r.device, r.precision): r for r in right.itertuples()}
     body: list[tuple[Any, ...]] = []
     named = places(frame)
-    fastest = fastest.assign(planned=fastest["comparison"].map(list(named).index))
-    for row in fastest.sort_values(["planned", "precision", "device"], kind="stable").itertuples():
+    fastest = fastest.assign(planned=fastest["comparison"].map({name: i for i, name in enumerate(named)}))
+    shown = fastest.sort_values(["planned", "precision", "device"], kind="stable").head(ROW_LIMIT)
+    for row in shown.itertuples():
         safe = safest.get((row.comparison, row.device, row.precision))
         instead = ("none", None) if safe is None else (safe.variant, safe.median_ms)
         if safe is not None and safe.variant == row.variant:
@@ -83,6 +84,8 @@ def winners(frame: pd.DataFrame) -> Table:
     note = " Where the last columns name another variant, the fastest buys its speed with wrong answers."
     if all(row[-2] == "the same" for row in body):
         columns, body, note = columns[:-2], [row[:-2] for row in body], ""
+    if len(shown) < len(fastest):
+        note += f" The first {len(shown):,} of {len(fastest):,}; results.csv has all."
     return Table(
         columns,
         body,
@@ -95,7 +98,7 @@ def winners(frame: pd.DataFrame) -> Table:
 
 
 def wins(frame: pd.DataFrame) -> Table:
-    """For each device and precision, how often each method is fastest; for runs with too many groups for one page."""
+    """For each device and precision, how often each method is fastest."""
     rows = derive.contenders(frame)
     fastest = rows[derive.all_right(rows)].drop_duplicates(derive.GROUP)
     body = []
@@ -113,8 +116,7 @@ def wins(frame: pd.DataFrame) -> Table:
         ),
         body,
         "Which method is fastest with no wrong ray, and how often.",
-        f"Speed-up is the winner's over {derive.BASELINE}, error the largest "
-        "|t − t*| of any winner in scene units. “Winners” names the winner for every single scene.",
+        f"Speed-up is the winner's over {derive.BASELINE}, error the largest |t − t*| of any winner in scene units.",
         group=1,
     )
 

@@ -12,6 +12,7 @@ from reports.style import Mark
 from reports.viewstats import ANGLES, DIRECTIONS, ViewSet
 
 MOST_SETS = 6  # of a run that are all shown
+MOST_MAPPED = 4  # whose maps are drawn
 
 EXPLANATION = (
     "Every surface, device, precision and size that was timed from at least three views of one set. The spread is the "
@@ -45,8 +46,7 @@ def sections(frame: pd.DataFrame, marks: Mapping[str, Mark]) -> list[Section]:
     lines = [viewplots.over_angle(of, marks, f"angles-{i}") for i, of in enumerate(sets) if of.kind == ANGLES]
     maps = [
         figure
-        for i, of in enumerate(sets)
-        if of.kind == DIRECTIONS
+        for i, of in enumerate([of for of in sets if of.kind == DIRECTIONS][:MOST_MAPPED])
         for figure in viewplots.over_directions(of, f"sphere-{i}")
     ]
     made += [Section("View dependence: over the projection angle", tuple(lines))] if lines else []

@@ -144,15 +144,15 @@ def _speed(options: argparse.Namespace, checked: _Checked) -> list[Judged]:
 
 def _tell(options: argparse.Namespace, checked: _Checked, judged: list[Judged], path: Path, code: int) -> None:
     title = checked.experiment.name
+    if options.junit:  # files before the table, whose reader may go away
+        write_atomically(options.junit, outputs.junit(judged, title).encode())
+    if options.markdown:
+        write_atomically(options.markdown, outputs.markdown(judged, title, path, code).encode())
     print(outputs.table(judged))
     if options.github:
         kernels = {name: plugin.folder / "kernel.glsl" for name, plugin in checked.catalog.plugins.items()}
         if written := outputs.github(judged, kernels):
             print(written)
-    if options.junit:
-        write_atomically(options.junit, outputs.junit(judged, title).encode())
-    if options.markdown:
-        write_atomically(options.markdown, outputs.markdown(judged, title, path, code).encode())
     if any(j.verdict is Verdict.INCOMPARABLE for j in judged):
         print("firsthit: incomparable is no pass; bless the baseline on this machine and device", file=sys.stderr)
 

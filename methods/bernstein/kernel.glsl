@@ -39,6 +39,21 @@ void halve(INOUT real far[COEFFICIENTS], OUT real near[COEFFICIENTS]) {
     }
 }
 
+// About where b has its least minimum inside (0, 1), from where its derivative's control polygon rises through zero.
+real lowest_place(IN real b[COEFFICIENTS]) {
+    real place = 0.5;
+    real lowest = REAL_INFINITY;
+    for (int j = 1; j < N; j++) {
+        real before = b[j] - b[j - 1];
+        real behind = b[j + 1] - b[j];
+        if (before < 0.0 && behind >= 0.0 && b[j] < lowest) {
+            lowest = b[j];
+            place = (real(j - 1) + before / (before - behind)) / real(N - 1);
+        }
+    }
+    return place;
+}
+
 // Bounds of a piece's errors: what samples are off by; the fit's and the halvings' roundings. `most` is 1 where an open
 // run of coefficients may be taken for one change of sign, and -1 where not.
 STRUCT(Errors) struct Errors { real off; real noise; real unit; real most; };
@@ -85,7 +100,6 @@ Hit first_hit(Ray ray, real t0, real t1) {
     real s[COEFFICIENTS];
     real b[COEFFICIENTS];
     real c[COEFFICIENTS];
-    real far[COEFFICIENTS];
     real sign = 1.0;
     real start = t0;  // [start, end]: what is fitted; before `start` there is no root
     real end = t1;
@@ -110,7 +124,9 @@ Hit first_hit(Ray ray, real t0, real t1) {
         real away = sqrt(max(inner_product(p, p), inner_product(q, q))) / DOMAIN_RADIUS;
         real off = TRUST * UNIT_ROUNDOFF * VALUE_ERRORS[min(int(away * real(SHELLS)), SHELLS - 1)];
         real unit = TRUST * UNIT_ROUNDOFF * largest(b);
-        real noise = N >= COMPENSATED ? 2.0 * unit : real(N / 2 + 6) * TRUST * UNIT_ROUNDOFF * GROWTH[0] * largest(s);
+        real weighted = 0.0;
+        for (int i = 0; i <= N; i++) weighted += COLUMNS[i] * fabs(s[i]);
+        real noise = TRUST * UNIT_ROUNDOFF * (N >= COMPENSATED ? 2.0 * largest(b) : real(N / 2 + 6) * weighted);
 
         real above = 0.0;  // of the first sample that is negative, the one before it
         real under = 1.0;
@@ -142,16 +158,28 @@ Hit first_hit(Ray ray, real t0, real t1) {
             certain = min(certain, fabs(b[i]));
         }
         bool counted = more == 0 && certain == error_at(errors, 0);
-        // what is all noise is decided by f itself, at the samples
-        bool noisy = counted || reach <= smallest || hit.evaluations > FITS * (N + 1) || unit <= NOISE * TRUST * UNIT_ROUNDOFF * (GROWTH[DEPTHS] * off + noise);
-        if (s[0] < 0.0 || noisy) piece.depth = TRUSTED;
+        // what is all noise is decided by f itself, at the samples and where the fit has its minimum
+        bool settled = unit <= NOISE * TRUST * UNIT_ROUNDOFF * (GROWTH[DEPTHS] * off + noise);
+        settled = settled || reach <= smallest || hit.evaluations > FITS * (N + 1);
+        if (settled && !counted && f_under >= 0.0) {
+            real u = lowest_place(b);
+            real f = sign * surface_value(ray_point(ray, start + reach * u));
+            hit.evaluations += 1;
+            if (f < 0.0) {
+                above = 0.0;
+                under = u;
+                f_under = f;
+            }
+        }
+        settled = settled || counted;
+        if (s[0] < 0.0 || settled) piece.depth = TRUSTED;
         piece = descended(piece, c, errors);
         bool empty = piece.empty;
-        bool single = piece.single && !noisy;
+        bool single = piece.single && !settled;
         real width = reach / real(piece.pieces);
         real x = start + width * real(piece.path - piece.pieces);
         bool before = s[0] < 0.0;  // a root was passed before the piece
-        again = !before && !single && !empty && !noisy;
+        again = !before && !single && !empty && !settled;
         if (single && !before) {
             base = x;
             size = width;
@@ -159,7 +187,7 @@ Hit first_hit(Ray ray, real t0, real t1) {
             hit.evaluations += 1;
             again = fz >= 0.0;
         }
-        bool last = noisy || piece.path + 1 == 2 * piece.pieces;
+        bool last = settled || piece.path + 1 == 2 * piece.pieces;
         real behind = last ? end : x + width;
         if (before || (last && !again && fz >= 0.0 && f_under < 0.0)) {
             for (int j = 0; j <= N; j++) c[j] = b[j];

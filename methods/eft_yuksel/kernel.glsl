@@ -25,7 +25,13 @@ Hit first_hit(Ray ray, real t0, real t1) {
     hit.evaluations = N + 1;
     bool below = s[0] < 0.0;
     real last = NODES[N];
-    for (int i = N - 1; i > 0; i--) { if ((s[i] < 0.0) != below) last = NODES[i]; }
+    real at_last = s[N];
+    for (int i = N - 1; i > 0; i--) {
+        if ((s[i] < 0.0) != below) {
+            last = NODES[i];
+            at_last = s[i];
+        }
+    }
 
     real c[COEFFICIENTS];
     real q[COEFFICIENTS];
@@ -45,21 +51,25 @@ Hit first_hit(Ray ray, real t0, real t1) {
     real b = x[0];
     real from = s[0];
     real to = s[0];
+    int piece = 1;
     for (int k = 1; k <= N; k++) {
         if ((to < 0.0) == below) {
+            piece = k;
             a = b;
             from = to;
             b = x[k];
-            if (EVAL == 1) {
-                to = surface_value(ray_point(ray, start + reach * b));
-            } else {
+            if (EVAL == 0) {
                 to = polynomial_dual(q, N, BERNSTEIN, b).value;
+            } else if (k == N) {
+                to = at_last;
+            } else {
+                to = surface_value(ray_point(ray, start + reach * b));
+                hit.evaluations += 1;
             }
-            hit.evaluations += EVAL;
         }
     }
     if ((to < 0.0) == below) return hit;
-    Bracket bracket = make_bracket(a, b, from, to);
+    Bracket bracket = make_end_bracket(a, b, from, to, piece, N);
     for (int i = 0; i < MOST_STEPS && bracket.step > TOLERANCE; i++) {
         Dual f = polynomial_dual(q, N, BERNSTEIN, bracket.x);
         if (EVAL == 1) f.value = surface_value(ray_point(ray, start + reach * bracket.x));

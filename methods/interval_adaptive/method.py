@@ -17,10 +17,10 @@ search stopped. Each level halves ε, since the width of a beam bounds what its 
 
 **Evaluations** A large beam's are divided among the pixels below it, in whole numbers that add up to what was spent.
 
-**Where the paper's ratio is not reached** configs/beamcasting-tables.toml, opencl:intel, float32: uniform over adaptive
-is 1.8 to 4.5 on eleven surfaces, above the paper's 1.16 to 2.85 at each of their sizes and samples. On chmutov it is
-1.26, 1.25, 1.28 and 1.42 (the paper: 1.57, 1.90, 1.56, 1.53): the extension of the septic overestimates so far that
-large beams exclude little, 25 evaluations a pixel against 35, where the other surfaces need a fifth to a third.
+**Where the paper's ratio is not reached** opencl:intel, float32, processor time: uniform over adaptive is 1.5 to 2.7 at
+512 x 512 and 1.8 to 3.1 at 1024 x 1024 or 512 x 512 with 4 samples, above the paper's 1.16 to 2.85 on each of eleven
+surfaces. On chmutov it is 1.1 (the paper: 1.53 to 1.90): the extension of the septic overestimates so far that large
+beams exclude little, 15 evaluations a pixel against 21, where the other surfaces need a fifth to a half.
 
 **Tried**, processor time of opencl:intel at 512 × 512, float32, as ms on both cores, sphere / tangle:
 - The first level from 2 to 8: 21 to 25 / 63 to 73, no trend. What counts is the pixels' own level.

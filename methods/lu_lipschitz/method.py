@@ -23,13 +23,15 @@ one secant step ends the search; two roots closer than that can be missed.
 Evaluations counted are those of f.
 
 **Speed** Processor time on opencl:intel, float32, szente's four surfaces of Table 5 (sphere, flirt, calyx, Barth
-sextic). LU bound over control points, as in the paper (LOCAL = 0, control points without culling): 1.05 in the mean,
-nearly all of it from culling the sphere's misses (1.22, 0.99, 0.98, 1.03); the others take 1 to 3 % fewer evaluations.
-LOCAL = 1 over the same: 4.6 (2.3, 2.5, 2.8, 10.9). Control points with LOCAL = 1 and culling: 6.4, since in a small
-window the closed form costs more than its bound gains; BOUND = 1 stays the default, as this is the LU method. Kept:
-ending the root's iteration when it has converged (1.3). Rejected: starting where the LU function of f reaches zero
-(Newton's method on a convex curve: 1.2 on the sphere, within 5 % elsewhere, for 20 more lines); windows of 1.5, 3 or 4
-times the last step (as many evaluations); bisections after the change of sign (4 of 12 evaluations, no better error).
+sextic), over control points as the paper has them (SIDES 2: the largest magnitude; LOCAL 0, no culling). LU bounds
+with SIDES 2: 1.02 in the mean, nearly all of it from culling the sphere's misses (1.17, 0.96, 0.97, 1.00), and 0.98
+without culling. LU bounds of one side, against control points by magnitude: 1.14 (1.15, 0.99, 1.12, 1.29), but control
+points of one side come to 1.12. The paper's 1.37 comes out by neither reading. LOCAL = 1: 4.1 (1.9, 2.3, 2.6, 9.7).
+Control points with LOCAL = 1 and culling: 6.5, since in a small window the closed form costs more than its bound
+gains; BOUND = 1 stays the default, as this is the LU method. Kept: ending the root's iteration when it has converged
+(1.3). Rejected: starting where the LU function of f reaches zero (Newton's method on a convex curve: 1.2 on the
+sphere, within 5 % elsewhere, for 20 more lines); windows of 1.5, 3 or 4 times the last step (as many evaluations);
+bisections after the change of sign (4 of 12 evaluations, no better error).
 """
 
 from collections.abc import Mapping

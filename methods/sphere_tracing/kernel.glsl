@@ -33,6 +33,7 @@ Hit first_hit(Ray ray, real t0, real t1) {
     // one start, or from inside: back from the second start, on from the first
     real way = second ? -1.0 : 1.0;
     if (RAYS == 2) {
+        if (searching) return exhausted(hit, t);
         searching = distance_here <= -near_enough;
         t += searching ? way * fabs(distance_here) : real(0);
     }

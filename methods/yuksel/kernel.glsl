@@ -24,8 +24,10 @@ Hit first_hit(Ray ray, real t0, real t1) {
     real to = from;
     bool below = from < 0.0;
     hit.evaluations = 1;
+    int piece = 1;
     for (int k = 1; k <= N; k++) {
         if ((to < 0.0) == below) {
+            piece = k;
             a = b;
             from = to;
             b = x[k];
@@ -34,7 +36,7 @@ Hit first_hit(Ray ray, real t0, real t1) {
         }
     }
     if ((to < 0.0) == below) return hit;
-    Bracket bracket = make_bracket(a, b, from, to);
+    Bracket bracket = make_end_bracket(a, b, from, to, piece, N);
     for (int i = 0; i < MOST_STEPS && bracket.step > TOLERANCE * (t1 - t0); i++) {
         bracket = newton_step(bracket, polynomial_dual(c, N, false, bracket.x), below);
         hit.evaluations += 1;

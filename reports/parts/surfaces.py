@@ -46,6 +46,10 @@ def sections(material: Material) -> list[Section]:
     told: list[Block] = [Text(LEGEND), Text(UNITS)]
     if len(printed) < len(finished):
         kept = f"{len(printed):,} of {len(finished):,} rows: those on a front, {derive.BASELINE} and the floor"
+        if len(printed) > tables.ROW_LIMIT:
+            kept_scenes = {derive.fullest(own) for _, own in printed.groupby("surface", sort=False)}
+            printed = printed[printed["comparison"].isin(kept_scenes)]
+            kept += f", and of these {len(printed):,}, of each surface's scene with most methods"
         told.append(Text(f"Printed are {kept}. results.csv has all."))
     made = [Section("How to read the surfaces' pages", tuple(told))]
     marks, named = style.marks(frame["method"]), tables.places(frame)

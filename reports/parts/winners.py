@@ -5,9 +5,12 @@ from reports.content import Section
 from reports.material import Material
 
 ORDER = 10
+ONE_BY_ONE = 20  # groups whose winners need not be counted as well
 
 
 def sections(material: Material) -> list[Section]:
-    if derive.contenders(material.listed).empty:
+    rows = derive.contenders(material.listed)
+    if rows.empty:
         return []
-    return [Section("Winners", (tables.winners(material.listed),))]
+    counted = (tables.wins(material.listed),) if len(rows.drop_duplicates(derive.GROUP)) > ONE_BY_ONE else ()
+    return [Section("Winners", (*counted, tables.winners(material.listed)))]

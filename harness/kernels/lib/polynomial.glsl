@@ -35,15 +35,28 @@ real linear_root(IN real q[COEFFICIENTS], bool bernstein, real lo, real hi) {
 // What is left of an interval with a change of sign, the x to look at next, and how far that is from the last one.
 STRUCT(Bracket) struct Bracket { real a; real b; real x; real step; };
 
-// [a, b], with the function's values there, `from` and `to`. The first x is where Newton's step from the middle leads
-// on the cubic that is level at both ends, as q is between two critical points.
-Bracket make_bracket(real a, real b, real from, real to) {
+Bracket bracket_from(real a, real b, real way) {
     Bracket bracket;
     bracket.a = a;
     bracket.b = b;
-    bracket.x = 0.5 * (a + b) + (b - a) * (THIRD * (from + to) / (from - to));
+    bracket.x = a + (b - a) * way;
     bracket.step = b - a;
     return bracket;
+}
+
+// [a, b], with the function's values there, `from` and `to`. The first x is where Newton's step from the middle leads
+// on the cubic that is level at both ends, as q is between two critical points.
+Bracket make_bracket(real a, real b, real from, real to) {
+    return bracket_from(a, b, 0.5 + THIRD * ((from + to) / (from - to)));
+}
+
+// The same for piece k of `degree` pieces: on the first and the last, which end at a critical point on one side only,
+// the first x is the root of the parabola that is level there; beyond degree 4 a parabola is no better than the cubic.
+Bracket make_end_bracket(real a, real b, real from, real to, int k, int degree) {
+    real share = from / (from - to);
+    if (degree <= 4 && k == 1) return bracket_from(a, b, 1.0 - sqrt(1.0 - share));
+    if (degree <= 4 && k == degree) return bracket_from(a, b, sqrt(share));
+    return make_bracket(a, b, from, to);
 }
 
 // Newton's step from bracket.x, where the function is f; one that would leave the bracket is replaced by halving it.

@@ -1,0 +1,80 @@
+"""Where the suite's own methods are on the front of speed against error, and who wins where they are not."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pandas as pd
+
+from reports import derive, tables, wording
+from reports.content import Block, Column, Section, Table, Text
+from reports.material import Material
+
+ORDER = 12
+OWN = "firsthit"  # what the source that a method of our own states begins with
+
+
+def sections(material: Material) -> list[Section]:
+    """None where a run holds no method of our own beside another one."""
+    own = sorted(name for name, told in material.run.plan.methods.items() if str(told.get("source")).startswith(OWN))
+    return [section for name in own for section in _of(name, material.listed)]
+
+
+def _of(method: str, frame: pd.DataFrame) -> list[Section]:
+    rows = derive.contenders(frame)
+    groups = [(place, group) for place, group in rows.groupby(derive.GROUP) if group["method"].nunique() > 1]
+    lines = [_line(method, group) for _, group in groups if (group["method"] == method).any()]
+    if not lines:
+        return []
+    lines.sort(key=lambda line: line[:3])
+    named = tables.places(rows)
+    body = [(degree, named[comparison], *told) for degree, comparison, *told in lines]
+    off = [line for line in lines if line[3] == "no"]
+    told = f"{method} is on the front in {len(lines) - len(off)} of {wording.plural(len(lines), 'comparison')}"
+    blocks: list[Block] = [Text(f"{told}{_lost(off)}.")]
+    columns = (
+        Column("degree", wording.count, numeric=True),
+        Column("surface", stretch=1),
+        Column("device"),
+        Column("on the front"),
+        Column("variant", stretch=1, over=f"{method}, fastest on the front or at all"),
+        Column("ms", wording.number, numeric=True, over=f"{method}, fastest on the front or at all"),
+        Column("max error", wording.error, numeric=True, over=f"{method}, fastest on the front or at all"),
+        Column("variant", stretch=1, over="fastest of the others, as exact"),
+        Column("ms", wording.number, numeric=True, over="fastest of the others, as exact"),
+        Column("max error", wording.error, numeric=True, over="fastest of the others, as exact"),
+        Column("faster", wording.factor, numeric=True),
+    )
+    caption = (
+        f"The others are those with no wrong ray away from silhouettes and no larger error than that variant of "
+        f"{method}; “none” where there is none. Faster is their fastest's time over {method}'s."
+    )
+    return [Section(f"{method} on the front", (*blocks, Table(columns, body, "By degree.", caption)), wide=True)]
+
+
+def _line(method: str, group: pd.DataFrame) -> tuple[Any, ...]:
+    """What one comparison says; `group` is in order of time."""
+    own = group[group["method"] == method]
+    right = own[derive.all_right(own)]
+    on_front = right[right["front"].astype(bool)]
+    first = next(pd.concat([on_front, right, own]).head(1).itertuples())
+    others = group[(group["method"] != method) & derive.all_right(group) & (group["error_max"] <= first.error_max)]
+    rival = next(others.head(1).itertuples(), None)
+    told: list[Any] = [first.device, "no" if on_front.empty else "yes", str(first.variant)]
+    told += [first.median_ms, first.error_max]
+    told += ["none", None, None, None] if rival is None else _rival(rival, first.median_ms)
+    return (int(first.degree), str(first.comparison), *told)
+
+
+def _rival(row: Any, own_ms: float) -> list[Any]:
+    return [str(row.variant), row.median_ms, row.error_max, row.median_ms / own_ms]
+
+
+def _lost(off: list[tuple[Any, ...]]) -> str:
+    """Who wins where the method is not on the front, by degree."""
+    if not off:
+        return ""
+    degrees = sorted({line[0] for line in off})
+    winners = sorted({str(line[7]).partition("[")[0].partition("+")[0] for line in off if line[7] != "none"})
+    who = f"; there {wording.listed(winners)} win" + ("s" if len(winners) == 1 else "") if winners else ""
+    return f"; it is not at degree {wording.listed([str(d) for d in degrees])}{who}"
