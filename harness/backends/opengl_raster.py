@@ -32,6 +32,7 @@ class RasterLaunch(Launch):
         self._context, self._size, reports = context, size, fill is not None
         start = time.perf_counter()
         self._held: list[Any] = []
+        self._timer = context.query(time=True)
         side = (size, size)
         self._colour = self._keep(context.texture(side, 4))
         floats = [self._keep(context.texture(side, 4, dtype="f4")) for _ in range(3 if reports else 0)]
@@ -73,10 +74,11 @@ class RasterLaunch(Launch):
 
     def run(self, times: int = 1) -> Timing:
         start = time.perf_counter()
-        for _ in range(times):
-            self._draw()
+        with self._timer:
+            for _ in range(times):
+                self._draw()
         self._context.finish()
-        return Timing((time.perf_counter() - start) * 1e3, None)
+        return Timing((time.perf_counter() - start) * 1e3, self._timer.elapsed / 1e6)
 
     def _draw(self) -> None:
         import moderngl
