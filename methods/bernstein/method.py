@@ -34,9 +34,9 @@ Evaluations counted are those of f.
 **Speed** Processor time on opencl:intel, float32, 512x512, in ms, on calyx, Barth sextic, Endraß octic, Barth decic
 and 16-ball: 4.3, 6.6, 14.7, 16.9, 19.2; eft_yuksel 4.6, 9.5, 18.2, 28.0, 49.6. That is 1.1 to 2.6 times, 1.6 in the
 mean; behind beams 1.7. The 99.9th percentile of its error is larger on the sextic (1.35e-6 against 1.30e-6 of the
-radius) and the octic (2.48e-6 against 1.83e-6). What keeps it from more: sampling and fitting alone take a fifth (decic) to a
-half (16-ball) of it, and a vector of rays waits for the one that is fitted most often (decic: 19 evaluations a ray,
-some 30 for the worst of 16).
+radius) and the octic (2.48e-6 against 1.83e-6). What keeps it from more: sampling and fitting alone take a fifth
+(decic) to a half (16-ball) of it, and a vector of rays waits for the one that is fitted most often (decic: 19
+evaluations a ray, some 30 for the worst of 16).
 - Refinement, tried on all: Illinois ended early where f has two scales (errors to 3e-4); ITP never did, but the
   slowest of 16 rays took 18 evaluations; bracketed Newton steps with f's value and the fit's slope take 5: kept.
 - Right siblings from kept coefficients: 16-ball 34, decic 21, octic 17; fitted anew 18, 17, 15: kept. Intel's compiler

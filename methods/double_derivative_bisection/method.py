@@ -9,7 +9,7 @@ mean of its three extremes and so lies between the outer two: it parts the two m
 
 **Changes against the paper**
 - t_M parts the minima but can lie past the maximum between them; then its left side falls, rises and falls again, and
-  neither situation of the paper is at hand: seen at 18° of elevation (72° in Table 1), 3 % of the torus's rays then get a
+  neither situation of the paper is at hand: at 18° of elevation (72° in Table 1) 3 % of the torus's rays then get a
   later root. SPLIT = 1 searches three pieces, parted where f'' changes sign: f is convex on the outer two and concave
   between them, so one of the situations is always at hand. SPLIT = 0 parts at t_M only, as printed.
 - A start inside the surface (f < 0) is the paper's second situation.
