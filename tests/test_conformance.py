@@ -17,7 +17,7 @@ from harness.accuracy import deviations, judge, summarize, wrong_share
 from harness.backends import Device, hits_from, launch_rays
 from harness.camera import scene_radius
 from harness.conformance import Bench, Finding, examine, examine_knobs, examine_touches, refusal, view_case
-from harness.contract import PRECISIONS, Precision
+from harness.contract import PRECISIONS, Precision, RayStatus
 from harness.plugins import find_methods
 
 from .conftest import opened, usable_devices
@@ -135,6 +135,14 @@ def test_each_check_sees_what_it_is_for():
     assert not conformance.same_bits(hits, changed(there[:1], t=lambda t: np.nextafter(t, 9.0))).holds
     assert conformance.agreement(hits, case).holds
     assert not conformance.agreement(changed(np.arange(len(hits.t)), status=lambda s: 0 * s), case).holds
+
+
+def test_giving_up_on_most_rays_is_seen_where_there_is_no_root_to_measure():
+    case = view_case(surfaces.get("two_spheres"))
+    hits = bench_on(opened(DEVICES[0])).cast(find_methods().get("interval_march"), case, "float32")
+    assert conformance.agreement(hits, case).holds
+    given_up = dataclasses.replace(hits, status=np.full_like(hits.status, RayStatus.EXHAUSTED), t=np.nan * hits.t)
+    assert not conformance.agreement(given_up, case).holds
 
 
 def test_a_touch_that_is_missed_is_seen():

@@ -81,7 +81,9 @@ def test_fragments_answer_as_the_compute_stage_does_and_as_the_oracle_says(gl, n
     assert np.array_equal(picture.local_rays[seen], picture.rays[seen])
     hits, listed = picture.hits(np.ones(SIZE**2)), cast(gl, method, surface, "float32", picture.rays)
     assert np.array_equal(hits.status, listed.status)
-    gap = np.abs(hits.t[seen] - listed.t[seen])  # no bit on llvmpipe; a GPU's two compilers order some sums differently
+    if gl.info.name == "opengl:llvmpipe":
+        assert np.array_equal(hits.t[seen], listed.t[seen])
+    gap = np.abs(hits.t[seen] - listed.t[seen])  # a GPU may round some sums differently in its two kinds of shaders
     assert np.nanmax(gap) <= 10 * SAME_T * np.nanmax(listed.t)
     truth = first_hits(surface, picture.rays)
     verdicts = judge(hits, truth, scene_radius(surface), 1e-3)
