@@ -12,7 +12,9 @@ import pandas as pd
 import pytest
 
 import reports
+from harness.cards import card
 from harness.hardcases.verdict import first_break
+from harness.plugins import find_methods
 from reports import breaks, load
 from tests import synthetic_run
 from tests.synthetic_run import family_cell, printed, reported, stability_run, tiny_run
@@ -112,6 +114,17 @@ def test_a_run_of_families_alone_makes_a_report(hard: Path) -> None:
     assert first["parameter"].tolist() == [rung["parameter"] for rung in cells[-1]["rungs"]]
     assert first["right"].tolist() == [rung["right"] for rung in cells[-1]["rungs"]]
     assert pd.read_csv(hard / "results.csv").empty
+
+
+def test_a_run_of_families_alone_says_what_its_methods_are(tmp_path: Path) -> None:
+    folder = stability_run(tmp_path / "stability")
+    told = json.loads((folder / "plan.json").read_text()) | {
+        "methods": {"bernstein": card(find_methods().get("bernstein"))}
+    }
+    (folder / "plan.json").write_text(json.dumps(told))
+    _, report = reported(folder)
+    page = next(printed(section.blocks) for section in report.sections if section.title == "Methods")
+    assert "no false hit (tested by the test suite)" in page
 
 
 def test_families_without_a_result_still_make_a_report(tmp_path: Path) -> None:

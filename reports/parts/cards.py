@@ -75,7 +75,7 @@ def _default(told: Mapping[str, Any], rows: pd.DataFrame) -> pd.DataFrame:
     """The rows with every knob at its default, which are what a method's claims are about."""
     defaults = {knob["name"]: knob["default"] for knob in told.get("parameters", [])}
     bound = rows["parameters"].map(lambda text: json.loads(text) if isinstance(text, str) else {})
-    return rows[[defaults | knobs == defaults for knobs in bound]]
+    return rows[bound.map(lambda knobs: defaults | knobs == defaults).astype(bool)]
 
 
 _BROKEN_BY = {  # the counts that contradict a claim (harness.contract.CLAIMS); only the first includes grazing rays
