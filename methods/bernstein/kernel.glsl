@@ -63,14 +63,13 @@ real error_at(Errors errors, int depth) {
 }
 
 // A piece of the fitted interval: the digits of `path` after its first lead to it from the whole; `pieces` are as long.
-STRUCT(Piece) struct Piece { int path; int pieces; int depth; bool empty; bool single; };
+STRUCT(Piece) struct Piece { int path; int pieces; bool empty; bool single; };
 
-Piece judged(Piece piece, IN real c[COEFFICIENTS], Errors errors) {
+Piece judged(Piece piece, IN real c[COEFFICIENTS], real error, real most) {
     Piece result = piece;
-    real error = error_at(errors, piece.depth);
     Signs signs = signs_of(c, error);
     result.empty = signs.least > error;
-    result.single = c[N] < -error && signs.after < errors.most * error;
+    result.single = c[N] < -error && signs.after < most * error;
     return result;
 }
 
@@ -78,18 +77,18 @@ Piece judged(Piece piece, IN real c[COEFFICIENTS], Errors errors) {
 Piece descended(Piece start, INOUT real c[COEFFICIENTS], Errors errors) {
     real far[COEFFICIENTS];
     Piece piece = start;
-    while (!piece.empty && !piece.single && piece.depth < TRUSTED) {
+    for (int depth = 1; depth <= TRUSTED && !piece.empty && !piece.single; depth++) {
+        real error = error_at(errors, depth);
         for (int j = 0; j <= N; j++) far[j] = c[j];
         halve(far, c);
         piece.path = 2 * piece.path;
         piece.pieces = 2 * piece.pieces;
-        piece.depth += 1;
         real least = c[0];
         for (int j = 1; j <= N; j++) least = min(least, c[j]);
-        bool beyond = least > error_at(errors, piece.depth);
+        bool beyond = least > error;
         piece.path += beyond ? 1 : 0;
         for (int j = 0; j <= N; j++) c[j] = beyond ? far[j] : c[j];
-        piece = judged(piece, c, errors);
+        piece = judged(piece, c, error, errors.most);
     }
     return piece;
 }
@@ -97,6 +96,9 @@ Piece descended(Piece start, INOUT real c[COEFFICIENTS], Errors errors) {
 Hit first_hit(Ray ray, real t0, real t1) {
     Hit hit = no_hit(t1);
     real smallest = max(RESOLUTION * (t1 - t0), 64.0 * UNIT_ROUNDOFF * max(fabs(t0), fabs(t1)));
+    vec3 from_center = difference(ray.origin, DOMAIN_CENTER);  // at t, squared: near + (drift + t) t
+    real near = inner_product(from_center, from_center);
+    real drift = 2.0 * inner_product(from_center, ray.direction);
     real s[COEFFICIENTS];
     real b[COEFFICIENTS];
     real c[COEFFICIENTS];
@@ -119,10 +121,8 @@ Hit first_hit(Ray ray, real t0, real t1) {
         for (int j = 0; j <= N; j++) c[j] = b[j];
 
         // what a sample may be off by, and the fit's and the halvings' own roundings
-        vec3 p = difference(ray_point(ray, start), DOMAIN_CENTER);
-        vec3 q = difference(ray_point(ray, end), DOMAIN_CENTER);
-        real away = sqrt(max(inner_product(p, p), inner_product(q, q))) / DOMAIN_RADIUS;
-        real off = TRUST * UNIT_ROUNDOFF * VALUE_ERRORS[min(int(away * real(SHELLS)), SHELLS - 1)];
+        real away = sqrt(near + max((drift + start) * start, (drift + end) * end));
+        real off = TRUST * UNIT_ROUNDOFF * VALUE_ERRORS[min(int(away * (real(SHELLS) / DOMAIN_RADIUS)), SHELLS - 1)];
         real unit = TRUST * UNIT_ROUNDOFF * largest(b);
         real weighted = 0.0;
         for (int i = 0; i <= N; i++) weighted += COLUMNS[i] * fabs(s[i]);
@@ -147,15 +147,16 @@ Hit first_hit(Ray ray, real t0, real t1) {
         Piece piece;
         piece.path = 1;
         piece.pieces = 1;
-        piece.depth = 0;
-        piece = judged(piece, c, errors);
+        piece = judged(piece, c, error_at(errors, 0), errors.most);
         // as many changes in the coefficients as in the samples: each root is between two samples
         real certain = error_at(errors, 0);
-        int more = 0;
-        for (int i = 1; i <= N; i++) {
-            more += (b[i] < 0.0) != (b[i - 1] < 0.0) ? 1 : 0;
-            more -= (s[i] < 0.0) != (s[i - 1] < 0.0) ? 1 : 0;
-            certain = min(certain, fabs(b[i]));
+        int more = N <= COUNTED ? 0 : 1;
+        if (N <= COUNTED) {
+            for (int i = 1; i <= N; i++) {
+                more += (b[i] < 0.0) != (b[i - 1] < 0.0) ? 1 : 0;
+                more -= (s[i] < 0.0) != (s[i - 1] < 0.0) ? 1 : 0;
+                certain = min(certain, fabs(b[i]));
+            }
         }
         bool counted = more == 0 && certain == error_at(errors, 0);
         // what is all noise is decided by f itself, at the samples and where the fit has its minimum
@@ -172,8 +173,7 @@ Hit first_hit(Ray ray, real t0, real t1) {
             }
         }
         settled = settled || counted;
-        if (s[0] < 0.0 || settled) piece.depth = TRUSTED;
-        piece = descended(piece, c, errors);
+        if (s[0] >= 0.0 && !settled) piece = descended(piece, c, errors);
         bool empty = piece.empty;
         bool single = piece.single && !settled;
         real width = reach / real(piece.pieces);
@@ -210,11 +210,21 @@ Hit first_hit(Ray ray, real t0, real t1) {
     hit.evaluations += 1;
     real tolerance = TOLERANCE * (t1 - t0) / size;
     Bracket bracket = make_bracket(a, z, max(fa, real(0)), fz);
+    Dual f = make_dual(fz, (fz - max(fa, real(0))) / (z - a));
     for (int i = 0; i < MOST_STEPS && bracket.step > tolerance; i++) {
-        Dual f = polynomial_dual(c, N, true, bracket.x);
+        f = polynomial_dual(c, N, true, bracket.x);
         f.value = sign * surface_value(ray_point(ray, base + size * bracket.x));
         hit.evaluations += 1;
         bracket = newton_step(bracket, f, false);
     }
-    return hit_at(hit, base + size * bracket.x);
+    // a last step with the mean of f about there, in which its roundings cancel
+    real t = base + size * bracket.x;
+    real sum = 0.0;
+    for (int k = 1; k <= PAIRS; k++) {
+        real away = real(k) * (APART * UNIT_ROUNDOFF * (t1 - t0));
+        sum += surface_value(ray_point(ray, t - away)) + surface_value(ray_point(ray, t + away));
+    }
+    hit.evaluations += 2 * PAIRS;
+    if (PAIRS > 0 && f.derivative < 0.0) t -= size * (sign * sum / (real(2 * PAIRS) * f.derivative));
+    return hit_at(hit, clamp(t, base + size * bracket.a, base + size * bracket.b));
 }
