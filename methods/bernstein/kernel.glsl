@@ -24,7 +24,8 @@ real largest(IN real c[COEFFICIENTS]) {
     return size;
 }
 
-// De Casteljau's algorithm in the middle: `near` gets the near half's coefficients, `far` what it was and the far half's.
+// De Casteljau's algorithm in the middle: `near` gets the near half's coefficients, `far` what it was and then the far
+// half's.
 void halve(INOUT real far[COEFFICIENTS], OUT real near[COEFFICIENTS]) {
     real share = 1.0;
     near[0] = far[0];
@@ -126,7 +127,7 @@ Hit first_hit(Ray ray, real t0, real t1) {
         real unit = TRUST * UNIT_ROUNDOFF * largest(b);
         real weighted = 0.0;
         for (int i = 0; i <= N; i++) weighted += COLUMNS[i] * fabs(s[i]);
-        real noise = TRUST * UNIT_ROUNDOFF * (N >= COMPENSATED ? 2.0 * largest(b) : real(N / 2 + 6) * weighted);
+        real noise = 2.0 * TRUST * UNIT_ROUNDOFF * (N >= COMPENSATED ? 2.0 * largest(b) : real(N / 2 + 6) * weighted);
 
         real above = 0.0;  // of the first sample that is negative, the one before it
         real under = 1.0;
