@@ -16,40 +16,63 @@ A sign counts only outside an error bound, TRUST of the worst case of: what f's 
 constant); the fit's roundings, from the samples that they come from; and those of each halving. Coefficients inside
 the bound leave a piece open. After TRUSTED halvings, what is open or has several changes is sampled and fitted anew,
 so that errors are those of its own surroundings, not of the far ends of the ray, where f is a thousand times larger.
-What is all noise even then, or the shortest piece, or beyond the FITS-th fit, f's signs decide: at the samples, and
-where the fit has its minimum.
+What is noise even then, or the shortest piece, or beyond the FITS-th fit, f's signs decide: at the samples, and where
+the fit has its minimum.
+
+What a root is off by is mostly what f's value there is off by, and that is another thing one float further on. So the
+last of Newton's steps takes the mean of f over PAIRS pairs of points about the root, a few roundoffs apart: the median
+error falls to two thirds, with 16 pairs to half.
 
 **What is promised** Hits are where f itself changes its sign, so there are no false ones outside the grazing class.
 Where another answer is 2^-11 domain radii away and the first root's condition times roundoff is below 2^-8, no
 crossing is missed, no later root taken, and the error is below the tolerance and what rounding must add; tests hold
-random rays over the catalog against that, a million where asked. A touch is a miss, or a hit at the touch where
-rounding makes f cross: f does not change its sign there. What else can be lost lies inside the error bound: pairs of
-roots between which f does not leave its own noise, or closer than RESOLUTION.
+random rays over the catalog against that, a million where asked, and ten million were. A touch is a miss, or a hit at
+the touch where rounding makes f cross: f does not change its sign there. What else can be lost lies inside the error
+bound: pairs of roots between which f does not leave its own noise, or closer than RESOLUTION. On the families of hard
+rays no other float32 method holds out longer; in float64, where RESOLUTION is far from what f could tell, others hold
+out for one or two rungs more on clustered roots, nodes, the cusp, the spindle torus and the double line.
 
 **Changes against the plan** What lies behind a piece without a root is not brought back from kept coefficients but
-fitted anew: its errors are smaller, and on a vector of rays it is cheaper, see Speed.
+fitted anew: its errors are smaller, and on a vector of rays it is cheaper, see Speed. Compensated products begin at
+degree 17 only, see there.
 
 Evaluations counted are those of f.
 
-**Speed** Processor time on opencl:intel, float32, 512x512, in ms, on calyx, Barth sextic, Endraß octic, Barth decic
-and 16-ball: 4.3, 6.6, 14.7, 16.9, 19.2; eft_yuksel 4.6, 9.5, 18.2, 28.0, 49.6. That is 1.1 to 2.6 times, 1.6 in the
-mean; behind beams 1.7. The 99.9th percentile of its error is larger on the sextic (1.35e-6 against 1.30e-6 of the
-radius) and the octic (2.48e-6 against 1.83e-6). What keeps it from more: sampling and fitting alone take a fifth
-(decic) to a half (16-ball) of it, and a vector of rays waits for the one that is fitted most often (decic: 19
-evaluations a ray, some 30 for the worst of 16).
+**Speed** `firsthit run configs/front.toml`, float32, on calyx, Barth sextic, Endraß octic, Barth decic and 16-ball, no
+wrong ray, at 1024x1024 on two cores, in ms: on opencl:intel 8.1, 11.5, 22.8, 26.8 and 30.5, eft_yuksel 8.3, 17.3, 33.7,
+50.9 and 97.7: 1.8 times in the mean, and behind beams 2.5. On opengl:llvmpipe 40, 33, 48, 59 and 116, eft_yuksel 93,
+144, 253, 447 and 960: 5.6 times, and behind beams 6.7. The 99.9th percentile of the error is no larger behind beams
+(6.5e-6 of the radius against 7.3e-6 on the octic); without, it is 7.9e-6 there and smaller elsewhere. Where both have
+beams: 1.8 and 5.2 times. What keeps it from more on opencl:intel is a vector of rays that waits for the one that is
+fitted most often: sampling, fitting and the last steps take a quarter (decic) to over a half (calyx) of the time, so
+that isolation at no cost at all would make it 5.8 times in the mean.
+On the front of speed and largest error it is there on all twelve surfaces of degree 5 and more, on both devices and at
+both sizes; of those of lower degree not on the horn torus (analytic, newton) nor, at 512x512, on the spindle torus
+(newton).
 - Refinement, tried on all: Illinois ended early where f has two scales (errors to 3e-4); ITP never did, but the
   slowest of 16 rays took 18 evaluations; bracketed Newton steps with f's value and the fit's slope take 5: kept.
-- Right siblings from kept coefficients: 16-ball 34, decic 21, octic 17; fitted anew 18, 17, 15: kept. Intel's compiler
-  runs both sides of a branch that rays do not share, so that the rare restriction was paid for at each step.
+- The mean of f: two pairs cost 1 to 10 %, 16 pairs up to 20 %, since all rays of a vector take them alike.
+- Right siblings from kept coefficients: 16-ball 34, decic 21, octic 17 ms of processor time at 512x512; fitted anew 18,
+  17, 15: kept. Intel's compiler runs both sides of a branch that rays do not share, so that the rare restriction was
+  paid for at each step.
+- New fits instead of halving, from the first crossing of the control polygon on: 0.1 to 0.8 times as fast, since only
+  halving brings GROWTH down. Deciding convex pieces by f at their minimum: fewer fits, each dearer, 0.6 to 0.9 times.
 - States in one variable, bits of coefficients in an integer, a loop for everything: not vectorised, ten times slower.
-- Compensated products below degree 12: 10 % slower, no better answers; their gain is undone by the samples' own
-  errors. At 12 and above they save more fits than they cost.
+- Compensated products: below degree 12 they gain nothing, undone by the samples' own errors. From 12 to 16 plain ones
+  take 0.7 to 0.96 times as long on five surfaces and 1.35 on the sixth, on opengl:llvmpipe 0.7. Compensated only where
+  a piece is fitted anew (szente's future work): 1.2 times as long on the 16-ball. Degree 20 takes seven times as long
+  as 18 on opencl:intel, whose compiler unrolls the halving no more.
 - TRUST 1/64: f's own errors reach 1/25 to 1/12 of their worst case at single points, and sums of them less. 1/8 gives
-  the same answers in 1.05 to 1.8 times the time. Going on halving after TRUSTED where nothing is open: fewer
-  evaluations, and slower.
+  the same answers in 1.05 to 1.8 times the time. The fit's roundings count double: else 18 of two million rays of the
+  decic took a later root. Going on halving after TRUSTED where nothing is open: fewer evaluations, and slower.
+- NOISE 4 against 1: 0.9 times as long on the octic, and 16 of two million of its rays no longer run out of fits.
 - f at the fit's minimum, beside the samples, where all is noise: without it, close pairs of roots are lost at ten
   times the distance (clustered roots, nodes, double lines). Up to 10 % slower.
 - f's sign at the far end of an open piece, instead of a new fit: loses pairs of roots by the hundred.
+- Blocks of 4 by 4 pixels for the 16 rays of a vector: 0.87 to 0.97 times as long here from degree 5 on, but 1.26 for
+  newton on the torus: the harness keeps rows.
+- A prepass that hands each tile of 16 by 16 pixels the very depths of its hits, at no cost: 1.1 to 1.9 times, so that
+  affine arithmetic in the beams (beamcasting's future work) could gain no more than that, and was not tried.
 """
 
 from collections.abc import Mapping

@@ -22,8 +22,9 @@ def sections(material: Material) -> list[Section]:
 
 def _of(method: str, frame: pd.DataFrame) -> list[Section]:
     rows = derive.contenders(frame)
-    groups = [(place, group) for place, group in rows.groupby(derive.GROUP) if group["method"].nunique() > 1]
-    lines = [_line(method, group) for _, group in groups if (group["method"] == method).any()]
+    groups = [group for _, group in rows.groupby(derive.GROUP) if group["method"].nunique() > 1]
+    groups = [group for group in groups if (group["method"] == method).any()]
+    lines = [_line(method, group) for group in groups if group["front"].any()]
     if not lines:
         return []
     lines.sort(key=lambda line: line[:3])
@@ -31,7 +32,7 @@ def _of(method: str, frame: pd.DataFrame) -> list[Section]:
     body = [(degree, named[comparison], *told) for degree, comparison, *told in lines]
     off = [line for line in lines if line[3] == "no"]
     told = f"{method} is on the front in {len(lines) - len(off)} of {wording.plural(len(lines), 'comparison')}"
-    blocks: list[Block] = [Text(f"{told}{_lost(off)}.")]
+    blocks: list[Block] = [Text(f"{told}{_lost(off)}.{_without(len(groups) - len(lines))}")]
     columns = (
         Column("degree", wording.count, numeric=True),
         Column("surface", stretch=1),
@@ -68,6 +69,16 @@ def _line(method: str, group: pd.DataFrame) -> tuple[Any, ...]:
 
 def _rival(row: Any, own_ms: float) -> list[Any]:
     return [str(row.variant), row.median_ms, row.error_max, row.median_ms / own_ms]
+
+
+def _without(count: int) -> str:
+    """Of comparisons in which no method is on the front."""
+    if not count:
+        return ""
+    return (
+        f" {wording.plural(count, 'more comparison')} without a front: there no method answers every ray away from "
+        "silhouettes rightly with a hit among them."
+    )
 
 
 def _lost(off: list[tuple[Any, ...]]) -> str:
