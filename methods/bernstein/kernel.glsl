@@ -96,7 +96,7 @@ Piece descended(Piece start, INOUT real c[COEFFICIENTS], Errors errors) {
 
 Hit first_hit(Ray ray, real t0, real t1) {
     Hit hit = no_hit(t1);
-    real smallest = max(RESOLUTION * (t1 - t0), 64.0 * UNIT_ROUNDOFF * max(fabs(t0), fabs(t1)));
+    real shortest = 64.0 * UNIT_ROUNDOFF * max(fabs(t0), fabs(t1));
     vec3 from_center = difference(ray.origin, DOMAIN_CENTER);  // at t, squared: near + (drift + t) t
     real near = inner_product(from_center, from_center);
     real drift = 2.0 * inner_product(from_center, ray.direction);
@@ -162,7 +162,7 @@ Hit first_hit(Ray ray, real t0, real t1) {
         bool counted = more == 0 && certain == error_at(errors, 0);
         // what is all noise is decided by f itself, at the samples and where the fit has its minimum
         bool settled = unit <= NOISE * TRUST * UNIT_ROUNDOFF * (GROWTH[DEPTHS] * off + noise);
-        settled = settled || reach <= smallest || hit.evaluations > FITS * (N + 1);
+        settled = settled || reach <= shortest || hit.evaluations > FITS * (N + 1);
         if (settled && !counted && f_under >= 0.0) {
             real u = lowest_place(b);
             real f = sign * surface_value(ray_point(ray, start + reach * u));
