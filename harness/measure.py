@@ -30,7 +30,7 @@ def _rank(count: int) -> int | None:
     """The largest k so that the k-th smallest and k-th largest of `count` samples enclose the median at CONFIDENCE."""
     tail, k = 0.0, 0
     while True:
-        tail += math.comb(count, k) * 0.5**count
+        tail += math.exp(math.lgamma(count + 1) - math.lgamma(k + 1) - math.lgamma(count - k + 1) - count * math.log(2))
         if 2.0 * tail > 1.0 - CONFIDENCE:
             return k or None
         k += 1

@@ -92,3 +92,10 @@ def test_rounds_that_do_not_meet_give_no_ratio():
     few = paired_ratio([1.0, 2.0], [3, 5], [2.0, 4.0], [3, 5])
     assert few is not None
     assert (few.median, few.proved) == (0.5, False)
+
+
+@pytest.mark.parametrize("count", [6, 100, 1029, 1030, 20_000])
+def test_the_interval_of_many_samples_is_that_of_the_normal_distribution(count):
+    _, lower, upper, proved = median_interval([float(x) for x in range(count)])
+    assert proved
+    assert abs((upper - lower) - 1.96 * count**0.5) <= 2.0 + 0.02 * count**0.5
