@@ -76,9 +76,9 @@ def test_refusals_say_why():
 @pytest.mark.parametrize("name", ["klein", "barth_decic"])
 def test_a_mean_of_f_about_the_root_errs_less_than_one_value(device, name):
     surface, rays, truth = _case(name)
-    halves = []
+    medians = []
     for pairs in (0, 8):
         hits = cast(device, "bernstein", surface, "float32", rays, PAIRS=pairs)
         error = judge(hits, truth, scene_radius(surface), 1e-3).error
-        halves.append(np.nanmedian(error))
-    assert 0.0 < halves[1] < 0.8 * halves[0]
+        medians.append(np.nanmedian(error))
+    assert 0.0 < medians[1] < 0.8 * medians[0]

@@ -17,20 +17,15 @@ import pytest
 import reports
 from harness.contract import FirsthitError, digest
 from reports import (
-    against,
     arrays,
     choice,
     content,
     derive,
-    document,
     images,
     load,
-    plots,
     schema,
     tables,
-    wording,
 )
-from reports.evidence import Evidence
 from reports.parts import surfaces as surface_pages
 from reports.parts import winners
 from tests.synthetic_run import cell, plan, printed, reported, tiny_run, troubled, write_run
@@ -303,70 +298,6 @@ def test_large_runs_print_only_what_matters(run: Path, frame: pd.DataFrame, monk
         assert "The first " in by_title[title]
 
 
-def test_one_name_stands_for_one_figure(tmp_path: Path) -> None:
-    """Two galleries with scales of their own have keys of their own; one name for both would show the last for all."""
-    keys = [plots.error_legend(*scale) for scale in ((-7, -3), (-4, 0), (-4, 0))]
-    shown = content.Section("", tuple(content.Gallery((), "", key) for key in keys))
-    document._section(shown, tmp_path)
-    assert len(list(tmp_path.iterdir())) == 2
-    clash = content.Section("", (content.Figure("a", "<svg/>", ""), content.Figure("a", "<svg></svg>", "")))
-    with pytest.raises(ValueError, match="two figures of one report are named a"):
-        document._section(clash, tmp_path)
-
-
-def test_repeated_group_values_are_printed_once(tmp_path: Path) -> None:
-    columns = tuple(content.Column(title) for title in "abc")
-    table = content.Table(columns, [("x", "y", 1), ("x", "y", 2), ("x", "z", 3), ("w", "z", 4)], "T", group=2)
-    made = document._block(table, tmp_path)
-    assert [row["cells"] for row in made["rows"]] == [["x", "y", "1"], ["", "", "2"], ["", "z", "3"], ["w", "z", "4"]]
-    assert [row["opens"] for row in made["rows"]] == [True, False, True, True]
-    assert made["headings"] == [{"title": "", "span": 3}]
-
-
-def test_neighbours_share_their_heading(tmp_path: Path) -> None:
-    columns = (content.Column("a"), content.Column("b", over="x"), content.Column("c", over="x"), content.Column("d"))
-    headings = document._block(content.Table(columns, [], "T"), tmp_path)["headings"]
-    assert headings == [{"title": "", "span": 1}, {"title": "x", "span": 2}, {"title": "", "span": 1}]
-
-
-@pytest.mark.parametrize(
-    ("show", "value", "shown"),
-    [
-        (wording.number, 0.012345, "0.0123"),
-        (wording.number, 9.996, "10.0"),
-        (wording.number, 1234.5, "1,234"),
-        (wording.number, float("nan"), "–"),
-        (wording.error, 1.26e-7, "1.3e−7"),
-        (wording.error, 0.0, "0"),
-        (wording.count, pd.NA, "–"),
-        (wording.factor, 7.04, "7.04×"),
-        (wording.share, 0.005, "0.5 %"),
-        (wording.share, 0.12, "12 %"),
-        (wording.portion, 0.9999, "99.9 %"),
-        (wording.portion, 1.0, "100 %"),
-        (wording.short, 1.0, "1.0"),
-        (wording.short, 0.0123, "0.012"),
-        (wording.short, 56.7, "57"),
-        (wording.short, 99.6, "100"),
-        (wording.short, 1234.0, "1,234"),
-        (wording.short, 0.001, "1.0e−3"),
-        (wording.short, 12345.0, "1.2e4"),
-        (wording.short, None, "–"),
-        (wording.level, 1e-6, "10⁻⁶"),
-        (wording.level, 0.01, "0.01"),
-        (wording.level, 3.5, "3.5"),
-        (wording.level, 1792.0, "1792"),
-        (wording.level, 1e30, "10³⁰"),
-        (wording.level, 2.0**-20, "9.5e−7"),
-        (wording.level, 0.0, "0"),
-        (wording.listed, ["a", "b", "c"], "a, b and c"),
-        (wording.listed, ["a"], "a"),
-    ],
-)
-def test_numbers_as_people_read_them(show: Callable[[Any], str], value: Any, shown: str) -> None:
-    assert show(value) == shown
-
-
 def test_units_of_error_stand_beside_each_other(frame: pd.DataFrame) -> None:
     rows = frame[(frame["surface"] == "torus") & (frame["status"] == "ok")]
     table = tables.units(rows)
@@ -438,50 +369,3 @@ def test_the_first_page_says_which_method_at_which_error_and_what_it_costs(tmp_p
     table = choice.table(only)
     assert table is not None
     assert table.rows == [("Torus", "none", None, None, "none", None, None, None)]
-
-
-def test_a_run_that_collects_others_keeps_their_rows_apart(tmp_path: Path) -> None:
-    def run(name: str, *cells: dict[str, Any]) -> None:
-        folder = tiny_run(tmp_path / name, *cells)
-        document = json.loads((folder / "plan.json").read_text())
-        (folder / "plan.json").write_text(json.dumps(document | {"name": name, "config": f"configs/{name}.toml"}))
-
-    march, newton = (cell(v, "torus", "opencl:intel", "float32") for v in ("ray_march", "newton[EPSILON=0.001]"))
-    run("one", march, newton)
-    run("two", newton)
-    whole = plan([]) | {"name": "all", "include": ["one", "two", "three"]}
-    (tmp_path / "all").mkdir()
-    (tmp_path / "all" / "plan.json").write_text(json.dumps(whole))
-    loaded = load.load(tmp_path / "all")
-    frame = derive.derive(loaded.frame)
-    assert frame["run"].tolist() == ["one", "one", "two"]
-    assert frame["speedup"].notna().tolist() == [True, True, False], "nothing is compared across runs"
-    assert sorted(set(tables.places(frame).values())) == ["Torus (one)", "Torus (two)"]
-    assert [file.file for file in loaded.unreadable] == ["three"]
-    rows = Evidence(frame, {}, arrays.Shelf(loaded.folders))
-    assert rows.of("two.toml").frame["run"].tolist() == ["two"]
-    assert rows.of("elsewhere.toml").frame["run"].tolist() == ["one", "one", "two"]
-    assert reports.build(tmp_path / "all").stat().st_size > 0
-
-
-def test_two_runs_are_held_against_each_other(tmp_path: Path) -> None:
-    a, b = (cell("ray_march", "torus", "opencl:intel", "float32") for _ in range(2))
-    other = cell("newton[EPSILON=0.001]", "torus", "opencl:intel", "float32")
-    b["time"] = b["time"] | {name: 2 * b["time"][name] for name in ("median_ms", "lower_ms", "upper_ms")}
-    b["accuracy"] = b["accuracy"] | {"misses": 7}
-    first, second = tiny_run(tmp_path / "a", a, other), tiny_run(tmp_path / "b", b)
-    document = against.report(load.load(first), load.load(second))
-    summary = printed(document.summary.blocks)
-    assert "Of 1 cell in both runs, B is clearly slower in 1 and clearly faster in 0 of 1" in summary
-    assert "more rays wrongly in 1 and fewer in 0" in summary
-    by_title = {section.title: printed(section.blocks) for section in document.sections}
-    assert "2.00×" in by_title["Speed"]
-    assert "newton[EPSILON=0.001]" in by_title["In one run only"]
-    assert reports.compare(first, second) == first / "against-b.pdf"
-    assert (first / "against-b.html").stat().st_size > 0
-    elsewhere = tiny_run(tmp_path / "c", cell("ray_march", "torus", "opencl:pocl", "float32"))
-    both, by = against.paired(load.load(first), load.load(elsewhere))
-    assert by == ["scene", "variant", "precision"], "one device each: devices are compared"
-    assert len(both) == 1
-    with pytest.raises(FirsthitError, match="no cell in common"):
-        against.paired(load.load(second), load.load(tiny_run(tmp_path / "d", other)))

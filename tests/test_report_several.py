@@ -1,0 +1,68 @@
+"""Reports of several runs: one that collects others, and two held against each other."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import reports
+from harness.contract import FirsthitError
+from reports import (
+    against,
+    arrays,
+    derive,
+    load,
+    tables,
+)
+from reports.evidence import Evidence
+from tests.synthetic_run import cell, plan, printed, tiny_run
+
+
+def test_a_run_that_collects_others_keeps_their_rows_apart(tmp_path: Path) -> None:
+    def run(name: str, *cells: dict[str, Any]) -> None:
+        folder = tiny_run(tmp_path / name, *cells)
+        document = json.loads((folder / "plan.json").read_text())
+        (folder / "plan.json").write_text(json.dumps(document | {"name": name, "config": f"configs/{name}.toml"}))
+
+    march, newton = (cell(v, "torus", "opencl:intel", "float32") for v in ("ray_march", "newton[EPSILON=0.001]"))
+    run("one", march, newton)
+    run("two", newton)
+    whole = plan([]) | {"name": "all", "include": ["one", "two", "three"]}
+    (tmp_path / "all").mkdir()
+    (tmp_path / "all" / "plan.json").write_text(json.dumps(whole))
+    loaded = load.load(tmp_path / "all")
+    frame = derive.derive(loaded.frame)
+    assert frame["run"].tolist() == ["one", "one", "two"]
+    assert frame["speedup"].notna().tolist() == [True, True, False], "nothing is compared across runs"
+    assert sorted(set(tables.places(frame).values())) == ["Torus (one)", "Torus (two)"]
+    assert [file.file for file in loaded.unreadable] == ["three"]
+    rows = Evidence(frame, {}, arrays.Shelf(loaded.folders))
+    assert rows.of("two.toml").frame["run"].tolist() == ["two"]
+    assert rows.of("elsewhere.toml").frame["run"].tolist() == ["one", "one", "two"]
+    assert reports.build(tmp_path / "all").stat().st_size > 0
+
+
+def test_two_runs_are_held_against_each_other(tmp_path: Path) -> None:
+    a, b = (cell("ray_march", "torus", "opencl:intel", "float32") for _ in range(2))
+    other = cell("newton[EPSILON=0.001]", "torus", "opencl:intel", "float32")
+    b["time"] = b["time"] | {name: 2 * b["time"][name] for name in ("median_ms", "lower_ms", "upper_ms")}
+    b["accuracy"] = b["accuracy"] | {"misses": 7}
+    first, second = tiny_run(tmp_path / "a", a, other), tiny_run(tmp_path / "b", b)
+    document = against.report(load.load(first), load.load(second))
+    summary = printed(document.summary.blocks)
+    assert "Of 1 cell in both runs, B is clearly slower in 1 and clearly faster in 0 of 1" in summary
+    assert "more rays wrongly in 1 and fewer in 0" in summary
+    by_title = {section.title: printed(section.blocks) for section in document.sections}
+    assert "2.00×" in by_title["Speed"]
+    assert "newton[EPSILON=0.001]" in by_title["In one run only"]
+    assert reports.compare(first, second) == first / "against-b.pdf"
+    assert (first / "against-b.html").stat().st_size > 0
+    elsewhere = tiny_run(tmp_path / "c", cell("ray_march", "torus", "opencl:pocl", "float32"))
+    both, by = against.paired(load.load(first), load.load(elsewhere))
+    assert by == ["scene", "variant", "precision"], "one device each: devices are compared"
+    assert len(both) == 1
+    with pytest.raises(FirsthitError, match="no cell in common"):
+        against.paired(load.load(second), load.load(tiny_run(tmp_path / "d", other)))
