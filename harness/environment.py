@@ -10,7 +10,7 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
-from harness import __version__, plan
+from harness import __version__, identity, sources
 from harness.contract import DeviceInfo, digest
 from harness.executor import CellError, LocalExecutor
 from harness.probes import BELIEVABLE
@@ -42,7 +42,7 @@ def describe() -> dict[str, Any]:
         "dirty": bool(_git("status", "--porcelain", "--untracked-files=no")),
         "python": platform.python_version(),
         "platform": platform.platform(),
-        "cpu": plan.processor(),
+        "cpu": identity.processor(),
         "versions": versions,
     }
 
@@ -50,11 +50,13 @@ def describe() -> dict[str, Any]:
 def probed(executor: LocalExecutor, info: DeviceInfo, cache: Path | None = None) -> tuple[DeviceInfo, dict[str, Any]]:
     """The device with the clock that its probes support, and what they found.
 
-    With a `cache` folder the probes are kept there, for as long as the device, its driver and the processor stay.
+    With a `cache` folder the probes are kept there, for as long as the device, its driver, the processor and the
+    harness stay as they are.
     """
     if info.problem:
         return info, {}
-    path = cache / f"{digest(dataclasses.asdict(info), plan.processor(), plan.methodology())}.json" if cache else None
+    host = (identity.processor(), identity.cores(), identity.settings(), sources.methodology())
+    path = cache / f"{digest(dataclasses.asdict(info), *host)}.json" if cache else None
     found: dict[str, Any]
     try:
         found = json.loads(path.read_text(encoding="utf-8")) if path else {}

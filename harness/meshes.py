@@ -14,9 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from harness.contract import Box, FirsthitError, MeshRecipe, Surface, digest
+from harness.sources import MESHES, digest_of, packages
 from harness.store import savez_atomically
 
-VERSION = 1  # raise when meshes change: old cache files are then not found
 FARTHEST = 5000  # samples of a surface that are held against its mesh
 PARAMETRIC = {  # formulas whose parametric form is known here
     "(x^2 + y^2 + z^2 + R^2 - r^2)^2 - 4*R^2*(x^2 + y^2)": "torus",
@@ -44,8 +44,8 @@ def missing() -> str | None:
 
 
 def mesher() -> str:
-    """What decides a mesh beside surface and recipe."""
-    return f"pyvista {version('pyvista')}, vtk {version('vtk')}, {VERSION}"
+    """The packages that tessellate."""
+    return f"pyvista {version('pyvista')}, vtk {version('vtk')}"
 
 
 def folder() -> Path:
@@ -59,7 +59,7 @@ def mesh(surface: Surface, recipe: MeshRecipe) -> Mesh:
     """The surface tessellated by `recipe`; FirsthitError where it has no such form, or pyvista is not there."""
     if reason := missing():
         raise FirsthitError(reason)
-    key = digest(surface.identity, recipe.kind, recipe.resolution, mesher())
+    key = digest(surface.identity, recipe.kind, recipe.resolution, mesher(), packages(), digest_of(*MESHES))
     path = folder() / f"{surface.name}-{recipe.kind}-{recipe.resolution}-{key}.npz"
     if stored := _stored(path):
         return stored

@@ -4,16 +4,14 @@ from __future__ import annotations
 
 import dataclasses
 import itertools
-import platform
 import random
 from dataclasses import dataclass
-from functools import cache
-from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
+from harness import identity as identities
 from harness import prepass, raster, stability
 from harness.assemble import fill_program, method_program
 from harness.backends import LANGUAGES, RASTERISES
@@ -38,27 +36,7 @@ from harness.scenes import Scene, single
 from harness.store import Row, Store
 from harness.worker import Frame
 
-HERE = Path(__file__).parent
 PREPARING = 0.3  # seconds to build and check a cell: the mean of 4,392 of configs/front.toml, on two cores
-DECIDING = (
-    "accuracy.py",
-    "beams.py",
-    "camera.py",
-    "costs.py",
-    "measure.py",
-    "ranks.py",
-    "worker.py",
-    "runner.py",
-    "backends/*.py",
-    "oracle/*.py",
-    "hardcases/*.py",
-    "stability.py",
-    "prepass.py",
-    "meshes.py",
-    "raster.py",
-    "rastercheck.py",
-    "scenes/*.py",
-)
 
 
 @dataclass(frozen=True, eq=False)
@@ -113,23 +91,6 @@ class Planned:
         depths = raster.depth_map(self.scene, self.camera)
         program = fill_program() if reports else batches[0].program
         return Frame(program, self.camera, None, size, self.casts, None, batches, depths)
-
-
-@cache
-def methodology() -> dict[str, str]:
-    """Hashes of the harness's own sources that decide what a row says, by file."""
-    files = sorted(path for pattern in DECIDING for path in HERE.glob(pattern))
-    return {path.relative_to(HERE).as_posix(): digest(path.read_text(encoding="utf-8")) for path in files}
-
-
-@cache
-def processor() -> str:
-    """The processor's name, since software devices are only as fast as it."""
-    try:
-        text = Path("/proc/cpuinfo").read_text(encoding="utf-8")
-        return next(line.split(":", 1)[1].strip() for line in text.splitlines() if line.startswith("model name"))
-    except (OSError, StopIteration):
-        return platform.processor() or platform.machine()
 
 
 def choose_devices(
@@ -251,20 +212,22 @@ def _planned(cell: Cell, info: DeviceInfo | None, catalog: Catalog, experiment: 
             "view": dataclasses.asdict(cell.view),
             "sampling": [cell.size, cell.samples_per_pixel, cell.stage],
             "accuracy": dataclasses.asdict(experiment.config.accuracy),
-            "budget": dataclasses.asdict(experiment.config.budget) if timed else None,
+            "budget": dataclasses.asdict(experiment.config.budget) | {"seed": experiment.config.seed}
+            if timed
+            else None,
         }
     )
     if drawn:
         scene["raster"] = raster.identity(cell.scene or single(cell.surface, cell.view), cell.proxy, drawn)
+    methods = [cell.variant.method, *(d.group.variant.method for d in drawn if d.group.variant)]
     identity = scene | {
         "program": {s.origin: s.hash for program in programs for s in (*program.sections, *program.vertex)},
         "program order": [program.hash for program in programs],
         "parameters": dict(cell.variant.parameters),
         "precision": cell.precision,
         "device": facts,
-        "processor": processor(),
-        "methodology": methodology(),
         "skip": skip,
+        **identities.common((catalog.get(name).folder for name in methods), timed and not cell.family),
     }
     casts = catalog.get(cell.variant.method).method.casts
     return Planned(cell, digest(cell.slot, identity), identity, info, checks, frame, skip, casts, timed, before, drawn)
@@ -363,17 +326,3 @@ def shuffled(items: list[str], seed: int, round_number: int) -> list[str]:
     order = list(items)
     random.Random(f"{seed} {round_number}").shuffle(order)
     return order
-
-
-def changes(old: dict[str, Any], new: dict[str, Any], path: str = "") -> list[str]:
-    """What differs between two identities, a line each."""
-    lines: list[str] = []
-    for key in sorted(old.keys() | new.keys()):
-        name = f"{path}{key}"
-        a, b = old.get(key), new.get(key)
-        if isinstance(a, dict) and isinstance(b, dict):
-            lines += changes(a, b, f"{name}: ")
-        elif a != b:
-            is_hash = path.startswith(("program", "methodology")) or key == "program order"
-            lines.append(f"{name} changed" if is_hash else f"{name}: {a!r} → {b!r}")
-    return lines

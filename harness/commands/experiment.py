@@ -10,7 +10,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
-from harness import config, console, plan, stability, studies
+from harness import config, console, identity, plan, stability, studies
 from harness.cards import card
 from harness.contract import CellStatus, DeviceInfo, FirsthitError
 from harness.environment import describe, probed
@@ -202,9 +202,24 @@ def _why(options: argparse.Namespace) -> int:
         if older >= 0 and newer < len(history):
             other = history[older if newer == at else newer]
             print(f"\n{word} it: {other['key']}, run {other['environment']['started']}; between the two changed:")
-            for line in plan.changes(history[older]["identity"], history[newer]["identity"]):
+            for line in identity.changes(history[older]["identity"], history[newer]["identity"]):
                 print(f"  {line}")
+    if at == len(history) - 1:
+        _why_again(row, find_methods(options.plugins))
     return 0
+
+
+def _why_again(row: Row, catalog: Catalog) -> None:
+    """What of the harness, its method and this machine is no longer as the newest row of a cell found it."""
+    changed = identity.since(row["identity"], catalog)
+    if not changed:
+        print(
+            "\nsince then nothing changed in the harness, the method or the packages; a config may ask for another cell"
+        )
+        return
+    print("\nsince then changed, so that it would run again:")
+    for line in changed:
+        print(f"  {line}")
 
 
 def _report(options: argparse.Namespace) -> int:

@@ -9,7 +9,8 @@ from typing import Any
 from harness.contract import DeviceInfo, digest
 from harness.gate.baseline import Baseline, Entry, device_key
 from harness.gate.figures import figures
-from harness.plan import Planned, processor
+from harness.identity import processor
+from harness.plan import Planned
 from harness.plugins import Catalog
 from harness.store import Row
 
@@ -20,7 +21,11 @@ _NOT_SCENE = {
     "parameters",
     "device",
     "processor",
+    "cores",
     "methodology",
+    "method",
+    "packages",
+    "settings",
     "skip",
     "budget",
 }

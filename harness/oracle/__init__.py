@@ -22,9 +22,7 @@ from numpy.typing import NDArray
 
 from harness.contract import FirsthitError, Surface, Truth, digest
 
-ORACLE_VERSION = 3  # raise when answers or estimates change: old cache files are then not found
-
-__all__ = ["ORACLE_VERSION", "cached_first_hits", "first_hits"]
+__all__ = ["cached_first_hits", "first_hits"]
 
 
 def first_hits(surface: Surface, rays: NDArray[np.float32]) -> Truth:
@@ -44,11 +42,11 @@ def first_hits(surface: Surface, rays: NDArray[np.float32]) -> Truth:
 
 
 def cached_first_hits(surface: Surface, rays: NDArray[np.float32], folder: Path) -> Truth:
-    """`first_hits`, kept in `folder` by content; a damaged file is computed anew and replaced."""
+    """`first_hits`, kept in `folder` by content, the oracle's own files among it; a damaged file is replaced."""
     from harness.oracle import cache
 
     check_rays(rays)
-    path = cache.truth_path(folder, surface, rays, ORACLE_VERSION)
+    path = cache.truth_path(folder, surface, rays)
     truth = cache.load(path, len(rays))
     if truth is None:
         truth = first_hits(surface, rays)

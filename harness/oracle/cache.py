@@ -8,6 +8,7 @@ import os
 import tempfile
 import zipfile
 from dataclasses import fields
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -15,13 +16,25 @@ import numpy as np
 from numpy.typing import NDArray
 
 from harness.contract import Surface, Truth
+from harness.sources import TRUTH, digest_of, packages
 
 
-def truth_path(folder: Path, surface: Surface, rays: NDArray[np.float32], version: int) -> Path:
-    """Where the answers for exactly these rays and this surface belong."""
-    key = hashlib.sha256(json.dumps([version, surface.identity, rays.shape], sort_keys=True).encode())
+def truth_path(folder: Path, surface: Surface, rays: NDArray[np.float32], *asked: float) -> Path:
+    """Where the answers for exactly these rays and this surface belong; `asked`: what else the answers depend on.
+
+    The key holds the oracle's own files and the packages that it computes with: an edit there makes truth anew. Files
+    of older keys are never read again.
+    """
+    decides = [_oracle(), surface.identity, rays.shape, *asked]
+    key = hashlib.sha256(json.dumps(decides, sort_keys=True).encode())
     key.update(np.ascontiguousarray(rays, dtype="<f4").tobytes())
     return folder / f"truth-{key.hexdigest()[:24]}.npz"
+
+
+@cache
+def _oracle() -> list[object]:
+    """What decides all answers: the files of sources.TRUTH, and the versions of the packages they compute with."""
+    return [digest_of(*TRUTH), packages()]
 
 
 def load(path: Path, count: int) -> Truth | None:

@@ -2,18 +2,19 @@
 
 A module here is one study: its docstring says what the paper states and what is computed, TITLE names it, and
 `compute()` returns its rows. A config names studies in `studies = [...]`; `firsthit run` stores each as
-studies/<key>.json in the run folder, and the key covers the module's text, so that an edit runs it again.
+studies/<key>.json in the run folder. The key covers the module's text and what decides a cell's row, so that an edit
+runs it again.
 """
 
 from __future__ import annotations
 
 import importlib
-import inspect
 import json
 import time
 from pathlib import Path
 from typing import Any
 
+from harness import sources
 from harness.contract import digest
 from harness.store import FORMAT, write_atomically
 
@@ -25,10 +26,11 @@ def _module(name: str) -> Any:
 
 
 def key(name: str) -> str:
-    """What decides a study's rows: its own text and the packages it computes with."""
-    import numpy
+    """What decides a study's rows: its own text, the harness that it computes with, and the packages."""
+    from harness import meshes
 
-    return digest(name, inspect.getsource(_module(name)), numpy.__version__)
+    own = sources.hashes("harness/studies/__init__.py", f"harness/studies/{name}.py")
+    return digest(name, own, sources.methodology(), sources.packages(), None if meshes.missing() else meshes.mesher())
 
 
 def is_done(name: str, folder: Path) -> bool:

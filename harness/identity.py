@@ -1,0 +1,87 @@
+"""What decides a cell's row: two cells with the same identity give the same row, but for the clock's noise."""
+
+from __future__ import annotations
+
+import os
+import platform
+from collections.abc import Iterable, Mapping
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from harness import sources
+from harness.plugins import Catalog
+
+SETTINGS = ("CL_CONFIG_", "POCL_", "LP_", "GALLIVM_", "MESA_", "CUDA_", "__GL_")  # what drivers and compilers listen to
+OURS = {"POCL_KERNEL_CACHE": "0", "CL_CONFIG_CPU_VECTORIZER_MODE": "16", "MESA_SHADER_CACHE_DISABLE": "true"}
+# as harness/backends sets them where the user does not
+HASHED = ("program", "program order", "methodology", "method")
+
+
+@cache
+def processor() -> str:
+    """The processor's name, since software devices are only as fast as it."""
+    try:
+        text = Path("/proc/cpuinfo").read_text(encoding="utf-8")
+        return next(line.split(":", 1)[1].strip() for line in text.splitlines() if line.startswith("model name"))
+    except (OSError, StopIteration):
+        return platform.processor() or platform.machine()
+
+
+def cores() -> int | None:
+    """How many of the processor's cores this process may use: software devices are only as fast as these together."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
+
+
+def settings() -> dict[str, str]:
+    """Environment variables by which a user turns drivers and compilers, without those that the harness sets."""
+    chosen = {name: value for name, value in os.environ.items() if name.startswith(SETTINGS)}
+    return {name: value for name, value in sorted(chosen.items()) if OURS.get(name) != value}
+
+
+def common(folders: Iterable[Path], timed: bool) -> dict[str, Any]:
+    """What every cell's identity holds beside its question and program; `folders` are its methods'.
+
+    The number of cores decides times only, so that a checked row is the same on more of them.
+    """
+    own: dict[str, str] = {}
+    for folder in folders:
+        own |= _of_method(folder)
+    return {
+        "methodology": sources.methodology(),
+        "method": own,
+        "packages": sources.packages(),
+        "settings": settings(),
+        "processor": processor(),
+        "cores": cores() if timed else None,
+    }
+
+
+@cache
+def _of_method(folder: Path) -> dict[str, str]:
+    return sources.of_method(folder)
+
+
+def since(stored: Mapping[str, Any], catalog: Catalog) -> list[str]:
+    """What of `common` is no longer as a stored identity has it, a line each; the config is not looked at."""
+    if "method" not in stored:
+        return ["the harness, which named less of what decides a row then"]
+    names = [Path(file).parent.name for file in stored["method"] if file.endswith("/method.py")]
+    folders = [catalog.plugins[name].folder for name in names if name in catalog.plugins]
+    now = common(folders, timed=stored["cores"] is not None)
+    return changes({name: stored[name] for name in now}, now)
+
+
+def changes(old: Mapping[str, Any], new: Mapping[str, Any], path: str = "") -> list[str]:
+    """What differs between two identities, a line each; of what is hashed only whose hash it is."""
+    lines: list[str] = []
+    for key in sorted(old.keys() | new.keys()):
+        name = f"{path}{key}"
+        a, b = old.get(key), new.get(key)
+        if isinstance(a, dict) and isinstance(b, dict):
+            lines += changes(a, b, f"{name}: ")
+        elif a != b:
+            is_hash = name.partition(":")[0] in HASHED
+            word = "is new" if key not in old else "is gone" if key not in new else "changed"
+            lines.append(f"{name} {word}" if is_hash else f"{name}: {a!r} → {b!r}")
+    return lines

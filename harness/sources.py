@@ -1,0 +1,170 @@
+"""The project's own files, hashed by whole folders: what decides a row, a truth file, a mesh or a study.
+
+A folder counts with everything in it, so that a new module is covered on the day it appears. What is left out stands in
+NOT_DECIDING with its reason; tests/test_identity.py walks the imports of a run and fails where one of these is reached.
+"""
+
+from __future__ import annotations
+
+import ast
+import hashlib
+import platform
+from collections.abc import Iterator
+from functools import cache
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+
+from harness.contract import FirsthitError, digest
+
+ROOT = Path(__file__).parent.parent
+DECIDING = ("harness", "surfaces")
+NOT_DECIDING = {
+    "harness/__init__.py": "holds the version's number, which a row does not depend on",
+    "harness/batch.py": "chooses which cells are run, and leaves running them to the runner",
+    "harness/cards.py": "copies docstrings for the report",
+    "harness/cli.py": "reads the command line",
+    "harness/commands": "read options and print; what an option changes is in the config, and so in the identity",
+    "harness/conformance.py": "checks methods and stores no row",
+    "harness/console.py": "prints tables and progress",
+    "harness/gate": "judges finished rows",
+    "harness/recommend": "chooses among finished rows",
+    "harness/studies": "are no cells; each has a key of its own, see harness/studies/__init__.py",
+}
+TRUTH = ("harness/contract.py", "harness/oracle", "surfaces")
+MESHES = ("harness/contract.py", "harness/meshes.py", "surfaces")
+PACKAGES = ("numpy", "sympy", "python-flint")  # bindings are among a device's facts, a mesher among a picture's
+LIBRARIES = ("site-packages", "dist-packages")  # folders that hold other people's modules beside a plugin's
+
+
+@cache
+def hashes(*parts: str) -> dict[str, str]:
+    """The 16-digit hash of each file of `parts`, files and folders below the project, by its path there.
+
+    Raises FirsthitError where a part is not there: nothing may be covered by name alone.
+    """
+    found: dict[str, str] = {}
+    for part in parts:
+        path = ROOT / part
+        if not path.exists():
+            raise FirsthitError(f"{path} is missing, so that what decides a result is not known; install firsthit anew")
+        found |= {file.relative_to(ROOT).as_posix(): hash_of(file) for file in files_in(path)}
+    return found
+
+
+@cache
+def methodology() -> dict[str, str]:
+    """Hashes of all of the harness's files that decide what a row says, by path below the project."""
+    return {path: found for path, found in hashes(*DECIDING).items() if left_out(path) is None}
+
+
+@cache
+def digest_of(*parts: str) -> str:
+    """One hash of all files of `parts`."""
+    return digest(hashes(*parts))
+
+
+@cache
+def packages() -> dict[str, str]:
+    """Versions of what computes truth, tables and verdicts, and of Python, whose minor versions differ in speed."""
+    found = {"python": ".".join(platform.python_version_tuple()[:2])}
+    for name in PACKAGES:
+        try:
+            found[name] = version(name)
+        except PackageNotFoundError:  # a source tree on the path, without its metadata
+            found[name] = "unknown"
+    return found
+
+
+def left_out(path: str) -> str | None:
+    """Why a file below the project, `harness/cli.py`, does not decide a row; None where it does."""
+    folders = [path, *(parent.as_posix() for parent in Path(path).parents)]
+    return next((NOT_DECIDING[folder] for folder in folders if folder in NOT_DECIDING), None)
+
+
+def hash_of(file: Path) -> str:
+    return hashlib.sha256(file.read_bytes()).hexdigest()[:16]
+
+
+def files_in(path: Path) -> list[Path]:
+    """`path` itself, or all files below it, sorted; without hidden ones, backups and compiled Python."""
+    if path.is_file():
+        return [path]
+    found = (file for file in path.rglob("*") if file.is_file() and not file.name.endswith("~"))
+    return sorted(file for file in found if not _is_litter(file.relative_to(path)))
+
+
+def _is_litter(path: Path) -> bool:
+    return any(part.startswith(".") or part == "__pycache__" for part in path.parts)
+
+
+def of_method(folder: Path) -> dict[str, str]:
+    """Hashes of a method's folder and of its own modules outside it that these files import, lazily too.
+
+    Own are modules beside the folder and those of the package that holds it. The harness's are covered by
+    `methodology`, packages by what they change in the program. Files that a method reads elsewhere are not seen.
+    """
+    top = _topmost(folder)
+    open_files, found = files_in(folder), dict[Path, str]()
+    while open_files:
+        file = open_files.pop()
+        if file not in found:
+            found[file] = hash_of(file)
+            if file.suffix == ".py":
+                open_files += imported(file, _roots(folder, top))
+    return dict(sorted((_named(file, top.parent), found[file]) for file in found))
+
+
+def _named(file: Path, above: Path) -> str:
+    return (file.relative_to(above) if file.is_relative_to(above) else file).as_posix()
+
+
+def _topmost(folder: Path) -> Path:
+    """The folder of the outermost package that holds `folder`, or `folder` itself."""
+    while (folder.parent / "__init__.py").exists():
+        folder = folder.parent
+    return folder
+
+
+def _roots(folder: Path, top: Path) -> list[tuple[Path, str | None]]:
+    """Where a method's own modules may lie, and of which package they must then be; None: of any name."""
+    roots: list[tuple[Path, str | None]] = [(folder, None), (top.parent, top.name)]
+    if folder.parent.name not in LIBRARIES:
+        roots.append((folder.parent, None))
+    return [(root, name) for root, name in roots if root != ROOT]
+
+
+def imported(file: Path, roots: list[tuple[Path, str | None]]) -> list[Path]:
+    """The files below `roots` that a Python file imports, at its top or inside functions; none where it is broken."""
+    try:
+        tree = ast.parse(file.read_bytes())
+    except (SyntaxError, ValueError):  # then the method is not loaded
+        return []
+    found: list[Path] = []
+    for names, level in _imports(tree):
+        if level:
+            start = file.parent.joinpath(*[".."] * (level - 1)).resolve()
+            found += [path for name in names for path in _modules(start, name)]
+        for root, package in () if level else roots:
+            own = (name for name in names if package is None or name.partition(".")[0] == package)
+            found += [path for name in own for path in _modules(root, name)]
+    return found
+
+
+def _imports(tree: ast.Module) -> Iterator[tuple[list[str], int]]:
+    """The names of modules that may be meant by each import, and how many folders up it starts."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            yield [name.name for name in node.names], 0
+        elif isinstance(node, ast.ImportFrom):
+            base = node.module or ""
+            yield [base, *(f"{base}.{name.name}".lstrip(".") for name in node.names)], node.level
+
+
+def _modules(root: Path, name: str) -> Iterator[Path]:
+    """The files that importing `name` below `root` executes: the module's, and those of packages on the way."""
+    path = root
+    for part in name.split(".") if name else ():
+        path = path / part
+        for file in (path / "__init__.py", path.with_name(f"{path.name}.py")):
+            if file.is_file():
+                yield file
