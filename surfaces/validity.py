@@ -33,9 +33,38 @@ def check(surface: Surface) -> None:
     if constant[tape.outputs[0]] or degree(tape) in (-1, 0):
         raise FirsthitError(f"{surface.name}: the formula does not depend on x, y, z: it describes no surface")
     conditions = [(op.name, op.inputs[-1]) for op in tape.ops if op.name in _CONDITIONS and not constant[op.inputs[-1]]]
+    bounded_below = never_negative(tape)
     for name, index in dict.fromkeys(conditions):
+        if name == "sqrt" and bounded_below[index]:
+            continue
         argument = Tape(tape.ops, (index,)).pruned()
         _prove(surface, name, argument, min(MAX_BOXES, MAX_OPERATIONS // (len(conditions) * len(argument.ops))))
+
+
+def never_negative(tape: Tape) -> list[bool]:
+    """For each operation, whether its structure alone shows that it is nowhere negative, wherever it has a value.
+
+    Squares, absolute values, roots and exponentials are not; nor are sums, products, quotients, minima of what is not,
+    and maxima one side of which is not. False only says that the structure does not show it.
+    """
+    known: list[bool] = []
+    for op in tape.ops:
+        of = [known[i] for i in op.inputs]
+        match op.name:
+            case "const":
+                holds = op.args[0] >= 0
+            case "pi" | "e" | "sqr" | "abs" | "sqrt" | "exp":
+                holds = True
+            case "powi":
+                holds = op.args[1] % 2 == 0 or of[0]
+            case "add" | "mul" | "div" | "min":
+                holds = all(of)
+            case "max":
+                holds = any(of)
+            case _:
+                holds = False
+        known.append(holds)
+    return known
 
 
 def _prove(surface: Surface, name: str, argument: Tape, budget: int) -> None:
