@@ -12,6 +12,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from harness.contract import Box, Sphere, Truth, TruthStatus
+
 Field = Callable[[np.ndarray], np.ndarray]  # [n, 3] → [n]
 
 
@@ -183,3 +185,53 @@ def march(shape: Shape, rays: np.ndarray, start: np.ndarray, stop: np.ndarray, s
             break
         t = np.where(going, np.minimum(t + 0.999 * distance / length, stop), t)
     return t
+
+
+def clip(domain: Sphere | Box, rays: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """t where each ray enters (0 or more) and leaves the domain, float64[n]; entering behind leaving where it misses."""
+    o, d = rays[:, :3].astype(float), rays[:, 3:].astype(float)
+    with np.errstate(all="ignore"):
+        if isinstance(domain, Box):
+            near, far = ((np.asarray(side) - o) / d for side in (domain.lower, domain.upper))
+            near, far = np.minimum(near, far), np.maximum(near, far)
+            inside = (o >= domain.lower) & (o <= domain.upper)
+            still = d == 0.0
+            near, far = np.where(still, -np.inf, near), np.where(still, np.where(inside, np.inf, -np.inf), far)
+            return np.maximum(near.max(axis=1), 0.0), far.min(axis=1)
+        a, b, c = (d * d).sum(axis=1), (o * d).sum(axis=1), (o * o).sum(axis=1) - domain.radius**2
+        root = np.sqrt(b * b - a * c)
+        enter, leave = np.maximum((-b - root) / a, 0.0), (root - b) / a
+        return np.where(root >= 0.0, enter, 1.0), np.where(root >= 0.0, leave, 0.0)
+
+
+def contradictions(shape: Shape, domain: Sphere | Box, rays: np.ndarray, truth: Truth) -> list[tuple[int, str]]:
+    """Rays whose answer float64 marching refutes beyond its own rounding, with the reason."""
+    o, d = rays[:, :3].astype(float), rays[:, 3:].astype(float)
+    length = np.linalg.norm(d, axis=1)
+    enter, leave = clip(domain, rays)
+    hit = np.isin(truth.status, (TruthStatus.CROSSING, TruthStatus.TOUCH))
+    miss = truth.status == TruthStatus.MISS
+    stop = np.where(hit, truth.lower, leave)
+    reached = march(shape, rays, enter, stop)
+
+    def field(t: np.ndarray) -> np.ndarray:
+        return shape.field(o + t[:, None] * d)
+
+    # where marching stands still in front of the answer, a float64 root is there: a touch is within about 1e-6 of it
+    early = (reached < stop - 4e-6 / length) & (np.abs(field(reached)) < 1e-13) & (enter < leave - 1e-9)
+    stay = (1e-7 + 4e-6 * (truth.status == TruthStatus.TOUCH)) / length
+    before, behind = field(truth.lower - stay), field(truth.upper + stay)
+    clear = hit & (np.abs(before) > 1e-12) & (np.abs(behind) > 1e-12)
+    clear &= (truth.lower - stay > enter) & (truth.upper + stay < leave)
+    found: list[tuple[int, str]] = []
+    for reason, bad in (
+        ("a miss, but marching ends at a root", miss & early),
+        ("an earlier root", hit & early),
+        ("no root in the interval", hit & ~(np.abs(field(truth.lower)) < 1e-9)),
+        ("outside the clip interval", hit & ((truth.lower < enter - 1e-9) | (truth.upper > leave + 1e-9))),
+        ("too wide", hit & (truth.upper - truth.lower > 2.0**-40 * domain.radius / length + 2.0**-49 * truth.upper)),
+        ("no change of sign", clear & (truth.status == TruthStatus.CROSSING) & (before * behind > 0)),
+        ("a change of sign", clear & (truth.status == TruthStatus.TOUCH) & (before * behind < 0)),
+    ):
+        found += [(int(k), reason) for k in np.flatnonzero(bad)]
+    return found
