@@ -105,7 +105,8 @@ class Balls(Arithmetic):
         return a.max(b)
 
     def sqrt(self, a: Any) -> Any:
-        return a.sqrt()
+        # Of the part that has a root: rounding takes sums of squares a little below zero.
+        return a.nonnegative_part().sqrt() if a.contains(0) else a.sqrt()
 
     def exp(self, a: Any) -> Any:
         return a.exp()

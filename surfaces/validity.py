@@ -20,6 +20,7 @@ _CONDITIONS = {
     "sqrt": "sqrt needs an argument that is not negative",
     "tan": "tan must stay off its poles",
 }
+_ENOUGH = {"sqrt": 1, "log": 2, "div": 2}  # of `signs_of`, to need no proof on boxes
 
 
 def check(surface: Surface) -> None:
@@ -33,9 +34,42 @@ def check(surface: Surface) -> None:
     if constant[tape.outputs[0]] or degree(tape) in (-1, 0):
         raise FirsthitError(f"{surface.name}: the formula does not depend on x, y, z: it describes no surface")
     conditions = [(op.name, op.inputs[-1]) for op in tape.ops if op.name in _CONDITIONS and not constant[op.inputs[-1]]]
+    signs = signs_of(tape)
     for name, index in dict.fromkeys(conditions):
+        if signs[index] >= _ENOUGH.get(name, 3):
+            continue
         argument = Tape(tape.ops, (index,)).pruned()
         _prove(surface, name, argument, min(MAX_BOXES, MAX_OPERATIONS // (len(conditions) * len(argument.ops))))
+
+
+def signs_of(tape: Tape) -> list[int]:
+    """For each operation 2 where its structure shows it positive, 1 where it shows it not negative, else 0.
+
+    Squares, absolute values and roots are not negative, exponentials are positive; sums, products, quotients, minima and
+    maxima follow from their parts.
+    """
+    known: list[int] = []
+    for op in tape.ops:
+        of = [known[i] for i in op.inputs]
+        match op.name:
+            case "const":
+                sign = 2 if op.args[0] > 0 else int(op.args[0] == 0)
+            case "pi" | "e" | "exp":
+                sign = 2
+            case "sqr" | "abs" | "sqrt":
+                sign = max(1, of[0])
+            case "powi":
+                sign = max(of[0], int(op.args[1] % 2 == 0))
+            case "add":
+                sign = max(of) if min(of) else 0
+            case "mul" | "div" | "min":
+                sign = min(of)
+            case "max":
+                sign = max(of)
+            case _:
+                sign = 0
+        known.append(sign)
+    return known
 
 
 def _prove(surface: Surface, name: str, argument: Tape, budget: int) -> None:

@@ -41,8 +41,9 @@ def rays_into(surface: Surface, count: int, seed: int = 1) -> np.ndarray:
 
 
 def slow_path(surface: Surface) -> AlgebraicSolver | SmoothSolver:
-    program = compile_expression(surfaces.expression(surface))
-    return (AlgebraicSolver if program.is_polynomial else SmoothSolver)(program, surface.domain)
+    expr = surfaces.expression(surface)
+    program = compile_expression(expr)
+    return (AlgebraicSolver(program, surface.domain) if program.is_polynomial else SmoothSolver(expr, surface.domain))
 
 
 @pytest.mark.parametrize("surface", SURFACES, ids=lambda s: s.name)

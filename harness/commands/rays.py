@@ -35,6 +35,9 @@ def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -
         epilog="example: firsthit oracle --formula 'x^4 + y^4 + z^4 - 1' --rays rays.npy -o truth.npz",
     )
     add_surface(parser)
+    parser.add_argument(
+        "--t-min", type=float, default=0.0, metavar="T", help="only hits at T or beyond count (default 0)"
+    )
     _add_files(parser)
     parser.set_defaults(run=_oracle)
 
@@ -83,7 +86,7 @@ def _oracle(options: argparse.Namespace) -> int:
     from harness.oracle import first_hits
 
     surface, rays, output = surface_of(options), load_rays(options.rays), writable(options.output)
-    truth = first_hits(surface, rays)
+    truth = first_hits(surface, rays, options.t_min)
     savez_atomically(output, lower=truth.lower, upper=truth.upper, status=truth.status)
     counts = {status: int((truth.status == status).sum()) for status in TruthStatus}
     print(f"{output}: {len(rays)} rays, " + ", ".join(f"{n} {status.name.lower()}" for status, n in counts.items()))

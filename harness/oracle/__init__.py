@@ -7,9 +7,18 @@ polynomials, `transcendental` for everything else). What neither can prove is UN
 - The ray o + t·d is taken with float32 numbers as the exact rationals they are; d is not renormalised.
 - A touch is a root of even multiplicity. Where f vanishes all along the ray, the answer is a TOUCH at the clip
   interval's first t.
-- A surface whose coefficients are rational or in one field Q(√d) is always decided (touches and roots exactly at clip
-  ends included) up to the 4096 bits at which telling two numbers apart is given up; one with other constants, or that
-  is no polynomial, has its crossings and misses decided, and its touches where f is written with a repeated factor.
+- The first hit is the smallest t with f = 0 in the closed interval [max(t_min, t_enter), t_exit] that the ray spends in
+  the domain; t_min is 0 unless given. A start on the surface is a hit at t_min, whether the ray leaves, enters or
+  grazes, unless t_min excludes it: a root before t_min is none, be it by one float. Where t_min lies behind the domain,
+  the ray misses.
+- A polynomial whose coefficients are rational or in one field Q(√d) is always decided (touches and roots exactly at clip
+  ends included) up to the 4096 bits at which telling two numbers apart is given up. So is, as a rule, what is made of
+  polynomials with rational coefficients by quotients, square roots, abs, min and max, such as a distance function
+  (`piecewise`): a root may lie at a kink, or where a root's argument is 0. It is given up where a ray meets more than
+  12 roots at once, or at 1536 bits. Where f keeps its sign across a first hit, or is 0 all along behind it, or has no
+  value on one side, the hit is a TOUCH.
+- With other constants or functions, crossings and misses are decided, and touches where f is written with a repeated
+  factor or as an absolute value.
 - `following`, `condition` and `margin` are estimates in plain float64 (`classify`).
 """
 
@@ -25,31 +34,34 @@ from harness.contract import FirsthitError, Surface, Truth, digest
 __all__ = ["cached_first_hits", "first_hits"]
 
 
-def first_hits(surface: Surface, rays: NDArray[np.float32]) -> Truth:
-    """Certified first hits for `rays`: float32[n, 6], origin and direction in scene units.
+def first_hits(surface: Surface, rays: NDArray[np.float32], t_min: float = 0.0) -> Truth:
+    """Certified first hits for `rays`: float32[n, 6], origin and direction in scene units, at `t_min` or beyond.
 
-    A FirsthitError for rays of another shape or type, with NaN or infinity, or without a direction.
+    A FirsthitError for rays of another shape or type, with NaN or infinity, or without a direction, and for a `t_min`
+    that is negative or not finite.
     """
     from harness.oracle.classify import classify
 
     check_rays(rays)
+    t_min = checked_t_min(t_min)
     solver = _solver(surface)
     wide = rays.astype(np.float64)
-    lower, upper, status = solver.certify(wide)
+    lower, upper, status = solver.certify(wide, t_min)
     first = 0.5 * (lower + upper)
-    following, condition, margin = classify(solver.floats, solver.fast.f, surface.domain, wide, first, status)
+    following, condition, margin = classify(solver.floats, solver.fast.f, surface.domain, wide, first, status, t_min)
     return Truth(lower, upper, status, following, condition, margin)
 
 
-def cached_first_hits(surface: Surface, rays: NDArray[np.float32], folder: Path) -> Truth:
+def cached_first_hits(surface: Surface, rays: NDArray[np.float32], folder: Path, t_min: float = 0.0) -> Truth:
     """`first_hits`, kept in `folder` by content, the oracle's own files among it; a damaged file is replaced."""
     from harness.oracle import cache
 
     check_rays(rays)
-    path = cache.truth_path(folder, surface, rays)
+    t_min = checked_t_min(t_min)
+    path = cache.truth_path(folder, surface, rays, t_min)
     truth = cache.load(path, len(rays))
     if truth is None:
-        truth = first_hits(surface, rays)
+        truth = first_hits(surface, rays, t_min)
         cache.store(path, truth)
     return truth
 
@@ -68,6 +80,19 @@ def check_rays(rays: NDArray[np.float32]) -> None:
         raise FirsthitError(f"ray {int(np.argmax(idle))} has direction (0, 0, 0); give it a direction or remove it")
 
 
+def checked_t_min(t_min: float) -> float:
+    """`t_min` as a float64, −0 as 0; a FirsthitError where it is no finite number, or negative."""
+    if isinstance(t_min, bool) or not isinstance(t_min, int | float | np.integer | np.floating):
+        raise FirsthitError(f"t_min must be a number, not {type(t_min).__name__}; give a distance along the ray, 0 or more")
+    try:
+        value = float(t_min)
+    except OverflowError:
+        value = np.inf
+    if not (np.isfinite(value) and value >= 0.0):
+        raise FirsthitError(f"t_min must be finite and not negative, not {value}; rays start at 0")
+    return value + 0.0
+
+
 class _Solver:
     """A surface's fast and slow paths, built once."""
 
@@ -84,13 +109,17 @@ class _Solver:
         program = compile_expression(expr)
         self.fast = FastSolver(expr, surface.domain)
         self.floats = FloatFunction(program, [c.mid for c in Enclosure(program).constants])
-        self.slow = (AlgebraicSolver if program.is_polynomial else SmoothSolver)(program, surface.domain)
+        self.slow: AlgebraicSolver | SmoothSolver = SmoothSolver(expr, surface.domain)
+        if program.is_polynomial:
+            self.slow = AlgebraicSolver(program, surface.domain)
 
-    def certify(self, rays: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.uint8]]:
+    def certify(
+        self, rays: NDArray[np.float64], t_min: float
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.uint8]]:
         """lower, upper and status of `rays`: float64[n, 6] holding float32 values."""
-        fast = self.fast.first_hits(rays)
+        fast = self.fast.first_hits(rays, t_min)
         for row in np.flatnonzero(~fast.decided):
-            hit = self.slow.first_hit(rays[row].tolist())
+            hit = self.slow.first_hit(rays[row].tolist(), t_min)
             fast.lower[row], fast.upper[row], fast.status[row] = hit.lower, hit.upper, hit.status
         return fast.lower, fast.upper, fast.status
 

@@ -83,9 +83,17 @@ def hull(lower: Any, upper: Any) -> Balls:
 
 
 def sqrt(a: Balls) -> Balls:
-    """NaN where `a` may be negative."""
-    lower, upper = np.sqrt(a.lower), np.sqrt(a.upper)
+    """Of the members that have a root; NaN where `a` has none."""
+    lower, upper = np.sqrt(np.maximum(a.lower, 0.0)), np.sqrt(a.upper)
     return hull(lower * (1.0 - UNIT), upper * (1.0 + UNIT))
+
+
+def length(*parts: Balls) -> Balls:
+    """The square root of the sum of squares."""
+    total = parts[0] * parts[0]
+    for part in parts[1:]:
+        total = total + part * part
+    return sqrt(total)
 
 
 def exp(a: Balls) -> Balls:
@@ -122,11 +130,37 @@ def absolute(a: Balls) -> Balls:
 
 def minimum(a: Balls, b: Balls) -> Balls:
     """|min(a, b) − min(ma, mb)| <= max(ra, rb)."""
-    return Balls(np.minimum(a.mid, b.mid), np.maximum(a.rad, b.rad))
+    return Balls(np.minimum(a.mid, b.mid), _radius_of_one(b - a, a, b))
 
 
 def maximum(a: Balls, b: Balls) -> Balls:
-    return Balls(np.maximum(a.mid, b.mid), np.maximum(a.rad, b.rad))
+    return Balls(np.maximum(a.mid, b.mid), _radius_of_one(a - b, a, b))
+
+
+def _radius_of_one(ahead: Balls, a: Balls, b: Balls) -> Any:
+    """The radius of `a` where `ahead` > 0, that of `b` where it is < 0, else the larger one."""
+    larger = np.maximum(a.rad, b.rad)
+    return np.where(ahead.mid > ahead.rad, a.rad, np.where(ahead.mid < -ahead.rad, b.rad, larger))
+
+
+def pick(sign: Balls, a: Balls, b: Balls) -> Balls:
+    """`a` where `sign` is 1, `b` where it is −1, else what holds both."""
+    open_ = sign.rad > 0.0
+    both = hull(np.minimum(a.lower, b.lower), np.maximum(a.upper, b.upper))
+    first = sign.mid > 0.0
+    return Balls(
+        np.where(open_, both.mid, np.where(first, a.mid, b.mid)),
+        np.where(open_, both.rad, np.where(first, a.rad, b.rad)),
+    )
+
+
+def share(part: Balls, whole: Balls) -> Balls:
+    """part / whole, of which |part| <= whole is known: never beyond [−1, 1]."""
+    quotient = part / whole
+    lower, upper = np.fmax(quotient.lower, -1.0), np.fmin(quotient.upper, 1.0)
+    lower, upper = np.where(lower <= upper, lower, -1.0), np.where(lower <= upper, upper, 1.0)
+    known = np.isfinite(part.mid) & np.isfinite(part.rad)
+    return hull(np.where(known, lower, np.nan), np.where(known, upper, np.nan))
 
 
 def sign_range(a: Balls) -> Balls:
@@ -142,4 +176,5 @@ def half(a: Balls) -> Balls:
 FUNCTIONS: Functions = {
     "sqrt": sqrt, "exp": exp, "log": log, "sin": sin, "cos": cos, "tan": tan,
     "abs": absolute, "min": minimum, "max": maximum, "sign": sign_range, "half": half,
+    "length": length, "pick": pick, "share": share,
 }  # fmt: skip

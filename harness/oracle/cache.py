@@ -19,13 +19,13 @@ from harness.contract import Surface, Truth
 from harness.sources import TRUTH, digest_of, packages
 
 
-def truth_path(folder: Path, surface: Surface, rays: NDArray[np.float32], *asked: float) -> Path:
-    """Where the answers for exactly these rays and this surface belong; `asked`: what else the answers depend on.
+def truth_path(folder: Path, surface: Surface, rays: NDArray[np.float32], t_min: float = 0.0) -> Path:
+    """Where the answers for exactly these rays from `t_min` on and this surface belong.
 
     The key holds the oracle's own files and the packages that it computes with: an edit there makes truth anew. Files
     of older keys are never read again.
     """
-    decides = [_oracle(), surface.identity, rays.shape, *asked]
+    decides = [_oracle(), surface.identity, rays.shape, t_min]
     key = hashlib.sha256(json.dumps(decides, sort_keys=True).encode())
     key.update(np.ascontiguousarray(rays, dtype="<f4").tobytes())
     return folder / f"truth-{key.hexdigest()[:24]}.npz"

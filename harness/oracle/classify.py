@@ -52,7 +52,13 @@ def interpolation(degree: int, finer: int) -> Floats:
 
 
 def classify(
-    f: FloatFunction, enclosure: Enclosure, domain: Domain, rays: Floats, first: Floats, status: NDArray[np.uint8]
+    f: FloatFunction,
+    enclosure: Enclosure,
+    domain: Domain,
+    rays: Floats,
+    first: Floats,
+    status: NDArray[np.uint8],
+    t_min: float = 0.0,
 ) -> Estimates:
     """`rays`: float64[n, 6]; `first`: the first root's t, float64[n], NaN without a hit; see contract.Truth.
 
@@ -64,7 +70,7 @@ def classify(
     with np.errstate(all="ignore"):
         for k in range(0, len(rays), BLOCK):
             piece = slice(k, k + BLOCK)
-            parts.append(_Block(f, enclosure, domain, rays[piece], first[piece], status[piece]).estimates())
+            parts.append(_Block(f, enclosure, domain, rays[piece], first[piece], status[piece], t_min).estimates())
     following, condition, margin = (np.concatenate(columns) for columns in zip(*parts, strict=True))
     return following, condition, margin
 
@@ -92,8 +98,10 @@ class _Block:
         rays: Floats,
         first: Floats,
         status: NDArray[np.uint8],
+        t_min: float,
     ) -> None:
         self.f = f
+        self.t_min = t_min
         self.enclosure = enclosure
         self.given = rays
         self.domain = domain
@@ -101,7 +109,7 @@ class _Block:
         self.shift = nearest(np.asarray(domain.center), rays)
         self.rays = recentred(rays, self.shift)
         self.length = np.sqrt((rays[:, 3:] ** 2).sum(axis=1))
-        clip = clip_many(domain, rays)
+        clip = clip_many(domain, rays, t_min)
         self.missed = clip.missed
         self.enter = clip.enter_lower - self.shift
         self.leave = clip.leave_upper - self.shift
@@ -126,7 +134,7 @@ class _Block:
         self._lower_margin(margin, everyone, self.enter, np.ones_like(self.hit))
         self._lower_margin(margin, everyone, self.leave, ~self.hit)
         self._lower_margin(margin, everyone, self._deepest(following), self.hit)
-        room = np.minimum(self._inside(self.first), (self.first + self.shift) * self.length)
+        room = np.minimum(self._inside(self.first), (self.first + self.shift - self.t_min) * self.length)
         room = np.minimum(room, 0.5 * (following - self.first) * self.length)  # nothing between two roots is deeper
         margin = np.where(self.hit, np.minimum(margin, np.maximum(room, 0.0)), margin)
         margin = np.where(self.missed, self._gap(), margin)
@@ -318,6 +326,6 @@ class _Block:
 
     def _gap(self) -> Floats:
         """For rays that miss the domain: how far it is from them, or the surface from there if that is more."""
-        t = np.maximum(0.0, -self.shift)  # recentred: 0 is nearest to the centre
+        t = np.maximum(0.0, self.t_min - self.shift)  # recentred: 0 is nearest to the centre
         surface = np.abs(self.f.values(self.rays, t)) / self.f.steepness(self.rays, t)
         return np.asarray(np.fmax(np.maximum(-self._inside(t), 0.0), surface))

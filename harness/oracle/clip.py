@@ -46,21 +46,21 @@ class End:
         return bool((a * root + b) * self.side >= 0)
 
 
-def clip_exactly(domain: Domain, ray: Sequence[Any]) -> tuple[End, End] | None:
-    """The closed interval of t >= 0 that a ray (six fmpq) spends in the closed domain; None where it is empty."""
+def clip_exactly(domain: Domain, ray: Sequence[Any], t_min: float = 0.0) -> tuple[End, End] | None:
+    """The closed interval of t >= `t_min` that a ray (six fmpq) spends in the closed domain; None where it is empty."""
     from harness.oracle.reals import rational
 
     if isinstance(domain, Box):
         lower = [rational(v) for v in domain.lower]
         upper = [rational(v) for v in domain.upper]
-        return _clip_by_box(lower, upper, ray)
-    return _clip_by_sphere([rational(v) for v in domain.center], rational(domain.radius), ray)
+        return _clip_by_box(lower, upper, ray, rational(t_min))
+    return _clip_by_sphere([rational(v) for v in domain.center], rational(domain.radius), ray, rational(t_min))
 
 
-def _clip_by_box(lower: Sequence[Any], upper: Sequence[Any], ray: Sequence[Any]) -> tuple[End, End] | None:
-    from flint import fmpq
-
-    enter, leave = fmpq(0), None
+def _clip_by_box(
+    lower: Sequence[Any], upper: Sequence[Any], ray: Sequence[Any], t_min: Any
+) -> tuple[End, End] | None:
+    enter, leave = t_min, None
     for low, high, o, d in zip(lower, upper, ray[:3], ray[3:], strict=True):
         if not d:
             if not low <= o <= high:
@@ -73,18 +73,17 @@ def _clip_by_box(lower: Sequence[Any], upper: Sequence[Any], ray: Sequence[Any])
     return (End(enter), End(leave)) if enter <= leave else None
 
 
-def _clip_by_sphere(center: Sequence[Any], radius: Any, ray: Sequence[Any]) -> tuple[End, End] | None:
-    from flint import fmpq
-
+def _clip_by_sphere(center: Sequence[Any], radius: Any, ray: Sequence[Any], t_min: Any) -> tuple[End, End] | None:
     offset = [o - c for o, c in zip(ray[:3], center, strict=True)]
     direction = ray[3:]
     a = sum(d * d for d in direction)
     b = sum(o * d for o, d in zip(offset, direction, strict=True))
     c = sum(o * o for o in offset) - radius * radius
-    if b * b < a * c or (b > 0 and c > 0):  # passes by, or lies behind the origin
+    slope, height = a * t_min + b, (a * t_min + 2 * b) * t_min + c  # of the same parabola, seen from t_min
+    if b * b < a * c or (slope > 0 and height > 0):  # passes by, or lies before t_min
         return None
-    inside = c <= 0 or b >= 0  # t_enter <= 0
-    enter = End(fmpq(0)) if inside else End(quadratic=(a, b, c), side=-1)
+    inside = height <= 0 or slope >= 0  # t_enter <= t_min
+    enter = End(t_min) if inside else End(quadratic=(a, b, c), side=-1)
     return enter, End(quadratic=(a, b, c), side=1)
 
 
@@ -103,16 +102,16 @@ class Clip:
     leave_upper: Floats
 
 
-def clip_many(domain: Domain, rays: Floats) -> Clip:
-    """`rays`: float64[n, 6] holding float32 values."""
+def clip_many(domain: Domain, rays: Floats, t_min: float = 0.0) -> Clip:
+    """Of t >= `t_min`; `rays`: float64[n, 6] holding float32 values."""
     with np.errstate(all="ignore"):
         low, high, missed = _slabs(domain, rays) if isinstance(domain, Box) else _chords(domain, rays)
         unknown = ~(np.isfinite(low.mid) & np.isfinite(high.mid) & np.isfinite(low.rad) & np.isfinite(high.rad))
-        missed = (missed | (low.lower > high.upper) | (high.upper < 0.0)) & ~unknown
+        missed = (missed | (low.lower > high.upper) | (high.upper < t_min)) & ~unknown
         return Clip(
             missed,
-            np.where(unknown, -np.inf, np.maximum(low.lower, 0.0)),
-            np.where(unknown, np.inf, np.maximum(low.upper, 0.0)),
+            np.where(unknown, -np.inf, np.maximum(low.lower, t_min)),
+            np.where(unknown, np.inf, np.maximum(low.upper, t_min)),
             np.where(unknown, -np.inf, high.lower),
             np.where(unknown, np.inf, high.upper),
         )

@@ -37,13 +37,23 @@ class Dual:
 def dual_functions(base: Mapping[str, Callable[..., Any]]) -> Functions:
     """The elementary functions on duals from those of the number system `base`.
 
-    `base` also has `sign`: +1, −1, or a range that holds [−1, 1] where the sign is open (the generalised derivative of
-    abs), and `half`.
+    `base` also has `half`, and `sign`: +1, −1, or a range that holds [−1, 1] where the sign is open (the generalised
+    derivative of abs). It may have `pick`: of a sign and two numbers the first where the sign is +1, the second where
+    it is −1, else what holds both; `ratio`: a slope over a root, 0 where the slope is known to be 0; and `share`: u over
+    a length that is not less than |u|, so never beyond [−1, 1].
     """
+    pick = base.get("pick", lambda sign, a, b: base["half"](a + b + sign * (a - b)))
+    ratio = base.get("ratio", lambda slope, root: slope / root)
+    share = base.get("share")
 
     def sqrt(a: Dual) -> Dual:
         root = base["sqrt"](a.value)
-        return Dual(root, base["half"](a.slope / root))
+        return Dual(root, base["half"](ratio(a.slope, root)))
+
+    def length(*parts: Dual) -> Dual:
+        value = base["length"](*(p.value for p in parts))
+        terms = [share(p.value, value) * p.slope for p in parts] if share else []
+        return Dual(value, sum(terms[1:], terms[0]))
 
     def exp(a: Dual) -> Dual:
         value = base["exp"](a.value)
@@ -65,14 +75,12 @@ def dual_functions(base: Mapping[str, Callable[..., Any]]) -> Functions:
         return Dual(base["abs"](a.value), base["sign"](a.value) * a.slope)
 
     def minimum(a: Dual, b: Dual) -> Dual:
-        side = base["sign"](a.value - b.value) * (a.slope - b.slope)
-        return Dual(base["min"](a.value, b.value), base["half"](a.slope + b.slope - side))
+        return Dual(base["min"](a.value, b.value), pick(base["sign"](b.value - a.value), a.slope, b.slope))
 
     def maximum(a: Dual, b: Dual) -> Dual:
-        side = base["sign"](a.value - b.value) * (a.slope - b.slope)
-        return Dual(base["max"](a.value, b.value), base["half"](a.slope + b.slope + side))
+        return Dual(base["max"](a.value, b.value), pick(base["sign"](a.value - b.value), a.slope, b.slope))
 
     return {
         "sqrt": sqrt, "exp": exp, "log": log, "sin": sin, "cos": cos, "tan": tan,
-        "abs": absolute, "min": minimum, "max": maximum,
+        "abs": absolute, "min": minimum, "max": maximum, "length": length,
     }  # fmt: skip

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
@@ -10,7 +11,7 @@ from harness.oracle import balls64, reals
 from harness.oracle.balls64 import TINY, Balls, Floats
 from harness.oracle.clip import points_at
 from harness.oracle.dual import Dual, dual_functions
-from harness.oracle.program import Program, convert_constants
+from harness.oracle.program import Functions, Program, convert_constants
 
 DUAL_FUNCTIONS = dual_functions(balls64.FUNCTIONS)
 
@@ -21,8 +22,7 @@ class Enclosure:
     def __init__(self, program: Program) -> None:
         self.program = program
         with reals.precision(128):
-            mids = [float(c.mid()) for c in convert_constants(program, reals.leaf, reals.FUNCTIONS)]
-        self.constants = [Balls(m, abs(m) * 2.0**-52 + TINY) for m in mids]
+            self.constants = [_ball(c) for c in convert_constants(program, reals.leaf, reals.FUNCTIONS)]
         self.duals = [Dual(c, Balls(0.0)) for c in self.constants]
 
     def of(self, points: Sequence[Balls]) -> Balls:
@@ -34,8 +34,16 @@ class Enclosure:
         """f at o + t·d; `rays` float64[n, 6] holding float32 values, `t` float64[n]."""
         return self.of(points_at(rays, t))
 
-    def slopes(self, inputs: Sequence[Dual]) -> Dual:
+    def slopes(self, inputs: Sequence[Dual], functions: Functions = DUAL_FUNCTIONS) -> Dual:
         """f and its derivative, both as balls of the inputs' shape."""
-        f: Dual = self.program.run(inputs, self.duals, DUAL_FUNCTIONS)
+        f: Dual = self.program.run(inputs, self.duals, functions)
         shape = np.shape(inputs[0].value.mid)
         return Dual(*(Balls(np.broadcast_to(b.mid, shape), np.broadcast_to(b.rad, shape)) for b in (f.value, f.slope)))
+
+
+def _ball(constant: Any) -> Balls:
+    """A constant, known as a ball of arb, as a float64 ball around it; zero is exact."""
+    if constant == 0:
+        return Balls(0.0)
+    mid = float(constant.mid())
+    return Balls(mid, (abs(mid) * 2.0**-52 + float(constant.rad().upper())) * balls64.GROW + TINY)

@@ -55,20 +55,20 @@ class FastSolver:
         self.domain = domain
         radical, factors = repeated_factors(expr)
         program = compile_expression(radical)
-        self.f = Enclosure(program)
-        self.floats = FloatFunction(program, [c.mid for c in self.f.constants])
-        self.factors = [(Enclosure(compile_expression(factor)), multiplicity) for factor, multiplicity in factors]
+        self.f = Enclosure(compile_expression(radical, lengths=True))
+        self.floats = FloatFunction(program, [c.mid for c in Enclosure(program).constants])
+        self.factors = [(Enclosure(compile_expression(factor, lengths=True)), multiplicity) for factor, multiplicity in factors]
         small = program.is_polynomial and program.degree <= MOST_DEGREE
         self.isolate = (BernsteinIsolator if small else RangeIsolator)(self.f)
 
-    def first_hits(self, rays: Floats) -> FastAnswers:
+    def first_hits(self, rays: Floats, t_min: float) -> FastAnswers:
         """`rays`: float64[n, 6] holding float32 values."""
-        blocks = [self._block(rays[k : k + BLOCK]) for k in range(0, max(len(rays), 1), BLOCK)]
+        blocks = [self._block(rays[k : k + BLOCK], t_min) for k in range(0, max(len(rays), 1), BLOCK)]
         return FastAnswers(*(np.concatenate([getattr(b, f) for b in blocks]) for f in FastAnswers.__annotations__))
 
-    def _block(self, rays: Floats) -> FastAnswers:
+    def _block(self, rays: Floats, t_min: float) -> FastAnswers:
         with np.errstate(all="ignore"):
-            clip = clip_many(self.domain, rays)
+            clip = clip_many(self.domain, rays, t_min)
             status = np.full(len(rays), TruthStatus.MISS, dtype=np.uint8)
             lower, upper = np.full(len(rays), np.nan), np.full(len(rays), np.nan)
             decided = clip.missed.copy()
@@ -105,14 +105,15 @@ class FastSolver:
     def _parity(self, rays: Floats, lower: Floats, upper: Floats) -> tuple[Mask, Mask]:
         """Whether the root's multiplicity in f itself is odd, and whether that is proved.
 
-        The interval holds one root of the radical, a simple one: exactly one factor vanishes there, and changes sign.
+        The interval holds one root of the radical, so no factor has another one there: those that vanish change sign,
+        and f does so if their multiplicities add up to an odd number.
         """
-        odd = np.ones(len(rays), dtype=bool)
+        odd = np.full(len(rays), not self.factors)
         proved = np.isfinite(lower)
         for factor, multiplicity in self.factors:
             change = factor.along(rays, lower).sign * factor.along(rays, upper).sign
             proved &= change != 0
-            odd &= (change > 0) | (multiplicity % 2 == 1)
+            odd ^= (change < 0) & (multiplicity % 2 == 1)
         return odd, proved
 
     def _guess(self, rays: Floats, segments: Segments) -> Floats:

@@ -10,9 +10,16 @@ from harness.oracle.balls64 import Floats
 from harness.oracle.dual import Dual, dual_functions
 from harness.oracle.program import Functions, Program
 
+
+def _ratio(slope: Any, root: Any) -> Any:
+    """The slope over the root of what is constant is 0, even where the root is."""
+    return np.where(slope == 0.0, 0.0, slope / root)
+
+
 FUNCTIONS: Functions = {
     "sqrt": np.sqrt, "exp": np.exp, "log": np.log, "sin": np.sin, "cos": np.cos, "tan": np.tan,
     "abs": np.abs, "min": np.minimum, "max": np.maximum, "sign": np.sign, "half": lambda a: 0.5 * a,
+    "ratio": _ratio,
 }  # fmt: skip
 NEWTON_STEPS = 9
 MOST_DEGREE = 32

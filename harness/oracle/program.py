@@ -59,6 +59,10 @@ class Program:
 
     def run(self, inputs: Sequence[Any], constants: Sequence[Any], functions: Functions) -> Any:
         """f at `inputs` (x, y, z) in their own number system, `constants` already converted to it."""
+        return self.results(inputs, constants, functions)[-1]
+
+    def results(self, inputs: Sequence[Any], constants: Sequence[Any], functions: Functions) -> list[Any]:
+        """What each instruction gives; the last result is f."""
         results: list[Any] = []
         for i in self.instructions:
             a = [results[k] for k in i.args]
@@ -80,14 +84,15 @@ class Program:
                 case name:
                     value = functions[name](*a)
             results.append(value)
-        return results[-1]
+        return results
 
 
 class _Compiler:
     """Post-order walk over a sympy tree; equal subtrees are computed once."""
 
-    def __init__(self, fold: bool) -> None:
+    def __init__(self, fold: bool, lengths: bool) -> None:
         self.fold = fold  # keep constant subtrees whole
+        self.lengths = lengths  # the square root of a sum of squares is one instruction
         self.instructions: list[Instruction] = []
         self.constants: list[sympy.Expr] = []
         self.seen: dict[Any, int] = {}
@@ -175,6 +180,9 @@ class _Compiler:
         if exponent.is_Integer:
             return self.power_of(self.compile(base), int(exponent))
         if exponent.is_Rational and exponent.q == 2:
+            roots = _roots_of_squares(base) if self.lengths else None
+            if roots is not None:
+                return self.power_of(self.emit("length", *(self.compile(r) for r in roots)), int(exponent.p))
             return self.power_of(self.emit("sqrt", self.compile(base)), int(exponent.p))
         if base == sympy.E:
             return self.emit("exp", self.compile(exponent))
@@ -190,12 +198,32 @@ class _Compiler:
         return self.emit("mul", square, value) if exponent % 2 else square
 
 
-def compile_expression(expr: sympy.Expr, fold: bool = True) -> Program:
+def _roots_of_squares(expr: sympy.Expr) -> list[sympy.Expr] | None:
+    """[u, v, …] where `expr` is written as u² + v² + …, a positive constant being one of the squares; else None."""
+    import sympy
+
+    roots = []
+    for term in sympy.Add.make_args(expr):
+        root = sympy.S.One
+        for factor in sympy.Mul.make_args(term):
+            base, exponent = factor.as_base_exp()
+            if factor.is_Rational and factor > 0:
+                root *= sympy.sqrt(factor)
+            elif exponent.is_Integer and exponent > 0 and exponent % 2 == 0 and base.free_symbols:
+                root *= base ** (exponent / 2)
+            else:
+                return None
+        roots.append(root)
+    return roots
+
+
+def compile_expression(expr: sympy.Expr, fold: bool = True, lengths: bool = False) -> Program:
     """The program of `expr` in symbols named x, y, z; `fold` keeps constant subtrees as one constant each.
 
-    A FirsthitError where `expr` uses a function the oracle does not know.
+    With `lengths`, √(u² + v² + …) is one instruction `length` of u, v, …, of which number systems of ranges know more
+    than of a root: its slope stays bounded. A FirsthitError where `expr` uses a function the oracle does not know.
     """
-    compiler = _Compiler(fold)
+    compiler = _Compiler(fold, lengths)
     last = compiler.compile(expr)
     if last != len(compiler.instructions) - 1:  # a result met earlier, such as f = -(-x)
         raise AssertionError("the last instruction must be the result")
@@ -206,6 +234,7 @@ def repeated_factors(expr: sympy.Expr) -> tuple[sympy.Expr, list[tuple[sympy.Exp
     """The radical of `expr` as it is written, and its factors with their multiplicities if one is repeated.
 
     (x − 1)^2·y gives (x − 1)·y and [(x − 1, 2), (y, 1)]; an expression without repeated factors gives itself and [].
+    |u| has the roots of u, and like u² it never changes sign: it counts as u twice.
     """
     import sympy
 
@@ -214,7 +243,10 @@ def repeated_factors(expr: sympy.Expr) -> tuple[sympy.Expr, list[tuple[sympy.Exp
         base, exponent = factor.as_base_exp()
         repeated = exponent.is_Integer and exponent > 1
         if factor.free_symbols:
-            factors.append((base, int(exponent)) if repeated else (factor, 1))
+            base, multiplicity = (base, int(exponent)) if repeated else (factor, 1)
+            if isinstance(base, sympy.Abs):
+                base, multiplicity = base.args[0], 2
+            factors.append((base, multiplicity))
     if all(multiplicity == 1 for _, multiplicity in factors):
         return expr, []
     return sympy.Mul(*(factor for factor, _ in factors)), factors

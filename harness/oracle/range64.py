@@ -7,9 +7,13 @@ signs at the ends. Where f is not defined the ranges are NaN, which proves nothi
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
+from harness.oracle import balls64
 from harness.oracle.balls64 import GROW, TINY, Balls, Floats
+from harness.oracle.branches import Branch
 from harness.oracle.clip import points_at
 from harness.oracle.dual import Dual
 from harness.oracle.enclosure import Enclosure
@@ -23,6 +27,7 @@ class RangeIsolator:
 
     def __init__(self, f: Enclosure) -> None:
         self.f = f
+        self.kinks = any(i.name in ("abs", "min", "max", "length") for i in f.program.instructions)
 
     def __call__(self, rays: Floats, lower: Floats, upper: Floats) -> Segments:
         """The first segment of each ray between t = `lower` and `upper`, float64[n], finite."""
@@ -40,7 +45,7 @@ class RangeIsolator:
             for k, p in enumerate(centers)
         ]
         whole = self.f.slopes(inputs)
-        slope = whole.slope
+        slope = self._narrowed(whole, inputs)
         mean_value = self.f.of(centers) + slope * Balls(0.0, half)
         empty = whole.value.excludes_zero | mean_value.excludes_zero
         single = np.zeros_like(empty)
@@ -51,6 +56,24 @@ class RangeIsolator:
         single[monotone] = first * last == -1
         empty[monotone] |= first * last == 1
         return Verdict(empty, single, rising, (middle <= pieces.lower) | (middle >= pieces.upper))
+
+
+    def _narrowed(self, whole: Dual, inputs: list[Dual]) -> Balls:
+        """The slope of f on pieces, from both sides of a kink where all kinks mixed do not tell its sign."""
+        open_ = np.flatnonzero(~whole.value.excludes_zero & ~whole.slope.excludes_zero) if self.kinks else np.empty(0)
+        if not len(open_):
+            return whole.slope
+        some = [Dual(_rows(i.value, open_), _rows(i.slope, open_)) for i in inputs]
+        sides = [self.f.slopes(some, Branch(side, open_.shape).functions()).slope for side in (1, -1)]
+        lower, upper = np.minimum(sides[0].lower, sides[1].lower), np.maximum(sides[0].upper, sides[1].upper)
+        both = balls64.hull(lower, upper)
+        mid, rad = whole.slope.mid.copy(), whole.slope.rad.copy()
+        mid[open_], rad[open_] = both.mid, both.rad
+        return Balls(mid, rad)
+
+
+def _rows(balls: Balls, rows: Any) -> Balls:
+    return Balls(balls.mid[rows], balls.rad[rows] if np.ndim(balls.rad) else balls.rad)
 
 
 def _halve(pieces: Pieces) -> Pieces:

@@ -47,8 +47,18 @@ def leaf(expr: sympy.Expr) -> Any:
     raise FirsthitError(f"the oracle does not know the constant {expr}")
 
 
+def root(ball: Any) -> Any:
+    """Of the members that have a root; NaN where `ball` has none."""
+    return arb.sqrt(ball.nonnegative_part() if ball.contains(0) else ball)
+
+
+def length(*parts: Any) -> Any:
+    """The square root of the sum of squares."""
+    return root(sum(part * part for part in parts))
+
+
 FUNCTIONS: Functions = {
-    "sqrt": arb.sqrt, "exp": arb.exp, "log": arb.log, "sin": arb.sin, "cos": arb.cos, "tan": arb.tan,
+    "sqrt": root, "length": length, "exp": arb.exp, "log": arb.log, "sin": arb.sin, "cos": arb.cos, "tan": arb.tan,
     "abs": abs, "min": arb.min, "max": arb.max,
 }  # fmt: skip
 

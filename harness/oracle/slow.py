@@ -32,8 +32,9 @@ class FirstHit:
     upper: float = nan
 
 
-def certified_hit(status: TruthStatus, t: Any) -> FirstHit:
-    return FirstHit(status, max(float_below(t), 0.0), float_above(t))  # no hit lies before the origin
+def certified_hit(status: TruthStatus, t: Any, t_min: float) -> FirstHit:
+    """A hit at a t inside the ball `t`, which is never before `t_min`."""
+    return FirstHit(status, max(float_below(t), t_min), float_above(t))
 
 
 MISS = FirstHit(TruthStatus.MISS)
@@ -55,10 +56,10 @@ class AlgebraicSolver:
         except surd.NotExact:
             self.surds = None
 
-    def first_hit(self, ray: Sequence[float]) -> FirstHit:
-        """`ray`: six floats, taken as the exact rationals they are."""
+    def first_hit(self, ray: Sequence[float], t_min: float = 0.0) -> FirstHit:
+        """`ray`: six floats, like `t_min` taken as the exact rationals they are."""
         exact_ray = [rational(v) for v in ray]
-        ends = clip_exactly(self.domain, exact_ray)
+        ends = clip_exactly(self.domain, exact_ray, t_min)
         if ends is None:
             return MISS
         reach = self.domain.radius / hypot(*ray[3:])
@@ -66,15 +67,17 @@ class AlgebraicSolver:
         for bits in PRECISIONS[:1] if exact else PRECISIONS:
             try:
                 with precision(bits):
-                    return self._by_balls(ray, ends, reach, bits)
+                    return self._by_balls(ray, ends, reach, bits, t_min)
             except Undecidable:
                 continue
         try:
-            return self._exactly(exact_ray, ends, reach) if exact else UNDECIDED
+            return self._exactly(exact_ray, ends, reach, t_min) if exact else UNDECIDED
         except Undecidable:
             return UNDECIDED
 
-    def _by_balls(self, ray: Sequence[float], ends: tuple[End, End], reach: float, bits: int) -> FirstHit:
+    def _by_balls(
+        self, ray: Sequence[float], ends: tuple[End, End], reach: float, bits: int, t_min: float
+    ) -> FirstHit:
         """Raises Undecidable; `reach` is the domain's radius in units of t."""
         if bits not in self.constants:
             self.constants[bits] = convert_constants(self.program, reals.leaf, reals.FUNCTIONS)
@@ -89,12 +92,12 @@ class AlgebraicSolver:
             if t > leave:
                 return MISS
             if t >= enter and t <= leave:
-                return certified_hit(TruthStatus.CROSSING, t)
+                return certified_hit(TruthStatus.CROSSING, t, t_min)
             if not t < enter:
                 raise Undecidable("a root may lie at an end")
         return MISS
 
-    def _exactly(self, ray: Sequence[Any], ends: tuple[End, End], reach: float) -> FirstHit:
+    def _exactly(self, ray: Sequence[Any], ends: tuple[End, End], reach: float, t_min: float) -> FirstHit:
         """No rounding but in comparing roots with irrational clip ends, which are told apart or proved equal."""
         inputs = [surd.Surd(fmpq_poly([o, d])) for o, d in zip(ray[:3], ray[3:], strict=True)]
         assert self.surds is not None
@@ -102,7 +105,7 @@ class AlgebraicSolver:
         if p.is_zero:
             with precision(FIRST_PRECISION):
                 enter = ends[0].ball()
-                return certified_hit(TruthStatus.TOUCH, enter)
+                return certified_hit(TruthStatus.TOUCH, enter, t_min)
         parts = surd.split(p)
         with precision(FIRST_PRECISION):
             start, width = _frame(ends[0].ball(), ends[1].ball(), reach)
@@ -122,7 +125,7 @@ class AlgebraicSolver:
             if side > 0:
                 return MISS
             if side == 0:
-                return certified_hit(TruthStatus.CROSSING if multiplicity % 2 else TruthStatus.TOUCH, t)
+                return certified_hit(TruthStatus.CROSSING if multiplicity % 2 else TruthStatus.TOUCH, t, t_min)
         return MISS
 
 

@@ -1,15 +1,16 @@
-"""The first hit of one ray with a surface that is not a polynomial: bisection and interval Newton in ball arithmetic.
+"""The first hit of one ray with a surface that is not a polynomial: ranges in ball arithmetic, then exact arithmetic.
 
-Crossings and misses are proved as in `range64`, with rising precision. A touch of such a surface cannot be proved by
-ranges, nor can a root that lies exactly at a clip end: those rays stay undecided.
+Crossings and misses are proved as in `range64`, with rising precision. Touches, roots at kinks and at zeros of a root's
+argument, and roots exactly at a clip end are decided by `piecewise`, on the short pieces that ranges leave open, if f is
+made of polynomials, quotients, roots, abs, min and max; with other functions, or pi and e, such rays stay undecided.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import ldexp, sqrt
-from typing import Any
+from math import hypot, ldexp
+from typing import TYPE_CHECKING, Any
 
 from flint import arb
 
@@ -18,33 +19,48 @@ from harness.oracle import reals
 from harness.oracle.bernstein import Undecidable
 from harness.oracle.clip import End, clip_exactly
 from harness.oracle.dual import Dual, dual_functions
-from harness.oracle.program import Program, convert_constants
+from harness.oracle.piecewise import PiecewiseSolver, exact_program
+from harness.oracle.program import Program, compile_expression, convert_constants
 from harness.oracle.reals import float_above, float_below, precision, rational
 from harness.oracle.slow import MISS, UNDECIDED, FirstHit, certified_hit
 
+if TYPE_CHECKING:
+    import sympy
+
 PRECISIONS = (80, 256)
+OPEN = 2.0**-28  # width of pieces, in domain radii, that exact arithmetic decides if ranges have not
 MOST_PIECES = 3000  # looked at for one ray and precision
 NARROW = 2.0**-50  # width of certified intervals, in domain radii
 
 
-@dataclass(frozen=True)
+@dataclass
 class SmoothSolver:
-    """First hits of single rays."""
+    """First hits of single rays with the surface `expr` = 0."""
 
-    program: Program
+    expr: sympy.Expr
     domain: Domain
 
-    def first_hit(self, ray: Sequence[float]) -> FirstHit:
-        """`ray`: six floats, taken as the exact rationals they are."""
-        ends = clip_exactly(self.domain, [rational(v) for v in ray])
+    def __post_init__(self) -> None:
+        self.program = compile_expression(self.expr, lengths=True)
+        self.exact = exact_program(self.expr)
+        self.constants: dict[int, list[Any]] = {}
+
+    def first_hit(self, ray: Sequence[float], t_min: float = 0.0) -> FirstHit:
+        """`ray`: six floats, like `t_min` taken as the exact rationals they are."""
+        exact_ray = [rational(v) for v in ray]
+        ends = clip_exactly(self.domain, exact_ray, t_min)
         if ends is None:
             return MISS
-        for bits in PRECISIONS:
+        scale = self.domain.radius / hypot(*ray[3:])
+        exact = PiecewiseSolver(self.exact, exact_ray, ends, t_min) if self.exact else None
+        for bits in PRECISIONS[:1] if exact else PRECISIONS:
             try:
                 with precision(bits):
-                    constants = convert_constants(self.program, reals.leaf, reals.FUNCTIONS)
-                    scale = self.domain.radius / sqrt(sum(v * v for v in ray[3:]))
-                    return _Search(self.program, constants, ray, scale).first_hit(ends, ldexp(scale, -bits // 2))
+                    if bits not in self.constants:
+                        self.constants[bits] = convert_constants(self.program, reals.leaf, reals.FUNCTIONS)
+                    search = _Search(self.program, self.constants[bits], ray, scale, t_min)
+                    floor = scale * OPEN if exact else ldexp(scale, -bits // 2)
+                    return search.first_hit(ends, floor, exact)
             except Undecidable:
                 continue
         return UNDECIDED
@@ -53,12 +69,15 @@ class SmoothSolver:
 class _Search:
     """One ray at one precision; `scale` is the domain's radius in units of t."""
 
-    def __init__(self, program: Program, constants: list[Any], ray: Sequence[float], scale: float) -> None:
+    def __init__(
+        self, program: Program, constants: list[Any], ray: Sequence[float], scale: float, t_min: float
+    ) -> None:
         self.program = program
         self.constants = constants
         self.duals = [Dual(c, arb(0)) for c in constants]
         self.axes = [(arb(o), arb(d)) for o, d in zip(ray[:3], ray[3:], strict=True)]
         self.scale = scale
+        self.t_min = t_min
 
     def value(self, t: Any) -> Any:
         return self.program.run([o + d * t for o, d in self.axes], self.constants, reals.FUNCTIONS)
@@ -68,8 +87,11 @@ class _Search:
         result: Dual = self.program.run(inputs, self.duals, DUAL_FUNCTIONS)
         return result
 
-    def first_hit(self, ends: tuple[End, End], floor: float) -> FirstHit:
-        """Pieces from front to back; Undecidable where one stays open below the width `floor`."""
+    def first_hit(self, ends: tuple[End, End], floor: float, exact: PiecewiseSolver | None) -> FirstHit:
+        """Pieces from front to back; one that stays open below the width `floor` is left to `exact`.
+
+        Raises Undecidable without it.
+        """
         enter, leave = (end.ball() for end in ends)
         room = self.scale * 2.0**-20 + abs(float(leave)) * 2.0**-40
         stack = [(arb(float_below(enter) - room), arb(float_above(leave) + room))]
@@ -80,18 +102,25 @@ class _Search:
             if upper < enter or lower > leave or self.is_empty(lower, upper):
                 continue
             root = self.single_root(lower, upper)
-            if root is None:
-                if upper - lower < floor:
-                    raise Undecidable("a piece stays open")
+            if root is None and not upper - lower < floor:
                 middle = (lower + (upper - lower) * 0.484375).mid()
                 stack += [(middle, upper), (lower, middle)]
-            elif root > leave:
+            elif root is not None and root > leave:
                 return MISS
-            elif root >= enter and root <= leave:
-                return certified_hit(TruthStatus.CROSSING, root)
-            elif not root < enter:
-                raise Undecidable("a root may lie at an end")
+            elif root is not None and root >= enter and root <= leave:
+                return certified_hit(TruthStatus.CROSSING, root, self.t_min)
+            elif root is None or not root < enter:
+                found = self.decide(exact, lower, upper)
+                if found:
+                    return found
+        if exact and stack:
+            return self.decide(exact, stack[-1][0], stack[0][1]) or MISS
         raise Undecidable("too many pieces")
+
+    def decide(self, exact: PiecewiseSolver | None, lower: Any, upper: Any) -> FirstHit | None:
+        if exact is None:
+            raise Undecidable("a piece stays open, or a root may lie at an end")
+        return exact.first_hit(lower.fmpq(), upper.fmpq(), self.scale * NARROW)
 
     def is_empty(self, lower: Any, upper: Any) -> bool:
         whole = lower.union(upper)
@@ -130,4 +159,20 @@ def _sign(a: Any) -> Any:
     return arb(1) if a > 0 else arb(-1) if a < 0 else arb(0, 1)
 
 
-DUAL_FUNCTIONS = dual_functions({**reals.FUNCTIONS, "sign": _sign, "half": lambda a: a / 2})
+def _pick(sign: Any, a: Any, b: Any) -> Any:
+    return a if sign == 1 else b if sign == -1 else a.union(b)
+
+
+def _ratio(slope: Any, root: Any) -> Any:
+    return slope if slope == 0 else slope / root
+
+
+def _share(part: Any, whole: Any) -> Any:
+    """part / whole, of which |part| <= whole is known."""
+    share = part / whole
+    return share if abs(share) <= 1 else arb(0, 1)
+
+
+DUAL_FUNCTIONS = dual_functions(
+    {**reals.FUNCTIONS, "sign": _sign, "half": lambda a: a / 2, "pick": _pick, "ratio": _ratio, "share": _share}
+)

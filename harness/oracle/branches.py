@@ -1,0 +1,102 @@
+"""Ranges of f and its slope on pieces of rays, for each side of the first kink that a piece leaves open.
+
+**Theory.** Where the sign of one kink's argument u is open on a piece, f is one smooth function where u >= 0 and another
+where u <= 0. Almost everywhere its slope is that of one of the two, so a range that holds both slopes proves f monotone
+(f is absolutely continuous where its ranges are finite). Taken apart, the two are much narrower than the slopes of all
+kinks mixed: in √(max(u, 0)²) + min(u, 0) every kink is of the same u, and the slope is u' on either side.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from harness.oracle import balls64
+from harness.oracle.balls64 import Balls
+from harness.oracle.dual import Dual, dual_functions
+from harness.oracle.program import Functions
+
+
+def _is_zero(a: Dual) -> Any:
+    return (np.asarray(a.value.mid) == 0.0) & (np.asarray(a.value.rad) == 0.0)
+
+
+def _where(first: Any, a: Balls, b: Balls) -> Balls:
+    return Balls(np.where(first, a.mid, b.mid), np.where(first, a.rad, b.rad))
+
+
+def _signs(side: Any) -> Balls:
+    return Balls(np.asarray(side, np.float64), np.where(side == 0, 1.0, 0.0))
+
+
+class Branch:
+    """The functions of one run over a program; each piece's first open kink is taken to lie on `side` (1 or −1)."""
+
+    def __init__(self, side: int, shape: tuple[int, ...]) -> None:
+        self.side = side
+        self.free = np.ones(shape, dtype=bool)  # pieces that have met no open kink yet
+        self.known: dict[int, Any] = {}  # by the identity of a run's results: 1 where one is >= 0, −1 where <= 0, else 0
+
+    def functions(self) -> Functions:
+        smooth = dual_functions(balls64.FUNCTIONS)
+        return {**smooth, "abs": self.absolute, "min": self.minimum, "max": self.maximum, "length": self.length}
+
+    def of(self, a: Dual) -> Any:
+        """What is known of the sign of `a`."""
+        sign = np.broadcast_to(a.value.sign, self.free.shape)
+        return np.where(sign != 0, sign, self.known[id(a)]) if id(a) in self.known else sign
+
+    def settled(self, side: Any) -> Any:
+        """`side`, and this run's own in pieces whose first open kink this is."""
+        side = np.broadcast_to(side, self.free.shape)
+        first = (side == 0) & self.free
+        self.free &= ~first
+        return np.where(first, self.side, side)
+
+    def settle(self, a: Dual) -> Any:
+        """The sign of `a`, chosen if need be and remembered."""
+        self.known[id(a)] = self.settled(self.of(a))
+        return self.known[id(a)]
+
+    def absolute(self, a: Dual) -> Dual:
+        side = self.settle(a)
+        result = Dual(balls64.absolute(a.value), balls64.pick(_signs(side), a.slope, -a.slope))
+        self.known[id(result)] = np.ones_like(side)
+        return result
+
+    def minimum(self, a: Dual, b: Dual) -> Dual:
+        return self.extreme(a, b, 1)
+
+    def maximum(self, a: Dual, b: Dual) -> Dual:
+        return self.extreme(a, b, -1)
+
+    def extreme(self, a: Dual, b: Dual, order: int) -> Dual:
+        """The minimum (`order` 1) or maximum (−1)."""
+        if _is_zero(b).all():
+            ahead = -order * self.settle(a)
+        elif _is_zero(a).all():
+            ahead = order * self.settle(b)
+        else:
+            ahead = self.settled((b.value - a.value).sign * order)
+        value = balls64.minimum(a.value, b.value) if order > 0 else balls64.maximum(a.value, b.value)
+        value = _where(ahead > 0, a.value, _where(ahead < 0, b.value, value))
+        result = Dual(value, balls64.pick(_signs(ahead), a.slope, b.slope))
+        self.known[id(result)] = np.where(ahead > 0, self.of(a), np.where(ahead < 0, self.of(b), 0))
+        return result
+
+    def length(self, *parts: Dual) -> Dual:
+        """√(u² + v² + …), which is |u| where everything else is 0."""
+        whole: Dual = _LENGTH(*parts)
+        value, slope = whole.value, whole.slope
+        zero = [np.broadcast_to(_is_zero(p), self.free.shape) for p in parts]
+        for k, part in enumerate(parts):
+            alone = np.ones(self.free.shape, dtype=bool)
+            for others in zero[:k] + zero[k + 1 :]:
+                alone &= others
+            signed = balls64.pick(_signs(self.of(part)), part.slope, -part.slope)
+            value, slope = _where(alone, balls64.absolute(part.value), value), _where(alone, signed, slope)
+        return Dual(value, slope)
+
+
+_LENGTH = dual_functions(balls64.FUNCTIONS)["length"]

@@ -1,0 +1,264 @@
+"""First hits decided exactly on short pieces of a ray: for what is made of polynomials, quotients, roots and kinks.
+
+**Theory.** A piece is cut into cells at every number where a kink's argument, a root's argument or f may be 0: roots of
+rational polynomials (`tower`). Inside a cell every kink is on one side, f is one element of a tower and has one sign or
+is 0 all over. What is left are the ends of cells: f is 0 there if it changes sign or is 0 beside it, and otherwise one
+exact question at one algebraic number. Kinks that balls decide on the whole cell are cut nowhere, so a cell meets few.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from flint import arb, fmpq, fmpq_poly
+from flint.utils.flint_exceptions import DomainError
+
+from harness.contract import TruthStatus
+from harness.oracle import reals
+from harness.oracle.bernstein import Undecidable
+from harness.oracle.clip import End
+from harness.oracle.points import Point, end_point, rational_point, roots_between
+from harness.oracle.program import POLYNOMIAL, Program, compile_expression
+from harness.oracle.reals import precision
+from harness.oracle.slow import FirstHit, certified_hit
+from harness.oracle.tower import Element, Tower, add, constant, neg
+
+if TYPE_CHECKING:
+    import sympy
+
+EXACT = POLYNOMIAL | {"div", "sqrt", "abs", "min", "max"}
+FIRST_PRECISION = 128  # bits of the balls that decide most kinks
+MOST_CELLS = 200
+ONE = constant(1)
+
+
+class _Cut(Exception):
+    """The cell holds `roots` of something that must not vanish inside a cell."""
+
+    def __init__(self, roots: list[Point]) -> None:
+        super().__init__()
+        self.roots = roots
+
+
+class _Undefined(Undecidable):
+    """f has no value in the cell."""
+
+
+def exact_program(expr: sympy.Expr) -> Program | None:
+    """The program of `expr` that `PiecewiseSolver` runs; None where it holds other functions or constants."""
+    program = compile_expression(expr, fold=False)
+    known = all(i.name in EXACT for i in program.instructions) and all(map(_is_exact, program.constants))
+    return program if known else None
+
+
+def _is_exact(leaf: sympy.Expr) -> bool:
+    import sympy
+
+    return bool(leaf.is_Rational or leaf == sympy.GoldenRatio)
+
+
+@dataclass
+class _Cell:
+    """An open interval between two points; `sign` of f inside, None where f has no value."""
+
+    first: Point
+    last: Point
+    tower: Tower
+    f: Element
+    sign: int | None
+
+
+class PiecewiseSolver:
+    """Pieces of one ray, given as six fmpq."""
+
+    def __init__(self, program: Program, ray: Sequence[Any], ends: tuple[End, End], t_min: float) -> None:
+        self.program = program
+        self.ray = ray
+        self.t_min = t_min
+        self.enter, self.leave = (end_point(end) for end in ends)
+
+    def first_hit(self, lower: Any, upper: Any, width: float) -> FirstHit | None:
+        """The first root in the clip interval and in [lower, upper], as far as it has one; None without.
+
+        `lower` and `upper` are fmpq; no root lies in the clip interval before `lower`, and none beyond `upper` is asked
+        for, though one that is near may be found. `width` is that of the certified interval, in units of t. Raises
+        Undecidable.
+        """
+        room = (upper - lower) / 7
+        cells = self.cells(rational_point(lower - room), rational_point(upper + room))
+        for k, cell in enumerate(cells):
+            if cell.sign == 0 and cell.first.compare(self.leave) <= 0 and cell.last.compare(self.enter) >= 0:
+                start = cell.first if cell.first.compare(self.enter) > 0 else self.enter
+                return self.hit(TruthStatus.TOUCH, start, width)
+            following = cells[k + 1] if k + 1 < len(cells) else None
+            if following and self.vanishes_between(cell, following):
+                if cell.last.compare(self.leave) > 0:
+                    return None
+                if cell.last.compare(self.enter) >= 0:
+                    crosses = cell.sign and following.sign and cell.sign != following.sign
+                    return self.hit(TruthStatus.CROSSING if crosses else TruthStatus.TOUCH, cell.last, width)
+        return None
+
+    def hit(self, status: TruthStatus, t: Point, width: float) -> FirstHit:
+        t.refine(fmpq(*width.as_integer_ratio()))
+        with precision(FIRST_PRECISION):
+            return certified_hit(status, t.ball(), self.t_min)
+
+    @staticmethod
+    def vanishes_between(cell: _Cell, following: _Cell) -> bool:
+        if cell.sign is None and following.sign is None:
+            return False
+        if cell.sign is None or following.sign is None:
+            known = following if cell.sign is None else cell
+            return known.sign == 0 or known.tower.vanishes_at(known.f, cell.last)
+        return cell.sign * following.sign <= 0 or cell.tower.vanishes_at(cell.f, cell.last)
+
+    def cells(self, first: Point, last: Point) -> list[_Cell]:
+        """Cells from `first` to `last`; those that lie outside the clip interval may be without a value of f."""
+        inside = [p for p in (self.enter, self.leave) if p.compare(first) > 0 and p.compare(last) < 0]
+        if len(inside) == 2 and not inside[0].compare(inside[1]):
+            inside.pop()
+        points = [first, *inside, last]
+        stack = list(zip(points[:-1], points[1:], strict=True))[::-1]
+        result = []
+        for _ in range(MOST_CELLS):
+            if not stack:
+                return result
+            first, last = stack.pop()
+            try:
+                result.append(self.cell(first, last))
+            except _Cut as cut:
+                points = [first, *cut.roots, last]
+                stack += list(zip(points[:-1], points[1:], strict=True))[::-1]
+            except _Undefined:
+                if last.compare(self.enter) > 0 and first.compare(self.leave) < 0:
+                    raise
+                result.append(_Cell(first, last, Tower(first, last), {}, None))
+        raise Undecidable("too many cells")
+
+    def cell(self, first: Point, last: Point) -> _Cell:
+        """Raises _Cut where it must be cut first."""
+        run = _Run(self.program, self.ray, first, last)
+        f = run.numerator(run.results()[-1])
+        return _Cell(first, last, run.tower, f, run.sign(f))
+
+
+Quotient = tuple[Element, Element]
+
+
+class _Run:
+    """The program on one cell, in quotients of a tower's elements."""
+
+    def __init__(self, program: Program, ray: Sequence[Any], first: Point, last: Point) -> None:
+        self.program = program
+        self.tower = Tower(first, last)
+        self.inputs = [fmpq_poly([o, d]) for o, d in zip(ray[:3], ray[3:], strict=True)]
+        with precision(FIRST_PRECISION):
+            whole = first.ball().union(last.ball())
+            self.inputs_balls = [arb(o) + arb(d) * whole for o, d in zip(ray[:3], ray[3:], strict=True)]
+            constants = [reals.leaf(c) for c in program.constants]
+            self.balls = program.results(self.inputs_balls, constants, reals.FUNCTIONS)
+
+    def results(self) -> list[Quotient]:
+        values: list[Quotient] = []
+        for k, i in enumerate(self.program.instructions):
+            values.append(self.value(k, i.name, i.index, [values[a] for a in i.args], i.args))
+        return values
+
+    def value(self, k: int, name: str, index: int, a: list[Quotient], at: tuple[int, ...]) -> Quotient:
+        mul = self.tower.mul
+        match name:
+            case "input":
+                p = self.inputs[index]
+                return ({0: p} if p else {}), ONE
+            case "constant":
+                return self.leaf(self.program.constants[index]), ONE
+            case "neg":
+                return neg(a[0][0]), a[0][1]
+            case "add":
+                return self.sum(a[0], a[1])
+            case "sub":
+                return self.sum(a[0], (neg(a[1][0]), a[1][1]))
+            case "mul":
+                return mul(a[0][0], a[1][0]), mul(a[0][1], a[1][1])
+            case "div":
+                return mul(a[0][0], a[1][1]), mul(a[0][1], a[1][0])
+            case "sqrt":
+                return self.sqrt(a[0], self.balls[at[0]])
+            case "abs":
+                return a[0] if self.kink(a[0], self.balls[at[0]]) >= 0 else (neg(a[0][0]), a[0][1])
+        with precision(FIRST_PRECISION):
+            gap = self.balls[at[0]] - self.balls[at[1]]
+        ahead = self.kink(self.sum(a[0], (neg(a[1][0]), a[1][1])), gap)
+        return a[0] if (ahead <= 0) == (name == "min") else a[1]
+
+    def sum(self, a: Quotient, b: Quotient) -> Quotient:
+        if a[1] == b[1]:
+            return add(a[0], b[0]), a[1]
+        mul = self.tower.mul
+        return add(mul(a[0], b[1]), mul(b[0], a[1])), mul(a[1], b[1])
+
+    def leaf(self, expr: sympy.Expr) -> Element:
+        if expr.is_Rational:
+            return constant(fmpq(int(expr.p), int(expr.q)))
+        root = self.tower.radical(constant(5))  # the golden ratio
+        return add(constant(fmpq(1, 2)), self.tower.mul(constant(fmpq(1, 2)), root))
+
+    def numerator(self, a: Quotient) -> Element:
+        """An element of the sign of `a`."""
+        return a[0] if a[1] == ONE else self.tower.mul(a[0], a[1])
+
+    def kink(self, a: Quotient, ball: Any) -> int:
+        """The sign of `a` on the cell: 0 where it is 0 all over; cuts the cell where it changes."""
+        if not ball.contains(0):
+            return 1 if ball > 0 else -1
+        return self.sign(self.numerator(a))
+
+    def sign(self, x: Element) -> int:
+        p = self.tower.zeros(x)
+        if p is None:
+            return 0
+        roots = roots_between(p, self.tower.first, self.tower.last)
+        if roots:
+            raise _Cut(roots)
+        return self.tower.sign(x)
+
+    def sqrt(self, a: Quotient, ball: Any) -> Quotient:
+        sign = self.kink(a, ball)
+        if sign < 0:
+            raise _Undefined("a root of what is negative")
+        if sign == 0:
+            return {}, ONE
+        below = a[1]
+        side = 1 if below == ONE else self.sign(below)
+        if not side:
+            raise _Undefined("a division by zero")
+        if side < 0:
+            below = neg(below)
+        return self.root(self.numerator(a)), below
+
+    def root(self, square: Element) -> Element:
+        """√square, of which squared factors are taken out if it is a polynomial."""
+        if max(square) > 0:
+            return self.tower.radical(square)
+        p = square[0]
+        content, factors = p.numer().factor_squarefree()
+        outer, inner = fmpq_poly([1]), fmpq_poly([fmpq(int(content), 1) / p.denom()])
+        for factor, multiplicity in factors:
+            outer *= fmpq_poly(factor) ** (multiplicity // 2)
+            inner *= fmpq_poly(factor) ** (multiplicity % 2)
+        if outer.degree() > 0 and self.sign({0: outer}) < 0:
+            outer = -outer
+        return self.tower.mul({0: outer}, _constant_root(inner) or self.tower.radical({0: inner}))
+
+
+def _constant_root(p: Any) -> Element | None:
+    """√p where that is rational."""
+    if p.degree() > 0:
+        return None
+    try:
+        return constant(p[0].sqrt())
+    except DomainError:
+        return None
