@@ -257,6 +257,7 @@ class Program:
     entry: str  # "rays", "camera", "beams", "map", "raster", "mesh" or "fill"
     sections: tuple[Section, ...]
     vertex: tuple[Section, ...] = ()
+    optimised: bool = True  # False: built without optimisation, to hold against the other; only OpenCL compilers can
 
     @property
     def text(self) -> str:
@@ -265,7 +266,7 @@ class Program:
     @property
     def hash(self) -> str:
         texts = [*(s.text for s in self.sections), *(["vertex"] if self.vertex else []), *(s.text for s in self.vertex)]
-        return digest(self.language, self.precision, self.entry, *texts)
+        return digest(self.language, self.precision, self.entry, *texts, *([] if self.optimised else ["unoptimised"]))
 
     def locate(self, line: int) -> tuple[str, int]:
         """Section origin and line within it for a 1-based line of `text`."""

@@ -12,15 +12,17 @@ import uuid
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
 from datetime import UTC, datetime
+from functools import partial
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from harness import accuracy, beams, measure, rastercheck, stability
+from harness import accuracy, beams, compilercheck, measure, rastercheck, stability
+from harness.assemble import method_program
 from harness.camera import distance_of, meets, pixel_footprint, rays_of, scene_radius
 from harness.config import Config
-from harness.contract import CellStatus, FirsthitError, Surface, View
+from harness.contract import CellStatus, FirsthitError, Hits, Surface, View
 from harness.costs import operations_per_evaluation
 from harness.executor import CellError, LocalExecutor
 from harness.oracle import cached_first_hits
@@ -163,7 +165,17 @@ class Runner:
             counted = {"beam_only": int(beam_only.sum()), "evaluations_mean": mean, "evaluations_max": largest}
             state.summary |= counted
             state.arrays["level"] = checked.levels.reshape(config.size, config.size)
-        return self._too_wrong(state)
+        fault = None if casts_beams else self._compilers_fault(state, rays, hits)
+        return fault or self._too_wrong(state)
+
+    def _compilers_fault(self, state: _Live, rays: NDArray[np.float32], hits: Hits) -> str | None:
+        cell, plugin = state.planned.cell, self._catalog.get(state.planned.cell.variant.method)
+        if not plugin.method.answers:
+            return None
+        program = partial(method_program, plugin.method, plugin.folder, cell.variant, cell.surface, cell.precision)
+        run = compilercheck.with_listed_rays(self._executor, rays)
+        second = compilercheck.SecondBuild(cell.device, cell.precision, partial(program, entry="rays"), run)
+        return compilercheck.doubts_about(cell.surface, rays, hits, second).fault
 
     def _too_wrong(self, state: _Live) -> str | None:
         assert state.summary is not None

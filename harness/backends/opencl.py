@@ -26,6 +26,7 @@ SHORT = {"intel": "intel", "portable": "pocl", "nvidia": "nvidia", "amd": "amd",
 INTEL_LIBRARIES = ("libintlc.so.5", "libimf.so", "libsvml.so", "libirng.so", "libtbb.so.12")
 SYSTEM_VENDORS = Path("/etc/OpenCL/vendors")
 OPTIONS = {"float32": ["-cl-single-precision-constant"], "float64": []}
+UNOPTIMISED = ["-cl-opt-disable"]
 ROUNDED_DIVISION = "-cl-fp32-correctly-rounded-divide-sqrt"  # without it 2.5 ulp may be lost; some devices lack it
 GROUP = 64
 PROCESSOR_GROUP = (
@@ -152,10 +153,11 @@ class OpenCLDevice(Device):
     def build(self, program: Program) -> Any:
         cl = _binding()
         source = cl.Program(self._context, program.text)
+        options = [*self._options[program.precision], *([] if program.optimised else UNOPTIMISED)]
         try:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore", cl.CompilerWarning)  # drivers that greet are not in error
-                return source.build(options=self._options[program.precision]), program.entry
+                return source.build(options=options), program.entry
         except cl.Error as error:
             raise BuildError(f"{self.info.name}: {explain_log(program, str(error))}") from None
 

@@ -104,6 +104,8 @@ class OpenGLDevice(Device, Rasteriser):
     def build(self, program: Program) -> Any:
         import moderngl
 
+        if not program.optimised:
+            raise BuildError(f"{self.info.name}: OpenGL compilers cannot be told not to optimise")
         try:
             if program.vertex:
                 vertex = source(program.vertex)

@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import argparse
 import math
+import sys
 from pathlib import Path
 from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from harness.assemble import method_program
+from harness import compilercheck
+from harness.assemble import Language, method_program
 from harness.backends import LANGUAGES
-from harness.contract import PRECISIONS, CellStatus, FirsthitError, Hits, Precision, Surface, Variant
+from harness.contract import PRECISIONS, CellStatus, FirsthitError, Hits, Precision, Program, Surface, Variant
 from harness.executor import CellError, LocalExecutor, discover_devices
 from harness.plugins import Catalog, find_methods
 from harness.worker import Frame
@@ -89,7 +91,7 @@ def cast(
 
     A method that casts beams needs the `camera` that the rays are of, an image of them row by row, and answers for the
     rays' pixels. The device works in a process of its own. Raises FirsthitError where the method refuses the surface,
-    or the kernel fails, hangs or crashes.
+    the kernel fails, hangs or crashes, or the device's compiler is found at fault (harness/compilercheck.py).
     """
     from surfaces.sections import unsupported
 
@@ -108,18 +110,33 @@ def cast(
     if casts != "rays" and camera is None:
         raise FirsthitError(f"{variant} casts the beams of a camera's pixels, and listed rays have none")
     entry: Literal["rays", "beams"] = "rays" if casts == "rays" else "beams"
-    program = method_program(plugin.method, plugin.folder, variant, surface, precision, language, entry)
+
+    def program(language: Language) -> Program:
+        return method_program(plugin.method, plugin.folder, variant, surface, precision, language, entry)
+
+    def run(device: str, program: Program, index: NDArray[np.intp]) -> Hits:
+        if camera is None or casts == "rays":
+            return executor.check(device, program, rays[index]).hits
+        frame = Frame(program, camera, None, math.isqrt(len(rays)), casts)
+        return executor.check_frame(device, frame, index.astype(np.int32)).hits
+
     executor = LocalExecutor(options.timeout)
     try:
-        if camera is not None and casts != "rays":
-            frame = Frame(program, camera, None, math.isqrt(len(rays)), casts)
-            return executor.check_frame(device, frame, np.arange(len(rays), dtype=np.int32)).hits
-        return executor.check(device, program, rays).hits
+        hits = run(device, program(language), np.arange(len(rays)))
+        if not plugin.method.answers:
+            return hits
+        second = compilercheck.SecondBuild(device, precision, program, run)
+        doubts = compilercheck.doubts_about(surface, rays, hits, second)
     except CellError as error:
         what = {CellStatus.TIMEOUT: "timed out", CellStatus.CRASHED: "crashed"}.get(error.status, "failed")
         raise FirsthitError(f"{variant} on {device} {what}: {error}", exit_code=3) from None
     finally:
         executor.close()
+    if doubts.fault:
+        raise FirsthitError(f"{variant} on {device}: {doubts.fault}", exit_code=3)
+    if doubts.note:
+        print(f"{variant} on {surface.name}: {doubts.note}", file=sys.stderr)
+    return hits
 
 
 def writable(path: Path) -> Path:

@@ -1,7 +1,8 @@
 typedef float real;
-typedef float3 vec3;
+// Four components wide, the last 0: Intel's compiler hands vectors of three wrongly to functions that it does not inline.
+typedef float4 vec3;
 #define real(x) ((float)(x))
-#define vec3(x, y, z) ((float3)(x, y, z))
+#define vec3(x, y, z) ((float4)(x, y, z, 0.0f))
 #define UNIT_ROUNDOFF 5.9604644775390625e-8f
 #define SPLITTER 4097.0f
 #define REAL_INFINITY INFINITY

@@ -1,0 +1,195 @@
+"""Whether a program's first answers are its kernel's, or a mistake of the compiler that built it.
+
+First f itself is asked, in float64 on the host, along SAMPLE of the rays: it contradicts a miss on which it changes its
+sign, a hit about which it neither does so nor comes near zero, and a hit behind such a change. A weak method earns
+contradictions too: newton ends where f is small, ray_march passes pairs of roots. So where more than DOUBTFUL of the
+rays are contradicted, the same kernel is built once more, without optimisation, and casts the sample again: what a
+method does wrong it does wrong in both builds. The compiler is at fault where the second build's answers differ and f
+agrees with them, on more than DOUBTFUL of the rays and OUTWEIGHS times as often as the other way round.
+
+**Where there is a second build** OpenCL compilers can be told not to optimise. OpenGL's cannot: its programs are held
+against the first usable OpenCL device, which compiles the same kernel text by another compiler. Without one, or where
+the second build fails or takes too long, doubts are told and nothing is decided.
+
+**What this cannot see** Mistakes on fewer than DOUBTFUL of the rays; those that both builds make; errors in t under FAR
+scene radii; evaluations counted wrongly; rays given up (they are no wrong answers); roots between which f changes its
+sign twice within one of STEPS steps; what rasterised programs answer. The oracle's verdicts see these, where they are
+asked. Answers are of the listed-rays program; the timed one differs in where its rays come from.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from harness.accuracy import FAR
+from harness.assemble import Language
+from harness.backends import LANGUAGES
+from harness.camera import scene_radius
+from harness.contract import Box, Domain, Hits, Precision, Program, RayStatus, Surface
+from harness.executor import CellError, LocalExecutor, discover_devices
+
+SAMPLE = 512  # rays
+STEPS = 64  # of a ray's stay in the domain
+DOUBTFUL = 0.02  # share of the sample
+OUTWEIGHS = 4.0
+NEAR_ZERO = 0.05  # of f's largest size within FAR scene radii: as small as it is about a touch
+NOISE = 1e-6  # of f's largest size along the ray: smaller values have no sign
+
+Floats = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+Index = NDArray[np.intp]
+Run = Callable[[str, Program, Index], Hits]
+
+
+@dataclass(frozen=True)
+class Doubts:
+    """How many of the `rays` in the sample f contradicts, and what is wrong with the compiler, if that was found."""
+
+    contradicted: int
+    rays: int
+    fault: str | None = None
+
+    @property
+    def note(self) -> str:
+        """One sentence to tell; empty where there is little to tell."""
+        if self.contradicted <= DOUBTFUL * self.rays:
+            return ""
+        return f"f, evaluated on the host, contradicts {self.contradicted} of {self.rays} sampled rays' answers"
+
+
+@dataclass(frozen=True, eq=False)
+class SecondBuild:
+    """The same kernel, compiled another way. `program` writes it in a language; `run` casts rays, by their places, with
+    a program on a device, and may raise CellError."""
+
+    device: str
+    precision: Precision
+    program: Callable[[Language], Program]
+    run: Run
+
+    def answers(self, index: Index) -> tuple[str, Hits] | None:
+        """How it was built, and what it answers; None where there is no other way, or it fails."""
+        there = self.device if LANGUAGES[self.device.partition(":")[0]] == "cl" else _stand_in(self.precision)
+        if there is None:
+            return None
+        told = "without optimisation" + ("" if there == self.device else f" by {there}")
+        try:
+            return told, self.run(there, dataclasses.replace(self.program("cl"), optimised=False), index)
+        except CellError:
+            return None
+
+
+def with_listed_rays(executor: LocalExecutor, rays: NDArray[np.float32]) -> Run:
+    """How a SecondBuild of a listed-rays program runs."""
+    return lambda device, program, index: executor.check(device, program, rays[index]).hits
+
+
+@cache
+def _stand_in(precision: Precision) -> str | None:
+    """The first usable OpenCL device."""
+    found = discover_devices(("opencl:",))
+    usable = (info.name for info in found if not info.problem and (precision == "float32" or info.float64))
+    return next(usable, None)
+
+
+def doubts_about(surface: Surface, rays: NDArray[np.float32], hits: Hits, second: SecondBuild) -> Doubts:
+    """Hold a program's answers, for rays float32[n, 6], against f and, where that contradicts, a second build."""
+    index = _sample(surface.domain, rays)
+    first = _some(hits, index)
+    against_first = contradicted(surface, rays[index], first)
+    told = Doubts(int(against_first.sum()), len(index))
+    if not told.note:
+        return told
+    other = second.answers(index)
+    if other is None:
+        return told
+    how, again = other
+    better, worse = compared(surface, rays[index], first, against_first, again)
+    if better <= max(DOUBTFUL * len(index), OUTWEIGHS * worse):
+        return told
+    fault = (
+        f"this device's compiler is at fault: f, evaluated on the host, contradicts {told.contradicted} of "
+        f"{len(index)} sampled rays' answers, and agrees on {better} of these with the same kernel built {how}"
+    )
+    return dataclasses.replace(told, fault=fault)
+
+
+def compared(
+    surface: Surface, rays: NDArray[np.float32], first: Hits, against_first: Mask, again: Hits
+) -> tuple[int, int]:
+    """How many answers of another build differ and are contradicted no more, and how many are only now."""
+    against_again = contradicted(surface, rays, again)
+    with np.errstate(invalid="ignore"):
+        apart = ~(np.abs(first.t - again.t) <= FAR * scene_radius(surface))
+    differs = (first.status != again.status) | ((first.status == RayStatus.HIT) & apart)
+    gave_up = (first.status == RayStatus.EXHAUSTED) | (again.status == RayStatus.EXHAUSTED)
+    differs &= ~gave_up
+    return int((differs & against_first & ~against_again).sum()), int((differs & ~against_first & against_again).sum())
+
+
+def contradicted(surface: Surface, rays: NDArray[np.float32], hits: Hits) -> Mask:
+    """bool[n]: the answers that f's signs along the rays float32[n, 6] contradict; never a ray that was given up."""
+    reach = FAR * scene_radius(surface)
+    enter, leave = _stay(surface.domain, rays)
+    t = enter[:, None] + (leave - enter)[:, None] * np.linspace(0.0, 1.0, STEPS + 1)
+    values = _along(surface, rays, t)
+    with np.errstate(invalid="ignore"):
+        largest = np.nanmax(np.where(np.isfinite(values), np.abs(values), 0.0), axis=1, keepdims=True)
+        signs = np.where(np.abs(values) > NOISE * largest, np.sign(values), 0.0)
+        changes = signs[:, 1:] * signs[:, :-1] < 0.0
+        near = np.clip(hits.t[:, None] + reach * np.linspace(-1.0, 1.0, 9), enter[:, None], leave[:, None])
+        about = _along(surface, rays, near)
+        at_hit = np.abs(_along(surface, rays, hits.t[:, None])[:, 0])
+        one_sign = (about > NOISE * largest).all(axis=1) | (about < -NOISE * largest).all(axis=1)
+        no_root = one_sign & (at_hit > NEAR_ZERO * np.abs(about).max(axis=1))
+        passed = (changes & (t[:, 1:] < hits.t[:, None] - reach)).any(axis=1)
+        inside = (hits.t >= enter - reach) & (hits.t <= leave + reach)
+    wrong_hit = no_root | passed | ~inside
+    return np.asarray(
+        np.where(hits.status == RayStatus.HIT, wrong_hit, (hits.status == RayStatus.MISS) & changes.any(axis=1))
+    )
+
+
+def _along(surface: Surface, rays: NDArray[np.float32], t: Floats) -> Floats:
+    """f at parameters float64[n, k] of rays float32[n, 6]: float64[n, k]."""
+    import surfaces
+
+    origins, directions = np.split(rays.astype(np.float64), 2, axis=1)
+    points = origins[:, None] + t[..., None] * directions[:, None]
+    return surfaces.evaluate(surface, points.reshape(-1, 3)).reshape(t.shape)
+
+
+def _sample(domain: Domain, rays: NDArray[np.float32]) -> Index:
+    """SAMPLE places of rays that run through the domain, evenly over all."""
+    enter, leave = _stay(domain, rays)
+    with np.errstate(invalid="ignore"):
+        through = np.flatnonzero(leave > enter)
+    if len(through) <= SAMPLE:
+        return through
+    return through[np.linspace(0, len(through) - 1, SAMPLE).astype(np.intp)]
+
+
+def _stay(domain: Domain, rays: NDArray[np.float32]) -> tuple[Floats, Floats]:
+    """Where rays enter and leave the domain, from their origins on; NaN, or no positive length, where they pass it."""
+    origins, directions = np.split(rays.astype(np.float64), 2, axis=1)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        if isinstance(domain, Box):
+            at = [(np.array(corner) - origins) / directions for corner in (domain.lower, domain.upper)]
+            enter, leave = np.fmin(*at).max(axis=1), np.fmax(*at).min(axis=1)
+        else:
+            away = origins - np.array(domain.center)
+            middle = -np.einsum("ij,ij->i", away, directions)
+            nearest = away + middle[:, None] * directions
+            half = np.sqrt(domain.radius**2 - np.einsum("ij,ij->i", nearest, nearest))
+            enter, leave = middle - half, middle + half
+    return np.maximum(enter, 0.0), leave
+
+
+def _some(hits: Hits, index: Index) -> Hits:
+    return Hits(hits.t[index], hits.status[index], hits.evaluations[index])
