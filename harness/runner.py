@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from harness import accuracy, beams, measure, rastercheck, stability
+from harness import accuracy, answers, beams, measure, rastercheck, stability
 from harness.camera import distance_of, meets, pixel_footprint, rays_of, scene_radius
 from harness.config import Config
 from harness.contract import CellStatus, FirsthitError, Surface, View
@@ -124,7 +124,7 @@ class Runner:
         if state.planned.draws:
             seen = rastercheck.check(self._executor, state.planned, config, self._store.truth)
             state.summary, state.arrays, state.compile_ms = seen.summary, seen.pictures, seen.compile_ms
-            return self._too_wrong(state)
+            return self._unfit(state)
         rays = rays_of(state.planned.camera, config.size)
         truth = cached_first_hits(cell.surface, rays, self._store.truth)
         casts_beams, checks = state.planned.casts != "rays", state.planned.checks
@@ -135,7 +135,11 @@ class Runner:
             checked = self._executor.check_frame(cell.device, frame, pixels.index)
         else:
             checked = self._executor.check(cell.device, checks[0], rays)
-        hits = beams.along_rays(checked.hits, pixels) if casts_beams else checked.hits
+        if casts_beams:
+            along, ahead = beams.along_rays(checked.hits, pixels), state.planned.camera[3:6]
+            hits = answers.validated_beams(along, cell.surface.domain, rays, ahead)
+        else:
+            hits = answers.validated(checked.hits, cell.surface.domain, rays)
         state.compile_ms = checked.compile_ms
         verdicts = accuracy.judge(hits, truth, scene_radius(cell.surface), config.grazing_margin)
         if casts_beams:
@@ -163,13 +167,20 @@ class Runner:
             counted = {"beam_only": int(beam_only.sum()), "evaluations_mean": mean, "evaluations_max": largest}
             state.summary |= counted
             state.arrays["level"] = checked.levels.reshape(config.size, config.size)
-        return self._too_wrong(state)
+        return self._unfit(state)
 
-    def _too_wrong(self, state: _Live) -> str | None:
+    def _unfit(self, state: _Live) -> str | None:
+        """Why a checked cell has no accuracy, which it then loses, or is too wrong to be timed."""
         assert state.summary is not None
-        share = accuracy.wrong_share(state.summary)
-        answers = self._catalog.get(state.planned.cell.variant.method).method.answers
-        if state.frame and answers and share > self._config.accuracy.max_wrong_share:
+        if not self._catalog.get(state.planned.cell.variant.method).method.answers:
+            return None
+        found, config = state.summary, self._config.accuracy
+        share = accuracy.wrong_share(found)
+        undecided = accuracy.undecided_hits(found["truth_hits"], found["undecided"], config.undecided)
+        if undecided or share is None:
+            state.summary = state.arrays = None
+            return undecided or accuracy.nothing_judged(found["rays"])
+        if state.frame and not share <= config.max_wrong_share:
             return f"wrong on {share:.1%} of the rays outside the grazing class: not timed"
         return None
 
@@ -181,8 +192,11 @@ class Runner:
         for group, program in zip(stability.groups(cell.family), state.planned.checks, strict=True):
             truth = cached_first_hits(group.surface, group.rays, self._store.truth)
             checked = self._executor.check(cell.device, program, group.rays)
+            hits = answers.validated(checked.hits, group.surface.domain, group.rays)
             state.compile_ms += checked.compile_ms
-            state.rungs += group.judge(checked.hits, truth, cell.precision)
+            state.rungs += group.judge(hits, truth, cell.precision)
+        if not any(rung["decided"] for rung in state.rungs):
+            return accuracy.nothing_judged(sum(rung["rays"] for rung in state.rungs))
         return None
 
     def _time(self, live: dict[str, _Live]) -> list[Row]:

@@ -157,8 +157,9 @@ def test_blessing_keeps_other_machines_and_replaces_this_one():
 
 
 def test_claims_are_counted_until_a_row_disproves_them():
-    counts = dict.fromkeys(("misses", "false_hits", "exhausted", "wrong_root"), 0)
+    counts = dict.fromkeys(("misses", "false_hits", "exhausted", "wrong_root", "invalid"), 0)
     grazing = {f"grazing_{name}": 0 for name in counts}
+    counts |= {"undecided": 0}
     accuracy = counts | grazing | {"error": {"max": 1.0, "p99": None}, "evaluations_mean": 2.0}
     row = {"accuracy": accuracy, "rungs": None}
     claims = ("no_missed_root", "finds_touch")

@@ -10,6 +10,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from harness.answers import validated, validated_beams
 from harness.assemble import method_program
 from harness.backends import LANGUAGES
 from harness.contract import PRECISIONS, CellStatus, FirsthitError, Hits, Precision, Surface, Variant
@@ -88,8 +89,8 @@ def cast(
     """Cast rays float32[n, 6] by the method, knobs, device and precision that the options name.
 
     A method that casts beams needs the `camera` that the rays are of, an image of them row by row, and answers for the
-    rays' pixels. The device works in a process of its own. Raises FirsthitError where the method refuses the surface,
-    or the kernel fails, hangs or crashes.
+    rays' pixels. What can be no answer is INVALID. The device works in a process of its own. Raises FirsthitError where
+    the method refuses the surface, or the kernel fails, hangs, crashes or answers otherwise when it is run again.
     """
     from surfaces.sections import unsupported
 
@@ -113,8 +114,9 @@ def cast(
     try:
         if camera is not None and casts != "rays":
             frame = Frame(program, camera, None, math.isqrt(len(rays)), casts)
-            return executor.check_frame(device, frame, np.arange(len(rays), dtype=np.int32)).hits
-        return executor.check(device, program, rays).hits
+            hits = executor.check_frame(device, frame, np.arange(len(rays), dtype=np.int32)).hits
+            return validated_beams(hits, surface.domain, rays, camera[3:6])
+        return validated(executor.check(device, program, rays).hits, surface.domain, rays)
     except CellError as error:
         what = {CellStatus.TIMEOUT: "timed out", CellStatus.CRASHED: "crashed"}.get(error.status, "failed")
         raise FirsthitError(f"{variant} on {device} {what}: {error}", exit_code=3) from None

@@ -33,7 +33,8 @@ def knowable_margin(rung: Rung, precision: Precision) -> float:
 def judge_rung(rung: Rung, hits: Hits, truth: Truth, precision: Precision) -> dict[str, Any]:
     """Counts, errors in scene units, and stability; all of it JSON.
 
-    rays = decided + undecidable + undecided, and decided = right + misses + false_hits + exhausted + wrong_root.
+    rays = decided + undecidable + undecided, and decided = right + misses + false_hits + exhausted + wrong_root
+    + invalid.
     `undecidable_right`: undecidable rays answered as the oracle does. `max_error` and `worst_ratio` are over `right`,
     None where there is no hit: the largest |t - t*|, and of it over max(condition, 1) · unit roundoff · the domain's
     radius (t itself cannot be had better than with condition 1). A backward stable method's ratio is a small number
