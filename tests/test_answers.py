@@ -8,15 +8,19 @@ import numpy as np
 import pytest
 
 import surfaces
-from harness import accuracy, answers
-from harness.accuracy import Wrong, judge
+from harness import answers
 from harness.assemble import method_program
 from harness.backends import hits_from, launch_camera, launch_rays
 from harness.backends.beams import beam_hits_from, launch_beams
 from harness.camera import camera_for, rays_of
-from harness.contract import Box, FirsthitError, Hits, Method, RayStatus, Sphere, Truth, TruthStatus, Variant, View, digest
+from harness.contract import (
+    Method,
+    RayStatus,
+    Variant,
+    View,
+    digest,
+)
 from harness.plugins import find_methods
-from harness.worker import Frame, Worker
 
 from .conftest import opened, usable_devices
 
@@ -194,6 +198,8 @@ def test_a_ray_whose_loops_the_driver_ended_is_exhausted(ending_device, tmp_path
 
 
 def test_long_loops_under_the_limit_are_left_alone(ending_device, tmp_path, sphere_rays):
-    body = "real t = 0.0; for (int i = 0; i < 60000; i++) { t = 0.5 * (t + t0); } return t > 1.0e30 ? hit : missed(hit);"
+    body = (
+        "real t = 0.0; for (int i = 0; i < 60000; i++) { t = 0.5 * (t + t0); } return t > 1.0e30 ? hit : missed(hit);"
+    )
     hits = _cast(ending_device, tmp_path, body, sphere_rays)
     assert (hits.status == RayStatus.MISS).all()
