@@ -8,19 +8,26 @@ import numpy as np
 import pytest
 
 import surfaces
-from harness import answers
-from harness.assemble import method_program
-from harness.backends import hits_from, launch_camera, launch_rays
+from harness import answers, raster
+from harness.assemble import fill_program, method_program
+from harness.backends import Launch, Timing, hits_from, launch_camera, launch_rays, same_values
 from harness.backends.beams import beam_hits_from, launch_beams
-from harness.camera import camera_for, rays_of
+from harness.camera import camera_for, meets, rays_of
 from harness.contract import (
+    Box,
+    FirsthitError,
+    Hits,
     Method,
     RayStatus,
+    Sphere,
     Variant,
     View,
     digest,
 )
-from harness.plugins import find_methods
+from harness.plugins import Catalog, Plugin, find_methods
+from harness.rastercheck import hits_of
+from harness.scenes import single
+from harness.worker import Worker
 
 from .conftest import opened, usable_devices
 
@@ -67,8 +74,6 @@ def sphere_rays():
 
 
 def _inside(surface, rays):
-    from harness.camera import meets
-
     return meets(surface.domain, rays)
 
 
@@ -203,3 +208,160 @@ def test_long_loops_under_the_limit_are_left_alone(ending_device, tmp_path, sphe
     )
     hits = _cast(ending_device, tmp_path, body, sphere_rays)
     assert (hits.status == RayStatus.MISS).all()
+
+
+def test_a_beam_whose_loops_the_driver_ended_is_exhausted(ending_device, tmp_path):
+    endless = "real s = 1.0; while (s < 1.0e30) { s = 0.5 * (s + real(cell.x)); hit.evaluations += 1; } hit.t = s;"
+    for casts in ("beams", "quadtree"):
+        hits, _ = _beams(ending_device, tmp_path, CELL.format(endless, PAINT), casts)
+        assert RayStatus.EXHAUSTED in hits.status
+        assert set(hits.status) <= {RayStatus.EXHAUSTED, INVALID}, "loops that paint a large cell are ended too"
+
+
+# Fragments
+
+
+def _drawn(device, folder, body):
+    place = folder / digest(body)
+    place.mkdir(exist_ok=True)
+    (place / "kernel.glsl").write_text(
+        f"Hit first_hit(Ray ray, real t0, real t1) {{\n    Hit hit = no_hit(t0);\n    {body}\n}}\n"
+    )
+    scene = single(surfaces.get("sphere"), VIEW)
+    catalog = Catalog({"made": Plugin(MADE, place)})
+    camera = camera_for(VIEW, surfaces.get("sphere"))
+    batches = [d.batch(True) for d in raster.draws(scene, Variant("made"), "box", catalog)]
+    built = [device.build(batch.program) for batch in batches]
+    depths = raster.depth_map(scene, camera)
+    pictures = []
+    for _ in range(2):
+        launch = device.launch_raster(batches, built, camera, depths, 24, device.build(fill_program()))
+        launch.run()
+        pictures.append(launch.picture())
+        launch.release()
+    assert not pictures[0].differing(pictures[1]).any()
+    return scene, pictures[0]
+
+
+@pytest.mark.parametrize("kind", WRONG_HITS)
+def test_a_fragment_without_an_answer_makes_its_pixel_invalid(ending_device, tmp_path, kind):
+    hits = hits_of(*_drawn(ending_device, tmp_path, WRONG_HITS[kind]))
+    inside = _inside(surfaces.get("sphere"), rays_of(camera_for(VIEW, surfaces.get("sphere")), 24))
+    assert (hits.status[inside] == INVALID).mean() > 0.99  # a proxy's edge may leave a pixel out
+    assert set(hits.status) <= {INVALID, RayStatus.MISS}
+    assert (hits.evaluations >= 0).all()
+
+
+def test_a_fragment_whose_loops_the_driver_ended_is_exhausted(ending_device, tmp_path):
+    scene, picture = _drawn(ending_device, tmp_path, ENDLESS["counts"])
+    assert (picture.exhausted[picture.fragments > 0] > 0).mean() > 0.7  # all that are in the domain
+    assert RayStatus.HIT not in picture.hits(np.ones(24 * 24)).status
+    assert scene.instances == 1
+
+
+def test_pictures_that_differ_anywhere_are_told(ending_device, tmp_path):
+    _, picture = _drawn(ending_device, tmp_path, "return hit_at(hit, t0);")
+    for name, values in vars(picture).items():
+        other = values.copy()
+        pixel = other.reshape(len(other), -1)[7]
+        pixel[0] = 1 if np.isnan(pixel[0]) or pixel[0] != 1 else 0
+        assert np.flatnonzero(picture.differing(dataclasses.replace(picture, **{name: other}))).tolist() == [7], name
+
+
+# The same program twice
+
+
+class Flaky(Launch):
+    """Answers otherwise from its second run on."""
+
+    upload_ms = 0.0
+
+    def __init__(self, outputs, change):
+        self._outputs, self._change, self._runs = outputs, change, 0
+
+    def run(self, times=1):
+        self._runs += times
+        if self._runs == 2:
+            self._change(*self._outputs)  # in place, as drivers reuse what was read
+        return Timing(1.0, None)
+
+    def read(self):
+        return self._outputs
+
+    def release(self):
+        pass
+
+
+def _later_t(t, _):
+    t[7] += 1e-6
+
+
+def _other_status(_, word):
+    word[3] = 4 * 9
+
+
+def _other_count(_, word):
+    word[3:5] += 4
+
+
+def _nan(t, _):
+    t[6] = np.nan
+
+
+@pytest.mark.parametrize(
+    ("change", "differing"),
+    [(_later_t, 1), (_other_status, 1), (_other_count, 2), (_nan, 1), (lambda *_: None, 0)],
+)
+def test_a_program_that_answers_otherwise_when_it_is_run_again_fails(monkeypatch, change, differing):
+    """t's last bit, a status and a count, on a device whose read-back reuses its memory."""
+    count = 5
+    t = np.arange(2.0 * count)
+    outputs = [t, np.full(count, 4 * 9 + RayStatus.HIT, np.int32)]
+    worker = Worker("made:up")
+    monkeypatch.setattr(Worker, "_device", None)
+    monkeypatch.setattr(worker, "_build", lambda *_: (None, 0.0))
+    monkeypatch.setattr("harness.worker.launch_rays", lambda *_: Flaky(outputs, change))
+    if not differing:
+        assert len(worker.check(None, np.zeros((count, 6), np.float32)).hits.t) == count
+        return
+    with pytest.raises(FirsthitError, match=f"answer {differing} of 5 rays differently") as caught:
+        worker.check(None, np.zeros((count, 6), np.float32))
+    assert caught.value.exit_code == 3
+
+
+def test_answers_that_are_no_numbers_twice_are_the_same():
+    other_nan = np.array([0x7FF8000000000001], np.uint64).view(np.float64)
+    assert same_values(np.array([np.nan]), other_nan).all()
+    assert same_values(np.float32([np.nan, 1.0]), np.float32([np.nan, 1.0])).all()
+    assert not same_values(np.array([0.0]), np.array([-0.0])).any(), "bit for bit"
+
+
+# The interval itself
+
+
+def test_the_interval_is_the_domains_from_t_min_on():
+    rays = np.tile(np.float32([-3, 0, 0, 1, 0, 0]), (6, 1))
+    t = np.array([1.0, 2.0, 3.0, 4.0, 5.0, np.nan])
+    for domain in (Sphere(1.0), Box((-1, -1, -1), (1, 1, 1))):
+        assert answers.reachable(domain, rays, t).tolist() == [False, True, True, True, False, False]
+        assert answers.reachable(domain, rays, t, 2.5).tolist() == [False, False, True, True, False, False]
+        assert not answers.reachable(domain, rays + np.float32([0, 2, 0, 0, 0, 0]), t).any(), "passes by"
+    inside = np.tile(np.float32([0, 0, 0, 1, 0, 0]), (3, 1))
+    assert answers.reachable(Sphere(1.0), inside, np.array([-0.5, 0.0, 1.0])).tolist() == [False, True, True]
+    assert answers.reachable(Sphere(1.0), inside[:0], np.zeros(0)).tolist() == []
+
+
+@pytest.mark.parametrize("status", [-0, 1, 2, 3, 4, 255])
+@pytest.mark.parametrize("evaluations", [-1, 0, 1])
+def test_only_known_statuses_and_counts_are_answers(status, evaluations):
+    hits = Hits(np.array([3.0]), np.array([status], np.uint8), np.array([evaluations], np.int32))
+    found = answers.only(hits, np.array([True]))
+    assert (found.status[0] == INVALID) == (status > 2 or evaluations < 0)
+    assert np.isnan(found.t[0]) == (found.status[0] != RayStatus.HIT)
+
+
+def test_beams_are_held_against_the_depths_of_the_bounding_sphere():
+    rays = np.tile(np.float32([-3, 0, 0, 1, 0, 0]), (5, 1))
+    hits = Hits(np.array([1.9, 2.0, 4.0, 4.1, np.nan]), np.ones(5, np.uint8), np.zeros(5, np.int32))
+    found = answers.validated_beams(hits, Sphere(1.0), rays, np.float32([1, 0, 0]))
+    assert found.status.tolist() == [INVALID, 1, 1, INVALID, INVALID]

@@ -47,10 +47,10 @@ class Picture:
     def hits(self, scale: NDArray[np.float64]) -> Hits:
         """As any stage answers: t in world units, where `scale` float64[n] is that of who is seen. Where nothing is, a
         pixel with a fragment that gave up is exhausted, and a miss otherwise. A fragment without an answer makes its
-        pixel invalid: it may have been in front."""
+        pixel invalid, since it may have been in front, and so does one whose hit lies behind all that there is."""
         gave_up = np.where(self.exhausted > 0, RayStatus.EXHAUSTED, RayStatus.MISS)
         status = np.where(self.batch >= 0, RayStatus.HIT, gave_up)
-        bad = (self.invalid > 0) | (self.evaluations < 0)
+        bad = (self.invalid > 0) | (self.evaluations < 0) | ((self.fragment_hits > 0) & (self.batch < 0))
         status = np.where(bad, RayStatus.INVALID, status).astype(np.uint8)
         return Hits(np.where(bad, np.nan, self.t * scale), status, np.where(bad, 0, self.evaluations))
 
