@@ -75,13 +75,13 @@ def judged(truth: Truth, verdicts: Verdicts) -> NDArray[np.bool_]:
     return np.asarray((truth.status != TruthStatus.UNDECIDED) & ~verdicts.grazing)
 
 
-def undecided_hits(truth_hits: int, undecided: int, most: float) -> str | None:
+def undecided_hits(truth_hits: int, undecided: int, most: float, what: str = "hits") -> str | None:
     """Why a truth of so many decided and undecided hits measures no error, where it does not; `most` is the share of
     undecided ones among both that it may have. Rays that all are proved to miss are judged by their misses."""
-    if undecided <= most * (truth_hits + undecided):
+    both = truth_hits + undecided
+    if undecided <= most * both:
         return None
-    hits = truth_hits + undecided
-    return f"the oracle leaves {undecided} of {hits} hits undecided, over {most:.3g} of them: no accuracy"
+    return f"the oracle leaves {undecided} of {both} {what} undecided, over {most:.3g} of them: no accuracy"
 
 
 def undecided_too_many(truth: Truth, most: float) -> str | None:

@@ -195,9 +195,11 @@ class Runner:
             hits = answers.validated(checked.hits, group.surface.domain, group.rays)
             state.compile_ms += checked.compile_ms
             state.rungs += group.judge(hits, truth, cell.precision)
-        if not any(rung["decided"] for rung in state.rungs):
-            return accuracy.nothing_judged(sum(rung["rays"] for rung in state.rungs))
-        return None
+        rays, undecided = (sum(rung[name] for rung in state.rungs) for name in ("rays", "undecided"))
+        reason = accuracy.undecided_hits(rays - undecided, undecided, self._config.accuracy.undecided, "rays")
+        if reason:
+            state.rungs = None
+        return reason
 
     def _time(self, live: dict[str, _Live]) -> list[Row]:
         """Interleaved rounds: each visits every unfinished cell once, in random order."""

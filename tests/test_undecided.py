@@ -154,6 +154,18 @@ def test_a_row_whose_hits_are_undecided_has_no_accuracy_and_no_time(tmp_path, on
         assert "hits undecided in 2 cells" in err
 
 
+def test_hard_rays_that_nobody_decided_are_no_rungs(tmp_path, one, capsys):
+    device, leave = one
+    leave(0.5)
+    path = _config(tmp_path, device, ["newton"])
+    path.write_text(path.read_text().replace('surfaces = ["sphere"]', 'families = ["torus_axis"]'))
+    assert _run(tmp_path, "run", path) == 3
+    row = _rows(tmp_path / "runs")["newton"]
+    assert (row["status"], row["rungs"]) == ("failed", None)
+    assert "rays undecided" in row["reason"]
+    capsys.readouterr()
+
+
 def test_a_row_without_a_judged_ray_is_no_result(tmp_path, one):
     path = _config(tmp_path, one[0], ["newton"], "grazing_margin = 1.0")
     path.write_text(path.read_text().replace('["sphere"]', '["tiny"]').replace("size = 16", "size = 2"))
