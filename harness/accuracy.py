@@ -16,13 +16,15 @@ FAR = 0.05  # a hit further than this from the first root, over the scene radius
 
 
 class Wrong(IntEnum):
-    """What is wrong with one answer; WRONG_ROOT is a later root, or a place that is no root at all."""
+    """What is wrong with one answer; WRONG_ROOT is a later root, or a place that is no root at all; INVALID is what can
+    be no answer, whatever the truth (harness.answers)."""
 
     RIGHT = 0
     MISS = 1
     FALSE_HIT = 2
     EXHAUSTED = 3
     WRONG_ROOT = 4
+    INVALID = 5
 
 
 NAMES = {
@@ -30,6 +32,7 @@ NAMES = {
     Wrong.FALSE_HIT: "false_hits",
     Wrong.EXHAUSTED: "exhausted",
     Wrong.WRONG_ROOT: "wrong_root",
+    Wrong.INVALID: "invalid",
 }
 
 
@@ -46,22 +49,50 @@ def judge(hits: Hits, truth: Truth, scene_radius: float, grazing_margin: float) 
     """Compare n answers with n certified ones.
 
     `error` is the distance from the certified interval. A ray whose margin is under `grazing_margin` scene radii is in
-    the grazing class, where a perturbation of that size changes the answer. Undecided rays count as right.
+    the grazing class, where a perturbation of that size changes the answer. Right is what is shown to be right; of an
+    undecided ray nothing is shown but that its answer is none: it counts as right here and is no part of `judged`.
     """
-    decided = truth.status != TruthStatus.UNDECIDED
+    undecided = truth.status == TruthStatus.UNDECIDED
     there = (truth.status == TruthStatus.CROSSING) | (truth.status == TruthStatus.TOUCH)
-    hit = hits.status == RayStatus.HIT
+    away = truth.status == TruthStatus.MISS
+    hit = (hits.status == RayStatus.HIT) & np.isfinite(hits.t)
+    miss, gave_up = hits.status == RayStatus.MISS, hits.status == RayStatus.EXHAUSTED
     error = np.maximum(0.0, np.maximum(truth.lower - hits.t, hits.t - truth.upper))
     with np.errstate(invalid="ignore"):
-        later = error > 0.5 * (truth.following - truth.lower)
-        far = error > FAR * scene_radius
-    wrong = np.zeros(len(hit), np.uint8)
-    wrong[there & hit & (later | far)] = Wrong.WRONG_ROOT
-    wrong[there & (hits.status == RayStatus.MISS)] = Wrong.MISS
-    wrong[decided & ~there & hit] = Wrong.FALSE_HIT
-    wrong[decided & (hits.status == RayStatus.EXHAUSTED)] = Wrong.EXHAUSTED
-    error = np.where(there & hit & (wrong == Wrong.RIGHT), error, np.nan)
+        near = (error <= 0.5 * (truth.following - truth.lower)) & (error <= FAR * scene_radius)
+    wrong = np.full(len(hit), Wrong.INVALID, np.uint8)
+    wrong[hit & there] = Wrong.WRONG_ROOT
+    wrong[hit & away] = Wrong.FALSE_HIT
+    wrong[miss & there] = Wrong.MISS
+    wrong[gave_up] = Wrong.EXHAUSTED
+    wrong[(hit & there & near) | (miss & away) | (undecided & (hit | miss | gave_up))] = Wrong.RIGHT
+    error = np.where(there & (wrong == Wrong.RIGHT), error, np.nan)
     return Verdicts(wrong, error, truth.margin < grazing_margin * scene_radius)
+
+
+def judged(truth: Truth, verdicts: Verdicts) -> NDArray[np.bool_]:
+    """bool[n]: the rays that shares of wrong ones are of: decided, and outside the grazing class."""
+    return np.asarray((truth.status != TruthStatus.UNDECIDED) & ~verdicts.grazing)
+
+
+def undecided_hits(truth_hits: int, undecided: int, most: float, what: str = "hits") -> str | None:
+    """Why a truth of so many decided and undecided hits measures no error, where it does not; `most` is the share of
+    undecided ones among both that it may have. Rays that all are proved to miss are judged by their misses."""
+    both = truth_hits + undecided
+    if undecided <= most * both:
+        return None
+    return f"the oracle leaves {undecided} of {both} {what} undecided, over {most:.3g} of them: no accuracy"
+
+
+def undecided_too_many(truth: Truth, most: float) -> str | None:
+    """As undecided_hits, of certified answers."""
+    there = (truth.status == TruthStatus.CROSSING) | (truth.status == TruthStatus.TOUCH)
+    return undecided_hits(int(there.sum()), int((truth.status == TruthStatus.UNDECIDED).sum()), most)
+
+
+def nothing_judged(rays: int) -> str:
+    """What is said of a truth none of whose rays is decided outside the grazing class."""
+    return f"none of the {rays} rays is decided outside the grazing class: nothing to judge"
 
 
 def _quantiles(values: NDArray[np.float64]) -> dict[str, float | None]:
@@ -122,7 +153,8 @@ def summarize(
     in scene units; relative to the scene radius (toledo2007's ε(R + r)) and to the feature radius (its ε(r)); in pixel
     footprints; in units in the last place of t; and over condition × unit roundoff × radius, which a method as good as
     the problem allows keeps at a small number. Errors are distances to a certified interval: what is smaller than its
-    width (`certified_width` is the largest) may show as 0.
+    width (`certified_width` is the largest) may show as 0. `judged` rays are decided and outside the grazing class;
+    evaluations are over rays that were answered.
     """
     clear, radius = ~verdicts.grazing, scene_radius(surface)
     widths = (truth.upper - truth.lower)[clear & np.isfinite(verdicts.error)]
@@ -132,6 +164,7 @@ def summarize(
         "truth_misses": int((truth.status == TruthStatus.MISS).sum()),
         "undecided": int((truth.status == TruthStatus.UNDECIDED).sum()),
         "grazing": int(verdicts.grazing.sum()),
+        "judged": int(judged(truth, verdicts).sum()),
         "grazing_margin": grazing_margin,
         "scene_radius": radius,
         "domain_radius": surface.domain.radius,
@@ -152,12 +185,11 @@ def summarize(
     summary["condition_ratio"] = _quantiles(error / allowed)
     summary["normal_error_degrees"] = _quantiles(deviations.normal[measured])
     summary["residual"] = _quantiles(deviations.residual[measured])
-    summary["evaluations_mean"] = float(hits.evaluations.mean())
-    summary["evaluations_max"] = int(hits.evaluations.max())
+    summary["evaluations_mean"], summary["evaluations_max"] = hits.spent
     return summary
 
 
-def wrong_share(summary: dict[str, Any]) -> float:
-    """The share of rays outside the grazing class that were answered wrongly."""
-    clear = summary["rays"] - summary["grazing"]
-    return sum(summary[name] for name in NAMES.values()) / clear if clear else 0.0
+def wrong_share(summary: dict[str, Any]) -> float | None:
+    """The share of judged rays (see `judged`) that were answered wrongly; None where there are none to judge."""
+    wrong = sum(summary[name] for name in NAMES.values())
+    return min(1.0, wrong / summary["judged"]) if summary["judged"] else None

@@ -111,6 +111,8 @@ def method_program(
     if narrowed:
         sections += [narrowed, file_section(KERNELS / "narrowed.glsl")]
     suffix = "_narrowed" if narrowed else ""
+    if entry == "rays" and language == "glsl":
+        sections.append(file_section(KERNELS / "turns.glsl"))
     sections.append(file_section(KERNELS / f"entry_{entry}{suffix}.{language}"))
     return Program(language, precision, entry, tuple(sections))
 
@@ -170,7 +172,7 @@ def raster_program(
         sections.append(file_section(KERNELS / "raster_tolerance.glsl"))
     sections += method_sections(method, folder, variant, surface, "float32", "glsl", pixels > 0.0)
     sections.append(Section("generated: shading", f"#define SHADING_NORMAL {normal}"))
-    parts = ("cast", *RAY_OF_PIXEL, "raster_fragment", "raster_shade", *(["raster_report"] * reports))
+    parts = ("cast", *RAY_OF_PIXEL, "raster_fragment", "raster_shade", *(["turns", "raster_report"] * reports))
     sections += [file_section(KERNELS / f"{part}.glsl") for part in parts]
     sections.append(file_section(KERNELS / f"entry_raster{'_check' * reports}.frag.glsl"))
     vertex = [
@@ -212,7 +214,8 @@ def beam_sections(
 
     sections = _head(language, precision, (*libraries_for(needs, surface), *libraries))
     sections += surface_sections(surface, needs, precision, language)
-    return sections + [file_section(KERNELS / f) for f in ("beam.glsl", f"quadtree.{language}", "cells.glsl")]
+    turns = ["turns.glsl"] if language == "glsl" else []
+    return sections + [file_section(KERNELS / f) for f in ("beam.glsl", *turns, f"quadtree.{language}", "cells.glsl")]
 
 
 def map_program(

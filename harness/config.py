@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import dataclasses
 import difflib
+import math
 import tomllib
 import types
 import typing
@@ -57,12 +58,14 @@ class AccuracyChoice:
     """Accuracy is checked on each view sampled `size` × `size`.
 
     Rays nearer than `grazing_margin` scene radii to another answer are a class of their own; a variant that is wrong
-    on more than `max_wrong_share` of the others is not timed.
+    on more than `max_wrong_share` of the others is not timed. Where the oracle leaves more than a share of `undecided`
+    hits, of those and the decided ones together, a row has no accuracy, and fails.
     """
 
     size: int = 128
     grazing_margin: float = 1e-3
     max_wrong_share: float = 0.5
+    undecided: float = 0.01
 
 
 @dataclass(frozen=True)
@@ -210,6 +213,8 @@ def _read(kind: Any, value: Any, where: Where, source: _Source) -> Any:
         return {key: _read(typing.get_args(kind)[1], item, (*where, key), source) for key, item in value.items()}
     if kind is float and isinstance(value, int) and not isinstance(value, bool):
         return value if "parameters" in where else float(value)
+    if isinstance(value, float) and not math.isfinite(value):
+        raise source.error(where, f"{name} is a finite number, not {value!r}")
     if not isinstance(value, kind) or isinstance(value, bool) != (kind is bool):
         words = {float: "a number", int: "a whole number", str: "a text in quotes", bool: "true or false"}[kind]
         raise source.error(where, f"{name} is {words}, not {value!r}")
@@ -245,7 +250,7 @@ def _check_gate(gate: GateChoice, source: _Source) -> None:
     for name, choice in gate.figures.items():
         if choice.better not in ("", "lower", "higher"):
             raise source.error(("gate", "figures", name, "better"), f"better: {choice.better!r} is not lower or higher")
-        if choice.absolute < 0.0 or choice.relative < 0.0:
+        if not (choice.absolute >= 0.0 and choice.relative >= 0.0):
             raise source.error(("gate", "figures", name), f"{name}: a tolerance is not negative")
 
 
@@ -263,6 +268,7 @@ def _positive(config: Config, source: _Source) -> None:
         (("accuracy", "size"), config.accuracy.size, 1, 4096),
         (("accuracy", "grazing_margin"), config.accuracy.grazing_margin, 0.0, 1.0),
         (("accuracy", "max_wrong_share"), config.accuracy.max_wrong_share, 0.0, 1.0),
+        (("accuracy", "undecided"), config.accuracy.undecided, 0.0, 1.0),
         (("budget", "seconds"), config.budget.seconds, 0.0, 1e5),
         (("budget", "interval"), config.budget.interval, 0.0, 1.0),
         (("budget", "repetitions"), config.budget.repetitions, 1, 1e6),

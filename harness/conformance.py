@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from harness.accuracy import FAR, NAMES, Verdicts, Wrong, judge
+from harness.answers import invalid, validated
 from harness.assemble import Language, method_program
 from harness.camera import camera_for, rays_of, scene_radius
 from harness.contract import (
@@ -63,10 +64,8 @@ class Bench:
 
     def cast(self, plugin: Plugin, case: Case, precision: Precision, **knobs: float) -> Hits:
         variant = plugin.variant(knobs)
-        return self.run(
-            method_program(plugin.method, plugin.folder, variant, case.surface, precision, self.language, "rays"),
-            case.rays,
-        )
+        program = method_program(plugin.method, plugin.folder, variant, case.surface, precision, self.language, "rays")
+        return validated(self.run(program, case.rays), case.surface.domain, case.rays)
 
 
 @dataclass(frozen=True, eq=False)
@@ -184,14 +183,10 @@ def examine_knobs(bench: Bench, plugin: Plugin) -> Iterator[Finding]:
 
 
 def answers(hits: Hits, case: Case) -> Finding:
-    """A hit has a finite t inside the domain, nothing else has one, and evaluations are counted."""
-    hit = hits.status == RayStatus.HIT
-    points = case.rays[:, :3].astype(np.float64) + hits.t[:, None] * case.rays[:, 3:]
-    away = np.linalg.norm(points - case.surface.domain.center, axis=1) / case.surface.domain.radius
-    known = np.isin(hits.status, list(RayStatus)).all() and (hits.evaluations >= 0).all()
-    inside = bool((away[hit] < 1.0 + 1e-4).all())
-    holds = bool(known and inside and np.isfinite(hits.t[hit]).all())
-    return Finding("answers", holds, f"{hit.sum()} hits, farthest {np.max(away[hit], initial=0.0):.4f} radii away")
+    """No answer is invalid: a hit has a finite t inside the domain, statuses are known, evaluations are counted."""
+    bad = invalid(validated(hits, case.surface.domain, case.rays))
+    hit = int((hits.status == RayStatus.HIT).sum())
+    return Finding("answers", bad == 0, f"{hit} hits, {bad} of {len(hits.t)} answers invalid")
 
 
 def same_bits(hits: Hits, again: Hits) -> Finding:
@@ -226,22 +221,23 @@ def agreement(hits: Hits, case: Case) -> Finding:
 def no_missed_root(_plugin: Plugin, hits: Hits, case: Case, _precision: Precision) -> Finding:
     there = np.isin(case.truth.status, (TruthStatus.CROSSING, TruthStatus.TOUCH))
     with np.errstate(invalid="ignore"):
-        later = hits.t > case.truth.upper + 0.5 * (case.truth.following - case.truth.upper)
-        far = hits.t > case.truth.upper + FAR * case.radius
-    lost = there & ((hits.status == RayStatus.MISS) | later | far)
+        not_later = hits.t <= case.truth.upper + 0.5 * (case.truth.following - case.truth.upper)
+        not_far = hits.t <= case.truth.upper + FAR * case.radius
+    found = (hits.status == RayStatus.HIT) & not_later & not_far
+    lost = there & ~(found | (hits.status == RayStatus.EXHAUSTED))
     return Finding("no_missed_root", not lost.any(), f"{lost.sum()} of {there.sum()} roots passed")
 
 
 def conservative_bound(_plugin: Plugin, hits: Hits, case: Case, _precision: Precision) -> Finding:
     verdicts = case.judged(hits)
     there = np.isin(case.truth.status, (TruthStatus.CROSSING, TruthStatus.TOUCH)) & ~verdicts.grazing
-    lost = there & np.isin(verdicts.wrong, (Wrong.MISS, Wrong.WRONG_ROOT))
+    lost = there & ~np.isin(verdicts.wrong, (Wrong.RIGHT, Wrong.EXHAUSTED))
     return Finding("conservative_bound", not lost.any(), f"{lost.sum()} of {there.sum()} roots passed")
 
 
 def no_false_hit(_plugin: Plugin, hits: Hits, case: Case, _precision: Precision) -> Finding:
     verdicts = case.judged(hits)
-    false = (verdicts.wrong == Wrong.FALSE_HIT) & ~verdicts.grazing
+    false = np.isin(verdicts.wrong, (Wrong.FALSE_HIT, Wrong.INVALID)) & ~verdicts.grazing
     misses = (case.truth.status == TruthStatus.MISS) & ~verdicts.grazing
     return Finding("no_false_hit", not false.any(), f"{false.sum()} of {misses.sum()} misses hit")
 

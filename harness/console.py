@@ -68,3 +68,13 @@ def warnings(rows: Sequence[Row]) -> list[str]:
         others = f", and {len(told) - 1} more cells like it" if len(told) > 1 else ""
         lines.append(f"{row['slot']}{others}: {text}")
     return lines
+
+
+def undecided(rows: Sequence[Row]) -> list[str]:
+    """How many hits the oracle left undecided that no accuracy of `rows` is of, if any."""
+    found = [row["accuracy"] for row in rows if row["accuracy"] and row["accuracy"]["undecided"]]
+    if not found:
+        return []
+    rays = sum(accuracy["undecided"] for accuracy in found)
+    hits = sum(accuracy["truth_hits"] for accuracy in found) + rays
+    return [f"the oracle left {rays} of {hits} hits undecided in {len(found)} cells; no accuracy is of them"]

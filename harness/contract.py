@@ -39,11 +39,15 @@ class FirsthitError(Exception):
 
 
 class RayStatus(IntEnum):
-    """A method's answer for one ray; `EXHAUSTED` gave up inside its budget and is never reported as a miss."""
+    """A method's answer for one ray; `EXHAUSTED` gave up inside its budget and is never reported as a miss.
+
+    `INVALID` is no kernel's to give: it says that what was read back is no answer (harness.answers).
+    """
 
     MISS = 0
     HIT = 1
     EXHAUSTED = 2
+    INVALID = 3
 
 
 class TruthStatus(IntEnum):
@@ -300,7 +304,13 @@ class Hits:
 
     t: NDArray[np.float64]  # [n] along the ray as given, scene units; NaN where status is not HIT
     status: NDArray[np.uint8]  # [n] RayStatus
-    evaluations: NDArray[np.int32]  # [n] evaluations of f (value or value with derivative) spent
+    evaluations: NDArray[np.int32]  # [n] evaluations of f (value or value with derivative) spent; 0 where INVALID
+
+    @property
+    def spent(self) -> tuple[float | None, int]:
+        """Evaluations over the rays that were answered, mean and largest; None and 0 where none was."""
+        spent = self.evaluations[self.status != RayStatus.INVALID]
+        return (float(spent.mean()), int(spent.max())) if len(spent) else (None, 0)
 
 
 @dataclass(frozen=True, eq=False)

@@ -83,18 +83,18 @@ class LocalExecutor:
         return compile_ms
 
     def check(self, device: str, program: Program, rays: NDArray[np.float32]) -> Checked:
-        """Build a listed-rays program and cast rays float32[n, 6] once."""
+        """Build a listed-rays program and cast rays float32[n, 6], twice: it fails where the answers differ."""
         checked: Checked = self._call(device, "check", program, rays)
         return checked
 
     def check_frame(self, device: str, frame: Frame, pixels: NDArray[np.int32]) -> Checked:
-        """Build a frame of beams and run it once; its answers for `pixels`, int32[n]."""
+        """Build a frame of beams and run it twice; its answers for `pixels`, int32[n]. It fails where they differ."""
         checked: Checked = self._call(device, "check_frame", frame, pixels)
         return checked
 
-    def rasterise(self, device: str, frame: Frame) -> Rasterised:
-        """Draw a frame of reporting programs once."""
-        drawn: Rasterised = self._call(device, "rasterise", frame)
+    def rasterise(self, device: str, frame: Frame, twice: bool) -> Rasterised:
+        """Draw a frame of reporting programs; `twice`: fail where two pictures of it differ."""
+        drawn: Rasterised = self._call(device, "rasterise", frame, twice)
         return drawn
 
     def warm(self, device: str, key: str, frame: Frame) -> Warmed:

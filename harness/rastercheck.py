@@ -13,12 +13,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from harness import accuracy
+from harness import accuracy, answers
+from harness.backends.raster import Picture
 from harness.camera import meets, pixel_footprint, scene_radius
 from harness.config import AccuracyChoice
+from harness.contract import Hits
 from harness.executor import LocalExecutor
 from harness.pictures import pictures_of
 from harness.plan import Planned
+from harness.scenes.model import Scene
 from harness.scenes.truth import Seen, scale_of, scene_truth
 
 
@@ -32,11 +35,11 @@ class Outcome:
 def check(executor: LocalExecutor, planned: Planned, config: AccuracyChoice, folder: Path) -> Outcome:
     """Draw the accuracy grid and the frame once with reporting programs; `folder` keeps the oracle's answers."""
     cell, camera, scene = planned.cell, planned.camera, planned.scene
-    drawn = executor.rasterise(cell.device, planned.raster_frame(config.size, reports=True))
+    drawn = executor.rasterise(cell.device, planned.raster_frame(config.size, reports=True), twice=True)
     picture = drawn.picture
     rays = picture.rays
     truth: Seen = scene_truth(scene, rays, picture, folder, config.grazing_margin * scene_radius(cell.surface))
-    hits = picture.hits(scale_of(scene, picture))
+    hits = hits_of(scene, picture)
     verdicts = accuracy.judge(hits, truth.truth, scene_radius(cell.surface), config.grazing_margin)
     alone = cell.scene is None
     deviations = (
@@ -54,7 +57,8 @@ def check(executor: LocalExecutor, planned: Planned, config: AccuracyChoice, fol
         footprint=pixel_footprint(camera, cell.size),
         grazing_margin=config.grazing_margin,
     )
-    frame = executor.rasterise(cell.device, planned.raster_frame(planned.samples, reports=True)).picture
+    whole = planned.raster_frame(planned.samples, reports=True)
+    frame = executor.rasterise(cell.device, whole, twice=False).picture
     fragments, found = int(frame.fragments.sum(dtype=np.int64)), int(frame.fragment_hits.sum(dtype=np.int64))
     summary = {"size": config.size, "domain_rays": int(meets(cell.surface.domain, rays).sum())} | summary
     summary |= {
@@ -70,3 +74,17 @@ def check(executor: LocalExecutor, planned: Planned, config: AccuracyChoice, fol
             np.where(picture.batch >= 0, grey, np.nan).astype(np.float32).reshape(config.size, config.size)
         )
     return Outcome(summary, pictures, drawn.compile_ms)
+
+
+def hits_of(scene: Scene, picture: Picture) -> Hits:
+    """What a frame with reporting programs answered, in world units; INVALID where that can be no answer: what is seen
+    is to lie in its surface's domain, a triangle in front of the eye."""
+    possible = picture.in_world & (picture.t >= 0.0)
+    for number, group in enumerate(scene.groups):
+        mine = np.flatnonzero((picture.batch == number) & ~picture.in_world)
+        numbers = {surface: k for k, surface in enumerate(group.distinct)}
+        kind = np.broadcast_to([numbers[surface] for surface in group.surfaces], len(group))[picture.instance[mine]]
+        for surface, k in numbers.items():
+            at = mine[kind == k]
+            possible[at] = answers.reachable(surface.domain, picture.local_rays[at], picture.t[at])
+    return answers.only(picture.hits(scale_of(scene, picture)), possible)

@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from harness import accuracy, beams, compilercheck, measure, rastercheck, stability
+from harness import accuracy, answers, beams, compilercheck, measure, rastercheck, stability
 from harness.assemble import method_program
 from harness.camera import distance_of, meets, pixel_footprint, rays_of, scene_radius
 from harness.config import Config
@@ -126,7 +126,7 @@ class Runner:
         if state.planned.draws:
             seen = rastercheck.check(self._executor, state.planned, config, self._store.truth)
             state.summary, state.arrays, state.compile_ms = seen.summary, seen.pictures, seen.compile_ms
-            return self._too_wrong(state)
+            return self._unfit(state)
         rays = rays_of(state.planned.camera, config.size)
         truth = cached_first_hits(cell.surface, rays, self._store.truth)
         casts_beams, checks = state.planned.casts != "rays", state.planned.checks
@@ -137,7 +137,11 @@ class Runner:
             checked = self._executor.check_frame(cell.device, frame, pixels.index)
         else:
             checked = self._executor.check(cell.device, checks[0], rays)
-        hits = beams.along_rays(checked.hits, pixels) if casts_beams else checked.hits
+        if casts_beams:
+            along, ahead = beams.along_rays(checked.hits, pixels), state.planned.camera[3:6]
+            hits = answers.validated_beams(along, cell.surface.domain, rays, ahead)
+        else:
+            hits = answers.validated(checked.hits, cell.surface.domain, rays)
         state.compile_ms = checked.compile_ms
         verdicts = accuracy.judge(hits, truth, scene_radius(cell.surface), config.grazing_margin)
         if casts_beams:
@@ -166,7 +170,7 @@ class Runner:
             state.summary |= counted
             state.arrays["level"] = checked.levels.reshape(config.size, config.size)
         fault = None if casts_beams else self._compilers_fault(state, rays, hits)
-        return fault or self._too_wrong(state)
+        return fault or self._unfit(state)
 
     def _compilers_fault(self, state: _Live, rays: NDArray[np.float32], hits: Hits) -> str | None:
         cell, plugin = state.planned.cell, self._catalog.get(state.planned.cell.variant.method)
@@ -177,11 +181,18 @@ class Runner:
         second = compilercheck.SecondBuild(cell.device, cell.precision, partial(program, entry="rays"), run)
         return compilercheck.doubts_about(cell.surface, rays, hits, second).fault
 
-    def _too_wrong(self, state: _Live) -> str | None:
+    def _unfit(self, state: _Live) -> str | None:
+        """Why a checked cell has no accuracy, which it then loses, or is too wrong to be timed."""
         assert state.summary is not None
-        share = accuracy.wrong_share(state.summary)
-        answers = self._catalog.get(state.planned.cell.variant.method).method.answers
-        if state.frame and answers and share > self._config.accuracy.max_wrong_share:
+        if not self._catalog.get(state.planned.cell.variant.method).method.answers:
+            return None
+        found, config = state.summary, self._config.accuracy
+        share = accuracy.wrong_share(found)
+        undecided = accuracy.undecided_hits(found["truth_hits"], found["undecided"], config.undecided)
+        if undecided or share is None:
+            state.summary = state.arrays = None
+            return undecided or accuracy.nothing_judged(found["rays"])
+        if state.frame and not share <= config.max_wrong_share:
             return f"wrong on {share:.1%} of the rays outside the grazing class: not timed"
         return None
 
@@ -193,9 +204,14 @@ class Runner:
         for group, program in zip(stability.groups(cell.family), state.planned.checks, strict=True):
             truth = cached_first_hits(group.surface, group.rays, self._store.truth)
             checked = self._executor.check(cell.device, program, group.rays)
+            hits = answers.validated(checked.hits, group.surface.domain, group.rays)
             state.compile_ms += checked.compile_ms
-            state.rungs += group.judge(checked.hits, truth, cell.precision)
-        return None
+            state.rungs += group.judge(hits, truth, cell.precision)
+        rays, undecided = (sum(rung[name] for rung in state.rungs) for name in ("rays", "undecided"))
+        reason = accuracy.undecided_hits(rays - undecided, undecided, self._config.accuracy.undecided, "rays")
+        if reason:
+            state.rungs = None
+        return reason
 
     def _time(self, live: dict[str, _Live]) -> list[Row]:
         """Interleaved rounds: each visits every unfinished cell once, in random order."""

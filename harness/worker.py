@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from harness.backends import (
+    Array,
     BuildError,
     Device,
     Launch,
@@ -29,6 +30,7 @@ from harness.backends import (
     launch_camera,
     launch_rays,
     open_device,
+    same_values,
 )
 from harness.backends.beams import beam_hits_from, launch_beams, launch_narrowed_camera, launch_narrowed_rays
 from harness.backends.raster import Batch, Picture, Rasteriser
@@ -63,7 +65,7 @@ class Checked:
     hits: Hits
     compile_ms: float
     levels: NDArray[np.uint8] | None = None  # [n] of the quadtree, at which each ray's pixel was decided
-    evaluations: tuple[float, int] | None = None  # mean and largest over the frame's pixels
+    evaluations: tuple[float | None, int] | None = None  # mean and largest over the frame's pixels, as Hits.spent
     prepass_evaluations: float | None = None  # the prepass's own, mean over the frame's pixels
 
 
@@ -126,17 +128,17 @@ class Worker:
         return self._built[program.hash]
 
     def check(self, program: Program, rays: NDArray[np.float32]) -> Checked:
-        """Build a listed-rays program and run it once; rays: float32[n, 6]."""
+        """Build a listed-rays program and run it twice; rays: float32[n, 6]. A FirsthitError where answers differ."""
         built, compile_ms = self._build(program)
-        launch = launch_rays(self._device, program, built, rays)
-        launch.run()
-        hits = hits_from(launch.read())
-        launch.release()
+        outputs, again = _twice(launch_rays(self._device, program, built, rays))
+        hits = hits_from(outputs)
+        _need_same(hits, hits_from(again))
         return Checked(hits, compile_ms)
 
     def check_frame(self, frame: Frame, pixels: NDArray[np.int32]) -> Checked:
-        """Build a frame of beams and run it once; what it answers for `pixels`, int32[n], or, where beams are only the
-        prepass, for the rays of the frame, float32[n, 6], which lie in those pixels."""
+        """Build a frame of beams and run it twice; what it answers for `pixels`, int32[n], or, where beams are only the
+        prepass, for the rays of the frame, float32[n, 6], which lie in those pixels. A FirsthitError where the two
+        runs answer differently."""
         built, compile_ms = self._build(frame.program)
         if frame.prepass:
             assert frame.rays is not None
@@ -145,28 +147,29 @@ class Worker:
             launch = launch_narrowed_rays(
                 self._device, programs, (before, built), frame.camera, frame.size, frame.rays, pixels
             )
-            launch.run()
-            *outputs, spent = launch.read()
-            launch.release()
-            return Checked(
-                hits_from(outputs), compile_ms + more_ms, prepass_evaluations=float(spent.sum()) / frame.size**2
-            )
-        launch = self._launch(frame, built)
-        launch.run()
-        hits, levels = beam_hits_from(launch.read())
-        launch.release()
+            (*outputs, spent), (*again, _) = _twice(launch)
+            hits = hits_from(outputs)
+            _need_same(hits, hits_from(again))
+            return Checked(hits, compile_ms + more_ms, prepass_evaluations=float(spent.sum()) / frame.size**2)
+        quadtree = frame.casts == "quadtree"
+        launch = launch_beams(self._device, frame.program, built, frame.camera, frame.size, quadtree, blank=True)
+        outputs, again = _twice(launch)
+        hits, levels = beam_hits_from(outputs)
+        _need_same(hits, beam_hits_from(again)[0])
         picked = Hits(hits.t[pixels], hits.status[pixels], hits.evaluations[pixels])
-        evaluations = float(hits.evaluations.mean()), int(hits.evaluations.max())
-        return Checked(picked, compile_ms, levels[pixels], evaluations)
+        return Checked(picked, compile_ms, levels[pixels], hits.spent)
 
-    def rasterise(self, frame: Frame) -> Rasterised:
-        """Draw a frame of reporting programs once."""
+    def rasterise(self, frame: Frame, twice: bool) -> Rasterised:
+        """Draw a frame of reporting programs; `twice`: a FirsthitError where two pictures of it differ."""
         built = [self._build(batch.program) for batch in frame.batches]
-        launch = self._raster(frame, self._build(frame.program)[0])
-        launch.run()
-        picture: Picture = launch.picture()
-        launch.release()
-        return Rasterised(picture, sum(compile_ms for _, compile_ms in built))
+        pictures: list[Picture] = []
+        for _ in range(1 + twice):
+            launch = self._raster(frame, self._build(frame.program)[0])  # anew: its counts add up from run to run
+            launch.run()
+            pictures.append(launch.picture())
+            launch.release()
+        _need_steady(pictures[0].differing(pictures[-1]), "pixels")
+        return Rasterised(pictures[0], sum(compile_ms for _, compile_ms in built))
 
     def _raster(self, frame: Frame, fill: Any = None) -> Any:
         programs = [self._build(batch.program)[0] for batch in frame.batches]
@@ -213,6 +216,28 @@ class Worker:
     def release(self, key: str) -> None:
         if frame := self._frames.pop(key, None):
             frame.release()
+
+
+def _twice(launch: Launch) -> tuple[list[Array], list[Array]]:
+    """The outputs of two runs of a launch, which is released."""
+    launch.run()
+    first = [output.copy() for output in launch.read()]
+    launch.run()
+    second = [output.copy() for output in launch.read()]
+    launch.release()
+    return first, second
+
+
+def _need_same(hits: Hits, again: Hits) -> None:
+    same = [same_values(values, getattr(again, name)) for name, values in vars(hits).items()]
+    _need_steady(~np.logical_and.reduce(same), "rays")
+
+
+def _need_steady(differs: NDArray[np.bool_], what: str) -> None:
+    """Raise where the same program on the same input does not answer alike twice: then it has no answers."""
+    if differs.any():
+        message = f"two runs of the program answer {int(differs.sum())} of {len(differs)} {what} differently"
+        raise FirsthitError(f"{message}: its kernel reads what nobody wrote, or the device is at fault", exit_code=3)
 
 
 def _die_with_parent() -> None:

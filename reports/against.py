@@ -17,7 +17,6 @@ from reports.content import Block, Code, Column, Document, Section, Table, Text
 from reports.load import Plan, Run
 
 LINES = 40  # changes that the first page lists
-COUNTS = ("misses", "false_hits", "exhausted", "wrong_root")
 _PLACE = ["scene", "variant", "precision"]
 
 

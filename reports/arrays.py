@@ -26,7 +26,7 @@ class Arrays:
     shade: NDArray[np.float32]  # cosine towards the camera; NaN on background
     condition: NDArray[np.float32] | None = None  # of the first root; NaN without one; None in older runs
     evaluations: NDArray[np.int32] | None = None  # of f, spent on the ray; None in older runs
-    status: NDArray[np.uint8] | None = None  # RayStatus
+    status: NDArray[np.uint8] | None = None  # RayStatus, what can be no answer among it
     level: NDArray[np.uint8] | None = None  # of the quadtree, at which the pixel's box was decided; of beams only
 
 

@@ -44,14 +44,15 @@ def sections(shelf: Shelf, frame: pd.DataFrame) -> list[Section]:
 
 def _table(rows: pd.DataFrame) -> Table:
     named = tables.places(rows)
+    bad = "invalid" in derive.kinds(rows)
     body = []
     for row in rows.itertuples():
         counts = (row.misses + row.grazing_misses, row.beam_only, row.false_hits, row.wrong_root)
+        counts += (row.invalid,) if bad else ()
         told = (row.device, row.precision, row.variant, *counts, row.pixel_error_p50, row.evaluations_mean)
         body.append((named[str(row.comparison)], *told))
-    counted = [
-        Column(title, wording.count, numeric=True) for title in ("misses", "beam\nonly", "false\nhits", "wrong\nroot")
-    ]
+    titles = ("misses", "beam\nonly", "false\nhits", "wrong\nroot", *(["in-\nvalid"] if bad else []))
+    counted = [Column(title, wording.count, numeric=True) for title in titles]
     return Table(
         (
             Column("surface", stretch=1),

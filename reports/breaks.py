@@ -9,8 +9,9 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
+from reports.schema import KINDS
+
 HELD = 0.99
-KINDS = ["misses", "false_hits", "exhausted", "wrong_root"]
 COUNTS = ["rays", "decided", "right", *KINDS, "undecidable", "undecidable_right", "undecided"]
 LADDER = ["family", "precision", "variant"]
 ALL_DEVICES = "all devices"

@@ -11,7 +11,7 @@ from collections.abc import Mapping
 import pandas as pd
 
 from harness.contract import CellStatus
-from reports.schema import SCHEMA
+from reports.schema import KINDS, SCHEMA
 
 GROUP = ["comparison", "device", "precision"]
 BASELINE = "ray_march"  # the method that speed-ups are over
@@ -36,12 +36,16 @@ def derive(frame: pd.DataFrame, peaks: Mapping[str, float] | None = None) -> pd.
     frame = frame.join(floor, on=GROUP)
     frame["floor_bound"] = frame["answers"] & (frame["median_ms"] < FLOOR_FACTOR * frame["floor_ms"])
     frame["peak_share"] = _peak_share(frame, peaks or {})
-    wrong = ["misses", "false_hits", "exhausted", "wrong_root"]
     for prefix in ("", "grazing_"):
-        total = frame[[prefix + name for name in wrong]].sum(axis=1, min_count=1).astype("Int64")
+        total = frame[[prefix + name for name in KINDS]].sum(axis=1, min_count=1).astype("Int64")
         frame[f"{prefix}wrong_rays"] = total
     frame["front"] = _front(frame)
     return frame.copy()  # columns added one by one lie scattered
+
+
+def kinds(rows: pd.DataFrame) -> tuple[str, ...]:
+    """The kinds of wrong rays that a table of `rows` has columns for: invalid answers only where there are any."""
+    return KINDS if rows["invalid"].fillna(0).sum() > 0 else tuple(kind for kind in KINDS if kind != "invalid")
 
 
 def contenders(frame: pd.DataFrame) -> pd.DataFrame:

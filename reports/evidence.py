@@ -35,7 +35,8 @@ class Evidence:
 
     @cached_property
     def finished(self) -> pd.DataFrame:
-        return self.frame[(self.frame["status"] == CellStatus.OK) & self.frame["answers"]]
+        frame = self.frame  # what was never held against the oracle is evidence of nothing
+        return frame[(frame["status"] == CellStatus.OK) & frame["answers"] & frame["wrong_rays"].notna()]
 
     def of(self, config: str) -> Evidence:
         """The rows of `config`'s own run alone, where this collects several and that one is among them; else all."""

@@ -17,6 +17,7 @@ from harness.contract import TruthStatus
 from reports import derive, plots, style, wording
 from reports.arrays import Arrays, Shelf
 from reports.content import Gallery, Panel, Picture
+from reports.schema import KINDS
 
 PIXELS = 480  # pixels are repeated to at least this side, because some viewers blur small pictures
 GRAZING_PALE = 0.55  # how far the colour of a wrong ray fades to white in the grazing class
@@ -69,7 +70,7 @@ def _panel(row: Any, arrays: Arrays, scale: tuple[int, int], prefix: str, titled
         Picture(f"{prefix}{row.key}-shade", png(shaded(arrays)), f"{row.surface_title} drawn by {name}"),
         Picture(f"{prefix}{row.key}-error", png(error_map(arrays, scale)), f"Errors of {name} on {row.surface_title}"),
     )
-    counts = zip((row.misses, row.false_hits, row.exhausted, row.wrong_root), style.WRONG, strict=True)
+    counts = zip((getattr(row, kind) for kind in KINDS), style.WRONG, strict=True)
     wrong = ", ".join(f"{kind.title} {n:,}" for n, kind in counts if not wording.absent(n) and n > 0)
     note = f"max {wording.error(row.error_max)} · {wrong or 'no wrong ray'}"
     if not wording.absent(row.grazing_wrong_rays) and row.grazing_wrong_rays > 0:

@@ -194,7 +194,7 @@ def error_legend(lowest: int, highest: int) -> Figure:
     """The key to the error pictures: the colour scale between two decades, and a patch for each kind of wrong ray."""
     with matplotlib.rc_context(RC):
         drawing = Drawing(figsize=(6.8, 0.42))
-        bar = drawing.add_axes((0.03, 0.6, 0.36, 0.36))
+        bar = drawing.add_axes((0.03, 0.6, 0.29, 0.36))
         bar.imshow(np.linspace(0, 1, 256)[None, :], aspect="auto", cmap=style.ERROR_MAP, extent=(lowest, highest, 0, 1))
         bar.set_yticks([])
         bar.grid(visible=False)
@@ -204,5 +204,5 @@ def error_legend(lowest: int, highest: int) -> Figure:
         handles = [Patch(facecolor=color, edgecolor=style.FAINT, linewidth=0.3) for color, _ in patches]
         labels = [label for _, label in patches]
         spacing = {"handlelength": 1.1, "columnspacing": 1.2, "handletextpad": 0.5}
-        drawing.legend(handles, labels, loc="center left", bbox_to_anchor=(0.42, 0.62), ncols=len(labels), **spacing)
+        drawing.legend(handles, labels, loc="center left", bbox_to_anchor=(0.35, 0.62), ncols=len(labels), **spacing)
         return Figure(f"error-legend{lowest}{highest:+d}", svg(drawing), "Colours of errors and of wrong rays.")

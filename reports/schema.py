@@ -38,6 +38,7 @@ def _fields(kind: Kind, names: str, at: str = "", prefix: str = "", required: bo
         yield Field(prefix + name, kind, (*at.split("."), name) if at else (name,), required)
 
 
+KINDS = ("misses", "false_hits", "exhausted", "wrong_root", "invalid")  # of wrong rays; older rows lack the last
 _PERCENTILES = "max p999 p99 p50"
 UNITS = (
     *("error", "relative_error", "feature_error", "pixel_error", "ulp_error"),
@@ -75,10 +76,10 @@ SCHEMA: tuple[Field, ...] = (
     *_fields("whole", "size rays", at="accuracy", prefix="accuracy_"),
     *_fields("whole", "domain_rays", at="accuracy"),
     *_fields("whole", "fragments fragments_discarded pixels_drawn other_instance", at="accuracy"),
-    *_fields("whole", "truth_hits truth_misses undecided grazing", at="accuracy"),
+    *_fields("whole", "truth_hits truth_misses undecided grazing judged", at="accuracy"),
     *_fields("real", "grazing_margin scene_radius domain_radius", at="accuracy"),
-    *_fields("whole", "misses false_hits exhausted wrong_root", at="accuracy"),
-    *_fields("whole", "grazing_misses grazing_false_hits grazing_exhausted grazing_wrong_root", at="accuracy"),
+    *_fields("whole", " ".join(KINDS), at="accuracy"),
+    *_fields("whole", " ".join(f"grazing_{kind}" for kind in KINDS), at="accuracy"),
     *(field for unit in UNITS for field in _fields("real", _PERCENTILES, at=f"accuracy.{unit}", prefix=f"{unit}_")),
     *_fields("whole", "beam_only", at="accuracy"),  # hits of what the pixel's beam sees and its ray passes by
     *_fields("real", "evaluations_mean evaluations_max prepass_evaluations_mean", at="accuracy"),
@@ -112,6 +113,7 @@ RUNG: tuple[Field, ...] = (
     *_fields("whole", "level", required=True),  # 0, 1, … going harder
     *_fields("real", "parameter", required=True),
     *_fields("whole", "rays decided right misses false_hits exhausted wrong_root", required=True),
+    *_fields("whole", "invalid"),
     *_fields("whole", "undecidable undecidable_right undecided", required=True),
     *_fields("real", "max_error worst_ratio"),
 )

@@ -7,7 +7,7 @@ from typing import Any
 
 import pandas as pd
 
-from reports import breaks, ladders, wording
+from reports import breaks, derive, ladders, tables, wording
 from reports.content import Block, Column, Section, Table, Text
 from reports.load import Facts
 from reports.style import Mark
@@ -59,16 +59,15 @@ def _agreement(rungs: pd.DataFrame, devices: Mapping[str, pd.DataFrame]) -> str:
 
 def table(verdicts: pd.DataFrame, facts: Mapping[str, Facts], title: str) -> Table:
     """Family × variant, of the verdicts of one device and precision."""
+    kinds = derive.kinds(verdicts)
     body = []
     for row in verdicts.itertuples():
-        right = (row.share_right, *(getattr(row, kind) for kind in breaks.KINDS))
+        right = (row.share_right, *(getattr(row, kind) for kind in kinds))
         known = (row.decided, *(right if row.decided else (None,) * len(right)), row.worst_ratio)
         body.append(
             (facts[row.family].title, row.variant, outcome(row), *known, row.undecidable, row.undecidable_right)
         )
     decided, undecidable = "decided rays", "undecidable rays"
-    counted = [wording.count] * 4
-    kinds = zip(("misses", "false\nhits", "exhaus-\nted", "wrong\nroot"), counted, strict=True)
     return Table(
         (
             Column("family"),
@@ -76,7 +75,7 @@ def table(verdicts: pd.DataFrame, facts: Mapping[str, Facts], title: str) -> Tab
             Column("breaks at", _outcome, numeric=True),
             Column("rays", wording.count, numeric=True, over=decided),
             Column("right", wording.portion, numeric=True, over=decided),
-            *(Column(kind, show, numeric=True, over=decided) for kind, show in kinds),
+            *(Column(tables.WRONG[kind], wording.count, numeric=True, over=decided) for kind in kinds),
             Column("worst error over\ncondition × roundoff", wording.short, numeric=True, over=decided),
             Column("rays", wording.count, numeric=True, over=undecidable),
             Column("right", wording.count, numeric=True, over=undecidable),

@@ -94,6 +94,7 @@ WRONG = (
     Class(2, "false hit", _PURPLE),
     Class(3, "exhausted", _SKY),
     Class(4, "wrong root", _GREEN),
+    Class(5, "invalid", "#FF00FF"),
 )
 UNDECIDED = "#bdbdbd"
 EXACT = "#e9eef4"  # an error of exactly zero, below the colour scale

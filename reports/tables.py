@@ -16,6 +16,13 @@ from reports.load import Facts, Plan, Unreadable
 
 ROW_LIMIT = 1_500  # rows that one list prints; a longer one belongs in results.csv
 REASON_LIMIT = 500  # characters of a reason; a compiler's full log stays in the cell's file
+WRONG = {  # heads of columns, by the kind of wrong rays
+    "misses": "misses",
+    "false_hits": "false\nhits",
+    "exhausted": "exhaus-\nted",
+    "wrong_root": "wrong\nroot",
+    "invalid": "in-\nvalid",
+}
 OVERHEAD_LIMIT = 0.05  # a larger share of the time is flagged: the harness promises less
 
 
@@ -91,8 +98,8 @@ def winners(frame: pd.DataFrame) -> Table:
         body,
         "What wins where.",
         f"Speed-up is over {derive.BASELINE} in the same group; max error is the largest |t − t*| in scene units over "
-        "rays away from silhouettes; wrong rays are misses, false hits, exhausted rays and wrong roots among them."
-        + note,
+        "rays away from silhouettes; wrong rays are misses, false hits, exhausted rays, wrong roots and invalid "
+        "answers among them." + note,
         group=2,
     )
 
@@ -144,11 +151,12 @@ def flags(row: Any) -> str:
 def results(rows: pd.DataFrame) -> Table:
     """Every finished row of one comparison, fastest first for each device and precision."""
     rows = rows.sort_values(["device", "precision", "median_ms"], kind="stable")
+    kinds = derive.kinds(rows)
     body = []
     for row in rows.itertuples():
         spread = (row.upper_ms - row.lower_ms) / (2 * row.median_ms) if row.median_ms else None
         speed = (row.median_ms, spread, row.mrays_per_s, row.frames_per_s, row.speedup)
-        errors = (row.error_max, row.error_p99, row.misses, row.false_hits, row.exhausted, row.wrong_root)
+        errors = (row.error_max, row.error_p99, *(getattr(row, kind) for kind in kinds))
         told = (*errors, row.grazing_wrong_rays, row.evaluations_mean, row.peak_share)
         body.append((row.device, row.precision, row.variant, *speed, *told, row.compile_ms, row.clock, flags(row)))
     return Table(
@@ -163,10 +171,7 @@ def results(rows: pd.DataFrame) -> Table:
             Column("speed-\nup", wording.factor, numeric=True),
             Column("max\nerror", wording.error, numeric=True),
             Column("99 %\nerror", wording.error, numeric=True),
-            Column("misses", wording.count, numeric=True),
-            Column("false\nhits", wording.count, numeric=True),
-            Column("exhaus-\nted", wording.count, numeric=True),
-            Column("wrong\nroot", wording.count, numeric=True),
+            *(Column(WRONG[kind], wording.count, numeric=True) for kind in kinds),
             Column("grazing\nwrong", wording.count, numeric=True),
             Column("evals\nper ray", wording.number, numeric=True),
             Column("share\nof peak", wording.share, numeric=True),
@@ -231,6 +236,8 @@ def _results_caption(rows: pd.DataFrame) -> tuple[str, str]:
             f" Errors are over {row.accuracy_rays:,} rays, of which {wording.count(row.grazing)} pass within "
             f"{wording.error(row.grazing_margin)} of another answer: these grazing rays are counted apart."
         )
+        if not wording.absent(row.undecided) and row.undecided:
+            checked += f" The oracle left {wording.plural(row.undecided, 'hit')} undecided; no figure here is of them."
     return (
         scene(rows),
         "Fastest first for each device and precision; ± is half the 95 % interval of the median, errors are |t − t*| "

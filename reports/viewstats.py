@@ -9,7 +9,7 @@ from typing import Any
 import pandas as pd
 
 from harness.contract import CellStatus
-from reports import tables, wording
+from reports import derive, tables, wording
 from reports.content import Column, Table
 
 FEWEST = 3  # views that make a set
@@ -149,11 +149,12 @@ def wrong_rays(of: ViewSet) -> Table | None:
     rows = of.rows[of.rows["wrong_rays"].fillna(0) > 0].sort_values("wrong_rays", ascending=False, kind="stable")
     if rows.empty:
         return None
+    kinds = derive.kinds(rows)
     body = [
-        (r.variant, r.view, r.wrong_rays, r.misses, r.false_hits, r.exhausted, r.wrong_root, r.grazing_wrong_rays)
+        (r.variant, r.view, r.wrong_rays, *(getattr(r, kind) for kind in kinds), r.grazing_wrong_rays)
         for r in rows.head(PRINTED_WRONG).itertuples()
     ]
-    titles = ("wrong", "misses", "false hits", "exhausted", "wrong root", "grazing wrong")
+    titles = ("wrong", *(kind.replace("_", " ") for kind in kinds), "grazing wrong")
     cut = f" The first {PRINTED_WRONG} of {len(rows):,}; results.csv has all." if len(rows) > PRINTED_WRONG else ""
     return Table(
         (

@@ -187,7 +187,7 @@ def family_cell(variant: str, family: str, device: str, precision: str) -> dict[
 
 
 def rung(parameter: float, wrong: int, kind: str, decided: bool) -> dict[str, Any]:
-    counts = {"misses": 0, "false_hits": 0, "exhausted": 0, "wrong_root": 0}
+    counts = {"misses": 0, "false_hits": 0, "exhausted": 0, "wrong_root": 0, "invalid": 0}
     errors = (
         {"max_error": 1e-6 / parameter, "worst_ratio": 2.5 + wrong}
         if decided
@@ -225,10 +225,12 @@ def accuracy(rng: random.Random, method: str, precision: str, coverage: float, e
         "false_hits": wrong // 3,
         "exhausted": wrong // 5,
         "wrong_root": 0,
+        "invalid": 0,
         "grazing_misses": 3,
         "grazing_false_hits": 1,
         "grazing_exhausted": 0,
         "grazing_wrong_root": 0,
+        "grazing_invalid": 0,
         "error": error,
         "relative_error": dict(error),
         "feature_error": {name: value / 0.3 for name, value in error.items()},

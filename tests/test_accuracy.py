@@ -1,6 +1,21 @@
-import numpy as np
+import itertools
+import json
 
-from harness.accuracy import Wrong, deviations, judge, summarize, wrong_share
+import numpy as np
+import pytest
+
+from harness.accuracy import (
+    NAMES,
+    Wrong,
+    deviations,
+    judge,
+    judged,
+    nothing_judged,
+    summarize,
+    undecided_hits,
+    undecided_too_many,
+    wrong_share,
+)
 from harness.contract import Box, Hits, Surface, Truth
 
 BALL = Surface("ball", "Ball", "x^2 + y^2 + z^2 - 4", Box((-4, -4, -4), (4, 4, 4)), "test", 2, bounding_radius=2.0)
@@ -93,3 +108,83 @@ def test_the_normal_error_is_the_angle_between_gradients():
     hits = _hits([0.05], [1])
     found = deviations(tilted, rays, hits, truth, judge(hits, truth, 4.0, 0.0))
     assert np.isclose(found.normal[0], np.degrees(np.arctan(0.1)))
+
+
+NAN, INF = np.nan, np.inf
+ANSWERS = (1.0, 0.5, -1.0, 0.0, 1e300, -1e300, NAN, INF, -INF)
+
+
+@pytest.mark.parametrize("status", range(8))
+def test_right_is_only_what_is_shown_to_be_right(status):
+    """Every t with every status, against a hit at 1, a miss and an undecided ray: what can be no answer is invalid,
+    whatever the truth."""
+    t = np.array(ANSWERS)
+    nowhere = np.zeros(len(t), bool)
+    for truth_status, root in ((1, 1.0), (2, 1.0), (0, NAN), (3, NAN)):
+        truth = _truth([truth_status] * len(t), [root] * len(t), [INF] * len(t), [INF] * len(t))
+        verdicts = judge(_hits(t, [status] * len(t)), truth, 2.0, 1e-3)
+        right = verdicts.wrong == Wrong.RIGHT
+        hit_right = (t == 1.0) if truth_status in (1, 2) else np.isfinite(t) if truth_status == 3 else nowhere
+        expected = {0: np.full(len(t), truth_status in (0, 3)), 1: hit_right, 2: np.full(len(t), truth_status == 3)}
+        assert (right == expected.get(status, nowhere)).all(), (status, truth_status)
+        invalid = verdicts.wrong == Wrong.INVALID
+        assert (invalid == (~np.isfinite(t) if status == 1 else np.full(len(t), status > 2))).all()
+        assert (np.isfinite(verdicts.error) == (right & (truth_status in (1, 2)) & (status == 1))).all()
+
+
+def test_a_root_whose_bounds_are_no_numbers_is_met_by_no_hit():
+    truth = _truth([1, 1, 1], [NAN, 1.0, INF], [INF, NAN, INF], [INF] * 3)
+    verdicts = judge(_hits([1.0, 1.0, 1.0], [1, 1, 1]), truth, 2.0, 1e-3)
+    assert (verdicts.wrong == Wrong.WRONG_ROOT).all()
+
+
+def test_a_kernel_that_answers_nan_is_wholly_wrong():
+    truth = _truth([1, 1, 0, 0], [1.0, 1.0, NAN, NAN], [INF] * 4, [INF] * 4)
+    summary = _summary(_hits([NAN] * 4, [1] * 4), truth)
+    assert (summary["invalid"], summary["misses"], summary["wrong_root"], summary["false_hits"]) == (4, 0, 0, 0)
+    assert wrong_share(summary) == 1.0
+    assert summary["error"]["max"] is None
+    json.dumps(summary, allow_nan=False)
+
+
+def test_evaluations_are_of_rays_that_were_answered():
+    truth = _truth([0, 0, 0], [NAN] * 3, [INF] * 3, [INF] * 3)
+    hits = Hits(np.full(3, NAN), np.array([0, 0, 3], np.uint8), np.array([4, 8, 0], np.int32))
+    assert _summary(hits, truth)["evaluations_mean"] == 6.0
+    none = Hits(np.full(3, NAN), np.full(3, 3, np.uint8), np.zeros(3, np.int32))
+    assert _summary(none, truth)["evaluations_mean"] is None
+
+
+def test_where_nothing_is_judged_no_share_is_wrong_and_none_is_right():
+    truth = _truth([1, 3], [1.0, NAN], [INF] * 2, [0.0, INF])
+    hits = _hits([1.0, NAN], [1, 0])
+    summary = _summary(hits, truth)
+    assert (summary["judged"], summary["grazing"], summary["undecided"]) == (0, 1, 1)
+    assert wrong_share(summary) is None
+    assert not judged(truth, judge(hits, truth, 2.0, 1e-3)).any()
+    assert "nothing to judge" in nothing_judged(2)
+
+
+def test_undecided_rays_dilute_no_share():
+    truth = _truth([1, 1, 3, 3], [1.0, 1.0, NAN, NAN], [INF] * 4, [INF] * 4)
+    assert wrong_share(_summary(_hits([1.0, NAN, 1.0, NAN], [1, 0, 1, 0]), truth)) == 0.5
+    assert wrong_share(_summary(_hits([NAN] * 4, [1] * 4), truth)) == 1.0, "an invalid answer to an undecided ray too"
+
+
+@pytest.mark.parametrize(
+    ("hits", "undecided", "most", "holds"),
+    [(99, 1, 0.01, True), (98, 2, 0.01, False), (0, 0, 0.01, True), (0, 1, 0.01, False), (100, 0, 0.0, True),
+     (100, 1, 0.0, False), (0, 5, 1.0, True), (0, 5, float("nan"), False)],
+)  # fmt: skip
+def test_a_truth_with_too_many_undecided_hits_measures_nothing(hits, undecided, most, holds):
+    reason = undecided_hits(hits, undecided, most)
+    assert (reason is None) == holds
+    assert holds or f"{undecided} of {hits + undecided} hits undecided" in reason
+    statuses = [1] * hits + [3] * undecided + [0] * 7
+    truth = _truth(statuses, [NAN] * len(statuses), [INF] * len(statuses), [INF] * len(statuses))
+    assert undecided_too_many(truth, most) == reason
+
+
+def test_every_kind_of_wrong_ray_has_a_name_of_its_own():
+    assert set(NAMES) == set(Wrong) - {Wrong.RIGHT}
+    assert all(a != b for a, b in itertools.combinations(NAMES.values(), 2))

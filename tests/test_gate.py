@@ -127,6 +127,17 @@ def test_a_dropped_root_is_caught_by_misses_or_wrong_roots_and_by_the_claim(gate
     assert _row(out, "mine", "misses") is None
 
 
+def test_hits_that_are_no_numbers_are_caught(gated):
+    """NaN on 95 % of the hits: fewer misses and smaller errors than before, and no improvement."""
+    wrong = "return hit_at(hit, fabs(ray.direction.x) > 0.01 ? sqrt(-fabs(t) - 1.0) : t);"
+    _plant(gated.plugins, "mine", "kernel.glsl", "return hit_at(hit, t);", wrong)
+    code, out, _ = gated()
+    assert code == 1
+    assert _row(out, "mine torus", "invalid") == "regressed"
+    assert _row(out, "mine family double_root", "invalid") == "regressed"
+    assert "1 improved" not in out.splitlines()[-1]
+
+
 def test_one_more_evaluation_a_ray_is_caught_by_the_evaluations_alone(gated):
     _plant(gated.plugins, "mine", "kernel.glsl", "hit.evaluations = 1;", "hit.evaluations = 2;")
     code, out, _ = gated()
@@ -196,6 +207,9 @@ def test_a_run_that_fails_is_not_blessed(gated):
         ("[gate.figures]\nmises = { absolute = 1 }\n", "did you mean 'misses'"),
         ("[gate.figures]\nmisses = { better = 'more' }\n", "lower or higher"),
         ("[gate.figures]\nmisses = { gated = 1 }\n", "true or false"),
+        ("[gate.figures]\nerror_max = { absolute = nan }\n", "finite number"),
+        ("[gate.figures]\nerror_max = { relative = inf }\n", "finite number"),
+        ("[gate.figures]\nmisses = { absolute = -1.0 }\n", "not negative"),
         ("[gate]\nsame = ['drivers']\n", "did you mean 'driver'"),
     ],
 )

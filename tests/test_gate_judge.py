@@ -157,8 +157,9 @@ def test_blessing_keeps_other_machines_and_replaces_this_one():
 
 
 def test_claims_are_counted_until_a_row_disproves_them():
-    counts = dict.fromkeys(("misses", "false_hits", "exhausted", "wrong_root"), 0)
+    counts = dict.fromkeys(("misses", "false_hits", "exhausted", "wrong_root", "invalid"), 0)
     grazing = {f"grazing_{name}": 0 for name in counts}
+    counts |= {"undecided": 0}
     accuracy = counts | grazing | {"error": {"max": 1.0, "p99": None}, "evaluations_mean": 2.0}
     row = {"accuracy": accuracy, "rungs": None}
     claims = ("no_missed_root", "finds_touch")
@@ -232,3 +233,67 @@ def test_the_table_lists_all_that_does_not_pass(told):
     assert text.splitlines()[1].startswith("regressed     m a")
     assert text.splitlines()[-1] == "1 regressed, 1 missing, 1 incomparable, 1 pass"
     assert outputs.table([dataclasses.replace(told[-1])]) == "1 pass"
+
+
+NAN, INF = float("nan"), float("inf")
+
+
+@pytest.mark.parametrize("now", [NAN, INF])
+@pytest.mark.parametrize("before", [0.0, 1e-5, NAN, -1.0])
+def test_what_is_no_number_regresses(before, now):
+    for tolerance in (Tolerance("lower", 0.0, 0.05), Tolerance("lower", 1.0, 0.0), Tolerance("lower", NAN, 0.0)):
+        assert tolerance.verdict(before, now) == "regressed"
+        assert tolerance.verdict(NAN, before) == "regressed"
+    assert Tolerance("higher", 0.0, 0.0).verdict(1.0, NAN) == "regressed"
+    assert Tolerance("higher", 0.0, 0.0).verdict(1.0, -INF) == "regressed"
+
+
+def test_a_tolerance_that_is_no_number_lets_nothing_pass():
+    assert Tolerance("lower", NAN, 0.0).verdict(1.0, 1.0) == "regressed"
+    assert Tolerance("lower", 0.0, NAN).verdict(1.0, 1.0) == "regressed"
+
+
+def test_invalid_answers_regress_against_a_baseline_that_never_counted_them():
+    """Blessed on a good kernel; the new one answers NaN on most of its hits, and misses fewer."""
+    now = ENTRY | {"misses": 1, "error_max": 1e-6, "invalid": 197}
+    found = verdict(now)
+    assert (found.verdict, found.worst.figure) == ("regressed", "invalid")
+    assert verdict(ENTRY | {"invalid": 0}).verdict == "pass"
+    assert verdict(ENTRY | {"invalid": 3}, before=ENTRY | {"invalid": 5}).verdict == "improved"
+
+
+def test_a_row_that_did_not_finish_then_and_now_is_no_pass():
+    for status in ("failed", "timeout", "crashed"):
+        broken = {"status": status, "scene": "s1"}
+        assert verdict(broken, before=broken).verdict == "incomparable"
+    skipped = {"status": "skipped", "scene": "s1"}
+    assert verdict(skipped, before=skipped).verdict == "pass"
+
+
+def test_a_figure_that_is_no_number_cannot_be_gated_nor_read_back(tmp_path):
+    counts = dict.fromkeys(("misses", "false_hits", "exhausted", "wrong_root", "invalid"), 0)
+    accuracy = counts | {f"grazing_{name}": 0 for name in counts} | {"undecided": 0}
+    accuracy |= {"error": {"max": NAN, "p99": None}, "evaluations_mean": 2.0}
+    with pytest.raises(FirsthitError, match="m a: its error_max is nan"):
+        figures.figures({"slot": "m a", "accuracy": accuracy, "rungs": None}, ())
+    for value in (NAN, INF, -INF):
+        baseline.write(tmp_path / "b.toml", of({"m a": ENTRY | {"error_max": value}}))
+        with pytest.raises(FirsthitError, match="error_max"):
+            baseline.read(tmp_path / "b.toml")
+
+
+def test_grazing_invalid_answers_are_gated_without_a_tolerance():
+    counts = dict.fromkeys(("misses", "false_hits", "exhausted", "wrong_root", "invalid"), 0)
+    accuracy = counts | {f"grazing_{name}": 0 for name in counts} | {"undecided": 2, "grazing_invalid": 1}
+    accuracy |= {"error": {"max": None, "p99": None}, "evaluations_mean": None}
+    found = figures.figures({"slot": "m a", "accuracy": accuracy, "rungs": None}, ("no_missed_root", "no_false_hit"))
+    assert (found["invalid"], found["grazing_wrong"], found["undecided"], found["claims"]) == (1, 0, 2, 1)
+    assert "evaluations_mean" not in found
+
+
+@pytest.mark.parametrize(("lower", "upper"), [(NAN, NAN), (0.9, NAN), (NAN, 1.0), (INF, INF), (-INF, 0.5)])
+def test_a_ratio_that_is_no_number_is_incomparable(lower, upper):
+    base = Judged("m a: speed", "opencl:a", "m", Verdict.PASS)
+    assert verdict_of(base, Ratio(1.0, lower, upper, True, 0.001, 12), Tolerance("lower", 0.0, 0.05)).verdict == (
+        "incomparable"
+    )

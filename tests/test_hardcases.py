@@ -319,3 +319,16 @@ def test_the_first_break_is_the_easiest_rung_that_fails() -> None:
     assert first_break(ladder, "larger") == 1e-3
     assert first_break(ladder, "smaller", share=0.9) == 1e-3
     assert first_break(ladder, "smaller", share=0.2) is None
+
+
+def test_an_answer_that_can_be_none_is_wrong_on_rays_that_nobody_can_decide() -> None:
+    rung, truth = hardcases.rungs("double_root")[0], truths("double_root")[0]
+    hits = answers(truth)
+    assert judge_rung(rung, hits, truth, "float32")["decided"] == 0
+    hits.t[:5] = (np.nan, np.inf, -np.inf, np.nan, np.nan)
+    hits.status[:5] = RayStatus.HIT
+    hits.status[5:7] = RayStatus.INVALID
+    verdict = judge_rung(rung, hits, truth, "float32")
+    assert (verdict["invalid"], verdict["decided"], verdict["right"]) == (7, 7, 0)
+    assert verdict["rays"] == verdict["decided"] + verdict["undecidable"] + verdict["undecided"]
+    assert first_break([verdict], "smaller") == rung.parameter

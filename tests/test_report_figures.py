@@ -23,17 +23,17 @@ def frame(run: Path) -> pd.DataFrame:
 
 
 def test_error_pictures_show_each_kind_of_ray_in_its_colour() -> None:
-    shape = (1, 8)
-    error = np.array([[0.0, 1e-8, 1e-2, np.nan, np.nan, np.nan, np.nan, np.nan]], np.float32)
-    wrong = np.array([[0, 0, 0, 1, 2, 3, 4, 1]], np.uint8)
-    grazing = np.arange(8).reshape(shape) == 7
+    shape = (1, 9)
+    error = np.array([[0.0, 1e-8, 1e-2, np.nan, np.nan, np.nan, np.nan, np.nan, np.nan]], np.float32)
+    wrong = np.array([[0, 0, 0, 1, 2, 3, 4, 5, 1]], np.uint8)
+    grazing = np.arange(9).reshape(shape) == 8
     shade = np.ones(shape, np.float32)
     image = images.error_map(arrays.Arrays(np.ones(shape, np.uint8), error, wrong, grazing, shade), (-8, -2))
     colors = ["#{:02x}{:02x}{:02x}".format(*np.round(255 * pixel).astype(int)) for pixel in image[0]]
     assert colors[0] == style.EXACT
     assert colors[1] == "#00224e" and colors[2] == "#fee838", "the ends of cividis"
-    assert colors[3:7] == [kind.color.lower() for kind in style.WRONG]
-    assert np.all(image[0, 7] > image[0, 3] - 1e-9) and not np.allclose(image[0, 7], image[0, 3])
+    assert colors[3:8] == [kind.color.lower() for kind in style.WRONG]
+    assert np.all(image[0, 8] > image[0, 3] - 1e-9) and not np.allclose(image[0, 8], image[0, 3])
 
 
 def test_a_zero_error_has_its_place_left_of_the_smallest(frame: pd.DataFrame) -> None:

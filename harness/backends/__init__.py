@@ -52,10 +52,16 @@ class Step:
 
 @dataclass(frozen=True)
 class Reserved:
-    """A buffer that starts with anything in it: `count` numbers of a kind."""
+    """A buffer of `count` numbers of a kind, each of which starts as `fill`; None: as anything."""
 
     count: int
     kind: type
+    fill: int | None = None
+
+    def filled(self) -> Array:
+        """What the buffer starts with, where that is stated."""
+        assert self.fill is not None
+        return np.full(max(1, self.count), self.fill, self.kind)
 
 
 class Launch(ABC):
@@ -126,8 +132,23 @@ def hits_from(outputs: Sequence[Array]) -> Hits:
     whole = t.astype(np.float64)
     if len(whole) == 2 * len(answer):
         whole = whole[0::2] + whole[1::2]
-    status = (answer & 3).astype(np.uint8)
-    return Hits(np.where(status == RayStatus.HIT, whole, np.nan), status, (answer >> 2).astype(np.int32))
+    return unpacked(whole, answer, answer & 3, answer >> 2)
+
+
+def unpacked(t: Array, word: Array, status: Array, evaluations: Array) -> Hits:
+    """The answers [n] packed in `word`, which is negative where a kernel's status or count was none."""
+    status = np.where(word < 0, RayStatus.INVALID, status).astype(np.uint8)
+    spent = np.where(status == RayStatus.INVALID, 0, evaluations).astype(np.int32)
+    return Hits(np.where(status == RayStatus.HIT, t.astype(np.float64), np.nan), status, spent)
+
+
+def same_values(a: NDArray[Any], b: NDArray[Any]) -> NDArray[np.bool_]:
+    """bool: where two arrays of one shape and kind are the same bits; every NaN is the same."""
+    if a.dtype.kind != "f":
+        return np.asarray(a == b)
+    bits = np.dtype(f"u{a.dtype.itemsize}")
+    plain = (np.ascontiguousarray(np.where(np.isnan(v), np.array(np.nan, v.dtype), v)).view(bits) for v in (a, b))
+    return np.asarray(np.equal(*plain))
 
 
 def map_rows(device: Device, program: Program, rows: Array, outputs: int) -> Array:

@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from harness import prepass
-from harness.backends import Array, Device, Launch, Reserved, Step, real_type
-from harness.contract import Hits, Program, RayStatus
+from harness.backends import Array, Device, Launch, Reserved, Step, real_type, unpacked
+from harness.contract import Hits, Program
 
 UNITS = 64  # compute units of a device that does not say how many it has
 CELLS_PER_UNIT = 64  # fill a unit: one work group
@@ -64,16 +64,17 @@ def launch_beams(
     size: int,
     quadtree: bool,
     first: int | None = None,
+    blank: bool = False,
 ) -> Launch:
     """A beam for each pixel of a size × size image, or a quadtree of beams from level `first` (None: that fills the
-    device). camera: float32[12]."""
+    device). camera: float32[12]. `blank`: a pixel that no cell answers reads as one without an answer."""
     last = last_level(size)
     start = (first_level(device, last) if first is None else first) if quadtree else last
     steps, queue = quadtree_steps(device, built, size, start, last, last)
     buffers: list[Array | Reserved] = [
         np.ascontiguousarray(camera, np.float32),
         Reserved(size * size, real_type(program)),
-        Reserved(size * size, np.int32),
+        Reserved(size * size, np.int32, fill=-1 if blank else None),
         Reserved(queue, np.int32),
         Reserved(LEVELS, np.int32),
     ]
@@ -141,6 +142,5 @@ def beam_hits_from(outputs: Sequence[Array]) -> tuple[Hits, NDArray[np.uint8]]:
     they add up to what was spent.
     """
     t, answer = outputs
-    status = (answer & 3).astype(np.uint8)
-    hits = Hits(np.where(status == RayStatus.HIT, t.astype(np.float64), np.nan), status, answer >> 7)
+    hits = unpacked(t, answer, answer & 3, answer >> 7)
     return hits, ((answer >> 2) & 31).astype(np.uint8)

@@ -180,12 +180,15 @@ class OpenCLLaunch(Launch):
         self._queue = queue
         start = time.perf_counter()
         flags = cl.mem_flags
-        self._buffers = [
-            cl.Buffer(context, flags.READ_WRITE, max(1, b.count) * np.dtype(b.kind).itemsize)
-            if isinstance(b, Reserved)
-            else cl.Buffer(context, flags.READ_ONLY | flags.COPY_HOST_PTR, hostbuf=b)
-            for b in buffers
-        ]
+
+        def buffer(of: Array | Reserved) -> Any:
+            if not isinstance(of, Reserved):
+                return cl.Buffer(context, flags.READ_ONLY | flags.COPY_HOST_PTR, hostbuf=of)
+            if of.fill is not None:
+                return cl.Buffer(context, flags.READ_WRITE | flags.COPY_HOST_PTR, hostbuf=of.filled())
+            return cl.Buffer(context, flags.READ_WRITE, max(1, of.count) * np.dtype(of.kind).itemsize)
+
+        self._buffers = [buffer(b) for b in buffers]
         queue.finish()
         self.upload_ms = (time.perf_counter() - start) * 1e3
         results: dict[int, Array] = {

@@ -152,12 +152,13 @@ class OpenGLLaunch(Launch):
                 f"{groups} work groups are needed, and this device runs {most} at once: take a smaller size"
             )
         start = time.perf_counter()
-        self._buffers = [
-            context.buffer(reserve=max(1, b.count) * np.dtype(b.kind).itemsize)
-            if isinstance(b, Reserved)
-            else context.buffer(b.tobytes())
-            for b in buffers
-        ]
+
+        def buffer(of: Array | Reserved) -> Any:
+            if isinstance(of, Reserved) and of.fill is None:
+                return context.buffer(reserve=max(1, of.count) * np.dtype(of.kind).itemsize)
+            return context.buffer((of.filled() if isinstance(of, Reserved) else of).tobytes())
+
+        self._buffers = [buffer(b) for b in buffers]
         self._timer = context.query(time=True)
         context.finish()
         self.upload_ms = (time.perf_counter() - start) * 1e3

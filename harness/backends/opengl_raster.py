@@ -40,7 +40,7 @@ class RasterLaunch(Launch):
         self._target = self._keep(context.framebuffer([self._colour, *floats], depth))
         self._seen = floats
         self._rays = self._keep(context.buffer(reserve=size * size * 24)) if reports else None
-        self._counts = self._keep(context.buffer(np.zeros(4 * size * size, np.int32).tobytes())) if reports else None
+        self._counts = self._keep(context.buffer(np.zeros(5 * size * size, np.int32).tobytes())) if reports else None
         eye, forward, right, up = (tuple(map(float, part)) for part in camera.reshape(4, 3))
         self._uniforms = {
             "eye": eye,
@@ -129,7 +129,7 @@ class RasterLaunch(Launch):
             self._flipped(np.frombuffer(texture.read(), np.float32), 4).reshape(count, 4) for texture in self._seen
         )
         rays = self._flipped(np.frombuffer(self._rays.read(), np.float32), 6).reshape(count, 6)
-        counts = self._flipped(np.frombuffer(self._counts.read(), np.int32), 4).reshape(count, 4)
+        counts = self._flipped(np.frombuffer(self._counts.read(), np.int32), 5).reshape(count, 5)
         seen = by[:, 0] > 0.0
         t = origin[:, 3].astype(np.float64) + direction[:, 3].astype(np.float64)
         return Picture(
@@ -144,6 +144,7 @@ class RasterLaunch(Launch):
             counts[:, 2],
             counts[:, 3],
             counts[:, 1],
+            counts[:, 4],
         )
 
     def release(self) -> None:

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from harness.backends import same_values
 from harness.contract import Hits, Program, RayStatus
 
 RECORD = 32  # float32 of an instance, see harness/kernels/raster_instance.glsl
@@ -41,13 +42,25 @@ class Picture:
     fragment_hits: NDArray[np.int32]  # [n] those with a hit, seen or hidden
     exhausted: NDArray[np.int32]  # [n] those that gave up
     evaluations: NDArray[np.int32]  # [n] spent by all of them
+    invalid: NDArray[np.int32]  # [n] those that gave no answer
 
     def hits(self, scale: NDArray[np.float64]) -> Hits:
         """As any stage answers: t in world units, where `scale` float64[n] is that of who is seen. Where nothing is, a
-        pixel with a fragment that gave up is exhausted, and a miss otherwise."""
+        pixel with a fragment that gave up is exhausted, and a miss otherwise. A fragment without an answer makes its
+        pixel invalid, since it may have been in front, and so does one whose hit lies behind all that there is."""
         gave_up = np.where(self.exhausted > 0, RayStatus.EXHAUSTED, RayStatus.MISS)
-        status = np.where(self.batch >= 0, RayStatus.HIT, gave_up).astype(np.uint8)
-        return Hits(self.t * scale, status, self.evaluations)
+        status = np.where(self.batch >= 0, RayStatus.HIT, gave_up)
+        bad = (self.invalid > 0) | (self.evaluations < 0) | ((self.fragment_hits > 0) & (self.batch < 0))
+        status = np.where(bad, RayStatus.INVALID, status).astype(np.uint8)
+        return Hits(np.where(bad, np.nan, self.t * scale), status, np.where(bad, 0, self.evaluations))
+
+    def differing(self, other: Picture) -> NDArray[np.bool_]:
+        """bool[n]: pixels of the same frame drawn again that differ in anything."""
+        differs = np.zeros(len(self.t), bool)
+        for name, values in vars(self).items():
+            same = same_values(values, getattr(other, name))
+            differs |= ~same.reshape(len(differs), -1).all(axis=1)
+        return differs
 
 
 class Rasteriser(ABC):

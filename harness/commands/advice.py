@@ -104,8 +104,8 @@ def _tell(line: str) -> None:
 def _answer(found: Recommendation, wish: Wish, device: DeviceInfo) -> str:
     bound = f"a {wish.quantile} error of {wish.error:.2g}"
     if not found.contenders:
-        head = [f"Nothing draws {wish.surface.title} on {device.name} within {bound}. Why each variant fell:"]
-        return "\n".join([*head, _fallen(found)])
+        head = f"Nothing draws {wish.surface.title} on {device.name} within {bound}. Why each variant fell:"
+        return "\n".join([head, _fallen(found), *([told] if (told := _undecided(found)) else [])])
     best = found.contenders[0]
     speed = f"{best.ms:.3g} ms a frame, {1e3 / best.ms:.3g} frames/s at {wish.size}x{wish.size}"
     views = f"{wish.tuning_views} views to choose by and {wish.held_out_views} held out"
@@ -127,12 +127,22 @@ def _answer(found: Recommendation, wish: Wish, device: DeviceInfo) -> str:
             f"on {device.name}: {speed}.",
             f"Outside the grazing class no ray is wrong on {views}. Were more than a share of "
             f"{3.0 / found.held_out:.1e} wrong, the {found.held_out} held-out rays would have shown it 19 times in 20.",
+            *([told] if (told := _undecided(found)) else []),
             "",
             console.table(columns, rows),
             "",
             "Why the others fell:",
             _fallen(found),
         ]
+    )
+
+
+def _undecided(found: Recommendation) -> str:
+    """What the oracle could not decide, where there was anything."""
+    if not found.undecided:
+        return ""
+    return (
+        f"The oracle left {found.undecided} of {found.decided + found.undecided} hits undecided; they bound no error."
     )
 
 

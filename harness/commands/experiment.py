@@ -173,6 +173,8 @@ def _summary(folder: Path, rows: list[Row], kept: list[Row]) -> int:
     told = ", ".join(f"{count} {status}" for status, count in counts.items() if count)
     if told:
         print(f"{folder}: {len(rows)} cells run, {len(kept)} reused; {told}")
+    for line in console.undecided((*rows, *kept)):
+        print(f"firsthit: {line}", file=sys.stderr)
     for line in console.warnings(rows):
         print(f"firsthit: {line}", file=sys.stderr)
     return 3 if any(counts[status] for status in UNFINISHED) else 0

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from harness import compilercheck
+from harness.answers import validated, validated_beams
 from harness.assemble import Language, method_program
 from harness.backends import LANGUAGES
 from harness.contract import PRECISIONS, CellStatus, FirsthitError, Hits, Precision, Program, Surface, Variant
@@ -90,8 +91,9 @@ def cast(
     """Cast rays float32[n, 6] by the method, knobs, device and precision that the options name.
 
     A method that casts beams needs the `camera` that the rays are of, an image of them row by row, and answers for the
-    rays' pixels. The device works in a process of its own. Raises FirsthitError where the method refuses the surface,
-    the kernel fails, hangs or crashes, or the device's compiler is found at fault (harness/compilercheck.py).
+    rays' pixels. What can be no answer is INVALID. The device works in a process of its own. Raises FirsthitError where
+    the method refuses the surface, the kernel fails, hangs, crashes or answers otherwise when it is run again, or the
+    device's compiler is found at fault (harness/compilercheck.py).
     """
     from surfaces.sections import unsupported
 
@@ -123,6 +125,10 @@ def cast(
     executor = LocalExecutor(options.timeout)
     try:
         hits = run(device, program(language), np.arange(len(rays)))
+        if camera is not None and casts != "rays":
+            hits = validated_beams(hits, surface.domain, rays, camera[3:6])
+        else:
+            hits = validated(hits, surface.domain, rays)
         if not plugin.method.answers:
             return hits
         second = compilercheck.SecondBuild(device, precision, program, run)

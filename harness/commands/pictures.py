@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from harness.answers import invalid
 from harness.camera import camera_for, rays_of
 from harness.commands.options import add_method, add_surface, cast, surface_of, writable
 from harness.contract import FirsthitError, Hits, RayStatus, Surface, View
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
 BACKGROUND = np.array([1.0, 1.0, 1.0])
 LIT = np.array([0.36, 0.58, 0.82])
 EXHAUSTED = np.array([0.84, 0.37, 0.0])
+INVALID = np.array([1.0, 0.0, 1.0])
 
 
 def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -95,7 +97,9 @@ def _show(options: argparse.Namespace) -> int:
     picture, hits = _picture(options, surface, view)
     save(picture, output)
     exhausted = int((hits.status == RayStatus.EXHAUSTED).sum())
-    print(f"{output}: {np.mean(hits.status == RayStatus.HIT):.1%} of {len(hits.t)} rays hit, {exhausted} exhausted")
+    told = f"{np.mean(hits.status == RayStatus.HIT):.1%} of {len(hits.t)} rays hit, {exhausted} exhausted"
+    bad = invalid(hits)
+    print(f"{output}: {told}" + (f", {bad} invalid" if bad else ""))
     return 0
 
 
@@ -121,8 +125,9 @@ def _sheet(options: argparse.Namespace) -> int:
 
 
 def _colours(shade: NDArray[np.float32], status: NDArray[np.uint8]) -> NDArray[np.float64]:
-    """float64[n, 3] in [0, 1]: headlight shading, white background, exhausted rays in orange."""
+    """float64[n, 3] in [0, 1]: headlight shading, white background; exhausted rays orange, invalid ones magenta."""
     lit = LIT * (0.25 + 0.75 * np.nan_to_num(shade)[:, None])
     colours = np.where((status == RayStatus.HIT)[:, None], lit, BACKGROUND)
     colours[status == RayStatus.EXHAUSTED] = EXHAUSTED
+    colours[status == RayStatus.INVALID] = INVALID
     return colours

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
+from harness.accuracy import undecided_too_many
 from harness.commands.options import add_method, add_surface, cast, surface_of, writable
+from harness.config import AccuracyChoice
 from harness.contract import FirsthitError, RayStatus, TruthStatus
 from harness.store import savez_atomically
 
@@ -18,7 +21,8 @@ def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -
         "trace",
         help="cast a file of rays by a method",
         description="Cast the rays float32[n, 6] (origin, direction) of a .npy file. Writes an .npz with t (float64, "
-        "NaN without a hit), status (uint8: 0 miss, 1 hit, 2 exhausted) and evaluations (int32).",
+        "NaN without a hit), status (uint8: 0 miss, 1 hit, 2 exhausted, 3 invalid: an answer that can be none) and "
+        "evaluations (int32).",
         epilog="example: firsthit trace --surface torus --method newton --rays rays.npy -o hits.npz",
     )
     add_surface(parser)
@@ -87,6 +91,8 @@ def _oracle(options: argparse.Namespace) -> int:
 
     surface, rays, output = surface_of(options), load_rays(options.rays), writable(options.output)
     truth = first_hits(surface, rays, options.t_min)
+    if reason := undecided_too_many(truth, AccuracyChoice().undecided):
+        print(f"firsthit: {reason} can be measured by these answers", file=sys.stderr)
     savez_atomically(output, lower=truth.lower, upper=truth.upper, status=truth.status)
     counts = {status: int((truth.status == status).sum()) for status in TruthStatus}
     print(f"{output}: {len(rays)} rays, " + ", ".join(f"{n} {status.name.lower()}" for status, n in counts.items()))

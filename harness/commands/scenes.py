@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from harness import config, raster
+from harness.answers import invalid
 from harness.assemble import fill_program
 from harness.camera import camera_for
 from harness.commands.options import given_variant, writable
@@ -17,6 +18,7 @@ from harness.contract import PROXIES, FirsthitError
 from harness.executor import CellError, LocalExecutor, discover_devices
 from harness.plan import able
 from harness.plugins import find_methods
+from harness.rastercheck import hits_of
 from harness.scenes import Scene
 from harness.worker import Frame
 
@@ -71,7 +73,7 @@ def _scene(options: argparse.Namespace) -> int:
     executor = LocalExecutor(options.timeout)
     try:
         frame = Frame(fill_program(), camera, None, side, batches=batches, depth_map=depths)
-        picture = executor.rasterise(usable[0], frame).picture
+        picture = executor.rasterise(usable[0], frame, twice=True).picture
     except CellError as error:
         raise FirsthitError(f"{variant} on {usable[0]}: {error}", exit_code=3) from None
     finally:
@@ -83,5 +85,6 @@ def _scene(options: argparse.Namespace) -> int:
     print(
         f"{output}: {scene.title}; {np.mean(picture.batch >= 0):.1%} of the pixels drawn, "
         f"{1.0 - hits / max(1, fragments):.1%} of {fragments:,} fragments discarded"
+        + (f", {bad} pixels invalid" if (bad := invalid(hits_of(scene, picture))) else "")
     )
     return 0

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 import time
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -10,7 +11,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from harness import accuracy, beams, measure
+from harness import accuracy, answers, beams, measure
 from harness.camera import rays_of, scene_radius
 from harness.config import Experiment
 from harness.contract import Hits, Program
@@ -77,8 +78,10 @@ def verdict_of(base: Judged, ratio: Ratio | None, tolerance: Tolerance) -> Judge
         return replace(base, verdict=Verdict.INCOMPARABLE, reason=reason)
     allowed = tolerance.allowed(1.0)
     slack = allowed - 1.0
-    worse, better = ratio.lower > allowed, ratio.upper < 1.0 - slack
-    verdict = Verdict.REGRESSED if worse else Verdict.IMPROVED if better else Verdict.PASS
+    if not all(map(math.isfinite, (ratio.lower, ratio.upper))):
+        return replace(base, verdict=Verdict.INCOMPARABLE, reason="the times' ratio is no number")
+    kept, better = ratio.lower <= allowed, ratio.upper < 1.0 - slack
+    verdict = Verdict.IMPROVED if better else Verdict.PASS if kept else Verdict.REGRESSED
     told = f"time over the other revision's, in {ratio.lower:.3f} to {ratio.upper:.3f} (95 %, {ratio.pairs} rounds)"
     return replace(
         base, verdict=verdict, reason=told, changes=(Change(SPEED.name, 1.0, ratio.median, allowed, verdict),)
@@ -96,12 +99,16 @@ def _wrong(
     assert frame and former.timed
     present = _Side(planned.checks[0] if planned.checks else None, frame)
     other = _Side(former.check, replace(frame, program=former.timed))
+    if reason := accuracy.undecided_too_many(certified, choice.undecided):
+        return reason
     for side, when in ((present, "now"), (other, "at the other revision")):
         hits = _hits(side, planned, rays, choice.size, executor)
         verdicts = accuracy.judge(hits, certified, scene_radius(surface), choice.grazing_margin)
-        wrong = (verdicts.wrong != accuracy.Wrong.RIGHT) & ~verdicts.grazing
-        share = wrong.sum() / max(1, (~verdicts.grazing).sum())
-        if share > choice.max_wrong_share:
+        judged = accuracy.judged(certified, verdicts)
+        if not judged.any():
+            return accuracy.nothing_judged(len(rays))
+        share = np.mean(verdicts.wrong[judged] != accuracy.Wrong.RIGHT)
+        if not share <= choice.max_wrong_share:
             return f"wrong on {share:.1%} of the rays outside the grazing class {when}: not timed"
     return None
 
@@ -115,10 +122,12 @@ class _Side:
 
 
 def _hits(side: _Side, planned: Planned, rays: NDArray[np.float32], size: int, executor: LocalExecutor) -> Hits:
+    device, domain = planned.cell.device, planned.cell.surface.domain
     if planned.casts == "rays" and side.check:
-        return executor.check(planned.cell.device, side.check, rays).hits
+        return answers.validated(executor.check(device, side.check, rays).hits, domain, rays)
     pixels = beams.pixels_of(planned.camera, size, side.frame.size)
-    return beams.along_rays(executor.check_frame(planned.cell.device, side.frame, pixels.index).hits, pixels)
+    along = beams.along_rays(executor.check_frame(device, side.frame, pixels.index).hits, pixels)
+    return answers.validated_beams(along, domain, rays, planned.camera[3:6])
 
 
 def _race(

@@ -9,6 +9,7 @@ A baseline may hold several devices and machines; blessing replaces only those i
 from __future__ import annotations
 
 import json
+import math
 import re
 import tomllib
 from collections.abc import Mapping
@@ -56,6 +57,9 @@ def read(path: Path) -> Baseline:
     for entry in (entry for entries in rows.values() for entry in entries.values()):
         if not {"status", "scene"} <= entry.keys():
             raise FirsthitError(f"{path} is damaged: a row lacks its status or scene; restore it, or bless anew")
+        for name, value in entry.items():
+            if isinstance(value, float) and not math.isfinite(value):
+                raise FirsthitError(f"{path} is damaged: a row's {name} is {value}; restore it, or bless anew")
     return Baseline(str(document.get("config", "")), devices, rows)
 
 

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any, Literal
 
+from harness.accuracy import NAMES, Wrong
+from harness.contract import FirsthitError
 from harness.store import Row
 
 Better = Literal["lower", "higher"]
@@ -16,7 +19,8 @@ Value = float | int | None
 class Figure:
     """One gated figure: which way is better, and by how much it may get worse before it counts.
 
-    `read` finds it in a view's accuracy, `add_up` in a family's rungs; None: it has none there.
+    `read` finds it in a view's accuracy, `add_up` in a family's rungs; None: it has none there. `unsaid` is what a
+    baseline that was blessed before the figure was counted stands for; None: it is not compared.
     """
 
     name: str
@@ -26,12 +30,14 @@ class Figure:
     meaning: str
     read: Callable[[dict[str, Any]], Value] | None
     add_up: Callable[[list[dict[str, Any]]], Value] | None
+    unsaid: Value = None
 
 
 def _count(name: str, meaning: str) -> Figure:
-    return Figure(
-        name, "lower", 0.0, 0.0, meaning, lambda found: found[name], lambda rungs: sum(rung[name] for rung in rungs)
-    )
+    def added(rungs: list[dict[str, Any]]) -> Value:
+        return int(sum(rung[name] for rung in rungs))
+
+    return Figure(name, "lower", 0.0, 0.0, meaning, lambda found: found[name], added)
 
 
 def _error(quantile: str, meaning: str) -> Figure:
@@ -42,13 +48,23 @@ def _worst(rungs: list[dict[str, Any]], name: str) -> Value:
     return max((rung[name] for rung in rungs if rung[name] is not None), default=None)
 
 
-_GRAZING = ("grazing_misses", "grazing_false_hits", "grazing_exhausted", "grazing_wrong_root")
+_GRAZING = tuple(f"grazing_{name}" for kind, name in NAMES.items() if kind is not Wrong.INVALID)
+
+BROKEN_BY = {  # the counts that contradict a claim; only the first is of grazing rays too
+    "no_missed_root": ("misses", "grazing_misses", "invalid", "grazing_invalid"),
+    "conservative_bound": ("misses", "invalid"),
+    "no_false_hit": ("false_hits", "invalid"),
+}
 
 FIGURES: tuple[Figure, ...] = (
     _count("misses", "rays outside the grazing class whose hit was missed"),
     _count("false_hits", "rays outside the grazing class that hit nothing"),
     _count("exhausted", "rays outside the grazing class that ran out of evaluations"),
     _count("wrong_root", "rays outside the grazing class that hit a later root, or no root"),
+    Figure("invalid", "lower", 0.0, 0.0, "rays whose answer can be none, grazing ones too",
+           lambda found: found["invalid"] + found["grazing_invalid"],
+           lambda rungs: sum(rung["invalid"] for rung in rungs), 0),
+    _count("undecided", "rays that the oracle leaves undecided"),
     Figure("grazing_wrong", "lower", 2.0, 0.1, "wrong answers in the grazing class",
            lambda found: sum(found[name] for name in _GRAZING), None),
     _error("max", "largest |t - t*|, scene units"),
@@ -67,7 +83,7 @@ KNOWN = (*GATED, SPEED.name)
 
 
 def figures(row: Row, claims: Iterable[str]) -> dict[str, Value]:
-    """Every figure that `row` has, by name."""
+    """Every figure that `row` has, by name. Raises FirsthitError for one that is no finite number."""
     found: dict[str, Value] = {}
     accuracy, rungs = row["accuracy"], row["rungs"]
     for figure in FIGURES:
@@ -77,17 +93,17 @@ def figures(row: Row, claims: Iterable[str]) -> dict[str, Value]:
             found[figure.name] = figure.add_up(rungs)
     if found:
         found[CLAIMS.name] = sum(not _disproved(claim, row) for claim in claims)
+    for name, value in found.items():
+        if value is not None and not math.isfinite(value):
+            raise FirsthitError(f"{row['slot']}: its {name} is {value}, which cannot be gated", exit_code=3)
     return {name: value for name, value in found.items() if value is not None}
 
 
 def _disproved(claim: str, row: Row) -> bool:
-    """Whether this row contradicts the claim (contract.CLAIMS); one that no row can contradict stands while stated."""
+    """Whether this row contradicts the claim (contract.CLAIMS); one that no row can contradict stands while stated.
+
+    An answer that can be none contradicts what is claimed of the ray, whatever the truth.
+    """
     counts = [row["accuracy"]] if row["accuracy"] else row["rungs"]
-    match claim:
-        case "no_missed_root":
-            return any(count["misses"] + count.get("grazing_misses", 0) > 0 for count in counts)
-        case "conservative_bound":
-            return any(count["misses"] > 0 for count in counts)
-        case "no_false_hit":
-            return any(count["false_hits"] > 0 for count in counts)
-    return False
+    broken_by = BROKEN_BY.get(claim, ())
+    return any(not sum(count.get(name, 0) for name in broken_by) <= 0 for count in counts)

@@ -29,7 +29,8 @@ ORDER = list(Verdict)
 
 @dataclass(frozen=True)
 class Tolerance:
-    """`now` may be worse than `before` by absolute + relative * |before|; better by more than that is improved."""
+    """`now` may be worse than `before` by absolute + relative * |before|; better by more than that is improved. What is
+    no number is regressed."""
 
     better: Better
     absolute: float
@@ -43,7 +44,7 @@ class Tolerance:
     def verdict(self, before: float, now: float) -> Verdict:
         slack = self.absolute + self.relative * abs(before)
         worse = now - before if self.better == "lower" else before - now
-        return Verdict.REGRESSED if worse > slack else Verdict.IMPROVED if worse < -slack else Verdict.PASS
+        return Verdict.IMPROVED if worse < -slack else Verdict.PASS if worse <= slack else Verdict.REGRESSED
 
 
 @dataclass(frozen=True)
@@ -63,7 +64,8 @@ class Change:
             return 0.0
         if isinstance(self.allowed, str) or isinstance(self.now, str):  # a status, or a figure that is gone
             return math.inf
-        return float(abs(self.now - self.allowed) / max(abs(self.before), 1e-300))
+        size = float(abs(self.now - self.allowed) / max(abs(self.before), 1e-300))
+        return math.inf if math.isnan(size) else size
 
 
 @dataclass(frozen=True)
@@ -122,9 +124,13 @@ def _judge_row(
         verdict = Verdict.IMPROVED if now["status"] == CellStatus.OK else Verdict.REGRESSED
         change = Change("status", before["status"], now["status"], before["status"], verdict)
         return Judged(slot, device, method, verdict, now.get("reason", ""), (change,))
+    if now["status"] not in (CellStatus.OK, CellStatus.SKIPPED):
+        return Judged(slot, device, method, Verdict.INCOMPARABLE, f"{now['status']}, now as when it was blessed")
     changes: list[Change] = []
     for name, tolerance in tolerances.items():
         old, new = before.get(name), now.get(name)
+        if old is None and new is not None:
+            old = GATED[name].unsaid
         if old is not None and new is not None:
             changes.append(Change(name, old, new, tolerance.allowed(old), tolerance.verdict(old, new)))
         elif old is not None:

@@ -33,15 +33,17 @@ def knowable_margin(rung: Rung, precision: Precision) -> float:
 def judge_rung(rung: Rung, hits: Hits, truth: Truth, precision: Precision) -> dict[str, Any]:
     """Counts, errors in scene units, and stability; all of it JSON.
 
-    rays = decided + undecidable + undecided, and decided = right + misses + false_hits + exhausted + wrong_root.
+    rays = decided + undecidable + undecided, and decided = right + misses + false_hits + exhausted + wrong_root
+    + invalid. An answer that can be none is wrong whatever the truth, so that its ray is a decided one.
     `undecidable_right`: undecidable rays answered as the oracle does. `max_error` and `worst_ratio` are over `right`,
     None where there is no hit: the largest |t - t*|, and of it over max(condition, 1) · unit roundoff · the domain's
     radius (t itself cannot be had better than with condition 1). A backward stable method's ratio is a small number
     on every rung.
     """
     verdicts = judge(hits, truth, scene_radius(rung.surface), grazing_margin=0.0)
-    certified = truth.status != TruthStatus.UNDECIDED
-    undecidable = certified & (np.minimum(truth.margin, rung.margin) < knowable_margin(rung, precision))
+    invalid = verdicts.wrong == Wrong.INVALID
+    certified = (truth.status != TruthStatus.UNDECIDED) | invalid
+    undecidable = certified & ~invalid & (np.minimum(truth.margin, rung.margin) < knowable_margin(rung, precision))
     decided = certified & ~undecidable
     right = verdicts.wrong == Wrong.RIGHT
     measured = decided & np.isfinite(verdicts.error)

@@ -21,6 +21,7 @@ Cast cast_ray(Ray ray) {
     return cast_ray_between(ray, 0.0, REAL_INFINITY);
 }
 
+// Evaluations and status in one word; NO_ANSWER where they are none.
 int packed_answer(Hit hit) {
-    return hit.evaluations * 4 + hit.status;
+    return is_answer(hit.status, hit.evaluations) ? hit.evaluations * 4 + hit.status : NO_ANSWER;
 }

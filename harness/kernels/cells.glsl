@@ -1,5 +1,6 @@
 // Cells of the quadtree over the image: cell (x, y) of `level` is 2^(last - level) pixels wide, 1 at level `last`.
-// `path` and `evaluations` are what its parent handed down: see path_depth, and its share of the evaluations spent.
+// `path` and `evaluations` are what its parent handed down: see path_depth, and its share of the evaluations spent, or
+// NO_ANSWER where they are no count.
 STRUCT(Cell) struct Cell { int x; int y; int level; int path; int evaluations; };
 
 // Bits 0, 2, 4, … of v, packed.
@@ -32,8 +33,16 @@ Cell queued_cell(Work work, int item) {
     cell.y = 2 * ((corner >> 16) & 0xffff) + (quarter >> 1);
     cell.level = work.level;
     cell.path = queued(work, place + 1);
-    cell.evaluations = (queued(work, place + 2) + quarter) >> 2;
+    int evaluations = queued(work, place + 2);
+    cell.evaluations = evaluations < 0 ? NO_ANSWER : (evaluations + quarter) >> 2;
     return cell;
+}
+
+// What the cell has cost with its parent's share; NO_ANSWER where either, or their sum, is no count.
+int spent(Cell cell, Hit hit) {
+    if (!is_answer(MISS, cell.evaluations) || !is_answer(MISS, hit.evaluations)) return NO_ANSWER;
+    int evaluations = cell.evaluations + hit.evaluations;
+    return is_answer(MISS, evaluations) ? evaluations : NO_ANSWER;
 }
 
 bool outside_image(Work work, Cell cell) {
@@ -53,38 +62,42 @@ void queue_quarters(Work work, Cell cell, int path, Hit hit) {
     int place = work.target + 3 * queue_slot(work);
     enqueue(work, place, cell.x | (cell.y << 16));
     enqueue(work, place + 1, path);
-    enqueue(work, place + 2, cell.evaluations + hit.evaluations);
+    enqueue(work, place + 2, spent(cell, hit));
 }
 
-// Evaluations, level and status in one word.
+// Evaluations, level and status in one word; NO_ANSWER where they are none.
 int answer_word(int evaluations, Cell cell, int status) {
-    return ((evaluations * 32) + cell.level) * 4 + status;
+    return is_answer(status, evaluations) ? ((evaluations * 32) + cell.level) * 4 + status : NO_ANSWER;
 }
 
 // The cell's pixels get the answer, each its share of the evaluations, and the level of the cell. A hit is of one pixel,
-// and its t a depth: what is stored is its distance along the ray through the middle of the pixel.
+// and its t a depth: what is stored is its distance along the ray through the middle of the pixel. Where the driver has
+// ended the cell's loops for it, the cell is exhausted.
 void paint(Work work, Cell cell, Hit hit) {
-    int evaluations = cell.evaluations + hit.evaluations;
+    int evaluations = spent(cell, hit);
+    int status = loops_were_ended(work) ? EXHAUSTED : hit.status;
     if (work.level == work.last) {
         Camera camera = work.camera;
         real x = real(2 * cell.x + 1 - work.size) / real(work.size);
         real y = real(work.size - 2 * cell.y - 1) / real(work.size);
         vec3 direction = moved(moved(camera.forward, x, camera.right), y, camera.up);
         answer_pixel(work, cell.y * work.size + cell.x, hit.t * sqrt(inner_product(direction, direction)),
-                     answer_word(evaluations, cell, hit.status));
+                     answer_word(evaluations, cell, status));
         return;
     }
+    if (status == HIT) status = NO_ANSWER;
     int side = 1 << (work.last - work.level);
     int i0 = cell.x * side;
     int j0 = cell.y * side;
     int i1 = min(i0 + side, work.size);
     int j1 = min(j0 + side, work.size);
     int pixels = (i1 - i0) * (j1 - j0);
+    if (evaluations < 0) status = NO_ANSWER;
     int share = evaluations / pixels;
     int extra = evaluations - share * pixels;  // pixels that take one more, so that all shares add up
     for (int j = j0; j < j1; j++) {
         for (int i = i0; i < i1; i++) {
-            answer_pixel(work, j * work.size + i, 0.0, answer_word(share + (extra > 0 ? 1 : 0), cell, MISS));
+            answer_pixel(work, j * work.size + i, 0.0, answer_word(share + (extra > 0 ? 1 : 0), cell, status));
             extra -= 1;
         }
     }

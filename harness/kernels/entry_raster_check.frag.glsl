@@ -5,7 +5,9 @@ void main() {
     Ray world = pixel_ray();
     Ray ray = local_ray(world);
     Cast result = cast_ray(ray);
-    report_fragment(world, result.hit.evaluations, result.hit.status);
+    if (loops_were_ended(size)) result.hit = exhausted(result.hit, result.hit.t);
+    bool nowhere = result.hit.status == HIT && !(fabs(result.hit.t) < REAL_INFINITY);
+    report_fragment(world, result.hit.evaluations, nowhere ? NO_ANSWER : result.hit.status);
     if (result.hit.status != HIT) discard;
     real t = result.shift + result.hit.t;
     gl_FragDepth = hit_depth(world, t);

@@ -12,5 +12,6 @@ void main() {
                                     vec3(ray_data[k + 3], ray_data[k + 4], ray_data[k + 5])));
     t[2 * i] = result.shift;
     t[2 * i + 1] = result.hit.t;
+    if (loops_were_ended(nx)) result.hit = exhausted(result.hit, result.hit.t);
     answer[i] = packed_answer(result.hit);
 }

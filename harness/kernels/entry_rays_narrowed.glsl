@@ -16,5 +16,6 @@ void main() {
     Cast result = cast_narrowed_ray(ray, vec3(c[3], c[4], c[5]), spans[2 * tiles[i]], spans[2 * tiles[i] + 1]);
     t[2 * i] = result.shift;
     t[2 * i + 1] = result.hit.t;
+    if (loops_were_ended(nx)) result.hit = exhausted(result.hit, result.hit.t);
     answer[i] = packed_answer(result.hit);
 }

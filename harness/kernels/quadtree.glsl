@@ -32,3 +32,7 @@ void answer_pixel(Work work, int pixel, real distance, int word) {
     t[pixel] = distance;
     answer[pixel] = word;
 }
+
+bool loops_were_ended(Work work) {
+    return loops_were_ended(work.size);
+}

@@ -1,5 +1,6 @@
 // What the check reads of each pixel, row 0 at the bottom. Of all: the ray in world coordinates. Of every fragment, drawn
-// or not: how many there were, the evaluations they spent, and how many of them hit or gave up. Of the one that is seen:
+// or not: how many there were, the evaluations they spent, and how many of them hit, gave up or gave no answer. Of the
+// one that is seen:
 // the local ray, t in two parts, and who it belongs to.
 layout(location = 1) out vec4 seen_origin;
 layout(location = 2) out vec4 seen_direction;
@@ -21,10 +22,14 @@ void report_ray(vec3 origin, vec3 direction) {
 void report_fragment(Ray world, int evaluations, int status) {
     int pixel = int(gl_FragCoord.y) * size + int(gl_FragCoord.x);
     report_ray(world.origin, world.direction);
-    atomicAdd(counts[4 * pixel], 1);
-    atomicAdd(counts[4 * pixel + 1], evaluations);
-    if (status == HIT) atomicAdd(counts[4 * pixel + 2], 1);
-    if (status == EXHAUSTED) atomicAdd(counts[4 * pixel + 3], 1);
+    atomicAdd(counts[5 * pixel], 1);
+    if (!is_answer(status, evaluations)) {
+        atomicAdd(counts[5 * pixel + 4], 1);
+        return;
+    }
+    atomicAdd(counts[5 * pixel + 1], evaluations);
+    if (status == HIT) atomicAdd(counts[5 * pixel + 2], 1);
+    if (status == EXHAUSTED) atomicAdd(counts[5 * pixel + 3], 1);
 }
 
 void report_seen(Ray ray, float shift, float t, int who, bool in_world) {

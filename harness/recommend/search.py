@@ -66,11 +66,14 @@ class Contender:
 
 @dataclass
 class Recommendation:
-    """The fastest first; empty where nothing holds. `held_out`: rays outside the grazing class on held-out views."""
+    """The fastest first; empty where nothing holds. `held_out`: judged rays on held-out views; `decided` and
+    `undecided` hits of the oracle's, on all views."""
 
     contenders: list[Contender] = field(default_factory=list)
     fallen: list[Fallen] = field(default_factory=list)
     held_out: int = 0
+    decided: int = 0
+    undecided: int = 0
 
 
 class Search:
@@ -88,7 +91,7 @@ class Search:
         self._wish, self._catalog, self._device = wish, catalog, device
         self._executor, self._folder, self._tell = executor, folder, tell
         sampled = views(wish.tuning_views + wish.held_out_views, wish.seed)
-        self._clear: dict[str, int] = {}  # rays outside the grazing class, by view
+        self._truth: dict[str, tuple[int, int, int]] = {}  # judged rays, decided and undecided hits, by view
         self._tuning, self._held_out = sampled[: wish.tuning_views], sampled[wish.tuning_views :]
 
     def run(self) -> Recommendation:
@@ -108,7 +111,8 @@ class Search:
         kept = self._check(list(timed), precision, self._held_out, found, worst, " (held-out)")
         made = [Contender(variant, precision, timed[variant], *worst[variant]) for variant in kept]
         found.contenders = sorted(made, key=lambda c: c.ms)
-        found.held_out = sum(self._clear[view.name] for view in self._held_out) if kept else 0
+        found.held_out = sum(self._truth[view.name][0] for view in self._held_out) if kept else 0
+        found.decided, found.undecided = (sum(counts[k] for counts in self._truth.values()) for k in (1, 2))
 
     def _check(
         self,
@@ -119,7 +123,11 @@ class Search:
         worst: dict[Variant, tuple[float, float]],
         where: str,
     ) -> list[Variant]:
-        """Those within bounds on every view, one view after the other; `worst` error and evaluations are kept."""
+        """Those within bounds on every view, one view after the other; `worst` error and evaluations are kept.
+
+        A view whose every ray is proved to miss bounds no error; where all of them are such, nothing holds.
+        """
+        measured: set[Variant] = set()
         for view in on:
             if not alive:
                 break
@@ -131,21 +139,28 @@ class Search:
                     found.fallen.append(Fallen(variant, precision, reason + where))
                     alive.remove(variant)
                     continue
-                self._clear[view.name] = row["accuracy"]["rays"] - row["accuracy"]["grazing"]
+                accuracy = row["accuracy"]
+                self._truth[view.name] = accuracy["judged"], accuracy["truth_hits"], accuracy["undecided"]
                 error, evaluations = worst.get(variant, (0.0, 0.0))
-                now = certified_error(row["accuracy"], self._wish.quantile)
-                worst[variant] = max(error, now), max(evaluations, row["accuracy"]["evaluations_mean"])
-        return alive
+                now = certified_error(accuracy, self._wish.quantile)
+                if now is not None:
+                    measured.add(variant)
+                worst[variant] = max(error, now or 0.0), max(evaluations, accuracy["evaluations_mean"])
+        nothing = f"no hit to measure an error of: the oracle decides none outside the grazing class{where}"
+        found.fallen += [Fallen(variant, precision, nothing) for variant in alive if variant not in measured]
+        return [variant for variant in alive if variant in measured]
 
     def _reason(self, row: Row) -> str | None:
         """Why a row's variant falls, with figures; None where it holds."""
         if row["status"] != CellStatus.OK:
             return f"{row['status']}: {' '.join(str(row['reason']).split())}"
         accuracy = row["accuracy"]
-        if wrong := [f"{accuracy[name]} {name.replace('_', ' ')}" for name in NAMES.values() if accuracy[name]]:
-            return f"{', '.join(wrong)} of {accuracy['rays'] - accuracy['grazing']} rays, view {row['view']}"
+        counts = {name: accuracy[name] for name in (*NAMES.values(), "grazing_invalid")}
+        if any(not count <= 0 for count in counts.values()):
+            wrong = [f"{count} {name.replace('_', ' ')}" for name, count in counts.items() if count]
+            return f"{', '.join(wrong)} of {accuracy['judged']} rays, view {row['view']}"
         error, wish = certified_error(accuracy, self._wish.quantile), self._wish
-        if error <= wish.target:
+        if error is None or error <= wish.target:
             return None
         over = f"over {wish.error:.2g}" if error > wish.error else f"under {wish.error:.2g}, but over {wish.target:.2g}"
         return f"{wish.quantile} error {error:.2g}, {over}, view {row['view']}"
@@ -206,10 +221,11 @@ class Search:
         return {p.cell.variant: rows[p.key] for p in planned}
 
 
-def certified_error(accuracy: dict[str, Any], quantile: Quantile) -> float:
-    """At least the quantile's |t - t*|, scene units: what was measured is up to the certified interval only."""
+def certified_error(accuracy: dict[str, Any], quantile: Quantile) -> float | None:
+    """At least the quantile's |t - t*|, scene units: what was measured is up to the certified interval only. None where
+    no hit was measured."""
     measured = accuracy["error"][quantile]
-    return 0.0 if measured is None else float(measured + accuracy["certified_width"])
+    return None if measured is None else float(measured + accuracy["certified_width"])
 
 
 def named(variant: Variant) -> str:

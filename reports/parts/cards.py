@@ -79,9 +79,9 @@ def _default(told: Mapping[str, Any], rows: pd.DataFrame) -> pd.DataFrame:
 
 
 _BROKEN_BY = {  # the counts that contradict a claim (harness.contract.CLAIMS); only the first includes grazing rays
-    "no_missed_root": ["misses", "grazing_misses"],
-    "conservative_bound": ["misses"],
-    "no_false_hit": ["false_hits"],
+    "no_missed_root": ["misses", "grazing_misses", "invalid", "grazing_invalid"],
+    "conservative_bound": ["misses", "invalid"],
+    "no_false_hit": ["false_hits", "invalid"],
 }
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import pandas as pd
 
-from reports import images, wording
+from reports import derive, images, wording
 from reports.claims import picks
 from reports.content import Block, Column, Section, Table, Text
 from reports.evidence import Pick
@@ -127,7 +127,7 @@ def _section(material: Material, figure: Figure) -> Section | None:
 
 
 def _counts(rows: pd.DataFrame, title: str) -> Table:
-    kinds = ("misses", "false_hits", "exhausted", "wrong_root")
+    kinds = derive.kinds(rows)
     views = rows["view"].nunique() > 1
     body = []
     for row in rows.itertuples():
