@@ -59,7 +59,7 @@ class Case:
 
     def clear(self, verdicts: Verdicts) -> NDArray[np.bool_]:
         """bool[n]: rays that a method must answer rightly, decided by the oracle and outside the grazing class."""
-        return ~verdicts.grazing & (self.truth.status != TruthStatus.UNDECIDED)
+        return np.asarray(~verdicts.grazing & (self.truth.status != TruthStatus.UNDECIDED))
 
     def parts(self, hits: Hits) -> Iterator[tuple[str, Case, Hits]]:
         """Each view by itself: its name, its rays as a case, and what `hits` say of them."""
