@@ -29,8 +29,11 @@ VIEWS: dict[str, tuple[View, int]] = {  # with rays per side
     "below": (View("below", azimuth=-107, elevation=-12), 32),
     INSIDE: (View("inside", azimuth=200, elevation=25, fov=90), 32),
 }
-ALIGNED = ("axis", "pole")  # on typical surfaces with a ray more, so that a row and a column lie in planes of symmetry;
-# elsewhere f may vanish in such a plane to second order (cartan_umbrella, himmel), and no float32 tells where it is 0
+# On these surfaces the aligned views have an odd number of rays a side, so that a row and a column lie in planes of
+# symmetry: users try such rays first. Elsewhere f may vanish in such a plane to second order (cartan_umbrella, himmel),
+# and no float32 tells where it is 0.
+ALIGNED = ("axis", "pole")
+IN_PLANES = (*TYPICAL, "thin_torus_1000", "thin_torus_10000")
 INSIDE_SHARE = 0.7  # of the way from the domain's centre to its boundary: where the eye inside it is
 
 Rays = NDArray[np.float32]
@@ -122,7 +125,7 @@ def some(whole: Any, part: slice | NDArray[Any]) -> Any:
 def view_case(surface: Surface, name: str = OUTSIDE) -> Case:
     """One of VIEWS of a surface."""
     view, size = VIEWS[name]
-    if name in ALIGNED and surface.name in TYPICAL:
+    if name in ALIGNED and surface.name in IN_PLANES:
         size += 1
     if name == INSIDE:
         view = dataclasses.replace(view, distance=INSIDE_SHARE * _way_out(surface, view))
