@@ -1,6 +1,7 @@
-"""Every method × accepted surfaces × devices × precisions (harness/conformance.py); a new folder is covered at once.
+"""Every method × accepted surfaces × devices × precisions (harness/conformance); a new folder is covered at once.
 
-Typical surfaces are checked on every device in each precision, every other accepted surface in one of these, in turn.
+Typical surfaces are checked on every device in each precision, every other accepted surface and every setting of the
+papers in one of these, in turn; all of them from all views.
 """
 
 from __future__ import annotations
@@ -16,7 +17,17 @@ from harness import conformance
 from harness.accuracy import deviations, judge, summarize, wrong_share
 from harness.backends import Device, hits_from, launch_rays
 from harness.camera import scene_radius
-from harness.conformance import Bench, Finding, examine, examine_knobs, examine_touches, refusal, view_case
+from harness.conformance import (
+    Bench,
+    Finding,
+    examine,
+    examine_knobs,
+    examine_touches,
+    refusal,
+    view_case,
+    views_case,
+)
+from harness.conformance.examine import own_settings
 from harness.contract import PRECISIONS, Precision, RayStatus
 from harness.plugins import find_methods
 
@@ -39,10 +50,10 @@ def bench_on(device: Device) -> Bench:
 
 
 def hold(findings: Iterable[Finding]) -> None:
-    """Fails with every finding that says no; one of none at all would hold nothing."""
+    """Fails with every finding that says no; one of none at all, or of nothing measured, would hold nothing."""
     found = list(findings)
-    assert found
-    assert not [f"{f.check}: {f.detail}" for f in found if not f.holds]
+    assert any(f.unchecked is None for f in found)
+    assert not [f"{f.check}: {f.value:g} > {f.limit:g}, {f.rule}: {f.detail}" for f in found if f.fails]
 
 
 def plugin_for(method: str, surface: surfaces.Surface, precision: Precision, bench: Bench):
@@ -57,7 +68,7 @@ def plugin_for(method: str, surface: surfaces.Surface, precision: Precision, ben
 @pytest.mark.parametrize("method", METHODS)
 def test_method_conforms_on_typical_surfaces(device, method, surface_name, precision):
     bench, surface = bench_on(device), surfaces.get(surface_name)
-    hold(examine(bench, plugin_for(method, surface, precision, bench), view_case(surface), precision))
+    hold(examine(bench, plugin_for(method, surface, precision, bench), views_case(surface), precision))
 
 
 def _other_pairs() -> list[tuple[str, str]]:
@@ -73,7 +84,28 @@ OTHERS = [(*pair, *place) for pair, place in conformance.rotation(_other_pairs()
 @pytest.mark.parametrize(("method", "surface_name", "device_name", "precision"), OTHERS)
 def test_method_conforms_on_every_other_surface_in_turn(method, surface_name, device_name, precision):
     bench, surface = bench_on(opened(device_name)), surfaces.get(surface_name)
-    hold(examine(bench, plugin_for(method, surface, precision, bench), view_case(surface), precision))
+    hold(examine(bench, plugin_for(method, surface, precision, bench), views_case(surface), precision))
+
+
+def _settings() -> list[tuple[str, str, str]]:
+    """Every setting of the papers on every typical surface that its method accepts."""
+    plugins = [find_methods().get(name) for name in METHODS]
+    return [
+        (plugin.method.name, setting, name)
+        for plugin in plugins
+        for setting in own_settings(plugin)
+        for name in conformance.TYPICAL
+        if plugin.method.accepts(surfaces.get(name)) is None
+    ]
+
+
+SETTINGS = [(*one, *place) for one, place in conformance.rotation(_settings(), PLACES)] if PLACES else []
+
+
+@pytest.mark.parametrize(("method", "setting", "surface_name", "device_name", "precision"), SETTINGS)
+def test_the_papers_settings_conform_in_turn(method, setting, surface_name, device_name, precision):
+    bench, surface = bench_on(opened(device_name)), surfaces.get(surface_name)
+    hold(examine(bench, plugin_for(method, surface, precision, bench), views_case(surface), precision, setting))
 
 
 @pytest.mark.parametrize("precision", PRECISIONS)
@@ -127,22 +159,23 @@ def test_each_check_sees_what_it_is_for():
         (conformance.no_false_hit, invented),
         (conformance.error_below_tolerance, off),
     ):
-        assert check(plugin, hits, case, "float32").holds, check
-        assert not check(plugin, broken, case, "float32").holds, check
+        assert check(plugin, hits, case, "float32", {}).holds, check
+        assert check(plugin, broken, case, "float32", {}).fails, check
     assert conformance.answers(hits, case).holds
     assert not conformance.answers(outside, case).holds
     assert conformance.same_bits(hits, hits).holds
     assert not conformance.same_bits(hits, changed(there[:1], t=lambda t: np.nextafter(t, 9.0))).holds
-    assert conformance.agreement(hits, case).holds
-    assert not conformance.agreement(changed(np.arange(len(hits.t)), status=lambda s: 0 * s), case).holds
+    assert all(finding.holds for finding in conformance.agreement(hits, case))
+    none = changed(np.arange(len(hits.t)), status=lambda s: 0 * s)
+    assert any(finding.fails for finding in conformance.agreement(none, case))
 
 
 def test_giving_up_on_most_rays_is_seen_where_there_is_no_root_to_measure():
     case = view_case(surfaces.get("two_spheres"))
     hits = bench_on(opened(DEVICES[0])).cast(find_methods().get("interval_march"), case, "float32")
-    assert conformance.agreement(hits, case).holds
+    assert not any(finding.fails for finding in conformance.agreement(hits, case))
     given_up = dataclasses.replace(hits, status=np.full_like(hits.status, RayStatus.EXHAUSTED), t=np.nan * hits.t)
-    assert not conformance.agreement(given_up, case).holds
+    assert any(finding.fails for finding in conformance.agreement(given_up, case))
 
 
 def test_a_touch_that_is_missed_is_seen():
@@ -158,7 +191,7 @@ def test_a_knob_that_says_the_wrong_way_is_seen():
     knobs = [dataclasses.replace(p, finer="up") if p.finer else p for p in plugin.method.parameters]
     method = dataclasses.replace(plugin.method, parameters=tuple(knobs))
     found = list(examine_knobs(bench_on(opened(DEVICES[0])), dataclasses.replace(plugin, method=method)))
-    assert [finding.holds for finding in found] == [False]
+    assert [finding.holds for finding in found] == [False, False]
 
 
 def test_null_finds_nothing(device):

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import argparse
 import itertools
-from collections.abc import Iterable
+import math
+import textwrap
+from collections import defaultdict
+from collections.abc import Iterable, Iterator
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,17 +15,24 @@ from numpy.typing import NDArray
 from harness import conformance, console
 from harness.backends import LANGUAGES
 from harness.conformance import Bench, Finding
-from harness.contract import PRECISIONS, DeviceInfo, FirsthitError, Hits, Program, Surface
+from harness.contract import DeviceInfo, FirsthitError, Hits, Program, Surface
 from harness.executor import CellError, LocalExecutor, discover_devices
 from harness.plugins import Plugin, find_methods
 
+WIDTH = 100
+
 
 def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
-    text = "check a method's answers, claims and knobs as the tests check ours; exit code 1 where a check fails"
+    text = (
+        "check a method's answers, claims and knobs as the tests check ours, at its default and its papers' settings, "
+        "from several views; exit code 1 where a check fails or nothing was checked"
+    )
     parser = commands.add_parser(
         "conform", help=text, description=text, epilog="example: firsthit --plugins DIR conform --method mine"
     )
-    parser.add_argument("--method", action="append", metavar="NAME", help="may be repeated (default: all)")
+    parser.add_argument(
+        "--method", action="append", metavar="NAME", help="may be repeated (default: all that cast rays)"
+    )
     parser.add_argument(
         "--surface",
         action="append",
@@ -31,6 +41,7 @@ def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -
     )
     parser.add_argument("--device", action="append", metavar="NAME", help="may be repeated (default: every usable one)")
     parser.add_argument("--timeout", type=float, default=60.0, metavar="SECONDS", help="for one step (default: 60)")
+    parser.add_argument("--verbose", action="store_true", help="print every check, also those that hold")
     parser.set_defaults(run=_conform)
 
 
@@ -38,25 +49,29 @@ def _conform(options: argparse.Namespace) -> int:
     import surfaces
 
     catalog = find_methods(options.plugins)
-    names = options.method or [name for name, plugin in catalog.plugins.items() if plugin.method.answers]
+    answering = {name: plugin.method for name, plugin in catalog.plugins.items() if plugin.method.answers}
+    names = options.method or [name for name, method in answering.items() if method.casts == "rays"]
     plugins = [catalog.get(name) for name in names]
     wanted = surfaces.names() if options.surface == ["all"] else options.surface or conformance.TYPICAL
     chosen = [surfaces.get(name) for name in wanted]
     devices = _devices(options.device)
     executor = LocalExecutor(options.timeout)
-    rows: list[tuple[str, ...]] = []
+    rows: list[tuple[str, str, Finding]] = []
+    failed = 0
     try:
         for plugin, info in itertools.product(plugins, devices):
             bench = _bench(executor, info.name, info.float64)
-            for finding, where in _findings(bench, plugin, chosen):
-                word = "holds" if finding.holds else "FAILS"
-                rows.append((plugin.method.name, finding.check, where, info.name, word, finding.detail))
+            found = [(plugin.method.name, *located) for located in _findings(bench, plugin, chosen)]
+            failed += sum(finding.fails for _, _, finding in found)
+            print(told(info.name, found, options.verbose), flush=True)
+            rows += [(name, where, finding) for name, where, finding in found]
     finally:
         executor.close()
-    print(console.table(("method", "check", "where", "device", "outcome", "detail"), rows))
-    failed = sum(row[4] == "FAILS" for row in rows)
-    print(f"{len(rows)} checks, {failed} failed")
-    return 1 if failed else 0
+    print(f"{sum(not finding.unchecked for *_, finding in rows)} checks, {failed} failed")
+    idle = sorted(set(names) - {name for name, _, finding in rows if not finding.unchecked})
+    if idle:
+        print(f"nothing was checked of {', '.join(idle)}: what is not checked does not conform")
+    return 1 if failed or idle else 0
 
 
 def _devices(names: list[str] | None) -> list[DeviceInfo]:
@@ -76,23 +91,50 @@ def _bench(executor: LocalExecutor, device: str, float64: bool) -> Bench:
     return Bench(device, LANGUAGES[device.partition(":")[0]], float64, run)
 
 
-def _findings(bench: Bench, plugin: Plugin, chosen: list[Surface]) -> list[tuple[Finding, str]]:
+def _findings(bench: Bench, plugin: Plugin, chosen: list[Surface]) -> Iterator[tuple[str, Finding]]:
     """Every check of a method on a device; a step that fails, hangs or crashes is a finding that says no."""
-    found: list[tuple[Finding, str]] = []
+    for examination in conformance.EXAMINATIONS:
+        for where, findings in examination(bench, plugin, chosen):
+            try:
+                yield from ((where, finding) for finding in findings)
+            except (CellError, FirsthitError) as error:
+                rule = "the program is built and runs to its end"
+                yield where, Finding("runs", math.nan, 0, rule, str(error).splitlines()[0], "see `firsthit compile`")
 
-    def gather(where: str, findings: Iterable[Finding]) -> None:
-        try:
-            found.extend((finding, where) for finding in findings)
-        except (CellError, FirsthitError) as error:
-            found.append((Finding("runs", False, str(error).splitlines()[0]), where))
 
-    for surface, precision in itertools.product(chosen, PRECISIONS):
-        where = f"{surface.name} {precision}"
-        if reason := conformance.refusal(plugin, surface, precision, bench):
-            found.append((Finding("accepts", True, f"not checked: {reason}"), where))
-        else:
-            gather(where, conformance.examine(bench, plugin, conformance.view_case(surface), precision))
-    for precision in PRECISIONS:
-        gather(f"touches {precision}", conformance.examine_touches(bench, plugin, precision))
-    gather("float32", conformance.examine_knobs(bench, plugin))
-    return found
+def told(device: str, found: Iterable[tuple[str, str, Finding]], verbose: bool) -> str:
+    """What is printed of one method on one device: a line for all that holds, a block for each check that fails."""
+    found = list(found)
+    name = found[0][0] if found else "none"
+    checked = [finding for *_, finding in found if not finding.unchecked]
+    failing = [(where, finding) for _, where, finding in found if finding.fails]
+    lines = [f"{name} on {device}: {len(checked) - len(failing)} of {len(checked)} checks hold"]
+    if verbose:
+        rows = [
+            (finding.check, where, _outcome(finding), _number(finding.value), _number(finding.limit))
+            for _, where, finding in found
+        ]
+        lines.append(textwrap.indent(console.table(("check", "where", "outcome", "measured", "at most"), rows), "  "))
+    places: dict[str, list[str]] = defaultdict(list)
+    for _, where, finding in found:
+        if finding.unchecked:
+            places[f"{finding.check}: {finding.unchecked}"].append(where)
+    lines += [_wrapped("  not checked  ", f"{reason} ({'; '.join(where)})") for reason, where in places.items()]
+    for where, finding in failing:
+        lines.append(f"  FAILS  {finding.check}  ({where})")
+        measured = f"{_number(finding.value)}, at most {_number(finding.limit)} allowed"
+        parts = {"measured": measured, "rule": finding.rule, "seen": finding.detail, "do": finding.advice}
+        lines += [_wrapped(f"    {word:<10}", text) for word, text in parts.items() if text]
+    return "\n".join(lines)
+
+
+def _outcome(finding: Finding) -> str:
+    return "not checked" if finding.unchecked else "FAILS" if finding.fails else "holds"
+
+
+def _number(value: float) -> str:
+    return "nothing" if math.isnan(value) else f"{value:.3g}"
+
+
+def _wrapped(head: str, text: str) -> str:
+    return textwrap.fill(text, WIDTH, initial_indent=head, subsequent_indent=" " * len(head), break_long_words=False)

@@ -1,0 +1,85 @@
+"""What every method is held to, the same for tests and `firsthit conform`: answers against the oracle, the claims it
+states, knobs that move the error the way it says, and the same bits from run to run.
+
+Each check says what it measured, the limit, and the rule that both follow. What is not at most the limit fails, NaN
+too, and what could not be measured is named and is no pass. Rays nearer than GRAZING scene radii to another answer
+count only where a claim says so. Rays that the oracle leaves undecided count as neither right nor wrong, and are
+bounded.
+
+**Views** Four from outside (oblique, along an axis, down a pole, from below), and one with the eye inside the domain,
+whose limit for wrong answers is wider: the papers start their rays outside.
+
+**Surfaces** On TYPICAL ones nearly every answer must be right. On others a method may be weak, never useless.
+
+**Settings** The papers' own settings (Method.settings) are held to the same claims as the default, and otherwise to the
+limits of a surface that is not typical, since a paper may prefer speed (its thresholds) or show what goes wrong without
+a part (toledo2007's double-derivative bisection takes 4 % of wrong roots on the torus from below). What a method's page
+calls weak without naming it a setting (newton's FORWARD = 0) is not checked.
+"""
+
+from harness.conformance.cases import (
+    GRAZING,
+    TYPICAL,
+    VIEWS,
+    Bench,
+    Case,
+    Finding,
+    joined,
+    not_checked,
+    touch_cases,
+    view_case,
+    views_case,
+)
+from harness.conformance.checks import (
+    MOST_UNDECIDED,
+    agreement,
+    answers,
+    conservative_bound,
+    decided,
+    error_below_tolerance,
+    finds_touch,
+    no_false_hit,
+    no_missed_root,
+    same_bits,
+)
+from harness.conformance.examine import (
+    EXAMINATIONS,
+    examine,
+    examine_knobs,
+    examine_touches,
+    refusal,
+    rotation,
+)
+from harness.conformance.knobs import settings_of, swept
+
+__all__ = [
+    "EXAMINATIONS",
+    "GRAZING",
+    "MOST_UNDECIDED",
+    "TYPICAL",
+    "VIEWS",
+    "Bench",
+    "Case",
+    "Finding",
+    "agreement",
+    "answers",
+    "conservative_bound",
+    "decided",
+    "error_below_tolerance",
+    "examine",
+    "examine_knobs",
+    "examine_touches",
+    "finds_touch",
+    "joined",
+    "no_false_hit",
+    "no_missed_root",
+    "not_checked",
+    "refusal",
+    "rotation",
+    "same_bits",
+    "settings_of",
+    "swept",
+    "touch_cases",
+    "view_case",
+    "views_case",
+]

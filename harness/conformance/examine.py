@@ -1,0 +1,116 @@
+"""All checks of a method on a device, part by part; a new kind of check is one more function in EXAMINATIONS."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any
+
+from harness.conformance.cases import OUTSIDE, Bench, Case, Finding, not_checked, touch_cases, view_case, views_case
+from harness.conformance.checks import CLAIM_CHECKS, agreement, answers, decided, finds_touch, same_bits
+from harness.conformance.knobs import settings_of, swept
+from harness.contract import PRECISIONS, FirsthitError, Precision, Surface
+from harness.plugins import Plugin
+
+SWEPT = ("torus", "barth_sextic", "sphere", "plane_squared")  # a knob is swept on the first that its method accepts
+Located = tuple[str, Iterator[Finding]]  # what is checked there, and its findings, made as they are asked for
+
+
+def refusal(plugin: Plugin, surface: Surface, precision: Precision, bench: Bench) -> str | None:
+    """Why the method is not to be checked here, or None."""
+    from surfaces.sections import unsupported
+
+    if precision not in plugin.method.precisions:
+        return f"the method has no {precision} form"
+    if precision == "float64" and not bench.float64:
+        return "the device has no float64"
+    if plugin.method.casts == "mesh":
+        return "it draws triangles, and listed rays meet none"
+    if plugin.method.casts != "rays":
+        return "it casts the beams of a camera's pixels, and listed rays have none"
+    return plugin.method.accepts(surface) or unsupported(surface, precision, bench.language)
+
+
+def examine(bench: Bench, plugin: Plugin, case: Case, precision: Precision, setting: str = "") -> Iterator[Finding]:
+    """Every check of one method's answers on one case, its claims among them.
+
+    `setting` names one of the paper's own settings; "" is the default. A setting is held to the same claims, and
+    beside these to the limits that checks.py states for settings.
+    """
+    knobs = plugin.method.settings[setting] if setting else {}
+    hits, again = (bench.cast(plugin, case, precision, **knobs) for _ in range(2))
+    yield decided(case)
+    yield answers(hits, case)
+    yield same_bits(hits, again)
+    yield from agreement(hits, case, setting)
+    for claim in sorted(plugin.method.claims & CLAIM_CHECKS.keys()):
+        yield CLAIM_CHECKS[claim](plugin, hits, case, precision, knobs)
+
+
+def examine_touches(bench: Bench, plugin: Plugin, precision: Precision) -> Iterator[Finding]:
+    """The claim finds_touch, where it is stated."""
+    if "finds_touch" not in plugin.method.claims:
+        return
+    for case in touch_cases():
+        if refusal(plugin, case.surface, precision, bench) is None:
+            yield finds_touch(bench.cast(plugin, case, precision), case)
+
+
+def examine_knobs(bench: Bench, plugin: Plugin) -> Iterator[Finding]:
+    """Each knob that says which way it is finer, in float32: the error never grows on the way there, and falls.
+
+    Other such knobs stand at their coarsest, so that what one knob does is not hidden by what another mends.
+    """
+    import surfaces
+
+    accepted = (surface for surface in map(surfaces.get, SWEPT) if not refusal(plugin, surface, "float32", bench))
+    surface = next(accepted, None)
+    knobs = [parameter for parameter in plugin.method.parameters if parameter.finer]
+    for parameter in knobs:
+        if surface is None:
+            reason = f"the method accepts none of {', '.join(SWEPT)}"
+            yield not_checked(f"{parameter.name} finer {parameter.finer}", reason)
+            continue
+        others = {other.name: settings_of(other)[0] for other in knobs if other is not parameter}
+        yield from swept(bench, plugin, view_case(surface, OUTSIDE), parameter, others)
+
+
+def _on_surfaces(bench: Bench, plugin: Plugin, chosen: Sequence[Surface]) -> Iterator[Located]:
+    """Default and settings of the papers on every view of the chosen surfaces."""
+    for surface in chosen:
+        for precision in PRECISIONS:
+            where = f"{surface.name} {precision}"
+            if reason := refusal(plugin, surface, precision, bench):
+                yield where, iter([not_checked("nothing", reason)])
+                continue
+            for setting in ("", *own_settings(plugin)):
+                named = f"{where}, setting {setting}" if setting else where
+                yield named, examine(bench, plugin, views_case(surface), precision, setting)
+
+
+def own_settings(plugin: Plugin) -> list[str]:
+    """The papers' settings that are not the default under another name."""
+    default = plugin.variant({}).parameters
+    return [name for name in plugin.method.settings if plugin.setting(name).parameters != default]
+
+
+def _on_touches(bench: Bench, plugin: Plugin, _: Sequence[Surface]) -> Iterator[Located]:
+    for precision in PRECISIONS:
+        yield f"touches {precision}", examine_touches(bench, plugin, precision)
+
+
+def _on_knobs(bench: Bench, plugin: Plugin, _: Sequence[Surface]) -> Iterator[Located]:
+    yield "float32", examine_knobs(bench, plugin)
+
+
+EXAMINATIONS: list[Callable[[Bench, Plugin, Sequence[Surface]], Iterator[Located]]] = [
+    _on_surfaces,
+    _on_touches,
+    _on_knobs,
+]
+
+
+def rotation(pairs: list[Any], places: list[Any]) -> list[tuple[Any, Any]]:
+    """Each pair with one place, in turn, so that every place is used and the choice never changes by chance."""
+    if not places:
+        raise FirsthitError("no usable device; `firsthit devices` says why", exit_code=3)
+    return [(pair, places[i % len(places)]) for i, pair in enumerate(pairs)]
