@@ -29,7 +29,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from harness.contract import FirsthitError, Surface, Truth, digest
+from harness.contract import FirsthitError, Surface, Truth, TruthStatus, digest
 
 ORACLE_VERSION = 4  # raise when answers or estimates change: old cache files are then not found
 
@@ -111,9 +111,10 @@ class _Solver:
         program = compile_expression(expr)
         self.fast = FastSolver(expr, surface.domain)
         self.floats = FloatFunction(program, [c.mid for c in Enclosure(program).constants])
-        self.slow: AlgebraicSolver | SmoothSolver = SmoothSolver(expr, surface.domain)
-        if program.is_polynomial:
-            self.slow = AlgebraicSolver(program, surface.domain)
+        smooth = SmoothSolver(expr, surface.domain)
+        self.slow: list[AlgebraicSolver | SmoothSolver] = [smooth]
+        if program.is_polynomial:  # in several fields Q(√d), what balls leave open is for the other one
+            self.slow = [AlgebraicSolver(program, surface.domain), *([smooth] if smooth.exact else [])]
 
     def certify(
         self, rays: NDArray[np.float64], t_min: float
@@ -121,7 +122,10 @@ class _Solver:
         """lower, upper and status of `rays`: float64[n, 6] holding float32 values."""
         fast = self.fast.first_hits(rays, t_min)
         for row in np.flatnonzero(~fast.decided):
-            hit = self.slow.first_hit(rays[row].tolist(), t_min)
+            for solver in self.slow:
+                hit = solver.first_hit(rays[row].tolist(), t_min)
+                if hit.status != TruthStatus.UNDECIDED:
+                    break
             fast.lower[row], fast.upper[row], fast.status[row] = hit.lower, hit.upper, hit.status
         return fast.lower, fast.upper, fast.status
 
