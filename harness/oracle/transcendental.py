@@ -101,8 +101,12 @@ class _Search:
             lower, upper = stack.pop()
             if upper < enter or lower > leave or self.is_empty(lower, upper):
                 continue
-            root = self.single_root(lower, upper)
-            if root is None and not upper - lower < floor:
+            try:
+                root = self.single_root(lower, upper)
+                narrow = root is not None or upper - lower < floor
+            except Undecidable:  # there is a root, not known narrowly enough at this precision
+                root, narrow = None, True
+            if not narrow:
                 middle = (lower + (upper - lower) * 0.484375).mid()
                 stack += [(middle, upper), (lower, middle)]
             elif root is not None and root > leave:
