@@ -43,7 +43,7 @@ def rays_into(surface: Surface, count: int, seed: int = 1) -> np.ndarray:
 def slow_path(surface: Surface) -> AlgebraicSolver | SmoothSolver:
     expr = surfaces.expression(surface)
     program = compile_expression(expr)
-    return (AlgebraicSolver(program, surface.domain) if program.is_polynomial else SmoothSolver(expr, surface.domain))
+    return AlgebraicSolver(program, surface.domain) if program.is_polynomial else SmoothSolver(expr, surface.domain)
 
 
 @pytest.mark.parametrize("surface", SURFACES, ids=lambda s: s.name)

@@ -169,7 +169,9 @@ def test_random_kinks_against_high_precision_signs(seed: int) -> None:
     surface = valid(pick)
     directions = rng.choice([0.0, 0.0, 1.0, -1.0, 0.5], (12, 3))
     directions[~directions.any(axis=1), 0] = 1.0
-    rays = np.hstack([rng.choice([0, 0.5, -0.5, 0.25], (12, 3)) - rng.choice([0.0, 3.0], (12, 1)) * directions, directions])
+    rays = np.hstack(
+        [rng.choice([0, 0.5, -0.5, 0.25], (12, 3)) - rng.choice([0.0, 3.0], (12, 1)) * directions, directions]
+    )
     rays = rays.astype(np.float32)
     truth = first_hits(surface, rays)
     assert not (truth.status == TruthStatus.UNDECIDED).any(), surface.formula
@@ -196,7 +198,9 @@ def test_ranges_of_slopes_hold_the_mean_slopes(formula: str) -> None:
     isolator = RangeIsolator(f)
     rng = np.random.default_rng(8)
     count = 4000
-    rays = np.hstack([rng.choice([0.0, 0.25, 0.5, 0.75, 0.1], (count, 3)), rng.choice([0.0, 1.0, -1.0, 0.3], (count, 3))])
+    rays = np.hstack(
+        [rng.choice([0.0, 0.25, 0.5, 0.75, 0.1], (count, 3)), rng.choice([0.0, 1.0, -1.0, 0.3], (count, 3))]
+    )
     half = 2.0 ** rng.uniform(-30, -1, count)
     inputs = [Dual(Balls(rays[:, k], half * np.abs(rays[:, 3 + k])), Balls(rays[:, 3 + k])) for k in range(3)]
     with np.errstate(all="ignore"):

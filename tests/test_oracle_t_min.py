@@ -1,4 +1,4 @@
-"""The rule for starts on the surface: the first hit is the first root in [max(t_min, t_enter), t_exit], ends included."""
+"""Starts on the surface: the first hit is the first root in [max(t_min, t_enter), t_exit], ends included."""
 
 from __future__ import annotations
 
@@ -134,7 +134,14 @@ def test_estimates_are_those_of_the_part_beyond_t_min() -> None:
 
 @pytest.mark.parametrize(
     ("t_min", "message"),
-    [(-1e-300, "not negative"), (np.nan, "finite"), (np.inf, "finite"), ("0", "a number"), (10**400, "finite"), (True, "a number")],
+    [
+        (-1e-300, "not negative"),
+        (np.nan, "finite"),
+        (np.inf, "finite"),
+        ("0", "a number"),
+        (10**400, "finite"),
+        (True, "a number"),
+    ],
 )
 def test_bad_values_are_refused(t_min: object, message: str, tmp_path: Path) -> None:
     surface, rays = surfaces.from_formula(UNIT, "sphere:2"), np.array([[-3, 0, 0, 1, 0, 0]], np.float32)

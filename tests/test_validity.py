@@ -62,7 +62,7 @@ def test_what_may_have_no_value_is_still_refused(text: str, message: str) -> Non
 
 
 def test_signs_hold_on_random_formulas() -> None:
-    """Every operation of random formulas, at random points: never of another sign than is claimed, where it is finite."""
+    """Every operation of random formulas, at random points: never of another sign than is claimed, if finite."""
     pick, rng = random.Random(3), np.random.default_rng(3)
     points = np.vstack([rng.uniform(-2, 2, (200, 3)), rng.integers(-1, 2, (40, 3))])
     claimed = 0

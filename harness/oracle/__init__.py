@@ -11,14 +11,14 @@ polynomials, `transcendental` for everything else). What neither can prove is UN
   the domain; t_min is 0 unless given. A start on the surface is a hit at t_min, whether the ray leaves, enters or
   grazes, unless t_min excludes it: a root before t_min is none, be it by one float. Where t_min lies behind the domain,
   the ray misses.
-- A polynomial whose coefficients are rational or in one field Q(√d) is always decided (touches and roots exactly at clip
-  ends included) up to the 4096 bits at which telling two numbers apart is given up. So is, as a rule, what is made of
-  polynomials with rational coefficients by quotients, square roots, abs, min and max, such as a distance function
-  (`piecewise`): a root may lie at a kink, or where a root's argument is 0. It is given up where a ray meets more than
-  12 roots at once, or at 1536 bits. Where f keeps its sign across a first hit, or is 0 all along behind it, or has no
-  value on one side, the hit is a TOUCH.
-- With other constants or functions, crossings and misses are decided, and touches where f is written with a repeated
-  factor or as an absolute value.
+- A polynomial whose coefficients are rational or in one field Q(√d) is always decided (touches and roots exactly at
+  clip ends included) up to the 4096 bits at which telling two numbers apart is given up.
+- So is, but for rare rays, what is made of polynomials by quotients, square roots, abs, min and max, such as a distance
+  function (`piecewise`): a hit may lie at a kink, or where a square root's argument is 0. Given up are rays on which f
+  is made of more than 12 different square roots at one place, or that 1536 bits do not decide. Where f keeps its sign
+  across a hit, or is 0 all along behind it, or has no value on one side, the hit is a TOUCH.
+- With other constants (π, e) or functions, crossings and misses are decided, and touches where f is written with a
+  repeated factor or as an absolute value.
 - `following`, `condition` and `margin` are estimates in plain float64 (`classify`).
 """
 
@@ -85,7 +85,9 @@ def check_rays(rays: NDArray[np.float32]) -> None:
 def checked_t_min(t_min: float) -> float:
     """`t_min` as a float64, −0 as 0; a FirsthitError where it is no finite number, or negative."""
     if isinstance(t_min, bool) or not isinstance(t_min, int | float | np.integer | np.floating):
-        raise FirsthitError(f"t_min must be a number, not {type(t_min).__name__}; give a distance along the ray, 0 or more")
+        raise FirsthitError(
+            f"t_min must be a number, not {type(t_min).__name__}; give a distance along the ray, 0 or more"
+        )
     try:
         value = float(t_min)
     except OverflowError:

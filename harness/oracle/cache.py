@@ -17,9 +17,7 @@ from numpy.typing import NDArray
 from harness.contract import Surface, Truth
 
 
-def truth_path(
-    folder: Path, surface: Surface, rays: NDArray[np.float32], version: int, t_min: float = 0.0
-) -> Path:
+def truth_path(folder: Path, surface: Surface, rays: NDArray[np.float32], version: int, t_min: float = 0.0) -> Path:
     """Where the answers for exactly these rays from `t_min` on and this surface belong."""
     key = hashlib.sha256(json.dumps([version, surface.identity, rays.shape, t_min], sort_keys=True).encode())
     key.update(np.ascontiguousarray(rays, dtype="<f4").tobytes())

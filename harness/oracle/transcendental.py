@@ -1,8 +1,9 @@
 """The first hit of one ray with a surface that is not a polynomial: ranges in ball arithmetic, then exact arithmetic.
 
-Crossings and misses are proved as in `range64`, with rising precision. Touches, roots at kinks and at zeros of a root's
-argument, and roots exactly at a clip end are decided by `piecewise`, on the short pieces that ranges leave open, if f is
-made of polynomials, quotients, roots, abs, min and max; with other functions, or pi and e, such rays stay undecided.
+Crossings and misses are proved as in `range64`, with rising precision. Touches, hits at kinks and where a square root's
+argument is 0, and hits exactly at a clip end are decided by `piecewise`, on the short pieces that ranges leave open, if
+f is made of polynomials, quotients, square roots, abs, min and max; with other functions, or pi and e, such rays stay
+undecided.
 """
 
 from __future__ import annotations
