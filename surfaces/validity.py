@@ -45,8 +45,8 @@ def check(surface: Surface) -> None:
 def signs_of(tape: Tape) -> list[int]:
     """For each operation 2 where its structure shows it positive, 1 where it shows it not negative, else 0.
 
-    Squares, absolute values and roots are not negative, exponentials are positive; sums, products, quotients, minima and
-    maxima follow from their parts.
+    Squares, absolute values and roots are not negative, exponentials are positive; sums, products, quotients, minima
+    and maxima follow from their parts.
     """
     known: list[int] = []
     for op in tape.ops:

@@ -38,7 +38,9 @@ def sphere(pick: random.Random) -> Shape:
     c, r = tuple(_eighths(pick, -4, 4) for _ in range(3)), _eighths(pick, 2, 5)
     x, y, z = (_moved(n, v) for n, v in zip("xyz", c, strict=True))
     return Shape(
-        f"(sqrt({x}^2 + {y}^2 + {z}^2) - {r!r})", lambda p: np.linalg.norm(p - c, axis=1) - r, (c, (c[0], c[1] + r, c[2]))
+        f"(sqrt({x}^2 + {y}^2 + {z}^2) - {r!r})",
+        lambda p: np.linalg.norm(p - c, axis=1) - r,
+        (c, (c[0], c[1] + r, c[2])),
     )
 
 
@@ -174,7 +176,7 @@ def rays_for(shape: Shape, count: int, seed: int) -> np.ndarray:
 
 
 def march(shape: Shape, rays: np.ndarray, start: np.ndarray, stop: np.ndarray, steps: int = 4000) -> np.ndarray:
-    """float64[n]: how far from `start` no root is proved, at most `stop`, by steps of |f| over the direction's length."""
+    """float64[n]: t up to which no root is proved from `start` on, at most `stop`, by steps of |f| / |direction|."""
     o, d = rays[:, :3].astype(float), rays[:, 3:].astype(float)
     length = np.linalg.norm(d, axis=1)
     t = start.copy()
@@ -188,7 +190,7 @@ def march(shape: Shape, rays: np.ndarray, start: np.ndarray, stop: np.ndarray, s
 
 
 def clip(domain: Sphere | Box, rays: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """t where each ray enters (0 or more) and leaves the domain, float64[n]; entering behind leaving where it misses."""
+    """t where each ray enters (0 or more) and leaves the domain, float64[n]; a miss enters behind where it leaves."""
     o, d = rays[:, :3].astype(float), rays[:, 3:].astype(float)
     with np.errstate(all="ignore"):
         if isinstance(domain, Box):

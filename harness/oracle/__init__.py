@@ -11,14 +11,14 @@ polynomials, `transcendental` for everything else). What neither can prove is UN
   the domain; t_min is 0 unless given. A start on the surface is a hit at t_min, whether the ray leaves, enters or
   grazes, unless t_min excludes it: a root before t_min is none, be it by one float. Where t_min lies behind the domain,
   the ray misses.
-- A polynomial whose coefficients are rational or in one field Q(√d) is always decided (touches and roots exactly at clip
-  ends included) up to the 4096 bits at which telling two numbers apart is given up. So is, as a rule, what is made of
-  polynomials with rational coefficients by quotients, square roots, abs, min and max, such as a distance function
-  (`piecewise`): a root may lie at a kink, or where a root's argument is 0. It is given up where a ray meets more than
-  12 roots at once, or at 1536 bits. Where f keeps its sign across a first hit, or is 0 all along behind it, or has no
-  value on one side, the hit is a TOUCH.
-- With other constants or functions, crossings and misses are decided, and touches where f is written with a repeated
-  factor or as an absolute value.
+- A polynomial whose coefficients are rational or in one field Q(√d) is always decided (touches and roots exactly at
+  clip ends included) up to the 4096 bits at which telling two numbers apart is given up.
+- So is, but for rare rays, what is made of polynomials by quotients, square roots, abs, min and max, such as a distance
+  function (`piecewise`): a hit may lie at a kink, or where a square root's argument is 0. Given up are rays on which f
+  is made of more than 12 different square roots at one place, or that 1536 bits do not decide. Where f keeps its sign
+  across a hit, or is 0 all along behind it, or has no value on one side, the hit is a TOUCH.
+- With other constants (π, e) or functions, crossings and misses are decided, and touches where f is written with a
+  repeated factor or as an absolute value.
 - `following`, `condition` and `margin` are estimates in plain float64 (`classify`).
 """
 
@@ -29,7 +29,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from harness.contract import FirsthitError, Surface, Truth, digest
+from harness.contract import FirsthitError, Surface, Truth, TruthStatus, digest
 
 __all__ = ["cached_first_hits", "first_hits"]
 
@@ -83,7 +83,9 @@ def check_rays(rays: NDArray[np.float32]) -> None:
 def checked_t_min(t_min: float) -> float:
     """`t_min` as a float64, −0 as 0; a FirsthitError where it is no finite number, or negative."""
     if isinstance(t_min, bool) or not isinstance(t_min, int | float | np.integer | np.floating):
-        raise FirsthitError(f"t_min must be a number, not {type(t_min).__name__}; give a distance along the ray, 0 or more")
+        raise FirsthitError(
+            f"t_min must be a number, not {type(t_min).__name__}; give a distance along the ray, 0 or more"
+        )
     try:
         value = float(t_min)
     except OverflowError:
@@ -109,9 +111,10 @@ class _Solver:
         program = compile_expression(expr)
         self.fast = FastSolver(expr, surface.domain)
         self.floats = FloatFunction(program, [c.mid for c in Enclosure(program).constants])
-        self.slow: AlgebraicSolver | SmoothSolver = SmoothSolver(expr, surface.domain)
-        if program.is_polynomial:
-            self.slow = AlgebraicSolver(program, surface.domain)
+        smooth = SmoothSolver(expr, surface.domain)
+        self.slow: list[AlgebraicSolver | SmoothSolver] = [smooth]
+        if program.is_polynomial:  # in several fields Q(√d), what balls leave open is for the other one
+            self.slow = [AlgebraicSolver(program, surface.domain), *([smooth] if smooth.exact else [])]
 
     def certify(
         self, rays: NDArray[np.float64], t_min: float
@@ -119,7 +122,10 @@ class _Solver:
         """lower, upper and status of `rays`: float64[n, 6] holding float32 values."""
         fast = self.fast.first_hits(rays, t_min)
         for row in np.flatnonzero(~fast.decided):
-            hit = self.slow.first_hit(rays[row].tolist(), t_min)
+            for solver in self.slow:
+                hit = solver.first_hit(rays[row].tolist(), t_min)
+                if hit.status != TruthStatus.UNDECIDED:
+                    break
             fast.lower[row], fast.upper[row], fast.status[row] = hit.lower, hit.upper, hit.status
         return fast.lower, fast.upper, fast.status
 

@@ -1,9 +1,9 @@
 """Ranges of f and its slope on pieces of rays, for each side of the first kink that a piece leaves open.
 
-**Theory.** Where the sign of one kink's argument u is open on a piece, f is one smooth function where u >= 0 and another
-where u <= 0. Almost everywhere its slope is that of one of the two, so a range that holds both slopes proves f monotone
-(f is absolutely continuous where its ranges are finite). Taken apart, the two are much narrower than the slopes of all
-kinks mixed: in √(max(u, 0)²) + min(u, 0) every kink is of the same u, and the slope is u' on either side.
+**Theory.** Where the sign of one kink's argument u is open on a piece, f is one function where u >= 0 and another where
+u <= 0. Almost everywhere its slope is that of one of the two, so a range that holds both slopes and not 0 proves f
+monotone (f is absolutely continuous where its ranges are finite). Taken apart, the two are much narrower than the
+slopes of all kinks mixed: in √(max(u, 0)²) + min(u, 0) every kink is of the same u, and the slope is u' on either side.
 """
 
 from __future__ import annotations
@@ -36,7 +36,9 @@ class Branch:
     def __init__(self, side: int, shape: tuple[int, ...]) -> None:
         self.side = side
         self.free = np.ones(shape, dtype=bool)  # pieces that have met no open kink yet
-        self.known: dict[int, Any] = {}  # by the identity of a run's results: 1 where one is >= 0, −1 where <= 0, else 0
+        self.known: dict[
+            int, Any
+        ] = {}  # by the identity of a run's results: 1 where one is >= 0, −1 where <= 0, else 0
 
     def functions(self) -> Functions:
         smooth = dual_functions(balls64.FUNCTIONS)

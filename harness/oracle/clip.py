@@ -57,9 +57,7 @@ def clip_exactly(domain: Domain, ray: Sequence[Any], t_min: float = 0.0) -> tupl
     return _clip_by_sphere([rational(v) for v in domain.center], rational(domain.radius), ray, rational(t_min))
 
 
-def _clip_by_box(
-    lower: Sequence[Any], upper: Sequence[Any], ray: Sequence[Any], t_min: Any
-) -> tuple[End, End] | None:
+def _clip_by_box(lower: Sequence[Any], upper: Sequence[Any], ray: Sequence[Any], t_min: Any) -> tuple[End, End] | None:
     enter, leave = t_min, None
     for low, high, o, d in zip(lower, upper, ray[:3], ray[3:], strict=True):
         if not d:

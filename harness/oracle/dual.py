@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from operator import truediv
 from typing import Any
 
 from harness.oracle.program import Functions
@@ -39,12 +40,16 @@ def dual_functions(base: Mapping[str, Callable[..., Any]]) -> Functions:
 
     `base` also has `half`, and `sign`: +1, −1, or a range that holds [−1, 1] where the sign is open (the generalised
     derivative of abs). It may have `pick`: of a sign and two numbers the first where the sign is +1, the second where
-    it is −1, else what holds both; `ratio`: a slope over a root, 0 where the slope is known to be 0; and `share`: u over
-    a length that is not less than |u|, so never beyond [−1, 1].
+    it is −1, else what holds both; `ratio`: a slope over a root, 0 where the slope is known to be 0; and `share`: u
+    over a length that is not less than |u|, so never beyond [−1, 1].
     """
-    pick = base.get("pick", lambda sign, a, b: base["half"](a + b + sign * (a - b)))
-    ratio = base.get("ratio", lambda slope, root: slope / root)
-    share = base.get("share")
+
+    def mixed(sign: Any, a: Any, b: Any) -> Any:
+        return base["half"](a + b + sign * (a - b))
+
+    pick: Callable[..., Any] = base.get("pick", mixed)
+    ratio: Callable[..., Any] = base.get("ratio", truediv)
+    share: Callable[..., Any] | None = base.get("share")
 
     def sqrt(a: Dual) -> Dual:
         root = base["sqrt"](a.value)

@@ -57,7 +57,9 @@ class FastSolver:
         program = compile_expression(radical)
         self.f = Enclosure(compile_expression(radical, lengths=True))
         self.floats = FloatFunction(program, [c.mid for c in Enclosure(program).constants])
-        self.factors = [(Enclosure(compile_expression(factor, lengths=True)), multiplicity) for factor, multiplicity in factors]
+        self.factors = [
+            (Enclosure(compile_expression(factor, lengths=True)), multiplicity) for factor, multiplicity in factors
+        ]
         small = program.is_polynomial and program.degree <= MOST_DEGREE
         self.isolate = (BernsteinIsolator if small else RangeIsolator)(self.f)
 

@@ -33,7 +33,7 @@ class FloatFunction:
         self.program = program
         self.constants = [np.float64(c) for c in constants]
         # polynomials are known everywhere from degree + 1 samples, as long as rounding errors are not blown up
-        self.interpolates = program.is_polynomial and program.degree <= MOST_DEGREE
+        self.interpolates = program.is_polynomial and 0 < program.degree <= MOST_DEGREE
         self.samples = 12 * program.degree + 1 if self.interpolates else 129
         self.duals = [Dual(c, np.float64(0.0)) for c in self.constants]
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 from flint import arb, fmpq, fmpq_poly
@@ -20,7 +21,7 @@ from harness.oracle import reals
 from harness.oracle.bernstein import Undecidable
 from harness.oracle.clip import End
 from harness.oracle.points import Point, end_point, rational_point, roots_between
-from harness.oracle.program import POLYNOMIAL, Program, compile_expression
+from harness.oracle.program import POLYNOMIAL, Instruction, Program, compile_expression
 from harness.oracle.reals import precision
 from harness.oracle.slow import FirstHit, certified_hit
 from harness.oracle.tower import Element, Tower, add, constant, neg
@@ -121,8 +122,8 @@ class PiecewiseSolver:
         if len(inside) == 2 and not inside[0].compare(inside[1]):
             inside.pop()
         points = [first, *inside, last]
-        stack = list(zip(points[:-1], points[1:], strict=True))[::-1]
-        result = []
+        stack = list(pairwise(points))[::-1]
+        result: list[_Cell] = []
         for _ in range(MOST_CELLS):
             if not stack:
                 return result
@@ -131,7 +132,7 @@ class PiecewiseSolver:
                 result.append(self.cell(first, last))
             except _Cut as cut:
                 points = [first, *cut.roots, last]
-                stack += list(zip(points[:-1], points[1:], strict=True))[::-1]
+                stack += list(pairwise(points))[::-1]
             except _Undefined:
                 if last.compare(self.enter) > 0 and first.compare(self.leave) < 0:
                     raise
@@ -141,11 +142,12 @@ class PiecewiseSolver:
     def cell(self, first: Point, last: Point) -> _Cell:
         """Raises _Cut where it must be cut first."""
         run = _Run(self.program, self.ray, first, last)
-        f = run.numerator(run.results()[-1])
+        f = run.numerator(run.result())
         return _Cell(first, last, run.tower, f, run.sign(f))
 
 
 Quotient = tuple[Element, Element]
+ZERO: Quotient = ({}, ONE)
 
 
 class _Run:
@@ -157,24 +159,44 @@ class _Run:
         self.inputs = [fmpq_poly([o, d]) for o, d in zip(ray[:3], ray[3:], strict=True)]
         with precision(FIRST_PRECISION):
             whole = first.ball().union(last.ball())
-            self.inputs_balls = [arb(o) + arb(d) * whole for o, d in zip(ray[:3], ray[3:], strict=True)]
-            constants = [reals.leaf(c) for c in program.constants]
-            self.balls = program.results(self.inputs_balls, constants, reals.FUNCTIONS)
+            points = [arb(o) + arb(d) * whole for o, d in zip(ray[:3], ray[3:], strict=True)]
+            self.balls = program.results(points, [reals.leaf(c) for c in program.constants], reals.FUNCTIONS)
 
-    def results(self) -> list[Quotient]:
-        values: list[Quotient] = []
+    def result(self) -> Quotient:
+        """f on the cell."""
+        needed = self.needed()
+        values: dict[int, Quotient] = {}
         for k, i in enumerate(self.program.instructions):
-            values.append(self.value(k, i.name, i.index, [values[a] for a in i.args], i.args))
-        return values
+            if k in needed:
+                values[k] = self.value(i, [values.get(a, ZERO) for a in i.args])
+        return values[len(self.program.instructions) - 1]
 
-    def value(self, k: int, name: str, index: int, a: list[Quotient], at: tuple[int, ...]) -> Quotient:
+    def needed(self) -> set[int]:
+        """The instructions that f is made of here: not those of a minimum's or maximum's other side."""
+        needed = {len(self.program.instructions) - 1}
+        for k in range(len(self.program.instructions) - 1, -1, -1):
+            i = self.program.instructions[k]
+            if k in needed:
+                side = self.side(i)
+                needed.update(i.args if side is None else i.args[side : side + 1])
+        return needed
+
+    def side(self, i: Instruction) -> int | None:
+        """Which argument a minimum or maximum is all over the cell, as far as balls tell."""
+        if i.name not in ("min", "max"):
+            return None
+        with precision(FIRST_PRECISION):
+            gap = self.balls[i.args[0]] - self.balls[i.args[1]]
+        return None if gap.contains(0) else int((gap > 0) == (i.name == "min"))
+
+    def value(self, i: Instruction, a: list[Quotient]) -> Quotient:
         mul = self.tower.mul
-        match name:
+        match i.name:
             case "input":
-                p = self.inputs[index]
+                p = self.inputs[i.index]
                 return ({0: p} if p else {}), ONE
             case "constant":
-                return self.leaf(self.program.constants[index]), ONE
+                return self.leaf(self.program.constants[i.index]), ONE
             case "neg":
                 return neg(a[0][0]), a[0][1]
             case "add":
@@ -186,13 +208,14 @@ class _Run:
             case "div":
                 return mul(a[0][0], a[1][1]), mul(a[0][1], a[1][0])
             case "sqrt":
-                return self.sqrt(a[0], self.balls[at[0]])
+                return self.sqrt(a[0], self.balls[i.args[0]])
             case "abs":
-                return a[0] if self.kink(a[0], self.balls[at[0]]) >= 0 else (neg(a[0][0]), a[0][1])
-        with precision(FIRST_PRECISION):
-            gap = self.balls[at[0]] - self.balls[at[1]]
-        ahead = self.kink(self.sum(a[0], (neg(a[1][0]), a[1][1])), gap)
-        return a[0] if (ahead <= 0) == (name == "min") else a[1]
+                return a[0] if self.kink(a[0], self.balls[i.args[0]]) >= 0 else (neg(a[0][0]), a[0][1])
+        side = self.side(i)
+        if side is None:
+            ahead = self.sign(self.numerator(self.sum(a[0], (neg(a[1][0]), a[1][1]))))
+            side = int((ahead > 0) == (i.name == "min"))
+        return a[side]
 
     def sum(self, a: Quotient, b: Quotient) -> Quotient:
         if a[1] == b[1]:
@@ -230,7 +253,7 @@ class _Run:
         if sign < 0:
             raise _Undefined("a root of what is negative")
         if sign == 0:
-            return {}, ONE
+            return ZERO
         below = a[1]
         side = 1 if below == ONE else self.sign(below)
         if not side:

@@ -36,7 +36,7 @@ class Point:
         if self.is_rational:
             return not p(self.lower)
         common = self.p.gcd(p)
-        return common.degree() > 0 and common(self.lower) * common(self.upper) < 0
+        return bool(common.degree() > 0 and common(self.lower) * common(self.upper) < 0)
 
     def halve(self) -> None:
         middle = (self.lower + self.upper) / 2

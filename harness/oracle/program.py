@@ -238,18 +238,21 @@ def repeated_factors(expr: sympy.Expr) -> tuple[sympy.Expr, list[tuple[sympy.Exp
     """
     import sympy
 
-    factors = []
+    found: dict[sympy.Expr, int] = {}
     for factor in sympy.Mul.make_args(expr):
         base, exponent = factor.as_base_exp()
-        repeated = exponent.is_Integer and exponent > 1
-        if factor.free_symbols:
-            base, multiplicity = (base, int(exponent)) if repeated else (factor, 1)
-            if isinstance(base, sympy.Abs):
-                base, multiplicity = base.args[0], 2
-            factors.append((base, multiplicity))
+        multiplicity = int(exponent) if exponent.is_Integer and exponent > 1 else 1
+        if not factor.free_symbols:
+            continue
+        if multiplicity == 1:
+            base = factor
+        if isinstance(base, sympy.Abs):
+            base, multiplicity = base.args[0], 2 * multiplicity
+        found[base] = found.get(base, 0) + multiplicity
+    factors = list(found.items())
     if all(multiplicity == 1 for _, multiplicity in factors):
         return expr, []
-    return sympy.Mul(*(factor for factor, _ in factors)), factors
+    return sympy.Mul(*found), factors
 
 
 def convert_constants(program: Program, leaf: Callable[[sympy.Expr], Any], functions: Functions) -> list[Any]:

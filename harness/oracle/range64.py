@@ -57,17 +57,17 @@ class RangeIsolator:
         empty[monotone] |= first * last == 1
         return Verdict(empty, single, rising, (middle <= pieces.lower) | (middle >= pieces.upper))
 
-
     def _narrowed(self, whole: Dual, inputs: list[Dual]) -> Balls:
         """The slope of f on pieces, from both sides of a kink where all kinks mixed do not tell its sign."""
-        open_ = np.flatnonzero(~whole.value.excludes_zero & ~whole.slope.excludes_zero) if self.kinks else np.empty(0)
+        slope: Balls = whole.slope
+        open_ = np.flatnonzero(~whole.value.excludes_zero & ~slope.excludes_zero) if self.kinks else np.empty(0)
         if not len(open_):
-            return whole.slope
+            return slope
         some = [Dual(_rows(i.value, open_), _rows(i.slope, open_)) for i in inputs]
         sides = [self.f.slopes(some, Branch(side, open_.shape).functions()).slope for side in (1, -1)]
         lower, upper = np.minimum(sides[0].lower, sides[1].lower), np.maximum(sides[0].upper, sides[1].upper)
         both = balls64.hull(lower, upper)
-        mid, rad = whole.slope.mid.copy(), whole.slope.rad.copy()
+        mid, rad = slope.mid.copy(), slope.rad.copy()
         mid[open_], rad[open_] = both.mid, both.rad
         return Balls(mid, rad)
 

@@ -75,9 +75,7 @@ class AlgebraicSolver:
         except Undecidable:
             return UNDECIDED
 
-    def _by_balls(
-        self, ray: Sequence[float], ends: tuple[End, End], reach: float, bits: int, t_min: float
-    ) -> FirstHit:
+    def _by_balls(self, ray: Sequence[float], ends: tuple[End, End], reach: float, bits: int, t_min: float) -> FirstHit:
         """Raises Undecidable; `reach` is the domain's radius in units of t."""
         if bits not in self.constants:
             self.constants[bits] = convert_constants(self.program, reals.leaf, reals.FUNCTIONS)

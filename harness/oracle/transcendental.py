@@ -1,8 +1,9 @@
 """The first hit of one ray with a surface that is not a polynomial: ranges in ball arithmetic, then exact arithmetic.
 
-Crossings and misses are proved as in `range64`, with rising precision. Touches, roots at kinks and at zeros of a root's
-argument, and roots exactly at a clip end are decided by `piecewise`, on the short pieces that ranges leave open, if f is
-made of polynomials, quotients, roots, abs, min and max; with other functions, or pi and e, such rays stay undecided.
+Crossings and misses are proved as in `range64`, with rising precision. Touches, hits at kinks and where a square root's
+argument is 0, and hits exactly at a clip end are decided by `piecewise`, on the short pieces that ranges leave open, if
+f is made of polynomials, quotients, square roots, abs, min and max; with other functions, or pi and e, such rays stay
+undecided.
 """
 
 from __future__ import annotations
@@ -101,8 +102,12 @@ class _Search:
             lower, upper = stack.pop()
             if upper < enter or lower > leave or self.is_empty(lower, upper):
                 continue
-            root = self.single_root(lower, upper)
-            if root is None and not upper - lower < floor:
+            try:
+                root = self.single_root(lower, upper)
+                narrow = root is not None or upper - lower < floor
+            except Undecidable:  # there is a root, not known narrowly enough at this precision
+                root, narrow = None, True
+            if not narrow:
                 middle = (lower + (upper - lower) * 0.484375).mid()
                 stack += [(middle, upper), (lower, middle)]
             elif root is not None and root > leave:
