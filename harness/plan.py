@@ -42,6 +42,7 @@ HERE = Path(__file__).parent
 PREPARING = 0.3  # seconds to build and check a cell: the mean of 4,392 of configs/front.toml, on two cores
 DECIDING = (
     "accuracy.py",
+    "answers.py",
     "beams.py",
     "camera.py",
     "costs.py",
