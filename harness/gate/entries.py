@@ -59,6 +59,8 @@ def baseline_of(
 
 def _entry(planned: Planned, row: Row, catalog: Catalog) -> Entry:
     scene = {name: value for name, value in planned.identity.items() if name not in _NOT_SCENE}
+    if "accuracy" in scene:  # how much may be undecided decides whether there are figures, and none of them
+        scene["accuracy"] = {name: value for name, value in scene["accuracy"].items() if name != "undecided"}
     entry: Entry = {"status": row["status"], "scene": digest(scene)}
     if row["program"]:
         entry["program"] = row["program"]["hash"]
