@@ -38,6 +38,16 @@ def signed_rank(differences: Sequence[float]) -> float:
     return _two_sided(chances, round(2.0 * statistic))
 
 
+def least_chance(pairs: int) -> float:
+    """The smallest p-value that signed_rank can give for so many pairs: when one side leads in all of them."""
+    return min(1.0, 2.0 ** (1 - pairs))
+
+
+def pairs_needed(level: float) -> int:
+    """How many pairs it takes until signed_rank can give a p-value of at most `level`, 0 < level <= 1."""
+    return next(pairs for pairs in range(1, 1100) if least_chance(pairs) <= level)
+
+
 def rank_sum(first: Sequence[float], second: Sequence[float]) -> float:
     """The test of Mann and Whitney (Wilcoxon's rank sum): the p-value of "both come from one distribution".
 

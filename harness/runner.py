@@ -14,7 +14,6 @@ from dataclasses import dataclass, field, replace
 from datetime import UTC, datetime
 from typing import Any
 
-import numpy as np
 from numpy.typing import NDArray
 
 from harness import accuracy, beams, measure, rastercheck, stability
@@ -31,6 +30,7 @@ from harness.store import Row, Store
 from harness.worker import Frame, Warmed
 
 MINIMUM_SAMPLES = 8
+LONGEST = 10  # times [budget] seconds: what a cell's rounds may take, where they are too few to compare it
 BYTES_PER_RAY = 24  # of a frame kept ready, at most: its answer on the device, and as it was read back
 MOST_BYTES = 3 * 2**30  # of all frames kept ready at once
 UNFINISHED = (CellStatus.FAILED, CellStatus.TIMEOUT, CellStatus.CRASHED)
@@ -220,8 +220,10 @@ class Runner:
 
     def _is_done(self, state: _Live) -> bool:
         budget, count = self._config.budget, len(state.wall_ms)
-        narrow = count >= MINIMUM_SAMPLES and measure.is_narrow(state.samples, budget.interval)
-        return narrow or state.timing >= budget.seconds or count >= budget.repetitions
+        comparable = count >= budget.rounds
+        narrow = comparable and count >= MINIMUM_SAMPLES and measure.is_narrow(state.samples, budget.interval)
+        spent = state.timing >= (budget.seconds if comparable else LONGEST * budget.seconds)
+        return narrow or spent or count >= budget.repetitions
 
     def _finish(self, planned: Planned, state: _Live | None, status: CellStatus, reason: str | None) -> Row:
         cell, method = planned.cell, self._catalog.get(planned.cell.variant.method).method
@@ -275,9 +277,7 @@ class Runner:
         assert state.warmed and state.planned.device
         median, lower, upper, _ = measure.median_interval(state.samples)
         bootstrap_lower, bootstrap_upper = measure.bootstrap_interval(state.samples, self._config.seed)
-        overhead = None
-        if state.device_ms:
-            overhead = float(np.median(np.array(state.wall_ms) / np.array(state.device_ms))) - 1.0
+        believed = state.planned.device.clock == "device"
         return {
             "clock": state.planned.device.clock,
             "samples_ms": state.samples,
@@ -291,7 +291,7 @@ class Runner:
             "bootstrap_lower_ms": bootstrap_lower,
             "bootstrap_upper_ms": bootstrap_upper,
             "narrow": measure.is_narrow(state.samples, self._config.budget.interval),
-            "overhead_share": overhead,
+            "overhead_share": measure.overhead(state.wall_ms, state.device_ms) if believed else None,
             **measure.steadiness(state.samples),
         }
 

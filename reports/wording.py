@@ -60,6 +60,11 @@ def level(value: float) -> str:
     return f"{value:.{5 if value >= 1 else 2}g}" if 0.001 <= value < 1e5 else error(value)
 
 
+def hundredths(value: Any) -> str:
+    """Two decimals: −0.25."""
+    return NONE if absent(value) else f"{value:.2f}".replace("-", "−")
+
+
 def count(value: Any) -> str:
     return NONE if absent(value) else f"{int(value):,}"
 

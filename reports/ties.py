@@ -1,0 +1,78 @@
+"""Whether two variants' times differ: a verdict of the rounds that timed both, never of two medians alone."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import pandas as pd
+
+from harness import measure, ranks
+from harness.measure import Ratio
+from reports import derive, wording
+
+LEVEL = 0.01  # a chance above this is no evidence that two variants differ
+NEEDED = ranks.pairs_needed(LEVEL)
+SLOWER, FASTER, ALIKE = "slower", "faster", "not told apart"
+COLUMNS = ["session", "rounds", "samples_ms", "median_ms", "lower_ms", "upper_ms"]
+RULE = (
+    "Two times differ where both variants were timed in the same rounds and a signed-rank test of the rounds' ratios "
+    f"leaves a chance of at most {LEVEL:g}, which takes {NEEDED} rounds, and the 95 % interval of their median is "
+    "all on one side of 1"
+)
+
+
+def ratio(row: Any, other: Any) -> Ratio | None:
+    """`row`'s time over `other`'s, round by round; None unless both were timed in one interleaved run."""
+    if wording.absent(row.session) or row.session != other.session:
+        return None
+    if any(wording.absent(one.rounds) or not one.samples_ms for one in (row, other)):
+        return None
+    return measure.paired_ratio(row.samples_ms, json.loads(row.rounds), other.samples_ms, json.loads(other.rounds))
+
+
+def verdict(of: Ratio) -> str:
+    """SLOWER, FASTER, ALIKE, or that there were too few rounds to tell, with how many it takes."""
+    if of.pairs < NEEDED:
+        least = wording.short(ranks.least_chance(of.pairs))
+        return f"too few rounds: {of.pairs} can at best give a chance of {least}; needs {NEEDED}"
+    if of.chance > LEVEL or not of.proved:
+        return ALIKE
+    return SLOWER if of.lower > 1.0 else FASTER if of.upper < 1.0 else ALIKE
+
+
+def is_slower(row: Any, other: Any) -> bool:
+    """Whether `row` is told to be slower than `other`; without common rounds, by intervals that do not meet."""
+    paired = ratio(row, other)
+    if paired is not None:
+        return verdict(paired) == SLOWER
+    enough = all(measure.proves(len(one.samples_ms or ())) for one in (row, other))
+    return bool(enough and row.lower_ms > other.upper_ms)
+
+
+def tied(rows: pd.DataFrame, best: Any) -> list[str]:
+    """The variants of other methods than `best`'s, of each the fastest of `rows`, that are not told to be slower.
+
+    `rows` are of one scene and device, fastest first.
+    """
+    others = rows[rows["method"] != best.method].drop_duplicates("method")
+    return [str(row.variant) for row in others[["variant", *COLUMNS]].itertuples() if not is_slower(row, best)]
+
+
+def leaders(frame: pd.DataFrame) -> pd.DataFrame:
+    """The fastest row with every ray right of each group that has one, with two more columns.
+
+    `tied`: the variants of other methods that it is not told apart from; `methods`: how many methods were timed there.
+    """
+    rows = derive.contenders(frame)
+    methods = rows.groupby(derive.GROUP)["method"].nunique().rename("methods")
+    right = rows[derive.all_right(rows)]
+    best = right.drop_duplicates(derive.GROUP)
+    found = {
+        key: tied(own, next(own.head(1)[["method", *COLUMNS]].itertuples()))
+        for key, own in right.groupby(derive.GROUP, sort=False)
+    }
+    keys = best[derive.GROUP].itertuples(index=False, name=None)
+    return best.assign(tied=pd.Series([found[key] for key in keys], best.index, dtype=object)).join(
+        methods, on=derive.GROUP
+    )
