@@ -73,7 +73,7 @@ class BudgetChoice:
     `timeout` seconds for any one step (build, check, one repetition), after which the worker is killed. A frame of more
     than so many `triangles` is skipped.
 
-    A slow cell is timed in at least so many `rounds`, though they take up to ten times `seconds`: fewer cannot tell two
+    A slow cell is timed in at least so many `rounds`, though they take up to 16 times `seconds`: fewer cannot tell two
     variants apart (8 at the level of reports.pairs). `repetitions` are the most that any cell is timed in.
     """
 

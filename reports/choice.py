@@ -25,7 +25,7 @@ def scenes(frame: pd.DataFrame) -> pd.DataFrame:
 def fastest(rows: pd.DataFrame, error: float) -> Any | None:
     """The fastest row of one scene with no wrong ray away from silhouettes and at most this error; None without one."""
     good = _usable(rows, error)
-    return None if good.empty else next(good.head(1).itertuples())
+    return None if good.empty else next(good.loc[[ties.best(good).Index]].itertuples())
 
 
 def _usable(rows: pd.DataFrame, error: float) -> pd.DataFrame:

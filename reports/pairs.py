@@ -12,7 +12,7 @@ from reports import derive, tables, ties, wording
 from reports.content import Block, Column, Section, Table, Text
 
 _NEEDED = [
-    *("comparison", "device", "precision", "key", "variant", "wrong_rays", *ties.COLUMNS),
+    *("comparison", "device", "precision", "key", "method", "variant", "wrong_rays", *ties.COLUMNS),
     *("surface_title", "view", "size", "samples_per_pixel", "stage"),
 ]
 
@@ -27,9 +27,10 @@ def sections(frame: pd.DataFrame) -> list[Section]:
         "How many times the time of the fastest variant with every ray right each variant takes that answers every ray "
         "rightly too: the median of the ratios within rounds, so that what slows a whole round cancels, with its 95 % "
         "interval (order statistics), and how often chance alone parts equally fast variants so (signed-rank test). "
-        f"At a chance over {ties.LEVEL:g} the two are not told apart: neither should be called faster. So many rounds "
-        f"n give a chance of at least 2^(1 − n): it takes {ties.NEEDED} to tell anything apart, and 6 for an interval. "
-        f"Each chance is of one comparison: of 100 pairs that are equally fast one is told apart by chance."
+        f"At a chance over {ties.LEVEL:g}, or where the interval reaches across 1, the two are not told apart: neither "
+        f"should be called faster. So many rounds n give a chance of at least 2^(1 − n): it takes {ties.NEEDED} to "
+        "tell anything apart, and 6 for an interval. Each chance is of one comparison: of 100 pairs that are equally "
+        "fast one is told apart by chance."
     )
     if len(shown) < len(scenes):
         told += f" The first {len(shown):,} of {len(scenes):,} scenes; results.csv has the samples and rounds of all."
@@ -43,7 +44,7 @@ def _table(rows: pd.DataFrame) -> Table | None:
         right = group[derive.all_right(group)]
         if right.empty:
             continue
-        best = next(right.head(1).itertuples())
+        best = ties.best(right)
         for row in group.itertuples():
             if row.key != best.key and (ratio := ties.ratio(row, best)):
                 sound = row.key in set(right["key"])

@@ -62,14 +62,15 @@ def _verdict(frame: pd.DataFrame) -> str:
     shared, wrong = len(leading) - len(alone), contested - len(leading)
     rest = [f"the times of several methods are not told apart in {shared}"] if shared else []
     rest += [f"no variant answers every such ray rightly in {wrong}"] if wrong else []
+    each = [f"{method} is fastest in {count}" for method, count in counted.items()]
     if len(counted) and 2 * counted.iloc[0] > contested:
+        rest = [*each[1:], *rest]
         first = str(counted.index[0])
         sentence = (
             f"Of the variants with no wrong ray away from silhouettes, {first} is fastest in {counted.iloc[0]} of "
             f"{told}{_gain(alone[alone['method'] == first])}."
         )
         return f"{sentence} Of the others, {wording.listed(rest)}." if rest else sentence
-    each = [f"{method} is fastest in {count}" for method, count in counted.items()]
     return (
         "No method leads: of the variants with no wrong ray away from silhouettes, in "
         f"{told}, {wording.listed([*each, *rest])}."

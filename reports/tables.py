@@ -10,7 +10,7 @@ from typing import Any
 import pandas as pd
 
 from harness.contract import CellStatus
-from reports import derive, wording
+from reports import derive, ties, wording
 from reports.content import Column, Table
 from reports.load import Facts, Plan, Unreadable
 
@@ -56,7 +56,7 @@ def winners(frame: pd.DataFrame, leading: pd.DataFrame) -> Table:
     """The fastest variant of every group, the fastest with every ray right where that is another, and what the latter
     is not told apart from; `leading` is of ties.leaders."""
     rows = derive.contenders(frame)
-    fastest = rows.drop_duplicates(derive.GROUP)
+    fastest = ties.fastest(frame)
     safest = {(r.comparison, r.device, r.precision): r for r in leading.itertuples()}
     body: list[tuple[Any, ...]] = []
     named = places(frame)
@@ -93,8 +93,8 @@ def winners(frame: pd.DataFrame, leading: pd.DataFrame) -> Table:
         "What wins where.",
         f"{speedup(rows)} Max error is the largest |t − t*| in scene units over rays away from silhouettes; wrong rays "
         "are misses, false hits, exhausted rays and wrong roots among them. Not told apart: the fastest variants of "
-        "other methods, with no wrong ray, whose times are not told to be longer than that of the fastest without one."
-        + note,
+        "other methods, with no wrong ray, whose times are not told to be longer than that of the fastest without one; "
+        "of a method's own settings the fastest is by the median." + note,
         group=2,
     )
 
@@ -102,8 +102,8 @@ def winners(frame: pd.DataFrame, leading: pd.DataFrame) -> Table:
 def speedup(rows: pd.DataFrame) -> str:
     """What a speed-up is, in a sentence, for captions."""
     return (
-        f"Speed-up is the time of {derive.baseline_of(rows)} in the same group over this one's; – where one of the two "
-        "answers a ray away from silhouettes wrongly or was not timed."
+        f"Speed-up is the median time of {derive.baseline_of(rows)} on the same device, in the same precision, over "
+        "this one's; – where one of the two answers a ray away from silhouettes wrongly or was not timed."
     )
 
 

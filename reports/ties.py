@@ -14,6 +14,7 @@ from reports import derive, wording
 LEVEL = 0.01  # a chance above this is no evidence that two variants differ
 NEEDED = ranks.pairs_needed(LEVEL)
 SLOWER, FASTER, ALIKE = "slower", "faster", "not told apart"
+TORN = f"{ALIKE}: the test and the interval disagree"
 COLUMNS = ["session", "rounds", "samples_ms", "median_ms", "lower_ms", "upper_ms"]
 RULE = (
     "Two times differ where both variants were timed in the same rounds and a signed-rank test of the rounds' ratios "
@@ -32,13 +33,14 @@ def ratio(row: Any, other: Any) -> Ratio | None:
 
 
 def verdict(of: Ratio) -> str:
-    """SLOWER, FASTER, ALIKE, or that there were too few rounds to tell, with how many it takes."""
+    """SLOWER, FASTER, ALIKE, TORN, or that there were too few rounds to tell, with how many it takes."""
     if of.pairs < NEEDED:
         least = wording.short(ranks.least_chance(of.pairs))
         return f"too few rounds: {of.pairs} can at best give a chance of {least}; needs {NEEDED}"
-    if of.chance > LEVEL or not of.proved:
-        return ALIKE
-    return SLOWER if of.lower > 1.0 else FASTER if of.upper < 1.0 else ALIKE
+    aside = of.proved and (of.lower > 1.0 or of.upper < 1.0)
+    if aside != (of.chance <= LEVEL):
+        return TORN
+    return ALIKE if not aside else SLOWER if of.lower > 1.0 else FASTER
 
 
 def is_slower(row: Any, other: Any) -> bool:
@@ -48,6 +50,22 @@ def is_slower(row: Any, other: Any) -> bool:
         return verdict(paired) == SLOWER
     enough = all(measure.proves(len(one.samples_ms or ())) for one in (row, other))
     return bool(enough and row.lower_ms > other.upper_ms)
+
+
+def best(rows: pd.DataFrame) -> Any:
+    """The fastest of `rows`, which are fastest first by their medians and at least one, with the columns `method`,
+    `variant`, `key` and COLUMNS.
+
+    Medians are over all rounds of each; where another row is faster in the rounds that both have, that one is it.
+    """
+    first, *others = rows[["method", "variant", "key", *COLUMNS]].itertuples()
+    for row in others:
+        if row.lower_ms > first.upper_ms:
+            continue
+        paired = ratio(row, first)
+        if paired is not None and verdict(paired) == FASTER:
+            first = row
+    return first
 
 
 def tied(rows: pd.DataFrame, best: Any) -> list[str]:
@@ -67,12 +85,17 @@ def leaders(frame: pd.DataFrame) -> pd.DataFrame:
     rows = derive.contenders(frame)
     methods = rows.groupby(derive.GROUP)["method"].nunique().rename("methods")
     right = rows[derive.all_right(rows)]
-    best = right.drop_duplicates(derive.GROUP)
-    found = {
-        key: tied(own, next(own.head(1)[["method", *COLUMNS]].itertuples()))
-        for key, own in right.groupby(derive.GROUP, sort=False)
-    }
-    keys = best[derive.GROUP].itertuples(index=False, name=None)
-    return best.assign(tied=pd.Series([found[key] for key in keys], best.index, dtype=object)).join(
-        methods, on=derive.GROUP
+    groups = [own for _, own in right.groupby(derive.GROUP, sort=False)]
+    firsts = [best(own) for own in groups]
+    found = pd.Series(
+        [tied(own, first) for own, first in zip(groups, firsts, strict=True)],
+        [first.Index for first in firsts],
+        dtype=object,
     )
+    return right.loc[found.index].assign(tied=found).join(methods, on=derive.GROUP)
+
+
+def fastest(frame: pd.DataFrame) -> pd.DataFrame:
+    """The fastest row of each group, whether it answers every ray rightly or not."""
+    rows = derive.contenders(frame)
+    return rows.loc[[best(own).Index for _, own in rows.groupby(derive.GROUP, sort=False)]]

@@ -71,7 +71,9 @@ def count(value: Any) -> str:
 
 def share(value: Any) -> str:
     """A share of one as per cent."""
-    return NONE if absent(value) else f"{100 * value:.{0 if value >= 0.1 else 1}f} %"
+    if absent(value):
+        return NONE
+    return "< 0.1 %" if 0.0 < value < 0.0005 else f"{100 * value:.{0 if value >= 0.1 else 1}f} %"
 
 
 def percentage(value: Any) -> str:

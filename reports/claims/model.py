@@ -99,6 +99,12 @@ def largest(rows: pd.DataFrame, name: str) -> float:
     return float(rows[name].astype("float64").max(skipna=False)) if len(rows) else math.nan
 
 
+def cases(rows: pd.DataFrame) -> str:
+    """What these rows are of: 6 views, or 1 view on 3 devices."""
+    views, devices = int(rows["view"].nunique()), int(rows["device"].nunique())
+    return wording.plural(views, "view") + (f" on {devices} devices" if devices > 1 else "")
+
+
 def count(value: int | None) -> str:
     return wording.NONE if value is None else f"{value:,}"
 

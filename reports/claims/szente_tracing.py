@@ -18,9 +18,8 @@ def _details_skipped(evidence: Evidence) -> Verdict | None:
     clear, grazing = (counted(rows, f"{kind}misses", f"{kind}wrong_root") for kind in ("", "grazing_"))
     told = f"{count(clear)} roots skipped away from silhouettes and {count(grazing)} at them, by "
     told += f"{count(counted(rows, 'accuracy_rays'))} rays on {rows['surface'].nunique()} surfaces"
-    if clear is None or grazing is None or (grazing and not clear):  # at a silhouette rounding alone may skip a root
-        return verdict(None, told)
-    return verdict(clear > 0, told)
+    # none seen says nothing of finer details; and at a silhouette rounding alone may skip a root
+    return verdict(True if clear else None, told)
 
 
 def _culling_pays(evidence: Evidence) -> Verdict | None:

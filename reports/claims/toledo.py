@@ -18,6 +18,7 @@ from reports.claims.model import (
     Verdict,
     at_least,
     both,
+    cases,
     count,
     counted,
     every,
@@ -60,7 +61,7 @@ def _newton_fastest(evidence: Evidence) -> Verdict | None:
         won += bool(len(others) and (others["lower_ms"] > newton["upper_ms"].iloc[0]).all())
     settings = len({words for own in groups for words in own["words"]})
     even = len(groups) - won - len(lost)
-    figure = f"fastest of {settings} settings in {won} of {len(groups)} views"
+    figure = f"fastest of {settings} settings in {won} of {len(groups)} cases (views, on each device)"
     figure += f"; beaten by {', '.join(dict.fromkeys(lost))}" if lost else ""
     figure += f"; not told apart from the fastest in {even}" if even else ""
     return verdict(False if lost else True if not even else None, figure)
@@ -80,10 +81,10 @@ def _sturm_depends_on_the_view(evidence: Evidence) -> Verdict | None:
         f"{most['accuracy_rays']:,} in float32"
     )
     exact = evidence.rows(picks.STURM, picks.TORUS, "float64")
-    figure += "" if exact.empty else f"; in float64 {count(counted(exact, *_WRONG))} over {len(exact)} views"
+    figure += "" if exact.empty else f"; in float64 {count(counted(exact, *_WRONG))} over {cases(exact)}"
     pairs = len(found) * (len(found) - 1) // 2
-    cases = (int(most["bad"]), int(most["accuracy_rays"]), int(least["bad"]), int(least["accuracy_rays"]))
-    uneven = counts.exceeds(*cases, UNEVEN, tries=pairs)
+    held = (int(most["bad"]), int(most["accuracy_rays"]), int(least["bad"]), int(least["accuracy_rays"]))
+    uneven = counts.exceeds(*held, UNEVEN, tries=pairs)
     return verdict(False if most["bad"] == 0 else uneven, figure)
 
 
@@ -93,10 +94,7 @@ def _bisection_is_free_of_them(evidence: Evidence) -> Verdict | None:
         return None
     bad, of = counted(rows, "wrong_rays"), counted(rows, "accuracy_rays")
     error = largest(rows, "feature_error_max")
-    figure = (
-        f"{count(bad)} wrong rays of {count(of)} over {rows['view'].nunique()} views, largest error "
-        f"{wording.error(error)} r"
-    )
+    figure = f"{count(bad)} wrong rays of {count(of)} over {cases(rows)}, largest error {wording.error(error)} r"
     if bad:
         worst = rows.loc[rows["wrong_rays"].astype("float64").idxmax()]
         figure += f"; most at view {worst['view']}: {worst['wrong_rays']:,}"
@@ -172,7 +170,7 @@ def _thresholds_hold(evidence: Evidence) -> Verdict | None:
         if len(rows):
             error = largest(rows, "feature_error_max")
             held.append(known(error / limit, lambda share: share <= 1.0))
-            told.append(f"{pick.words}: largest error {wording.error(error)} r over {len(rows)} views")
+            told.append(f"{pick.words}: largest error {wording.error(error)} r over {cases(rows)}")
     return verdict(both(*held), "; ".join(told)) if told else None
 
 
@@ -184,7 +182,7 @@ def _quadratic(evidence: Evidence) -> Verdict | None:
     hits = (pairs["truth_hits"].astype("float64") / pairs["accuracy_rays"].astype("float64")).replace(0.0, math.nan)
     more = (pairs["evaluations_mean_fine"] - pairs["evaluations_mean"]) / hits
     told = f"{wording.number(more.mean())} more evaluations for each hit (at most {wording.number(more.max())})"
-    told += f" at 0.00003 r than at 0.001 r, over {len(pairs)} views"
+    told += f" at 0.00003 r than at 0.001 r, over {cases(pairs)}"
     return verdict(every(more, lambda steps: steps <= MORE_STEPS), told)
 
 
