@@ -141,7 +141,7 @@ def _answers(both: pd.DataFrame, by: list[str]) -> list[Block]:
         ("wrong rays", wording.count),
         ("at silhouettes", wording.count),
         ("max error", wording.error),
-        ("evaluations per ray", wording.number),
+        ("evaluations per ray cast", wording.number),
     )
     columns = [Column(side, show, numeric=True, over=over) for over, show in shows for side in ("A", "B")]
     caption = f"{len(body)} of {len(both)} cells answer differently in some way."

@@ -64,8 +64,8 @@ def _table(rows: pd.DataFrame) -> Table:
         ),
         body,
         "Beams held against rays.",
-        "Misses include silhouettes. Look for surfaces whose false hits outnumber the hits that only a beam can see: "
-        "there the interval extension overestimates most.",
+        "Counts are of the rays of each picture's check; misses include silhouettes. Look for surfaces whose false hits "
+        "outnumber the hits that only a beam can see: there the interval extension overestimates most.",
         group=3,
     )
 
@@ -140,9 +140,9 @@ def prepass_sections(frame: pd.DataFrame) -> list[Section]:
         Column("plain", wording.number, numeric=True, over="ms"),
         Column("+beams", wording.number, numeric=True, over="ms"),
         Column("faster", wording.factor, numeric=True, over="ms"),
-        Column("plain", wording.number, numeric=True, over="evals per ray"),
-        Column("+beams", wording.number, numeric=True, over="evals per ray"),
-        Column("of tiles", wording.number, numeric=True, over="evals per ray"),
+        Column("plain", wording.number, numeric=True, over="evals per ray cast"),
+        Column("+beams", wording.number, numeric=True, over="evals per ray cast"),
+        Column("of tiles", wording.number, numeric=True, over="evals per ray cast"),
         Column("plain", wording.count, numeric=True, over="wrong rays"),
         Column("+beams", wording.count, numeric=True, over="wrong rays"),
     )

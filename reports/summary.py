@@ -62,7 +62,11 @@ def _verdict(frame: pd.DataFrame) -> str:
     shared, wrong = len(leading) - len(alone), contested - len(leading)
     rest = [f"the times of several methods are not told apart in {shared}"] if shared else []
     rest += [f"no variant answers every such ray rightly in {wrong}"] if wrong else []
-    each = [f"{method} is fastest in {count}" for method, count in counted.items()]
+    errors = alone.groupby("method")["error_max"].max()
+    each = [
+        f"{method} is fastest in {count} (largest error {wording.error(errors[method])})"
+        for method, count in counted.items()
+    ]
     if len(counted) and 2 * counted.iloc[0] > contested:
         rest = [*each[1:], *rest]
         first = str(counted.index[0])
