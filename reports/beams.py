@@ -64,8 +64,8 @@ def _table(rows: pd.DataFrame) -> Table:
         ),
         body,
         "Beams held against rays.",
-        "Counts are of the rays of each picture's check; misses include silhouettes. Look for surfaces whose false hits "
-        "outnumber the hits that only a beam can see: there the interval extension overestimates most.",
+        "Counts are of the rays of each picture's check; misses include silhouettes. Look for surfaces whose false "
+        "hits outnumber the hits that only a beam can see: there the interval extension overestimates most.",
         group=3,
     )
 

@@ -248,7 +248,8 @@ def _results_caption(rows: pd.DataFrame) -> tuple[str, str]:
     for row in rows[rows["accuracy_rays"].notna()].head(1).itertuples():
         checked = (
             f" Errors and counts of wrong rays are of {row.accuracy_rays:,} rays, of which "
-            f"{wording.count(row.grazing)} pass within {wording.error(row.grazing_margin)} of another answer: these grazing rays are counted apart."
+            f"{wording.count(row.grazing)} pass within {wording.error(row.grazing_margin)} of another answer: these "
+            "grazing rays are counted apart."
         )
     return (
         scene(rows),

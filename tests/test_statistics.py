@@ -278,3 +278,56 @@ def test_no_table_prints_a_figure_that_cannot_be(tmp_path: Path) -> None:
     assert (
         (timed_rows["lower_ms"] <= timed_rows["median_ms"]) & (timed_rows["median_ms"] <= timed_rows["upper_ms"])
     ).all()
+
+
+# ---- the runner
+
+
+class _Slow:
+    """Repetitions of so many seconds each by the runner's own clock; what a cell's end is decided from."""
+
+    def __init__(self, seconds: float) -> None:
+        from harness.config import BudgetChoice
+
+        self.seconds, self.budget = seconds, BudgetChoice(seconds=1.0)
+
+    def rounds(self) -> int:
+        from types import SimpleNamespace
+
+        from harness.runner import Runner
+
+        runner: Any = SimpleNamespace(_config=SimpleNamespace(budget=self.budget))
+        state: Any = SimpleNamespace(wall_ms=[], timing=0.0)
+        while True:
+            state.wall_ms.append(1e3 * self.seconds * (1.0 + 0.3 * (len(state.wall_ms) % 2)))
+            state.timing += self.seconds
+            state.samples = state.wall_ms
+            if Runner._is_done(runner, state):
+                return len(state.wall_ms)
+
+
+@pytest.mark.parametrize(("seconds", "least", "most"), [(0.05, 20, 20), (0.3, 8, 8), (1.3, 8, 8), (10.0, 2, 2)])
+def test_a_slow_cell_is_timed_in_enough_rounds_to_compare_it_but_not_for_ever(
+    seconds: float, least: int, most: int
+) -> None:
+    assert least <= _Slow(seconds).rounds() <= most
+
+
+@pytest.mark.parametrize(("clock", "told"), [("device", 0.25), ("wall", None)])
+def test_a_row_has_an_overhead_only_where_the_devices_clock_is_believed(clock: str, told: float | None) -> None:
+    from types import SimpleNamespace
+
+    from harness.config import BudgetChoice
+    from harness.runner import Runner
+
+    runner: Any = SimpleNamespace(_config=SimpleNamespace(seed=1, budget=BudgetChoice()), _session="s")
+    state: Any = SimpleNamespace(
+        warmed=SimpleNamespace(batch=1),
+        planned=SimpleNamespace(device=SimpleNamespace(clock=clock)),
+        wall_ms=[1.25] * 9,
+        device_ms=[1.0] * 9,
+        samples=[1.0] * 9,
+        rounds=list(range(9)),
+    )
+    found = Runner._time_of(runner, state)["overhead_share"]
+    assert found == (None if told is None else pytest.approx(told))
