@@ -24,6 +24,8 @@ def signed_rank(differences: Sequence[float]) -> float:
     values = np.array([d for d in differences if d != 0.0])
     if not len(values):
         return 1.0
+    if len(values) <= EXACT and ((values > 0.0).all() or (values < 0.0).all()):
+        return least_chance(len(values))
     ranks = _mid_ranks(np.abs(values))
     statistic = float(ranks[values > 0.0].sum())
     mean, variance = float(ranks.sum()) / 2.0, float((ranks**2).sum()) / 4.0

@@ -54,9 +54,14 @@ class _Live:
     arrays: dict[str, NDArray[Any]] | None = None
 
     @property
-    def samples(self) -> list[float]:
+    def by_device(self) -> bool:
+        """Whether times are by the device's own clock: where that is believed and told every sample's."""
         assert self.planned.device
-        return self.device_ms if self.planned.device.clock == "device" else self.wall_ms
+        return self.planned.device.clock == "device" and len(self.device_ms) == len(self.wall_ms)
+
+    @property
+    def samples(self) -> list[float]:
+        return self.device_ms if self.by_device else self.wall_ms
 
 
 class Runner:
@@ -277,9 +282,8 @@ class Runner:
         assert state.warmed and state.planned.device
         median, lower, upper, _ = measure.median_interval(state.samples)
         bootstrap_lower, bootstrap_upper = measure.bootstrap_interval(state.samples, self._config.seed)
-        believed = state.planned.device.clock == "device"
         return {
-            "clock": state.planned.device.clock,
+            "clock": "device" if state.by_device else "wall",
             "samples_ms": state.samples,
             "wall_samples_ms": state.wall_ms,
             "rounds": state.rounds,
@@ -291,7 +295,7 @@ class Runner:
             "bootstrap_lower_ms": bootstrap_lower,
             "bootstrap_upper_ms": bootstrap_upper,
             "narrow": measure.is_narrow(state.samples, self._config.budget.interval),
-            "overhead_share": measure.overhead(state.wall_ms, state.device_ms) if believed else None,
+            "overhead_share": measure.overhead(state.wall_ms, state.device_ms) if state.by_device else None,
             **measure.steadiness(state.samples),
         }
 

@@ -11,6 +11,7 @@ from typing import Any
 
 import pandas as pd
 
+from harness import measure
 from harness.contract import CellStatus, FirsthitError
 from reports import derive, tables, wording
 from reports.content import Block, Code, Column, Document, Section, Table, Text
@@ -23,6 +24,9 @@ _PLACE = ["scene", "variant", "precision"]
 
 def paired(a: Run, b: Run) -> tuple[pd.DataFrame, list[str]]:
     """Cells of both runs, columns of A ending in _a and of B in _b, and the columns they were matched by.
+
+    `ratio` is B's time over A's, where both answer as many rays wrongly or nothing at all; NaN elsewhere. Its ends,
+    `ratio_low` and `ratio_high`, are of both medians' intervals, where those are proved.
 
     Raises FirsthitError where nothing matches.
     """
@@ -40,11 +44,19 @@ def paired(a: Run, b: Run) -> tuple[pd.DataFrame, list[str]]:
         raise FirsthitError(
             f"{a.folder} and {b.folder} have no cell in common: no scene, variant and precision in both"
         )
+    wrong = [both[f"wrong_rays_{side}"].astype("float64") for side in "ab"]
+    alike = (wrong[0] == wrong[1]) | ~(both["answers_a"] | both["answers_b"]).astype(bool)
+    proved = _proved(both["samples_ms_a"]) & _proved(both["samples_ms_b"])
     return both.assign(
-        ratio=both["median_ms_b"] / both["median_ms_a"],
-        ratio_low=both["lower_ms_b"] / both["upper_ms_a"],
-        ratio_high=both["upper_ms_b"] / both["lower_ms_a"],
+        ratio=(both["median_ms_b"] / both["median_ms_a"]).where(alike),
+        ratio_low=(both["lower_ms_b"] / both["upper_ms_a"]).where(alike & proved),
+        ratio_high=(both["upper_ms_b"] / both["lower_ms_a"]).where(alike & proved),
     ), by
+
+
+def _proved(samples: pd.Series) -> pd.Series:
+    """Which cells have enough samples for the interval of their median."""
+    return samples.map(lambda own: measure.proves(len(own or ()))).astype(bool)
 
 
 def _scenes(frame: pd.DataFrame) -> pd.Series:
@@ -64,7 +76,8 @@ def report(a: Run, b: Run) -> Document:
         f"{len(better)}."
     )
     caution = (
-        "Clearly: the 95 % intervals of both medians do not meet. The two runs were not timed in turns, so that a "
+        "Clearly: the 95 % intervals of both medians, of 6 samples or more, do not meet; times are compared where both "
+        "answer as many rays wrongly. The two runs were not timed in turns, so that a "
         "machine that was busier during one of them changes every ratio alike; the ratio's median over all cells is "
         f"{wording.factor(timed['ratio'].median())}."
     )

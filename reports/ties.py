@@ -16,6 +16,7 @@ NEEDED = ranks.pairs_needed(LEVEL)
 SLOWER, FASTER, ALIKE = "slower", "faster", "not told apart"
 TORN = f"{ALIKE}: the test and the interval disagree"
 COLUMNS = ["session", "rounds", "samples_ms", "median_ms", "lower_ms", "upper_ms"]
+_TOLD = ["method", "variant", "key", *COLUMNS]
 RULE = (
     "Two times differ where both variants were timed in the same rounds and a signed-rank test of the rounds' ratios "
     f"leaves a chance of at most {LEVEL:g}, which takes {NEEDED} rounds, and the 95 % interval of their median is "
@@ -53,13 +54,24 @@ def is_slower(row: Any, other: Any) -> bool:
 
 
 def best(rows: pd.DataFrame) -> Any:
-    """The fastest of `rows`, which are fastest first by their medians and at least one, with the columns `method`,
-    `variant`, `key` and COLUMNS.
+    """The fastest of `rows`, which are fastest first by their medians and at least one, with the columns of _TOLD.
 
     Medians are over all rounds of each; where another row is faster in the rounds that both have, that one is it.
     """
-    first, *others = rows[["method", "variant", "key", *COLUMNS]].itertuples()
-    for row in others:
+    return _best(list(rows[_TOLD].itertuples()))
+
+
+def tied(rows: pd.DataFrame, first: Any) -> list[str]:
+    """The variants of other methods than `first`'s, of each the fastest of `rows`, that are not told to be slower.
+
+    `rows` are of one scene and device, fastest first.
+    """
+    return _tied(list(rows[_TOLD].itertuples()), first)
+
+
+def _best(rows: list[Any]) -> Any:
+    first = rows[0]
+    for row in rows[1:]:
         if row.lower_ms > first.upper_ms:
             continue
         paired = ratio(row, first)
@@ -68,13 +80,20 @@ def best(rows: pd.DataFrame) -> Any:
     return first
 
 
-def tied(rows: pd.DataFrame, best: Any) -> list[str]:
-    """The variants of other methods than `best`'s, of each the fastest of `rows`, that are not told to be slower.
+def _tied(rows: list[Any], first: Any) -> list[str]:
+    fastest_of: dict[str, Any] = {}
+    for row in rows:
+        if row.method != first.method:
+            fastest_of.setdefault(row.method, row)
+    return [str(row.variant) for row in fastest_of.values() if not is_slower(row, first)]
 
-    `rows` are of one scene and device, fastest first.
-    """
-    others = rows[rows["method"] != best.method].drop_duplicates("method")
-    return [str(row.variant) for row in others[["variant", *COLUMNS]].itertuples() if not is_slower(row, best)]
+
+def _groups(rows: pd.DataFrame) -> list[list[Any]]:
+    """The rows of each group, in their order."""
+    found: dict[tuple[Any, ...], list[Any]] = {}
+    for row in rows[[*derive.GROUP, *_TOLD]].itertuples():
+        found.setdefault((row.comparison, row.device, row.precision), []).append(row)
+    return list(found.values())
 
 
 def leaders(frame: pd.DataFrame) -> pd.DataFrame:
@@ -85,10 +104,10 @@ def leaders(frame: pd.DataFrame) -> pd.DataFrame:
     rows = derive.contenders(frame)
     methods = rows.groupby(derive.GROUP)["method"].nunique().rename("methods")
     right = rows[derive.all_right(rows)]
-    groups = [own for _, own in right.groupby(derive.GROUP, sort=False)]
-    firsts = [best(own) for own in groups]
+    groups = _groups(right)
+    firsts = [_best(own) for own in groups]
     found = pd.Series(
-        [tied(own, first) for own, first in zip(groups, firsts, strict=True)],
+        [_tied(own, first) for own, first in zip(groups, firsts, strict=True)],
         [first.Index for first in firsts],
         dtype=object,
     )
@@ -98,4 +117,4 @@ def leaders(frame: pd.DataFrame) -> pd.DataFrame:
 def fastest(frame: pd.DataFrame) -> pd.DataFrame:
     """The fastest row of each group, whether it answers every ray rightly or not."""
     rows = derive.contenders(frame)
-    return rows.loc[[best(own).Index for _, own in rows.groupby(derive.GROUP, sort=False)]]
+    return rows.loc[[_best(own).Index for own in _groups(rows)]]

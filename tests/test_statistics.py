@@ -323,6 +323,7 @@ def test_a_row_has_an_overhead_only_where_the_devices_clock_is_believed(clock: s
     runner: Any = SimpleNamespace(_config=SimpleNamespace(seed=1, budget=BudgetChoice()), _session="s")
     state: Any = SimpleNamespace(
         warmed=SimpleNamespace(batch=1),
+        by_device=clock == "device",
         planned=SimpleNamespace(device=SimpleNamespace(clock=clock)),
         wall_ms=[1.25] * 9,
         device_ms=[1.0] * 9,
