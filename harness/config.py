@@ -32,6 +32,8 @@ from harness.plugins import Catalog
 from harness.scenes import Scene, SceneChoice, cut, scenes_of
 from harness.viewsets import AngleChoice, DirectionChoice, by_angle, by_direction
 
+BASELINE = "ray_march"  # what speed-ups are over where a config names nothing else
+
 
 @dataclass(frozen=True)
 class MethodChoice:
@@ -72,10 +74,15 @@ class AccuracyChoice:
 class BudgetChoice:
     """Per cell: `seconds` of timing, stopped early once the 95 % interval of the median is within `interval`;
     `timeout` seconds for any one step (build, check, one repetition), after which the worker is killed. A frame of more
-    than so many `triangles` is skipped."""
+    than so many `triangles` is skipped.
+
+    A slow cell is timed in at least so many `rounds`, though they take up to 16 times `seconds`: fewer cannot tell two
+    variants apart (8 at the level of reports.pairs). `repetitions` are the most that any cell is timed in.
+    """
 
     seconds: float = 2.0
     interval: float = 0.02
+    rounds: int = 8
     repetitions: int = 200
     timeout: float = 60.0
     triangles: int = 1_000_000_000
@@ -106,12 +113,14 @@ class Config:
     """An experiment: methods × prepass × surfaces × views × sizes × samples × stages × precisions × devices, and,
     untimed, methods × families of hard rays × precisions × devices. `surfaces` and `families` may be ["all"].
 
+    `baseline` is the method, or the variant by its label, that reports give speed-ups over.
     `studies` are computations of harness.studies. With `include`, a list of config files, it holds nothing else:
     each of them is run into its own folder, and one report collects them.
     """
 
     title: str
     include: list[str] = field(default_factory=list)
+    baseline: str = BASELINE
     studies: list[str] = field(default_factory=list)
     method: list[MethodChoice] = field(default_factory=list)
     surfaces: list[str] = field(default_factory=list)
@@ -271,6 +280,7 @@ def _positive(config: Config, source: _Source) -> None:
         (("accuracy", "undecided"), config.accuracy.undecided, 0.0, 1.0),
         (("budget", "seconds"), config.budget.seconds, 0.0, 1e5),
         (("budget", "interval"), config.budget.interval, 0.0, 1.0),
+        (("budget", "rounds"), config.budget.rounds, 1, 1e6),
         (("budget", "repetitions"), config.budget.repetitions, 1, 1e6),
         (("budget", "timeout"), config.budget.timeout, 1e-3, 1e6),
         *((("view", i, "fov"), view.fov, 1e-3, 179.0) for i, view in enumerate(config.view)),
@@ -402,6 +412,11 @@ def load(path: Path, catalog: Catalog) -> Experiment:
         variants += own
         if choice.stages:
             own_stages |= dict.fromkeys(own, typing.cast(tuple[Stage, ...], tuple(choice.stages)))
+    if "baseline" in table:
+        answering = [v for v in variants if catalog.get(v.method).method.answers]
+        _known(
+            [config.baseline], dict.fromkeys([*(v.method for v in answering), *map(str, answering)]), "baseline", source
+        )
     bound = [(variant.method, variant.parameters) for variant in variants]
     if twice := [variant for variant, key in zip(variants, bound, strict=True) if bound.count(key) > 1]:
         raise source.error(("method",), f"{twice[0]} is named twice")

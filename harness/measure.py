@@ -22,6 +22,7 @@ RESAMPLES = 2000
 DRIFT_SHARE = 0.03  # a change between the halves smaller than this is no drift worth a warning
 DRIFT_CHANCE = 0.05  # nor one that chance makes this often
 NOISE_SHARE = 0.1  # the middle half of the samples spread over more than this share of the median is noise
+CLOCKS_AGREE = 1.05  # a device's clock that tells more than this many times what passed on the host's is not believed
 FENCE = 3.0  # quartile ranges outside the quartiles: an outlier ("far out": Tukey, Exploratory Data Analysis, 1977)
 
 
@@ -69,6 +70,23 @@ def is_narrow(samples: Sequence[float], share: float) -> bool:
         return False
     median, lower, upper, proved = median_interval(samples)
     return proved and max(upper - median, median - lower) <= share * median
+
+
+def proves(count: int) -> bool:
+    """Whether so many samples are enough for a 95 % interval of their median."""
+    return count > 0 and _rank(count) is not None
+
+
+def overhead(wall_ms: Sequence[float], device_ms: Sequence[float]) -> float | None:
+    """What the host's clock tells beyond the device's own, as a share of the latter: the median over the samples.
+
+    None where nothing can be told: without a device time for each sample, where one is not positive, or where the
+    device tells more than passed. Both clocks' own error, up to CLOCKS_AGREE, is an overhead of 0.
+    """
+    if not wall_ms or len(wall_ms) != len(device_ms) or min(device_ms) <= 0.0:
+        return None
+    ratio = float(np.median(np.array(wall_ms) / np.array(device_ms)))
+    return max(0.0, ratio - 1.0) if ratio >= 1.0 / CLOCKS_AGREE else None
 
 
 def steadiness(samples: Sequence[float]) -> dict[str, Any]:

@@ -9,13 +9,28 @@ from numpy.typing import NDArray
 
 from harness.assemble import KERNELS, file_section, map_program
 from harness.backends import Device, map_rows, real_type
-from harness.contract import Precision
+from harness.contract import Precision, Section
 
 CASES = 65536
-PEAK_ITEMS = 4096  # at first: doubled until a launch takes PEAK_MS, since a GPU is not filled by so few
+PEAK_ITEMS = 1024  # at first: more until a launch takes PEAK_MS, since a GPU is not filled by so few
 MOST_ITEMS = 1 << 20
 PEAK_MS = 5.0
-PEAK_OPERATIONS = 131072  # per item, as peak.glsl counts them
+PEAK_TRIES = 12  # launches of each of the PEAK_FINALISTS best shapes: other programs may slow any of them down
+PEAK_FINALISTS = 3
+PEAK_OPERATIONS = 131072  # per item, two for each multiply-add
+# (independent chains of multiply-adds, whether they are fused): which of them a compiler makes vectors of, and how many
+# hide the arithmetic's latency, differs from compiler to compiler by a factor of 100
+PEAK_SHAPES = (
+    (8, True),
+    (8, False),
+    (16, True),
+    (16, False),
+    (24, True),
+    (32, True),
+    (64, True),
+    (64, False),
+    (96, True),
+)
 BELIEVABLE = (0.5, 1.05)  # device clock over wall clock, for a launch of some milliseconds, that is to be trusted
 
 
@@ -28,7 +43,8 @@ class Probes:
     two_prod_fma: float  # share where a * b and fma(a, b, -a * b) sum to the product
     round_to_nearest: float  # share of sums and products that are rounded to nearest
     division: float  # share of quotients that are rounded to nearest
-    peak_gflops: float
+    peak_gflops: float  # the best that any of PEAK_SHAPES reaches
+    peak_shape: str  # that shape, in words
     clock_ratio: float | None  # device clock over wall clock; None where the device has none
 
 
@@ -47,15 +63,16 @@ def probe(device: Device) -> Probes:
     )
     a, b = pairs.T
     nearest = (sums == _rounded(a + b)) & (products == _rounded(a * b))
-    peak, ratio = _peak(device)
+    peak = _peak(device)
     return Probes(
         two_sum=float(np.mean(sums + sum_errors == a + b)),
         two_prod_split=float(np.mean(products + product_errors == a * b)),
         two_prod_fma=float(np.mean(products + fma_errors == a * b)),
         round_to_nearest=float(np.mean(nearest)),
         division=float(np.mean(quotients == _rounded(a / b))),
-        peak_gflops=peak,
-        clock_ratio=ratio,
+        peak_gflops=peak.gflops,
+        peak_shape=peak.shape,
+        clock_ratio=peak.clock_ratio,
     )
 
 
@@ -63,19 +80,69 @@ def _rounded(values: NDArray[np.float64]) -> NDArray[np.float64]:
     return values.astype(np.float32).astype(np.float64)
 
 
-def _peak(device: Device) -> tuple[float, float | None]:
-    program = map_program(file_section(KERNELS / "peak.glsl"), "float32", device.language)
-    kind = real_type(program)
-    built = device.build(program)
+@dataclass(frozen=True)
+class _Peak:
+    gflops: float
+    shape: str
+    clock_ratio: float | None  # of the best launch
+
+
+def _peak(device: Device) -> _Peak:
+    """The best of many launches of the best shapes: what slows a launch is no part of a peak."""
+    tried = [(_rate(device, shape, tries=2), shape) for shape in PEAK_SHAPES]
+    tried.sort(key=lambda pair: -pair[0].gflops)
+    again = [_rate(device, shape, PEAK_TRIES) for _, shape in tried[:PEAK_FINALISTS]]
+    return max([tried[0][0], *again], key=lambda peak: peak.gflops)
+
+
+def peak_section(chains: int, fused: bool) -> Section:
+    """A map item of so many independent chains of multiply-adds, PEAK_OPERATIONS operations or some more in all.
+
+    The chains have names: compilers keep an array of them in memory.
+    """
+    names = [f"a{k}" for k in range(chains)]
+    step = "{0} = fma({0}, scale, shift);" if fused else "{0} = {0} * scale + shift;"
+    lines = [
+        "#define INPUTS 1",
+        "#define OUTPUTS 1",
+        "void map_item(IN real x[INPUTS], OUT real y[OUTPUTS]) {",
+        "    real scale = real(0.999);",
+        "    real shift = real(0.001);",
+        *(f"    real {name} = x[0] + real({k});" for k, name in enumerate(names)),
+        f"    for (int i = 0; i < {_turns(chains)}; i++) {{",
+        *(f"        {step.format(name)}" for name in names),
+        "    }",
+        f"    y[0] = {' + '.join(names)};",
+        "}",
+    ]
+    return Section(f"generated: {_words(chains, fused)}", "\n".join(lines))
+
+
+def _words(chains: int, fused: bool) -> str:
+    return f"{chains} chains of {'fused' if fused else 'separate'} multiply-adds"
+
+
+def _turns(chains: int) -> int:
+    return -(-PEAK_OPERATIONS // (2 * chains))
+
+
+def _rate(device: Device, shape: tuple[int, bool], tries: int) -> _Peak:
+    """The rate of one shape, by the best of so many launches of PEAK_MS or more."""
+    program = map_program(peak_section(*shape), "float32", device.language)
+    built, kind = device.build(program), real_type(program)
     items = PEAK_ITEMS
     while True:
         launch = device.launch(built, [np.ones(items, kind)], [(items, kind)], (items, 1))
         launch.run()
-        timings = [launch.run() for _ in range(3)]
+        timings = [launch.run()]
+        if enough := timings[0].wall_ms >= PEAK_MS or items >= MOST_ITEMS:
+            timings += [launch.run() for _ in range(tries - 1)]
         launch.release()
-        if items >= MOST_ITEMS or min(timing.wall_ms for timing in timings) >= PEAK_MS:
+        if enough:
             break
-        items *= 2
+        lacking = min(64.0, 1.3 * PEAK_MS / max(timings[0].wall_ms, 1e-6))
+        items = min(MOST_ITEMS, max(2 * items, 1 << round(np.log2(items * lacking))))
     best = min(timings, key=lambda timing: timing.wall_ms)
-    rate = PEAK_OPERATIONS * items / best.wall_ms * 1e-6
-    return rate, None if best.device_ms is None else best.device_ms / best.wall_ms
+    operations = 2 * shape[0] * _turns(shape[0]) * items
+    ratio = None if best.device_ms is None else best.device_ms / best.wall_ms
+    return _Peak(operations / best.wall_ms * 1e-6, _words(*shape), ratio)

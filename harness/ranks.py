@@ -24,6 +24,8 @@ def signed_rank(differences: Sequence[float]) -> float:
     values = np.array([d for d in differences if d != 0.0])
     if not len(values):
         return 1.0
+    if len(values) <= EXACT and ((values > 0.0).all() or (values < 0.0).all()):
+        return least_chance(len(values))
     ranks = _mid_ranks(np.abs(values))
     statistic = float(ranks[values > 0.0].sum())
     mean, variance = float(ranks.sum()) / 2.0, float((ranks**2).sum()) / 4.0
@@ -36,6 +38,16 @@ def signed_rank(differences: Sequence[float]) -> float:
         chances[rank:] = 0.5 * (chances[rank:] + chances[: len(chances) - rank])
         chances[:rank] *= 0.5
     return _two_sided(chances, round(2.0 * statistic))
+
+
+def least_chance(pairs: int) -> float:
+    """The smallest p-value that signed_rank can give for so many pairs: when one side leads in all of them."""
+    return min(1.0, 2.0 ** (1 - pairs))
+
+
+def pairs_needed(level: float) -> int:
+    """How many pairs it takes until signed_rank can give a p-value of at most `level`, 0 < level <= 1."""
+    return next(pairs for pairs in range(1, 1100) if least_chance(pairs) <= level)
 
 
 def rank_sum(first: Sequence[float], second: Sequence[float]) -> float:

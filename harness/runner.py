@@ -15,7 +15,6 @@ from datetime import UTC, datetime
 from functools import partial
 from typing import Any
 
-import numpy as np
 from numpy.typing import NDArray
 
 from harness import accuracy, answers, beams, compilercheck, measure, rastercheck, stability
@@ -33,6 +32,7 @@ from harness.store import Row, Store
 from harness.worker import Frame, Warmed
 
 MINIMUM_SAMPLES = 8
+LONGEST = 16  # times [budget] seconds: what the rounds that comparing a cell takes may take at most
 BYTES_PER_RAY = 24  # of a frame kept ready, at most: its answer on the device, and as it was read back
 MOST_BYTES = 3 * 2**30  # of all frames kept ready at once
 UNFINISHED = (CellStatus.FAILED, CellStatus.TIMEOUT, CellStatus.CRASHED)
@@ -56,9 +56,14 @@ class _Live:
     arrays: dict[str, NDArray[Any]] | None = None
 
     @property
-    def samples(self) -> list[float]:
+    def by_device(self) -> bool:
+        """Whether times are by the device's own clock: where that is believed and told every sample's."""
         assert self.planned.device
-        return self.device_ms if self.planned.device.clock == "device" else self.wall_ms
+        return self.planned.device.clock == "device" and len(self.device_ms) == len(self.wall_ms)
+
+    @property
+    def samples(self) -> list[float]:
+        return self.device_ms if self.by_device else self.wall_ms
 
 
 class Runner:
@@ -248,8 +253,10 @@ class Runner:
 
     def _is_done(self, state: _Live) -> bool:
         budget, count = self._config.budget, len(state.wall_ms)
-        narrow = count >= MINIMUM_SAMPLES and measure.is_narrow(state.samples, budget.interval)
-        return narrow or state.timing >= budget.seconds or count >= budget.repetitions
+        comparable = count >= budget.rounds
+        narrow = comparable and count >= MINIMUM_SAMPLES and measure.is_narrow(state.samples, budget.interval)
+        spent = state.timing >= (budget.seconds if comparable else LONGEST * budget.seconds)
+        return narrow or spent or count >= budget.repetitions
 
     def _finish(self, planned: Planned, state: _Live | None, status: CellStatus, reason: str | None) -> Row:
         cell, method = planned.cell, self._catalog.get(planned.cell.variant.method).method
@@ -303,11 +310,8 @@ class Runner:
         assert state.warmed and state.planned.device
         median, lower, upper, _ = measure.median_interval(state.samples)
         bootstrap_lower, bootstrap_upper = measure.bootstrap_interval(state.samples, self._config.seed)
-        overhead = None
-        if state.device_ms:
-            overhead = float(np.median(np.array(state.wall_ms) / np.array(state.device_ms))) - 1.0
         return {
-            "clock": state.planned.device.clock,
+            "clock": "device" if state.by_device else "wall",
             "samples_ms": state.samples,
             "wall_samples_ms": state.wall_ms,
             "rounds": state.rounds,
@@ -319,7 +323,7 @@ class Runner:
             "bootstrap_lower_ms": bootstrap_lower,
             "bootstrap_upper_ms": bootstrap_upper,
             "narrow": measure.is_narrow(state.samples, self._config.budget.interval),
-            "overhead_share": overhead,
+            "overhead_share": measure.overhead(state.wall_ms, state.device_ms) if state.by_device else None,
             **measure.steadiness(state.samples),
         }
 

@@ -15,18 +15,20 @@ from pathlib import Path
 from harness.contract import FirsthitError
 
 
-def build(run: Path) -> Path:
+def build(run: Path, baseline: str | None = None) -> Path:
     """Write report.pdf, report.html, results.csv and results.parquet into the folder `run`; the path of the PDF.
 
     A run with families of hard rays also gets stability.csv, one line for each rung. All are made in full before the
-    first of them replaces an older one.
-    Raises FirsthitError where `run` is no run folder, holds no finished cell or cannot be written to.
+    first of them replaces an older one. Speed-ups are over `baseline`, a method or variant of the run, or else over
+    the one that the run's config names.
+    Raises FirsthitError where `run` is no run folder, holds no finished cell, has no such baseline or cannot be written
+    to.
     """
     # Imported here because pandas, matplotlib and typst take seconds, and a machine that only runs has none of them.
     from reports import breaks, derive, document, html, load, sections, store, style
 
     loaded = load.load(run)
-    frame = derive.derive(loaded.frame, loaded.plan.peaks)
+    frame = derive.derive(load.over(loaded.frame, baseline), loaded.plan.peaks)
     rungs = breaks.derive(loaded.families, loaded.rungs)
     content = sections.report(loaded, frame, rungs)
     try:

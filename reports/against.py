@@ -11,6 +11,7 @@ from typing import Any
 
 import pandas as pd
 
+from harness import measure
 from harness.contract import CellStatus, FirsthitError
 from reports import derive, tables, wording
 from reports.content import Block, Code, Column, Document, Section, Table, Text
@@ -22,6 +23,9 @@ _PLACE = ["scene", "variant", "precision"]
 
 def paired(a: Run, b: Run) -> tuple[pd.DataFrame, list[str]]:
     """Cells of both runs, columns of A ending in _a and of B in _b, and the columns they were matched by.
+
+    `ratio` is B's time over A's; its ends, `ratio_low` and `ratio_high`, are of both medians' intervals, where those
+    are proved.
 
     Raises FirsthitError where nothing matches.
     """
@@ -39,11 +43,17 @@ def paired(a: Run, b: Run) -> tuple[pd.DataFrame, list[str]]:
         raise FirsthitError(
             f"{a.folder} and {b.folder} have no cell in common: no scene, variant and precision in both"
         )
+    proved = _proved(both["samples_ms_a"]) & _proved(both["samples_ms_b"])
     return both.assign(
         ratio=both["median_ms_b"] / both["median_ms_a"],
-        ratio_low=both["lower_ms_b"] / both["upper_ms_a"],
-        ratio_high=both["upper_ms_b"] / both["lower_ms_a"],
+        ratio_low=(both["lower_ms_b"] / both["upper_ms_a"]).where(proved),
+        ratio_high=(both["upper_ms_b"] / both["lower_ms_a"]).where(proved),
     ), by
+
+
+def _proved(samples: pd.Series) -> pd.Series:
+    """Which cells have enough samples for the interval of their median."""
+    return samples.map(lambda own: measure.proves(len(own or ()))).astype(bool)
 
 
 def _scenes(frame: pd.DataFrame) -> pd.Series:
@@ -55,7 +65,8 @@ def report(a: Run, b: Run) -> Document:
     """What changed from A to B."""
     both, by = paired(a, b)
     timed = both[both["ratio"].notna()]
-    faster, slower = timed[timed["ratio_high"] < 1.0], timed[timed["ratio_low"] > 1.0]
+    faster = timed[(timed["ratio_high"] < 1.0) & ~(_error_change(timed) > 0)]
+    slower = timed[timed["ratio_low"] > 1.0]
     worse, better = both[_error_change(both) > 0], both[_error_change(both) < 0]
     verdict = (
         f"Of {wording.plural(len(both), 'cell')} in both runs, B is clearly slower in {len(slower)} and clearly faster "
@@ -63,7 +74,8 @@ def report(a: Run, b: Run) -> Document:
         f"{len(better)}."
     )
     caution = (
-        "Clearly: the 95 % intervals of both medians do not meet. The two runs were not timed in turns, so that a "
+        "Clearly: the 95 % intervals of both medians, of 6 samples or more, do not meet, and what is faster answers no "
+        "more rays wrongly. The two runs were not timed in turns, so that a "
         "machine that was busier during one of them changes every ratio alike; the ratio's median over all cells is "
         f"{wording.factor(timed['ratio'].median())}."
     )
@@ -111,7 +123,8 @@ def _speed(rows: pd.DataFrame, by: list[str], title: str) -> Table:
     body = []
     for row in rows.head(tables.ROW_LIMIT).itertuples():
         interval = f"{wording.factor(row.ratio_low)} to {wording.factor(row.ratio_high)}"
-        body.append((*(getattr(row, name) for name in by), row.median_ms_a, row.median_ms_b, row.ratio, interval))
+        times = (row.median_ms_a, row.median_ms_b, row.ratio, interval)
+        body.append((*(getattr(row, name) for name in by), *times, row.wrong_rays_a, row.wrong_rays_b))
     return Table(
         (
             *_places(by),
@@ -119,6 +132,8 @@ def _speed(rows: pd.DataFrame, by: list[str], title: str) -> Table:
             Column("B, ms", wording.number, numeric=True),
             Column("B over A", wording.factor, numeric=True),
             Column("of the intervals' ends"),
+            Column("A", wording.count, numeric=True, over="wrong rays"),
+            Column("B", wording.count, numeric=True, over="wrong rays"),
         ),
         body,
         title,
@@ -140,7 +155,7 @@ def _answers(both: pd.DataFrame, by: list[str]) -> list[Block]:
         ("wrong rays", wording.count),
         ("at silhouettes", wording.count),
         ("max error", wording.error),
-        ("evaluations per ray", wording.number),
+        ("evaluations per ray cast", wording.number),
     )
     columns = [Column(side, show, numeric=True, over=over) for over, show in shows for side in ("A", "B")]
     caption = f"{len(body)} of {len(both)} cells answer differently in some way."

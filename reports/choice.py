@@ -6,7 +6,7 @@ from typing import Any
 
 import pandas as pd
 
-from reports import derive, wording
+from reports import derive, ties, wording
 from reports.content import Column, Table
 
 ERRORS = (1e-3, 1e-6)  # largest |t − t*| over the scene's radius
@@ -24,8 +24,14 @@ def scenes(frame: pd.DataFrame) -> pd.DataFrame:
 
 def fastest(rows: pd.DataFrame, error: float) -> Any | None:
     """The fastest row of one scene with no wrong ray away from silhouettes and at most this error; None without one."""
+    good = _usable(rows, error)
+    return None if good.empty else next(good.loc[[ties.best(good).Index]].itertuples())
+
+
+def _usable(rows: pd.DataFrame, error: float) -> pd.DataFrame:
+    """Fastest first."""
     good = rows[derive.all_right(rows) & (rows["relative_error_max"] <= error)]
-    return None if good.empty else next(good.nsmallest(1, "median_ms").itertuples())
+    return good.sort_values("median_ms", kind="stable")
 
 
 def table(frame: pd.DataFrame) -> Table | None:
@@ -38,8 +44,8 @@ def table(frame: pd.DataFrame) -> Table | None:
     for _, own in sorted(rows.groupby("surface", sort=False), key=lambda pair: order.index(pair[0])):
         loose, tight = (fastest(own, error) for error in ERRORS)
         cells: list[Any] = [own["surface_title"].iloc[0]]
-        for won in (loose, tight):
-            cells += ["none", None, None] if won is None else [_named(won, own), won.median_ms, won.error_max]
+        for won, error in zip((loose, tight), ERRORS, strict=True):
+            cells += ["none", None, None] if won is None else [_named(won, own, error), won.median_ms, won.error_max]
         cells.append(None if loose is None or tight is None else tight.median_ms / loose.median_ms)
         body.append(tuple(cells))
     shown = body[:LINES]
@@ -59,9 +65,11 @@ def table(frame: pd.DataFrame) -> Table | None:
         f"Which method, at which error, on {rows['device'].iloc[0]}.",
         "The fastest variant with every ray away from silhouettes right and a largest error over the radius of the "
         "scene of at most this; max error is in scene units. Cost is the time of the second over that of the first; "
-        f"“none” where no variant of this run is that exact.{more}",
+        "“none” where no variant of this run is that exact; “≈” stands before variants of other methods whose times "
+        f"are not told apart from its own.{more}",
     )
 
 
-def _named(row: Any, own: pd.DataFrame) -> str:
-    return f"{row.variant}, {row.precision}" if own["precision"].nunique() > 1 else str(row.variant)
+def _named(row: Any, own: pd.DataFrame, error: float) -> str:
+    name = f"{row.variant}, {row.precision}" if own["precision"].nunique() > 1 else str(row.variant)
+    return " ≈ ".join([name, *ties.tied(_usable(own, error), row)])

@@ -10,11 +10,11 @@ from collections.abc import Mapping
 
 import pandas as pd
 
+from harness.config import BASELINE
 from harness.contract import CellStatus
 from reports.schema import KINDS, SCHEMA
 
 GROUP = ["comparison", "device", "precision"]
-BASELINE = "ray_march"  # the method that speed-ups are over
 _ACCURACY = [field.name for field in SCHEMA if field.path[0] == "accuracy"]
 FLOOR_FACTOR = 2.0  # a time under this many times the null method's says more about the harness than about the method
 
@@ -23,22 +23,30 @@ def derive(frame: pd.DataFrame, peaks: Mapping[str, float] | None = None) -> pd.
     """`frame` with the columns of DERIVED added, and without the accuracy of methods that answer nothing.
 
     peaks: by device, its measured peak rate of float32 multiply-adds, in 1e9 operations per second, where known.
+    Nothing is told of an overhead over a clock that is not believed, of a speed-up unless both rows answer every ray
+    away from silhouettes rightly, nor of a share of a peak that a row exceeds: then `peak_too_low`.
     """
     answers = frame["answers"].astype(bool)
     frame = frame.assign(**{name: frame[name].where(answers) for name in _ACCURACY})
     seconds = frame["median_ms"] / 1e3
     rays = (frame["size"] ** 2 * frame["samples_per_pixel"]).astype("float64")
     frame = frame.assign(mrays_per_s=rays / seconds / 1e6, frames_per_s=1.0 / seconds)
-    timed = frame[(frame["status"] == CellStatus.OK) & frame["median_ms"].notna()]
-    baseline, floor = _baseline_ms(timed), _floor_ms(timed)
-    frame = frame.join(baseline, on=GROUP)
-    frame["speedup"] = (frame["baseline_ms"] / frame["median_ms"]).where(frame["answers"])
-    frame = frame.join(floor, on=GROUP)
-    frame["floor_bound"] = frame["answers"] & (frame["median_ms"] < FLOOR_FACTOR * frame["floor_ms"])
-    frame["peak_share"] = _peak_share(frame, peaks or {})
+    believed = (frame["clock"] == "device") & (frame["overhead_share"] >= 0.0)
+    frame["overhead_share"] = frame["overhead_share"].where(believed)
+    frame["baseline"] = frame["baseline"].fillna(BASELINE)
+    known = [kind for kind in KINDS if kind != "invalid"]  # older rows know no invalid answers
     for prefix in ("", "grazing_"):
-        total = frame[[prefix + name for name in KINDS]].sum(axis=1, min_count=1).astype("Int64")
+        total = frame[[prefix + name for name in known]].sum(axis=1, min_count=len(known)).astype("Int64")
+        total += frame[f"{prefix}invalid"].fillna(0).astype("Int64")
         frame[f"{prefix}wrong_rays"] = total
+    timed = frame[(frame["status"] == CellStatus.OK) & frame["median_ms"].notna()]
+    frame = frame.join(_baseline_ms(timed), on=GROUP)
+    frame["speedup"] = (frame["baseline_ms"] / frame["median_ms"]).where(frame["answers"] & all_right(frame))
+    frame = frame.join(_floor_ms(timed), on=GROUP)
+    frame["floor_bound"] = frame["answers"] & (frame["median_ms"] < FLOOR_FACTOR * frame["floor_ms"])
+    share = _peak_share(frame, peaks or {})
+    frame["peak_too_low"] = (share > 1.0).astype("boolean")
+    frame["peak_share"] = share.where(share <= 1.0)
     frame["front"] = _front(frame)
     return frame.copy()  # columns added one by one lie scattered
 
@@ -80,12 +88,24 @@ def all_right(frame: pd.DataFrame) -> pd.Series:
     return (frame["wrong_rays"] == 0).fillna(False).astype(bool)
 
 
+def baseline_rows(timed: pd.DataFrame) -> pd.DataFrame:
+    """Of each group the row that speed-ups are over, where it answers every ray away from silhouettes rightly.
+
+    Where a method is named that has several variants, the one without bound parameters in its name, if any.
+    """
+    named = timed["variant"] == timed["baseline"]
+    rows = timed[named | (timed["method"] == timed["baseline"])]
+    rows = rows.assign(swept=~named[rows.index]).sort_values("swept", kind="stable").drop_duplicates(GROUP)
+    return rows[all_right(rows)]
+
+
 def _baseline_ms(timed: pd.DataFrame) -> pd.Series:
-    """The time of the baseline method; of its several variants the one without bound parameters in its name, if any."""
-    rows = timed[timed["method"] == BASELINE]
-    swept = (rows["variant"] != BASELINE).rename("swept")
-    rows = rows.assign(swept=swept).sort_values("swept", kind="stable").drop_duplicates(GROUP)
-    return rows.set_index(GROUP)["median_ms"].rename("baseline_ms")
+    return baseline_rows(timed).set_index(GROUP)["median_ms"].rename("baseline_ms")
+
+
+def baseline_of(frame: pd.DataFrame) -> str:
+    """What the speed-ups of these rows are over, in words."""
+    return " or ".join(dict.fromkeys(map(str, frame["baseline"]))) or BASELINE
 
 
 def _floor_ms(timed: pd.DataFrame) -> pd.Series:

@@ -24,7 +24,8 @@ MAP = "viridis"
 EXPLANATION = (
     "Evaluations of f that each ray costs, from dark to bright on one logarithmic scale, and beside it its error. "
     "Bright rings along silhouettes are rays that nearly touch the surface: sphere tracing's critical case, in "
-    "toledo2007's Fig. 4. Of the device with most results, in its first precision."
+    "toledo2007's Fig. 4. “Per ray cast” counts those that pass the domain by too, as every table of this report does. "
+    "Of the device with most results, in its first precision."
 )
 
 
@@ -77,8 +78,13 @@ def _panel(row: Any, arrays: Arrays, most: int, errors: tuple[int, int]) -> Pane
         ),
         Picture(f"{row.key}-errors", images.png(images.error_map(arrays, errors)), f"Errors of {name}"),
     )
-    counted = arrays.evaluations[arrays.evaluations > 0]
-    cost = f"mean {counted.mean():.1f}, max {counted.max():,} evaluations" if counted.size else "no evaluation"
+    spent = arrays.evaluations[arrays.evaluations > 0]
+    cost = "no evaluation"
+    if spent.size:
+        cost = (
+            f"evaluations: {wording.number(arrays.evaluations.mean())} per ray cast, {wording.number(spent.mean())} "
+            f"per ray that spends any, at most {spent.max():,}"
+        )
     wrong = f"{wording.count(row.wrong_rays)} wrong" if row.wrong_rays else "no wrong ray"
     grazing = f" · {wording.count(row.grazing_wrong_rays)} grazing" if row.grazing_wrong_rays else ""
     return Panel(name, pictures, f"{cost} · max {wording.error(row.error_max)} · {wrong}{grazing}")

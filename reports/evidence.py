@@ -11,6 +11,7 @@ from typing import Any
 
 import pandas as pd
 
+from harness import measure
 from harness.contract import CellStatus
 from reports import derive
 from reports.arrays import Arrays, Shelf
@@ -78,26 +79,40 @@ class Evidence:
     ) -> pd.DataFrame:
         """How many times as long `slow` takes as `fast`, where both were timed in turns: one row for each group.
 
-        Columns: those of `fast`, and `ratio`, `ratio_low`, `ratio_high` (of the ends of both intervals), `slow_ms` and
-        `fast_ms`. With `above_floor` the null method's time is taken off both first, where it was measured.
+        Columns: those of `fast`, and `ratio`, `ratio_low`, `ratio_high` (of the ends of both intervals; NaN where one
+        of them is not proved, by too few samples), `slow_ms` and `fast_ms`. With `above_floor` the null
+        method's time is taken off both first, where it was measured.
         """
         a, b = (self.rows(pick, surfaces, precision).dropna(subset=["median_ms"]) for pick in (slow, fast))
-        times = ["median_ms", "lower_ms", "upper_ms"]
-        both = b.merge(a[[*derive.GROUP, *times]], on=derive.GROUP, suffixes=("", "_slow"))
-        floor = both["floor_ms"].fillna(0.0) if above_floor else 0.0
-        for name in times:
-            both[name] = (both[name] - floor).clip(lower=1e-9)
-            both[f"{name}_slow"] -= floor
-        return both.assign(
-            slow_ms=both["median_ms_slow"],
-            fast_ms=both["median_ms"],
-            ratio=both["median_ms_slow"] / both["median_ms"],
-            ratio_low=both["lower_ms_slow"] / both["upper_ms"],
-            ratio_high=both["upper_ms_slow"] / both["lower_ms"],
-        )
+        return over(a, b, derive.GROUP, above_floor)
 
     def arrays(self, row: Any) -> Arrays | None:
         return self.shelf.get(row)
+
+
+_TIMES = ["median_ms", "lower_ms", "upper_ms"]
+
+
+def over(slow: pd.DataFrame, fast: pd.DataFrame, keys: list[str], above_floor: bool = False) -> pd.DataFrame:
+    """Timed rows `slow` over timed rows `fast` with the same `keys`, with the columns of Evidence.ratios."""
+    a, b = (rows.assign(**{end: rows[end].where(proved(rows)) for end in _TIMES[1:]}) for rows in (slow, fast))
+    both = b.merge(a[[*keys, *_TIMES]], on=keys, suffixes=("", "_slow"))
+    floor = both["floor_ms"].fillna(0.0) if above_floor else 0.0
+    for name in _TIMES:
+        both[name] = (both[name] - floor).clip(lower=1e-9)
+        both[f"{name}_slow"] -= floor
+    return both.assign(
+        slow_ms=both["median_ms_slow"],
+        fast_ms=both["median_ms"],
+        ratio=both["median_ms_slow"] / both["median_ms"],
+        ratio_low=both["lower_ms_slow"] / both["upper_ms"],
+        ratio_high=both["upper_ms_slow"] / both["lower_ms"],
+    )
+
+
+def proved(rows: pd.DataFrame) -> pd.Series:
+    """Which rows have enough samples for the interval of their median."""
+    return rows["samples_ms"].map(lambda samples: measure.proves(len(samples or ()))).astype(bool)
 
 
 def _has(parameters: Any, knobs: Mapping[str, float]) -> bool:

@@ -13,6 +13,14 @@ FEWEST = 3  # different places that a fit needs
 
 
 @dataclass(frozen=True)
+class Refusal:
+    """Why no exponent is told of so many points."""
+
+    points: int
+    reason: str
+
+
+@dataclass(frozen=True)
 class Power:
     """y = factor · x ** exponent; the exponent is known to ± `half_width` at 95 % if errors are normal."""
 
@@ -27,19 +35,29 @@ class Power:
         return fitted
 
 
-def power_law(x: ArrayLike, y: ArrayLike) -> Power | None:
-    """The fit through positive points [n]; None where fewer than FEWEST different x are left."""
+def power_law(x: ArrayLike, y: ArrayLike) -> Power | Refusal:
+    """The fit through positive points [n], or why there is none: too few places, or an interval wider than itself.
+
+    At least FEWEST different x make a fit.
+    """
     places, values = np.asarray(x, np.float64), np.asarray(y, np.float64)
     usable = (places > 0) & (values > 0) & np.isfinite(places) & np.isfinite(values)
+    points = int(usable.sum())
     if len(np.unique(places[usable])) < FEWEST:
-        return None
+        return Refusal(points, f"fewer than {FEWEST} places determine no exponent")
     u, v = np.log(places[usable]), np.log(values[usable])
     spread = ((u - u.mean()) ** 2).sum()
     exponent = float(((u - u.mean()) * (v - v.mean())).sum() / spread)
     level = float(v.mean() - exponent * u.mean())
     freedom = len(u) - 2
     scatter = math.sqrt(float(((v - level - exponent * u) ** 2).sum()) / freedom)
-    return Power(exponent, student(freedom) * scatter / math.sqrt(spread), math.exp(level), len(u), scatter)
+    half_width = student(freedom) * scatter / math.sqrt(spread)
+    if not 2.0 * half_width <= abs(exponent):
+        ends = f"{exponent - half_width:.2f} to {exponent + half_width:.2f}".replace("-", "−")
+        return Refusal(
+            points, f"{points} points do not determine an exponent: its 95 % interval, {ends}, is wider than itself"
+        )
+    return Power(exponent, half_width, math.exp(level), points, scatter)
 
 
 @cache

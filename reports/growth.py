@@ -16,7 +16,7 @@ from harness.contract import CellStatus
 from reports import style, tables, wording
 from reports.content import Block, Column, Figure, Section, Table, Text
 from reports.drawing import LINE, NARROW, RC, Key, label_decades, line_of, svg
-from reports.fits import FEWEST, Power, power_law
+from reports.fits import FEWEST, Power, Refusal, power_law
 from reports.style import Mark
 
 PANELS = 6  # of one figure
@@ -78,7 +78,7 @@ class Curve:
     variant: str
     x: np.ndarray[Any, Any]
     ms: np.ndarray[Any, Any]
-    fit: Power
+    fit: Power | Refusal
 
 
 def curves(frame: pd.DataFrame, axis: Axis) -> list[Curve]:
@@ -96,8 +96,7 @@ def curves(frame: pd.DataFrame, axis: Axis) -> list[Curve]:
     for (*place, variant), own in rows.groupby(by, sort=False):
         own = own.sort_values("x", kind="stable")
         fit = power_law(own["x"], own["ms"])
-        if fit is not None:
-            found.append(Curve(tuple(place), str(variant), own["x"].to_numpy(), own["ms"].to_numpy(), fit))
+        found.append(Curve(tuple(place), str(variant), own["x"].to_numpy(), own["ms"].to_numpy(), fit))
     return found
 
 
@@ -109,7 +108,8 @@ def sections(frame: pd.DataFrame, marks: Mapping[str, Mark]) -> list[Section]:
         if found := curves(frame, axis):
             lead = (
                 f"Time t against {axis.unit} n, on logarithmic axes, and the line t = c·nᵏ that fits the logarithms "
-                f"best. The exponent k stands with its 95 % interval. {axis.expected}"
+                f"best. The exponent k stands with its 95 % interval, and is told only where that is no wider than k "
+                f"itself. {axis.expected}"
             )
             blocks: list[Block] = [Text(lead), *_figures(axis, found, marks, titles), table(axis, found, titles)]
             made.append(Section(TITLES[axis.name], tuple(blocks)))
@@ -120,25 +120,30 @@ def table(axis: Axis, found: list[Curve], titles: Mapping[str, str]) -> Table:
     """One line for each curve, the fastest growing first within its place."""
     named = _places(axis, found, titles)
     order = list(dict.fromkeys(curve.place for curve in found))
-    lines = sorted(found, key=lambda c: (order.index(c.place), -c.fit.exponent))
+    lines = sorted(found, key=lambda c: (order.index(c.place), -c.fit.exponent if isinstance(c.fit, Power) else np.inf))
     return Table(
         (
             Column("where", stretch=1),
             Column("variant", stretch=1),
             Column("points", wording.count, numeric=True),
-            Column("exponent", lambda k: f"{k:.2f}".replace("-", "−"), numeric=True),
-            Column("±", lambda k: f"{k:.2f}", numeric=True),
+            Column("exponent", wording.hundredths, numeric=True),
+            Column("±", wording.hundredths, numeric=True),
             Column("scatter", wording.share, numeric=True),
+            Column("why there is none", stretch=2),
         ),
-        [
-            (named[c.place], c.variant, c.fit.points, c.fit.exponent, c.fit.half_width, c.fit.scatter)
-            for c in lines[: tables.ROW_LIMIT]
-        ],
+        [(named[c.place], c.variant, c.fit.points, *_told(c.fit)) for c in lines[: tables.ROW_LIMIT]],
         f"Exponents of time over {axis.name}.",
-        "The fastest growing first. ± is half the 95 % interval; scatter, how far the points lie off the line."
+        "The fastest growing first. ± is half the 95 % interval; scatter, the standard deviation of the points' times "
+        "about the line, as a share of the time."
         + (f" The first {tables.ROW_LIMIT:,} of {len(lines):,}." if len(lines) > tables.ROW_LIMIT else ""),
         group=1,
     )
+
+
+def _told(fit: Power | Refusal) -> tuple[Any, ...]:
+    if isinstance(fit, Refusal):
+        return (None, None, None, fit.reason)
+    return (fit.exponent, fit.half_width, fit.scatter, None)
 
 
 def _places(axis: Axis, found: list[Curve], titles: Mapping[str, str]) -> dict[tuple[Any, ...], str]:
@@ -189,8 +194,9 @@ def _figure(
             for curve in (curve for curve in found if curve.place == place):
                 mark = marks[curve.variant]
                 axes.plot(curve.x, curve.ms, color=mark.color, marker=mark.marker, **LINE | {"lw": 0})
-                ends = np.array([curve.x.min(), curve.x.max()])
-                axes.plot(ends, curve.fit.at(ends), color=mark.color, ls=mark.line, lw=LINE["lw"])
+                if isinstance(curve.fit, Power):
+                    ends = np.array([curve.x.min(), curve.x.max()])
+                    axes.plot(ends, curve.fit.at(ends), color=mark.color, ls=mark.line, lw=LINE["lw"])
         for axes in list(panels.flat)[len(places) :]:
             axes.axis("off")
         first = panels[0, 0]
@@ -209,13 +215,16 @@ def _figure(
         )
         key.draw(drawing)
         drawn = svg(drawing)
-    exponents = [curve.fit.exponent for curve in found]
+    exponents = [curve.fit.exponent for curve in found if isinstance(curve.fit, Power)]
+    without = len(found) - len(exponents)
+    told = f"Exponents from {min(exponents):.2f} to {max(exponents):.2f}" if exponents else "No exponent is determined"
+    told += f", none for {without} of {len(found)} variants and places" if exponents and without else ""
     return Figure(
         name,
         drawn,
-        f"Time of {wording.listed(variants)} against {axis.unit}, with fitted lines.",
+        f"Time of {wording.listed(variants)} against {axis.unit}, with lines where one fits.",
         f"Time against {axis.unit}.",
-        f"Exponents from {min(exponents):.2f} to {max(exponents):.2f}; the table below has each.".replace("-", "−"),
+        f"{told}; the table below has each.".replace("-", "−"),
     )
 
 

@@ -82,8 +82,9 @@ def _caption(row: Any) -> str:
     return (
         f"{row.surface_title} on {row.device}, view {row.view}: what each method drew, and its error beside it. "
         "Dark blue to yellow is a growing |t − t*| on one logarithmic scale for the whole report; the bright colours "
-        "are rays answered wrongly, paler where they graze the surface. Look for wrong rays away from the silhouette, "
-        "and for bands or facets in the error."
+        "are rays answered wrongly, paler where they graze the surface; counts are of the "
+        f"{wording.count(row.accuracy_rays)} rays checked. Look for wrong rays away from the silhouette, and for bands "
+        "or facets in the error."
     )
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import difflib
 import gc
 import json
 from collections.abc import Iterator, Mapping
@@ -12,6 +13,7 @@ from typing import Any
 
 import pandas as pd
 
+from harness.config import BASELINE
 from harness.contract import CellStatus, FirsthitError
 from reports import store
 from reports.schema import FAMILY, RUNG, SCHEMA, flatten
@@ -47,6 +49,7 @@ class Plan:
     studies: Mapping[str, str]  # name → key
     methods: Mapping[str, Mapping[str, Any]]  # what the methods say of themselves, by name
     include: tuple[str, ...]  # run folders beside this one that its report collects
+    baseline: str = BASELINE  # the method or variant that speed-ups are over
 
     @property
     def peaks(self) -> dict[str, float]:
@@ -89,6 +92,19 @@ def load(folder: Path) -> Run:
     return load_one(folder, plan)
 
 
+def over(frame: pd.DataFrame, baseline: str | None) -> pd.DataFrame:
+    """`frame` with another baseline; as it is where that is None. A FirsthitError where no row that answers has it."""
+    if baseline is None:
+        return frame
+    answering = frame[frame["answers"].astype(bool)]
+    known = list(dict.fromkeys([*answering["method"], *answering["variant"]]))
+    if baseline not in known:
+        near = difflib.get_close_matches(baseline, known, 1)
+        hint = f"did you mean {near[0]!r}?" if near else f"known: {', '.join(known)}"
+        raise FirsthitError(f"--baseline: unknown {baseline!r}; {hint}")
+    return frame.assign(baseline=baseline)
+
+
 @contextlib.contextmanager
 def _uncollected() -> Iterator[None]:
     """Without the search for cycles: JSON has none, and the search takes a fifth of the time of 100,000 rows."""
@@ -112,7 +128,7 @@ def load_one(folder: Path, plan: Plan) -> Run:
     for key, slot in plan.slots.items():
         path = folder / "cells" / f"{key}.json"
         try:
-            document = _cell(path, key) | {"run": plan.name}
+            document = _cell(path, key) | {"run": plan.name, "baseline": plan.baseline}
             if document.get("family") is None:
                 rows.append(flatten(SCHEMA, document))
             else:
@@ -192,6 +208,7 @@ def _plan(folder: Path) -> Plan:
         for name in (*studies.values(), *include):
             if not isinstance(name, str) or Path(name).name != name:  # it becomes a file's or a folder's name
                 raise ValueError(f"{name!r:.40} is no name")
+        baseline = _typed({"baseline": BASELINE, **document}, "baseline", str)
         stated = _typed({"methods": {}, **document}, "methods", dict)
         methods = {name: _typed(stated, name, dict) for name in stated}
         told = {
@@ -201,7 +218,7 @@ def _plan(folder: Path) -> Plan:
             "slots": dict(cells),
             "facts": facts,
         }
-        return Plan(**texts, **told, studies=studies, include=include)
+        return Plan(**texts, **told, studies=studies, include=include, baseline=baseline)
     except FileNotFoundError as error:
         raise FirsthitError(f"{folder} is no run folder: it has no plan.json; name a folder under runs/") from error
     except (OSError, ValueError, RecursionError) as error:

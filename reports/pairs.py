@@ -2,21 +2,19 @@
 
 from __future__ import annotations
 
-import json
 from typing import Any
 
 import numpy as np
 import pandas as pd
 
-from harness.measure import Ratio, paired_ratio
-from reports import derive, tables, wording
+from harness.measure import Ratio
+from reports import derive, tables, ties, wording
 from reports.content import Block, Column, Section, Table, Text
 
 _NEEDED = [
-    *("comparison", "device", "precision", "key", "variant", "wrong_rays", "session", "rounds", "samples_ms"),
+    *("comparison", "device", "precision", "key", "method", "variant", "wrong_rays", *ties.COLUMNS),
     *("surface_title", "view", "size", "samples_per_pixel", "stage"),
 ]
-ALIKE = 0.01  # a chance above this is no evidence that two variants differ
 
 
 def sections(frame: pd.DataFrame) -> list[Section]:
@@ -26,10 +24,13 @@ def sections(frame: pd.DataFrame) -> list[Section]:
     shown = scenes[: max(1, int((np.cumsum([len(group) for group in scenes]) <= tables.ROW_LIMIT).sum()))]
     tabled = [table for group in shown if (table := _table(group))]
     told = (
-        "How many times the time of the fastest variant with every ray right each variant takes: the median of the "
-        "ratios within rounds, so that what slows a whole round cancels, with its 95 % interval (order statistics), "
-        f"and how often chance alone parts equally fast variants so (signed-rank test). At a chance over {ALIKE:g} the "
-        "two are not told apart: neither should be called faster. With under 6 common rounds nothing is proved."
+        "How many times the time of the fastest variant with every ray right each variant takes that answers every ray "
+        "rightly too: the median of the ratios within rounds, so that what slows a whole round cancels, with its 95 % "
+        "interval (order statistics), and how often chance alone parts equally fast variants so (signed-rank test). "
+        f"At a chance over {ties.LEVEL:g}, or where the interval reaches across 1, the two are not told apart: neither "
+        f"should be called faster. So many rounds n give a chance of at least 2^(1 − n): it takes {ties.NEEDED} to "
+        "tell anything apart, and 6 for an interval. Each chance is of one comparison: of 100 pairs that are equally "
+        "fast one is told apart by chance."
     )
     if len(shown) < len(scenes):
         told += f" The first {len(shown):,} of {len(scenes):,} scenes; results.csv has the samples and rounds of all."
@@ -43,10 +44,13 @@ def _table(rows: pd.DataFrame) -> Table | None:
         right = group[derive.all_right(group)]
         if right.empty:
             continue
-        best = next(right.head(1).itertuples())
+        best = ties.best(right)
         for row in group.itertuples():
-            if row.key != best.key and (ratio := _ratio(row, best)):
-                body.append((device, precision, best.variant, row.variant, *_figures(ratio), _verdict(ratio)))
+            if row.key != best.key and (ratio := ties.ratio(row, best)):
+                sound = row.key in set(right["key"])
+                figures = _figures(ratio) if sound else (None, None, None, None, ratio.pairs)
+                told = ties.verdict(ratio) if sound else f"{wording.count(row.wrong_rays)} wrong rays: not compared"
+                body.append((device, precision, best.variant, row.variant, *figures, told))
     if not body:
         return None
     columns = (
@@ -58,27 +62,12 @@ def _table(rows: pd.DataFrame) -> Table | None:
         Column("from", wording.factor, numeric=True),
         Column("to", wording.factor, numeric=True),
         Column("chance", wording.error, numeric=True),
-        Column("rounds", wording.count, numeric=True),
-        Column("verdict"),
+        Column("common\nrounds", wording.count, numeric=True),
+        Column("verdict", stretch=1),
     )
     return Table(columns, body, tables.scene(rows), group=3)
-
-
-def _ratio(row: Any, best: Any) -> Ratio | None:
-    """None unless both were timed in one interleaved run."""
-    if wording.absent(row.session) or row.session != best.session:
-        return None
-    return paired_ratio(row.samples_ms, json.loads(row.rounds), best.samples_ms, json.loads(best.rounds))
 
 
 def _figures(ratio: Ratio) -> tuple[Any, ...]:
     interval = (ratio.lower, ratio.upper) if ratio.proved else (None, None)
     return (ratio.median, *interval, ratio.chance, ratio.pairs)
-
-
-def _verdict(ratio: Ratio) -> str:
-    if not ratio.proved:
-        return "too few rounds"
-    if ratio.chance > ALIKE:
-        return "not told apart"
-    return "slower" if ratio.lower > 1.0 else "faster" if ratio.upper < 1.0 else "not told apart"

@@ -120,7 +120,8 @@ def _each(rows: pd.DataFrame) -> Table | None:
         ),
         body,
         "Every scene by every variant.",
-        "Fragments are those of all proxies or triangles, hidden ones too; discarded are a proxy's without a hit.",
+        "Fragments are those of all proxies or triangles, hidden ones too; discarded, as a share of them, are a "
+        "proxy's without a hit. Counts of wrong rays are of the rays that fragments cast for the check.",
         group=1,
     )
 
@@ -136,7 +137,7 @@ def _detail(rows: pd.DataFrame) -> Table | None:
             Column("variant"),
             Column("its own", wording.number, numeric=True, over="evaluations per pixel"),
             Column("tolerant", wording.number, numeric=True, over="evaluations per pixel"),
-            Column("saved", wording.share, numeric=True, over="evaluations per pixel"),
+            Column("saved", _signed, numeric=True, over="evaluations per pixel"),
             Column("its own", wording.number, numeric=True, over="ms"),
             Column("tolerant", wording.number, numeric=True, over="ms"),
             Column("saved", _signed, numeric=True, over="ms"),
@@ -147,9 +148,10 @@ def _detail(rows: pd.DataFrame) -> Table | None:
         ),
         body,
         "Tolerances as large as pixels show, against the methods' own.",
-        "A method's tolerance may grow to so many footprints of a pixel at the instance's distance. Evaluations are "
-        "those of all fragments of a pixel. What ends a march by its distance to the surface ends it beside "
-        "silhouettes too: these hits are the wrong rays that come.",
+        "Saved is a share of what the method's own tolerance takes; below 0 it is lost. A method's tolerance may grow "
+        "to so many footprints of a pixel at the instance's distance. Evaluations are those of all fragments of a "
+        "pixel. What ends a march by its distance to the surface ends it beside silhouettes too: these hits are the "
+        "wrong rays that come.",
         group=1,
     )
 

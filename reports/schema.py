@@ -47,6 +47,7 @@ UNITS = (
 
 SCHEMA: tuple[Field, ...] = (
     *_fields("text", "run key slot comparison method variant", required=True),  # `run` is the plan's name
+    *_fields("text", "baseline"),  # the plan's: the method or variant that speed-ups are over
     *_fields("json", "parameters"),
     *_fields("text", "surface surface_title", required=True),
     *_fields("text", "formula"),
@@ -95,6 +96,7 @@ DERIVED: tuple[Field, ...] = (
     *_fields("real", "mrays_per_s frames_per_s baseline_ms speedup floor_ms"),
     *_fields("flag", "floor_bound"),
     *_fields("real", "peak_share"),
+    *_fields("flag", "peak_too_low"),
     *_fields("whole", "wrong_rays grazing_wrong_rays"),
     *_fields("flag", "front"),
 )

@@ -18,8 +18,9 @@ EXPLANATION = (
     "unlike in pictures, rays near tangency are not excused. A ray is undecidable where rounding the coordinates of "
     "its points in the cell's precision already turns it into one with other roots: it counts neither for nor against "
     f"a method. A method breaks on the first rung where it is right on less than {wording.share(breaks.HELD)} of the "
-    "decided rays. Its worst error is over what the problem allows, max(condition, 1) × unit roundoff × the domain's "
-    "radius: a small number for a method that is as good as the problem."
+    "decided rays: where a rung has fewer than 100, one certified wrong answer is enough. Its worst error is over what "
+    "the problem allows, max(condition, 1) × unit roundoff × the domain's radius: a small number for a method that is "
+    "as good as the problem."
 )
 
 
@@ -142,9 +143,10 @@ def summary(rungs: pd.DataFrame, facts: Mapping[str, Facts]) -> Table:
         columns,
         body,
         "Which families of hard rays each variant holds, and what breaks it.",
-        f"Held is a family with at least {wording.share(breaks.HELD)} of the decided rays right on every rung; worst "
-        "error is over condition × unit roundoff, in the families held. Behind each family that breaks a variant "
-        "stands the first parameter that does.",
+        "“Of” counts the families with decided rays that the variant was run on and accepts. Held is a family with at "
+        f"least {wording.share(breaks.HELD)} of the decided rays right on every rung; worst error is over condition × "
+        "unit roundoff, in the families held. Behind each family that breaks a variant stands the first parameter that "
+        "does.",
         group=1 if len(devices) == 1 else 2,
     )
 
@@ -157,7 +159,8 @@ def verdict(rungs: pd.DataFrame) -> str:
         return "No family of hard rays has a ray that its precision can decide."
     tallies = []
     for precision, own in rows.groupby("precision"):
-        held = own.groupby(["variant", "family"])["held"].all().groupby("variant").sum()
-        best = wording.listed(sorted(held.index[held == held.max()]))
-        tallies.append(f"{held.max()} of {own['family'].nunique()} in {precision} ({best})")
-    return f"Families of hard rays: the most that any variant holds are {wording.listed(tallies)}."
+        by_variant = own.groupby(["variant", "family"])["held"].all().groupby("variant")
+        held, tried = by_variant.sum(), by_variant.size()
+        best = [f"{name}, of {tried[name]} that it answered" for name in sorted(held.index[held == held.max()])]
+        tallies.append(f"{held.max()} of {own['family'].nunique()} in {precision} ({wording.listed(best)})")
+    return f"Families of hard rays with rays decided: the most that any variant holds are {wording.listed(tallies)}."

@@ -6,7 +6,7 @@ from collections import Counter
 
 import pandas as pd
 
-from reports import choice, derive, plots, stability, style, tables, wording
+from reports import choice, derive, plots, stability, style, tables, ties, wording
 from reports.claims import Outcome
 from reports.content import Block, Code, Section, Text
 from reports.material import Material
@@ -47,22 +47,47 @@ def _claims(material: Material) -> str:
 
 
 def _verdict(frame: pd.DataFrame) -> str:
-    """One sentence for who reads no further."""
+    """One sentence for who reads no further, or two: who leads, if anybody does."""
     rows = derive.contenders(frame)
-    right = rows[derive.all_right(rows)].drop_duplicates(derive.GROUP)
-    if right.empty:
+    leading = ties.leaders(frame)
+    if leading.empty:
         return "No variant was timed with every ray away from silhouettes answered rightly."
-    total = int(rows.groupby(derive.GROUP).ngroups)
-    counted = right["method"].value_counts()
-    method = str(counted.index[0])
-    won = right[right["method"] == method]
-    sentence = (
-        f"Of the variants with no wrong ray away from silhouettes, {method} is fastest in {counted.iloc[0]} of "
-        f"{wording.plural(total, 'combination')} of surface, view, device and precision"
+    contested = int((rows.groupby(derive.GROUP)["method"].nunique() > 1).sum())
+    if not contested:
+        return "Nothing is compared: no combination of surface, view, device and precision was timed by two methods."
+    leading = leading[leading["methods"] > 1]
+    alone = leading[leading["tied"].map(len) == 0]
+    counted = alone["method"].value_counts()
+    told = f"{wording.plural(contested, 'combination')} of surface, view, device and precision"
+    shared, wrong = len(leading) - len(alone), contested - len(leading)
+    rest = [f"the times of several methods are not told apart in {shared}"] if shared else []
+    rest += [f"no variant answers every such ray rightly in {wrong}"] if wrong else []
+    errors = alone.groupby("method")["error_max"].max()
+    each = [
+        f"{method} is fastest in {count} (largest error {wording.error(errors[method])})"
+        for method, count in counted.items()
+    ]
+    if len(counted) and 2 * counted.iloc[0] > contested:
+        rest = [*each[1:], *rest]
+        first = str(counted.index[0])
+        sentence = (
+            f"Of the variants with no wrong ray away from silhouettes, {first} is fastest in {counted.iloc[0]} of "
+            f"{told}{_gain(alone[alone['method'] == first])}."
+        )
+        return f"{sentence} Of the others, {wording.listed(rest)}." if rest else sentence
+    return (
+        "No method leads: of the variants with no wrong ray away from silhouettes, in "
+        f"{told}, {wording.listed([*each, *rest])}."
     )
-    gains = won["speedup"].dropna()
-    if method == derive.BASELINE or gains.empty:
-        return f"{sentence}."
-    low, high, error = wording.factor(gains.min()), wording.factor(gains.max()), wording.error(won["error_max"].max())
+
+
+def _gain(won: pd.DataFrame) -> str:
+    """How many times as fast as the baseline the winner is, where that is right too, and how exact both are."""
+    baseline = derive.baseline_of(won)
+    over = won[won["speedup"].notna() & (won["method"] != won["baseline"]) & (won["variant"] != won["baseline"])]
+    if over.empty:
+        return ""
+    low, high = wording.factor(over["speedup"].min()), wording.factor(over["speedup"].max())
     gain = low if low == high else f"{low} to {high}"
-    return f"{sentence}: {gain} as fast as {derive.BASELINE}, with a largest error of {error}."
+    where = "there" if len(over) == len(won) else f"in the {len(over)} in which that has no such ray either"
+    return f": {gain} as fast as {baseline} {where}, with a largest error of {wording.error(won['error_max'].max())}"

@@ -10,7 +10,7 @@ from typing import Any
 import pandas as pd
 
 from harness.contract import CellStatus
-from reports import derive, wording
+from reports import derive, ties, wording
 from reports.content import Column, Table
 from reports.load import Facts, Plan, Unreadable
 
@@ -59,21 +59,21 @@ def statuses(ended: pd.Series, unreadable: int, not_run: int) -> Table:
     return Table(columns, [(sum(counts.values()), *shown.values())], "Cells by how they ended.")
 
 
-def winners(frame: pd.DataFrame) -> Table:
-    """The fastest variant of every group, and the fastest with every ray right where that is another."""
+def winners(frame: pd.DataFrame, leading: pd.DataFrame) -> Table:
+    """The fastest variant of every group, the fastest with every ray right where that is another, and what the latter
+    is not told apart from; `leading` is of ties.leaders."""
     rows = derive.contenders(frame)
-    fastest = rows.drop_duplicates(derive.GROUP)
-    right = rows[derive.all_right(rows)].drop_duplicates(derive.GROUP)
-    safest = {(r.comparison, r.device, r.precision): r for r in right.itertuples()}
+    fastest = ties.fastest(frame)
+    safest = {(r.comparison, r.device, r.precision): r for r in leading.itertuples()}
     body: list[tuple[Any, ...]] = []
     named = places(frame)
     fastest = fastest.assign(planned=fastest["comparison"].map({name: i for i, name in enumerate(named)}))
     shown = fastest.sort_values(["planned", "precision", "device"], kind="stable").head(ROW_LIMIT)
     for row in shown.itertuples():
         safe = safest.get((row.comparison, row.device, row.precision))
-        instead = ("none", None) if safe is None else (safe.variant, safe.median_ms)
+        instead = ("none", None, None) if safe is None else (safe.variant, safe.median_ms, _named(safe.tied))
         if safe is not None and safe.variant == row.variant:
-            instead = ("the same", None)
+            instead = ("the same", None, instead[2])
         values = (row.median_ms, row.speedup, row.error_max, row.wrong_rays)
         body.append((named[row.comparison], row.precision, row.device, row.variant, *values, *instead))
     columns: tuple[Column, ...] = (
@@ -87,43 +87,60 @@ def winners(frame: pd.DataFrame) -> Table:
         Column("wrong\nrays", wording.count, numeric=True),
         Column("fastest with no wrong ray", stretch=3),
         Column("ms", wording.number, numeric=True),
+        Column("not told\napart from", stretch=2),
     )
-    note = " Where the last columns name another variant, the fastest buys its speed with wrong answers."
-    if all(row[-2] == "the same" for row in body):
-        columns, body, note = columns[:-2], [row[:-2] for row in body], ""
+    note = " Where the columns after it name another variant, the fastest buys its speed with wrong answers."
+    if all(row[-3] == "the same" for row in body):
+        columns, body, note = columns[:-3] + columns[-1:], [row[:-3] + row[-1:] for row in body], ""
     if len(shown) < len(fastest):
         note += f" The first {len(shown):,} of {len(fastest):,}; results.csv has all."
     return Table(
         columns,
         body,
         "What wins where.",
-        f"Speed-up is over {derive.BASELINE} in the same group; max error is the largest |t − t*| in scene units over "
-        "rays away from silhouettes; wrong rays are misses, false hits, exhausted rays, wrong roots and invalid "
-        "answers among them." + note,
+        f"{speedup(rows)} Max error is the largest |t − t*| in scene units over rays away from silhouettes; wrong rays "
+        "are misses, false hits, exhausted rays, wrong roots and invalid answers among them. Not told apart: the fastest "
+        "variants of other methods, with no wrong ray, whose times are not told to be longer than that of the fastest "
+        "without one; of a method's own settings the fastest is by the median." + note,
         group=2,
     )
 
 
-def wins(frame: pd.DataFrame) -> Table:
-    """For each device and precision, how often each method is fastest."""
-    rows = derive.contenders(frame)
-    fastest = rows[derive.all_right(rows)].drop_duplicates(derive.GROUP)
+def speedup(rows: pd.DataFrame) -> str:
+    """What a speed-up is, in a sentence, for captions."""
+    return (
+        f"Speed-up is the median time of {derive.baseline_of(rows)} on the same device, in the same precision, over "
+        "this one's; – where one of the two answers a ray away from silhouettes wrongly or was not timed."
+    )
+
+
+def _named(variants: Sequence[str]) -> str | None:
+    return ", ".join(variants) or None
+
+
+def wins(leading: pd.DataFrame) -> Table:
+    """For each device and precision, how often each method is fastest; `leading` is of ties.leaders."""
     body = []
-    for (device, precision), rows in fastest.groupby(["device", "precision"], sort=False):
-        counted = ", ".join(f"{method} {n}" for method, n in Counter(rows["method"]).most_common())
-        body.append((device, precision, len(rows), counted, rows["speedup"].median(), rows["error_max"].max()))
+    for (device, precision), rows in leading.groupby(["device", "precision"], sort=False):
+        alone = rows[rows["tied"].map(len) == 0]
+        counted = ", ".join(f"{method} {n}" for method, n in Counter(alone["method"]).most_common()) or "none"
+        shared = len(rows) - len(alone)
+        body.append((device, precision, len(rows), counted, shared, rows["speedup"].median(), rows["error_max"].max()))
     return Table(
         (
             Column("device"),
             Column("precision"),
             Column("scenes", wording.count, numeric=True),
             Column("fastest method, and on how many scenes", stretch=1),
+            Column("not told\napart", wording.count, numeric=True),
             Column("median\nspeed-up", wording.factor, numeric=True),
             Column("worst\nmax error", wording.error, numeric=True),
         ),
         body,
         "Which method is fastest with no wrong ray, and how often.",
-        f"Speed-up is the winner's over {derive.BASELINE}, error the largest |t − t*| of any winner in scene units.",
+        "Scenes are those with a variant that has no wrong ray away from silhouettes; not told apart are those on "
+        f"which the times of several methods are not. {speedup(leading)} It and the largest |t − t*|, in scene units, "
+        "are of the fastest variants.",
         group=1,
     )
 
@@ -143,6 +160,8 @@ def flags(row: Any) -> str:
         notes += [text.partition(":")[0] for text in json.loads(row.warnings)]
     if not wording.absent(row.outliers) and row.outliers:
         notes.append(wording.plural(row.outliers, "outlier"))
+    if row.peak_too_low:
+        notes.append("the probe's peak is too low")
     if row.overhead_share > OVERHEAD_LIMIT:
         notes.append(f"overhead {wording.share(row.overhead_share)}")
     return ", ".join(notes)
@@ -173,7 +192,7 @@ def results(rows: pd.DataFrame) -> Table:
             Column("99 %\nerror", wording.error, numeric=True),
             *(Column(WRONG[kind], wording.count, numeric=True) for kind in kinds),
             Column("grazing\nwrong", wording.count, numeric=True),
-            Column("evals\nper ray", wording.number, numeric=True),
+            Column("evals per\nray cast", wording.number, numeric=True),
             Column("share\nof peak", wording.share, numeric=True),
             Column("compile\nms", wording.number, numeric=True),
             Column("clock"),
@@ -233,15 +252,16 @@ def _results_caption(rows: pd.DataFrame) -> tuple[str, str]:
     checked = ""
     for row in rows[rows["accuracy_rays"].notna()].head(1).itertuples():
         checked = (
-            f" Errors are over {row.accuracy_rays:,} rays, of which {wording.count(row.grazing)} pass within "
-            f"{wording.error(row.grazing_margin)} of another answer: these grazing rays are counted apart."
+            f" Errors and counts of wrong rays are of {row.accuracy_rays:,} rays, of which "
+            f"{wording.count(row.grazing)} pass within {wording.error(row.grazing_margin)} of another answer: these "
+            "grazing rays are counted apart."
         )
         if not wording.absent(row.undecided) and row.undecided:
             checked += f" The oracle left {wording.plural(row.undecided, 'hit')} undecided; no figure here is of them."
     return (
         scene(rows),
-        "Fastest first for each device and precision; ± is half the 95 % interval of the median, errors are |t − t*| "
-        f"in scene units.{checked}",
+        "Fastest first for each device and precision; ± is half the 95 % interval of the median, over the median; "
+        f"errors are |t − t*| in scene units. {speedup(rows)}{checked}",
     )
 
 
@@ -249,7 +269,8 @@ def worth_printing(finished: pd.DataFrame) -> pd.DataFrame:
     """All finished rows of a run of moderate size; of a larger one its fronts and what they are compared with."""
     if len(finished) <= ROW_LIMIT:
         return finished
-    return finished[finished["front"] | (finished["method"] == derive.BASELINE) | ~finished["answers"]]
+    is_baseline = (finished["method"] == finished["baseline"]) | (finished["variant"] == finished["baseline"])
+    return finished[finished["front"] | is_baseline | ~finished["answers"]]
 
 
 def troubles(frame: pd.DataFrame, families: pd.DataFrame, facts: Mapping[str, Facts]) -> Table | None:
@@ -312,10 +333,11 @@ def devices(plan: Plan) -> Table:
     for device in plan.devices:
         versions = ", ".join(f"{name} {version}" for name, version in _pairs(device.get("versions")))
         told = (device.get("title"), device.get("driver"), device.get("compiler"), device.get("compute_units"))
-        peak = (device.get("probes") or {}).get("peak_gflops")
+        probes = device.get("probes") or {}
+        peak = (probes.get("peak_gflops"), probes.get("peak_shape"))
         float64 = "yes" if device.get("float64") else "no"
         how = (float64, device.get("clock"), versions, device.get("problem"))
-        body.append((device.get("name"), *told, peak, *how))
+        body.append((device.get("name"), *told, *peak, *how))
     columns: tuple[Column, ...] = (
         Column("device"),
         Column("hardware"),
@@ -323,6 +345,7 @@ def devices(plan: Plan) -> Table:
         Column("compiler"),
         Column("units", numeric=True),
         Column("peak\nGFLOP/s", wording.number, numeric=True),
+        Column("reached by"),
         Column("float64"),
         Column("clock"),
         Column("bindings"),
@@ -330,7 +353,11 @@ def devices(plan: Plan) -> Table:
     )
     known = [i for i in range(len(columns)) if not all(wording.absent(row[i]) for row in body)]
     columns, body = tuple(columns[i] for i in known), [tuple(row[i] for i in known) for row in body]
-    caption = "The clock is the one to be believed there, and times are by it."
+    caption = (
+        "The clock is the one to be believed there, and times are by it. The peak is the best rate of float32 "
+        "multiply-adds, two operations each, that a loop of the probe reached, however many chains it had: what shares "
+        "of a peak are of."
+    )
     return Table(columns, body, "Devices of this run.", caption)
 
 

@@ -60,13 +60,20 @@ def level(value: float) -> str:
     return f"{value:.{5 if value >= 1 else 2}g}" if 0.001 <= value < 1e5 else error(value)
 
 
+def hundredths(value: Any) -> str:
+    """Two decimals: −0.25."""
+    return NONE if absent(value) else f"{value:.2f}".replace("-", "−")
+
+
 def count(value: Any) -> str:
     return NONE if absent(value) else f"{int(value):,}"
 
 
 def share(value: Any) -> str:
     """A share of one as per cent."""
-    return NONE if absent(value) else f"{100 * value:.{0 if value >= 0.1 else 1}f} %"
+    if absent(value):
+        return NONE
+    return "< 0.1 %" if 0.0 < value < 0.0005 else f"{100 * value:.{0 if value >= 0.1 else 1}f} %"
 
 
 def percentage(value: Any) -> str:

@@ -45,6 +45,10 @@ def test_knobs_multiply_and_defaults_fill_in(tmp_path):
         ('title = "t"', 'title = "t"\nprecisions = ["float16"]', 2, "did you mean 'float"),
         ('name = "null"', 'name = "null"\n[budget]\ntimeout = -1', 9, "outside"),
         ('name = "null"', 'name = "null"\n[budget]\nsecnds = 1', 9, "did you mean 'seconds'"),
+        ('name = "null"', 'name = "null"\n[budget]\nrounds = 0', 9, "outside"),
+        ('title = "t"', 'title = "t"\nbaseline = "newtn"', 2, "baseline: unknown 'newtn'; did you mean 'newton'"),
+        ('title = "t"', 'title = "t"\nbaseline = "null"', 2, "baseline: unknown 'null'"),
+        ('title = "t"', 'title = "t"\nbaseline = 3', 2, "baseline is a text"),
         ('name = "null"', 'name = "null"\n[[view]]\nname = "a"\n[[view]]\nname = "b"\nfov = 200', 12, "outside"),
     ],
 )
@@ -55,6 +59,13 @@ def test_a_mistake_is_answered_with_file_line_and_remedy(tmp_path, old, new, lin
     assert words in message
     assert f"c.toml:{line}:" in message
     assert caught.value.exit_code == 2
+
+
+def test_the_baseline_is_a_method_or_a_variant_of_the_config(tmp_path):
+    assert _load(tmp_path, GOOD).config.baseline == "ray_march"
+    for name in ("newton", "newton[EPSILON=0.2,MAX_EVALUATIONS=5]"):
+        text = GOOD.replace('title = "t"', f'title = "t"\nbaseline = "{name}"', 1)
+        assert _load(tmp_path, text).config.baseline == name
 
 
 def test_malformed_toml_names_its_place(tmp_path):

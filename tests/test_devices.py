@@ -10,7 +10,7 @@ from harness.camera import camera_for, rays_of
 from harness.contract import FirsthitError, RayStatus, TruthStatus, View
 from harness.oracle import first_hits
 from harness.plugins import find_methods
-from harness.probes import probe
+from harness.probes import PEAK_OPERATIONS, PEAK_SHAPES, peak_section, probe
 
 from .conftest import opened, usable_devices
 
@@ -36,6 +36,19 @@ def test_error_free_transforms_are_exact_and_the_peak_rate_is_measured(device):
     assert probes.two_prod_split == 1.0
     assert probes.round_to_nearest == 1.0
     assert probes.peak_gflops > 0.0
+    assert "multiply-adds" in probes.peak_shape
+
+
+@pytest.mark.parametrize(("chains", "fused"), PEAK_SHAPES)
+def test_every_loop_of_the_peak_computes_what_it_counts(device, chains, fused):
+    values = map_rows(device, map_program(peak_section(chains, fused), "float32", device.language), np.ones((3, 1)), 1)
+    turns = -(-PEAK_OPERATIONS // (2 * chains))
+    left = 0.999**turns * chains * (chains - 1) / 2  # chain k starts at 1 + k and tends to 0.001 / (1 - 0.999) = 1
+    assert np.allclose(values, chains + left, rtol=1e-3), "no compiler may leave steps out"
+
+
+def test_a_peak_is_looked_for_in_loops_of_several_shapes():
+    assert len({chains for chains, _ in PEAK_SHAPES}) >= 5 and {fused for _, fused in PEAK_SHAPES} == {True, False}
 
 
 def test_error_free_transforms_are_exact_in_float64(device, rng):

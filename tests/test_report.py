@@ -25,10 +25,11 @@ from reports import (
     load,
     schema,
     tables,
+    ties,
 )
 from reports.parts import surfaces as surface_pages
 from reports.parts import winners
-from tests.synthetic_run import cell, plan, printed, reported, tiny_run, troubled, write_run
+from tests.synthetic_run import cell, plan, printed, reported, retime, tiny_run, troubled, write_run
 
 
 @pytest.fixture(scope="module")
@@ -108,15 +109,16 @@ def test_the_report_says_what_happened(run: Path) -> None:
 
 
 def test_winners_name_the_fastest_and_the_fastest_with_no_wrong_ray(frame: pd.DataFrame) -> None:
-    rows = {row[:3]: row[3:] for row in tables.winners(frame).rows}
+    rows = {row[:3]: row[3:] for row in tables.winners(frame, ties.leaders(frame)).rows}
     group = frame[
         (frame["surface"] == "torus") & (frame["device"] == "opencl:intel") & (frame["precision"] == "float32")
     ]
     times = group.set_index("variant")["median_ms"]
-    fastest, *_, instead, instead_ms = rows["Torus", "float32", "opencl:intel"]
+    fastest, *_, instead, instead_ms, tied = rows["Torus", "float32", "opencl:intel"]
     assert fastest == times.drop("null").idxmin() == "_odd#[STEP_$=0.5,RELAXATION_OF_THE_LAST_STEP=1.25]"
     assert (instead, instead_ms) == ("newton[EPSILON=0.001]", times["newton[EPSILON=0.001]"])
-    assert rows["Sphere", "float32", "opencl:intel"][-2:] == ("the same", None)
+    assert tied is None
+    assert rows["Sphere", "float32", "opencl:intel"][-3:] == ("the same", None, None)
 
 
 def test_derived_columns(tmp_path: Path) -> None:
@@ -124,7 +126,7 @@ def test_derived_columns(tmp_path: Path) -> None:
         made = cell("null" if variant == "null" else "ray_march", "torus", "opencl:intel", "float32")
         slot = f"{variant} torus"
         made |= {"slot": slot, "key": digest(slot), "variant": variant, "method": variant.partition("[")[0]}
-        made["time"] |= {"median_ms": median}
+        retime(made, median)
         if made["accuracy"]:
             made["accuracy"] |= {"error": {"max": error}, "misses": misses}
         return made
@@ -139,19 +141,22 @@ def test_derived_columns(tmp_path: Path) -> None:
         timed("misses", 1.5, 1e-6, misses=3),
     ]
     loaded = load.load(tiny_run(tmp_path / "run", *cells))
-    rows = derive.derive(loaded.frame, loaded.plan.peaks).set_index("variant")
-    assert rows["speedup"].drop("null").to_dict() == pytest.approx(
-        {"ray_march[CAP=10]": 8 / 99, "ray_march": 1, "a": 8 / 0.9, "b": 4, "beaten": 3.2, "misses": 8 / 1.5}
+    rows = derive.derive(loaded.frame, {"opencl:intel": 1e5}).set_index("variant")
+    assert rows["speedup"].drop(["null", "misses"]).to_dict() == pytest.approx(
+        {"ray_march[CAP=10]": 8 / 99, "ray_march": 1, "a": 8 / 0.9, "b": 4, "beaten": 3.2}
     )
-    assert np.isnan(rows["speedup"]["null"])
+    assert np.isnan(rows["speedup"]["null"]) and np.isnan(rows["speedup"]["misses"])
     assert rows.index[rows["floor_bound"]].tolist() == ["a"]
     assert rows.index[rows["front"]].tolist() == ["ray_march", "a", "b"]
     assert rows["wrong_rays"]["misses"] == 3
     assert rows["mrays_per_s"]["b"] == pytest.approx(256 * 256 / 2e-3 / 1e6)
     assert rows["frames_per_s"]["b"] == pytest.approx(500)
     flops = 25 * rows["evaluations_mean"]["b"] * 256 * 256 / 2e-3
-    assert rows["peak_share"]["b"] == pytest.approx(flops / 143.5e9)
-    assert np.isnan(rows["peak_share"]["null"])
+    assert rows["peak_share"]["b"] == pytest.approx(flops / 1e14)
+    assert np.isnan(rows["peak_share"]["null"]) and not rows["peak_too_low"].any()
+    low = derive.derive(loaded.frame, loaded.plan.peaks).set_index("variant")
+    assert np.isnan(low["peak_share"]["b"]) and low["peak_too_low"]["b"], "a share above 100 % is no share"
+    assert "the probe's peak is too low" in tables.flags(next(low.loc[["b"]].itertuples()))
 
 
 def test_the_share_of_peak_is_absent_where_no_peak_is_known(frame: pd.DataFrame) -> None:
@@ -185,7 +190,7 @@ def test_no_error_is_told_of_a_method_that_answers_nothing(loaded: load.Run, fra
     pd.testing.assert_frame_equal(kept, loaded.frame.loc[~null, accuracy])
     table = tables.results(finished)
     titles = [column.title for column in table.columns]
-    first, last = titles.index("max\nerror"), titles.index("evals\nper ray")
+    first, last = titles.index("max\nerror"), titles.index("evals per\nray cast")
     for row in table.rows:
         assert all(pd.isna(value) for value in row[first : last + 1]) == (row[2] == "null")
 
@@ -349,7 +354,7 @@ def test_the_first_page_says_which_method_at_which_error_and_what_it_costs(tmp_p
         made = cell("ray_march", "torus", "opencl:intel", precision)
         slot = f"{variant} torus {precision}"
         made |= {"slot": slot, "key": digest(slot), "variant": variant, "method": variant}
-        made["time"] |= {"median_ms": median}
+        retime(made, median)
         made["accuracy"] |= {"relative_error": {"max": error}, "error": {"max": error}, "misses": misses}
         made["accuracy"] |= dict.fromkeys(("false_hits", "exhausted", "wrong_root"), 0)
         return made

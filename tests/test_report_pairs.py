@@ -46,10 +46,21 @@ def test_variants_are_held_against_the_fastest_right_one_round_by_round(tmp_path
     )
     assert lines["slow"][2:5] == ["3.00×", "3.00×", "3.00×"]
     assert lines["slow"][6:] == ["10", "slower"]
-    assert lines["wrong"][-1] == "faster"
+    assert lines["wrong"][2:] == ["–", "–", "–", "–", "30", "7 wrong rays: not compared"]
     assert lines["alike"][-1] == "not told apart"
     assert lines["few"][2:5] == ["2.00×", "–", "–"]
-    assert lines["few"][6:] == ["3", "too few rounds"]
+    assert lines["few"][6:] == ["3", "too few rounds: 3 can at best give a chance of 0.25; needs 8"]
+
+
+@pytest.mark.parametrize("rounds", [6, 7, 8])
+def test_a_hundredfold_difference_is_too_few_rounds_or_told(tmp_path: Path, rng: Any, rounds: int) -> None:
+    load = rng.lognormal(sigma=0.02, size=rounds)
+    cells = [timed("best", list(load), list(range(rounds))), timed("slow", list(96.0 * load), list(range(rounds)))]
+    _, report = reported(tiny_run(tmp_path / "run", *cells))
+    (section,) = [s for s in report.sections if s.title == "Variants compared round by round"]
+    told = {6: "too few rounds: 6 can at best give a chance of 0.031; needs 8", 7: "too few rounds: 7", 8: "| slower"}
+    assert told[rounds] in printed(section.blocks)
+    assert "| not told apart" not in printed(section.blocks)
 
 
 @pytest.mark.parametrize("sessions", [("one", "two")])

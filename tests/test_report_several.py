@@ -60,6 +60,11 @@ def test_two_runs_are_held_against_each_other(tmp_path: Path) -> None:
     assert "newton[EPSILON=0.001]" in by_title["In one run only"]
     assert reports.compare(first, second) == first / "against-b.pdf"
     assert (first / "against-b.html").stat().st_size > 0
+    back = printed(against.report(load.load(second), load.load(first)).summary.blocks)
+    assert "clearly slower in 0 and clearly faster in 1 of 1" in back
+    b["time"] = b["time"] | {name: a["time"][name] / 4 for name in ("median_ms", "lower_ms", "upper_ms")}
+    bought = against.report(load.load(first), load.load(tiny_run(tmp_path / "bought", b)))
+    assert "clearly faster in 0 of 1" in printed(bought.summary.blocks), "speed bought with wrong rays is no gain"
     elsewhere = tiny_run(tmp_path / "c", cell("ray_march", "torus", "opencl:pocl", "float32"))
     both, by = against.paired(load.load(first), load.load(elsewhere))
     assert by == ["scene", "variant", "precision"], "one device each: devices are compared"

@@ -124,21 +124,35 @@ def test_the_map_is_equal_area_and_gives_each_place_its_nearest_direction() -> N
 def test_a_known_exponent_is_found_within_its_interval(exponent: float) -> None:
     x = np.array([1.0, 2, 4, 8, 16, 32])
     exact = fits.power_law(x, 3.0 * x**exponent)
-    assert exact is not None
+    assert isinstance(exact, fits.Power)
     assert exact.exponent == pytest.approx(exponent) and exact.factor == pytest.approx(3.0)
     assert exact.half_width == pytest.approx(0.0, abs=1e-9)
     held = 0
     for seed in range(400):
         noise = np.exp(np.random.default_rng(seed).normal(0.0, 0.1, len(x)))
         fit = fits.power_law(x, 3.0 * x**exponent * noise)
-        assert fit is not None
+        assert isinstance(fit, fits.Power)
         held += abs(fit.exponent - exponent) <= fit.half_width
     assert 0.92 < held / 400 < 0.98, "a 95 % interval holds the truth 95 % of the time"
 
 
 def test_what_no_fit_can_be_made_of() -> None:
-    assert fits.power_law([1, 2, 2], [1, 2, 2]) is None, "two places make a line through anything"
-    assert fits.power_law([1, 2, 3], [1, 0, 2]) is None
+    for x, y in (([1, 2, 2], [1, 2, 2]), ([1, 2, 3], [1, 0, 2])):
+        two = fits.power_law(x, y)
+        assert isinstance(two, fits.Refusal), "two places make a line through anything"
+        assert two.reason == "fewer than 3 places determine no exponent"
+    wide = fits.power_law([2, 4, 6], [1.0, 40.0, 2.0])
+    assert isinstance(wide, fits.Refusal)
+    assert wide.reason.startswith("3 points do not determine an exponent: its 95 % interval, −")
+    level = fits.power_law([1, 2, 4, 8], [1.0, 1.0, 1.0, 1.0])
+    assert isinstance(level, fits.Power) and level.exponent == level.half_width == 0.0
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_no_exponent_is_told_whose_interval_is_wider_than_itself(seed: int) -> None:
+    draws = np.random.default_rng(seed)
+    fit = fits.power_law(draws.uniform(1, 9, 4), np.exp(draws.normal(size=4)))
+    assert isinstance(fit, fits.Refusal) or 2.0 * fit.half_width <= abs(fit.exponent)
     assert [fits.student(n) for n in (1, 2, 5, 30)] == pytest.approx([12.706, 4.303, 2.571, 2.042], abs=5e-4)
 
 

@@ -53,6 +53,11 @@ def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -
     )
     parser.add_argument("folder", type=Path, metavar="RUN", help="a folder below runs/")
     parser.add_argument("other", type=Path, metavar="OTHER", nargs="?", help="report what changed from RUN to OTHER")
+    parser.add_argument(
+        "--baseline",
+        metavar="NAME",
+        help="the method or variant that speed-ups are over (default: the config's, else ray_march)",
+    )
     parser.set_defaults(run=_report)
 
 
@@ -117,6 +122,7 @@ def _described(experiment: config.Experiment) -> dict[str, Any]:
         "title": experiment.config.title,
         "config": str(experiment.path),
         "config_text": experiment.text,
+        "baseline": experiment.config.baseline,
         "command": shlex.join(["firsthit", *sys.argv[1:]]),
         "created": datetime.now(UTC).isoformat(timespec="seconds"),
         "environment": describe(),
@@ -228,7 +234,12 @@ def _report(options: argparse.Namespace) -> int:
     try:
         import reports
 
-        print(reports.compare(options.folder, options.other) if options.other else reports.build(options.folder))
+        if options.other:
+            if options.baseline:
+                raise FirsthitError("--baseline goes with one run: of two, each cell is held against itself")
+            print(reports.compare(options.folder, options.other))
+        else:
+            print(reports.build(options.folder, options.baseline))
     except ModuleNotFoundError as error:
         message = (
             f"a report needs the package {error.name}: pip install 'firsthit[report]'; runs/ can be copied elsewhere"

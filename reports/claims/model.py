@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
@@ -16,6 +17,7 @@ from reports.evidence import Evidence, Pick
 class Outcome(StrEnum):
     CONFIRMED = "confirmed"
     REFUTED = "refuted"
+    UNDECIDED = "not decided"  # the rows are there, but a figure is missing or no test tells
     UNTESTED = "not testable here"
 
 
@@ -51,8 +53,60 @@ def untestable(_: Evidence) -> Verdict | None:
     return None
 
 
-def verdict(confirmed: bool, figure: str) -> Verdict:
+def verdict(confirmed: bool | None, figure: str) -> Verdict:
+    """None is not decided."""
+    if confirmed is None:
+        return Verdict(Outcome.UNDECIDED, figure)
     return Verdict(Outcome.CONFIRMED if confirmed else Outcome.REFUTED, figure)
+
+
+def both(*held: bool | None) -> bool | None:
+    """Whether all hold: one that does not refutes; else one that is not decided leaves the whole so, as none does."""
+    if any(one is False for one in held):
+        return False
+    return True if held and all(one is True for one in held) else None
+
+
+def at_least(low: float, high: float, limit: float) -> bool | None:
+    """Whether what lies between `low` and `high` is at least `limit`; None where they enclose it or one is missing."""
+    return True if low >= limit else False if high < limit else None
+
+
+def mean_ratio(ratios: pd.DataFrame, limit: float) -> bool | None:
+    """Whether the mean of these ratios of times is at least `limit`, by the means of their intervals' ends."""
+    low, high = (float(ratios[name].mean(skipna=False)) for name in ("ratio_low", "ratio_high"))
+    return at_least(low, high, limit)
+
+
+def known(value: Any, test: Callable[[Any], bool]) -> bool | None:
+    """Whether an exact figure passes; None where it is missing."""
+    return None if pd.isna(value) else bool(test(value))
+
+
+def every(values: Any, test: Callable[[Any], bool]) -> bool | None:
+    """Whether each of these exact figures passes; None where one is missing or there is none."""
+    return both(*(known(value, test) for value in values))
+
+
+def counted(rows: pd.DataFrame, *names: str) -> int | None:
+    """The sum of these counts over all rows; None where one is missing or there is no row."""
+    cells = rows[list(names)]
+    return None if rows.empty or cells.isna().any(axis=None) else int(cells.sum().sum())
+
+
+def largest(rows: pd.DataFrame, name: str) -> float:
+    """NaN where one is missing or there is no row."""
+    return float(rows[name].astype("float64").max(skipna=False)) if len(rows) else math.nan
+
+
+def cases(rows: pd.DataFrame) -> str:
+    """What these rows are of: 6 views, or 1 view on 3 devices."""
+    views, devices = int(rows["view"].nunique()), int(rows["device"].nunique())
+    return wording.plural(views, "view") + (f" on {devices} devices" if devices > 1 else "")
+
+
+def count(value: int | None) -> str:
+    return wording.NONE if value is None else f"{value:,}"
 
 
 def quantities(values: Any, show: Callable[[Any], str] = wording.factor) -> str:
@@ -64,25 +118,29 @@ def quantities(values: Any, show: Callable[[Any], str] = wording.factor) -> str:
 
 
 def faster(slow: Pick, fast: Pick, surfaces: tuple[str, ...] | None = None, told: str = "") -> Any:
-    """A judge of "`fast` is always faster than `slow`": refuted by a case the other way, beyond both intervals, or
-    where it is not faster in the mean."""
+    """A judge of "`fast` is always faster than `slow`": confirmed where it is in every case, beyond both intervals;
+    refuted by one the other way, or where it is not faster in the mean."""
 
     def decide(evidence: Evidence) -> Verdict | None:
         ratios = evidence.ratios(slow, fast, surfaces)
         if ratios.empty:
             return None
-        against = ratios[ratios["ratio_high"] < 1.0]
         figure = f"{fast.words} is {quantities(ratios['ratio'])} as fast as {slow.words}"
-        if len(against):
-            figure += f"; slower in {len(against)} of {len(ratios)}"
-        return verdict(
-            against.empty and ratios["ratio"].mean() > 1.0, figure + (f"; the paper: {told}" if told else "")
-        )
+        return verdict(always(ratios), f"{figure}{lost(ratios)}" + (f"; the paper: {told}" if told else ""))
 
     return decide
 
 
-def wrong(rows: pd.DataFrame, grazing: bool = False) -> pd.Series:
-    """Wrong rays of each row; with `grazing` those at silhouettes too."""
-    counts = rows["wrong_rays"].astype("float64")
-    return counts + rows["grazing_wrong_rays"].astype("float64") if grazing else counts
+def always(ratios: pd.DataFrame) -> bool | None:
+    """Whether every ratio of times is above 1 beyond its interval; refuted by one below it, or by their mean."""
+    if (ratios["ratio_high"] < 1.0).any() or mean_ratio(ratios, 1.0) is False:
+        return False
+    return True if len(ratios) and (ratios["ratio_low"] > 1.0).all() else None
+
+
+def lost(ratios: pd.DataFrame) -> str:
+    """In how many cases it is the other way round, and in how many the intervals do not tell."""
+    slower, faster = int((ratios["ratio_high"] < 1.0).sum()), int((ratios["ratio_low"] > 1.0).sum())
+    told = f"; slower in {slower} of {len(ratios)}" if slower else ""
+    even = len(ratios) - slower - faster
+    return told + (f"; not told apart in {even} of {len(ratios)}" if even else "")

@@ -96,6 +96,9 @@ def _claims(stated: list[str], rows: pd.DataFrame) -> str:
         if known.empty or not columns:
             words.append(f"{name.replace('_', ' ')} (tested by the test suite)")
             continue
+        if known[columns].isna().any(axis=None):
+            words.append(f"{name.replace('_', ' ')} (a row here does not count what would break it)")
+            continue
         bad = int(known[columns].sum().sum())
         held = "held" if bad == 0 else f"broken by {bad:,} of"
         words.append(f"{name.replace('_', ' ')}: {held} {int(known['accuracy_rays'].sum()):,} rays here")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 
-from reports import claims, wording
+from reports import claims, counts, wording
 from reports.claims import Outcome
 from reports.content import Column, Section, Table, Text
 from reports.material import Material
@@ -12,9 +12,11 @@ from reports.material import Material
 ORDER = 60
 LEADS = True
 TOLD = (
-    "Each paper's claims, in our words, judged by the rows of this run: confirmed, refuted, or not testable here. Only "
-    "times taken in turns are compared, on this device; a claim about a graphics card of 2006 or 2010 may be true "
-    "there and refuted here. Wrong rays are counted against certified answers."
+    "Each paper's claims, in our words, judged by the rows of this run: confirmed, refuted, not decided, or not "
+    "testable here. Only times taken in turns are compared, on this device; a claim about a graphics card of 2006 or "
+    "2010 may be true there and refuted here. Wrong rays are counted against certified answers. Times differ where the "
+    f"95 % intervals of their medians do not meet. {counts.RULE}; one certified ray is enough against “none” and for "
+    "“some”. Not decided: the rows are there, but a figure is missing, or no test tells."
 )
 
 

@@ -13,15 +13,19 @@ ORDER = 20
 SCENES = 40  # comparisons of a run whose fronts are all drawn; of a larger one those of each surface's fullest
 
 LEGEND = (
-    f"Speed-up is over {derive.BASELINE}. Flags: front, no other variant with all rays right is both faster and more "
-    f"exact; floor-bound, under {derive.FLOOR_FACTOR:g} times the null method's time, so that the harness is measured "
-    "more than the method; floor, the null method itself, which finds nothing; interval wide, the budget ended before "
-    "the 95 % interval of the median was within 2 %; drifts, the second half of the samples was slower or faster than "
-    "the first; noisy, the middle half of the samples spreads over more than a tenth of the median; outliers, samples "
-    "far outside the rest, which are kept; overhead, the harness's share of the time where it is above "
-    f"{wording.share(tables.OVERHEAD_LIMIT)}. Share of peak: operations of the function that a method evaluates, times "
-    "evaluations per ray, over the time, as a share of the float32 multiply-adds that the device was measured at. What "
-    "else a method computes, and what idle lanes of a vector do, is not counted; in float64 no peak is measured."
+    "Speed-up is over the baseline that each table names. Flags: front, no other variant with all rays right is both "
+    f"faster and more exact; floor-bound, under {derive.FLOOR_FACTOR:g} times the null method's time, so that the "
+    "harness is measured more than the method; floor, the null method itself, which finds nothing; interval wide, the "
+    "budget ended before the 95 % interval of the median was within 2 % of it; drifts, the second half of the samples "
+    "was slower or faster than the first; noisy, the middle half of the samples spreads over more than a tenth of the "
+    "median; outliers, samples far outside the rest, which are kept; overhead, what the harness's submitting and "
+    "waiting adds to the time by the device's clock, as a share of that, where it is above "
+    f"{wording.share(tables.OVERHEAD_LIMIT)} and that clock is believed; the probe's peak is too low, the row computes "
+    "more than the probe found the device to be able to, so that no share is told. Evaluations are per ray cast, those "
+    "that pass the domain by included. Share of peak: operations of the function that a method evaluates, times "
+    "evaluations per ray cast, times rays per second, as a share of the float32 operations per second that the device "
+    "was measured at (see “Devices of this run”). What else a method computes, and what idle lanes of a vector do, is "
+    "not counted; in float64 no peak is measured."
 )
 UNITS = (
     "The same errors in the units that papers use, over rays away from silhouettes that hit the right root: the "
@@ -45,7 +49,8 @@ def sections(material: Material) -> list[Section]:
     printed = tables.worth_printing(finished)
     told: list[Block] = [Text(LEGEND), Text(UNITS)]
     if len(printed) < len(finished):
-        kept = f"{len(printed):,} of {len(finished):,} rows: those on a front, {derive.BASELINE} and the floor"
+        kept = f"{len(printed):,} of {len(finished):,} rows: those on a front, "
+        kept += f"{derive.baseline_of(finished)} and the floor"
         if len(printed) > tables.ROW_LIMIT:
             kept_scenes = {derive.fullest(own) for _, own in printed.groupby("surface", sort=False)}
             printed = printed[printed["comparison"].isin(kept_scenes)]

@@ -1,7 +1,7 @@
 """Who wins in every group."""
 
-from reports import derive, tables
-from reports.content import Section
+from reports import derive, tables, ties
+from reports.content import Section, Text
 from reports.material import Material
 
 ORDER = 10
@@ -12,5 +12,7 @@ def sections(material: Material) -> list[Section]:
     rows = derive.contenders(material.listed)
     if rows.empty:
         return []
-    counted = (tables.wins(material.listed),) if len(rows.drop_duplicates(derive.GROUP)) > ONE_BY_ONE else ()
-    return [Section("Winners", (*counted, tables.winners(material.listed)))]
+    leading = ties.leaders(material.listed)
+    several = len(rows.drop_duplicates(derive.GROUP)) > ONE_BY_ONE
+    counted = (tables.wins(leading),) if several and len(leading) else ()
+    return [Section("Winners", (Text(f"{ties.RULE}."), *counted, tables.winners(material.listed, leading)))]

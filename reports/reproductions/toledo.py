@@ -183,7 +183,7 @@ def _errors(rows: pd.DataFrame) -> Table:
             Column(PAPER, wording.error, numeric=True, over="error over r"),
             Column("largest", wording.error, numeric=True, over="error over R + r"),
             Column(PAPER, wording.error, numeric=True, over="error over R + r"),
-            Column("wrong rays", wording.share, numeric=True),
+            Column("wrong, of\nall rays", wording.share, numeric=True),
             Column("most at"),
         ),
         body,

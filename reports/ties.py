@@ -1,0 +1,120 @@
+"""Whether two variants' times differ: a verdict of the rounds that timed both, never of two medians alone."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import pandas as pd
+
+from harness import measure, ranks
+from harness.measure import Ratio
+from reports import derive, wording
+
+LEVEL = 0.01  # a chance above this is no evidence that two variants differ
+NEEDED = ranks.pairs_needed(LEVEL)
+SLOWER, FASTER, ALIKE = "slower", "faster", "not told apart"
+TORN = f"{ALIKE}: the test and the interval disagree"
+COLUMNS = ["session", "rounds", "samples_ms", "median_ms", "lower_ms", "upper_ms"]
+_TOLD = ["method", "variant", "key", *COLUMNS]
+RULE = (
+    "Two times differ where both variants were timed in the same rounds and a signed-rank test of the rounds' ratios "
+    f"leaves a chance of at most {LEVEL:g}, which takes {NEEDED} rounds, and the 95 % interval of their median is "
+    "all on one side of 1"
+)
+
+
+def ratio(row: Any, other: Any) -> Ratio | None:
+    """`row`'s time over `other`'s, round by round; None unless both were timed in one interleaved run."""
+    if wording.absent(row.session) or row.session != other.session:
+        return None
+    if any(wording.absent(one.rounds) or not one.samples_ms for one in (row, other)):
+        return None
+    return measure.paired_ratio(row.samples_ms, json.loads(row.rounds), other.samples_ms, json.loads(other.rounds))
+
+
+def verdict(of: Ratio) -> str:
+    """SLOWER, FASTER, ALIKE, TORN, or that there were too few rounds to tell, with how many it takes."""
+    if of.pairs < NEEDED:
+        least = wording.short(ranks.least_chance(of.pairs))
+        return f"too few rounds: {of.pairs} can at best give a chance of {least}; needs {NEEDED}"
+    aside = of.proved and (of.lower > 1.0 or of.upper < 1.0)
+    if aside != (of.chance <= LEVEL):
+        return TORN
+    return ALIKE if not aside else SLOWER if of.lower > 1.0 else FASTER
+
+
+def is_slower(row: Any, other: Any) -> bool:
+    """Whether `row` is told to be slower than `other`; without common rounds, by intervals that do not meet."""
+    paired = ratio(row, other)
+    if paired is not None:
+        return verdict(paired) == SLOWER
+    enough = all(measure.proves(len(one.samples_ms or ())) for one in (row, other))
+    return bool(enough and row.lower_ms > other.upper_ms)
+
+
+def best(rows: pd.DataFrame) -> Any:
+    """The fastest of `rows`, which are fastest first by their medians and at least one, with the columns of _TOLD.
+
+    Medians are over all rounds of each; where another row is faster in the rounds that both have, that one is it.
+    """
+    return _best(list(rows[_TOLD].itertuples()))
+
+
+def tied(rows: pd.DataFrame, first: Any) -> list[str]:
+    """The variants of other methods than `first`'s, of each the fastest of `rows`, that are not told to be slower.
+
+    `rows` are of one scene and device, fastest first.
+    """
+    return _tied(list(rows[_TOLD].itertuples()), first)
+
+
+def _best(rows: list[Any]) -> Any:
+    first = rows[0]
+    for row in rows[1:]:
+        if row.lower_ms > first.upper_ms:
+            continue
+        paired = ratio(row, first)
+        if paired is not None and verdict(paired) == FASTER:
+            first = row
+    return first
+
+
+def _tied(rows: list[Any], first: Any) -> list[str]:
+    fastest_of: dict[str, Any] = {}
+    for row in rows:
+        if row.method != first.method:
+            fastest_of.setdefault(row.method, row)
+    return [str(row.variant) for row in fastest_of.values() if not is_slower(row, first)]
+
+
+def _groups(rows: pd.DataFrame) -> list[list[Any]]:
+    """The rows of each group, in their order."""
+    found: dict[tuple[Any, ...], list[Any]] = {}
+    for row in rows[[*derive.GROUP, *_TOLD]].itertuples():
+        found.setdefault((row.comparison, row.device, row.precision), []).append(row)
+    return list(found.values())
+
+
+def leaders(frame: pd.DataFrame) -> pd.DataFrame:
+    """The fastest row with every ray right of each group that has one, with two more columns.
+
+    `tied`: the variants of other methods that it is not told apart from; `methods`: how many methods were timed there.
+    """
+    rows = derive.contenders(frame)
+    methods = rows.groupby(derive.GROUP)["method"].nunique().rename("methods")
+    right = rows[derive.all_right(rows)]
+    groups = _groups(right)
+    firsts = [_best(own) for own in groups]
+    found = pd.Series(
+        [_tied(own, first) for own, first in zip(groups, firsts, strict=True)],
+        [first.Index for first in firsts],
+        dtype=object,
+    )
+    return right.loc[found.index].assign(tied=found).join(methods, on=derive.GROUP)
+
+
+def fastest(frame: pd.DataFrame) -> pd.DataFrame:
+    """The fastest row of each group, whether it answers every ray rightly or not."""
+    rows = derive.contenders(frame)
+    return rows.loc[[_best(own).Index for own in _groups(rows)]]
