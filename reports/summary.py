@@ -84,8 +84,8 @@ def _verdict(frame: pd.DataFrame) -> str:
 def _gain(won: pd.DataFrame) -> str:
     """How many times as fast as the baseline the winner is, where that is right too, and how exact both are."""
     baseline = derive.baseline_of(won)
-    over = won[won["speedup"].notna() & (won["method"] != won["baseline"]) & (won["variant"] != won["baseline"])]
-    if over.empty:
+    over = won[won["speedup"].notna()]
+    if over.empty or ((won["method"] == won["baseline"]) | (won["variant"] == won["baseline"])).any():
         return ""
     low, high = wording.factor(over["speedup"].min()), wording.factor(over["speedup"].max())
     gain = low if low == high else f"{low} to {high}"

@@ -332,3 +332,15 @@ def test_a_row_has_an_overhead_only_where_the_devices_clock_is_believed(clock: s
     )
     found = Runner._time_of(runner, state)["overhead_share"]
     assert found == (None if told is None else pytest.approx(told))
+
+
+def test_a_variant_is_no_gain_over_its_own_method(tmp_path: Path) -> None:
+    cells = [
+        timed("newton", "torus", ms) | {"variant": name} for name, ms in (("newton[A=1]", 2.0), ("newton[A=2]", 6.0))
+    ]
+    cells.append(timed("ray_march", "torus", 9.0))
+    for i, made in enumerate(cells):
+        made |= {"slot": f"newton {i}", "key": digest(f"newton {i}")}
+    told = headline(tmp_path / "run", *cells, baseline="newton[A=1]")
+    assert told.endswith("newton is fastest in 1 of 1 combination of surface, view, device and precision.")
+    assert "4.50× as fast as ray_march" in headline(tmp_path / "again", *cells)

@@ -6,7 +6,7 @@ from typing import Any
 
 import pandas as pd
 
-from reports import derive, tables, wording
+from reports import derive, tables, ties, wording
 from reports.content import Block, Column, Section, Table, Text
 from reports.material import Material
 
@@ -29,7 +29,7 @@ def _of(method: str, frame: pd.DataFrame) -> list[Section]:
         return []
     lines.sort(key=lambda line: line[:3])
     named = tables.places(rows)
-    body = [(degree, named[comparison], *told) for degree, comparison, *told in lines]
+    body = [(degree, named[comparison], *told) for degree, comparison, *told, _ in lines]
     off = [line for line in lines if line[3] == "no"]
     told = f"{method} is on the front in {len(lines) - len(off)} of {wording.plural(len(lines), 'comparison')}"
     blocks: list[Block] = [Text(f"{told}{_lost(off)}.{_without(len(groups) - len(lines))}")]
@@ -55,7 +55,7 @@ def _of(method: str, frame: pd.DataFrame) -> list[Section]:
 
 
 def _line(method: str, group: pd.DataFrame) -> tuple[Any, ...]:
-    """What one comparison says; `group` is in order of time."""
+    """What one comparison says, and last whether the rival's time is told to be less; `group` is in order of time."""
     own = group[group["method"] == method]
     right = own[derive.all_right(own)]
     on_front = right[right["front"].astype(bool)]
@@ -65,7 +65,8 @@ def _line(method: str, group: pd.DataFrame) -> tuple[Any, ...]:
     told: list[Any] = [first.device, "no" if on_front.empty else "yes", str(first.variant)]
     told += [first.median_ms, first.error_max]
     told += ["none", None, None, None] if rival is None else _rival(rival, first.median_ms if len(right) else None)
-    return (int(first.degree), str(first.comparison), *told)
+    beaten = rival is not None and ties.is_slower(first, rival)
+    return (int(first.degree), str(first.comparison), *told, beaten)
 
 
 def _rival(row: Any, own_ms: float | None) -> list[Any]:
@@ -88,6 +89,6 @@ def _lost(off: list[tuple[Any, ...]]) -> str:
     if not off:
         return ""
     degrees = sorted({line[0] for line in off})
-    winners = sorted({str(line[7]).partition("[")[0].partition("+")[0] for line in off if line[7] != "none"})
+    winners = sorted({str(line[7]).partition("[")[0].partition("+")[0] for line in off if line[-1]})
     who = f"; there {wording.listed(winners)} win" + ("s" if len(winners) == 1 else "") if winners else ""
     return f"; it is not at degree {wording.listed([str(d) for d in degrees])}{who}"
