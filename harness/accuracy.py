@@ -12,6 +12,10 @@ from numpy.typing import NDArray
 from harness.camera import scene_radius
 from harness.contract import UNIT_ROUNDOFF, Hits, Precision, RayStatus, Surface, Truth, TruthStatus
 
+DROWNED = (
+    2.0  # unit roundoffs under which a ray's contrast leaves f's sign in doubt: one of the kernel, whose bound is of
+)
+#   first order and whose compiler may regroup; one of the estimate, which is of float64
 FAR = 0.05  # a hit further than this from the first root, over the scene radius, belongs to no root or another one
 
 
@@ -35,18 +39,29 @@ NAMES = {
 
 @dataclass(frozen=True, eq=False)
 class Verdicts:
-    """Per ray: `wrong` uint8[n]; `error` float64[n], |t − t*|, NaN unless the right root was hit; `grazing` bool[n]."""
+    """Per ray: `wrong` uint8[n]; `error` float64[n], |t − t*|, NaN unless the right root was hit; `grazing` and
+    `drowned` bool[n], classes without a common ray."""
 
     wrong: NDArray[np.uint8]
     error: NDArray[np.float64]
     grazing: NDArray[np.bool_]
+    drowned: NDArray[np.bool_]
+
+    @property
+    def clear(self) -> NDArray[np.bool_]:
+        """bool[n]: rays outside both classes, on which every wrong answer is the method's fault."""
+        return ~(self.grazing | self.drowned)
 
 
-def judge(hits: Hits, truth: Truth, scene_radius: float, grazing_margin: float) -> Verdicts:
+def judge(
+    hits: Hits, truth: Truth, scene_radius: float, grazing_margin: float, precision: Precision | None = None
+) -> Verdicts:
     """Compare n answers with n certified ones.
 
     `error` is the distance from the certified interval. A ray whose margin is under `grazing_margin` scene radii is in
-    the grazing class, where a perturbation of that size changes the answer. Undecided rays count as right.
+    the grazing class, where a perturbation of that size changes the answer. Of the others, one whose contrast is under
+    DROWNED unit roundoffs of `precision` is in the class of drowned rays, on which |f| falls under what arithmetic of
+    that precision may be off in it; without a precision no ray is. Undecided rays count as right.
     """
     decided = truth.status != TruthStatus.UNDECIDED
     there = (truth.status == TruthStatus.CROSSING) | (truth.status == TruthStatus.TOUCH)
@@ -61,7 +76,9 @@ def judge(hits: Hits, truth: Truth, scene_radius: float, grazing_margin: float) 
     wrong[decided & ~there & hit] = Wrong.FALSE_HIT
     wrong[decided & (hits.status == RayStatus.EXHAUSTED)] = Wrong.EXHAUSTED
     error = np.where(there & hit & (wrong == Wrong.RIGHT), error, np.nan)
-    return Verdicts(wrong, error, truth.margin < grazing_margin * scene_radius)
+    grazing = truth.margin < grazing_margin * scene_radius
+    faint = DROWNED * UNIT_ROUNDOFF[precision] if precision else 0.0
+    return Verdicts(wrong, error, grazing, ~grazing & (truth.contrast < faint))
 
 
 def _quantiles(values: NDArray[np.float64]) -> dict[str, float | None]:
@@ -116,15 +133,15 @@ def summarize(
     footprint: float,
     grazing_margin: float,
 ) -> dict[str, Any]:
-    """Counts and quantiles, outside the grazing class and (`grazing_…`) inside it.
+    """Counts and quantiles, of clear rays, and in the classes of grazing (`grazing_…`) and drowned (`drowned_…`) ones.
 
-    `footprint` is a pixel's height at distance 1. Errors are of rays outside the grazing class that hit the right root:
+    `footprint` is a pixel's height at distance 1. Errors are of clear rays that hit the right root:
     in scene units; relative to the scene radius (toledo2007's ε(R + r)) and to the feature radius (its ε(r)); in pixel
     footprints; in units in the last place of t; and over condition × unit roundoff × radius, which a method as good as
     the problem allows keeps at a small number. Errors are distances to a certified interval: what is smaller than its
     width (`certified_width` is the largest) may show as 0.
     """
-    clear, radius = ~verdicts.grazing, scene_radius(surface)
+    clear, radius = verdicts.clear, scene_radius(surface)
     widths = (truth.upper - truth.lower)[clear & np.isfinite(verdicts.error)]
     summary: dict[str, Any] = {
         "rays": len(hits.status),
@@ -132,6 +149,7 @@ def summarize(
         "truth_misses": int((truth.status == TruthStatus.MISS).sum()),
         "undecided": int((truth.status == TruthStatus.UNDECIDED).sum()),
         "grazing": int(verdicts.grazing.sum()),
+        "drowned": int(verdicts.drowned.sum()),
         "grazing_margin": grazing_margin,
         "scene_radius": radius,
         "domain_radius": surface.domain.radius,
@@ -140,6 +158,7 @@ def summarize(
     for kind, name in NAMES.items():
         summary[name] = int((clear & (verdicts.wrong == kind)).sum())
         summary[f"grazing_{name}"] = int((verdicts.grazing & (verdicts.wrong == kind)).sum())
+        summary[f"drowned_{name}"] = int((verdicts.drowned & (verdicts.wrong == kind)).sum())
     measured = clear & np.isfinite(verdicts.error)
     error, t = verdicts.error[measured], truth.lower[measured]
     kind_of_t = np.float32 if precision == "float32" else np.float64
@@ -157,7 +176,12 @@ def summarize(
     return summary
 
 
+def clear_rays(summary: dict[str, Any]) -> int:
+    """How many rays are neither grazing nor drowned: what the counts without a prefix are of."""
+    return int(summary["rays"] - summary["grazing"] - summary["drowned"])
+
+
 def wrong_share(summary: dict[str, Any]) -> float:
-    """The share of rays outside the grazing class that were answered wrongly."""
-    clear = summary["rays"] - summary["grazing"]
+    """The share of clear rays, neither grazing nor drowned, that were answered wrongly."""
+    clear = clear_rays(summary)
     return sum(summary[name] for name in NAMES.values()) / clear if clear else 0.0

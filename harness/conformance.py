@@ -2,7 +2,7 @@
 states, knobs that move the error the way it says, and the same bits from run to run.
 
 A check that says no names the worst ray or figure. Rays are those of one oblique view; rays nearer than GRAZING scene
-radii to another answer count only where a claim says so.
+radii to another answer, or on which f drowns in its own rounding, count only where a claim says so.
 """
 
 from __future__ import annotations
@@ -81,8 +81,9 @@ class Case:
     def radius(self) -> float:
         return scene_radius(self.surface)
 
-    def judged(self, hits: Hits) -> Verdicts:
-        return judge(hits, self.truth, self.radius, GRAZING)
+    def judged(self, hits: Hits, precision: Precision | None = None) -> Verdicts:
+        """Without a precision no ray is in the drowned class."""
+        return judge(hits, self.truth, self.radius, GRAZING, precision)
 
 
 @dataclass(frozen=True)
@@ -151,7 +152,7 @@ def examine(bench: Bench, plugin: Plugin, case: Case, precision: Precision) -> I
     hits, again = (bench.cast(plugin, case, precision) for _ in range(2))
     yield answers(hits, case)
     yield same_bits(hits, again)
-    yield agreement(hits, case)
+    yield agreement(hits, case, precision)
     for claim in sorted(plugin.method.claims & _CLAIM_CHECKS.keys()):
         yield _CLAIM_CHECKS[claim](plugin, hits, case, precision)
 
@@ -201,10 +202,10 @@ def same_bits(hits: Hits, again: Hits) -> Finding:
     return Finding("same from run to run", not differs.any(), f"{differs.sum()} of {len(differs)} rays differ")
 
 
-def agreement(hits: Hits, case: Case) -> Finding:
-    """Outside the grazing class nearly every answer is right, and right hits are near their roots."""
-    verdicts = case.judged(hits)
-    clear = ~verdicts.grazing
+def agreement(hits: Hits, case: Case, precision: Precision | None = None) -> Finding:
+    """On clear rays nearly every answer is right, and right hits are near their roots."""
+    verdicts = case.judged(hits, precision)
+    clear = verdicts.clear
     wrong = verdicts.wrong[clear]
     counts = ", ".join(f"{(wrong == kind).sum()} {name}" for kind, name in NAMES.items() if (wrong == kind).any())
     errors = verdicts.error[clear & np.isfinite(verdicts.error)] / case.radius
@@ -218,7 +219,7 @@ def agreement(hits: Hits, case: Case) -> Finding:
         wrongly = (wrong != Wrong.RIGHT) & ~gave_up
         holds = bool(np.mean(wrongly) <= most and np.mean(gave_up) <= MOST_EXHAUSTED_ELSEWHERE)
     if not roots.any():  # a thin torus, whose every ray is near to missing it; a surface that is only touched
-        return Finding("oracle", holds, f"{told}, no root outside the grazing class")
+        return Finding("oracle", holds, f"{told}, no root on a clear ray")
     p99 = float(np.quantile(errors, 0.99)) if len(errors) else np.inf
     return Finding("oracle", holds and p99 < 1e-3, f"{told}, 99 % within {p99:.1e} radii")
 
@@ -232,17 +233,17 @@ def no_missed_root(_plugin: Plugin, hits: Hits, case: Case, _precision: Precisio
     return Finding("no_missed_root", not lost.any(), f"{lost.sum()} of {there.sum()} roots passed")
 
 
-def conservative_bound(_plugin: Plugin, hits: Hits, case: Case, _precision: Precision) -> Finding:
-    verdicts = case.judged(hits)
-    there = np.isin(case.truth.status, (TruthStatus.CROSSING, TruthStatus.TOUCH)) & ~verdicts.grazing
+def conservative_bound(_plugin: Plugin, hits: Hits, case: Case, precision: Precision) -> Finding:
+    verdicts = case.judged(hits, precision)
+    there = np.isin(case.truth.status, (TruthStatus.CROSSING, TruthStatus.TOUCH)) & verdicts.clear
     lost = there & np.isin(verdicts.wrong, (Wrong.MISS, Wrong.WRONG_ROOT))
     return Finding("conservative_bound", not lost.any(), f"{lost.sum()} of {there.sum()} roots passed")
 
 
-def no_false_hit(_plugin: Plugin, hits: Hits, case: Case, _precision: Precision) -> Finding:
-    verdicts = case.judged(hits)
-    false = (verdicts.wrong == Wrong.FALSE_HIT) & ~verdicts.grazing
-    misses = (case.truth.status == TruthStatus.MISS) & ~verdicts.grazing
+def no_false_hit(_plugin: Plugin, hits: Hits, case: Case, precision: Precision) -> Finding:
+    verdicts = case.judged(hits, precision)
+    false = (verdicts.wrong == Wrong.FALSE_HIT) & verdicts.clear
+    misses = (case.truth.status == TruthStatus.MISS) & verdicts.clear
     return Finding("no_false_hit", not false.any(), f"{false.sum()} of {misses.sum()} misses hit")
 
 
@@ -250,8 +251,8 @@ def error_below_tolerance(plugin: Plugin, hits: Hits, case: Case, precision: Pre
     assert plugin.method.tolerance
     defaults: Mapping[str, float | int] = dict(plugin.variant({}).parameters)
     tolerance = plugin.method.tolerance(case.surface, defaults)
-    verdicts = case.judged(hits)
-    measured = ~verdicts.grazing & np.isfinite(verdicts.error)
+    verdicts = case.judged(hits, precision)
+    measured = verdicts.clear & np.isfinite(verdicts.error)
     rounding = UNIT_ROUNDOFF[precision] * np.fmax(case.truth.condition[measured], 1.0) * case.surface.domain.radius
     excess = verdicts.error[measured] / (tolerance + ROUNDINGS * rounding)
     return Finding(

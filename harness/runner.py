@@ -137,7 +137,7 @@ class Runner:
             checked = self._executor.check(cell.device, checks[0], rays)
         hits = beams.along_rays(checked.hits, pixels) if casts_beams else checked.hits
         state.compile_ms = checked.compile_ms
-        verdicts = accuracy.judge(hits, truth, scene_radius(cell.surface), config.grazing_margin)
+        verdicts = accuracy.judge(hits, truth, scene_radius(cell.surface), config.grazing_margin, cell.precision)
         if casts_beams:
             verdicts, beam_only = beams.set_apart(verdicts, hits, truth, pixels)
         footprint = pixel_footprint(state.planned.camera, cell.size)
@@ -170,7 +170,7 @@ class Runner:
         share = accuracy.wrong_share(state.summary)
         answers = self._catalog.get(state.planned.cell.variant.method).method.answers
         if state.frame and answers and share > self._config.accuracy.max_wrong_share:
-            return f"wrong on {share:.1%} of the rays outside the grazing class: not timed"
+            return f"wrong on {share:.1%} of the rays that are neither grazing nor drowned: not timed"
         return None
 
     def _check_family(self, state: _Live) -> str | None:

@@ -46,7 +46,8 @@ def _table(rows: pd.DataFrame) -> Table:
     named = tables.places(rows)
     body = []
     for row in rows.itertuples():
-        counts = (row.misses + row.grazing_misses, row.beam_only, row.false_hits, row.wrong_root)
+        missed = row.misses + row.grazing_misses + row.drowned_misses
+        counts = (missed, row.beam_only, row.false_hits, row.wrong_root)
         told = (row.device, row.precision, row.variant, *counts, row.pixel_error_p50, row.evaluations_mean)
         body.append((named[str(row.comparison)], *told))
     counted = [

@@ -75,10 +75,11 @@ SCHEMA: tuple[Field, ...] = (
     *_fields("whole", "size rays", at="accuracy", prefix="accuracy_"),
     *_fields("whole", "domain_rays", at="accuracy"),
     *_fields("whole", "fragments fragments_discarded pixels_drawn other_instance", at="accuracy"),
-    *_fields("whole", "truth_hits truth_misses undecided grazing", at="accuracy"),
+    *_fields("whole", "truth_hits truth_misses undecided grazing drowned", at="accuracy"),
     *_fields("real", "grazing_margin scene_radius domain_radius", at="accuracy"),
     *_fields("whole", "misses false_hits exhausted wrong_root", at="accuracy"),
     *_fields("whole", "grazing_misses grazing_false_hits grazing_exhausted grazing_wrong_root", at="accuracy"),
+    *_fields("whole", "drowned_misses drowned_false_hits drowned_exhausted drowned_wrong_root", at="accuracy"),
     *(field for unit in UNITS for field in _fields("real", _PERCENTILES, at=f"accuracy.{unit}", prefix=f"{unit}_")),
     *_fields("whole", "beam_only", at="accuracy"),  # hits of what the pixel's beam sees and its ray passes by
     *_fields("real", "evaluations_mean evaluations_max prepass_evaluations_mean", at="accuracy"),
@@ -94,7 +95,7 @@ DERIVED: tuple[Field, ...] = (
     *_fields("real", "mrays_per_s frames_per_s baseline_ms speedup floor_ms"),
     *_fields("flag", "floor_bound"),
     *_fields("real", "peak_share"),
-    *_fields("whole", "wrong_rays grazing_wrong_rays"),
+    *_fields("whole", "wrong_rays grazing_wrong_rays drowned_wrong_rays"),
     *_fields("flag", "front"),
 )
 

@@ -149,7 +149,7 @@ def results(rows: pd.DataFrame) -> Table:
         spread = (row.upper_ms - row.lower_ms) / (2 * row.median_ms) if row.median_ms else None
         speed = (row.median_ms, spread, row.mrays_per_s, row.frames_per_s, row.speedup)
         errors = (row.error_max, row.error_p99, row.misses, row.false_hits, row.exhausted, row.wrong_root)
-        told = (*errors, row.grazing_wrong_rays, row.evaluations_mean, row.peak_share)
+        told = (*errors, row.grazing_wrong_rays, row.drowned_wrong_rays, row.evaluations_mean, row.peak_share)
         body.append((row.device, row.precision, row.variant, *speed, *told, row.compile_ms, row.clock, flags(row)))
     return Table(
         (
@@ -168,6 +168,7 @@ def results(rows: pd.DataFrame) -> Table:
             Column("exhaus-\nted", wording.count, numeric=True),
             Column("wrong\nroot", wording.count, numeric=True),
             Column("grazing\nwrong", wording.count, numeric=True),
+            Column("drowned\nwrong", wording.count, numeric=True),
             Column("evals\nper ray", wording.number, numeric=True),
             Column("share\nof peak", wording.share, numeric=True),
             Column("compile\nms", wording.number, numeric=True),
@@ -229,7 +230,8 @@ def _results_caption(rows: pd.DataFrame) -> tuple[str, str]:
     for row in rows[rows["accuracy_rays"].notna()].head(1).itertuples():
         checked = (
             f" Errors are over {row.accuracy_rays:,} rays, of which {wording.count(row.grazing)} pass within "
-            f"{wording.error(row.grazing_margin)} of another answer: these grazing rays are counted apart."
+            f"{wording.error(row.grazing_margin)} of another answer: these grazing rays are counted apart. So are "
+            f"drowned ones, on which |f| falls under its own rounding errors ({wording.count(row.drowned)} here)."
         )
     return (
         scene(rows),

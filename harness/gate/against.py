@@ -98,11 +98,12 @@ def _wrong(
     other = _Side(former.check, replace(frame, program=former.timed))
     for side, when in ((present, "now"), (other, "at the other revision")):
         hits = _hits(side, planned, rays, choice.size, executor)
-        verdicts = accuracy.judge(hits, certified, scene_radius(surface), choice.grazing_margin)
-        wrong = (verdicts.wrong != accuracy.Wrong.RIGHT) & ~verdicts.grazing
-        share = wrong.sum() / max(1, (~verdicts.grazing).sum())
+        precision = planned.cell.precision
+        verdicts = accuracy.judge(hits, certified, scene_radius(surface), choice.grazing_margin, precision)
+        wrong = (verdicts.wrong != accuracy.Wrong.RIGHT) & verdicts.clear
+        share = wrong.sum() / max(1, verdicts.clear.sum())
         if share > choice.max_wrong_share:
-            return f"wrong on {share:.1%} of the rays outside the grazing class {when}: not timed"
+            return f"wrong on {share:.1%} of the rays that are neither grazing nor drowned {when}: not timed"
     return None
 
 

@@ -42,15 +42,23 @@ def _worst(rungs: list[dict[str, Any]], name: str) -> Value:
     return max((rung[name] for rung in rungs if rung[name] is not None), default=None)
 
 
-_GRAZING = ("grazing_misses", "grazing_false_hits", "grazing_exhausted", "grazing_wrong_root")
+_WRONG = ("misses", "false_hits", "exhausted", "wrong_root")
+
+
+def _within(kind: str) -> Callable[[dict[str, Any]], Value]:
+    """Wrong answers in the class of `kind` rays; None in rows from before the class was."""
+    names = [f"{kind}_{name}" for name in _WRONG]
+    return lambda found: sum(found[name] for name in names) if names[0] in found else None
+
 
 FIGURES: tuple[Figure, ...] = (
-    _count("misses", "rays outside the grazing class whose hit was missed"),
-    _count("false_hits", "rays outside the grazing class that hit nothing"),
-    _count("exhausted", "rays outside the grazing class that ran out of evaluations"),
-    _count("wrong_root", "rays outside the grazing class that hit a later root, or no root"),
+    _count("misses", "clear rays, neither grazing nor drowned, whose hit was missed"),
+    _count("false_hits", "clear rays that hit nothing"),
+    _count("exhausted", "clear rays that ran out of evaluations"),
+    _count("wrong_root", "clear rays that hit a later root, or no root"),
     Figure("grazing_wrong", "lower", 2.0, 0.1, "wrong answers in the grazing class",
-           lambda found: sum(found[name] for name in _GRAZING), None),
+           _within("grazing"), None),
+    Figure("drowned_wrong", "lower", 2.0, 0.1, "wrong answers in the class of drowned rays", _within("drowned"), None),
     _error("max", "largest |t - t*|, scene units"),
     _error("p99", "99th percentile of |t - t*|, scene units"),
     Figure("worst_ratio", "lower", 1e-9, 0.05, "largest error over what the problem allows, of a family",
@@ -80,12 +88,17 @@ def figures(row: Row, claims: Iterable[str]) -> dict[str, Value]:
     return {name: value for name, value in found.items() if value is not None}
 
 
+def _missed(count: dict[str, Any]) -> int:
+    """Hits missed, in whatever class their rays are."""
+    return int(sum(count.get(name, 0) for name in ("misses", "grazing_misses", "drowned_misses")))
+
+
 def _disproved(claim: str, row: Row) -> bool:
     """Whether this row contradicts the claim (contract.CLAIMS); one that no row can contradict stands while stated."""
     counts = [row["accuracy"]] if row["accuracy"] else row["rungs"]
     match claim:
         case "no_missed_root":
-            return any(count["misses"] + count.get("grazing_misses", 0) > 0 for count in counts)
+            return any(_missed(count) > 0 for count in counts)
         case "conservative_bound":
             return any(count["misses"] > 0 for count in counts)
         case "no_false_hit":

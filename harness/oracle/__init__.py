@@ -10,7 +10,7 @@ polynomials, `transcendental` for everything else). What neither can prove is UN
 - A surface whose coefficients are rational or in one field Q(√d) is always decided (touches and roots exactly at clip
   ends included) up to the 4096 bits at which telling two numbers apart is given up; one with other constants, or that
   is no polynomial, has its crossings and misses decided, and its touches where f is written with a repeated factor.
-- `following`, `condition` and `margin` are estimates in plain float64 (`classify`).
+- `following`, `condition`, `margin` and `contrast` are estimates in plain float64 (`classify`).
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from harness.contract import FirsthitError, Surface, Truth, digest
 
-ORACLE_VERSION = 3  # raise when answers or estimates change: old cache files are then not found
+ORACLE_VERSION = 4  # raise when answers or estimates change: old cache files are then not found
 
 __all__ = ["ORACLE_VERSION", "cached_first_hits", "first_hits"]
 
@@ -39,8 +39,8 @@ def first_hits(surface: Surface, rays: NDArray[np.float32]) -> Truth:
     wide = rays.astype(np.float64)
     lower, upper, status = solver.certify(wide)
     first = 0.5 * (lower + upper)
-    following, condition, margin = classify(solver.floats, solver.fast.f, surface.domain, wide, first, status)
-    return Truth(lower, upper, status, following, condition, margin)
+    estimates = classify(solver.floats, solver.fast.f, solver.noise, surface.domain, wide, first, status)
+    return Truth(lower, upper, status, *estimates)
 
 
 def cached_first_hits(surface: Surface, rays: NDArray[np.float32], folder: Path) -> Truth:
@@ -78,6 +78,7 @@ class _Solver:
         from harness.oracle.enclosure import Enclosure
         from harness.oracle.fast import FastSolver
         from harness.oracle.floats import FloatFunction
+        from harness.oracle.noise import Noise
         from harness.oracle.program import compile_expression
         from harness.oracle.slow import AlgebraicSolver
         from harness.oracle.transcendental import SmoothSolver
@@ -86,6 +87,7 @@ class _Solver:
         program = compile_expression(expr)
         self.fast = FastSolver(expr, surface.domain)
         self.floats = FloatFunction(program, [c.mid for c in Enclosure(program).constants])
+        self.noise = Noise(surface)
         self.slow = (AlgebraicSolver if program.is_polynomial else SmoothSolver)(program, surface.domain)
 
     def certify(self, rays: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.uint8]]:

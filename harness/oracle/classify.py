@@ -6,13 +6,17 @@ Plain float64 on samples along the ray, nothing proved; none of it decides wheth
 with g(t1) = f'(t1): a next root or a near touch close to t1, which f's samples would step over, is an ordinary sign
 change or least |g| of these. This is deflation without dividing polynomials, and `_root` steps by Maehly's formula.
 Everything is as good as f' and f are in float64: a next root t2 to about condition · 2^-53 radii.
+
+Another answer is near where |f| is small at one of a few places: near touches before the first root, the ends of the
+stay, and the bottom of the first root's dip. Over |grad f| there, |f| is the margin: how far the surface is. Over what
+kernels may be off in f's value there (harness.oracle.noise) it is the contrast: the unit roundoff at which f's sign
+begins to be in doubt. Far from the surface the margin is large, and yet, where f is flat, the contrast may be none.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cache
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +26,7 @@ from harness.oracle.balls64 import Floats
 from harness.oracle.clip import clip_many, nearest, recentred
 from harness.oracle.enclosure import Enclosure
 from harness.oracle.floats import FloatFunction, majorant
+from harness.oracle.noise import Noise
 
 BLOCK = 1024  # rays at a time, so that the arrays stay in the cache
 MOST_STEPS = 40  # of a bracketed search; it halves at least every second time
@@ -31,7 +36,8 @@ UNIT = 2.0**-53
 CERTIFIED = 2.0**-42  # bound of the first root's error, in domain radii
 BLUNT = 2.0**40  # condition of a first root above which f'(t1) is taken for rounding errors
 DROWNED = 2.0**-40  # interpolated values below this share of the largest are not believed
-Estimates = tuple[Floats, Floats, Floats]  # following, condition, margin, each [n]
+BOUNDS = 4  # pieces of the stay, at whose ends f's rounding errors are bounded for a first look
+Estimates = tuple[Floats, Floats, Floats, Floats]  # following, condition, margin, contrast, each [n]
 Indices = NDArray[np.intp]
 
 
@@ -52,21 +58,28 @@ def interpolation(degree: int, finer: int) -> Floats:
 
 
 def classify(
-    f: FloatFunction, enclosure: Enclosure, domain: Domain, rays: Floats, first: Floats, status: NDArray[np.uint8]
+    f: FloatFunction,
+    enclosure: Enclosure,
+    noise: Noise,
+    domain: Domain,
+    rays: Floats,
+    first: Floats,
+    status: NDArray[np.uint8],
 ) -> Estimates:
     """`rays`: float64[n, 6]; `first`: the first root's t, float64[n], NaN without a hit; see contract.Truth.
 
-    `enclosure` is of f or of a function with the same roots: it tells two close roots from rounding errors.
+    `enclosure` is of f or of a function with the same roots: it tells two close roots from rounding errors. `noise` is
+    of f as kernels evaluate it.
     """
     if not len(rays):
-        return np.empty(0), np.empty(0), np.empty(0)
+        return np.empty(0), np.empty(0), np.empty(0), np.empty(0)
     parts = []
     with np.errstate(all="ignore"):
         for k in range(0, len(rays), BLOCK):
             piece = slice(k, k + BLOCK)
-            parts.append(_Block(f, enclosure, domain, rays[piece], first[piece], status[piece]).estimates())
-    following, condition, margin = (np.concatenate(columns) for columns in zip(*parts, strict=True))
-    return following, condition, margin
+            parts.append(_Block(f, enclosure, noise, domain, rays[piece], first[piece], status[piece]).estimates())
+    following, condition, margin, contrast = (np.concatenate(columns) for columns in zip(*parts, strict=True))
+    return following, condition, margin, contrast
 
 
 @dataclass(frozen=True)
@@ -88,6 +101,7 @@ class _Block:
         self,
         f: FloatFunction,
         enclosure: Enclosure,
+        noise: Noise,
         domain: Domain,
         rays: Floats,
         first: Floats,
@@ -95,6 +109,7 @@ class _Block:
     ) -> None:
         self.f = f
         self.enclosure = enclosure
+        self.noise = noise
         self.given = rays
         self.domain = domain
         self.status = status
@@ -116,22 +131,52 @@ class _Block:
     def estimates(self) -> Estimates:
         found = self._least()
         following = self._following(found)
-        margin = np.full(len(self.hit), np.inf)
-        everyone = np.arange(len(self.hit))
+        everyone, n = np.arange(len(self.hit)), len(self.hit)
         before = np.where(self.hit, self.first, np.inf)
         ahead = before[found.rows] - found.t
-        self._lower_margin(
-            margin, found.rows, found.t, (ahead > self.blur[found.rows]) & ~(3.0**0.5 * found.width > ahead)
-        )
-        self._lower_margin(margin, everyone, self.enter, np.ones_like(self.hit))
-        self._lower_margin(margin, everyone, self.leave, ~self.hit)
-        self._lower_margin(margin, everyone, self._deepest(following), self.hit)
+        near = (ahead > self.blur[found.rows]) & ~(3.0**0.5 * found.width > ahead)
+        behind = np.where(self.hit, self._deepest(following), self.leave)
+        rows = np.concatenate((found.rows[near], everyone, everyone))
+        t = np.concatenate((found.t[near], self.enter, behind))
+        rays = self.rays[rows]
+        size = np.abs(self.f.values(rays, t))
+        margin = np.full(n, np.inf)
+        np.fmin.at(margin, rows, size / self.f.steepness(rays, t))
+        contrast = self._faintest()
+        np.fmin.at(contrast, rows, size / self.noise.bound(rays, t))
         room = np.minimum(self._inside(self.first), (self.first + self.shift) * self.length)
         room = np.minimum(room, 0.5 * (following - self.first) * self.length)  # nothing between two roots is deeper
         margin = np.where(self.hit, np.minimum(margin, np.maximum(room, 0.0)), margin)
         margin = np.where(self.missed, self._gap(), margin)
+        contrast = np.where(self.missed, np.inf, contrast)
         open_ = (self.status == TruthStatus.TOUCH) | (self.status == TruthStatus.UNDECIDED)
-        return following + self.shift, self.condition, np.where(open_, 0.0, margin)
+        return (
+            following + self.shift,
+            self.condition,
+            np.where(open_, 0.0, margin),
+            np.where(open_, 0.0, contrast),
+        )
+
+    def _faintest(self) -> Floats:
+        """|f| over the bound of its rounding errors at the sample before the first root where that is least; inf where
+        there is none. Samples at which |f| is over half of what the first root's slope makes it belong to that root."""
+        stay = self.leave - self.enter
+        n, ends = len(stay), lobatto(BOUNDS)
+        bounds = self.noise.bound(
+            np.repeat(self.rays, BOUNDS + 1, axis=0), (self.enter[:, None] + stay[:, None] * ends).ravel()
+        ).reshape(n, BOUNDS + 1)
+        share = lobatto(self.t.shape[1] - 1)
+        place = np.clip(np.searchsorted(ends, share, side="right") - 1, 0, BOUNDS - 1)
+        weight = (share - ends[place]) / (ends[place + 1] - ends[place])
+        about = bounds[:, place] * (1.0 - weight) + bounds[:, place + 1] * weight
+        faint = ~self.hit[:, None] | (np.abs(self.g) < 0.5 * np.abs(self.slope)[:, None])
+        faint &= ~self.hit[:, None] | (self.t < self.first[:, None] - self.blur[:, None])
+        ratio = np.where(faint & np.isfinite(about), np.abs(self.values) / about, np.inf)
+        column = ratio.argmin(axis=1)
+        everyone = np.arange(n)
+        t = self.t[everyone, column]
+        contrast = np.abs(self.f.values(self.rays, t)) / self.noise.bound(self.rays, t)
+        return np.where(np.isfinite(ratio[everyone, column]), contrast, np.inf)
 
     def _sample(self) -> None:
         """t, f and g at Chebyshev's points of the clip interval, one of them moved to t1."""
@@ -299,13 +344,6 @@ class _Block:
         middle = 0.5 * (self.first + stop)
         sampled = size[everyone, column] > np.abs(self.f.values(self.rays, middle))
         return np.where(sampled, self.t[everyone, column], middle)
-
-    def _lower_margin(self, margin: Floats, rows: NDArray[np.intp], t: Floats, counts: Any) -> None:
-        """Lowers margins to |f| / |grad f| at o + t·d of `rows`, where it `counts`."""
-        rows, t = rows[counts], t[counts]
-        rays = self.rays[rows]
-        distance = np.abs(self.f.values(rays, t)) / self.f.steepness(rays, t)
-        np.fmin.at(margin, rows, distance)
 
     def _inside(self, t: Floats) -> Floats:
         """Distance of o + t·d to the domain's boundary; negative outside."""

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 from harness import batch, plan
-from harness.accuracy import NAMES
+from harness.accuracy import NAMES, clear_rays
 from harness.config import AccuracyChoice, BudgetChoice, Config, Experiment, MethodChoice
 from harness.contract import CellStatus, DeviceInfo, Precision, Surface, Variant, View
 from harness.executor import LocalExecutor
@@ -66,7 +66,8 @@ class Contender:
 
 @dataclass
 class Recommendation:
-    """The fastest first; empty where nothing holds. `held_out`: rays outside the grazing class on held-out views."""
+    """The fastest first; empty where nothing holds. `held_out`: the clear rays, neither grazing nor drowned, of
+    held-out views."""
 
     contenders: list[Contender] = field(default_factory=list)
     fallen: list[Fallen] = field(default_factory=list)
@@ -88,7 +89,7 @@ class Search:
         self._wish, self._catalog, self._device = wish, catalog, device
         self._executor, self._folder, self._tell = executor, folder, tell
         sampled = views(wish.tuning_views + wish.held_out_views, wish.seed)
-        self._clear: dict[str, int] = {}  # rays outside the grazing class, by view
+        self._clear: dict[str, int] = {}  # rays neither grazing nor drowned, by view
         self._tuning, self._held_out = sampled[: wish.tuning_views], sampled[wish.tuning_views :]
 
     def run(self) -> Recommendation:
@@ -131,7 +132,7 @@ class Search:
                     found.fallen.append(Fallen(variant, precision, reason + where))
                     alive.remove(variant)
                     continue
-                self._clear[view.name] = row["accuracy"]["rays"] - row["accuracy"]["grazing"]
+                self._clear[view.name] = clear_rays(row["accuracy"])
                 error, evaluations = worst.get(variant, (0.0, 0.0))
                 now = certified_error(row["accuracy"], self._wish.quantile)
                 worst[variant] = max(error, now), max(evaluations, row["accuracy"]["evaluations_mean"])
@@ -143,7 +144,7 @@ class Search:
             return f"{row['status']}: {' '.join(str(row['reason']).split())}"
         accuracy = row["accuracy"]
         if wrong := [f"{accuracy[name]} {name.replace('_', ' ')}" for name in NAMES.values() if accuracy[name]]:
-            return f"{', '.join(wrong)} of {accuracy['rays'] - accuracy['grazing']} rays, view {row['view']}"
+            return f"{', '.join(wrong)} of {clear_rays(accuracy)} rays, view {row['view']}"
         error, wish = certified_error(accuracy, self._wish.quantile), self._wish
         if error <= wish.target:
             return None

@@ -86,7 +86,7 @@ def _nothing_missed(evidence: Evidence) -> Verdict | None:
     rows = pd.concat([evidence.rows(pick) for pick in (picks.UNIFORM, picks.ADAPTIVE)])
     if rows.empty:
         return None
-    misses = rows["misses"].sum() + rows["grazing_misses"].sum()
+    misses = rows["misses"].sum() + rows["grazing_misses"].sum() + rows["drowned_misses"].sum()
     told = f"{misses:,} misses of {rows['accuracy_rays'].sum():,} rays on {rows['surface'].nunique()} surfaces"
     return verdict(bool(misses == 0), told)
 

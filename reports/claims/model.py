@@ -83,6 +83,6 @@ def faster(slow: Pick, fast: Pick, surfaces: tuple[str, ...] | None = None, told
 
 
 def wrong(rows: pd.DataFrame, grazing: bool = False) -> pd.Series:
-    """Wrong rays of each row; with `grazing` those at silhouettes too."""
-    counts = rows["wrong_rays"].astype("float64")
-    return counts + rows["grazing_wrong_rays"].astype("float64") if grazing else counts
+    """Wrong rays of each row; with `grazing` those at silhouettes and drowned ones too."""
+    names = ["wrong_rays", *(["grazing_wrong_rays", "drowned_wrong_rays"] if grazing else [])]
+    return rows[names].astype("float64").sum(axis=1, skipna=False)

@@ -15,7 +15,7 @@ def _details_skipped(evidence: Evidence) -> Verdict | None:
     rows = evidence.rows(picks.MARCH)
     if rows.empty:
         return None
-    names = ("misses", "grazing_misses", "wrong_root", "grazing_wrong_root")
+    names = [f"{kind}{name}" for kind in ("", "grazing_", "drowned_") for name in ("misses", "wrong_root")]
     skipped = int(sum(rows[name].sum() for name in names))
     told = f"{skipped:,} roots skipped by {rows['accuracy_rays'].sum():,} rays on {rows['surface'].nunique()} surfaces"
     return verdict(skipped > 0, told)
