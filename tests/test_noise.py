@@ -51,7 +51,7 @@ def test_float32_is_never_off_by_more_than_the_bound(name, rng):
     single, ts = rays.astype(np.float32), t.astype(np.float32)
     # t is exact as kernels have it: the point that it stands for is where f is to be known
     exact = surfaces.evaluate(surface, rays[:, :3] + ts.astype(np.float64)[:, None] * rays[:, 3:])
-    bound = Noise(surface).bound(rays, ts.astype(np.float64)) * UNIT
+    bound = Noise(surface).along(rays).bound(slice(None), ts.astype(np.float64)) * UNIT
     tape = real_tape(surfaces.tape_of(surface))
     points = {axis: single[:, k] + ts * single[:, 3 + k] for k, axis in enumerate("xyz")}
     found = [walk(tape, Single(), points)[0]]

@@ -26,7 +26,7 @@ from harness.oracle.balls64 import Floats
 from harness.oracle.clip import clip_many, nearest, recentred
 from harness.oracle.enclosure import Enclosure
 from harness.oracle.floats import FloatFunction, majorant
-from harness.oracle.noise import Noise
+from harness.oracle.noise import Noise, NoiseAlong
 
 BLOCK = 1024  # rays at a time, so that the arrays stay in the cache
 MOST_STEPS = 40  # of a bracketed search; it halves at least every second time
@@ -36,6 +36,7 @@ UNIT = 2.0**-53
 CERTIFIED = 2.0**-42  # bound of the first root's error, in domain radii
 BLUNT = 2.0**40  # condition of a first root above which f'(t1) is taken for rounding errors
 DROWNED = 2.0**-40  # interpolated values below this share of the largest are not believed
+FAINT_STEP = 3  # every so many samples are looked at for where |f| is faint: minima of |f| are looked at one by one
 BOUNDS = 4  # pieces of the stay, at whose ends f's rounding errors are bounded for a first look
 Estimates = tuple[Floats, Floats, Floats, Floats]  # following, condition, margin, contrast, each [n]
 Indices = NDArray[np.intp]
@@ -138,12 +139,13 @@ class _Block:
         behind = np.where(self.hit, self._deepest(following), self.leave)
         rows = np.concatenate((found.rows[near], everyone, everyone))
         t = np.concatenate((found.t[near], self.enter, behind))
+        margin, contrast = np.full(n, np.inf), np.full(n, np.inf)
         rays = self.rays[rows]
-        size = np.abs(self.f.values(rays, t))
-        margin = np.full(n, np.inf)
-        np.fmin.at(margin, rows, size / self.f.steepness(rays, t))
-        contrast = self._faintest()
-        np.fmin.at(contrast, rows, size / self.noise.bound(rays, t))
+        np.fmin.at(margin, rows, np.abs(self.f.values(rays, t)) / self.f.steepness(rays, t))
+        noise = self.noise.along(self.rays)
+        faint, at = self._faintest(noise)
+        rows, t = np.concatenate((rows, faint)), np.concatenate((t, at))
+        np.fmin.at(contrast, rows, np.abs(self.f.values(self.rays[rows], t)) / noise.bound(rows, t))
         room = np.minimum(self._inside(self.first), (self.first + self.shift) * self.length)
         room = np.minimum(room, 0.5 * (following - self.first) * self.length)  # nothing between two roots is deeper
         margin = np.where(self.hit, np.minimum(margin, np.maximum(room, 0.0)), margin)
@@ -157,26 +159,26 @@ class _Block:
             np.where(open_, 0.0, contrast),
         )
 
-    def _faintest(self) -> Floats:
-        """|f| over the bound of its rounding errors at the sample before the first root where that is least; inf where
-        there is none. Samples at which |f| is over half of what the first root's slope makes it belong to that root."""
-        stay = self.leave - self.enter
-        n, ends = len(stay), lobatto(BOUNDS)
-        bounds = self.noise.bound(
-            np.repeat(self.rays, BOUNDS + 1, axis=0), (self.enter[:, None] + stay[:, None] * ends).ravel()
-        ).reshape(n, BOUNDS + 1)
-        share = lobatto(self.t.shape[1] - 1)
+    def _faintest(self, noise: NoiseAlong) -> tuple[Indices, Floats]:
+        """Rays, and t of the sample before the first root at which |f| is least beside its rounding errors.
+
+        Samples at which |f| is over half of what the first root's slope makes it belong to that root.
+        """
+        some = slice(None, None, FAINT_STEP)
+        t, g, size = self.t[:, some], np.abs(self.g[:, some]), np.abs(self.values[:, some])
+        ends, share = lobatto(BOUNDS), lobatto(self.t.shape[1] - 1)[some]
+        looked = self.enter[:, None] + (self.leave - self.enter)[:, None] * ends
+        rows = np.repeat(np.arange(len(looked)), BOUNDS + 1)
+        bounds = noise.by_tape(rows, looked.ravel()).reshape(looked.shape)
         place = np.clip(np.searchsorted(ends, share, side="right") - 1, 0, BOUNDS - 1)
         weight = (share - ends[place]) / (ends[place + 1] - ends[place])
-        about = bounds[:, place] * (1.0 - weight) + bounds[:, place + 1] * weight
-        faint = ~self.hit[:, None] | (np.abs(self.g) < 0.5 * np.abs(self.slope)[:, None])
-        faint &= ~self.hit[:, None] | (self.t < self.first[:, None] - self.blur[:, None])
-        ratio = np.where(faint & np.isfinite(about), np.abs(self.values) / about, np.inf)
+        about = np.add(bounds[:, place] * (1.0 - weight), bounds[:, place + 1] * weight)
+        own = self.hit[:, None] & (g >= 0.5 * np.abs(self.slope)[:, None])
+        own |= self.hit[:, None] & (t >= (self.first - self.blur)[:, None])
+        ratio = np.where(~own & np.isfinite(about), size / about, np.inf)
         column = ratio.argmin(axis=1)
-        everyone = np.arange(n)
-        t = self.t[everyone, column]
-        contrast = np.abs(self.f.values(self.rays, t)) / self.noise.bound(self.rays, t)
-        return np.where(np.isfinite(ratio[everyone, column]), contrast, np.inf)
+        faint = np.flatnonzero(np.isfinite(ratio[np.arange(len(ratio)), column]))
+        return faint, t[faint, column[faint]]
 
     def _sample(self) -> None:
         """t, f and g at Chebyshev's points of the clip interval, one of them moved to t1."""

@@ -16,8 +16,9 @@ from typing import Any
 
 import numpy as np
 
-from harness.contract import FirsthitError, Surface, as_float32
+from harness.contract import Surface, as_float32
 from harness.oracle.balls64 import Floats
+from surfaces.tape import walk
 
 DIVISION = 5.0  # unit roundoffs: OpenCL and GLSL allow 2.5 units in the last place
 FUNCTION = 10.0  # of any other function's value; OpenCL allows up to 5 units in the last place
@@ -112,40 +113,52 @@ class Noise:
         import surfaces
         from surfaces.lowering import coefficients_along, real_tape
 
-        self._tape = real_tape(surfaces.tape_of(surface))
+        self.tape = real_tape(surfaces.tape_of(surface))
         degree = surface.degree
         expanded = degree is not None and 1 <= degree <= MOST_EXPANDED
-        self._along = coefficients_along(self._tape, degree) if expanded and degree else None
+        self.expansion = coefficients_along(self.tape, degree) if expanded and degree else None
 
-    def bound(self, rays: Floats, t: Floats) -> Floats:
-        """At o + t·d, for rays float64[n, 6] with their origins moved near and t float64[n]: float64[n], in unit
-        roundoffs; infinite or NaN where there is no bound."""
-        found = self._tape_bound(rays, t)
-        return found if self._along is None else np.maximum(found, self._expanded_bound(rays, t))
+    def along(self, rays: Floats) -> NoiseAlong:
+        """For rays float64[n, 6] whose origins are where kernels move them, near the domain's centre."""
+        return NoiseAlong(self, rays)
 
-    def _tape_bound(self, rays: Floats, t: Floats) -> Floats:
-        from surfaces.tape import walk
 
-        inputs = {}
-        for k, axis in enumerate("xyz"):
-            step = t * rays[:, 3 + k]
-            point = rays[:, k] + step
-            inputs[axis] = point, np.abs(rays[:, k]) + np.abs(step) + np.abs(point)
-        error = walk(self._tape, RunningErrors(), inputs)[0][1]
-        return np.asarray(np.broadcast_to(error, t.shape))
+class NoiseAlong:
+    """The bounds on some rays: what belongs to a ray is calculated once."""
 
-    def _expanded_bound(self, rays: Floats, t: Floats) -> Floats:
-        from surfaces.tape import walk
+    def __init__(self, noise: Noise, rays: Floats) -> None:
+        self._noise = noise
+        self._rays = rays
+        self._coefficients: tuple[Any, ...] = ()
+        if noise.expansion is not None:
+            inputs = {}
+            for k, axis in enumerate("xyz"):
+                inputs[f"o{axis}"] = rays[:, k], np.abs(rays[:, k])
+                inputs[f"d{axis}"] = rays[:, 3 + k], np.zeros(len(rays))
+            found = walk(noise.expansion, RunningErrors(), inputs)
+            self._coefficients = tuple(tuple(np.broadcast_to(part, len(rays)) for part in pair) for pair in found)
 
-        if self._along is None:
-            raise FirsthitError("the surface is not expanded along rays")
-        inputs = {}
-        for k, axis in enumerate("xyz"):
-            inputs[f"o{axis}"] = rays[:, k], np.abs(rays[:, k])
-            inputs[f"d{axis}"] = rays[:, 3 + k], np.zeros(len(rays))
-        *lower, (value, error) = walk(self._along, RunningErrors(), inputs)
+    def bound(self, rows: Any, t: Floats) -> Floats:
+        """At o + t·d of the rays `rows`, an index of them, for t float64[k]: float64[k], in unit roundoffs; infinite or
+        NaN where there is no bound."""
+        by_tape = self.by_tape(rows, t)
+        if not self._coefficients:
+            return by_tape
+        *lower, (value, error) = [(value[rows], error[rows]) for value, error in self._coefficients]
+        size = np.abs(t)
         for coefficient, off in reversed(lower):
             product = value * t
             value = product + coefficient
-            error = error * np.abs(t) + np.abs(product) + off + np.abs(value)
+            error = error * size + np.abs(product) + off + np.abs(value)
+        return np.asarray(np.maximum(by_tape, error))
+
+    def by_tape(self, rows: Any, t: Floats) -> Floats:
+        """Of values that are calculated at the point alone."""
+        inputs = {}
+        for k, axis in enumerate("xyz"):
+            origin = self._rays[rows, k]
+            step = t * self._rays[rows, 3 + k]
+            point = origin + step
+            inputs[axis] = point, np.abs(origin) + np.abs(step) + np.abs(point)
+        error = walk(self._noise.tape, RunningErrors(), inputs)[0][1]
         return np.asarray(np.broadcast_to(error, t.shape))
