@@ -34,6 +34,7 @@ from harness.contract import (
     View,
 )
 from harness.oracle import first_hits
+from harness.oracle.noise import root_shift
 from harness.plugins import Plugin
 
 VIEW = View("oblique", azimuth=30, elevation=35)
@@ -253,8 +254,10 @@ def error_below_tolerance(plugin: Plugin, hits: Hits, case: Case, precision: Pre
     tolerance = plugin.method.tolerance(case.surface, defaults)
     verdicts = case.judged(hits, precision)
     measured = verdicts.clear & np.isfinite(verdicts.error)
-    rounding = UNIT_ROUNDOFF[precision] * np.fmax(case.truth.condition[measured], 1.0) * case.surface.domain.radius
-    excess = verdicts.error[measured] / (tolerance + ROUNDINGS * rounding)
+    conditioned = ROUNDINGS * np.fmax(case.truth.condition[measured], 1.0) * case.surface.domain.radius
+    kernels = root_shift(case.surface, case.rays[measured].astype(np.float64), case.truth.lower[measured])
+    allowed = tolerance + UNIT_ROUNDOFF[precision] * np.fmax(conditioned, kernels)
+    excess = verdicts.error[measured] / allowed
     return Finding(
         "error_below_tolerance",
         bool((excess <= 1.0).all()),

@@ -1,6 +1,6 @@
 import numpy as np
 
-from harness.accuracy import Wrong, deviations, judge, summarize, wrong_share
+from harness.accuracy import Wrong, clear_rays, deviations, judge, summarize, wrong_share
 from harness.contract import Box, Hits, Surface, Truth
 
 BALL = Surface("ball", "Ball", "x^2 + y^2 + z^2 - 4", Box((-4, -4, -4), (4, 4, 4)), "test", 2, bounding_radius=2.0)
@@ -99,3 +99,26 @@ def test_the_normal_error_is_the_angle_between_gradients():
     hits = _hits([0.05], [1])
     found = deviations(tilted, rays, hits, truth, judge(hits, truth, 4.0, 0.0))
     assert np.isclose(found.normal[0], np.degrees(np.arctan(0.1)))
+
+
+def test_drowned_rays_are_counted_apart_by_precision_and_never_twice():
+    """Contrast 1e-9 is under float32's roundoff, 6e-8, and far over float64's; a grazing ray stays one."""
+    truth = _truth(
+        [0, 0, 1, 0], [np.nan, np.nan, 1.0, np.nan], [np.inf] * 4, [1.0, 1e-4, 1.0, 1.0], [1e-9, 1e-9, 1e-9, 1.0]
+    )
+    hits = _hits([1.0, 1.0, np.nan, 1.0], [1, 1, 0, 1])
+    single, double = _summary(hits, truth), _summary(hits, truth, precision="float64")
+    assert (single["grazing"], single["drowned"], double["drowned"]) == (1, 2, 0)
+    assert (single["drowned_false_hits"], single["grazing_false_hits"], single["false_hits"]) == (1, 1, 1)
+    assert (single["drowned_misses"], single["misses"]) == (1, 0)
+    assert (double["drowned_false_hits"], double["grazing_false_hits"], double["false_hits"]) == (0, 1, 2)
+    assert clear_rays(single) == 1
+    assert wrong_share(single) == 1.0
+    assert wrong_share(double) == 1.0
+    assert judge(hits, truth, 2.0, 1e-3, "float32").clear.tolist() == [False, False, False, True]
+
+
+def test_errors_on_drowned_rays_give_no_quantiles():
+    truth = _truth([1, 1], [1.0, 1.0], [np.inf] * 2, [1.0, 1.0], [1e-9, 1.0])
+    summary = _summary(_hits([1.01, 1.001], [1, 1]), truth)
+    assert np.isclose(summary["error"]["max"], 0.001)

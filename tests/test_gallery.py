@@ -13,9 +13,10 @@ import pytest
 import surfaces
 from harness.accuracy import Wrong, judge
 from harness.camera import scene_radius
-from harness.conformance import Case, no_false_hit
+from harness.conformance import ROUNDINGS, Case, no_false_hit
 from harness.contract import TruthStatus
 from harness.oracle import first_hits
+from harness.oracle.noise import root_shift
 from harness.plugins import Plugin, find_methods
 from surfaces.sections import unsupported
 
@@ -142,6 +143,36 @@ def test_the_false_hits_that_the_class_is_about_are_there():
     rays, truth = tail_case(11_000)
     _, drowned = false_hits(surface, rays, truth, "ray_march", device, "float32")
     assert drowned.sum() > 5
+
+
+# What rounding must add to an error
+
+
+@pytest.mark.parametrize("name", ["geisha", "herz", "miau", "miter"])
+def test_an_error_is_within_what_rounding_of_the_expansion_may_move_the_root(name):
+    """Where the terms at a root are small and those of the expansion are not, condition says too little."""
+    surface, device = surface_named(name), opened(usable_devices()[0].name)
+    method = find_methods().get("ray_march")
+    rays = rays_for(surface, 2_000, np.random.default_rng(0))
+    truth = first_hits(surface, rays)
+    verdicts = judge(
+        cast(device, "ray_march", surface, "float32", rays), truth, scene_radius(surface), GRAZING, "float32"
+    )
+    measured = verdicts.clear & np.isfinite(verdicts.error)
+    tolerance = method.method.tolerance(surface, dict(method.variant({}).parameters))
+    conditioned = ROUNDINGS * np.fmax(truth.condition, 1.0) * surface.domain.radius
+    kernels = root_shift(surface, rays.astype(np.float64), truth.lower)
+    assert (verdicts.error <= tolerance + 2.0**-24 * np.fmax(conditioned, kernels))[measured].all()
+    assert measured.sum() > 100
+
+
+def test_a_roots_shift_is_the_bound_over_the_slope():
+    """f = x - 1/2 at its root from x = -3: the bound counts the point's and the difference's roundings."""
+    plane = surfaces.from_formula("x - 1/2", "sphere:1")
+    rays = np.array([[-3.0, 0.0, 0.0, 1.0, 0.0, 0.0], [-3.0, 0.0, 0.0, 2.0, 0.0, 0.0]])
+    shift = root_shift(plane, rays, np.array([3.5, 1.75]))
+    np.testing.assert_allclose(shift[0], 2.0 * shift[1])
+    assert 0.5 <= shift[0] <= 4.0
 
 
 # What the class cannot hide

@@ -232,3 +232,18 @@ def test_the_table_lists_all_that_does_not_pass(told):
     assert text.splitlines()[1].startswith("regressed     m a")
     assert text.splitlines()[-1] == "1 regressed, 1 missing, 1 incomparable, 1 pass"
     assert outputs.table([dataclasses.replace(told[-1])]) == "1 pass"
+
+
+def test_wrong_answers_on_drowned_rays_are_gated_and_break_only_what_is_claimed_of_every_ray():
+    counts = dict.fromkeys(("misses", "false_hits", "exhausted", "wrong_root"), 0)
+    apart = {f"{kind}_{name}": 0 for kind in ("grazing", "drowned") for name in counts}
+    accuracy = counts | apart | {"error": {"max": 1.0, "p99": None}, "evaluations_mean": 2.0}
+    found = accuracy | {"drowned_misses": 2, "drowned_false_hits": 3}
+    claims = ("no_missed_root", "no_false_hit")
+    read = figures.figures({"accuracy": found, "rungs": None}, claims)
+    assert (read["drowned_wrong"], read["grazing_wrong"], read["claims"]) == (5, 0, 1)
+    assert verdict(ENTRY | {"drowned_wrong": 5}).verdict == "pass", "not in the baseline: nothing to compare with"
+    (judged,) = judge(
+        of({"m a": ENTRY | {"drowned_wrong": 9}}), of({"m a": ENTRY | {"drowned_wrong": 0}}), METHODS, tolerances_of({})
+    )
+    assert judged.verdict == "regressed"

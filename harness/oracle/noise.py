@@ -18,6 +18,7 @@ import numpy as np
 
 from harness.contract import Surface, as_float32
 from harness.oracle.balls64 import Floats
+from harness.oracle.clip import nearest, recentred
 from surfaces.tape import walk
 
 DIVISION = 5.0  # unit roundoffs: OpenCL and GLSL allow 2.5 units in the last place
@@ -162,3 +163,15 @@ class NoiseAlong:
             inputs[axis] = point, np.abs(origin) + np.abs(step) + np.abs(point)
         error = walk(self._noise.tape, RunningErrors(), inputs)[0][1]
         return np.asarray(np.broadcast_to(error, t.shape))
+
+
+def root_shift(surface: Surface, rays: Floats, t: Floats) -> Floats:
+    """How far kernels' roundings may move simple roots at `t` of rays float64[n, 6], to first order: float64[n], in t
+    per unit roundoff; NaN where t is, infinite where the slope along the ray is 0."""
+    import surfaces
+
+    shift = nearest(np.asarray(surface.domain.center), rays)
+    near, at = recentred(rays, shift), t - shift
+    with np.errstate(all="ignore"):
+        slope = surfaces.gradient(surface, near[:, :3] + at[:, None] * near[:, 3:]) * near[:, 3:]
+        return Noise(surface).along(near).bound(slice(None), at) / np.abs(slope.sum(axis=1))
