@@ -12,6 +12,9 @@ from numpy.typing import NDArray
 from harness.camera import scene_radius
 from harness.contract import UNIT_ROUNDOFF, Hits, Precision, RayStatus, Surface, Truth, TruthStatus
 
+# Unit roundoffs under which a ray's contrast leaves f's sign in doubt: one is the kernel's, whose bound is of first
+# order and whose compiler may regroup, one is the estimate's, which is of float64.
+DROWNED = 2.0
 FAR = 0.05  # a hit further than this from the first root, over the scene radius, belongs to no root or another one
 
 
@@ -38,19 +41,30 @@ NAMES = {
 
 @dataclass(frozen=True, eq=False)
 class Verdicts:
-    """Per ray: `wrong` uint8[n]; `error` float64[n], |t − t*|, NaN unless the right root was hit; `grazing` bool[n]."""
+    """Per ray: `wrong` uint8[n]; `error` float64[n], |t − t*|, NaN unless the right root was hit; `grazing` and
+    `drowned` bool[n], classes without a common ray."""
 
     wrong: NDArray[np.uint8]
     error: NDArray[np.float64]
     grazing: NDArray[np.bool_]
+    drowned: NDArray[np.bool_]
+
+    @property
+    def clear(self) -> NDArray[np.bool_]:
+        """bool[n]: rays outside both classes, on which every wrong answer is the method's fault."""
+        return ~(self.grazing | self.drowned)
 
 
-def judge(hits: Hits, truth: Truth, scene_radius: float, grazing_margin: float) -> Verdicts:
+def judge(
+    hits: Hits, truth: Truth, scene_radius: float, grazing_margin: float, precision: Precision | None = None
+) -> Verdicts:
     """Compare n answers with n certified ones.
 
     `error` is the distance from the certified interval. A ray whose margin is under `grazing_margin` scene radii is in
-    the grazing class, where a perturbation of that size changes the answer. Right is what is shown to be right; of an
-    undecided ray nothing is shown but that its answer is none: it counts as right here and is no part of `judged`.
+    the grazing class, where a perturbation of that size changes the answer. Of the others, one whose contrast is under
+    DROWNED unit roundoffs of `precision` is in the class of drowned rays, on which |f| falls under what arithmetic of
+    that precision may be off in it; without a precision no ray is. Right is what is shown to be right; of an undecided
+    ray nothing is shown but that its answer is none: it counts as right here and is no part of `judged`.
     """
     undecided = truth.status == TruthStatus.UNDECIDED
     there = (truth.status == TruthStatus.CROSSING) | (truth.status == TruthStatus.TOUCH)
@@ -67,12 +81,14 @@ def judge(hits: Hits, truth: Truth, scene_radius: float, grazing_margin: float) 
     wrong[gave_up] = Wrong.EXHAUSTED
     wrong[(hit & there & near) | (miss & away) | (undecided & (hit | miss | gave_up))] = Wrong.RIGHT
     error = np.where(there & (wrong == Wrong.RIGHT), error, np.nan)
-    return Verdicts(wrong, error, truth.margin < grazing_margin * scene_radius)
+    grazing = truth.margin < grazing_margin * scene_radius
+    faint = DROWNED * UNIT_ROUNDOFF[precision] if precision else 0.0
+    return Verdicts(wrong, error, grazing, ~grazing & (truth.contrast < faint))
 
 
 def judged(truth: Truth, verdicts: Verdicts) -> NDArray[np.bool_]:
-    """bool[n]: the rays that shares of wrong ones are of: decided, and outside the grazing class."""
-    return np.asarray((truth.status != TruthStatus.UNDECIDED) & ~verdicts.grazing)
+    """bool[n]: the rays that shares of wrong ones are of: decided, and neither grazing nor drowned."""
+    return np.asarray((truth.status != TruthStatus.UNDECIDED) & verdicts.clear)
 
 
 def undecided_hits(truth_hits: int, undecided: int, most: float, what: str = "hits") -> str | None:
@@ -91,8 +107,8 @@ def undecided_too_many(truth: Truth, most: float) -> str | None:
 
 
 def nothing_judged(rays: int) -> str:
-    """What is said of a truth none of whose rays is decided outside the grazing class."""
-    return f"none of the {rays} rays is decided outside the grazing class: nothing to judge"
+    """What is said of a truth none of whose rays is decided and clear."""
+    return f"none of the {rays} rays is decided and neither grazing nor drowned: nothing to judge"
 
 
 def _quantiles(values: NDArray[np.float64]) -> dict[str, float | None]:
@@ -147,16 +163,16 @@ def summarize(
     footprint: float,
     grazing_margin: float,
 ) -> dict[str, Any]:
-    """Counts and quantiles, outside the grazing class and (`grazing_…`) inside it.
+    """Counts and quantiles, of clear rays, and in the classes of grazing (`grazing_…`) and drowned (`drowned_…`) ones.
 
-    `footprint` is a pixel's height at distance 1. Errors are of rays outside the grazing class that hit the right root:
+    `footprint` is a pixel's height at distance 1. Errors are of clear rays that hit the right root:
     in scene units; relative to the scene radius (toledo2007's ε(R + r)) and to the feature radius (its ε(r)); in pixel
     footprints; in units in the last place of t; and over condition × unit roundoff × radius, which a method as good as
     the problem allows keeps at a small number. Errors are distances to a certified interval: what is smaller than its
     width (`certified_width` is the largest) may show as 0. `judged` rays are decided and outside the grazing class;
     evaluations are over rays that were answered.
     """
-    clear, radius = ~verdicts.grazing, scene_radius(surface)
+    clear, radius = verdicts.clear, scene_radius(surface)
     widths = (truth.upper - truth.lower)[clear & np.isfinite(verdicts.error)]
     summary: dict[str, Any] = {
         "rays": len(hits.status),
@@ -164,6 +180,7 @@ def summarize(
         "truth_misses": int((truth.status == TruthStatus.MISS).sum()),
         "undecided": int((truth.status == TruthStatus.UNDECIDED).sum()),
         "grazing": int(verdicts.grazing.sum()),
+        "drowned": int(verdicts.drowned.sum()),
         "judged": int(judged(truth, verdicts).sum()),
         "grazing_margin": grazing_margin,
         "scene_radius": radius,
@@ -173,6 +190,7 @@ def summarize(
     for kind, name in NAMES.items():
         summary[name] = int((clear & (verdicts.wrong == kind)).sum())
         summary[f"grazing_{name}"] = int((verdicts.grazing & (verdicts.wrong == kind)).sum())
+        summary[f"drowned_{name}"] = int((verdicts.drowned & (verdicts.wrong == kind)).sum())
     measured = clear & np.isfinite(verdicts.error)
     error, t = verdicts.error[measured], truth.lower[measured]
     kind_of_t = np.float32 if precision == "float32" else np.float64

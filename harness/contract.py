@@ -164,9 +164,10 @@ class Parameter:
 CLAIMS: dict[str, str] = {
     "no_missed_root": "a ray that meets the surface is never answered as a miss or by a later root; near tangency too",
     "finds_touch": "where a ray touches the surface without crossing it, that is a hit",
-    "no_false_hit": "no hit where the oracle proves that there is none, outside the grazing class",
+    "no_false_hit": "no hit where the oracle proves that there is none, on rays that are neither grazing nor drowned",
     "error_below_tolerance": "a right hit is within Method.tolerance of its root, and what rounding must add",
-    "conservative_bound": "no step is longer than a proved bound allows: outside the grazing class no root is passed",
+    "conservative_bound": "no step is longer than a proved bound allows: no root of a ray that is neither grazing nor"
+    " drowned is passed",
 }
 
 Tables = Callable[[Surface, Mapping[str, float | int], Precision], Mapping[str, Sequence[float]]]
@@ -317,8 +318,8 @@ class Hits:
 class Truth:
     """The oracle's certified answers for n rays, and what classifies them.
 
-    `lower`, `upper` and `status` are proved. `following`, `condition` and `margin` are float64 estimates that sort
-    rays into classes and never decide right or wrong by themselves.
+    `lower`, `upper` and `status` are proved. `following`, `condition`, `margin` and `contrast` are float64 estimates
+    that sort rays into classes and never decide right or wrong by themselves.
     """
 
     lower: NDArray[np.float64]  # [n] certified: lower <= t* <= upper; NaN where status is not CROSSING or TOUCH
@@ -330,6 +331,9 @@ class Truth:
     margin: NDArray[np.float64]  # [n] how far, in scene units, the ray is from another answer: the smallest estimate
     #   |f| / |grad f| over near touches before the first hit, the depth of the first root's dip, and the distance of
     #   roots to the ends of the clip interval; inf where nothing is near
+    contrast: NDArray[np.float64]  # [n] how far f stays clear of its own rounding: the smallest |f| at such places, and
+    #   anywhere before the first root, over what kernels may be off in f's value there (oracle.noise), in unit
+    #   roundoffs; inf without any; 0 for TOUCH and UNDECIDED. Below an arithmetic's unit roundoff f's sign is in doubt
 
 
 @dataclass(frozen=True)

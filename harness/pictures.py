@@ -25,6 +25,7 @@ def pictures_of(
         "truth": truth.status,
         "wrong": verdicts.wrong,
         "grazing": verdicts.grazing,
+        "drowned": verdicts.drowned,
         "error": verdicts.error.astype(np.float32),
         "evaluations": hits.evaluations,
         "condition": truth.condition.astype(np.float32),

@@ -40,7 +40,7 @@ def check(executor: LocalExecutor, planned: Planned, config: AccuracyChoice, fol
     rays = picture.rays
     truth: Seen = scene_truth(scene, rays, picture, folder, config.grazing_margin * scene_radius(cell.surface))
     hits = hits_of(scene, picture)
-    verdicts = accuracy.judge(hits, truth.truth, scene_radius(cell.surface), config.grazing_margin)
+    verdicts = accuracy.judge(hits, truth.truth, scene_radius(cell.surface), config.grazing_margin, cell.precision)
     alone = cell.scene is None
     deviations = (
         accuracy.deviations(cell.surface, rays, hits, truth.truth, verdicts)
@@ -65,7 +65,7 @@ def check(executor: LocalExecutor, planned: Planned, config: AccuracyChoice, fol
         "fragments": fragments,
         "fragments_discarded": fragments - found,
         "pixels_drawn": int((frame.batch >= 0).sum()),
-        "other_instance": int((truth.other_instance(picture) & ~verdicts.grazing).sum()),
+        "other_instance": int((truth.other_instance(picture) & verdicts.clear).sum()),
     }
     pictures = pictures_of(cell.surface, rays, hits, truth.truth, verdicts, config.size)
     if not alone:

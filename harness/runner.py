@@ -15,6 +15,7 @@ from datetime import UTC, datetime
 from functools import partial
 from typing import Any
 
+import numpy as np
 from numpy.typing import NDArray
 
 from harness import accuracy, answers, beams, compilercheck, measure, rastercheck, stability
@@ -148,7 +149,7 @@ class Runner:
         else:
             hits = answers.validated(checked.hits, cell.surface.domain, rays)
         state.compile_ms = checked.compile_ms
-        verdicts = accuracy.judge(hits, truth, scene_radius(cell.surface), config.grazing_margin)
+        verdicts = accuracy.judge(hits, truth, scene_radius(cell.surface), config.grazing_margin, cell.precision)
         if casts_beams:
             verdicts, beam_only = beams.set_apart(verdicts, hits, truth, pixels)
         footprint = pixel_footprint(state.planned.camera, cell.size)
@@ -198,7 +199,7 @@ class Runner:
             state.summary = state.arrays = None
             return undecided or accuracy.nothing_judged(found["rays"])
         if state.frame and not share <= config.max_wrong_share:
-            return f"wrong on {share:.1%} of the rays outside the grazing class: not timed"
+            return f"wrong on {share:.1%} of the rays that are neither grazing nor drowned: not timed"
         return None
 
     def _check_family(self, state: _Live) -> str | None:

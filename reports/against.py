@@ -143,7 +143,7 @@ def _speed(rows: pd.DataFrame, by: list[str], title: str) -> Table:
 
 def _answers(both: pd.DataFrame, by: list[str]) -> list[Block]:
     """Cells whose status, wrong rays, error or evaluations differ."""
-    fields = ("wrong_rays", "grazing_wrong_rays", "error_max", "evaluations_mean")
+    fields = ("wrong_rays", "grazing_wrong_rays", "drowned_wrong_rays", "error_max", "evaluations_mean")
     body = []
     for row in both.itertuples():
         a, b = ([getattr(row, f"{name}_{side}") for name in fields] for side in "ab")
@@ -154,6 +154,7 @@ def _answers(both: pd.DataFrame, by: list[str]) -> list[Block]:
     shows = (
         ("wrong rays", wording.count),
         ("at silhouettes", wording.count),
+        ("drowned", wording.count),
         ("max error", wording.error),
         ("evaluations per ray cast", wording.number),
     )

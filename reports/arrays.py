@@ -28,9 +28,16 @@ class Arrays:
     evaluations: NDArray[np.int32] | None = None  # of f, spent on the ray; None in older runs
     status: NDArray[np.uint8] | None = None  # RayStatus, what can be no answer among it
     level: NDArray[np.uint8] | None = None  # of the quadtree, at which the pixel's box was decided; of beams only
+    drowned: NDArray[np.bool_] | None = None  # None in older runs
+
+    @property
+    def apart(self) -> NDArray[np.bool_]:
+        """Rays whose wrong answers are counted apart."""
+        return self.grazing if self.drowned is None else self.grazing | self.drowned
 
 
 NEEDED = ("truth", "error", "wrong", "grazing", "shade")
+OPTIONAL = ("condition", "evaluations", "status", "level", "drowned")
 
 
 def read(path: Path) -> Arrays:
@@ -38,7 +45,7 @@ def read(path: Path) -> Arrays:
     try:
         with np.load(path, allow_pickle=False) as file:
             named = {name: file[name] for name in NEEDED}
-            named |= {name: file[name] for name in ("condition", "evaluations", "status", "level") if name in file}
+            named |= {name: file[name] for name in OPTIONAL if name in file}
     except (KeyError, EOFError, zipfile.BadZipFile, zlib.error) as error:
         raise ValueError(f"damaged: {error}") from error
     shapes = {array.shape for array in named.values()}

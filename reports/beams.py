@@ -47,7 +47,9 @@ def _table(rows: pd.DataFrame) -> Table:
     bad = "invalid" in derive.kinds(rows)
     body = []
     for row in rows.itertuples():
-        counts = (row.misses + row.grazing_misses, row.beam_only, row.false_hits, row.wrong_root)
+        missed = row.misses + row.grazing_misses
+        missed += 0 if wording.absent(row.drowned_misses) else row.drowned_misses
+        counts = (missed, row.beam_only, row.false_hits, row.wrong_root)
         counts += (row.invalid,) if bad else ()
         told = (row.device, row.precision, row.variant, *counts, row.pixel_error_p50, row.evaluations_mean)
         body.append((named[str(row.comparison)], *told))

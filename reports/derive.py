@@ -16,6 +16,7 @@ from reports.schema import KINDS, SCHEMA
 
 GROUP = ["comparison", "device", "precision"]
 _ACCURACY = [field.name for field in SCHEMA if field.path[0] == "accuracy"]
+_DROWNED = [name for name in _ACCURACY if name.startswith("drowned")]
 FLOOR_FACTOR = 2.0  # a time under this many times the null method's says more about the harness than about the method
 
 
@@ -28,6 +29,8 @@ def derive(frame: pd.DataFrame, peaks: Mapping[str, float] | None = None) -> pd.
     """
     answers = frame["answers"].astype(bool)
     frame = frame.assign(**{name: frame[name].where(answers) for name in _ACCURACY})
+    for name in _DROWNED:  # in older runs these rays are in the other counts
+        frame[name] = frame[name].mask(frame[name].isna() & frame["misses"].notna(), 0)
     seconds = frame["median_ms"] / 1e3
     rays = (frame["size"] ** 2 * frame["samples_per_pixel"]).astype("float64")
     frame = frame.assign(mrays_per_s=rays / seconds / 1e6, frames_per_s=1.0 / seconds)
@@ -35,7 +38,7 @@ def derive(frame: pd.DataFrame, peaks: Mapping[str, float] | None = None) -> pd.
     frame["overhead_share"] = frame["overhead_share"].where(believed)
     frame["baseline"] = frame["baseline"].fillna(BASELINE)
     known = [kind for kind in KINDS if kind != "invalid"]  # older rows know no invalid answers
-    for prefix in ("", "grazing_"):
+    for prefix in ("", "grazing_", "drowned_"):
         total = frame[[prefix + name for name in known]].sum(axis=1, min_count=len(known)).astype("Int64")
         total += frame[f"{prefix}invalid"].fillna(0).astype("Int64")
         frame[f"{prefix}wrong_rays"] = total
@@ -84,7 +87,7 @@ def fullest(rows: pd.DataFrame) -> str:
 
 
 def all_right(frame: pd.DataFrame) -> pd.Series:
-    """Which rows answered every ray outside the grazing class rightly."""
+    """Which rows answered every ray that is neither grazing nor drowned rightly."""
     return (frame["wrong_rays"] == 0).fillna(False).astype(bool)
 
 

@@ -87,7 +87,8 @@ def _panel(row: Any, arrays: Arrays, most: int, errors: tuple[int, int]) -> Pane
         )
     wrong = f"{wording.count(row.wrong_rays)} wrong" if row.wrong_rays else "no wrong ray"
     grazing = f" · {wording.count(row.grazing_wrong_rays)} grazing" if row.grazing_wrong_rays else ""
-    return Panel(name, pictures, f"{cost} · max {wording.error(row.error_max)} · {wrong}{grazing}")
+    drowned = f" · {wording.count(row.drowned_wrong_rays)} drowned" if row.drowned_wrong_rays else ""
+    return Panel(name, pictures, f"{cost} · max {wording.error(row.error_max)} · {wrong}{grazing}{drowned}")
 
 
 def _legend(most: int) -> Figure:

@@ -20,7 +20,7 @@ from reports.content import Gallery, Panel, Picture
 from reports.schema import KINDS
 
 PIXELS = 480  # pixels are repeated to at least this side, because some viewers blur small pictures
-GRAZING_PALE = 0.55  # how far the colour of a wrong ray fades to white in the grazing class
+GRAZING_PALE = 0.55  # how far the colour of a wrong ray fades to white in the grazing and the drowned class
 WIDEST_SCALE = 10  # decades
 
 
@@ -75,6 +75,8 @@ def _panel(row: Any, arrays: Arrays, scale: tuple[int, int], prefix: str, titled
     note = f"max {wording.error(row.error_max)} · {wrong or 'no wrong ray'}"
     if not wording.absent(row.grazing_wrong_rays) and row.grazing_wrong_rays > 0:
         note += f" · {wording.count(row.grazing_wrong_rays)} grazing"
+    if not wording.absent(row.drowned_wrong_rays) and row.drowned_wrong_rays > 0:
+        note += f" · {wording.count(row.drowned_wrong_rays)} drowned"
     return Panel(f"{row.panel}, {row.precision}" if titled else name, pictures, note)
 
 
@@ -82,9 +84,9 @@ def _caption(row: Any) -> str:
     return (
         f"{row.surface_title} on {row.device}, view {row.view}: what each method drew, and its error beside it. "
         "Dark blue to yellow is a growing |t − t*| on one logarithmic scale for the whole report; the bright colours "
-        "are rays answered wrongly, paler where they graze the surface; counts are of the "
-        f"{wording.count(row.accuracy_rays)} rays checked. Look for wrong rays away from the silhouette, and for bands "
-        "or facets in the error."
+        "are rays answered wrongly, paler where they graze the surface or f drowns in its own rounding; counts are of "
+        f"the {wording.count(row.accuracy_rays)} rays checked. Look for wrong rays away from the silhouette, and for "
+        "bands or facets in the error."
     )
 
 
@@ -107,8 +109,8 @@ def error_map(arrays: Arrays, scale: tuple[int, int]) -> NDArray[np.float64]:
     image[arrays.truth == TruthStatus.UNDECIDED] = _rgb(style.UNDECIDED)
     for kind in style.WRONG:
         color = _rgb(kind.color)
-        image[(arrays.wrong == kind.code) & ~arrays.grazing] = color
-        image[(arrays.wrong == kind.code) & arrays.grazing] = color + GRAZING_PALE * (1 - color)
+        image[(arrays.wrong == kind.code) & ~arrays.apart] = color
+        image[(arrays.wrong == kind.code) & arrays.apart] = color + GRAZING_PALE * (1 - color)
     return image
 
 

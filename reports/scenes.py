@@ -34,7 +34,7 @@ def sections(frame: pd.DataFrame) -> list[Section]:
 
 
 def _right(rows: pd.DataFrame) -> pd.DataFrame:
-    """Those with no more than 1 in 1,000 rays wrong outside the grazing class."""
+    """Those with no more than 1 in 1,000 rays wrong that are neither grazing nor drowned."""
     return rows[rows["wrong_rays"].astype("float64") <= 1e-3 * rows["accuracy_rays"].astype("float64")]
 
 

@@ -77,10 +77,11 @@ SCHEMA: tuple[Field, ...] = (
     *_fields("whole", "size rays", at="accuracy", prefix="accuracy_"),
     *_fields("whole", "domain_rays", at="accuracy"),
     *_fields("whole", "fragments fragments_discarded pixels_drawn other_instance", at="accuracy"),
-    *_fields("whole", "truth_hits truth_misses undecided grazing judged", at="accuracy"),
+    *_fields("whole", "truth_hits truth_misses undecided grazing drowned judged", at="accuracy"),
     *_fields("real", "grazing_margin scene_radius domain_radius", at="accuracy"),
     *_fields("whole", " ".join(KINDS), at="accuracy"),
     *_fields("whole", " ".join(f"grazing_{kind}" for kind in KINDS), at="accuracy"),
+    *_fields("whole", " ".join(f"drowned_{kind}" for kind in KINDS), at="accuracy"),
     *(field for unit in UNITS for field in _fields("real", _PERCENTILES, at=f"accuracy.{unit}", prefix=f"{unit}_")),
     *_fields("whole", "beam_only", at="accuracy"),  # hits of what the pixel's beam sees and its ray passes by
     *_fields("real", "evaluations_mean evaluations_max prepass_evaluations_mean", at="accuracy"),
@@ -97,7 +98,7 @@ DERIVED: tuple[Field, ...] = (
     *_fields("flag", "floor_bound"),
     *_fields("real", "peak_share"),
     *_fields("flag", "peak_too_low"),
-    *_fields("whole", "wrong_rays grazing_wrong_rays"),
+    *_fields("whole", "wrong_rays grazing_wrong_rays drowned_wrong_rays"),
     *_fields("flag", "front"),
 )
 

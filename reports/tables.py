@@ -99,9 +99,9 @@ def winners(frame: pd.DataFrame, leading: pd.DataFrame) -> Table:
         body,
         "What wins where.",
         f"{speedup(rows)} Max error is the largest |t − t*| in scene units over rays away from silhouettes; wrong rays "
-        "are misses, false hits, exhausted rays, wrong roots and invalid answers among them. Not told apart: the fastest "
-        "variants of other methods, with no wrong ray, whose times are not told to be longer than that of the fastest "
-        "without one; of a method's own settings the fastest is by the median." + note,
+        "are misses, false hits, exhausted rays, wrong roots and invalid answers among them. Not told apart: the "
+        "fastest variants of other methods, with no wrong ray, whose times are not told to be longer than that of the "
+        "fastest without one; of a method's own settings the fastest is by the median." + note,
         group=2,
     )
 
@@ -176,7 +176,7 @@ def results(rows: pd.DataFrame) -> Table:
         spread = (row.upper_ms - row.lower_ms) / (2 * row.median_ms) if row.median_ms else None
         speed = (row.median_ms, spread, row.mrays_per_s, row.frames_per_s, row.speedup)
         errors = (row.error_max, row.error_p99, *(getattr(row, kind) for kind in kinds))
-        told = (*errors, row.grazing_wrong_rays, row.evaluations_mean, row.peak_share)
+        told = (*errors, row.grazing_wrong_rays, row.drowned_wrong_rays, row.evaluations_mean, row.peak_share)
         body.append((row.device, row.precision, row.variant, *speed, *told, row.compile_ms, row.clock, flags(row)))
     return Table(
         (
@@ -192,6 +192,7 @@ def results(rows: pd.DataFrame) -> Table:
             Column("99 %\nerror", wording.error, numeric=True),
             *(Column(WRONG[kind], wording.count, numeric=True) for kind in kinds),
             Column("grazing\nwrong", wording.count, numeric=True),
+            Column("drowned\nwrong", wording.count, numeric=True),
             Column("evals per\nray cast", wording.number, numeric=True),
             Column("share\nof peak", wording.share, numeric=True),
             Column("compile\nms", wording.number, numeric=True),
@@ -254,7 +255,8 @@ def _results_caption(rows: pd.DataFrame) -> tuple[str, str]:
         checked = (
             f" Errors and counts of wrong rays are of {row.accuracy_rays:,} rays, of which "
             f"{wording.count(row.grazing)} pass within {wording.error(row.grazing_margin)} of another answer: these "
-            "grazing rays are counted apart."
+            "grazing rays are counted apart. So are drowned ones, on which |f| falls under its own rounding errors "
+            f"({wording.count(row.drowned)} here)."
         )
         if not wording.absent(row.undecided) and row.undecided:
             checked += f" The oracle left {wording.plural(row.undecided, 'hit')} undecided; no figure here is of them."

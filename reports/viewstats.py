@@ -110,6 +110,7 @@ def dependence(of: ViewSet) -> Table:
                 int((wrong > 0).sum()) if answers else None,
                 mistaken,
                 int(rows["grazing_wrong_rays"].fillna(0).sum()) if answers else None,
+                int(rows["drowned_wrong_rays"].fillna(0).sum()) if answers else None,
             )
         )
     body.sort(key=lambda row: -(row[4] if row[4] == row[4] else row[2]))
@@ -131,6 +132,7 @@ def dependence(of: ViewSet) -> Table:
             Column("in\nviews", wording.count, numeric=True, over="wrong rays"),
             Column("most in", over="wrong rays"),
             Column("grazing", wording.count, numeric=True, over="wrong rays"),
+            Column("drowned", wording.count, numeric=True, over="wrong rays"),
         ),
         body,
         f"View dependence over {len(of.views)} {_name(of)}: {of.place}.",
@@ -145,16 +147,17 @@ def _name(of: ViewSet) -> str:
 
 
 def wrong_rays(of: ViewSet) -> Table | None:
-    """Every variant and view with a wrong ray outside the grazing class, the most wrong first; None without one."""
+    """Every variant and view with a wrong ray, neither grazing nor drowned, the most wrong first; None without one."""
     rows = of.rows[of.rows["wrong_rays"].fillna(0) > 0].sort_values("wrong_rays", ascending=False, kind="stable")
     if rows.empty:
         return None
     kinds = derive.kinds(rows)
+    apart = ("grazing_wrong_rays", "drowned_wrong_rays")
     body = [
-        (r.variant, r.view, r.wrong_rays, *(getattr(r, kind) for kind in kinds), r.grazing_wrong_rays)
+        (r.variant, r.view, r.wrong_rays, *(getattr(r, name) for name in (*kinds, *apart)))
         for r in rows.head(PRINTED_WRONG).itertuples()
     ]
-    titles = ("wrong", *(kind.replace("_", " ") for kind in kinds), "grazing wrong")
+    titles = ("wrong", *(kind.replace("_", " ") for kind in kinds), "grazing wrong", "drowned wrong")
     cut = f" The first {PRINTED_WRONG} of {len(rows):,}; results.csv has all." if len(rows) > PRINTED_WRONG else ""
     return Table(
         (

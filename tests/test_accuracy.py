@@ -21,10 +21,16 @@ from harness.contract import Box, Hits, Surface, Truth
 BALL = Surface("ball", "Ball", "x^2 + y^2 + z^2 - 4", Box((-4, -4, -4), (4, 4, 4)), "test", 2, bounding_radius=2.0)
 
 
-def _truth(status, lower, following, margin):
+def _truth(status, lower, following, margin, contrast=None):
     lower = np.array(lower, float)
     return Truth(
-        lower, lower, np.array(status, np.uint8), np.array(following, float), np.ones(len(lower)), np.array(margin)
+        lower,
+        lower,
+        np.array(status, np.uint8),
+        np.array(following, float),
+        np.ones(len(lower)),
+        np.array(margin),
+        np.full(len(lower), np.inf) if contrast is None else np.array(contrast),
     )
 
 
@@ -33,7 +39,7 @@ def _hits(t, status):
 
 
 def _summary(hits, truth, margin=1e-3, footprint=0.01, precision="float32", surface=BALL):
-    verdicts = judge(hits, truth, 2.0, margin)
+    verdicts = judge(hits, truth, 2.0, margin, precision)
     rays = np.tile(np.float32([0, 0, 3, 0, 0, -1]), (len(hits.t), 1))
     found = deviations(surface, rays, hits, truth, verdicts)
     return summarize(
@@ -68,7 +74,7 @@ def test_grazing_rays_are_counted_apart_and_give_no_errors():
 
 
 def test_error_is_the_distance_from_the_certified_interval():
-    truth = Truth(*(np.array([v]) for v in (1.0, 1.5, 1, np.inf, 1.0, np.inf)))
+    truth = Truth(*(np.array([v]) for v in (1.0, 1.5, 1, np.inf, 1.0, np.inf, np.inf)))
     for t, error in ((1.25, 0.0), (0.9999, 1e-4), (1.5003, 3e-4)):
         assert np.isclose(judge(_hits([t], [1]), truth, 1.0, 0.0).error[0], error, atol=1e-12)
 
@@ -85,7 +91,7 @@ def test_a_method_that_finds_nothing_is_wholly_wrong():
 def test_error_is_told_in_every_unit():
     """A ray down the z axis at a sphere of radius 2 from z = 3: the root is t = 1, f' there 4, the terms' sum 8."""
     slope, terms, domain = 4.0, 8.0, BALL.domain.radius
-    truth = Truth(*(np.array([v]) for v in (1.0, 1.0, 1, 5.0, terms / (slope * domain), np.inf)))
+    truth = Truth(*(np.array([v]) for v in (1.0, 1.0, 1, 5.0, terms / (slope * domain), np.inf, np.inf)))
     summary = _summary(_hits([1.0 + 2.0**-10], [1]), truth)
     error = 2.0**-10
     for name, value in {
@@ -104,7 +110,7 @@ def test_error_is_told_in_every_unit():
 def test_the_normal_error_is_the_angle_between_gradients():
     tilted = Surface("t", "T", "z - x^2", Box((-4, -4, -4), (4, 4, 4)), "test", 2)
     rays = np.array([[0, 0, 0, 1, 0, 0]], np.float32)
-    truth = Truth(*(np.array([v]) for v in (0.0, 0.0, 1, np.inf, 1.0, np.inf)))
+    truth = Truth(*(np.array([v]) for v in (0.0, 0.0, 1, np.inf, 1.0, np.inf, np.inf)))
     hits = _hits([0.05], [1])
     found = deviations(tilted, rays, hits, truth, judge(hits, truth, 4.0, 0.0))
     assert np.isclose(found.normal[0], np.degrees(np.arctan(0.1)))
@@ -188,3 +194,26 @@ def test_a_truth_with_too_many_undecided_hits_measures_nothing(hits, undecided, 
 def test_every_kind_of_wrong_ray_has_a_name_of_its_own():
     assert set(NAMES) == set(Wrong) - {Wrong.RIGHT}
     assert all(a != b for a, b in itertools.combinations(NAMES.values(), 2))
+
+
+def test_drowned_rays_are_counted_apart_by_precision_and_never_twice():
+    """Contrast 1e-9 is under float32's roundoff, 6e-8, and far over float64's; a grazing ray stays one."""
+    truth = _truth(
+        [0, 0, 1, 0], [np.nan, np.nan, 1.0, np.nan], [np.inf] * 4, [1.0, 1e-4, 1.0, 1.0], [1e-9, 1e-9, 1e-9, 1.0]
+    )
+    hits = _hits([1.0, 1.0, np.nan, 1.0], [1, 1, 0, 1])
+    single, double = _summary(hits, truth), _summary(hits, truth, precision="float64")
+    assert (single["grazing"], single["drowned"], double["drowned"]) == (1, 2, 0)
+    assert (single["drowned_false_hits"], single["grazing_false_hits"], single["false_hits"]) == (1, 1, 1)
+    assert (single["drowned_misses"], single["misses"]) == (1, 0)
+    assert (double["drowned_false_hits"], double["grazing_false_hits"], double["false_hits"]) == (0, 1, 2)
+    assert single["judged"] == 1
+    assert wrong_share(single) == 1.0
+    assert wrong_share(double) == 1.0
+    assert judge(hits, truth, 2.0, 1e-3, "float32").clear.tolist() == [False, False, False, True]
+
+
+def test_errors_on_drowned_rays_give_no_quantiles():
+    truth = _truth([1, 1], [1.0, 1.0], [np.inf] * 2, [1.0, 1.0], [1e-9, 1.0])
+    summary = _summary(_hits([1.01, 1.001], [1, 1]), truth)
+    assert np.isclose(summary["error"]["max"], 0.001)

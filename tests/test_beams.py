@@ -211,7 +211,7 @@ def test_what_only_a_beam_can_see_is_set_apart():
     nan, inf = np.nan, np.inf
     status, lower = np.uint8([0, 0, 1, 1, 0]), np.array([nan, nan, 2.0, 2.0, nan])
     margin = np.array([0.005, 0.5, 0.005, 0.5, inf])
-    truth = Truth(lower, lower, status, np.full(5, inf), np.ones(5), margin)
+    truth = Truth(lower, lower, status, np.full(5, inf), np.ones(5), margin, np.full(5, inf))
     hits = Hits(np.full(5, 1.0), np.ones(5, np.uint8), np.ones(5, np.int32))
     pixels = beams.Pixels(np.arange(5, dtype=np.int32), np.ones(5), np.full(5, 0.01))
     verdicts, beam_only = beams.set_apart(judge(hits, truth, 1.0, 0.0), hits, truth, pixels)

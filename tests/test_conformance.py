@@ -136,7 +136,7 @@ def _case_and_hits(method="ray_march"):
 def test_each_check_sees_what_it_is_for():
     case, hits = _case_and_hits()
     plugin = find_methods().get("ray_march")
-    clear = ~case.judged(hits).grazing
+    clear = case.judged(hits, "float32").clear
     there = np.flatnonzero(clear & (hits.status == 1))[:3]
     gone = np.flatnonzero(clear & (hits.status == 0))[:1]
 

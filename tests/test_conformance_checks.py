@@ -33,7 +33,11 @@ def _right(case: Case = CASE) -> Hits:
 def _all(hits: Hits, case: Case = CASE, setting: str = "") -> list[Finding]:
     plugin = find_methods().get("ray_march")
     claims = [check(plugin, hits, case, "float32", {}) for check in CLAIMS]
-    found = [conformance.decided(case), conformance.answers(hits, case), *conformance.agreement(hits, case, setting)]
+    found = [
+        conformance.decided(case),
+        conformance.answers(hits, case),
+        *conformance.agreement(hits, case, "float32", setting),
+    ]
     return [*found, *claims]
 
 
@@ -128,7 +132,7 @@ def test_each_view_is_judged_by_itself():
     for name, count in case.views:
         broken = dataclasses.replace(hits, status=hits.status.copy())
         broken.status[start : start + count] = RayStatus.MISS
-        failing = [f.check for f in conformance.agreement(broken, case) if f.fails]
+        failing = [f.check for f in conformance.agreement(broken, case, "float32") if f.fails]
         assert failing and all(check.endswith(f"view {name}") for check in failing)
         start += count
 

@@ -125,7 +125,7 @@ def _answer(found: Recommendation, wish: Wish, device: DeviceInfo) -> str:
         [
             f"{named(best.variant)} in {best.precision} is the fastest that draws {wish.surface.title} within {bound} "
             f"on {device.name}: {speed}.",
-            f"Outside the grazing class no ray is wrong on {views}. Were more than a share of "
+            f"Outside the grazing and the drowned class no ray is wrong on {views}. Were more than a share of "
             f"{3.0 / found.held_out:.1e} wrong, the {found.held_out} held-out rays would have shown it 19 times in 20.",
             *([told] if (told := _undecided(found)) else []),
             "",

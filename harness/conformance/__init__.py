@@ -2,9 +2,9 @@
 states, knobs that move the error the way it says, and the same bits from run to run.
 
 Each check says what it measured, the limit, and the rule that both follow. What is not at most the limit fails, NaN
-too, and what could not be measured is named and is no pass. Rays nearer than GRAZING scene radii to another answer
-count only where a claim says so. Rays that the oracle leaves undecided count as neither right nor wrong, and are
-bounded.
+too, and what could not be measured is named and is no pass. Rays nearer than GRAZING scene radii to another answer,
+and those on which f drowns in its own rounding, count only where a claim says so. Rays that the oracle leaves undecided
+count as neither right nor wrong, and are bounded.
 
 **Views** Four from outside (oblique, along an axis, down a pole, from below), and one with the eye inside the domain,
 whose limit for wrong answers is wider: the papers start their rays outside.

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from harness.accuracy import Verdicts, judge
+from harness.accuracy import Verdicts, judge, judged
 from harness.answers import validated
 from harness.assemble import Language, method_program
 from harness.camera import camera_for, rays_of, scene_radius
@@ -58,12 +58,12 @@ class Case:
         """bool[n]: the oracle proves a first hit."""
         return np.asarray(np.isin(self.truth.status, (TruthStatus.CROSSING, TruthStatus.TOUCH)))
 
-    def judged(self, hits: Hits) -> Verdicts:
-        return judge(hits, self.truth, self.radius, GRAZING)
+    def judged(self, hits: Hits, precision: Precision) -> Verdicts:
+        return judge(hits, self.truth, self.radius, GRAZING, precision)
 
     def clear(self, verdicts: Verdicts) -> NDArray[np.bool_]:
-        """bool[n]: rays that a method must answer rightly, decided by the oracle and outside the grazing class."""
-        return np.asarray(~verdicts.grazing & (self.truth.status != TruthStatus.UNDECIDED))
+        """bool[n]: rays that a method must answer rightly: decided by the oracle, and neither grazing nor drowned."""
+        return judged(self.truth, verdicts)
 
     def parts(self, hits: Hits) -> Iterator[tuple[str, Case, Hits]]:
         """Each view by itself: its name, its rays as a case, and what `hits` say of them."""

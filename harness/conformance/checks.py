@@ -11,10 +11,11 @@ from harness.accuracy import FAR, NAMES, Wrong
 from harness.answers import validated
 from harness.conformance.cases import INSIDE, TYPICAL, Case, Finding, not_checked
 from harness.contract import CLAIMS, UNIT_ROUNDOFF, Hits, Precision, RayStatus, TruthStatus
+from harness.oracle.noise import root_shift
 from harness.plugins import Plugin
 
 MOST_UNDECIDED = 0.01  # of the rays that hit or may: a pass needs decided hits
-MOST_WRONG = 0.002  # of a typical surface's rays outside the grazing class
+MOST_WRONG = 0.002  # of a typical surface's clear rays
 MOST_WRONG_INSIDE = 0.01  # of these where the eye is inside the domain: the papers start their rays outside
 MOST_WRONG_ELSEWHERE = 0.1  # of any other surface's: beyond its paper's surfaces a method may be weak, never useless
 MOST_WRONG_ELSEWHERE_INSIDE = 0.25  # of these where the eye is inside the domain, and so maybe inside the surface
@@ -65,20 +66,22 @@ def same_bits(hits: Hits, again: Hits) -> Finding:
     )
 
 
-def agreement(hits: Hits, case: Case, setting: str = "") -> Iterator[Finding]:
-    """Outside the grazing class nearly every answer is right, and right hits are near their roots; view by view.
+def agreement(hits: Hits, case: Case, precision: Precision, setting: str = "") -> Iterator[Finding]:
+    """On clear rays, neither grazing nor drowned, nearly every answer is right, and right hits are near their roots.
+
+    View by view.
 
     `setting` is the name of the paper's setting that the answers are of: it may be weaker than the default.
     """
     for view, part, answered in case.parts(hits):
-        yield from _agreement(view, part, answered, setting)
+        yield from _agreement(view, part, answered, precision, setting)
 
 
-def _agreement(view: str, case: Case, hits: Hits, setting: str) -> Iterator[Finding]:
-    verdicts = case.judged(hits)
+def _agreement(view: str, case: Case, hits: Hits, precision: Precision, setting: str) -> Iterator[Finding]:
+    verdicts = case.judged(hits, precision)
     clear = case.clear(verdicts)
     if not clear.any():  # a thin torus, whose every ray is near to missing it; a surface that is only touched
-        yield not_checked("right answers", f"no ray of view {view} is outside the grazing class")
+        yield not_checked("right answers", f"no ray of view {view} is clear")
         return
     typical = case.surface.name in TYPICAL and not setting
     wrong = np.where(clear, verdicts.wrong, Wrong.RIGHT)
@@ -92,7 +95,7 @@ def _agreement(view: str, case: Case, hits: Hits, setting: str) -> Iterator[Find
         f"right answers, view {view}",
         float(wrongly.sum() / clear.sum()),
         limits[view == INSIDE],
-        f"share of wrong answers outside the grazing class, on {whose}",
+        f"share of wrong answers on clear rays, on {whose}",
         f"{counts or 'none wrong'} of {clear.sum()}" + _first(wrongly, hits, case),
         "mend the kernel, or refuse such surfaces in Method.accepts",
     )
@@ -101,7 +104,7 @@ def _agreement(view: str, case: Case, hits: Hits, setting: str) -> Iterator[Find
             f"gives up seldom, view {view}",
             float(gave_up.sum() / clear.sum()),
             MOST_EXHAUSTED_ELSEWHERE,
-            f"share of rays outside the grazing class that end as exhausted, on {whose}",
+            f"share of clear rays that end as exhausted, on {whose}",
             advice="let it spend more evaluations on a ray, or refuse such surfaces in Method.accepts",
         )
     if (clear & case.there).any():
@@ -148,37 +151,37 @@ def no_missed_root(_plugin: Plugin, hits: Hits, case: Case, _precision: Precisio
     )
 
 
-def conservative_bound(_plugin: Plugin, hits: Hits, case: Case, _precision: Precision, _knobs: Knobs) -> Finding:
-    verdicts = case.judged(hits)
+def conservative_bound(_plugin: Plugin, hits: Hits, case: Case, precision: Precision, _knobs: Knobs) -> Finding:
+    verdicts = case.judged(hits, precision)
     there = case.there & case.clear(verdicts)
     found = (verdicts.wrong == Wrong.RIGHT) & np.isfinite(verdicts.error)
     lost = there & ~found & (hits.status != RayStatus.EXHAUSTED)
-    rule = "roots that were missed or passed, outside the grazing class"
+    rule = "roots that were missed or passed, on clear rays"
     return _claim("conservative_bound", lost, there, rule, hits, case)
 
 
-def no_false_hit(_plugin: Plugin, hits: Hits, case: Case, _precision: Precision, _knobs: Knobs) -> Finding:
-    misses = (case.truth.status == TruthStatus.MISS) & case.clear(case.judged(hits))
+def no_false_hit(_plugin: Plugin, hits: Hits, case: Case, precision: Precision, _knobs: Knobs) -> Finding:
+    misses = (case.truth.status == TruthStatus.MISS) & case.clear(case.judged(hits, precision))
     false = misses & ~np.isin(hits.status, (RayStatus.MISS, RayStatus.EXHAUSTED))
-    return _claim(
-        "no_false_hit", false, misses, "hits where the oracle proves a miss, outside the grazing class", hits, case
-    )
+    return _claim("no_false_hit", false, misses, "hits where the oracle proves a miss, on clear rays", hits, case)
 
 
 def error_below_tolerance(plugin: Plugin, hits: Hits, case: Case, precision: Precision, knobs: Knobs) -> Finding:
     assert plugin.method.tolerance
     tolerance = plugin.method.tolerance(case.surface, dict(plugin.variant(knobs).parameters))
-    verdicts = case.judged(hits)
+    verdicts = case.judged(hits, precision)
     measured = case.clear(verdicts) & case.there & (verdicts.wrong == Wrong.RIGHT)
     if not measured.any():
-        return not_checked("error_below_tolerance", "no right hit outside the grazing class")
-    rounding = UNIT_ROUNDOFF[precision] * np.fmax(case.truth.condition[measured], 1.0) * case.surface.domain.radius
-    excess = verdicts.error[measured] / (tolerance + ROUNDINGS * rounding)
+        return not_checked("error_below_tolerance", "no right hit on a clear ray")
+    conditioned = ROUNDINGS * np.fmax(case.truth.condition[measured], 1.0) * case.surface.domain.radius
+    kernels = root_shift(case.surface, case.rays[measured].astype(np.float64), case.truth.lower[measured])
+    rounding = UNIT_ROUNDOFF[precision] * np.fmax(conditioned, kernels)
+    excess = verdicts.error[measured] / (tolerance + rounding)
     return Finding(
         "error_below_tolerance",
         float(np.max(excess)),
         1.0,
-        f"largest error over Method.tolerance, here {tolerance:.1e}, and {ROUNDINGS:g} roundings of the root",
+        f"largest error over Method.tolerance, here {tolerance:.1e}, and what roundings may move the root by",
         f"{measured.sum()} right hits",
         "state the tolerance that the kernel reaches, or withdraw the claim from Method.claims",
     )

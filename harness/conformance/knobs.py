@@ -35,12 +35,14 @@ def swept(
 ) -> Iterator[Finding]:
     """Two findings: the error grows at no step towards finer, and falls from the coarsest to the finest.
 
-    Errors are means in scene radii over rays outside the grazing class that meet the surface, a wrong answer counting
+    Errors are means in scene radii over clear rays that meet the surface, a wrong answer counting
     FAR. A ray that no setting answers rightly tells nothing of this knob and is left out. What lies under the floor of
     float32 has neither grown nor stayed.
     """
     values = settings_of(parameter)
-    verdicts = [case.judged(bench.cast(plugin, case, "float32", **{**others, parameter.name: v})) for v in values]
+    verdicts = [
+        case.judged(bench.cast(plugin, case, "float32", **{**others, parameter.name: v}), "float32") for v in values
+    ]
     right = [verdict.wrong == Wrong.RIGHT for verdict in verdicts]
     there = case.there & case.clear(verdicts[0])
     there = there if there.any() else case.there  # of a surface that is only touched every ray is grazing

@@ -103,13 +103,14 @@ def _wrong(
         return reason
     for side, when in ((present, "now"), (other, "at the other revision")):
         hits = _hits(side, planned, rays, choice.size, executor)
-        verdicts = accuracy.judge(hits, certified, scene_radius(surface), choice.grazing_margin)
+        precision = planned.cell.precision
+        verdicts = accuracy.judge(hits, certified, scene_radius(surface), choice.grazing_margin, precision)
         judged = accuracy.judged(certified, verdicts)
         if not judged.any():
             return accuracy.nothing_judged(len(rays))
         share = np.mean(verdicts.wrong[judged] != accuracy.Wrong.RIGHT)
         if not share <= choice.max_wrong_share:
-            return f"wrong on {share:.1%} of the rays outside the grazing class {when}: not timed"
+            return f"wrong on {share:.1%} of the rays that are neither grazing nor drowned {when}: not timed"
     return None
 
 

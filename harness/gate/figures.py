@@ -48,25 +48,34 @@ def _worst(rungs: list[dict[str, Any]], name: str) -> Value:
     return max((rung[name] for rung in rungs if rung[name] is not None), default=None)
 
 
-_GRAZING = tuple(f"grazing_{name}" for kind, name in NAMES.items() if kind is not Wrong.INVALID)
-
-BROKEN_BY = {  # the counts that contradict a claim; only the first is of grazing rays too
-    "no_missed_root": ("misses", "grazing_misses", "invalid", "grazing_invalid"),
+BROKEN_BY = {  # the counts that contradict a claim; only the first is of grazing and drowned rays too
+    "no_missed_root": tuple(f"{kind}{name}" for name in ("misses", "invalid") for kind in ("", "grazing_", "drowned_")),
     "conservative_bound": ("misses", "invalid"),
     "no_false_hit": ("false_hits", "invalid"),
 }
 
+
+def _within(kind: str) -> Callable[[dict[str, Any]], Value]:
+    """Wrong answers in the class of `kind` rays; None in rows from before the class was."""
+    names = [f"{kind}_{name}" for wrong, name in NAMES.items() if wrong is not Wrong.INVALID]
+    return lambda found: sum(found[name] for name in names) if names[0] in found else None
+
+
+def _invalid(found: dict[str, Any]) -> Value:
+    return int(sum(found.get(f"{kind}invalid", 0) for kind in ("", "grazing_", "drowned_")))
+
+
 FIGURES: tuple[Figure, ...] = (
-    _count("misses", "rays outside the grazing class whose hit was missed"),
-    _count("false_hits", "rays outside the grazing class that hit nothing"),
-    _count("exhausted", "rays outside the grazing class that ran out of evaluations"),
-    _count("wrong_root", "rays outside the grazing class that hit a later root, or no root"),
-    Figure("invalid", "lower", 0.0, 0.0, "rays whose answer can be none, grazing ones too",
-           lambda found: found["invalid"] + found["grazing_invalid"],
-           lambda rungs: sum(rung["invalid"] for rung in rungs), 0),
+    _count("misses", "clear rays, neither grazing nor drowned, whose hit was missed"),
+    _count("false_hits", "clear rays that hit nothing"),
+    _count("exhausted", "clear rays that ran out of evaluations"),
+    _count("wrong_root", "clear rays that hit a later root, or no root"),
+    Figure("invalid", "lower", 0.0, 0.0, "rays whose answer can be none, of whatever class",
+           _invalid, lambda rungs: sum(rung["invalid"] for rung in rungs), 0),
     _count("undecided", "rays that the oracle leaves undecided"),
     Figure("grazing_wrong", "lower", 2.0, 0.1, "wrong answers in the grazing class",
-           lambda found: sum(found[name] for name in _GRAZING), None),
+           _within("grazing"), None),
+    Figure("drowned_wrong", "lower", 2.0, 0.1, "wrong answers in the class of drowned rays", _within("drowned"), None),
     _error("max", "largest |t - t*|, scene units"),
     _error("p99", "99th percentile of |t - t*|, scene units"),
     Figure("worst_ratio", "lower", 1e-9, 0.05, "largest error over what the problem allows, of a family",

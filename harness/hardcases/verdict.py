@@ -6,6 +6,11 @@ moved, when t·d is formed and when it is added, and with constants rounded once
 ROUNDINGS · unit roundoff · their size, at most that of the domain. A ray that such a shift turns into one with other
 roots (`margin` of the oracle, or of the rung by construction) is `undecidable` and counted apart. The distance to the
 origin is no part of that size: the origin is given exactly and can be moved near without a loss.
+
+The class of drowned rays, which views have beside the grazing one (harness.accuracy), is another: there f's value is
+off, by its own roundings and by those of the point at that very place, so that flat places count, and places of a size
+far below the domain's do not. Neither class holds the other. Families keep to the points alone: their ladders are built
+along a distance, and `undecidable` says where that distance ends, whatever the formula.
 """
 
 from __future__ import annotations

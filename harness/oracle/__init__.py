@@ -19,7 +19,7 @@ polynomials, `transcendental` for everything else). What neither can prove is UN
   across a hit, or is 0 all along behind it, or has no value on one side, the hit is a TOUCH.
 - With other constants (π, e) or functions, crossings and misses are decided, and touches where f is written with a
   repeated factor or as an absolute value.
-- `following`, `condition` and `margin` are estimates in plain float64 (`classify`).
+- `following`, `condition`, `margin` and `contrast` are estimates in plain float64 (`classify`).
 """
 
 from __future__ import annotations
@@ -48,8 +48,8 @@ def first_hits(surface: Surface, rays: NDArray[np.float32], t_min: float = 0.0) 
     wide = rays.astype(np.float64)
     lower, upper, status = solver.certify(wide, t_min)
     first = 0.5 * (lower + upper)
-    following, condition, margin = classify(solver.floats, solver.fast.f, surface.domain, wide, first, status, t_min)
-    return Truth(lower, upper, status, following, condition, margin)
+    estimates = classify(solver.floats, solver.fast.f, solver.noise, surface.domain, wide, first, status, t_min)
+    return Truth(lower, upper, status, *estimates)
 
 
 def cached_first_hits(surface: Surface, rays: NDArray[np.float32], folder: Path, t_min: float = 0.0) -> Truth:
@@ -103,6 +103,7 @@ class _Solver:
         from harness.oracle.enclosure import Enclosure
         from harness.oracle.fast import FastSolver
         from harness.oracle.floats import FloatFunction
+        from harness.oracle.noise import Noise
         from harness.oracle.program import compile_expression
         from harness.oracle.slow import AlgebraicSolver
         from harness.oracle.transcendental import SmoothSolver
@@ -111,6 +112,7 @@ class _Solver:
         program = compile_expression(expr)
         self.fast = FastSolver(expr, surface.domain)
         self.floats = FloatFunction(program, [c.mid for c in Enclosure(program).constants])
+        self.noise = Noise(surface)
         smooth = SmoothSolver(expr, surface.domain)
         self.slow: list[AlgebraicSolver | SmoothSolver] = [smooth]
         if program.is_polynomial:  # in several fields Q(√d), what balls leave open is for the other one

@@ -6,13 +6,17 @@ Plain float64 on samples along the ray, nothing proved; none of it decides wheth
 with g(t1) = f'(t1): a next root or a near touch close to t1, which f's samples would step over, is an ordinary sign
 change or least |g| of these. This is deflation without dividing polynomials, and `_root` steps by Maehly's formula.
 Everything is as good as f' and f are in float64: a next root t2 to about condition · 2^-53 radii.
+
+Another answer is near where |f| is small at one of a few places: near touches before the first root, the ends of the
+stay, and the bottom of the first root's dip. Over |grad f| there, |f| is the margin: how far the surface is. Over what
+kernels may be off in f's value there (harness.oracle.noise) it is the contrast: the unit roundoff at which f's sign
+begins to be in doubt. Far from the surface the margin is large, and yet, where f is flat, the contrast may be none.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cache
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +26,7 @@ from harness.oracle.balls64 import Floats
 from harness.oracle.clip import clip_many, nearest, recentred
 from harness.oracle.enclosure import Enclosure
 from harness.oracle.floats import FloatFunction, majorant
+from harness.oracle.noise import Noise, NoiseAlong
 
 BLOCK = 1024  # rays at a time, so that the arrays stay in the cache
 MOST_STEPS = 40  # of a bracketed search; it halves at least every second time
@@ -31,7 +36,9 @@ UNIT = 2.0**-53
 CERTIFIED = 2.0**-42  # bound of the first root's error, in domain radii
 BLUNT = 2.0**40  # condition of a first root above which f'(t1) is taken for rounding errors
 DROWNED = 2.0**-40  # interpolated values below this share of the largest are not believed
-Estimates = tuple[Floats, Floats, Floats]  # following, condition, margin, each [n]
+FAINT_STEP = 3  # every so many samples are looked at for where |f| is faint: minima of |f| are looked at one by one
+BOUNDS = 4  # pieces of the stay, at whose ends f's rounding errors are bounded for a first look
+Estimates = tuple[Floats, Floats, Floats, Floats]  # following, condition, margin, contrast, each [n]
 Indices = NDArray[np.intp]
 
 
@@ -54,6 +61,7 @@ def interpolation(degree: int, finer: int) -> Floats:
 def classify(
     f: FloatFunction,
     enclosure: Enclosure,
+    noise: Noise,
     domain: Domain,
     rays: Floats,
     first: Floats,
@@ -62,17 +70,19 @@ def classify(
 ) -> Estimates:
     """`rays`: float64[n, 6]; `first`: the first root's t, float64[n], NaN without a hit; see contract.Truth.
 
-    `enclosure` is of f or of a function with the same roots: it tells two close roots from rounding errors.
+    `enclosure` is of f or of a function with the same roots: it tells two close roots from rounding errors. `noise` is
+    of f as kernels evaluate it.
     """
     if not len(rays):
-        return np.empty(0), np.empty(0), np.empty(0)
+        return np.empty(0), np.empty(0), np.empty(0), np.empty(0)
     parts = []
     with np.errstate(all="ignore"):
         for k in range(0, len(rays), BLOCK):
             piece = slice(k, k + BLOCK)
-            parts.append(_Block(f, enclosure, domain, rays[piece], first[piece], status[piece], t_min).estimates())
-    following, condition, margin = (np.concatenate(columns) for columns in zip(*parts, strict=True))
-    return following, condition, margin
+            block = _Block(f, enclosure, noise, domain, rays[piece], first[piece], status[piece], t_min)
+            parts.append(block.estimates())
+    following, condition, margin, contrast = (np.concatenate(columns) for columns in zip(*parts, strict=True))
+    return following, condition, margin, contrast
 
 
 @dataclass(frozen=True)
@@ -94,6 +104,7 @@ class _Block:
         self,
         f: FloatFunction,
         enclosure: Enclosure,
+        noise: Noise,
         domain: Domain,
         rays: Floats,
         first: Floats,
@@ -103,6 +114,7 @@ class _Block:
         self.f = f
         self.t_min = t_min
         self.enclosure = enclosure
+        self.noise = noise
         self.given = rays
         self.domain = domain
         self.status = status
@@ -124,22 +136,53 @@ class _Block:
     def estimates(self) -> Estimates:
         found = self._least()
         following = self._following(found)
-        margin = np.full(len(self.hit), np.inf)
-        everyone = np.arange(len(self.hit))
+        everyone, n = np.arange(len(self.hit)), len(self.hit)
         before = np.where(self.hit, self.first, np.inf)
         ahead = before[found.rows] - found.t
-        self._lower_margin(
-            margin, found.rows, found.t, (ahead > self.blur[found.rows]) & ~(3.0**0.5 * found.width > ahead)
-        )
-        self._lower_margin(margin, everyone, self.enter, np.ones_like(self.hit))
-        self._lower_margin(margin, everyone, self.leave, ~self.hit)
-        self._lower_margin(margin, everyone, self._deepest(following), self.hit)
+        near = (ahead > self.blur[found.rows]) & ~(3.0**0.5 * found.width > ahead)
+        behind = np.where(self.hit, self._deepest(following), self.leave)
+        rows = np.concatenate((found.rows[near], everyone, everyone))
+        t = np.concatenate((found.t[near], self.enter, behind))
+        margin, contrast = np.full(n, np.inf), np.full(n, np.inf)
+        rays = self.rays[rows]
+        np.fmin.at(margin, rows, np.abs(self.f.values(rays, t)) / self.f.steepness(rays, t))
+        noise = self.noise.along(self.rays)
+        faint, at = self._faintest(noise)
+        rows, t = np.concatenate((rows, faint)), np.concatenate((t, at))
+        np.fmin.at(contrast, rows, np.abs(self.f.values(self.rays[rows], t)) / noise.bound(rows, t))
         room = np.minimum(self._inside(self.first), (self.first + self.shift - self.t_min) * self.length)
         room = np.minimum(room, 0.5 * (following - self.first) * self.length)  # nothing between two roots is deeper
         margin = np.where(self.hit, np.minimum(margin, np.maximum(room, 0.0)), margin)
         margin = np.where(self.missed, self._gap(), margin)
+        contrast = np.where(self.missed, np.inf, contrast)
         open_ = (self.status == TruthStatus.TOUCH) | (self.status == TruthStatus.UNDECIDED)
-        return following + self.shift, self.condition, np.where(open_, 0.0, margin)
+        return (
+            following + self.shift,
+            self.condition,
+            np.where(open_, 0.0, margin),
+            np.where(open_, 0.0, contrast),
+        )
+
+    def _faintest(self, noise: NoiseAlong) -> tuple[Indices, Floats]:
+        """Rays, and t of the sample before the first root at which |f| is least beside its rounding errors.
+
+        Samples at which |f| is over half of what the first root's slope makes it belong to that root.
+        """
+        some = slice(None, None, FAINT_STEP)
+        t, g, size = self.t[:, some], np.abs(self.g[:, some]), np.abs(self.values[:, some])
+        ends, share = lobatto(BOUNDS), lobatto(self.t.shape[1] - 1)[some]
+        looked = self.enter[:, None] + (self.leave - self.enter)[:, None] * ends
+        rows = np.repeat(np.arange(len(looked)), BOUNDS + 1)
+        bounds = noise.by_tape(rows, looked.ravel()).reshape(looked.shape)
+        place = np.clip(np.searchsorted(ends, share, side="right") - 1, 0, BOUNDS - 1)
+        weight = (share - ends[place]) / (ends[place + 1] - ends[place])
+        about = np.add(bounds[:, place] * (1.0 - weight), bounds[:, place + 1] * weight)
+        own = self.hit[:, None] & (g >= 0.5 * np.abs(self.slope)[:, None])
+        own |= self.hit[:, None] & (t >= (self.first - self.blur)[:, None])
+        ratio = np.where(~own & np.isfinite(about), size / about, np.inf)
+        column = ratio.argmin(axis=1)
+        faint = np.flatnonzero(np.isfinite(ratio[np.arange(len(ratio)), column]))
+        return faint, t[faint, column[faint]]
 
     def _sample(self) -> None:
         """t, f and g at Chebyshev's points of the clip interval, one of them moved to t1."""
@@ -307,13 +350,6 @@ class _Block:
         middle = 0.5 * (self.first + stop)
         sampled = size[everyone, column] > np.abs(self.f.values(self.rays, middle))
         return np.where(sampled, self.t[everyone, column], middle)
-
-    def _lower_margin(self, margin: Floats, rows: NDArray[np.intp], t: Floats, counts: Any) -> None:
-        """Lowers margins to |f| / |grad f| at o + t·d of `rows`, where it `counts`."""
-        rows, t = rows[counts], t[counts]
-        rays = self.rays[rows]
-        distance = np.abs(self.f.values(rays, t)) / self.f.steepness(rays, t)
-        np.fmin.at(margin, rows, distance)
 
     def _inside(self, t: Floats) -> Floats:
         """Distance of o + t·d to the domain's boundary; negative outside."""

@@ -146,7 +146,7 @@ class Search:
                 if now is not None:
                     measured.add(variant)
                 worst[variant] = max(error, now or 0.0), max(evaluations, accuracy["evaluations_mean"])
-        nothing = f"no hit to measure an error of: the oracle decides none outside the grazing class{where}"
+        nothing = f"no hit to measure an error of: the oracle decides none on a clear ray{where}"
         found.fallen += [Fallen(variant, precision, nothing) for variant in alive if variant not in measured]
         return [variant for variant in alive if variant in measured]
 
@@ -155,7 +155,7 @@ class Search:
         if row["status"] != CellStatus.OK:
             return f"{row['status']}: {' '.join(str(row['reason']).split())}"
         accuracy = row["accuracy"]
-        counts = {name: accuracy[name] for name in (*NAMES.values(), "grazing_invalid")}
+        counts = {name: accuracy[name] for name in (*NAMES.values(), "grazing_invalid", "drowned_invalid")}
         if any(not count <= 0 for count in counts.values()):
             wrong = [f"{count} {name.replace('_', ' ')}" for name, count in counts.items() if count]
             return f"{', '.join(wrong)} of {accuracy['judged']} rays, view {row['view']}"

@@ -129,15 +129,15 @@ def _certified(surface: Surface, parts: list[_Part], folder: Path) -> tuple[_Par
 def _nearest(n: int, found: list[tuple[_Part, Truth]]) -> Seen:
     """Of all pairs, what each ray sees first."""
     lower, upper, following, condition = (np.full(n, np.nan) for _ in range(4))
-    margin, second = np.full(n, np.inf), np.full(n, np.inf)
+    margin, contrast, second = (np.full(n, np.inf) for _ in range(3))
     status = np.full(n, TruthStatus.MISS, np.uint8)
     batch, instance = np.full(n, -1, np.int32), np.full(n, -1, np.int32)
     if found:
         names = ("pixel", "batch", "instance", "scale")
         pixel, group, who, scale = (np.concatenate([getattr(part, name) for part, _ in found]) for name in names)
-        low, high, after, near, ill, kind = (
+        low, high, after, near, faint, ill, kind = (
             np.concatenate([getattr(truth, name) for _, truth in found])
-            for name in ("lower", "upper", "following", "margin", "condition", "status")
+            for name in ("lower", "upper", "following", "margin", "contrast", "condition", "status")
         )
         low, high, after, near = low * scale, high * scale, after * scale, near * scale
         there = np.isin(kind, (TruthStatus.CROSSING, TruthStatus.TOUCH))
@@ -153,6 +153,7 @@ def _nearest(n: int, found: list[tuple[_Part, Truth]]) -> Seen:
         following[at] = np.where(hit, after[best], np.inf)
         np.minimum.at(second, pixel[rest], np.where(there[rest], low[rest], np.inf))
         np.minimum.at(margin, pixel, near)
+        np.minimum.at(contrast, pixel, faint)
         undecided = np.zeros(n, bool)
         np.logical_or.at(undecided, pixel, kind == TruthStatus.UNDECIDED)
         status[undecided] = TruthStatus.UNDECIDED
@@ -161,4 +162,4 @@ def _nearest(n: int, found: list[tuple[_Part, Truth]]) -> Seen:
     with np.errstate(invalid="ignore"):
         gap = np.where(batch >= 0, second - upper, np.inf)
         margin = np.minimum(margin, np.where(batch >= 0, gap, np.inf))
-    return Seen(Truth(lower, upper, status, following, condition, margin), batch, instance, gap)
+    return Seen(Truth(lower, upper, status, following, condition, margin, contrast), batch, instance, gap)

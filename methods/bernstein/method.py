@@ -23,7 +23,9 @@ What a root is off by is mostly what f's value there is off by, and that is anot
 last of Newton's steps takes the mean of f over PAIRS pairs of points about the root, a few roundoffs apart: the median
 error falls to two thirds, with 16 pairs to half.
 
-**What is promised** Hits are where f itself changes its sign, so there are no false ones outside the grazing class.
+**What is promised** Hits are where f's computed value changes its sign, so there are false ones on drowned rays alone,
+whose |f| falls under what its roundings may be. A hit is not asked to leave that bound: on such rays as many hits are
+real, and would be lost.
 Where another answer is 2^-11 domain radii away and the first root's condition times roundoff is below 2^-8, no
 crossing is missed, no later root taken, and the error is below the tolerance and what rounding must add; tests hold
 random rays over the catalog against that, a million where asked, and ten million were. A touch is a miss, or a hit at

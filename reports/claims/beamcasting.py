@@ -105,7 +105,8 @@ def _nothing_missed(evidence: Evidence) -> Verdict | None:
     rows = pd.concat([evidence.rows(pick) for pick in (picks.UNIFORM, picks.ADAPTIVE)])
     if rows.empty:
         return None
-    misses, rays = counted(rows, "misses", "grazing_misses"), counted(rows, "accuracy_rays")
+    misses = counted(rows, "misses", "grazing_misses", "drowned_misses")
+    rays = counted(rows, "accuracy_rays")
     told = f"{count(misses)} misses of {count(rays)} rays on {rows['surface'].nunique()} surfaces"
     return verdict(known(misses, lambda n: n == 0), told)
 

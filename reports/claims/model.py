@@ -144,3 +144,9 @@ def lost(ratios: pd.DataFrame) -> str:
     told = f"; slower in {slower} of {len(ratios)}" if slower else ""
     even = len(ratios) - slower - faster
     return told + (f"; not told apart in {even} of {len(ratios)}" if even else "")
+
+
+def wrong(rows: pd.DataFrame, grazing: bool = False) -> pd.Series:
+    """Wrong rays of each row; with `grazing` those at silhouettes and drowned ones too."""
+    names = ["wrong_rays", *(["grazing_wrong_rays", "drowned_wrong_rays"] if grazing else [])]
+    return rows[names].astype("float64").sum(axis=1, skipna=False)

@@ -219,7 +219,8 @@ def _out_of_steps(evidence: Evidence) -> Verdict | None:
     rows = evidence.rows(picks.LU, picks.HIGH_DEGREE).drop_duplicates("surface")
     if rows.empty:
         return None
-    share = (rows["exhausted"] + rows["grazing_exhausted"]).astype(float) / rows["accuracy_rays"].astype(float)
+    given_up = rows["exhausted"] + rows["grazing_exhausted"] + rows["drowned_exhausted"]
+    share = given_up.astype(float) / rows["accuracy_rays"].astype(float)
     told = ", ".join(f"{t} {wording.share(s)}" for t, s in zip(rows["surface_title"], share, strict=True))
     held = []
     for i in range(len(rows)):

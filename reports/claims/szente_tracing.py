@@ -15,9 +15,12 @@ def _details_skipped(evidence: Evidence) -> Verdict | None:
     rows = evidence.rows(picks.MARCH)
     if rows.empty:
         return None
-    clear, grazing = (counted(rows, f"{kind}misses", f"{kind}wrong_root") for kind in ("", "grazing_"))
-    told = f"{count(clear)} roots skipped away from silhouettes and {count(grazing)} at them, by "
-    told += f"{count(counted(rows, 'accuracy_rays'))} rays on {rows['surface'].nunique()} surfaces"
+    clear, grazing, drowned = (
+        counted(rows, f"{kind}misses", f"{kind}wrong_root") for kind in ("", "grazing_", "drowned_")
+    )
+    told = f"{count(clear)} roots skipped away from silhouettes, {count(grazing)} at them and {count(drowned)} where f "
+    told += f"drowns in its rounding, by {count(counted(rows, 'accuracy_rays'))} rays on "
+    told += f"{rows['surface'].nunique()} surfaces"
     # none seen says nothing of finer details; and at a silhouette rounding alone may skip a root
     return verdict(True if clear else None, told)
 

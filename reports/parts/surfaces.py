@@ -15,8 +15,9 @@ SCENES = 40  # comparisons of a run whose fronts are all drawn; of a larger one 
 LEGEND = (
     "Speed-up is over the baseline that each table names. Flags: front, no other variant with all rays right is both "
     f"faster, by the medians, and more exact; floor-bound, under {derive.FLOOR_FACTOR:g} times the null method's time, "
-    "so that the harness is measured more than the method; floor, the null method itself, which finds nothing; interval wide, the "
-    "budget ended before the 95 % interval of the median was within 2 % of it; drifts, the second half of the samples "
+    "so that the harness is measured more than the method; floor, the null method itself, which finds nothing; "
+    "interval wide, the budget ended before the 95 % interval of the median was within 2 % of it; drifts, the second "
+    "half of the samples "
     "was slower or faster than the first; noisy, the middle half of the samples spreads over more than a tenth of the "
     "median; outliers, samples far outside the rest, which are kept; overhead, what the harness's submitting and "
     "waiting adds to the time by the device's clock, as a share of that, where it is above "

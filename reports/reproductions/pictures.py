@@ -133,7 +133,8 @@ def _counts(rows: pd.DataFrame, title: str) -> Table:
     for row in rows.itertuples():
         counts = tuple(getattr(row, kind) for kind in kinds)
         place = (row.surface_title, row.view) if views else (row.surface_title,)
-        told = (row.setting, *counts, row.wrong_rays, row.grazing_wrong_rays, row.error_max, row.error_p99)
+        apart = (row.grazing_wrong_rays, row.drowned_wrong_rays)
+        told = (row.setting, *counts, row.wrong_rays, *apart, row.error_max, row.error_p99)
         body.append((*place, *told))
     return Table(
         (
@@ -143,6 +144,7 @@ def _counts(rows: pd.DataFrame, title: str) -> Table:
             *(Column(kind.replace("_", "\n"), wording.count, numeric=True) for kind in kinds),
             Column("wrong\nrays", wording.count, numeric=True),
             Column("at sil-\nhouettes", wording.count, numeric=True),
+            Column("drowned", wording.count, numeric=True),
             Column("max\nerror", wording.error, numeric=True),
             Column("99 %\nerror", wording.error, numeric=True),
         ),

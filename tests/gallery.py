@@ -1,0 +1,71 @@
+"""The gallery of tests/data/gallery.toml, and rays that look for what is hard on a surface."""
+
+from __future__ import annotations
+
+import tomllib
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+
+import surfaces
+from harness.camera import camera_for, rays_of
+from harness.contract import Surface, View
+
+FILE = Path(__file__).parent / "data" / "gallery.toml"
+CANDIDATES = 20_000  # points of the domain that are moved to the surface
+STEPS = 8  # of Newton's method along the gradient
+FLATTEST = 0.02  # share of the surface's points that count as its tails
+
+
+@cache
+def entries() -> dict[str, tuple[str, str, str]]:
+    """Each surface's formula, domain and source."""
+    data = tomllib.loads(FILE.read_text(encoding="utf-8"))
+    return {name: (text, domain, data["sources"][source]) for name, (text, domain, source) in data["surface"].items()}
+
+
+@cache
+def surface_named(name: str) -> Surface:
+    text, domain, _ = entries()[name]
+    return surfaces.from_formula(text, domain, name=name)
+
+
+def view_rays(surface: Surface, size: int) -> np.ndarray:
+    return rays_of(camera_for(View("oblique", azimuth=30, elevation=35), surface), size)
+
+
+@cache
+def tails(surface: Surface) -> np.ndarray:
+    """Points float64[k, 3] on the surface or nearly, where f is flattest: thin tails, singular points and curves."""
+    rng = np.random.default_rng(3)
+    radius, center = surface.domain.radius, np.array(surface.domain.center)
+    points = rng.uniform(-radius, radius, (CANDIDATES, 3)) + center
+    with np.errstate(all="ignore"):
+        for _ in range(STEPS):
+            slope = surfaces.gradient(surface, points)
+            step = surfaces.evaluate(surface, points)[:, None] * slope / (slope**2).sum(axis=1, keepdims=True)
+            points = points - np.clip(np.nan_to_num(step), -0.1 * radius, 0.1 * radius)
+        steep = np.linalg.norm(surfaces.gradient(surface, points), axis=1)
+    inside = np.linalg.norm(points - center, axis=1) < radius
+    points, steep = points[inside], steep[inside]
+    return points[np.argsort(steep)[: max(1, int(FLATTEST * len(points)))]]
+
+
+def aimed(surface: Surface, targets: np.ndarray, count: int, rng: np.random.Generator) -> np.ndarray:
+    """Rays float32[count, 6] from two to five radii away past `targets`, at distances from 1e-4 to 0.1 radii."""
+    radius, center = surface.domain.radius, np.array(surface.domain.center)
+    away = rng.normal(size=(count, 3))
+    away *= rng.uniform(2.0, 5.0, (count, 1)) / np.linalg.norm(away, axis=1)[:, None]
+    origins = away * radius + center
+    aside = rng.normal(size=(count, 3)) * 10.0 ** rng.uniform(-4.0, -1.0, (count, 1)) * radius
+    directions = targets[rng.integers(0, len(targets), count)] + aside - origins
+    directions /= np.linalg.norm(directions, axis=1)[:, None]
+    return np.hstack([origins, directions]).astype(np.float32)
+
+
+def anywhere(surface: Surface, count: int, rng: np.random.Generator) -> np.ndarray:
+    """Rays float32[count, 6] from outside past points of the domain."""
+    points = rng.normal(size=(count, 3))
+    points *= rng.uniform(0, 1, (count, 1)) ** (1 / 3) / np.linalg.norm(points, axis=1)[:, None]
+    return aimed(surface, points * surface.domain.radius + surface.domain.center, count, rng)
