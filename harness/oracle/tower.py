@@ -3,9 +3,10 @@
 **Theory.** A tower is a list of radicals r_k = √g_k, each g_k written with rational polynomials in t and earlier ones.
 An element is e = a + b·r_k with the last radical it holds taken out; e times its conjugate a − b·r_k is a² − b²·g_k,
 free of r_k, and so on down to a rational polynomial that vanishes wherever e does. On a cell, an open interval of t on
-which every g_k is positive, elements are analytic functions without divisors of zero: if a² − b²·g_k vanishes identically, so
-does e or its conjugate; and if a does not, exactly one of them, and a value other than 0 tells which. The same argument
-at one number t, where elements are real numbers, decides whether e is 0 there. Constants such as √2 are radicals too.
+which every g_k is positive, elements are analytic functions without divisors of zero: if a² − b²·g_k vanishes
+identically, so does e or its conjugate; and if a does not, exactly one of them, and a value other than 0 tells which.
+The same argument at one number t, where elements are real numbers, decides whether e is 0 there. Constants such as √2
+are radicals too.
 """
 
 from __future__ import annotations
