@@ -57,7 +57,8 @@ class Case:
         """bool[n]: the oracle proves a first hit."""
         return np.asarray(np.isin(self.truth.status, (TruthStatus.CROSSING, TruthStatus.TOUCH)))
 
-    def judged(self, hits: Hits) -> Verdicts:
+    def judged(self, hits: Hits, _precision: Precision) -> Verdicts:
+        """Verdicts on `hits` of a precision, which no class of rays depends on yet."""
         return judge(hits, self.truth, self.radius, GRAZING)
 
     def clear(self, verdicts: Verdicts) -> NDArray[np.bool_]:

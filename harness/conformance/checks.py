@@ -69,20 +69,20 @@ def same_bits(hits: Hits, again: Hits) -> Finding:
     )
 
 
-def agreement(hits: Hits, case: Case, setting: str = "") -> Iterator[Finding]:
+def agreement(hits: Hits, case: Case, precision: Precision, setting: str = "") -> Iterator[Finding]:
     """Outside the grazing class nearly every answer is right, and right hits are near their roots; view by view.
 
     `setting` is the name of the paper's setting that the answers are of: it may be weaker than the default.
     """
     for view, part, answered in case.parts(hits):
-        yield from _agreement(view, part, answered, setting)
+        yield from _agreement(f", view {view}" if view else "", part, answered, precision, setting)
 
 
-def _agreement(view: str, case: Case, hits: Hits, setting: str) -> Iterator[Finding]:
-    verdicts = case.judged(hits)
+def _agreement(view: str, case: Case, hits: Hits, precision: Precision, setting: str) -> Iterator[Finding]:
+    verdicts = case.judged(hits, precision)
     clear = case.clear(verdicts)
     if not clear.any():  # a thin torus, whose every ray is near to missing it; a surface that is only touched
-        yield not_checked("right answers", f"no ray of view {view} is outside the grazing class")
+        yield not_checked(f"right answers{view}", "no ray is outside the grazing class")
         return
     typical = case.surface.name in TYPICAL and not setting
     wrong = np.where(clear, verdicts.wrong, Wrong.RIGHT)
@@ -93,16 +93,16 @@ def _agreement(view: str, case: Case, hits: Hits, setting: str) -> Iterator[Find
     counts = ", ".join(f"{(wrong == kind).sum()} {name}" for kind, name in NAMES.items() if (wrong == kind).any())
     whose = "a setting of the paper" if setting else "a typical surface" if typical else "a surface that is not typical"
     yield Finding(
-        f"right answers, view {view}",
+        f"right answers{view}",
         float(wrongly.sum() / clear.sum()),
-        limits[view == INSIDE],
+        limits[view.endswith(INSIDE)],
         f"share of wrong answers outside the grazing class, on {whose}",
         f"{counts or 'none wrong'} of {clear.sum()}" + _first(wrongly, hits, case),
         "mend the kernel, or refuse such surfaces in Method.accepts",
     )
     if not typical:
         yield Finding(
-            f"gives up seldom, view {view}",
+            f"gives up seldom{view}",
             float(gave_up.sum() / clear.sum()),
             MOST_EXHAUSTED_ELSEWHERE,
             f"share of rays outside the grazing class that end as exhausted, on {whose}",
@@ -117,7 +117,7 @@ def _near_roots(view: str, errors: NDArray[np.float64], limit: float, whose: str
     """`errors` of right hits, in scene radii."""
     p99 = float(np.quantile(errors, 0.99)) if len(errors) else np.nan
     return Finding(
-        f"error, view {view}",
+        f"error{view}",
         p99,
         limit,
         f"error in scene radii that 99 of 100 right hits stay below, on {whose}",
@@ -152,8 +152,8 @@ def no_missed_root(_plugin: Plugin, hits: Hits, case: Case, _precision: Precisio
     )
 
 
-def conservative_bound(_plugin: Plugin, hits: Hits, case: Case, _precision: Precision, _knobs: Knobs) -> Finding:
-    verdicts = case.judged(hits)
+def conservative_bound(_plugin: Plugin, hits: Hits, case: Case, precision: Precision, _knobs: Knobs) -> Finding:
+    verdicts = case.judged(hits, precision)
     there = case.there & case.clear(verdicts)
     found = (verdicts.wrong == Wrong.RIGHT) & np.isfinite(verdicts.error)
     lost = there & ~found & (hits.status != RayStatus.EXHAUSTED)
@@ -161,8 +161,8 @@ def conservative_bound(_plugin: Plugin, hits: Hits, case: Case, _precision: Prec
     return _claim("conservative_bound", lost, there, rule, hits, case)
 
 
-def no_false_hit(_plugin: Plugin, hits: Hits, case: Case, _precision: Precision, _knobs: Knobs) -> Finding:
-    misses = (case.truth.status == TruthStatus.MISS) & case.clear(case.judged(hits))
+def no_false_hit(_plugin: Plugin, hits: Hits, case: Case, precision: Precision, _knobs: Knobs) -> Finding:
+    misses = (case.truth.status == TruthStatus.MISS) & case.clear(case.judged(hits, precision))
     false = misses & ~np.isin(hits.status, (RayStatus.MISS, RayStatus.EXHAUSTED))
     return _claim(
         "no_false_hit", false, misses, "hits where the oracle proves a miss, outside the grazing class", hits, case
@@ -172,7 +172,7 @@ def no_false_hit(_plugin: Plugin, hits: Hits, case: Case, _precision: Precision,
 def error_below_tolerance(plugin: Plugin, hits: Hits, case: Case, precision: Precision, knobs: Knobs) -> Finding:
     assert plugin.method.tolerance
     tolerance = plugin.method.tolerance(case.surface, dict(plugin.variant(knobs).parameters))
-    verdicts = case.judged(hits)
+    verdicts = case.judged(hits, precision)
     measured = case.clear(verdicts) & case.there & (verdicts.wrong == Wrong.RIGHT)
     if not measured.any():
         return not_checked("error_below_tolerance", "no right hit outside the grazing class")

@@ -41,7 +41,7 @@ def examine(bench: Bench, plugin: Plugin, case: Case, precision: Precision, sett
     yield decided(case)
     yield answers(hits, case)
     yield same_bits(hits, again)
-    yield from agreement(hits, case, setting)
+    yield from agreement(hits, case, precision, setting)
     for claim in sorted(plugin.method.claims & CLAIM_CHECKS.keys()):
         yield CLAIM_CHECKS[claim](plugin, hits, case, precision, knobs)
 
