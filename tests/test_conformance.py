@@ -165,17 +165,17 @@ def test_each_check_sees_what_it_is_for():
     assert not conformance.answers(outside, case).holds
     assert conformance.same_bits(hits, hits).holds
     assert not conformance.same_bits(hits, changed(there[:1], t=lambda t: np.nextafter(t, 9.0))).holds
-    assert all(finding.holds for finding in conformance.agreement(hits, case))
+    assert all(finding.holds for finding in conformance.agreement(hits, case, "float32"))
     none = changed(np.arange(len(hits.t)), status=lambda s: 0 * s)
-    assert any(finding.fails for finding in conformance.agreement(none, case))
+    assert any(finding.fails for finding in conformance.agreement(none, case, "float32"))
 
 
 def test_giving_up_on_most_rays_is_seen_where_there_is_no_root_to_measure():
     case = view_case(surfaces.get("two_spheres"))
     hits = bench_on(opened(DEVICES[0])).cast(find_methods().get("interval_march"), case, "float32")
-    assert not any(finding.fails for finding in conformance.agreement(hits, case))
+    assert not any(finding.fails for finding in conformance.agreement(hits, case, "float32"))
     given_up = dataclasses.replace(hits, status=np.full_like(hits.status, RayStatus.EXHAUSTED), t=np.nan * hits.t)
-    assert any(finding.fails for finding in conformance.agreement(given_up, case))
+    assert any(finding.fails for finding in conformance.agreement(given_up, case, "float32"))
 
 
 def test_a_touch_that_is_missed_is_seen():

@@ -74,14 +74,14 @@ def agreement(hits: Hits, case: Case, precision: Precision, setting: str = "") -
     `setting` is the name of the paper's setting that the answers are of: it may be weaker than the default.
     """
     for view, part, answered in case.parts(hits):
-        yield from _agreement(view, part, answered, precision, setting)
+        yield from _agreement(f", view {view}" if view else "", part, answered, precision, setting)
 
 
 def _agreement(view: str, case: Case, hits: Hits, precision: Precision, setting: str) -> Iterator[Finding]:
     verdicts = case.judged(hits, precision)
     clear = case.clear(verdicts)
     if not clear.any():  # a thin torus, whose every ray is near to missing it; a surface that is only touched
-        yield not_checked("right answers", f"no ray of view {view} is clear")
+        yield not_checked(f"right answers{view}", "no ray is clear")
         return
     typical = case.surface.name in TYPICAL and not setting
     wrong = np.where(clear, verdicts.wrong, Wrong.RIGHT)
@@ -92,16 +92,16 @@ def _agreement(view: str, case: Case, hits: Hits, precision: Precision, setting:
     counts = ", ".join(f"{(wrong == kind).sum()} {name}" for kind, name in NAMES.items() if (wrong == kind).any())
     whose = "a setting of the paper" if setting else "a typical surface" if typical else "a surface that is not typical"
     yield Finding(
-        f"right answers, view {view}",
+        f"right answers{view}",
         float(wrongly.sum() / clear.sum()),
-        limits[view == INSIDE],
+        limits[view.endswith(INSIDE)],
         f"share of wrong answers on clear rays, on {whose}",
         f"{counts or 'none wrong'} of {clear.sum()}" + _first(wrongly, hits, case),
         "mend the kernel, or refuse such surfaces in Method.accepts",
     )
     if not typical:
         yield Finding(
-            f"gives up seldom, view {view}",
+            f"gives up seldom{view}",
             float(gave_up.sum() / clear.sum()),
             MOST_EXHAUSTED_ELSEWHERE,
             f"share of clear rays that end as exhausted, on {whose}",
@@ -116,7 +116,7 @@ def _near_roots(view: str, errors: NDArray[np.float64], limit: float, whose: str
     """`errors` of right hits, in scene radii."""
     p99 = float(np.quantile(errors, 0.99)) if len(errors) else np.nan
     return Finding(
-        f"error, view {view}",
+        f"error{view}",
         p99,
         limit,
         f"error in scene radii that 99 of 100 right hits stay below, on {whose}",

@@ -40,9 +40,8 @@ def swept(
     float32 has neither grown nor stayed.
     """
     values = settings_of(parameter)
-    verdicts = [
-        case.judged(bench.cast(plugin, case, "float32", **{**others, parameter.name: v}), "float32") for v in values
-    ]
+    answered = [bench.cast(plugin, case, "float32", **{**others, parameter.name: value}) for value in values]
+    verdicts = [case.judged(hits, "float32") for hits in answered]
     right = [verdict.wrong == Wrong.RIGHT for verdict in verdicts]
     there = case.there & case.clear(verdicts[0])
     there = there if there.any() else case.there  # of a surface that is only touched every ray is grazing
