@@ -174,4 +174,4 @@ def root_shift(surface: Surface, rays: Floats, t: Floats) -> Floats:
     near, at = recentred(rays, shift), t - shift
     with np.errstate(all="ignore"):
         slope = surfaces.gradient(surface, near[:, :3] + at[:, None] * near[:, 3:]) * near[:, 3:]
-        return Noise(surface).along(near).bound(slice(None), at) / np.abs(slope.sum(axis=1))
+        return np.asarray(Noise(surface).along(near).bound(slice(None), at) / np.abs(slope.sum(axis=1)))
