@@ -14,10 +14,12 @@ from typing import Any
 
 import numpy as np
 
-from harness.contract import Box, FirsthitError, Surface
+from harness.contract import UNIT_ROUNDOFF, Box, FirsthitError, Precision, Surface
 
 POINTS = 60_000
 MARGIN = 1.25
+SHELLS = 16  # balls with a bound of their own, where roots' errors are asked for
+COORDINATES = 6.0  # unit roundoffs of a point's distance from the centre by which its coordinates may be off
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,6 +89,21 @@ def value_errors(surface: Surface, shells: int, coordinates: float) -> tuple[flo
     if not bounds[-1] < np.inf:
         raise FirsthitError(f"{surface.name}: no finite bound of its rounding errors over the domain")
     return tuple(bounds)
+
+
+def root_errors(surface: Surface, rays: Any, t: Any, precision: Precision) -> Any:
+    """float64[n], scene units, to first order: how far rounding in f may move roots at t float64[n] of rays
+    float32[n, 6]: what f may be off by there, over its slope along the ray. Only for polynomials, as value_errors."""
+    import surfaces
+
+    origins, directions = np.split(np.asarray(rays, np.float64), 2, axis=1)
+    points = origins + np.asarray(t)[:, None] * directions
+    slopes = np.einsum("ij,ij->i", surfaces.gradient(surface, points), directions)
+    away = np.linalg.norm(points - surface.domain.center, axis=1) / surface.domain.radius
+    shells = np.clip(np.ceil(away * SHELLS).astype(int), 1, SHELLS) - 1
+    errors = np.array(value_errors(surface, SHELLS, COORDINATES))[shells]
+    with np.errstate(divide="ignore"):
+        return UNIT_ROUNDOFF[precision] * errors / np.abs(slopes)
 
 
 def sample_errors_grow(degree: int, precision: Any, depths: int) -> list[float]:

@@ -9,7 +9,7 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import NDArray
 
-from harness import conformance, console
+from harness import conformance, console, dense
 from harness.backends import LANGUAGES
 from harness.conformance import Bench, Finding
 from harness.contract import PRECISIONS, DeviceInfo, FirsthitError, Hits, Program, Surface
@@ -92,6 +92,8 @@ def _findings(bench: Bench, plugin: Plugin, chosen: list[Surface]) -> list[tuple
             found.append((Finding("accepts", True, f"not checked: {reason}"), where))
         else:
             gather(where, conformance.examine(bench, plugin, conformance.view_case(surface), precision))
+    for where, case, precision in dense.cases(bench, plugin):
+        gather(where, conformance.examine(bench, plugin, case, precision))
     for precision in PRECISIONS:
         gather(f"touches {precision}", conformance.examine_touches(bench, plugin, precision))
     gather("float32", conformance.examine_knobs(bench, plugin))
