@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from harness import conformance
-from harness.conformance import Bench, Case, Finding
+from harness.conformance import Bench, Case
 from harness.contract import PRECISIONS, Precision, Surface
 from harness.oracle import first_hits
 from harness.plugins import Plugin
@@ -80,16 +80,11 @@ def seed_of(degree: int) -> int:
     return 100 * degree + 1
 
 
-def examine(bench: Bench, plugin: Plugin, count: int = COUNT) -> Iterator[tuple[str, Finding]]:
-    """Every check of conformance.examine, claims among them, on a polynomial of each degree that the method accepts on
-    the bench, in both precisions: what was checked where. Each is one more program to compile."""
+def cases(bench: Bench, plugin: Plugin, count: int = COUNT) -> Iterator[tuple[str, Case, Precision]]:
+    """A polynomial of each degree that the method accepts on the bench, in both precisions: where, case, precision, for
+    conformance.examine. Each is one more program to compile."""
     for degree in DEGREES:
         surface = surface_of(degree, seed_of(degree))
         for precision in PRECISIONS:
             if conformance.refusal(plugin, surface, precision, bench) is None:
-                for finding in conformance.examine(bench, plugin, case_of(degree, seed_of(degree), count), precision):
-                    yield where(degree, precision), finding
-
-
-def where(degree: int, precision: Precision) -> str:
-    return f"dense degree {degree} {precision}"
+                yield f"dense degree {degree} {precision}", case_of(degree, seed_of(degree), count), precision

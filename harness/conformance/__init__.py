@@ -40,6 +40,7 @@ from harness.conformance.checks import (
     finds_touch,
     no_false_hit,
     no_missed_root,
+    rounding_adds,
     same_bits,
 )
 from harness.conformance.examine import (
@@ -76,6 +77,7 @@ __all__ = [
     "not_checked",
     "refusal",
     "rotation",
+    "rounding_adds",
     "same_bits",
     "settings_of",
     "swept",

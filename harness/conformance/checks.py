@@ -166,6 +166,17 @@ def no_false_hit(_plugin: Plugin, hits: Hits, case: Case, precision: Precision, 
     return _claim("no_false_hit", false, misses, "hits where the oracle proves a miss, on clear rays", hits, case)
 
 
+def rounding_adds(case: Case, precision: Precision) -> NDArray[np.float64]:
+    """float64[n], scene units: what rounding may add to a right hit's error; NaN without a root.
+
+    ROUNDINGS of the root's condition, or what kernels may be off in f's value over f's slope there, where that is more:
+    with forty terms of degree 20, or an expansion along the ray whose terms are larger than f's own.
+    """
+    conditioned = ROUNDINGS * np.fmax(case.truth.condition, 1.0) * case.surface.domain.radius
+    kernels = root_shift(case.surface, case.rays.astype(np.float64), case.truth.lower)
+    return np.asarray(UNIT_ROUNDOFF[precision] * np.fmax(conditioned, kernels))
+
+
 def error_below_tolerance(plugin: Plugin, hits: Hits, case: Case, precision: Precision, knobs: Knobs) -> Finding:
     assert plugin.method.tolerance
     tolerance = plugin.method.tolerance(case.surface, dict(plugin.variant(knobs).parameters))
@@ -173,10 +184,7 @@ def error_below_tolerance(plugin: Plugin, hits: Hits, case: Case, precision: Pre
     measured = case.clear(verdicts) & case.there & (verdicts.wrong == Wrong.RIGHT)
     if not measured.any():
         return not_checked("error_below_tolerance", "no right hit on a clear ray")
-    conditioned = ROUNDINGS * np.fmax(case.truth.condition[measured], 1.0) * case.surface.domain.radius
-    kernels = root_shift(case.surface, case.rays[measured].astype(np.float64), case.truth.lower[measured])
-    rounding = UNIT_ROUNDOFF[precision] * np.fmax(conditioned, kernels)
-    excess = verdicts.error[measured] / (tolerance + rounding)
+    excess = verdicts.error[measured] / (tolerance + rounding_adds(case, precision)[measured])
     return Finding(
         "error_below_tolerance",
         float(np.max(excess)),

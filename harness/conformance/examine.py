@@ -93,6 +93,14 @@ def own_settings(plugin: Plugin) -> list[str]:
     return [name for name in plugin.method.settings if plugin.setting(name).parameters != default]
 
 
+def _on_dense(bench: Bench, plugin: Plugin, _: Sequence[Surface]) -> Iterator[Located]:
+    """Dense random polynomials of every degree that the method accepts."""
+    from harness import dense
+
+    for where, case, precision in dense.cases(bench, plugin):
+        yield where, examine(bench, plugin, case, precision)
+
+
 def _on_touches(bench: Bench, plugin: Plugin, _: Sequence[Surface]) -> Iterator[Located]:
     for precision in PRECISIONS:
         yield f"touches {precision}", examine_touches(bench, plugin, precision)
@@ -104,6 +112,7 @@ def _on_knobs(bench: Bench, plugin: Plugin, _: Sequence[Surface]) -> Iterator[Lo
 
 EXAMINATIONS: list[Callable[[Bench, Plugin, Sequence[Surface]], Iterator[Located]]] = [
     _on_surfaces,
+    _on_dense,
     _on_touches,
     _on_knobs,
 ]
