@@ -37,7 +37,7 @@ class Evidence:
     @cached_property
     def finished(self) -> pd.DataFrame:
         frame = self.frame  # what was never held against the oracle is evidence of nothing
-        return frame[(frame["status"] == CellStatus.OK) & frame["answers"] & frame["wrong_rays"].notna()]
+        return frame[(frame["status"] == CellStatus.OK) & frame["answers"] & frame["accuracy_rays"].notna()]
 
     def of(self, config: str) -> Evidence:
         """The rows of `config`'s own run alone, where this collects several and that one is among them; else all."""

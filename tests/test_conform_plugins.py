@@ -100,7 +100,7 @@ def test_regula_falsi_whose_knobs_all_end_at_the_floor_of_float32_conforms(tmp_p
 
 BROKEN = {
     "answers": ("return hit_at(hit, sqrt(-1.0 - t0 * t0));", "hit whose t is not finite"),
-    "right answers": ("return missed(hit);", "share of wrong answers outside the grazing class"),
+    "right answers": ("return missed(hit);", "share of wrong answers on clear rays"),
     "error": ("return hit_at(hit, t);", "99 of 100 right hits stay below"),
 }
 

@@ -13,7 +13,7 @@ import pytest
 import surfaces
 from harness.accuracy import Wrong, judge
 from harness.camera import scene_radius
-from harness.conformance import ROUNDINGS, Case, no_false_hit
+from harness.conformance import Case, no_false_hit, rounding_adds
 from harness.contract import TruthStatus
 from harness.oracle import first_hits
 from harness.oracle.noise import root_shift
@@ -160,9 +160,7 @@ def test_an_error_is_within_what_rounding_of_the_expansion_may_move_the_root(nam
     )
     measured = verdicts.clear & np.isfinite(verdicts.error)
     tolerance = method.method.tolerance(surface, dict(method.variant({}).parameters))
-    conditioned = ROUNDINGS * np.fmax(truth.condition, 1.0) * surface.domain.radius
-    kernels = root_shift(surface, rays.astype(np.float64), truth.lower)
-    assert (verdicts.error <= tolerance + 2.0**-24 * np.fmax(conditioned, kernels))[measured].all()
+    assert (verdicts.error <= tolerance + rounding_adds(Case(surface, rays, truth), "float32"))[measured].all()
     assert measured.sum() > 100
 
 

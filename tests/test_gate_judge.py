@@ -300,12 +300,12 @@ def test_a_ratio_that_is_no_number_is_incomparable(lower, upper):
 
 
 def test_wrong_answers_on_drowned_rays_are_gated_and_break_only_what_is_claimed_of_every_ray():
-    counts = dict.fromkeys(("misses", "false_hits", "exhausted", "wrong_root"), 0)
-    apart = {f"{kind}_{name}": 0 for kind in ("grazing", "drowned") for name in counts}
+    counts = dict.fromkeys(("misses", "false_hits", "exhausted", "wrong_root", "invalid"), 0)
+    apart = {"undecided": 0} | {f"{kind}_{name}": 0 for kind in ("grazing", "drowned") for name in counts}
     accuracy = counts | apart | {"error": {"max": 1.0, "p99": None}, "evaluations_mean": 2.0}
     found = accuracy | {"drowned_misses": 2, "drowned_false_hits": 3}
     claims = ("no_missed_root", "no_false_hit")
-    read = figures.figures({"accuracy": found, "rungs": None}, claims)
+    read = figures.figures({"slot": "m a", "accuracy": found, "rungs": None}, claims)
     assert (read["drowned_wrong"], read["grazing_wrong"], read["claims"]) == (5, 0, 1)
     assert verdict(ENTRY | {"drowned_wrong": 5}).verdict == "pass", "not in the baseline: nothing to compare with"
     (judged,) = judge(
