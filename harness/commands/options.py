@@ -84,8 +84,9 @@ def cast(
     surface: Surface,
     rays: NDArray[np.float32],
     camera: NDArray[np.float32] | None = None,
+    t_min: float = 0.0,
 ) -> Hits:
-    """Cast rays float32[n, 6] by the method, knobs, device and precision that the options name.
+    """Cast rays float32[n, 6] from t_min on, by the method, knobs, device and precision that the options name.
 
     A method that casts beams needs the `camera` that the rays are of, an image of them row by row, and answers for the
     rays' pixels. The device works in a process of its own. Raises FirsthitError where the method refuses the surface,
@@ -108,7 +109,7 @@ def cast(
     if casts != "rays" and camera is None:
         raise FirsthitError(f"{variant} casts the beams of a camera's pixels, and listed rays have none")
     entry: Literal["rays", "beams"] = "rays" if casts == "rays" else "beams"
-    program = method_program(plugin.method, plugin.folder, variant, surface, precision, language, entry)
+    program = method_program(plugin.method, plugin.folder, variant, surface, precision, language, entry, None, t_min)
     executor = LocalExecutor(options.timeout)
     try:
         if camera is not None and casts != "rays":

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import math
 from pathlib import Path
 
 import numpy as np
@@ -24,6 +25,9 @@ def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -
     add_surface(parser)
     add_method(parser)
     _add_files(parser)
+    parser.add_argument(
+        "--t-min", type=_distance, default=0.0, metavar="T", help="where rays begin, in units of t (default: 0)"
+    )
     parser.set_defaults(run=_trace)
 
     parser = commands.add_parser(
@@ -42,6 +46,17 @@ def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -
 def _add_files(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--rays", type=Path, required=True, metavar="FILE", help=".npy file, float32[n, 6]")
     parser.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help=".npz file to write")
+
+
+def _distance(text: str) -> float:
+    """A finite number that is not negative; raises ArgumentTypeError for anything else."""
+    try:
+        value = float(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a number") from None
+    if not 0.0 <= value < math.inf:
+        raise argparse.ArgumentTypeError(f"{text} is not a distance along the ray: it must be finite and not under 0")
+    return value
 
 
 def load_rays(path: Path) -> NDArray[np.float32]:
@@ -72,7 +87,7 @@ def load_rays(path: Path) -> NDArray[np.float32]:
 
 def _trace(options: argparse.Namespace) -> int:
     surface, rays, output = surface_of(options), load_rays(options.rays), writable(options.output)
-    hits = cast(options, surface, rays)
+    hits = cast(options, surface, rays, t_min=options.t_min)
     savez_atomically(output, t=hits.t, status=hits.status, evaluations=hits.evaluations)
     counts = {status: int((hits.status == status).sum()) for status in RayStatus}
     print(f"{output}: {len(rays)} rays, " + ", ".join(f"{n} {status.name.lower()}" for status, n in counts.items()))
