@@ -103,9 +103,9 @@ def sample_errors_grow(degree: int, precision: Any, depths: int) -> list[float]:
 
 
 def slope_errors_grow(degree: int, precision: Any, depths: int) -> list[float]:
-    """For d = 0 … depths: what an error of the samples grows to, at most, in the Bernstein coefficients of the derivative
-    on any piece that is 2^-d of the interval that the samples are of, per length of that interval (nodes and inverse as
-    in harness.fitting)."""
+    """For d = 0 … depths: what an error of the samples grows to, at most, in the derivative's Bernstein coefficients on
+    any piece that is 2^-d of the interval that the samples are of, which is the unit of length (nodes and inverse as in
+    harness.fitting)."""
     from harness.fitting import inverse
 
     rows = np.array([[float(v) for v in row] for row in inverse(degree, "bernstein", precision)])
