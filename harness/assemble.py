@@ -5,11 +5,10 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
+from fractions import Fraction
 from functools import cache
 from pathlib import Path
 from typing import Literal
-
-import numpy as np
 
 from harness.contract import Box, FirsthitError, Method, Parameter, Precision, Program, Proxy, Section, Surface, Variant
 
@@ -125,16 +124,12 @@ def method_program(
 
 def _t_min_section(t_min: float, precision: Precision, language: Language) -> Section:
     """T_MIN, the least number of the precision that is not under t_min."""
+    from surfaces.printing import bounds, number
+
     if not 0.0 <= t_min < math.inf:
         raise FirsthitError(f"t_min is {t_min:g}: give a distance along the ray, finite and not under 0")
-    least = t_min + 0.0  # 0 where it is -0
-    if precision == "float32":
-        with np.errstate(over="ignore"):
-            near = np.float32(t_min)
-        least = float(near if near >= t_min else np.nextafter(near, np.float32(math.inf)))
-        if not least < math.inf:
-            raise FirsthitError(f"t_min is {t_min:g}, past the range of float32")
-    return Section("generated: where listed rays begin", f"#define T_MIN {literal(least, precision, language)}")
+    _, least = bounds(Fraction(t_min), Fraction(t_min), precision)
+    return Section("generated: where listed rays begin", f"#define T_MIN {number(least, precision, language)}")
 
 
 def _domain_section(surface: Surface) -> Section:
