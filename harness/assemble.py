@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
+from fractions import Fraction
 from functools import cache
 from pathlib import Path
 from typing import Literal
@@ -88,24 +90,29 @@ def method_program(
     language: Language,
     entry: Literal["rays", "camera", "beams"],
     narrowed: Section | None = None,
+    t_min: float = 0.0,
 ) -> Program:
     """The program that casts rays or beams at `surface` by `variant`; `folder` holds the method's kernel.glsl.
 
-    `narrowed` is the prepass's parameters where rays are to be narrowed by it. Raises FirsthitError where the surface
-    lacks a function that the method needs.
+    `narrowed` is the prepass's parameters where rays are to be narrowed by it. `t_min`, in units of t, is where listed
+    rays begin. Raises FirsthitError where the surface lacks a function that the method needs, or t_min is no distance.
     """
     from surfaces.sections import libraries_for, surface_sections
 
+    listed = entry == "rays" and narrowed is None
+    needs = (*method.needs, "surface_value") if listed else method.needs
     early = [name for name in method.libraries if name not in AFTER_TABLES]
     if entry == "beams":
         sections = beam_sections(surface, method.needs, precision, language, early)
     else:
-        sections = _head(language, precision, (*libraries_for(method.needs, surface), *early))
-        sections += surface_sections(surface, method.needs, precision, language)
+        sections = _head(language, precision, (*libraries_for(needs, surface), *early))
+        sections += surface_sections(surface, needs, precision, language)
         sections.append(_domain_section(surface))
     sections += method_sections(method, folder, variant, surface, precision, language)
     if entry != "beams":
         sections.append(file_section(KERNELS / "cast.glsl"))
+    if listed:
+        sections += [_t_min_section(t_min, precision, language), file_section(KERNELS / "listed.glsl")]
     if entry == "camera":
         sections.append(file_section(KERNELS / "camera.glsl"))
     if narrowed:
@@ -115,6 +122,16 @@ def method_program(
         sections.append(file_section(KERNELS / "turns.glsl"))
     sections.append(file_section(KERNELS / f"entry_{entry}{suffix}.{language}"))
     return Program(language, precision, entry, tuple(sections))
+
+
+def _t_min_section(t_min: float, precision: Precision, language: Language) -> Section:
+    """T_MIN, the least number of the precision that is not under t_min."""
+    from surfaces.printing import bounds, number
+
+    if not 0.0 <= t_min < math.inf:
+        raise FirsthitError(f"t_min is {t_min:g}: give a distance along the ray, finite and not under 0")
+    _, least = bounds(Fraction(t_min), Fraction(t_min), precision)
+    return Section("generated: where listed rays begin", f"#define T_MIN {number(least, precision, language)}")
 
 
 def _domain_section(surface: Surface) -> Section:

@@ -31,8 +31,9 @@ from harness.accuracy import FAR
 from harness.assemble import Language
 from harness.backends import LANGUAGES
 from harness.camera import scene_radius
-from harness.contract import Box, Domain, Hits, Precision, Program, RayStatus, Surface
+from harness.contract import Domain, Hits, Precision, Program, RayStatus, Surface
 from harness.executor import CellError, LocalExecutor, discover_devices
+from harness.oracle.clip import clip_many
 
 SAMPLE = 512  # rays
 STEPS = 64  # of a ray's stay in the domain
@@ -98,11 +99,14 @@ def _stand_in(precision: Precision) -> str | None:
     return next(usable, None)
 
 
-def doubts_about(surface: Surface, rays: NDArray[np.float32], hits: Hits, second: SecondBuild) -> Doubts:
-    """Hold a program's answers, for rays float32[n, 6], against f and, where that contradicts, a second build."""
-    index = _sample(surface.domain, rays)
+def doubts_about(
+    surface: Surface, rays: NDArray[np.float32], hits: Hits, second: SecondBuild, t_min: float = 0.0
+) -> Doubts:
+    """Hold a program's answers, for rays float32[n, 6] from t_min on, against f and, where that contradicts, a second
+    build."""
+    index = _sample(surface.domain, rays, t_min)
     first = _some(hits, index)
-    against_first = contradicted(surface, rays[index], first)
+    against_first = contradicted(surface, rays[index], first, t_min)
     told = Doubts(int(against_first.sum()), len(index))
     if not told.note:
         return told
@@ -110,7 +114,7 @@ def doubts_about(surface: Surface, rays: NDArray[np.float32], hits: Hits, second
     if other is None:
         return told
     how, again = other
-    better, worse = compared(surface, rays[index], first, against_first, again)
+    better, worse = compared(surface, rays[index], first, against_first, again, t_min)
     if better <= max(DOUBTFUL * len(index), OUTWEIGHS * worse):
         return told
     fault = (
@@ -121,10 +125,10 @@ def doubts_about(surface: Surface, rays: NDArray[np.float32], hits: Hits, second
 
 
 def compared(
-    surface: Surface, rays: NDArray[np.float32], first: Hits, against_first: Mask, again: Hits
+    surface: Surface, rays: NDArray[np.float32], first: Hits, against_first: Mask, again: Hits, t_min: float
 ) -> tuple[int, int]:
     """How many answers of another build differ and are contradicted no more, and how many are only now."""
-    against_again = contradicted(surface, rays, again)
+    against_again = contradicted(surface, rays, again, t_min)
     with np.errstate(invalid="ignore"):
         apart = ~(np.abs(first.t - again.t) <= FAR * scene_radius(surface))
     differs = (first.status != again.status) | ((first.status == RayStatus.HIT) & apart)
@@ -133,10 +137,10 @@ def compared(
     return int((differs & against_first & ~against_again).sum()), int((differs & ~against_first & against_again).sum())
 
 
-def contradicted(surface: Surface, rays: NDArray[np.float32], hits: Hits) -> Mask:
+def contradicted(surface: Surface, rays: NDArray[np.float32], hits: Hits, t_min: float = 0.0) -> Mask:
     """bool[n]: the answers that f's signs along the rays float32[n, 6] contradict; never a ray that was given up."""
     reach = FAR * scene_radius(surface)
-    enter, leave = _stay(surface.domain, rays)
+    enter, leave = _stay(surface.domain, rays, t_min)
     t = enter[:, None] + (leave - enter)[:, None] * np.linspace(0.0, 1.0, STEPS + 1)
     values = _along(surface, rays, t)
     with np.errstate(invalid="ignore"):
@@ -165,9 +169,9 @@ def _along(surface: Surface, rays: NDArray[np.float32], t: Floats) -> Floats:
     return surfaces.evaluate(surface, points.reshape(-1, 3)).reshape(t.shape)
 
 
-def _sample(domain: Domain, rays: NDArray[np.float32]) -> Index:
+def _sample(domain: Domain, rays: NDArray[np.float32], t_min: float) -> Index:
     """SAMPLE places of rays that run through the domain, evenly over all."""
-    enter, leave = _stay(domain, rays)
+    enter, leave = _stay(domain, rays, t_min)
     with np.errstate(invalid="ignore"):
         through = np.flatnonzero(leave > enter)
     if len(through) <= SAMPLE:
@@ -175,20 +179,10 @@ def _sample(domain: Domain, rays: NDArray[np.float32]) -> Index:
     return through[np.linspace(0, len(through) - 1, SAMPLE).astype(np.intp)]
 
 
-def _stay(domain: Domain, rays: NDArray[np.float32]) -> tuple[Floats, Floats]:
-    """Where rays enter and leave the domain, from their origins on; NaN, or no positive length, where they pass it."""
-    origins, directions = np.split(rays.astype(np.float64), 2, axis=1)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        if isinstance(domain, Box):
-            at = [(np.array(corner) - origins) / directions for corner in (domain.lower, domain.upper)]
-            enter, leave = np.fmin(*at).max(axis=1), np.fmax(*at).min(axis=1)
-        else:
-            away = origins - np.array(domain.center)
-            middle = -np.einsum("ij,ij->i", away, directions)
-            nearest = away + middle[:, None] * directions
-            half = np.sqrt(domain.radius**2 - np.einsum("ij,ij->i", nearest, nearest))
-            enter, leave = middle - half, middle + half
-    return np.maximum(enter, 0.0), leave
+def _stay(domain: Domain, rays: NDArray[np.float32], t_min: float) -> tuple[Floats, Floats]:
+    """Where rays enter and leave the domain, from t_min on; NaN where they pass it."""
+    clip = clip_many(domain, rays.astype(np.float64), t_min)
+    return np.where(clip.missed, np.nan, clip.enter_lower), np.where(clip.missed, np.nan, clip.leave_upper)
 
 
 def _some(hits: Hits, index: Index) -> Hits:

@@ -102,6 +102,34 @@ def sample_errors_grow(degree: int, precision: Any, depths: int) -> list[float]:
     return grown
 
 
+def slope_errors_grow(degree: int, precision: Any, depths: int) -> list[float]:
+    """For d = 0 … depths: what an error of the samples grows to, at most, in the derivative's Bernstein coefficients on
+    any piece that is 2^-d of the interval that the samples are of, which is the unit of length (nodes and inverse as in
+    harness.fitting)."""
+    from harness.fitting import inverse
+
+    rows = np.array([[float(v) for v in row] for row in inverse(degree, "bernstein", precision)])
+    slopes = degree * np.diff(rows, axis=0)
+    grown = [float(np.abs(slopes).sum(axis=1).max())]
+    for depth in range(1, depths + 1):
+        width = 0.5**depth
+        starts = np.arange(4 * 2**depth) * width / 4  # every piece lies in one that is a quarter longer
+        pieces = _restricted(slopes, starts, np.minimum(1.25 * width, 1.0 - starts))
+        grown.append(float(np.abs(pieces).sum(axis=2).max()))
+    return [value * MARGIN for value in grown]
+
+
+def _restricted(rows: Any, starts: Any, widths: Any) -> Any:
+    """Of rows [m, …] of coefficients on [0, 1], those on each [start, start + width]: [pieces, m, …]."""
+    pieces = np.repeat(rows[None], len(starts), axis=0)
+    at, share = starts[:, None, None], (widths / (1.0 - starts))[:, None, None]
+    for r in range(1, len(rows)):
+        pieces[:, : len(rows) - r] += at * (pieces[:, 1 : len(rows) - r + 1] - pieces[:, : len(rows) - r])
+    for r in range(1, len(rows)):
+        pieces[:, r:] = pieces[:, r - 1 : -1] + share * (pieces[:, r:] - pieces[:, r - 1 : -1])
+    return pieces
+
+
 def _halves(rows: Any) -> tuple[Any, Any]:
     """De Casteljau's algorithm in the middle, on rows [degree + 1, …] of coefficients."""
     left, right = [rows[0]], [rows[-1]]

@@ -87,8 +87,9 @@ def cast(
     surface: Surface,
     rays: NDArray[np.float32],
     camera: NDArray[np.float32] | None = None,
+    t_min: float = 0.0,
 ) -> Hits:
-    """Cast rays float32[n, 6] by the method, knobs, device and precision that the options name.
+    """Cast rays float32[n, 6] from t_min on, by the method, knobs, device and precision that the options name.
 
     A method that casts beams needs the `camera` that the rays are of, an image of them row by row, and answers for the
     rays' pixels. What can be no answer is INVALID. The device works in a process of its own. Raises FirsthitError where
@@ -114,7 +115,7 @@ def cast(
     entry: Literal["rays", "beams"] = "rays" if casts == "rays" else "beams"
 
     def program(language: Language) -> Program:
-        return method_program(plugin.method, plugin.folder, variant, surface, precision, language, entry)
+        return method_program(plugin.method, plugin.folder, variant, surface, precision, language, entry, None, t_min)
 
     def run(device: str, program: Program, index: NDArray[np.intp]) -> Hits:
         if camera is None or casts == "rays":
@@ -128,11 +129,11 @@ def cast(
         if camera is not None and casts != "rays":
             hits = validated_beams(hits, surface.domain, rays, camera[3:6])
         else:
-            hits = validated(hits, surface.domain, rays)
+            hits = validated(hits, surface.domain, rays, t_min)
         if not plugin.method.answers:
             return hits
         second = compilercheck.SecondBuild(device, precision, program, run)
-        doubts = compilercheck.doubts_about(surface, rays, hits, second)
+        doubts = compilercheck.doubts_about(surface, rays, hits, second, t_min)
     except CellError as error:
         what = {CellStatus.TIMEOUT: "timed out", CellStatus.CRASHED: "crashed"}.get(error.status, "failed")
         raise FirsthitError(f"{variant} on {device} {what}: {error}", exit_code=3) from None

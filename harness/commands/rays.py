@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import math
 import sys
 from pathlib import Path
 
@@ -39,9 +40,6 @@ def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -
         epilog="example: firsthit oracle --formula 'x^4 + y^4 + z^4 - 1' --rays rays.npy -o truth.npz",
     )
     add_surface(parser)
-    parser.add_argument(
-        "--t-min", type=float, default=0.0, metavar="T", help="only hits at T or beyond count (default 0)"
-    )
     _add_files(parser)
     parser.set_defaults(run=_oracle)
 
@@ -49,6 +47,19 @@ def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -
 def _add_files(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--rays", type=Path, required=True, metavar="FILE", help=".npy file, float32[n, 6]")
     parser.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help=".npz file to write")
+    told = "where rays begin: only hits at T or beyond count (default: 0)"
+    parser.add_argument("--t-min", type=_distance, default=0.0, metavar="T", help=told)
+
+
+def _distance(text: str) -> float:
+    """A finite number that is not negative; raises ArgumentTypeError for anything else."""
+    try:
+        value = float(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a number") from None
+    if not 0.0 <= value < math.inf:
+        raise argparse.ArgumentTypeError(f"{text} is not a distance along the ray: it must be finite and not under 0")
+    return value
 
 
 def load_rays(path: Path) -> NDArray[np.float32]:
@@ -79,7 +90,7 @@ def load_rays(path: Path) -> NDArray[np.float32]:
 
 def _trace(options: argparse.Namespace) -> int:
     surface, rays, output = surface_of(options), load_rays(options.rays), writable(options.output)
-    hits = cast(options, surface, rays)
+    hits = cast(options, surface, rays, t_min=options.t_min)
     savez_atomically(output, t=hits.t, status=hits.status, evaluations=hits.evaluations)
     counts = {status: int((hits.status == status).sum()) for status in RayStatus}
     print(f"{output}: {len(rays)} rays, " + ", ".join(f"{n} {status.name.lower()}" for status, n in counts.items()))

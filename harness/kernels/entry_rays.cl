@@ -3,7 +3,7 @@ __kernel void rays(__global const float *ray_data, __global real *t, __global in
     int i = get_global_id(0);
     if (i >= nx) return;
     __global const float *r = ray_data + 6 * i;
-    Cast result = cast_ray(make_ray(vec3(r[0], r[1], r[2]), vec3(r[3], r[4], r[5])));
+    Cast result = cast_listed_ray(make_ray(vec3(r[0], r[1], r[2]), vec3(r[3], r[4], r[5])));
     t[2 * i] = result.shift;
     t[2 * i + 1] = result.hit.t;
     answer[i] = packed_answer(result.hit);

@@ -8,8 +8,8 @@ void main() {
     int i = int(gl_GlobalInvocationID.x);
     if (i >= nx) return;
     int k = 6 * i;
-    Cast result = cast_ray(make_ray(vec3(ray_data[k], ray_data[k + 1], ray_data[k + 2]),
-                                    vec3(ray_data[k + 3], ray_data[k + 4], ray_data[k + 5])));
+    Cast result = cast_listed_ray(make_ray(vec3(ray_data[k], ray_data[k + 1], ray_data[k + 2]),
+                                           vec3(ray_data[k + 3], ray_data[k + 4], ray_data[k + 5])));
     t[2 * i] = result.shift;
     t[2 * i + 1] = result.hit.t;
     if (loops_were_ended(nx)) result.hit = exhausted(result.hit, result.hit.t);

@@ -1,5 +1,7 @@
 // Steps of |f| over a bound of how steeply f nears zero, along the ray as x in [0, 1]; szente, section 3.
 #define N SURFACE_DEGREE
+#define SHELLS 16  // sizes of the tables VALUE_ERRORS and SLOPE_GROWTH
+#define DEPTHS 6
 
 // Coefficients on [x, x + width] of the polynomial with coefficients d on [0, 1]: de Casteljau's algorithm, twice.
 void restrict_to(real x, real width, IN real d[COEFFICIENTS], int degree, OUT real e[COEFFICIENTS]) {
@@ -31,11 +33,34 @@ real steepest_slope(IN real d[COEFFICIENTS], int degree) {
     return slope;
 }
 
-// More than what fitting and restricting err by.
-real error_bound(IN real b[COEFFICIENTS], int degree) {
-    real largest = 0.0;
-    for (int j = 0; j <= degree; j++) largest = max(largest, fabs(b[j]));
-    return real(8 * N) * UNIT_ROUNDOFF * largest;
+real largest(IN real b[COEFFICIENTS], int degree) {
+    real size = 0.0;
+    for (int j = 0; j <= degree; j++) size = max(size, fabs(b[j]));
+    return size;
+}
+
+// What a value of f is off by where the distance from the domain's centre, squared, is no more than `away`: TRUST of the
+// worst case of its own roundings and those of the point it is taken at.
+real value_error(real away) {
+    int shell = min(int(sqrt(max(away, real(0))) * (real(SHELLS) / DOMAIN_RADIUS)), SHELLS - 1);
+    return TRUST * UNIT_ROUNDOFF * VALUE_ERRORS[shell];
+}
+
+// What the fit's coefficients are off by where samples are off by `off` and no coefficient is larger.
+real coefficient_error(real off, real size) {
+    return GROWTH[0] * off + 6.0 * UNIT_ROUNDOFF * size;
+}
+
+// The same of the derivative's coefficients, none larger than `slope`, on a piece at most `window` of the ray's stay:
+// differences of what the fit rounds, and two roundings of each of restrict_to's steps.
+real slope_error(real off, real size, real slope, real window) {
+    real growth = SLOPE_GROWTH[0];
+    real piece = 1.0;
+    for (int k = 1; k <= DEPTHS; k++) {
+        piece = 0.5 * piece;
+        growth = window <= piece ? SLOPE_GROWTH[k] : growth;
+    }
+    return growth * off + UNIT_ROUNDOFF * (real(12 * N) * size + real(10 * N) * slope);
 }
 
 Hit first_hit(Ray ray, real t0, real t1) {
@@ -48,13 +73,18 @@ Hit first_hit(Ray ray, real t0, real t1) {
     fit(s, true, true, b);
     real sign = s[0] < 0.0 ? real(-1) : real(1);
     for (int j = 0; j <= N; j++) b[j] = sign * b[j];
-    if (CULL == 1 && least_value(b, N) > error_bound(b, N)) return hit;
+    vec3 from_center = difference(ray.origin, DOMAIN_CENTER);  // at t, squared: near + (drift + t) t
+    real near = inner_product(from_center, from_center);
+    real drift = 2.0 * inner_product(from_center, ray.direction);
+    real off = value_error(near + max((drift + t0) * t0, (drift + t1) * t1));
+    real size = largest(b, N);
+    if (CULL == 1 && least_value(b, N) > coefficient_error(off, size)) return hit;
 
     real d[COEFFICIENTS];
     real e[COEFFICIENTS];
     for (int j = 0; j < N; j++) d[j] = real(N) * (b[j + 1] - b[j]);
-    real error = error_bound(d, N - 1);
-    real steepest = error + steepest_slope(d, N - 1);
+    real slope = largest(d, N - 1);
+    real steepest = slope_error(off, size, slope, 1.0) + steepest_slope(d, N - 1);
     real window = 1.0;
     real a = 0.0;
     real x = 0.0;
@@ -65,7 +95,7 @@ Hit first_hit(Ray ray, real t0, real t1) {
         if (hit.evaluations >= MAX_EVALUATIONS) return exhausted(hit, t0 + reach * x);
         if (LOCAL == 1 && window < 1.0) {
             restrict_to(x, window, d, N - 1, e);
-            steepest = error + steepest_slope(e, N - 1);
+            steepest = slope_error(off, size, slope, window) + steepest_slope(e, N - 1);
         }
         real step = max(TOLERANCE, fx < steepest * window ? fx / steepest : window);
         a = x;

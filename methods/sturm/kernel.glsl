@@ -8,17 +8,23 @@ int row_start(int k) {
     return k * (2 * ROW - k + 1) / 2;
 }
 
-// As printed, for degrees to 4: every division of one row by the next leaves one degree less.
-void sturm_chain(IN real c[ROW], OUT real chain[CHAIN]) {
+// As printed, for degrees to 4: every division of one row by the next leaves one degree less. Says whether each leading
+// coefficient that was divided by has more than its SHARE of its row for |x| <= reach: else the rest is but roundings.
+bool sturm_chain(IN real c[ROW], real reach, OUT real chain[CHAIN]) {
     for (int i = 0; i < CHAIN; i++) chain[i] = 0.0;
     for (int i = 0; i <= SURFACE_DEGREE; i++) chain[i] = c[i];
     for (int i = 1; i <= SURFACE_DEGREE; i++) chain[ROW + i - 1] = real(i) * c[i];
+    bool led = true;
+    real inverse = 1.0 / reach;
     for (int k = 2; k <= SURFACE_DEGREE; k++) {
         int f = row_start(k - 2);
         int g = row_start(k - 1);
         int n = SURFACE_DEGREE - k + 1;  // degree of g, one less than of f
         int rest = row_start(k);
         real lead = chain[g + n];
+        real below = 0.0;  // what the row's other coefficients come to, over reach^(n - 1)
+        for (int i = 0; i < n; i++) below = below * inverse + fabs(chain[g + i]);
+        led = led && fabs(lead) * reach > SHARE * below;
         real slope = chain[f + n + 1] / lead;
         real offset = (chain[f + n] - slope * chain[g + n - 1]) / lead;
         chain[rest] = offset * chain[g] - chain[f];
@@ -26,6 +32,7 @@ void sturm_chain(IN real c[ROW], OUT real chain[CHAIN]) {
             chain[rest + i] = offset * chain[g + i] + slope * chain[g + i - 1] - chain[f + i];
         }
     }
+    return led;
 }
 
 // Beyond degree 4: in two parts for each coefficient, every row over its largest coefficient, and a leading coefficient
@@ -45,7 +52,7 @@ void scaled_chain(IN real c[ROW], OUT real chain[CHAIN]) {
         // g over its largest coefficient, and its degree; f = g at first, then g the derivative
         real size = 0.0;
         for (int i = 0; i <= q; i++) size = max(size, fabs(g[i].hi));
-        if (size > LEAST * UNIT_ROUNDOFF * UNIT_ROUNDOFF) {
+        if (size > (k > 0 ? LEAST * UNIT_ROUNDOFF * UNIT_ROUNDOFF : real(0))) {
             for (int i = 0; i <= q; i++) g[i] = pair_scaled(g[i], 1.0 / size);
             while (q > 0 && !(fabs(g[q].hi) > LEAST * UNIT_ROUNDOFF)) q -= 1;
             for (int i = 0; i <= q; i++) chain[row_start(k) + i] = g[i].hi;
@@ -67,6 +74,76 @@ void scaled_chain(IN real c[ROW], OUT real chain[CHAIN]) {
     }
 }
 
+// The same to degree 4, a step at each turn, on rows whose highest power stands first: a compiler that runs code for rays
+// that do not need it too then runs one step, and knows every index.
+void careful_chain(IN real c[ROW], OUT real chain[CHAIN]) {
+    Pair f[ROW];
+    Pair g[ROW];
+    for (int i = 0; i < CHAIN; i++) chain[i] = 0.0;
+    for (int i = 0; i < ROW; i++) {
+        f[i] = make_pair(0.0, 0.0);
+        g[i] = make_pair(c[SURFACE_DEGREE - i], 0.0);
+    }
+    int p = -1;  // degrees of f and g
+    int q = SURFACE_DEGREE;
+    int k = 0;   // g's row
+    bool fresh = true;
+    while (q >= 0) {
+        if (fresh) {
+            real size = 0.0;
+            for (int i = 0; i < ROW; i++) size = max(size, fabs(g[i].hi));
+            if (!(size > (k > 0 ? LEAST * UNIT_ROUNDOFF * UNIT_ROUNDOFF : real(0)))) {
+                q = -1;
+            } else if (fabs(g[0].hi) > LEAST * UNIT_ROUNDOFF * size) {
+                fresh = false;
+                for (int i = 0; i < ROW; i++) g[i] = pair_scaled(g[i], 1.0 / size);
+                // lowest power first in the chain
+                real row[ROW];
+                for (int i = 0; i < ROW; i++) row[i] = g[i].hi;
+                for (int d = SURFACE_DEGREE; d > 0; d--) {
+                    for (int i = SURFACE_DEGREE; i > 0; i--) row[i] = q < d ? row[i - 1] : row[i];
+                    row[0] = q < d ? real(0) : row[0];
+                }
+                for (int r = 0; r < ROW; r++) {
+                    for (int i = 0; i < ROW - r; i++) {
+                        int at = row_start(r) + i;
+                        chain[at] = k == r ? row[SURFACE_DEGREE - i] : chain[at];
+                    }
+                }
+                if (k == 0) {
+                    for (int i = 0; i < ROW; i++) {
+                        f[i] = g[i];
+                        g[i] = pair_scaled(g[i], real(max(q - i, 0)) / real(SURFACE_DEGREE));
+                    }
+                    p = q;
+                    q -= 1;
+                    fresh = true;
+                }
+                k += 1;
+            } else {
+                for (int i = 0; i < SURFACE_DEGREE; i++) g[i] = g[i + 1];
+                g[SURFACE_DEGREE] = make_pair(0.0, 0.0);
+                q -= 1;
+            }
+        } else if (p >= q) {
+            Pair factor = pair_negative(pair_quotient(f[0], g[0]));
+            for (int i = 0; i < SURFACE_DEGREE; i++) f[i] = pair_sum(f[i + 1], pair_product(factor, g[i + 1]));
+            f[SURFACE_DEGREE] = make_pair(0.0, 0.0);
+            p -= 1;
+        } else {
+            for (int i = 0; i < ROW; i++) {
+                Pair rest = pair_negative(f[i]);
+                f[i] = g[i];
+                g[i] = rest;
+            }
+            int degree = p;
+            p = q;
+            q = degree;
+            fresh = true;
+        }
+    }
+}
+
 real row_value(IN real chain[CHAIN], int k, real x) {
     int start = row_start(k);
     real value = chain[start + SURFACE_DEGREE - k];
@@ -74,19 +151,22 @@ real row_value(IN real chain[CHAIN], int k, real x) {
     return value;
 }
 
-// Changes of sign along the chain, in which zeros do not count, and whether f itself is negative.
+// Changes of sign along the chain, in which zeros do not count, and whether f itself is negative. Where f is zero, its sign
+// is the one that f' says it has next.
 STRUCT(Count) struct Count { int changes; bool negative; };
 
 Count sign_changes(IN real chain[CHAIN], real x) {
     Count count;
     count.changes = 0;
-    count.negative = false;
-    real last = 0.0;
-    for (int k = 0; k <= SURFACE_DEGREE; k++) {
+    real first = row_value(chain, 0, x);
+    count.negative = first < 0.0;
+    bool before = count.negative;
+    for (int k = 1; k <= SURFACE_DEGREE; k++) {
         real value = row_value(chain, k, x);
-        if (last * value < 0.0) count.changes += 1;
-        if (value != 0.0) last = value < 0.0 ? -1.0 : 1.0;
-        if (k == 0) count.negative = value < 0.0;
+        bool below = value == 0.0 ? before : value < 0.0;
+        if (k == 1 && first == 0.0) before = below;
+        count.changes += below != before ? 1 : 0;
+        before = below;
     }
     return count;
 }
@@ -97,7 +177,22 @@ Hit first_hit(Ray ray, real t0, real t1) {
     Stretch stretch = surface_polynomial_along(ray, t0, t1, c);
     hit.evaluations = POLYNOMIAL_EVALUATIONS;
     real chain[CHAIN];
-    if (SURFACE_DEGREE > 4) { scaled_chain(c, chain); } else { sturm_chain(c, chain); }
+    if (SURFACE_DEGREE > 4) {
+        scaled_chain(c, chain);
+    } else {
+        real reach = max(fabs(t0), fabs(t1));
+        if (!sturm_chain(c, reach, chain)) {
+            stretch.reach = reach;
+            real power = 1.0;
+            for (int i = 1; i <= SURFACE_DEGREE; i++) {
+                power = power * reach;
+                c[i] = c[i] * power;
+            }
+            real other[CHAIN];
+            careful_chain(c, other);
+            for (int i = 0; i < CHAIN; i++) chain[i] = other[i];
+        }
+    }
     PRECISE real size = 0.0;
     for (int i = 0; i < CHAIN; i++) size += fabs(chain[i]);
     if (!(size < REAL_INFINITY)) return exhausted(hit, t0);
