@@ -11,6 +11,7 @@ from harness import assemble, cli, compilercheck, conformance, dense
 from harness.assemble import map_program, method_program
 from harness.backends import BuildError, hits_from, launch_rays, map_rows
 from harness.contract import Hits, RayStatus, Section
+from harness.oracle import first_hits
 from harness.plugins import find_methods
 from harness.store import Store
 
@@ -94,7 +95,7 @@ def degree_18():
 @pytest.mark.parametrize("precision", ["float32", "float64"])
 def test_bernstein_answers_a_dense_polynomial_of_degree_18_alike_on_every_device(precision):
     surface, rays = degree_18()
-    case = conformance.Case(surface, rays, conformance.first_hits(surface, rays))
+    case = conformance.Case(surface, rays, first_hits(surface, rays))
     for info in usable_devices():
         if precision == "float32" or info.float64:
             verdicts = case.judged(cast(opened(info.name), "bernstein", surface, precision, rays), precision)

@@ -187,5 +187,7 @@ def test_the_command_takes_t_min(tmp_path: Path, capsys: pytest.CaptureFixture[s
     with np.load(output) as stored:
         assert stored["status"].tolist() == [TruthStatus.MISS, TruthStatus.CROSSING] and stored["lower"][1] > 3.99
     capsys.readouterr()
-    assert main([*command, "--t-min", "-1"]) != 0
-    assert "t_min must be finite and not negative" in capsys.readouterr().err
+    with pytest.raises(SystemExit) as usage:
+        main([*command, "--t-min", "-1"])
+    assert usage.value.code == 2
+    assert "must be finite and not under 0" in capsys.readouterr().err
