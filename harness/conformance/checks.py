@@ -142,22 +142,25 @@ def _first(bad: NDArray[np.bool_], hits: Hits, case: Case) -> str:
 # Claims
 
 
-def no_missed_root(_plugin: Plugin, hits: Hits, case: Case, _precision: Precision, _knobs: Knobs) -> Finding:
+def _passed(hits: Hits, case: Case) -> NDArray[np.bool_]:
+    """bool[n]: first roots that were answered as a miss, by something later or by nothing that is an answer.
+
+    A hit before the root passes none, whatever else is wrong with it; nor does a ray that gave up.
+    """
     between = case.truth.upper + np.fmax(0.5 * (case.truth.following - case.truth.upper), SAME_ROOT * case.radius)
     found = (hits.status == RayStatus.HIT) & (hits.t <= np.fmin(between, case.truth.upper + FAR * case.radius))
-    lost = case.there & ~found & (hits.status != RayStatus.EXHAUSTED)
-    return _claim(
-        "no_missed_root", lost, case.there, "roots that were missed or passed, also near tangency", hits, case
-    )
+    return np.asarray(case.there & ~found & (hits.status != RayStatus.EXHAUSTED))
+
+
+def no_missed_root(_plugin: Plugin, hits: Hits, case: Case, _precision: Precision, _knobs: Knobs) -> Finding:
+    rule = "roots that were missed or passed, also near tangency"
+    return _claim("no_missed_root", _passed(hits, case), case.there, rule, hits, case)
 
 
 def conservative_bound(_plugin: Plugin, hits: Hits, case: Case, precision: Precision, _knobs: Knobs) -> Finding:
-    verdicts = case.judged(hits, precision)
-    there = case.there & case.clear(verdicts)
-    found = (verdicts.wrong == Wrong.RIGHT) & np.isfinite(verdicts.error)
-    lost = there & ~found & (hits.status != RayStatus.EXHAUSTED)
+    there = case.there & case.clear(case.judged(hits, precision))
     rule = "roots that were missed or passed, on clear rays"
-    return _claim("conservative_bound", lost, there, rule, hits, case)
+    return _claim("conservative_bound", _passed(hits, case) & there, there, rule, hits, case)
 
 
 def no_false_hit(_plugin: Plugin, hits: Hits, case: Case, precision: Precision, _knobs: Knobs) -> Finding:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from harness import accuracy, answers, beams, measure
 from harness.camera import rays_of, scene_radius
 from harness.config import Experiment
-from harness.contract import Hits, Program
+from harness.contract import CellStatus, Hits, Program
 from harness.executor import CellError, LocalExecutor
 from harness.gate.entries import slot_of
 from harness.gate.figures import SPEED
@@ -52,6 +52,8 @@ def _judged(
     base = Judged(f"{slot_of(planned)}: speed", planned.cell.device, planned.cell.variant.method, Verdict.PASS)
     if planned.draws:
         return replace(base, verdict=Verdict.INCOMPARABLE, reason="stage raster's pictures are not raced")
+    if planned.prepass:
+        return replace(base, verdict=Verdict.INCOMPARABLE, reason="rays behind a prepass are not raced")
     if former is None:
         return replace(base, verdict=Verdict.NEW, reason="the other revision has no such cell")
     if former.timed is None:
@@ -146,8 +148,10 @@ def _race(
     for round_number in itertools.count():
         for side in shuffled(list(SIDES), experiment.config.seed, round_number):
             timing = executor.sample(device, keys[side], frames[side], batch)
-            by_device = planned.device.clock == "device" and timing.device_ms is not None
-            times[side].append((timing.device_ms if by_device else timing.wall_ms) or timing.wall_ms)
+            told = timing.device_ms if planned.device.clock == "device" else timing.wall_ms
+            if not told or not math.isfinite(told):  # another clock's time would be no pair to the others
+                raise CellError(CellStatus.FAILED, f"the {planned.device.clock}'s clock told {told} for a frame")
+            times[side].append(told)
         rounds = range(round_number + 1)
         ratio = measure.paired_ratio(times["now"], rounds, times["then"], rounds)
         assert ratio

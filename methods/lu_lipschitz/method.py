@@ -34,16 +34,16 @@ Endraß octic 18.7 (15.3), 16-ball 24.8 (22.0); with TRUST = 1 the octic takes 6
 by turns: torus 1.0, octic 1.4, 16-ball 1.3; on opengl:llvmpipe the octic 1.7, the 16-ball 1.4. The printed settings,
 LOCAL = 0, take as long as before. In float64 nothing changes.
 
-**Speed** (Before that.) Processor time on opencl:intel, float32, szente's four surfaces of Table 5 (sphere, flirt,
-calyx, Barth sextic), over control points as the paper has them (SIDES 2: the largest magnitude; LOCAL 0, no culling).
-LU bounds with SIDES 2: 1.02 in the mean, nearly all of it from culling the sphere's misses (1.17, 0.96, 0.97, 1.00),
-and 0.98 without culling. LU bounds of one side, against control points by magnitude: 1.14 (1.15, 0.99, 1.12, 1.29), but
-control points of one side come to 1.12. The paper's 1.37 comes out by neither reading. LOCAL = 1: 4.1 (1.9, 2.3, 2.6,
-9.7). Control points with LOCAL = 1 and culling: 6.5, since in a small window the closed form costs more than its bound
-gains; BOUND = 1 stays the default, as this is the LU method. Kept: ending the root's iteration when it has converged
-(1.3). Rejected: starting where the LU function of f reaches zero (Newton's method on a convex curve: 1.2 on the sphere,
-within 5 % elsewhere, for 20 more lines); windows of 1.5, 3 or 4 times the last step (as many evaluations); bisections
-after the change of sign (4 of 12 evaluations, no better error).
+**Speed** These figures were taken before the bounds counted all roundings. Processor time on opencl:intel, float32,
+szente's four surfaces of Table 5 (sphere, flirt, calyx, Barth sextic), over control points as the paper has them (SIDES
+2: the largest magnitude; LOCAL 0, no culling). LU bounds with SIDES 2: 1.02 in the mean, nearly all of it from culling
+the sphere's misses (1.17, 0.96, 0.97, 1.00), and 0.98 without culling. LU bounds of one side, against control points by
+magnitude: 1.14 (1.15, 0.99, 1.12, 1.29), but control points of one side come to 1.12. The paper's 1.37 comes out by
+neither reading. LOCAL = 1: 4.1 (1.9, 2.3, 2.6, 9.7). Control points with LOCAL = 1 and culling: 6.5, since in a small
+window the closed form costs more than its bound gains; BOUND = 1 stays the default, as this is the LU method. Kept:
+ending the root's iteration when it has converged (1.3). Rejected: starting where the LU function of f reaches zero
+(Newton's method on a convex curve: 1.2 on the sphere, within 5 % elsewhere, for 20 more lines); windows of 1.5, 3 or 4
+times the last step (as many evaluations); bisections after the change of sign (4 of 12 evaluations, no better error).
 """
 
 from collections.abc import Mapping
