@@ -188,6 +188,20 @@ def test_margins_are_what_the_family_was_built_for(name: str) -> None:
         assert np.median(ratios) > 1 / 3 and ratios.max() < 3, rung.parameter
 
 
+@pytest.mark.parametrize("name", ["himmel", "steiner", "spindle_torus", "barth_decic"])
+def test_a_crossing_with_another_in_its_own_blur_is_near_to_another_answer(name: str) -> None:
+    """A hair off a plane of symmetry f is x^2 less a square: it crosses twice, nearer together than samples are."""
+    surface = surfaces.get(name)
+    rays = rays_of(camera_for(View("pole", azimuth=0.0, elevation=90.0), surface), 33)
+    truth = first_hits(surface, rays)
+    in_plane = (np.abs(rays[:, 0]) < 1e-15) & (np.abs(rays[:, 3]) < 1e-15) & (truth.status == TruthStatus.CROSSING)
+    around = [surfaces.evaluate(surface, rays[in_plane, :3] + t[in_plane, None] * rays[in_plane, 3:].astype(np.float64))
+              for t in (truth.lower - 1e-6, truth.upper + 1e-6)]  # fmt: skip
+    paired = around[0] * around[1] > 0.0
+    assert paired.any()
+    assert (truth.margin[in_plane][paired] < 1e-3).all()
+
+
 @pytest.mark.parametrize("name", [n for n in surfaces.names() if surfaces.get(n).algebraic])
 def test_estimates_on_pictures(name: str) -> None:
     surface = surfaces.get(name)

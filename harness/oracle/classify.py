@@ -135,7 +135,7 @@ class _Block:
 
     def estimates(self) -> Estimates:
         found = self._least()
-        following = self._following(found)
+        following = self._parted(self._following(found))
         everyone, n = np.arange(len(self.hit)), len(self.hit)
         before = np.where(self.hit, self.first, np.inf)
         ahead = before[found.rows] - found.t
@@ -162,6 +162,17 @@ class _Block:
             np.where(open_, 0.0, margin),
             np.where(open_, 0.0, contrast),
         )
+
+    def _parted(self, following: Floats) -> Floats:
+        """The next roots, where f has the sign behind a crossing that it has before it: then another root lies between,
+        and where none was found it is nearer to the first than its blur."""
+        rows = np.flatnonzero(self.order == 1.0)
+        column = self.column[rows]
+        before, behind = (np.sign(self.values[rows, column + step]) for step in (-1, 1))
+        hidden = (before == behind) & (before != 0.0) & ~(following[rows] <= self.t[rows, column + 1])
+        near = rows[hidden]
+        following[near] = self.first[near] + self.blur[near]
+        return following
 
     def _faintest(self, noise: NoiseAlong) -> tuple[Indices, Floats]:
         """Rays, and t of the sample before the first root at which |f| is least beside its rounding errors.
