@@ -109,10 +109,10 @@ class Here:
     '''Does in this process what a worker would.'''
     def __init__(self): self.workers = {}
     def __getattr__(self, operation):
-        def do(device, *arguments):
+        def do(device, *arguments, **named):
             worker = self.workers.setdefault(device, Worker(device))
             key_and_batch = (arguments[0], arguments[2]) if operation == "sample" else arguments
-            return getattr(worker, operation)(*key_and_batch)
+            return getattr(worker, operation)(*key_and_batch, **named)
         return do
 
 catalog = find_methods()

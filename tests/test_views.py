@@ -51,7 +51,7 @@ def test_a_config_names_angles_and_directions_beside_views_of_its_own(tmp_path: 
         ("[directions]\nfov = 180\n", 6, "outside"),
         ("[directions]\nsed = 1\n", 6, "did you mean 'seed'"),
         ('[[view]]\nname = "a"\nelevation = 91\n', 7, "outside [-90, 90]"),
-        ('[[view]]\nname = "a"\nazimuth = inf\n', 7, "outside"),
+        ('[[view]]\nname = "a"\nazimuth = inf\n', 7, "finite"),
     ],
 )
 def test_a_mistake_in_a_set_is_answered_with_its_line(tmp_path: Path, text: str, line: int, words: str) -> None:

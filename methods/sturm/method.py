@@ -24,6 +24,9 @@ chain at one new point each time, since the near end's count stays. A ray withou
   degrees may drop by more than one here too (the 16-ball along an axis). Once one root is left, f itself decides which
   half holds it, not the fit.
 
+No claim is stated. Beyond degree 4 roots are counted by the fit, whose error grows with the samples far from the root:
+on the gallery of the tests (quaste, enneper, daisy, spitz) right hits are off by thousands of times the tolerance.
+
 One evaluation is counted for each point at which f or the chain is evaluated.
 
 **Accuracy** (opencl:intel, 96x96, 30°/35°, rays outside the grazing class; wrong answers and the 99th percentile of
@@ -76,8 +79,6 @@ METHOD = Method(
             "LEAST", 64.0, "in double words: least leading coefficient of a row, over its largest one, in roundoffs"
         ),
     ),
-    claims=frozenset({"error_below_tolerance"}),
-    tolerance=lambda surface, knobs: 2.0 * surface.domain.radius * 0.5 ** (knobs["ITERATIONS"] + 1),
     settings={"Sturm": {"ITERATIONS": 18, "BY_SIGN": 0, "SHARE": 0.0}},
     accepts=accepts,
 )
