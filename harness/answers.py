@@ -4,8 +4,8 @@ A hit is a finite t inside the interval that its ray spends in the domain, from 
 to float32 only: it widens the domain by a few roundings, so that a surface that touches the wall is not cut off, and
 rounds t. So the domain is taken SLACK of its size (radius, and distance of its centre from the origin) wider here, and
 t may be off by as much. A hit elsewhere, a status that is none and a count of evaluations outside 0 … MOST_EVALUATIONS
-(the kernels' packing tells those two) is INVALID: a wrong answer of its own kind, whatever the truth. A ray that
-passes the domain by spends no evaluation, and beams share theirs among pixels, so that 0 is a count.
+(the kernels' packing tells those two) is INVALID: a wrong answer of its own kind, whatever the truth. So is a hit of
+no evaluation. A ray that passes the domain by spends none, and beams share theirs among pixels, so that 0 is a count.
 """
 
 from __future__ import annotations
@@ -21,9 +21,14 @@ from harness.oracle.clip import clip_many
 SLACK = 2.0**-17  # of the domain's size: 128 roundings in float32, of which the clip spends 16
 
 
-def validated(hits: Hits, domain: Domain, rays: NDArray[np.float32], t_min: float = 0.0) -> Hits:
-    """The answers for rays float32[n, 6], with those that cannot be answers marked INVALID and their t NaN."""
-    return only(hits, reachable(domain, rays, hits.t, t_min))
+def validated(hits: Hits, domain: Domain, rays: NDArray[np.float32], t_min: float = 0.0, counts: bool = True) -> Hits:
+    """The answers for rays float32[n, 6], with those that cannot be answers marked INVALID and their t NaN.
+
+    A ray that `counts` evaluations of its own has spent one where it hits; behind a prepass, which shares its own among
+    a tile's rays, it need not.
+    """
+    possible = reachable(domain, rays, hits.t, t_min)
+    return only(hits, possible & (hits.evaluations > 0) if counts else possible)
 
 
 def reachable(

@@ -11,6 +11,8 @@ agrees with them, on more than DOUBTFUL of the rays and OUTWEIGHS times as often
 against the first usable OpenCL device, which compiles the same kernel text by another compiler. Without one, or where
 the second build fails or takes too long, doubts are told and nothing is decided.
 
+A kernel that reads a variable that it never set answers differently in both builds too, and is told so.
+
 **What this cannot see** Mistakes on fewer than DOUBTFUL of the rays; those that both builds make; errors in t under FAR
 scene radii; evaluations counted wrongly; rays given up (they are no wrong answers); roots between which f changes its
 sign twice within one of STEPS steps; what rasterised programs answer. The oracle's verdicts see these, where they are
@@ -118,7 +120,8 @@ def doubts_about(
     if better <= max(DOUBTFUL * len(index), OUTWEIGHS * worse):
         return told
     fault = (
-        f"this device's compiler is at fault: f, evaluated on the host, contradicts {told.contradicted} of "
+        "this device's compiler is at fault, or the kernel uses what it never set: f, evaluated on the host, "
+        f"contradicts {told.contradicted} of "
         f"{len(index)} sampled rays' answers, and agrees on {better} of these with the same kernel built {how}"
     )
     return dataclasses.replace(told, fault=fault)

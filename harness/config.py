@@ -295,7 +295,7 @@ def _positive(config: Config, source: _Source) -> None:
     ]
     for where, value, low, high in checks:
         if not low <= value <= high:
-            raise source.error(where, f"{where[0]}: {value} is outside [{low:g}, {high:g}]")
+            raise source.error(where, f"{'.'.join(map(str, where))}: {value} is outside [{low:g}, {high:g}]")
     for samples in config.samples_per_pixel:
         if samples not in (1, 4, 9, 16):
             raise source.error(("samples_per_pixel",), f"samples_per_pixel: {samples} is not one of 1, 4, 9, 16")

@@ -147,7 +147,7 @@ class Runner:
             along, ahead = beams.along_rays(checked.hits, pixels), state.planned.camera[3:6]
             hits = answers.validated_beams(along, cell.surface.domain, rays, ahead)
         else:
-            hits = answers.validated(checked.hits, cell.surface.domain, rays)
+            hits = answers.validated(checked.hits, cell.surface.domain, rays, counts=cell.prepass == "none")
         state.compile_ms = checked.compile_ms
         verdicts = accuracy.judge(hits, truth, scene_radius(cell.surface), config.grazing_margin, cell.precision)
         if casts_beams:

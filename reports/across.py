@@ -8,7 +8,7 @@ from typing import Any
 import pandas as pd
 
 from harness.contract import CellStatus
-from reports import derive, tables, wording
+from reports import derive, rounds, tables, wording
 from reports.content import Column, Section, Table
 
 _KERNEL = ["comparison", "variant", "precision"]
@@ -26,20 +26,20 @@ def _table(timed: pd.DataFrame) -> Table | None:
     named = tables.places(timed)
     body: list[tuple[Any, ...]] = []
     timed = timed.assign(comparable=derive.all_right(timed) | ~timed["answers"].astype(bool))
-    kept = [*_KERNEL, "device", "median_ms", "overhead_share", "comparable"]
+    kept = [*_KERNEL, "device", "median_ms", *rounds.COLUMNS, "overhead_share", "comparable"]
     timed = timed[kept].drop_duplicates([*_KERNEL, "device"])
     shared = timed[timed.groupby(_KERNEL)["device"].transform("size") > 1]
     groups = shared.groupby(_KERNEL, sort=False)
     for (scene, variant, precision), rows in itertools.islice(groups, tables.ROW_LIMIT):
         by_device = rows.set_index("device")
-        slowest = rows.loc[rows["comparable"], "median_ms"].max()
+        slowest = rows[rows["comparable"]].nlargest(1, "median_ms")
         cells: list[float | None] = []
         for device in devices:
             here = by_device.loc[device] if device in by_device.index else None
             if here is None:
                 cells += [None] * 3
             else:
-                faster = slowest / here.median_ms if here.comparable else None
+                faster = rounds.times_over(slowest.iloc[0], here) if here.comparable else None
                 cells += [here.median_ms, faster, here.overhead_share]
         body.append((named[str(scene)], precision, variant, *cells))
     if not body:
@@ -57,7 +57,9 @@ def _table(timed: pd.DataFrame) -> Table | None:
         body,
         "The same kernel on every device.",
         "Faster is the slowest device's time in the row over this one's, among those on which the variant answers "
-        "every ray away from silhouettes rightly. Overhead is what the harness's submitting and waiting adds to the "
+        "every ray away from silhouettes rightly, and of null, which answers nothing; each device is timed by "
+        "the clock that "
+        "is believed there. Overhead is what the harness's submitting and waiting adds to the "
         "kernel's own time, as a share of that time; – where the device has no clock of its own that is believed. "
         "Look for a device whose lead changes from variant to variant: its compiler makes more, or less, of one of "
         f"them.{cut}",

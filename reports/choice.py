@@ -6,7 +6,7 @@ from typing import Any
 
 import pandas as pd
 
-from reports import derive, ties, wording
+from reports import derive, rounds, ties, wording
 from reports.content import Column, Table
 
 ERRORS = (1e-3, 1e-6)  # largest |t − t*| over the scene's radius
@@ -46,7 +46,7 @@ def table(frame: pd.DataFrame) -> Table | None:
         cells: list[Any] = [own["surface_title"].iloc[0]]
         for won, error in zip((loose, tight), ERRORS, strict=True):
             cells += ["none", None, None] if won is None else [_named(won, own, error), won.median_ms, won.error_max]
-        cells.append(None if loose is None or tight is None else tight.median_ms / loose.median_ms)
+        cells.append(None if loose is None or tight is None else rounds.times_over(tight, loose))
         body.append(tuple(cells))
     shown = body[:LINES]
     more = "" if len(shown) == len(body) else f" {len(shown)} of {len(body)} surfaces; “Winners” has all."

@@ -12,6 +12,7 @@ import pandas as pd
 
 from harness.config import BASELINE
 from harness.contract import CellStatus
+from reports import rounds
 from reports.schema import KINDS, SCHEMA
 
 GROUP = ["comparison", "device", "precision"]
@@ -44,7 +45,7 @@ def derive(frame: pd.DataFrame, peaks: Mapping[str, float] | None = None) -> pd.
         frame[f"{prefix}wrong_rays"] = total
     timed = frame[(frame["status"] == CellStatus.OK) & frame["median_ms"].notna()]
     frame = frame.join(_baseline_ms(timed), on=GROUP)
-    frame["speedup"] = (frame["baseline_ms"] / frame["median_ms"]).where(frame["answers"] & all_right(frame))
+    frame["speedup"] = rounds.over_first(frame, baseline_rows(timed), GROUP).where(frame["answers"] & all_right(frame))
     frame = frame.join(_floor_ms(timed), on=GROUP)
     frame["floor_bound"] = frame["answers"] & (frame["median_ms"] < FLOOR_FACTOR * frame["floor_ms"])
     share = _peak_share(frame, peaks or {})

@@ -86,8 +86,8 @@ def _panel(row: Any, arrays: Arrays, most: int, errors: tuple[int, int]) -> Pane
             f"per ray that spends any, at most {spent.max():,}"
         )
     wrong = f"{wording.count(row.wrong_rays)} wrong" if row.wrong_rays else "no wrong ray"
-    grazing = f" · {wording.count(row.grazing_wrong_rays)} grazing" if row.grazing_wrong_rays else ""
-    drowned = f" · {wording.count(row.drowned_wrong_rays)} drowned" if row.drowned_wrong_rays else ""
+    grazing = f" · {wording.count(row.grazing_wrong_rays)} wrong at grazing" if row.grazing_wrong_rays else ""
+    drowned = f" · {wording.count(row.drowned_wrong_rays)} wrong at drowned" if row.drowned_wrong_rays else ""
     return Panel(name, pictures, f"{cost} · max {wording.error(row.error_max)} · {wrong}{grazing}{drowned}")
 
 

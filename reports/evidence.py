@@ -13,7 +13,7 @@ import pandas as pd
 
 from harness import measure
 from harness.contract import CellStatus
-from reports import derive
+from reports import derive, rounds
 from reports.arrays import Arrays, Shelf
 
 
@@ -96,18 +96,30 @@ _TIMES = ["median_ms", "lower_ms", "upper_ms"]
 def over(slow: pd.DataFrame, fast: pd.DataFrame, keys: list[str], above_floor: bool = False) -> pd.DataFrame:
     """Timed rows `slow` over timed rows `fast` with the same `keys`, with the columns of Evidence.ratios."""
     a, b = (rows.assign(**{end: rows[end].where(proved(rows)) for end in _TIMES[1:]}) for rows in (slow, fast))
-    both = b.merge(a[[*keys, *_TIMES]], on=keys, suffixes=("", "_slow"))
+    both = b.merge(a[[*keys, *_TIMES, *rounds.COLUMNS]], on=keys, suffixes=("", "_slow"))
     floor = both["floor_ms"].fillna(0.0) if above_floor else 0.0
     for name in _TIMES:
         both[name] = (both[name] - floor).clip(lower=1e-9)
         both[f"{name}_slow"] -= floor
-    return both.assign(
+    both = both.assign(
         slow_ms=both["median_ms_slow"],
         fast_ms=both["median_ms"],
         ratio=both["median_ms_slow"] / both["median_ms"],
         ratio_low=both["lower_ms_slow"] / both["upper_ms"],
         ratio_high=both["upper_ms_slow"] / both["lower_ms"],
     )
+    return both if above_floor else _in_common_rounds(both)
+
+
+def _in_common_rounds(both: pd.DataFrame) -> pd.DataFrame:
+    """`both` with the ratios of those pairs that were timed in enough rounds together taken from these."""
+    of_slow = both[[f"{name}_slow" for name in rounds.COLUMNS]].set_axis(rounds.COLUMNS, axis=1)
+    pairs = zip(of_slow.itertuples(), both[rounds.COLUMNS].itertuples(), strict=True)
+    for slow, fast in pairs:
+        found = rounds.ratio(slow, fast)
+        if found is not None and found.proved:
+            both.loc[slow.Index, ["ratio", "ratio_low", "ratio_high"]] = found.median, found.lower, found.upper
+    return both
 
 
 def proved(rows: pd.DataFrame) -> pd.Series:

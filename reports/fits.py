@@ -55,7 +55,9 @@ def power_law(x: ArrayLike, y: ArrayLike) -> Power | Refusal:
     if not 2.0 * half_width <= abs(exponent):
         ends = f"{exponent - half_width:.2f} to {exponent + half_width:.2f}".replace("-", "−")
         return Refusal(
-            points, f"{points} points do not determine an exponent: its 95 % interval, {ends}, is wider than itself"
+            points,
+            f"{points} points do not determine an exponent: the 95 % interval of {exponent:.2f}, {ends}, "
+            f"is wider than that",
         )
     return Power(exponent, half_width, math.exp(level), points, scatter)
 

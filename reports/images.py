@@ -74,16 +74,17 @@ def _panel(row: Any, arrays: Arrays, scale: tuple[int, int], prefix: str, titled
     wrong = ", ".join(f"{kind.title} {n:,}" for n, kind in counts if not wording.absent(n) and n > 0)
     note = f"max {wording.error(row.error_max)} · {wrong or 'no wrong ray'}"
     if not wording.absent(row.grazing_wrong_rays) and row.grazing_wrong_rays > 0:
-        note += f" · {wording.count(row.grazing_wrong_rays)} grazing"
+        note += f" · {wording.count(row.grazing_wrong_rays)} wrong at grazing"
     if not wording.absent(row.drowned_wrong_rays) and row.drowned_wrong_rays > 0:
-        note += f" · {wording.count(row.drowned_wrong_rays)} drowned"
+        note += f" · {wording.count(row.drowned_wrong_rays)} wrong at drowned"
     return Panel(f"{row.panel}, {row.precision}" if titled else name, pictures, note)
 
 
 def _caption(row: Any) -> str:
     return (
         f"{row.surface_title} on {row.device}, view {row.view}: what each method drew, and its error beside it. "
-        "Dark blue to yellow is a growing |t − t*| on one logarithmic scale for the whole report; the bright colours "
+        "Dark blue to yellow is a growing |t − t*| on one logarithmic scale for all surfaces' pages; the bright "
+        "colours "
         "are rays answered wrongly, paler where they graze the surface or f drowns in its own rounding; counts are of "
         f"the {wording.count(row.accuracy_rays)} rays checked. Look for wrong rays away from the silhouette, and for "
         "bands or facets in the error."

@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 
 from harness.measure import Ratio
-from reports import derive, tables, ties, wording
+from reports import derive, rounds, tables, ties, wording
 from reports.content import Block, Column, Section, Table, Text
 
 _NEEDED = [
@@ -46,7 +46,7 @@ def _table(rows: pd.DataFrame) -> Table | None:
             continue
         best = ties.best(right)
         for row in group.itertuples():
-            if row.key != best.key and (ratio := ties.ratio(row, best)):
+            if row.key != best.key and (ratio := rounds.ratio(row, best)):
                 sound = row.key in set(right["key"])
                 figures = _figures(ratio) if sound else (None, None, None, None, ratio.pairs)
                 told = ties.verdict(ratio) if sound else f"{wording.count(row.wrong_rays)} wrong rays: not compared"

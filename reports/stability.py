@@ -18,7 +18,11 @@ EXPLANATION = (
     "unlike in pictures, rays near tangency are not excused. A ray is undecidable where rounding the coordinates of "
     "its points in the cell's precision already turns it into one with other roots: it counts neither for nor against "
     f"a method. A method breaks on the first rung where it is right on less than {wording.share(breaks.HELD)} of the "
-    "decided rays: where a rung has fewer than 100, one certified wrong answer is enough. Its worst error is over what "
+    "decided rays: where a rung has fewer than 100, one certified wrong answer is enough. A wrong root is a "
+    "later root or "
+    "a place that is none; exhausted is a ray that gave up. Decided rays may graze the surface, or f may drown in its "
+    "rounding on them: claims of no false hit except such rays, so that these counts do not break them. Its "
+    "worst error is over what "
     "the problem allows, max(condition, 1) × unit roundoff × the domain's radius: a small number for a method that is "
     "as good as the problem."
 )

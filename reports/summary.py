@@ -64,7 +64,7 @@ def _verdict(frame: pd.DataFrame) -> str:
     rest += [f"no variant answers every such ray rightly in {wrong}"] if wrong else []
     errors = alone.groupby("method")["error_max"].max()
     each = [
-        f"{method} is fastest in {count} (largest error {wording.error(errors[method])})"
+        f"{method} is fastest in {count} (largest error {wording.error(errors[method])} scene units)"
         for method, count in counted.items()
     ]
     if len(counted) and 2 * counted.iloc[0] > contested:
@@ -90,4 +90,5 @@ def _gain(won: pd.DataFrame) -> str:
     low, high = wording.factor(over["speedup"].min()), wording.factor(over["speedup"].max())
     gain = low if low == high else f"{low} to {high}"
     where = "there" if len(over) == len(won) else f"in the {len(over)} in which that has no such ray either"
-    return f": {gain} as fast as {baseline} {where}, with a largest error of {wording.error(won['error_max'].max())}"
+    most = wording.error(won["error_max"].max())
+    return f": {gain} as fast as {baseline} {where}, with a largest error of {most} scene units"

@@ -109,8 +109,10 @@ def winners(frame: pd.DataFrame, leading: pd.DataFrame) -> Table:
 def speedup(rows: pd.DataFrame) -> str:
     """What a speed-up is, in a sentence, for captions."""
     return (
-        f"Speed-up is the median time of {derive.baseline_of(rows)} on the same device, in the same precision, over "
-        "this one's; – where one of the two answers a ray away from silhouettes wrongly or was not timed."
+        f"Speed-up is {derive.baseline_of(rows)}'s time over this one's on the same device, in the same precision: the "
+        "median of the ratios within the rounds that timed both, which need not be the ratio of the two medians; "
+        "– where "
+        "one of the two answers a ray away from silhouettes wrongly or was not timed."
     )
 
 
@@ -173,7 +175,8 @@ def results(rows: pd.DataFrame) -> Table:
     kinds = derive.kinds(rows)
     body = []
     for row in rows.itertuples():
-        spread = (row.upper_ms - row.lower_ms) / (2 * row.median_ms) if row.median_ms else None
+        reach = max(row.upper_ms - row.median_ms, row.median_ms - row.lower_ms)  # as measure.is_narrow has it
+        spread = reach / row.median_ms if row.median_ms else None
         speed = (row.median_ms, spread, row.mrays_per_s, row.frames_per_s, row.speedup)
         errors = (row.error_max, row.error_p99, *(getattr(row, kind) for kind in kinds))
         told = (*errors, row.grazing_wrong_rays, row.drowned_wrong_rays, row.evaluations_mean, row.peak_share)
@@ -249,20 +252,29 @@ def scene(rows: pd.DataFrame) -> str:
     return f"{first.surface_title}, view {first.view}, {picture_size(first)}, {first.stage}."
 
 
+def _drowned(rows: pd.DataFrame) -> str:
+    """How many rays drown, in each precision."""
+    most = rows[rows["drowned"].notna()].groupby("precision", sort=False)["drowned"].max()
+    return ", ".join(f"{wording.count(count)} in {precision}" for precision, count in most.items()) or "not counted"
+
+
 def _results_caption(rows: pd.DataFrame) -> tuple[str, str]:
     checked = ""
     for row in rows[rows["accuracy_rays"].notna()].head(1).itertuples():
         checked = (
             f" Errors and counts of wrong rays are of {row.accuracy_rays:,} rays, of which "
-            f"{wording.count(row.grazing)} pass within {wording.error(row.grazing_margin)} of another answer: these "
-            "grazing rays are counted apart. So are drowned ones, on which |f| falls under its own rounding errors "
-            f"({wording.count(row.drowned)} here)."
+            f"{wording.count(row.grazing)} pass another answer within {wording.error(row.grazing_margin)} of the "
+            f"scene's "
+            "radius: these grazing rays are counted apart. So are drowned ones, on which |f| falls under its own "
+            "rounding "
+            f"errors ({_drowned(rows)})."
         )
         if not wording.absent(row.undecided) and row.undecided:
             checked += f" The oracle left {wording.plural(row.undecided, 'hit')} undecided; no figure here is of them."
     return (
         scene(rows),
-        "Fastest first for each device and precision; ± is half the 95 % interval of the median, over the median; "
+        "Fastest first for each device and precision; ± is how far the 95 % interval reaches from the median, over the "
+        "median; "
         f"errors are |t − t*| in scene units. {speedup(rows)}{checked}",
     )
 

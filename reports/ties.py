@@ -2,35 +2,26 @@
 
 from __future__ import annotations
 
-import json
 from typing import Any
 
 import pandas as pd
 
 from harness import measure, ranks
 from harness.measure import Ratio
-from reports import derive, wording
+from reports import derive, rounds, wording
+from reports.rounds import ratio
 
 LEVEL = 0.01  # a chance above this is no evidence that two variants differ
 NEEDED = ranks.pairs_needed(LEVEL)
 SLOWER, FASTER, ALIKE = "slower", "faster", "not told apart"
 TORN = f"{ALIKE}: the test and the interval disagree"
-COLUMNS = ["session", "rounds", "samples_ms", "median_ms", "lower_ms", "upper_ms"]
+COLUMNS = [*rounds.COLUMNS, "median_ms", "lower_ms", "upper_ms"]
 _TOLD = ["method", "variant", "key", *COLUMNS]
 RULE = (
     "Two times differ where both variants were timed in the same rounds and a signed-rank test of the rounds' ratios "
     f"leaves a chance of at most {LEVEL:g}, which takes {NEEDED} rounds, and the 95 % interval of their median is "
     "all on one side of 1"
 )
-
-
-def ratio(row: Any, other: Any) -> Ratio | None:
-    """`row`'s time over `other`'s, round by round; None unless both were timed in one interleaved run."""
-    if wording.absent(row.session) or row.session != other.session:
-        return None
-    if any(wording.absent(one.rounds) or not one.samples_ms for one in (row, other)):
-        return None
-    return measure.paired_ratio(row.samples_ms, json.loads(row.rounds), other.samples_ms, json.loads(other.rounds))
 
 
 def verdict(of: Ratio) -> str:
@@ -72,9 +63,7 @@ def tied(rows: pd.DataFrame, first: Any) -> list[str]:
 def _best(rows: list[Any]) -> Any:
     first = rows[0]
     for row in rows[1:]:
-        if row.lower_ms > first.upper_ms:
-            continue
-        paired = ratio(row, first)
+        paired = ratio(row, first)  # whatever the medians: they may be of other rounds
         if paired is not None and verdict(paired) == FASTER:
             first = row
     return first

@@ -55,8 +55,15 @@ def number(value: np.floating, precision: Precision, language: Language) -> str:
 
 
 def table(name: str, values: Sequence[float], precision: Precision, language: Language) -> str:
-    """A constant array of reals, every digit kept: `TABLE real NAME[n]`."""
-    numbers = ", ".join(number(_TYPES[precision](value), precision, language) for value in values)
+    """A constant array of reals, every digit kept: `TABLE real NAME[n]`.
+
+    Raises FirsthitError where one is past the range of the precision.
+    """
+    with np.errstate(over="ignore"):
+        made = [_TYPES[precision](value) for value in values]
+    if not np.isfinite(made).all():
+        raise FirsthitError(f"its table {name} has a number past the range of {precision}; scale the formula down")
+    numbers = ", ".join(number(value, precision, language) for value in made)
     size = len(values)
     body = f"real[{size}]({numbers})" if language == "glsl" else f"{{{numbers}}}"
     return f"TABLE real {name}[{size}] = {body};"

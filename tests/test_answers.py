@@ -365,3 +365,10 @@ def test_beams_are_held_against_the_depths_of_the_bounding_sphere():
     hits = Hits(np.array([1.9, 2.0, 4.0, 4.1, np.nan]), np.ones(5, np.uint8), np.zeros(5, np.int32))
     found = answers.validated_beams(hits, Sphere(1.0), rays, np.float32([1, 0, 0]))
     assert found.status.tolist() == [INVALID, 1, 1, INVALID, INVALID]
+
+
+def test_a_hit_that_spent_nothing_is_none_but_behind_a_prepass():
+    ball, ray = surfaces.get("sphere").domain, np.array([[0, 0, -3, 0, 0, 1]], np.float32)
+    hits = Hits(np.array([2.0]), np.array([RayStatus.HIT], np.uint8), np.array([0], np.int32))
+    assert answers.validated(hits, ball, ray).status.tolist() == [RayStatus.INVALID]
+    assert answers.validated(hits, ball, ray, counts=False).status.tolist() == [RayStatus.HIT]

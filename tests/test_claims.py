@@ -28,7 +28,7 @@ def planted(pick: Pick, surface: str, median: float, view: str = "front", **accu
     made |= {"slot": slot, "key": digest(slot), "method": pick.method, "variant": pick.words, "surface": surface}
     made |= {"parameters": dict(pick.knobs), "surface_title": surface, "view": view, "arrays": None, "answers": True}
     made |= {"comparison": f"{surface} {view} 256x256x1 compute", "degree": 8}
-    retime(made, median)["time"].update(lower_ms=0.99 * median, upper_ms=1.01 * median)
+    retime(made, median)["time"].update(lower_ms=0.99 * median, upper_ms=1.01 * median, session=slot)  # of its own run
     clean = dict.fromkeys(("misses", "false_hits", "exhausted", "wrong_root"), 0)
     made["accuracy"] |= clean | {f"grazing_{name}": 0 for name in clean} | accuracy
     return made
@@ -188,6 +188,21 @@ def test_times_whose_intervals_meet_or_are_not_proved_decide_nothing(tmp_path: P
             median = made["time"]["median_ms"]
             made["time"] |= {"lower_ms": (1 - width) * median, "upper_ms": (1 + width) * median}
         assert claims.judge(mean, evidence(tmp_path / f"{ratio} {width}", *cells)).outcome is expected
+
+
+def test_variants_timed_in_the_same_rounds_are_told_apart_by_these(tmp_path: Path) -> None:
+    """The medians are of other rounds: the machine slowed down when the faster one had ended its own."""
+    cells = [planted(pick, "torus", ms) for pick, ms in ((picks.ONE_RAY, 1.5), (picks.TWO_RAYS, 1.0))]
+    for made in cells:
+        made["time"] |= {"session": "one", "rounds": list(range(len(made["time"]["samples_ms"])))}
+    late = cells[1]["time"]
+    late["samples_ms"] = late["samples_ms"] + [9.0] * 30
+    late |= {"rounds": list(range(len(late["samples_ms"]))), "median_ms": 9.0, "lower_ms": 1.0, "upper_ms": 9.0}
+    found = evidence(tmp_path, *cells).ratios(picks.ONE_RAY, picks.TWO_RAYS)
+    assert found["ratio"].tolist() == pytest.approx([1.5], rel=0.05)
+    assert (found["ratio_low"] > 1.0).all()
+    judged = claims.judge(claim("toledo2007", "Two starts"), evidence(tmp_path / "judged", *cells))
+    assert judged.outcome is Outcome.CONFIRMED
 
 
 def test_planted_work_and_errors_flip_a_verdict(tmp_path: Path) -> None:

@@ -1,3 +1,4 @@
+import textwrap
 from pathlib import Path
 
 import pytest
@@ -147,3 +148,12 @@ def test_a_method_may_have_stages_of_its_own(tmp_path):
     ]
     with pytest.raises(FirsthitError, match="stages: unknown 'beams'"):
         _load(tmp_path, GOOD.replace('name = "null"', 'name = "null"\nstages = ["beams"]'))
+
+
+def test_the_readmes_config_is_taken_as_printed(tmp_path):
+    page = (Path(__file__).parent.parent / "README.md").read_text(encoding="utf-8")
+    block = page.split("## Your own config\n\n")[1].split("\n\nA mistake is answered")[0]
+    (tmp_path / "mine.toml").write_text(textwrap.dedent(block), encoding="utf-8")
+    experiment = config.load(tmp_path / "mine.toml", find_methods())
+    assert experiment.config.baseline == "ray_march"
+    assert experiment.config.budget.rounds == 8

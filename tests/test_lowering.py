@@ -317,3 +317,9 @@ def test_devices_compute_the_distance(surface: Surface, device: Device) -> None:
     assert surface.distance is not None
     wanted = evaluate_tape(lowering.real_tape(formula.parse(surface.distance, dict(surface.parameters))), points)[:, 0]
     assert np.allclose(found, wanted, atol=1e-6 * surface.domain.radius)
+
+
+def test_a_table_past_the_range_of_its_precision_is_refused() -> None:
+    with pytest.raises(FirsthitError, match="table SIZES has a number past the range of float32; scale the formula"):
+        printing.table("SIZES", [1.0, 1e39], "float32", "glsl")
+    assert printing.table("SIZES", [1e39], "float64", "cl").startswith("TABLE real SIZES[1] = {")

@@ -369,7 +369,9 @@ def test_the_first_page_says_which_method_at_which_error_and_what_it_costs(tmp_p
     frame = derive.derive(load.load(tiny_run(tmp_path / "run", *cells)).frame)
     table = choice.table(frame)
     assert table is not None
-    assert table.rows == [("Torus", "loose, float32", 1.0, 9e-4, "tight, float64", 4.0, 9e-7, 4.0)]
+    (row,) = table.rows
+    assert row[:-1] == ("Torus", "loose, float32", 1.0, 9e-4, "tight, float64", 4.0, 9e-7)
+    assert row[-1] == pytest.approx(4.0, rel=0.05), "in the rounds that timed both"
     only = derive.derive(load.load(tiny_run(tmp_path / "rough", timed("rough", 0.5, 2e-3))).frame)
     table = choice.table(only)
     assert table is not None

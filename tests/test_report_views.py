@@ -143,7 +143,7 @@ def test_what_no_fit_can_be_made_of() -> None:
         assert two.reason == "fewer than 3 places determine no exponent"
     wide = fits.power_law([2, 4, 6], [1.0, 40.0, 2.0])
     assert isinstance(wide, fits.Refusal)
-    assert wide.reason.startswith("3 points do not determine an exponent: its 95 % interval, −")
+    assert wide.reason.startswith("3 points do not determine an exponent: the 95 % interval of 1.14, −")
     level = fits.power_law([1, 2, 4, 8], [1.0, 1.0, 1.0, 1.0])
     assert isinstance(level, fits.Power) and level.exponent == level.half_width == 0.0
 

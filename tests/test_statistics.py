@@ -220,7 +220,7 @@ def test_a_fit_through_three_surfaces_is_refused_with_its_reason(tmp_path: Path)
     frame = derive.derive(load.load(tiny_run(tmp_path / "run", *cells)).frame)
     (section,) = [s for s in growth.sections(frame, style.variant_marks([("newton", "newton")]))]
     told = printed(section.blocks)
-    assert "3 points do not determine an exponent: its 95 % interval, −" in told
+    assert "3 points do not determine an exponent: the 95 % interval of 0.90, −" in told
     assert "| newton | 3 | – | – | – |" in told
     (figure,) = [block for block in section.blocks if isinstance(block, content.Figure)]
     assert figure.caption.startswith("No exponent is determined")

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from harness import conformance, console
 from harness.backends import LANGUAGES
 from harness.conformance import Bench, Finding
-from harness.contract import DeviceInfo, FirsthitError, Hits, Program, Surface
+from harness.contract import CellStatus, DeviceInfo, FirsthitError, Hits, Program, Surface
 from harness.executor import CellError, LocalExecutor, discover_devices
 from harness.plugins import Plugin, find_methods
 
@@ -92,7 +92,10 @@ def _bench(executor: LocalExecutor, device: str, float64: bool) -> Bench:
 
 
 def _findings(bench: Bench, plugin: Plugin, chosen: list[Surface]) -> Iterator[tuple[str, Finding]]:
-    """Every check of a method on a device; a step that fails, hangs or crashes is a finding that says no."""
+    """Every check of a method on a device; a step that fails, hangs or crashes is a finding that says no.
+
+    After one that hangs nothing more is asked: each further one would take as long.
+    """
     for examination in conformance.EXAMINATIONS:
         for where, findings in examination(bench, plugin, chosen):
             try:
@@ -100,6 +103,9 @@ def _findings(bench: Bench, plugin: Plugin, chosen: list[Surface]) -> Iterator[t
             except (CellError, FirsthitError) as error:
                 rule = "the program is built and runs to its end"
                 yield where, Finding("runs", math.nan, 0, rule, str(error).splitlines()[0], "see `firsthit compile`")
+                if isinstance(error, CellError) and error.status is CellStatus.TIMEOUT:
+                    yield "the rest", conformance.not_checked("all else", "a step before it hung")
+                    return
 
 
 def told(device: str, found: Iterable[tuple[str, str, Finding]], verbose: bool) -> str:

@@ -100,6 +100,9 @@ def _claims(stated: list[str], rows: pd.DataFrame) -> str:
             words.append(f"{name.replace('_', ' ')} (a row here does not count what would break it)")
             continue
         bad = int(known[columns].sum().sum())
-        held = "held" if bad == 0 else f"broken by {bad:,} of"
-        words.append(f"{name.replace('_', ' ')}: {held} {int(known['accuracy_rays'].sum()):,} rays here")
+        held = "held on" if bad == 0 else f"broken by {bad:,} of"
+        every = name == "no_missed_root"
+        of = int((known["truth_hits"] + known["truth_misses"] if every else known["judged"]).sum())
+        rays = "decided rays" if every else "decided rays that are neither grazing nor drowned"
+        words.append(f"{name.replace('_', ' ')}: {held} {of:,} {rays} here")
     return "; ".join(words)
