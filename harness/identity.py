@@ -63,7 +63,7 @@ def _of_method(folder: Path) -> dict[str, str]:
 
 
 def since(stored: Mapping[str, Any], catalog: Catalog) -> list[str]:
-    """What of `common` is no longer as a stored identity has it, a line each; the config is not looked at."""
+    """List what differs between `common` and a stored identity, a line each; the config is not looked at."""
     if "method" not in stored:
         return ["the harness, which named less of what decides a row then"]
     names = [Path(file).parent.name for file in stored["method"] if file.endswith("/method.py")]

@@ -12,15 +12,14 @@ import pytest
 
 import surfaces
 from harness.accuracy import Wrong, judge
-from harness.assemble import method_program
-from harness.backends import Device, hits_from, launch_rays
+from harness.backends import Device
 from harness.camera import scene_radius
-from harness.contract import Hits, RayStatus, Surface
+from harness.contract import RayStatus, Surface
 from harness.oracle import first_hits
 from harness.plugins import find_methods
-from surfaces.sections import unsupported
 
 from .conftest import opened, usable_devices
+from .test_starts import cast_from
 
 METHODS = sorted(
     name for name, plugin in find_methods().plugins.items() if plugin.method.casts == "rays" and name != "null"
@@ -43,23 +42,6 @@ TABLE: list[tuple[str, str, Any, Any, float | None]] = [
 STEPS = {"newton": 1e-3, "interval_march": 1e-5, "sphere_tracing_lipschitz": 1e-4, "lu_lipschitz": 1e-4, "sturm": 2e-6}
 
 
-def _cast(device: Device, method: str, surface: Surface, rays: Any, precision: Any) -> Hits | None:
-    """Hits by the method as it is, or None where it refuses."""
-    plugin = find_methods().get(method)
-    if plugin.method.accepts(surface) or unsupported(surface, precision, device.language):
-        return None
-    if precision == "float64" and not device.info.float64:
-        return None
-    program = method_program(
-        plugin.method, plugin.folder, plugin.variant({}), surface, precision, device.language, "rays"
-    )
-    launch = launch_rays(device, program, device.build(program), rays)
-    launch.run()
-    hits = hits_from(launch.read())
-    launch.release()
-    return hits
-
-
 def _ray(origin: Any, direction: Any) -> Any:
     heading = np.array(direction, float)
     return np.concatenate([origin, heading / np.linalg.norm(heading)]).astype(np.float32)[None]
@@ -72,7 +54,7 @@ def test_tiny_leading_coefficients_change_no_answer(device, method):
         rays = np.concatenate([_ray(origin, direction) for _, _, origin, direction, _ in listed])
         allowed = 64 * 2.0**-24 * surface.domain.radius + STEPS.get(method, 0.0)
         for precision in ("float32", "float64"):
-            hits = _cast(device, method, surface, rays, precision)
+            hits = cast_from(device, method, surface, rays, precision)
             for i, (*_, right) in enumerate(listed if hits else []):
                 assert hits is not None
                 wanted = RayStatus.MISS if right is None else RayStatus.HIT
@@ -89,7 +71,7 @@ def test_a_condition_of_1e5_is_float32s_limit_and_not_float64s(device, method):
     88,000 x 2^-24 x the box's radius, a quarter, which is no fault of a method."""
     surface = surfaces.from_formula(*CLUSTERED)
     rays = np.concatenate([_ray((-1, 0.1, 0.2), X), _ray((101, 0.1, 0.2), (-1, 0, 0))])
-    hits = _cast(device, method, surface, rays, "float64")
+    hits = cast_from(device, method, surface, rays, "float64")
     if hits is None:
         return
     if method == "interval_march":  # naive intervals of five large terms: its budget ends, and it says so
@@ -131,7 +113,7 @@ def test_sturm_is_right_along_axes_and_a_hair_off(name):
     surface = surfaces.get(name)
     rays, truth = _axis_case(surface)
     for precision in ("float32", "float64"):
-        hits = _cast(_fast(), "sturm", surface, rays, precision)
+        hits = cast_from(_fast(), "sturm", surface, rays, precision)
         if hits is None:
             continue
         verdicts = judge(hits, truth, scene_radius(surface), 1e-3)
@@ -142,7 +124,7 @@ def test_sturm_is_right_along_axes_and_a_hair_off(name):
 @pytest.mark.parametrize("degree", [4, 6, 9])
 def test_a_small_factor_makes_no_miss(degree):
     surface = surfaces.from_formula(f"1e-18*(x^{degree} + y^2 + z^2 - 0.5)", "sphere:1.5")
-    hits = _cast(_fast(), "sturm", surface, _ray((0, -3, 0.1), (0, 1, 0)), "float32")
+    hits = cast_from(_fast(), "sturm", surface, _ray((0, -3, 0.1), (0, 1, 0)), "float32")
     assert hits is not None
     assert hits.status[0] == RayStatus.HIT
     assert abs(hits.t[0] - 2.3) < 1e-5

@@ -32,7 +32,9 @@ STARTS: dict[str, tuple[Surface, Any]] = {  # surface, a start on it with f = 0 
 WAYS = ((1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, 0, 1), (-0.6, 0.8, 0), (0.6, 0, -0.8))
 
 
-def _cast(device: Device, method: str, surface: Surface, rays: Any, precision: Any, t_min: float = 0.0) -> Hits | None:
+def cast_from(
+    device: Device, method: str, surface: Surface, rays: Any, precision: Any, t_min: float = 0.0
+) -> Hits | None:
     """Hits from t_min on, or None where the method or the device refuses."""
     plugin = find_methods().get(method)
     if plugin.method.accepts(surface) or unsupported(surface, precision, device.language):
@@ -57,7 +59,7 @@ def _rays(origin: Any, ways: Any) -> Any:
 def test_a_start_on_the_surface_is_a_hit_at_once_whichever_way_it_goes(device, method):
     for name, (surface, start) in STARTS.items():
         for precision in ("float32", "float64"):
-            hits = _cast(device, method, surface, _rays(start, WAYS), precision)
+            hits = cast_from(device, method, surface, _rays(start, WAYS), precision)
             if hits is not None:
                 assert (hits.status == RayStatus.HIT).all(), (name, precision)
                 assert (hits.t == 0.0).all(), (name, precision)
@@ -82,7 +84,7 @@ def test_a_ray_begins_at_t_min(device, method):
         for rays, t_min, right in cases:
             surface = SPHERE if method not in ("double_derivative_bisection", "sphere_tracing") else SQUARES
             surface = surfaces.get("sphere") if method == "sphere_tracing" else surface
-            hits = _cast(device, method, surface, rays, precision, t_min)
+            hits = cast_from(device, method, surface, rays, precision, t_min)
             if hits is None:
                 continue
             assert hits.status[0] == (RayStatus.MISS if right is None else RayStatus.HIT), (precision, t_min)
@@ -94,11 +96,11 @@ def test_a_ray_begins_at_t_min(device, method):
 def test_a_start_off_the_surface_is_no_start_on_it(device):
     """f of a point one float32 off is not zero, so the method decides; a start outside the domain is on no surface."""
     near = np.nextafter(np.float32(1), np.float32(2))
-    hits = _cast(device, "bernstein", SPHERE, _rays((near, 0, 0), [(1, 0, 0)]), "float32")
+    hits = cast_from(device, "bernstein", SPHERE, _rays((near, 0, 0), [(1, 0, 0)]), "float32")
     assert hits is not None
     assert hits.status[0] == RayStatus.MISS
     outside = surfaces.from_formula("x + y - 1", "sphere:0.5")
-    hits = _cast(device, "bernstein", outside, _rays((1, 0, 0), [(0, 0, 1)]), "float32")
+    hits = cast_from(device, "bernstein", outside, _rays((1, 0, 0), [(0, 0, 1)]), "float32")
     assert hits is not None
     assert hits.status[0] == RayStatus.MISS
 

@@ -218,7 +218,7 @@ def _why(options: argparse.Namespace) -> int:
 
 
 def _why_again(row: Row, catalog: Catalog) -> None:
-    """What of the harness, its method and this machine is no longer as the newest row of a cell found it."""
+    """Print what changed in the harness, the method and this machine since a cell's newest row was made."""
     changed = identity.since(row["identity"], catalog)
     if not changed:
         print(
