@@ -149,6 +149,7 @@ def _passed(hits: Hits, case: Case) -> NDArray[np.bool_]:
     """
     between = case.truth.upper + np.fmax(0.5 * (case.truth.following - case.truth.upper), SAME_ROOT * case.radius)
     found = (hits.status == RayStatus.HIT) & (hits.t <= np.fmin(between, case.truth.upper + FAR * case.radius))
+    found &= hits.t >= -FAR * case.radius  # what lies behind the ray's start is no place that it could stop at
     return np.asarray(case.there & ~found & (hits.status != RayStatus.EXHAUSTED))
 
 
