@@ -35,9 +35,11 @@ Barth sextic, the Barth decic and the 16-ball; 4e-7 to 6e-7. Float64: none anywh
 
 **Speed** (opencl:intel, float32, torus at 1024x1024, 30°/35°, time above the null method's.) Kept: BY_SIGN = 1, 1.5
 times faster than counting to the end, by two loops: one that counts until a single root is left, and one that only
-looks at f. The second chain is run by all rays of a vector where one needs it: at 512x512, SHARE = 2^-16 takes 1.01
-times as long as SHARE = 0 on the torus, 1.1 on Kummer's quartic, 1.1 on tangle; 2^-10 takes 1.3, 2.1 and 2.0 times as
-long, and answers all of 36,864 rays rightly on each, of which 2^-16 gets 5, 5 and 2 wrong, as many as before. On
+looks at f. Against the chain that divides by whatever leads (SHARE did not exist), in rounds by turns at 512x512: 1.2
+(torus) to 1.3 times as long on opencl:intel, 1.3 to 1.5 on opengl:llvmpipe, since the second chain stands in the
+program. The second chain is run by all rays of a vector where one needs it: at 512x512, SHARE = 2^-16 takes 1.01 times
+as long as SHARE = 0 on the torus, 1.1 on Kummer's quartic, 1.1 on tangle; 2^-10 takes 1.3, 2.1 and 2.0 times as long,
+and answers all of 36,864 rays rightly on each, of which 2^-16 gets 5, 5 and 2 wrong, as many as before. On
 opengl:llvmpipe the two differ by 1.0 to 1.1. Rejected: a second chain with indices known at run time only (1.9 on
 opengl:llvmpipe); remainders multiplied out instead of divided; over seven views at 256x256 they lost 23 rays, and
 division 14.
