@@ -112,7 +112,7 @@ def nothing_judged(rays: int) -> str:
 
 
 def _quantiles(values: NDArray[np.float64]) -> dict[str, float | None]:
-    """Of the finite values: a normal has no direction at a singular point, a touch no condition."""
+    """Return quantiles of the finite values: a normal has no direction at a singular point, a touch no condition."""
     values = values[np.isfinite(values)]
     if not len(values):
         return {"max": None, "p999": None, "p99": None, "p50": None}

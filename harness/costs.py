@@ -105,7 +105,7 @@ _COSTS: dict[str, Callable[[Surface], int]] = {
 
 
 def operations_per_evaluation(surface: Surface, needs: Sequence[str]) -> int | None:
-    """Of the first function of _COSTS that a method needs: what it evaluates. None where it evaluates nothing.
+    """Count the operations of the first function of _COSTS that a method needs; None where it evaluates nothing.
 
     Exact coefficients along the ray are evaluated as a polynomial.
     """

@@ -121,7 +121,7 @@ class RasterLaunch(Launch):
         return np.ascontiguousarray(rows)
 
     def picture(self) -> Picture:
-        """Of a frame with reporting programs that was run once."""
+        """Read back what a frame with reporting programs showed; it must have been run once."""
         assert self._rays is not None and self._counts is not None
         count = self._size**2
         (colours,) = self.read()

@@ -45,7 +45,7 @@ class Picture:
     invalid: NDArray[np.int32]  # [n] those that gave no answer
 
     def hits(self, scale: NDArray[np.float64]) -> Hits:
-        """As any stage answers: t in world units, where `scale` float64[n] is that of who is seen. Where nothing is, a
+        """Return the pixels' answers, t in world units; `scale` float64[n] is that of the instance seen. Without one, a
         pixel with a fragment that gave up is exhausted, and a miss otherwise. A fragment without an answer makes its
         pixel invalid, since it may have been in front, and so does one whose hit lies behind all that there is."""
         gave_up = np.where(self.exhausted > 0, RayStatus.EXHAUSTED, RayStatus.MISS)

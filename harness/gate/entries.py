@@ -14,7 +14,7 @@ from harness.plan import Planned
 from harness.plugins import Catalog
 from harness.store import Row
 
-# What of a cell's identity is the method's doing, the machine's or the harness's; the rest is the question asked.
+# These parts of a cell's identity belong to the method, the machine or the harness; the rest is the question asked.
 _NOT_SCENE = {
     "program",
     "program order",

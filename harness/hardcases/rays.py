@@ -103,11 +103,11 @@ def settled(origins: Floats, directions: Floats, measure: Callable[[Floats], Flo
 
 
 def distance_to_points(rays: Floats, points: Floats) -> Floats:
-    """Of the lines of rays[..., 6] from points[..., 3]."""
+    """Return how far the lines of rays[..., 6] pass from points[..., 3]."""
     return length(cross(points - rays[..., :3], rays[..., 3:])) / length(rays[..., 3:])
 
 
 def distance_to_z_axis(rays: Floats) -> Floats:
-    """Of the lines of rays[..., 6] from the z axis, signed by the side they pass on."""
+    """Return how far the lines of rays[..., 6] pass from the z axis, signed by the side they pass on."""
     ox, oy, _, dx, dy, _ = np.moveaxis(rays, -1, 0)
     return np.asarray((ox * dy - oy * dx) / np.sqrt(dx * dx + dy * dy))

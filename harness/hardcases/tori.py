@@ -52,7 +52,7 @@ def distance_to_torus(points: Floats) -> Floats:
 
 
 def points_and_normals(around: tuple[Floats, Floats], cosine: Floats, sine: Floats) -> tuple[Floats, Floats]:
-    """Of the torus at angles around its axis and around its tube: cosines and sines, [n] each."""
+    """Return the torus's points and normals at angles around its axis and its tube: cosines and sines, [n] each."""
     cu, su = around
     normals = vectors(cosine * cu, cosine * su, sine)
     return RING * vectors(cu, su, 0.0) + TUBE * normals, normals

@@ -69,7 +69,7 @@ def judge_rung(rung: Rung, hits: Hits, truth: Truth, precision: Precision) -> di
 
 
 def share_right(verdict: Mapping[str, Any]) -> float | None:
-    """Of the decided rays; None where there are none, so that nothing can be said."""
+    """Return the share of decided rays answered rightly; None where there are none, so that nothing can be said."""
     return verdict["right"] / verdict["decided"] if verdict["decided"] else None
 
 

@@ -83,7 +83,7 @@ def hull(lower: Any, upper: Any) -> Balls:
 
 
 def sqrt(a: Balls) -> Balls:
-    """Of the members that have a root; NaN where `a` has none."""
+    """Enclose the square roots of the members that have one; NaN where `a` has none."""
     lower, upper = np.sqrt(np.maximum(a.lower, 0.0)), np.sqrt(a.upper)
     return hull(lower * (1.0 - UNIT), upper * (1.0 + UNIT))
 

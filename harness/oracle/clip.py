@@ -101,7 +101,7 @@ class Clip:
 
 
 def clip_many(domain: Domain, rays: Floats, t_min: float = 0.0) -> Clip:
-    """Of t >= `t_min`; `rays`: float64[n, 6] holding float32 values."""
+    """Enclose the clip ends of t >= `t_min`; `rays`: float64[n, 6] holding float32 values."""
     with np.errstate(all="ignore"):
         low, high, missed = _slabs(domain, rays) if isinstance(domain, Box) else _chords(domain, rays)
         unknown = ~(np.isfinite(low.mid) & np.isfinite(high.mid) & np.isfinite(low.rad) & np.isfinite(high.rad))

@@ -154,7 +154,7 @@ class NoiseAlong:
         return np.asarray(np.maximum(by_tape, error))
 
     def by_tape(self, rows: Any, t: Floats) -> Floats:
-        """Of values that are calculated at the point alone."""
+        """Bound the errors of values that are calculated from the point alone, as `bound` does."""
         inputs = {}
         for k, axis in enumerate("xyz"):
             origin = self._rays[rows, k]

@@ -48,7 +48,7 @@ def leaf(expr: sympy.Expr) -> Any:
 
 
 def root(ball: Any) -> Any:
-    """Of the members that have a root; NaN where `ball` has none."""
+    """Enclose the square roots of the members that have one; NaN where `ball` has none."""
     return arb.sqrt(ball.nonnegative_part() if ball.contains(0) else ball)
 
 

@@ -115,7 +115,7 @@ class Tower:
         return of_a  # the conjugate is 0 all over: x = 2a
 
     def _is_not_conjugate(self, x: Element) -> bool:
-        """Of x and its conjugate exactly one is 0 all over the cell; whether it is the conjugate."""
+        """Tell whether x's conjugate is 0 all over the cell, where exactly one of the two is."""
         other = self.conjugate(x)
         for k in range(SAMPLES):
             at = self.sample + (self.last.lower - self.sample) * fmpq(k, SAMPLES + 1)
@@ -128,7 +128,7 @@ class Tower:
         raise Undecidable("a function was not told from its conjugate")
 
     def sign(self, x: Element) -> int:
-        """Of x, which has no root in the cell."""
+        """Return the sign of x, which has no root in the cell."""
         for bits in PRECISIONS:
             with precision(bits):
                 value = self.ball(x, arb(self.sample))
