@@ -159,6 +159,7 @@ class Parameter:
         None  # the length, as kernels write it, that a tolerance is a share of, or that is halved so often
     )
     #   where more is finer: such a knob may be loosened to what a pixel shows
+    printed: float | int | None = None  # the source's own value, where the default is ours and another
 
 
 CLAIMS: dict[str, str] = {
@@ -196,6 +197,11 @@ class Method:
     #   `void cast_cell(Work, Cell)`, for every pixel, or for the quadtree's cells level by level; mesh,
     #   `vec3 mesh_normal(vec3)`, of triangles that are rasterised in place of rays
     mesh: Callable[[Surface, Mapping[str, float | int]], MeshRecipe] | None = None  # of a method that casts a mesh
+
+    @property
+    def printed(self) -> dict[str, float | int]:
+        """The knobs whose default is ours, with the values that the method's source prints."""
+        return {p.name: p.printed for p in self.parameters if p.printed is not None}
 
 
 @dataclass(frozen=True)
