@@ -172,7 +172,7 @@ def test_steps_longer_than_the_bound_allows_are_caught(tmp_path):
 
 def test_sturm_fails_in_float32_only_and_only_from_some_sides():
     """toledo2007, 4.1 and Fig. 4: numerical defects that depend on the view."""
-    knobs = {"BY_SIGN": 0, "ITERATIONS": 22, "SHARE": 0.0}
+    knobs = {"BY_SIGN": 0, "ITERATIONS": 22, "CAREFUL": 0}
     low, top = (_outcome("sturm", "torus", view, 256, **knobs) for view in (LOW, TOP))
     assert low.wrong > 0.0
     assert top.wrong == 0.0

@@ -181,7 +181,8 @@ Hit first_hit(Ray ray, real t0, real t1) {
         scaled_chain(c, chain);
     } else {
         real reach = max(fabs(t0), fabs(t1));
-        if (!sturm_chain(c, reach, chain)) {
+        bool led = sturm_chain(c, reach, chain);
+        if (CAREFUL == 1 && !led) {
             stretch.reach = reach;
             real power = 1.0;
             for (int i = 1; i <= SURFACE_DEGREE; i++) {

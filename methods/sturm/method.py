@@ -12,10 +12,11 @@ chain at one new point each time, since the near end's count stays. A ray withou
 - Where a leading coefficient is zero or small against its row over the ray's stay, division by it leaves nothing but
   roundings: along an axis, where f is often of lower degree (x^3 + y^2 + z^2 along y) or a remainder is (x^4 - 1 leaves
   a constant), and a hair off it. With u for the roundoff and e for the coefficient's share, the rest is off by u / e^2,
-  so under SHARE the chain is made anew in double words (u^2 / e^2), of f over [-1, 1]; what is under LEAST roundoffs
-  even there counts as 0, and the row's degree is lower. Of 5,980 rays along axes and diagonals, and a hair off, at the
-  catalog's surfaces to degree 4, 6 are answered wrongly in float32 and 2 in float64 (tests/test_axis_rays.py). SHARE
-  = 0 does so for zeros only and keeps the defects that the paper reports.
+  so with CAREFUL = 1 the chain is made anew in double words (u^2 / e^2), of f over [-1, 1], where e is under SHARE.
+  What is under LEAST roundoffs even there counts as 0, and the row's degree is lower. Of 5,980 rays along axes and
+  diagonals, and a hair off, at the catalog's surfaces to degree 4, 6 are answered wrongly in float32 and 2 in float64
+  (tests/test_axis_rays.py). CAREFUL = 0 divides by any leading coefficient, as printed, and has the defects that the
+  paper reports.
 - A chain with a member that is no finite number decides nothing, nor does one that counts more roots before the near
   end than before the far one: the ray ends as exhausted.
 - Degrees 1 and 2 and 5 to 16 are a stated extension. Beyond 4 the coefficients are fitted (szente, section 2.1) over
@@ -35,14 +36,14 @@ Barth sextic, the Barth decic and the 16-ball; 4e-7 to 6e-7. Float64: none anywh
 
 **Speed** (opencl:intel, float32, torus at 1024x1024, 30°/35°, time above the null method's.) Kept: BY_SIGN = 1, 1.5
 times faster than counting to the end, by two loops: one that counts until a single root is left, and one that only
-looks at f. Against the chain that divides by whatever leads (SHARE did not exist), in rounds by turns at 512x512: 1.2
-(torus) to 1.3 times as long on opencl:intel, 1.3 to 1.5 on opengl:llvmpipe, since the second chain stands in the
-program. The second chain is run by all rays of a vector where one needs it: at 512x512, SHARE = 2^-16 takes 1.01 times
-as long as SHARE = 0 on the torus, 1.1 on Kummer's quartic, 1.1 on tangle; 2^-10 takes 1.3, 2.1 and 2.0 times as long,
-and answers all of 36,864 rays rightly on each, of which 2^-16 gets 5, 5 and 2 wrong, as many as before. On
-opengl:llvmpipe the two differ by 1.0 to 1.1. Rejected: a second chain with indices known at run time only (1.9 on
-opengl:llvmpipe); remainders multiplied out instead of divided; over seven views at 256x256 they lost 23 rays, and
-division 14.
+looks at f. CAREFUL = 1 takes 1.2 to 1.3 times as long as CAREFUL = 0 on opencl:intel and 1.3 to 1.6 times on
+opengl:llvmpipe (512x512, rounds by turns: torus, Kummer's quartic, tangle, Cayley's cubic), since the second chain
+stands in the program, and all rays of a vector run it where one needs it. SHARE = 2^-10 takes 1.3, 2.1 and 2.0 times as
+long as 2^-16 and answers all of 36,864 rays rightly on each of the quartics, of which 2^-16 gets 5, 5 and 2 wrong.
+Rejected: a change of variable, x = (y + 1/2) / (1 + y/2), in place of double words, which is no faster on
+opencl:intel, slower on opengl:llvmpipe and gets 49 of the 5,980 rays wrong; a second chain with indices known at run
+time only (1.9 on opengl:llvmpipe); remainders multiplied out instead of divided, which over seven views at 256x256 lost
+23 rays, where division lost 14.
 """
 
 from harness.contract import Method, Parameter, Surface
@@ -70,17 +71,22 @@ METHOD = Method(
             sweep=(12, 16, 30),
             per="2.0 * DOMAIN_RADIUS",
         ),
-        Parameter("BY_SIGN", 1, "1: bisect by the sign of f once one root is left; 0: count to the end, as printed"),
+        Parameter("BY_SIGN", 1, "1: bisect by the sign of f once one root is left; 0: count to the end", printed=0),
+        Parameter(
+            "CAREFUL",
+            1,
+            "to degree 4, where a leading coefficient is small: 1: make the chain in double words; 0: divide by it",
+            printed=0,
+        ),
         Parameter(
             "SHARE",
             0.0000152587890625,
-            "to degree 4: share of its row, over the ray's stay, that a leading coefficient needs to be divided by in "
-            "plain arithmetic; 0: any but zero, as printed",
+            "of CAREFUL: the share of its row, over the ray's stay, under which a leading coefficient is small",
         ),
         Parameter(
             "LEAST", 64.0, "in double words: least leading coefficient of a row, over its largest one, in roundoffs"
         ),
     ),
-    settings={"Sturm": {"ITERATIONS": 18, "BY_SIGN": 0, "SHARE": 0.0}},
+    settings={"Sturm": {"ITERATIONS": 18, "BY_SIGN": 0, "CAREFUL": 0}},
     accepts=accepts,
 )
