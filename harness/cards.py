@@ -23,7 +23,10 @@ def card(plugin: Plugin) -> dict[str, Any]:
         "title": title,
         "source": doc.pop("Source", method.source),
         "doc": doc,
-        "parameters": [{"name": p.name, "default": p.default, "meaning": p.meaning} for p in method.parameters],
+        "parameters": [
+            {"name": p.name, "default": p.default, "meaning": p.meaning, "printed": p.printed}
+            for p in method.parameters
+        ],
         "claims": sorted(method.claims),
     }
 

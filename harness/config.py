@@ -38,12 +38,14 @@ BASELINE = "ray_march"  # what speed-ups are over where a config names nothing e
 @dataclass(frozen=True)
 class MethodChoice:
     """A method, and for each knob one value or several; several knobs multiply. `settings` are the papers' own, by the
-    names that the method gives them. `stages` are this method's, where they are not the experiment's."""
+    names that the method gives them. `stages` are this method's, where they are not the experiment's. `deviations`: the
+    default, and beside it each knob that we changed at the value that the method's source prints."""
 
     name: str
     parameters: dict[str, list[float]] = field(default_factory=dict)
     settings: list[str] = field(default_factory=list)
     stages: list[str] = field(default_factory=list)
+    deviations: bool = False
 
 
 @dataclass(frozen=True)
@@ -405,7 +407,8 @@ def load(path: Path, catalog: Catalog) -> Experiment:
         try:
             plugin = catalog.get(choice.name)
             own = [plugin.setting(name) for name in choice.settings]
-            if choice.parameters or not choice.settings:
+            own += plugin.deviations() if choice.deviations else []
+            if choice.parameters or not own:
                 own += [plugin.variant(point) for point in _sweep(choice)]
         except FirsthitError as error:
             raise source.error(("method", i, "name"), str(error)) from None

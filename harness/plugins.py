@@ -16,6 +16,8 @@ from harness.contract import CLAIMS, FirsthitError, Method, Variant
 BUILT_IN = Path(__file__).parent.parent / "methods"
 ENTRY_POINTS = "firsthit.methods"
 
+AS_PRINTED = "as printed"  # the setting of any method some of whose knobs' defaults are ours
+
 
 @dataclass(frozen=True)
 class Plugin:
@@ -39,11 +41,22 @@ class Plugin:
         return Variant(self.method.name, tuple(sorted(bound.items())), label)
 
     def setting(self, name: str) -> Variant:
-        """One of the papers' own settings; raises FirsthitError for one that the method does not state."""
+        """One of the papers' own settings, or AS_PRINTED: every knob that we changed at its source's value.
+
+        Raises FirsthitError for one that the method does not state.
+        """
+        if name == AS_PRINTED and self.method.printed:
+            return dataclasses.replace(self.variant(self.method.printed), label=f"{self.method.name} {AS_PRINTED}")
         if name not in self.method.settings:
-            known = self.method.settings
+            known = [*self.method.settings, *([AS_PRINTED] if self.method.printed else [])]
             raise FirsthitError(f"method {self.method.name!r} has no setting {name!r}{_hint(name, known)}")
         return dataclasses.replace(self.variant(self.method.settings[name]), label=name)
+
+    def deviations(self) -> list[Variant]:
+        """The default, the default with each knob that we changed at its source's value, and all of them together."""
+        printed = self.method.printed
+        alone = [self.variant({name: value}) for name, value in printed.items()]
+        return [self.variant({}), *alone, *([self.setting(AS_PRINTED)] if len(printed) > 1 else [])]
 
 
 @dataclass(frozen=True)

@@ -77,7 +77,9 @@ def _methods(options: argparse.Namespace) -> str:
     for name, plugin in sorted(catalog.plugins.items()):
         method = plugin.method
         claims = ", ".join(sorted(method.claims)) if method.answers else "(measures the harness's floor)"
-        rows.append((name, method.source, claims or "none", ", ".join(method.settings) or "-"))
+        printed = ", ".join(f"{knob} = {value:g}" for knob, value in method.printed.items()) or "its default"
+        printed = "-" if not method.answers or method.source.startswith("firsthit") else printed
+        rows.append((name, method.source, printed, ", ".join(method.settings) or "-", claims or "none"))
     knobs = [
         (name, p.name, f"{p.default:g}", {"up": "larger", "down": "smaller", None: "-"}[p.finer], p.meaning)
         for name, plugin in sorted(catalog.plugins.items())
@@ -87,7 +89,7 @@ def _methods(options: argparse.Namespace) -> str:
     meanings = [(claim, meaning) for claim, meaning in CLAIMS.items() if claim in stated]
     broken = [f"{name}: cannot be loaded: {reason}" for name, reason in catalog.broken.items()]
     tables = (
-        console.table(("name", "source", "claims", "papers' settings"), rows),
+        console.table(("name", "source", "as printed", "papers' settings", "claims"), rows),
         console.table(("claim", "meaning"), meanings),
         console.table(("method", "parameter", "default", "finer", "meaning"), knobs),
     )

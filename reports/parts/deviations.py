@@ -1,0 +1,91 @@
+"""Where a method's default differs from what its source prints, and what each difference is worth."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from reports import derive, rounds, wording
+from reports.content import Column, Section, Table, Text
+from reports.material import Material
+
+ORDER = 66
+LEADS = True
+ALL = "all of these"
+TOLD = (
+    "Each method's default is compared with the same method in which one knob stands at the value that its source "
+    "prints, and then with all such knobs there. What differs beside these knobs is said in the method's card, under "
+    "“changes against the paper”."
+)
+CAPTION = (
+    "The time as printed over the default's: the median over the surfaces, views and devices that were timed in the "
+    "same rounds, from the least to the largest; over 1 the change makes the method faster, and a dash says that no "
+    "common rounds were timed. Evaluations are means over all rays cast. Wrong rays are neither grazing nor drowned. "
+    "The largest error is over the scene's radius and of right hits. Every figure is a sum or an extreme over the "
+    "comparisons that have both."
+)
+
+
+def sections(material: Material) -> list[Section]:
+    """None where the run holds no method with a knob at its printed value beside its default."""
+    body = [line for name, told in material.run.plan.methods.items() for line in _lines(name, told, material.frame)]
+    if not body:
+        return []
+    ours, theirs = "ours", "as printed"
+    columns = (
+        Column("method"),
+        Column("knob"),
+        Column("ours"),
+        Column("printed"),
+        Column("what it is", stretch=1),
+        Column("compa-\nrisons", wording.count, numeric=True),
+        Column("time", wording.factor, numeric=True, over="as printed over ours"),
+        Column("from", wording.factor, numeric=True, over="as printed over ours"),
+        Column("to", wording.factor, numeric=True, over="as printed over ours"),
+        Column("evalua-\ntions", wording.factor, numeric=True, over="as printed over ours"),
+        Column(ours, wording.count, numeric=True, over="wrong rays"),
+        Column(theirs, wording.count, numeric=True, over="wrong rays"),
+        Column("of", wording.count, numeric=True, over="wrong rays"),
+        Column(ours, wording.error, numeric=True, over="largest error"),
+        Column(theirs, wording.error, numeric=True, over="largest error"),
+    )
+    table = Table(columns, body, "What our changes to the papers' methods are worth.", CAPTION, group=1)
+    return [Section("Deviations from the papers", (Text(TOLD), table), wide=True)]
+
+
+def _lines(name: str, told: Mapping[str, Any], frame: pd.DataFrame) -> Iterator[tuple[Any, ...]]:
+    """A line for each knob whose printed value was run alone, and one for all of them."""
+    knobs = {knob["name"]: knob for knob in told.get("parameters", []) if knob.get("printed") is not None}
+    rows = frame[(frame["method"] == name) & (frame["status"] == "ok") & frame["accuracy_rays"].notna()]
+    if not knobs or rows.empty:
+        return
+    defaults = {knob["name"]: knob["default"] for knob in told["parameters"]}
+    bound = rows["parameters"].map(lambda text: defaults | json.loads(text))
+    ours = rows[(bound == defaults).astype(bool)]
+    for knob in knobs.values():
+        theirs = rows[(bound == defaults | {knob["name"]: knob["printed"]}).astype(bool)]
+        what = (name, knob["name"], f"{knob['default']:g}", f"{knob['printed']:g}", knob["meaning"])
+        yield from _line(what, ours, theirs)
+    if len(knobs) > 1:
+        printed = {key: knob["printed"] for key, knob in knobs.items()}
+        yield from _line((name, ALL, "", "", ""), ours, rows[(bound == defaults | printed).astype(bool)])
+
+
+def _line(what: tuple[str, ...], ours: pd.DataFrame, theirs: pd.DataFrame) -> Iterator[tuple[Any, ...]]:
+    """The line, where the two have a comparison in common."""
+    keys = [*derive.GROUP, "prepass"]
+    left, right = (rows.drop_duplicates(keys).set_index(keys) for rows in (ours, theirs))
+    common = left.index.intersection(right.index)
+    if common.empty:
+        return
+    left, right = left.loc[common], right.loc[common]
+    timed = (rounds.ratio(b, a) for a, b in zip(left.itertuples(), right.itertuples(), strict=True))
+    times = [ratio.median for ratio in timed if ratio is not None]
+    spread = (float(np.median(times)), min(times), max(times)) if times else (None, None, None)
+    spent = right["evaluations_mean"].sum() / left["evaluations_mean"].sum()
+    wrong = (left["wrong_rays"].sum(), right["wrong_rays"].sum(), left["judged"].sum())
+    yield (*what, len(common), *spread, spent, *wrong, left["error_max"].max(), right["error_max"].max())
