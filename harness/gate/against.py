@@ -118,7 +118,7 @@ def _wrong(
 
 @dataclass(frozen=True, eq=False)
 class _Side:
-    """One revision's programs: of listed rays, where it casts rays, and of the frame."""
+    """One revision's programs: the one that is checked, if it is not the frame's, and the frame's."""
 
     check: Program | None
     frame: Frame
@@ -128,8 +128,9 @@ def _hits(side: _Side, planned: Planned, rays: NDArray[np.float32], size: int, e
     device, domain = planned.cell.device, planned.cell.surface.domain
     if planned.casts == "rays" and side.check:
         return answers.validated(executor.check(device, side.check, rays).hits, domain, rays)
-    pixels = beams.pixels_of(planned.camera, size, side.frame.size)
-    along = beams.along_rays(executor.check_frame(device, side.frame, pixels.index).hits, pixels)
+    frame = replace(side.frame, program=side.check or side.frame.program)
+    pixels = beams.pixels_of(planned.camera, size, frame.size)
+    along = beams.along_rays(executor.check_frame(device, frame, pixels.index).hits, pixels)
     return answers.validated_beams(along, domain, rays, planned.camera[3:6])
 
 
