@@ -279,4 +279,4 @@ def explain_log(program: Program, log: str) -> str:
         origin, line = program.locate(int(match["line"]))
         return f"{origin}:{line}{match['tail']}"
 
-    return _LINE.sub(at_home, log).strip() + (ONE_COUNTER if "macro for invoked" in log else "")
+    return _LINE.sub(at_home, log).strip() + (ONE_COUNTER if re.search(r"\bmacro\b.{0,20}\bfor\b", log) else "")

@@ -29,6 +29,6 @@ def removed(programs: Iterable[Program], kept: Hits, cast: Callable[[], Hits]) -
     if count <= DOUBTFUL * len(gave_up):
         return None
     return (
-        f"on {count} of {len(gave_up)} rays the kernel ends only because this device's compiler removes a loop that "
-        "nothing depends on: kept, as the check keeps it, the loop turns until the driver ends it"
+        f"on {count} of {len(gave_up)} rays the kernel ends only because this device's compiler removes a loop whose "
+        "result is not used; the check keeps this loop, and it turns until the driver ends it"
     )

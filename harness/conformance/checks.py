@@ -97,7 +97,7 @@ def _agreement(view: str, case: Case, hits: Hits, precision: Precision, setting:
         limits[view.endswith(INSIDE)],
         f"share of wrong answers on clear rays, on {whose}",
         f"{counts or 'none wrong'} of {clear.sum()}" + _first(wrongly, hits, case),
-        ("mend a loop that does not end (a driver that ends it exhausts its rays), " if gave_up.any() else "")
+        ("look for a loop that does not end (a driver that ends it exhausts its rays), " if gave_up.any() else "")
         + "mend the kernel, or refuse such surfaces in Method.accepts",
     )
     if not typical:
@@ -106,7 +106,7 @@ def _agreement(view: str, case: Case, hits: Hits, precision: Precision, setting:
             float(gave_up.sum() / clear.sum()),
             MOST_EXHAUSTED_ELSEWHERE,
             f"share of clear rays that end as exhausted, on {whose}",
-            advice="let it spend more evaluations on a ray, mend a loop that does not end (a driver that ends it "
+            advice="let it spend more evaluations on a ray, look for a loop that does not end (a driver that ends it "
             "exhausts its rays), or refuse such surfaces in Method.accepts",
         )
     if (clear & case.there).any():

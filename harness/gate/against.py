@@ -6,12 +6,14 @@ import itertools
 import math
 import time
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from harness import accuracy, answers, beams, measure
+from harness import accuracy, answers, beams, freeloops, measure
+from harness.assemble import with_free_loops
 from harness.camera import rays_of, scene_radius
 from harness.config import Experiment
 from harness.contract import CellStatus, Hits, Program
@@ -105,6 +107,11 @@ def _wrong(
         return reason
     for side, when in ((present, "now"), (other, "at the other revision")):
         hits = _hits(side, planned, rays, choice.size, executor)
+        if side.check:
+            free = replace(side, check=with_free_loops(side.check))
+            cast_freely = partial(_hits, free, planned, rays, choice.size, executor)
+            if reason := freeloops.removed((side.check,), hits, cast_freely):
+                return f"{reason} {when}"
         precision = planned.cell.precision
         verdicts = accuracy.judge(hits, certified, scene_radius(surface), choice.grazing_margin, precision)
         judged = accuracy.judged(certified, verdicts)
