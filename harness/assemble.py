@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from fractions import Fraction
 from functools import cache
 from pathlib import Path
@@ -95,7 +96,9 @@ def method_program(
     """The program that casts rays or beams at `surface` by `variant`; `folder` holds the method's kernel.glsl.
 
     `narrowed` is the prepass's parameters where rays are to be narrowed by it. `t_min`, in units of t, is where listed
-    rays begin. Raises FirsthitError where the surface lacks a function that the method needs, or t_min is no distance.
+    rays begin. In GLSL the compiler may remove none of its loops, but of a camera's program, which is only timed.
+
+    Raises FirsthitError where the surface lacks a function that the method needs, or t_min is no distance.
     """
     from surfaces.sections import libraries_for, surface_sections
 
@@ -120,8 +123,20 @@ def method_program(
     suffix = "_narrowed" if narrowed else ""
     if entry == "rays" and language == "glsl":
         sections.append(file_section(KERNELS / "turns.glsl"))
+    if entry != "camera" and language == "glsl":
+        sections.insert(1, kept_loops())
     sections.append(file_section(KERNELS / f"entry_{entry}{suffix}.{language}"))
     return Program(language, precision, entry, tuple(sections))
+
+
+def kept_loops() -> Section:
+    """What keeps the loops of a GLSL program whose answers are checked; behind the prelude, which holds #version."""
+    return file_section(KERNELS / "kept_loops.glsl")
+
+
+def with_free_loops(program: Program) -> Program:
+    """The program as it is timed: a compiler may remove the loops that nothing depends on."""
+    return replace(program, sections=tuple(s for s in program.sections if s != kept_loops()))
 
 
 def _t_min_section(t_min: float, precision: Precision, language: Language) -> Section:
@@ -168,8 +183,9 @@ def raster_program(
     pixels: float = 0.0,
 ) -> Program:
     """The program whose fragments, of a proxy about each instance of `surface`, cast rays by `variant`, in GLSL and
-    float32. With `reports` it also writes what the check reads. `free`: parameters and domain are each instance's own.
-    `pixels`: how many footprints of a pixel the method's tolerance may grow to; 0 leaves it alone.
+    float32. With `reports` it also writes what the check reads, and the compiler may remove none of its loops.
+    `free`: parameters and domain are each instance's own. `pixels`: how many footprints of a pixel the method's
+    tolerance may grow to; 0 leaves it alone.
 
     Raises FirsthitError where the surface lacks a function that the method or the shading needs.
     """
@@ -192,6 +208,8 @@ def raster_program(
     parts = ("cast", *RAY_OF_PIXEL, "raster_fragment", "raster_shade", *(["turns", "raster_report"] * reports))
     sections += [file_section(KERNELS / f"{part}.glsl") for part in parts]
     sections.append(file_section(KERNELS / f"entry_raster{'_check' * reports}.frag.glsl"))
+    if reports:
+        sections.insert(1, kept_loops())
     vertex = [
         *_head("glsl", "float32", ()),
         Section("generated: proxy", f"#define PROXY_SIDES {PROXY_SIDES}\n#define PIXELS {float(pixels)!r}"),
@@ -247,14 +265,18 @@ def map_program(
     return Program(language, precision, "map", (*_head(language, precision, libraries), *items, entry))
 
 
+ONE_COUNTER = (
+    "\nin a program that is checked, the head of a `for` loop holds no comma outside brackets: count by one variable"
+)
 _LINE = re.compile(r"(?m)^(?P<head>.*?)(?:\b0:|<kernel>:|\binput\.cl:|\.cl:|\b\d+:)(?P<line>\d+)(?P<tail>[:(].*)$")
 
 
 def explain_log(program: Program, log: str) -> str:
-    """A compiler's log with every line number replaced by the section's own file and line."""
+    """A compiler's log with every line number replaced by the section's own file and line, and the rule of loops'
+    heads where that one is broken."""
 
-    def replace(match: re.Match[str]) -> str:
+    def at_home(match: re.Match[str]) -> str:
         origin, line = program.locate(int(match["line"]))
         return f"{origin}:{line}{match['tail']}"
 
-    return _LINE.sub(replace, log).strip()
+    return _LINE.sub(at_home, log).strip() + (ONE_COUNTER if re.search(r"\bmacro\b.{0,20}\bfor\b", log) else "")

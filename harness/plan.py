@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from harness import identity as identities
 from harness import prepass, raster, stability
-from harness.assemble import fill_program, method_program
+from harness.assemble import fill_program, method_program, with_free_loops
 from harness.backends import LANGUAGES, RASTERISES
 from harness.camera import camera_for, rays_of
 from harness.config import Config, Experiment
@@ -47,7 +47,7 @@ class Planned:
     key: str
     identity: dict[str, Any]
     device: DeviceInfo | None
-    checks: tuple[Program, ...]  # over listed rays: one for a view, one for each surface of a family, none for beams
+    checks: tuple[Program, ...]  # over listed rays, or of beams: one for a view, one for each surface of a family
     timed: Program | None  # the frame's; None for a family
     skip: str | None
     casts: Casts = "rays"
@@ -85,9 +85,12 @@ class Planned:
         side: float = self.cell.samples_per_pixel**0.5
         return self.cell.size * round(side)
 
-    def raster_frame(self, size: int, reports: bool) -> Frame:
-        """What stage raster draws, size × size; with `reports`, by programs that say what they answered."""
+    def raster_frame(self, size: int, reports: bool, free_loops: bool = False) -> Frame:
+        """What stage raster draws, size × size; with `reports`, by programs that say what they answered. `free_loops`:
+        these leave their loops to the compiler, as the timed ones do."""
         batches = tuple(draw.batch(reports) for draw in self.draws)
+        if free_loops:
+            batches = tuple(dataclasses.replace(batch, program=with_free_loops(batch.program)) for batch in batches)
         depths = raster.depth_map(self.scene, self.camera)
         program = fill_program() if reports else batches[0].program
         return Frame(program, self.camera, None, size, self.casts, None, batches, depths)
@@ -172,11 +175,12 @@ def _programs(cell: Cell, surfaces: list[Surface], catalog: Catalog) -> tuple[tu
         )
 
     if plugin.method.casts != "rays":
-        return (), program(cell.surface, "beams")
+        check = program(cell.surface, "beams")
+        return (check,), with_free_loops(check)
     checks = tuple(program(surface, "rays") for surface in surfaces)
     if cell.family:
         return checks, None
-    return checks, program(cell.surface, "camera") if cell.stage == "compute" else checks[0]
+    return checks, program(cell.surface, "camera") if cell.stage == "compute" else with_free_loops(checks[0])
 
 
 def _planned(cell: Cell, info: DeviceInfo | None, catalog: Catalog, experiment: Experiment, timed: bool) -> Planned:
@@ -200,7 +204,8 @@ def _planned(cell: Cell, info: DeviceInfo | None, catalog: Catalog, experiment: 
                 before = prepass.program(cell.surface, cell.precision, LANGUAGES[info.name.split(":")[0]])
         except FirsthitError as error:
             skip = str(error)
-    frame = frame if timed or before or not checks else None
+    casts = catalog.get(cell.variant.method).method.casts
+    frame = frame if timed or before or casts in ("beams", "quadtree") else None
     programs = tuple(program for program in (*checks, frame, before, *(draw.timed for draw in drawn)) if program)
     # which clock is believed is found by probing when a run starts, after a plan is printed: no part of the key
     facts = None if info is None else dataclasses.asdict(dataclasses.replace(info, clock="wall"))
@@ -229,7 +234,6 @@ def _planned(cell: Cell, info: DeviceInfo | None, catalog: Catalog, experiment: 
         "skip": skip,
         **identities.common((catalog.get(name).folder for name in methods), timed and not cell.family),
     }
-    casts = catalog.get(cell.variant.method).method.casts
     return Planned(cell, digest(cell.slot, identity), identity, info, checks, frame, skip, casts, timed, before, drawn)
 
 

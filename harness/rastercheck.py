@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from harness import accuracy, answers
+from harness import accuracy, answers, freeloops
 from harness.backends.raster import Picture
 from harness.camera import meets, pixel_footprint, scene_radius
 from harness.config import AccuracyChoice
@@ -30,6 +30,7 @@ class Outcome:
     summary: dict[str, Any]
     pictures: dict[str, NDArray[Any]]
     compile_ms: float
+    fault: str | None  # of the device's compiler, if one was found
 
 
 def check(executor: LocalExecutor, planned: Planned, config: AccuracyChoice, folder: Path) -> Outcome:
@@ -57,6 +58,12 @@ def check(executor: LocalExecutor, planned: Planned, config: AccuracyChoice, fol
         footprint=pixel_footprint(camera, cell.size),
         grazing_margin=config.grazing_margin,
     )
+
+    def cast_freely() -> Hits:
+        freely = planned.raster_frame(config.size, reports=True, free_loops=True)
+        return hits_of(scene, executor.rasterise(cell.device, freely, twice=False).picture)
+
+    fault = freeloops.removed((draw.check for draw in planned.draws), hits, cast_freely)
     whole = planned.raster_frame(planned.samples, reports=True)
     frame = executor.rasterise(cell.device, whole, twice=False).picture
     fragments, found = int(frame.fragments.sum(dtype=np.int64)), int(frame.fragment_hits.sum(dtype=np.int64))
@@ -73,7 +80,7 @@ def check(executor: LocalExecutor, planned: Planned, config: AccuracyChoice, fol
         pictures["shade"] = (
             np.where(picture.batch >= 0, grey, np.nan).astype(np.float32).reshape(config.size, config.size)
         )
-    return Outcome(summary, pictures, drawn.compile_ms)
+    return Outcome(summary, pictures, drawn.compile_ms, fault)
 
 
 def hits_of(scene: Scene, picture: Picture) -> Hits:

@@ -18,11 +18,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from harness import accuracy, answers, beams, compilercheck, measure, rastercheck, stability
-from harness.assemble import method_program
+from harness import accuracy, answers, beams, compilercheck, freeloops, measure, rastercheck, stability
+from harness.assemble import method_program, with_free_loops
 from harness.camera import distance_of, meets, pixel_footprint, rays_of, scene_radius
 from harness.config import Config
-from harness.contract import CellStatus, FirsthitError, Hits, Surface, View
+from harness.contract import CellStatus, FirsthitError, Hits, Program, Surface, View
 from harness.costs import operations_per_evaluation
 from harness.executor import CellError, LocalExecutor
 from harness.oracle import cached_first_hits
@@ -30,7 +30,7 @@ from harness.pictures import pictures_of
 from harness.plan import Planned, shuffled
 from harness.plugins import Catalog
 from harness.store import Row, Store
-from harness.worker import Frame, Warmed
+from harness.worker import Checked, Frame, Warmed
 
 MINIMUM_SAMPLES = 8
 LONGEST = 16  # times [budget] seconds: what the rounds that comparing a cell takes may take at most
@@ -132,17 +132,23 @@ class Runner:
         if state.planned.draws:
             seen = rastercheck.check(self._executor, state.planned, config, self._store.truth)
             state.summary, state.arrays, state.compile_ms = seen.summary, seen.pictures, seen.compile_ms
-            return self._unfit(state)
+            return seen.fault or self._unfit(state)
         rays = rays_of(state.planned.camera, config.size)
         truth = cached_first_hits(cell.surface, rays, self._store.truth)
         casts_beams, checks = state.planned.casts != "rays", state.planned.checks
         if casts_beams or cell.prepass != "none":
             assert state.frame
             pixels = beams.pixels_of(state.planned.camera, config.size, state.frame.size)
-            frame = replace(state.frame, program=checks[0], rays=rays) if checks else state.frame
-            checked = self._executor.check_frame(cell.device, frame, pixels.index)
+            frame = replace(state.frame, rays=rays)
+
+            def cast(program: Program) -> Checked:
+                return self._executor.check_frame(cell.device, replace(frame, program=program), pixels.index)
         else:
-            checked = self._executor.check(cell.device, checks[0], rays)
+
+            def cast(program: Program) -> Checked:
+                return self._executor.check(cell.device, program, rays)
+
+        checked = cast(checks[0])
         if casts_beams:
             along, ahead = beams.along_rays(checked.hits, pixels), state.planned.camera[3:6]
             hits = answers.validated_beams(along, cell.surface.domain, rays, ahead)
@@ -175,7 +181,9 @@ class Runner:
             counted = {"beam_only": int(beam_only.sum()), "evaluations_mean": mean, "evaluations_max": largest}
             state.summary |= counted
             state.arrays["level"] = checked.levels.reshape(config.size, config.size)
-        fault = None if casts_beams else self._compilers_fault(state, rays, hits)
+        fault = freeloops.removed(checks, hits, lambda: cast(with_free_loops(checks[0])).hits)
+        if not fault and not casts_beams:
+            fault = self._compilers_fault(state, rays, hits)
         return fault or self._unfit(state)
 
     def _compilers_fault(self, state: _Live, rays: NDArray[np.float32], hits: Hits) -> str | None:

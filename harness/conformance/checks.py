@@ -97,7 +97,8 @@ def _agreement(view: str, case: Case, hits: Hits, precision: Precision, setting:
         limits[view.endswith(INSIDE)],
         f"share of wrong answers on clear rays, on {whose}",
         f"{counts or 'none wrong'} of {clear.sum()}" + _first(wrongly, hits, case),
-        "mend the kernel, or refuse such surfaces in Method.accepts",
+        ("look for a loop that does not end (a driver that ends it exhausts its rays), " if gave_up.any() else "")
+        + "mend the kernel, or refuse such surfaces in Method.accepts",
     )
     if not typical:
         yield Finding(
@@ -105,7 +106,8 @@ def _agreement(view: str, case: Case, hits: Hits, precision: Precision, setting:
             float(gave_up.sum() / clear.sum()),
             MOST_EXHAUSTED_ELSEWHERE,
             f"share of clear rays that end as exhausted, on {whose}",
-            advice="let it spend more evaluations on a ray, or refuse such surfaces in Method.accepts",
+            advice="let it spend more evaluations on a ray, look for a loop that does not end (a driver that ends it "
+            "exhausts its rays), or refuse such surfaces in Method.accepts",
         )
     if (clear & case.there).any():
         errors = verdicts.error[clear & case.there & (wrong == Wrong.RIGHT)] / case.radius

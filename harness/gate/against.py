@@ -6,12 +6,14 @@ import itertools
 import math
 import time
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from harness import accuracy, answers, beams, measure
+from harness import accuracy, answers, beams, freeloops, measure
+from harness.assemble import with_free_loops
 from harness.camera import rays_of, scene_radius
 from harness.config import Experiment
 from harness.contract import CellStatus, Hits, Program
@@ -105,6 +107,11 @@ def _wrong(
         return reason
     for side, when in ((present, "now"), (other, "at the other revision")):
         hits = _hits(side, planned, rays, choice.size, executor)
+        if side.check:
+            free = replace(side, check=with_free_loops(side.check))
+            cast_freely = partial(_hits, free, planned, rays, choice.size, executor)
+            if reason := freeloops.removed((side.check,), hits, cast_freely):
+                return f"{reason} {when}"
         precision = planned.cell.precision
         verdicts = accuracy.judge(hits, certified, scene_radius(surface), choice.grazing_margin, precision)
         judged = accuracy.judged(certified, verdicts)
@@ -118,7 +125,7 @@ def _wrong(
 
 @dataclass(frozen=True, eq=False)
 class _Side:
-    """One revision's programs: of listed rays, where it casts rays, and of the frame."""
+    """One revision's programs: the one that is checked, if it is not the frame's, and the frame's."""
 
     check: Program | None
     frame: Frame
@@ -128,8 +135,9 @@ def _hits(side: _Side, planned: Planned, rays: NDArray[np.float32], size: int, e
     device, domain = planned.cell.device, planned.cell.surface.domain
     if planned.casts == "rays" and side.check:
         return answers.validated(executor.check(device, side.check, rays).hits, domain, rays)
-    pixels = beams.pixels_of(planned.camera, size, side.frame.size)
-    along = beams.along_rays(executor.check_frame(device, side.frame, pixels.index).hits, pixels)
+    frame = replace(side.frame, program=side.check or side.frame.program)
+    pixels = beams.pixels_of(planned.camera, size, frame.size)
+    along = beams.along_rays(executor.check_frame(device, frame, pixels.index).hits, pixels)
     return answers.validated_beams(along, domain, rays, planned.camera[3:6])
 
 

@@ -1,0 +1,34 @@
+"""Whether a kernel ends only because its device's compiler removes loops that do not end.
+
+A compiler may remove a loop that nothing depends on, whether it ends or not: Mesa's does. The programs that are checked
+keep all loops (kernels/kept_loops.glsl), and those that are timed do not. Where a checked program gives rays up, the
+same program with its loops left to the compiler casts them again. If it answers more than DOUBTFUL of them, what would
+be timed is not the kernel. OpenCL C compilers are left alone: they keep such loops, and the step times out.
+
+**What this cannot see** Such a loop on DOUBTFUL of the rays or fewer, which are told as exhausted; one that no checked
+ray enters; one whose condition is an undefined value, since the compiler may take it as ended.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+
+from harness.assemble import with_free_loops
+from harness.compilercheck import DOUBTFUL
+from harness.contract import Hits, Program, RayStatus
+
+
+def removed(programs: Iterable[Program], kept: Hits, cast: Callable[[], Hits]) -> str | None:
+    """Return the fault, if there is one, of what checked `programs` answered, `kept`; `cast` casts the same rays by the
+    same programs with free loops."""
+    gave_up = kept.status == RayStatus.EXHAUSTED
+    alike = all(with_free_loops(program) == program for program in programs)
+    if alike or gave_up.sum() <= DOUBTFUL * len(gave_up):
+        return None
+    count = int((gave_up & (cast().status != RayStatus.EXHAUSTED)).sum())
+    if count <= DOUBTFUL * len(gave_up):
+        return None
+    return (
+        f"on {count} of {len(gave_up)} rays the kernel ends only because this device's compiler removes a loop whose "
+        "result is not used; the check keeps this loop, and it turns until the driver ends it"
+    )
