@@ -56,7 +56,7 @@ def _table(timed: pd.DataFrame) -> Table | None:
         tuple(columns),
         body,
         "The same kernel on every device.",
-        "Faster is the slowest device's time in the row over this one's, among those on which the variant answers "
+        "Faster is the slowest device's time in the row over this one's, in the rounds that timed both, among those on which the variant answers "
         "every ray away from silhouettes rightly, and of null, which answers nothing; each device is timed by "
         "the clock that "
         "is believed there. Overhead is what the harness's submitting and waiting adds to the "

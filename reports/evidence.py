@@ -109,13 +109,11 @@ def over(slow: pd.DataFrame, fast: pd.DataFrame, keys: list[str]) -> pd.DataFram
     """
     told = ["key", "median_ms", *rounds.COLUMNS]
     both = fast.merge(slow[[*keys, *told]], on=keys, suffixes=("", "_slow"))
-    of_slow = both[[f"{name}_slow" for name in rounds.COLUMNS]].set_axis(rounds.COLUMNS, axis=1)
     found = {}
-    for a, b in zip(of_slow.itertuples(), both[rounds.COLUMNS].itertuples(), strict=True):
-        paired = rounds.ratio(a, b)
+    for at, paired in zip(both.index, rounds.ratios(both, "_slow"), strict=True):
         if paired is not None:
             ends = (paired.lower, paired.upper) if paired.proved else (math.nan, math.nan)
-            found[a.Index] = (paired.median, *ends)
+            found[at] = (paired.median, *ends)
     ratios = pd.DataFrame(list(found.values()), index=list(found), columns=_RATIO, dtype="float64")
     both = both.assign(slow_ms=both["median_ms_slow"], fast_ms=both["median_ms"])
     return both.loc[ratios.index].join(ratios).reset_index(drop=True)

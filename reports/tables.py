@@ -111,8 +111,8 @@ def speedup(rows: pd.DataFrame) -> str:
     return (
         f"Speed-up is {derive.baseline_of(rows)}'s time over this one's on the same device, in the same precision: the "
         "median of the ratios within the rounds that timed both, which need not be the ratio of the two medians; "
-        "– where "
-        "one of the two answers a ray away from silhouettes wrongly or was not timed."
+        "– where one of the two answers a ray away from silhouettes wrongly, was not timed or shares no round with the "
+        "other."
     )
 
 
