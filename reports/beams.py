@@ -69,7 +69,8 @@ def _table(rows: pd.DataFrame) -> Table:
         body,
         "Beams held against rays.",
         "Counts are of the rays of each picture's check; misses include silhouettes. Look for surfaces whose false "
-        "hits outnumber the hits that only a beam can see: there the interval extension overestimates most.",
+        "hits outnumber the hits that only a beam can see: there the interval extension overestimates most."
+        + wording.zeros(rows["pixel_error_p50"]),
         group=3,
     )
 
@@ -155,7 +156,7 @@ def prepass_sections(frame: pd.DataFrame) -> list[Section]:
     caption = (
         "Each method alone and behind beams over tiles of pixels, which leave to a ray the depths where the surface "
         "may lie. Evaluations are per ray cast, those that pass the domain by included. Faster is the plain time over "
-        "that with beams, in the rounds that timed both, where neither has a wrong ray; above 1× the prepass pays; it cannot where a method is hardly "
-        "slower than it."
+        "that with beams, in the rounds that timed both, where neither has a wrong ray; above 1× the prepass pays; it "
+        "cannot where a method is hardly slower than it."
     )
     return [Section("Where the prepass pays", (Table(columns, body, "The prepass.", caption, group=3),), wide=True)]

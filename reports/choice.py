@@ -64,10 +64,10 @@ def table(frame: pd.DataFrame) -> Table | None:
         shown,
         f"Which method, at which error, on {rows['device'].iloc[0]}.",
         "The fastest variant with every ray away from silhouettes right and a largest error over the radius of the "
-        "scene of at most this; max error is in scene units. Cost is the time of the second over that of the first, in the "
-        "rounds that timed both; "
-        "“none” where no variant of this run is that exact; “≈” stands before variants of other methods whose times "
-        f"are not told apart from its own.{more}",
+        "scene of at most this; max error is in scene units. Cost is the time of the second over that of the first, "
+        "in the rounds that timed both; “none” where no variant of this run is that exact; “≈” stands before "
+        "variants of other methods whose times are not told apart from its "
+        f"own.{wording.zeros([row[i] for row in shown for i in (3, 6)])}{more}",
     )
 
 

@@ -58,7 +58,8 @@ AXES = (
         ("size", "view", *_ELSE),
         needs="degree",
         above_floor=True,
-        expected="Times are above the null method's, where it ran, in the rounds that timed both. Surfaces differ in more than their degree, in the "
+        expected="Times are above the null method's, where it ran, in the rounds that timed both. Surfaces differ in "
+        "more than their degree, in the "
         "share of the picture they cover most of all, so that the interval is wide.",
     ),
     Axis(

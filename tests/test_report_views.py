@@ -27,7 +27,13 @@ def viewed(
     made |= {"slot": slot, "key": digest(slot), "size": size, "view": view.name, "view_set": view.set}
     made |= {"comparison": f"{surface} {view.name} {size}", "arrays": None}
     made["camera"] = {"azimuth": view.azimuth, "elevation": view.elevation, "fov": view.fov, "distance": 5.0}
-    made["time"] |= {"median_ms": ms, "lower_ms": ms, "upper_ms": ms, "samples_ms": [ms] * 20, "session": made["comparison"]}
+    made["time"] |= {
+        "median_ms": ms,
+        "lower_ms": ms,
+        "upper_ms": ms,
+        "samples_ms": [ms] * 20,
+        "session": made["comparison"],
+    }
     rays = made["accuracy"]["rays"]
     made["accuracy"] |= {"domain_rays": rays // 2, "truth_hits": rays // 4, "misses": wrong}
     made["accuracy"] |= {"false_hits": 0, "exhausted": 0, "wrong_root": 0}
@@ -215,7 +221,7 @@ def test_evaluations_are_drawn_and_the_worst_of_many_views_chosen(tmp_path: Path
     for made in seen[:6]:
         np.savez_compressed(folder / made["arrays"], **made_arrays(made))
     frame = derive.derive(load.load(folder).frame)
-    (section,) = evaluations.sections(arrays.Shelf(load.load(folder).folders), frame)
+    (section,) = evaluations.sections(arrays.Shelf(load.load(folder).folders), frame, (-8, -2))
     (gallery,) = [block for block in section.blocks if isinstance(block, content.Gallery)]
     (panel,) = gallery.panels
     assert panel.title == "ray_march, Torus, angle 54" and "4 wrong" in panel.note

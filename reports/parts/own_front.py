@@ -27,7 +27,8 @@ def _of(method: str, frame: pd.DataFrame) -> list[Section]:
     lines = [_line(method, group) for group in groups if group["front"].any()]
     if not lines:
         return []
-    lines.sort(key=lambda line: line[:3])
+    planned = list(dict.fromkeys(frame["comparison"]))
+    lines.sort(key=lambda line: (line[0], planned.index(line[1]), line[2]))
     named = tables.places(rows)
     body = [(degree, named[comparison], *told) for degree, comparison, *told, _ in lines]
     off = [line for line in lines if line[3] == "no"]
@@ -47,9 +48,10 @@ def _of(method: str, frame: pd.DataFrame) -> list[Section]:
         Column("faster", wording.factor, numeric=True),
     )
     caption = (
-        f"The others are those with no wrong ray away from silhouettes and no larger error than that variant of "
-        f"{method}; “none” where there is none. Faster is their fastest's time over {method}'s, in "
-        f"the rounds that timed both, where that has no such ray either."
+        "The others are those with no wrong ray away from silhouettes and no larger error than that variant of "
+        f"{method}; “none” where there is none. Faster is their fastest's time over {method}'s, in the rounds that "
+        "timed both, where that has no such ray "
+        f"either.{wording.zeros([line[6] for line in body], [line[9] for line in body])}"
     )
     return [Section(f"{method} on the front", (*blocks, Table(columns, body, "By degree.", caption)), wide=True)]
 
