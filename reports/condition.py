@@ -28,11 +28,11 @@ VARIANTS = 4  # of one method that are drawn
 DODGE = 0.6  # of a bin's width, over which its marks are spread so that all are seen
 _ROUNDOFF: Mapping[str, float] = {str(name): unit for name, unit in UNIT_ROUNDOFF.items()}
 EXPLANATION = (
-    "Each ray's error |t − t*| over the radius, against the condition number of its root: how far the root moves when "
-    "the terms of f change by a relative amount. The black line is condition × unit roundoff (condition at least 1), "
-    "what the problem allows. A mark is the largest error among the rays of a narrow range of condition; the thin line "
-    "below it reaches down to their median. A method along the line is as bad as the problem and no worse; one that "
-    "stays high above it is unstable, or stops early. "
+    "The error |t − t*| over the radius of each ray that hits the right root, against the condition number of its "
+    "root: how far the root moves when the terms of f change by a relative amount. The black line is condition × unit "
+    "roundoff (condition at least 1), what the problem allows. A mark is the largest error among the rays of a narrow "
+    "range of condition; the thin line below it reaches down to their median. A method along the line is as bad as the "
+    "problem and no worse; one that stays high above it is unstable, or stops early. "
     + wording.ZERO
     + " Rays at silhouettes are included: they have the largest "
     f"conditions. Of the device with most results, and at most {VARIANTS} variants of each method."

@@ -23,10 +23,10 @@ MOST_SURFACES = 4  # of a run that has this section
 MAP = "viridis"
 EXPLANATION = (
     "Evaluations of f that each ray costs, from dark to bright on one logarithmic scale, and beside it its error, in "
-    f"the colours of all pictures of this report. {wording.ZERO} "
-    "Bright rings along silhouettes are rays that nearly touch the surface: sphere tracing's critical case, in "
-    "toledo2007's Fig. 4. “Per ray cast” counts those that pass the domain by too, as every table of this report does. "
-    "Of the device with most results, in its first precision."
+    f"the colours of all pictures of this report. {wording.ZERO} Bright rings along silhouettes are rays that nearly "
+    "touch the surface: sphere tracing's critical case, in toledo2007's Fig. 4. Wrong are rays away from silhouettes; "
+    "grazing and drowned ones are counted apart. “Per ray cast” counts those that pass the domain by too, as every "
+    "table of this report does. Of the device with most results, in its first precision."
 )
 
 
@@ -89,7 +89,8 @@ def _panel(row: Any, arrays: Arrays, most: int, errors: tuple[int, int]) -> Pane
             f"evaluations: {wording.number(arrays.evaluations.mean())} per ray cast, {wording.number(spent.mean())} "
             f"per ray that spends any, at most {spent.max():,}"
         )
-    wrong = f"{wording.count(row.wrong_rays)} wrong" if row.wrong_rays else "no wrong ray"
+    of = wording.count(row.accuracy_rays)
+    wrong = f"{wording.count(row.wrong_rays)} of {of} wrong" if row.wrong_rays else f"none of {of} wrong"
     grazing = f" · {wording.count(row.grazing_wrong_rays)} wrong at grazing" if row.grazing_wrong_rays else ""
     drowned = f" · {wording.count(row.drowned_wrong_rays)} wrong at drowned" if row.drowned_wrong_rays else ""
     return Panel(name, pictures, f"{cost} · max {wording.error(row.error_max)} · {wrong}{grazing}{drowned}")

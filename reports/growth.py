@@ -36,7 +36,7 @@ class Axis:
     needs: str  # a column, where there is none there is nothing to fit
     above_floor: bool = False  # the null method's time is taken off, in the rounds that timed both
     right: Callable[[pd.DataFrame], pd.Series] = derive.all_right  # which rows' answers are good enough to time
-    rightly: str = "every ray away from silhouettes answered rightly"  # the same in words
+    rightly: str = "each checked ray away from silhouettes answered rightly"  # the same in words
     expected: str = ""
 
 
@@ -114,8 +114,8 @@ def _points(frame: pd.DataFrame, axis: Axis) -> tuple[pd.DataFrame, dict[str, in
     rows = rows[right]
     if above_floor is not None:
         rows = rows.assign(ms=above_floor.reindex(rows.index))
-        left_out["that share no round with the null method"] = int(rows["ms"].isna().sum())
-        left_out["that take no longer than the null method"] = int((rows["ms"] <= 0.0).sum())
+        left_out["without a round shared with the null method"] = int(rows["ms"].isna().sum())
+        left_out["no slower than the null method"] = int((rows["ms"] <= 0.0).sum())
         rows = rows[rows["ms"] > 0.0]
     return rows, {reason: count for reason, count in left_out.items() if count}
 
@@ -286,6 +286,7 @@ def _figure(
     exponents = [curve.fit.exponent for curve in found if isinstance(curve.fit, Power)]
     without = len(found) - len(exponents)
     told = f"Exponents from {min(exponents):.2f} to {max(exponents):.2f}" if exponents else "No exponent is determined"
+    told = f"One exponent, {exponents[0]:.2f}" if len(exponents) == 1 else told
     told += f", none for {without} of {len(found)} variants and places" if exponents and without else ""
     return Figure(
         name,

@@ -76,7 +76,7 @@ def _panel(row: Any, arrays: Arrays, scale: tuple[int, int], prefix: str, titled
     )
     counts = zip((getattr(row, kind) for kind in KINDS), style.WRONG, strict=True)
     wrong = ", ".join(f"{kind.title} {n:,}" for n, kind in counts if not wording.absent(n) and n > 0)
-    note = f"max {wording.error(row.error_max)} · {wrong or 'no wrong ray'}"
+    note = f"max {wording.error(row.error_max)} · {wrong or 'no wrong ray away from silhouettes'}"
     if not wording.absent(row.grazing_wrong_rays) and row.grazing_wrong_rays > 0:
         note += f" · {wording.count(row.grazing_wrong_rays)} wrong at grazing"
     if not wording.absent(row.drowned_wrong_rays) and row.drowned_wrong_rays > 0:

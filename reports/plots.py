@@ -86,7 +86,17 @@ def overview(frame: pd.DataFrame, marks: Mapping[str, Mark], titles: Mapping[str
         f"Speed of each method on {', '.join(titles.values())}, for {', '.join(devices)}.",
         "How fast each method is.",
         "Its fastest variant among those with no wrong ray, on a logarithmic axis: right is faster. A method without a "
-        "mark has no such variant there.",
+        f"mark has no such variant there.{_bound_marks(rows)}",
+    )
+
+
+def _bound_marks(rows: pd.DataFrame) -> str:
+    bound = int(rows["floor_bound"].sum())
+    return (
+        f" Of {len(rows)} marks {bound} are floor-bound: under {derive.FLOOR_FACTOR:g} times the time of the harness "
+        "itself."
+        if bound
+        else ""
     )
 
 

@@ -41,7 +41,7 @@ def _claims(material: Material) -> str:
     if decided < len(material.judged) / 4:
         return ""
     return (
-        f"Of {decided} claims of the papers that this run decides, {outcomes[Outcome.CONFIRMED]} hold on this device "
+        f"Of {decided} claims of the papers that this run decides, {outcomes[Outcome.CONFIRMED]} hold here "
         f"and {outcomes[Outcome.REFUTED]} do not."
     )
 

@@ -22,10 +22,12 @@ def on(device: str, made: dict[str, Any]) -> dict[str, Any]:
 def test_a_count_of_rays_names_surfaces_precision_and_devices(tmp_path: Path) -> None:
     rows = [planted(picks.MARCH, surface, 1.0, misses=1) for surface in ("calyx", "torus")]
     one = claims.judge(claim("szente", "smaller than its step"), evidence(tmp_path / "one", *rows))
-    assert one.figure.endswith("of 4,608 rays (2 surfaces in float32 on opencl:intel)")
+    assert one.figure.endswith("of 4,608 rays (2,304 in each of 2 rows: 2 surfaces in float32 on opencl:intel)")
     rows += [on("opencl:pocl", row) for row in rows]
     two = claims.judge(claim("szente", "smaller than its step"), evidence(tmp_path / "two", *rows))
-    assert two.figure.endswith("of 9,216 rays (2 surfaces in float32 on each of opencl:intel and opencl:pocl)")
+    assert two.figure.endswith(
+        "of 9,216 rays (2,304 in each of 4 rows: 2 surfaces in float32 on each of opencl:intel and opencl:pocl)"
+    )
     views = [planted(picks.BISECTION, "torus", 1.0, view, feature_error={"max": 1e-3}) for view in "ab"]
     told = claims.judge(claim("toledo2007", "none of Sturm's failures"), evidence(tmp_path / "views", *views))
     assert "over 2 views in float32 on opencl:intel" in told.figure

@@ -75,7 +75,7 @@ def test_a_card_says_what_a_claim_excepts_and_on_which_rays_it_held(tmp_path: Pa
         assert CLAIMS[name] in cards._claims("ray_march", [name], rows)
     told = cards._claims("ray_march", ["no_false_hit"], rows.assign(judged=100))
     assert "on rays that are neither grazing nor drowned. Held on 200 decided rays" in told
-    assert told.endswith("here, on 2 surfaces in float32 on opencl:intel.")
+    assert told.endswith("in 2 rows of this run (2 surfaces in float32 on opencl:intel).")
     passed = cards._claims("ray_march", ["no_missed_root"], rows.assign(misses=0, grazing_misses=0, wrong_root=4))
     assert "of 8 wrong roots it is not counted which are later ones" in passed
     assert "`firsthit conform --method mine` checks it" in cards._claims("mine", ["finds_touch"], rows)
@@ -192,6 +192,22 @@ def test_the_rerun_page_names_methods_and_configs_that_are_no_part_of_the_commit
     assert "Methods that --plugins adds are no part of the commit." in page(folder)
     planned(folder, methods={"newton": methods["newton"]}, command="firsthit run configs/quick.toml")
     assert "no part of the commit" not in page(folder)
+
+
+def test_the_first_page_says_which_pictures_its_times_are_of(tmp_path: Path) -> None:
+    def sized(method: str, size: int, ms: float) -> Any:
+        made = timed(method, "torus", ms)
+        slot = f"{method} {size}"
+        return made | {"size": size, "slot": slot, "key": digest(slot), "comparison": f"torus front {size}x{size}x1"}
+
+    cells = [
+        sized(method, size, size / 64 * ms) for size in (64, 128) for method, ms in (("newton", 1.0), ("sturm", 2))
+    ]
+    table = choice.table(framed(tmp_path / "run", *cells))
+    assert table is not None
+    assert table.rows[0][:3] == ("Torus, 64 × 64", "newton", 1.0), "the plan's first of equally full scenes"
+    assert "view front, 64 × 64" in table.caption
+    assert "opencl:intel, the device with most results" in table.title
 
 
 # ---- one order, one scale

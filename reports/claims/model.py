@@ -113,9 +113,14 @@ def cases(rows: pd.DataFrame) -> str:
 
 
 def rays(rows: pd.DataFrame) -> str:
-    """Of how many answers to rays a count over these rows is: 147,456 rays (3 surfaces in float32 on each of …)."""
+    """Of how many answers to rays a count over these rows is: 147,456 rays (16,384 in each of 9 rows: 3 surfaces in …).
+
+    Rows of one view that differ in device, size or variant are of the same rays.
+    """
+    each = f"{count(int(rows['accuracy_rays'].iloc[0]))} in each of " if rows["accuracy_rays"].nunique() == 1 else ""
     surfaces = wording.plural(int(rows["surface"].nunique()), "surface")
-    return f"{count(counted(rows, 'accuracy_rays'))} rays ({surfaces} {where(rows)})"
+    total = count(counted(rows, "accuracy_rays"))
+    return f"{total} rays ({each}{wording.plural(len(rows), 'row')}: {surfaces} {where(rows)})"
 
 
 def where(rows: pd.DataFrame) -> str:

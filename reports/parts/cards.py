@@ -118,7 +118,8 @@ def _held(method: str, name: str, rows: pd.DataFrame) -> str:
     of = int(known["truth_hits" if every else "judged"].sum())
     asked = "rays that meet the surface" if every else "decided rays that are neither grazing nor drowned"
     surfaces = wording.plural(int(known["surface"].nunique()), "surface")
-    told = f"{'Held on' if bad == 0 else f'broken by {bad:,} of'} {of:,} {asked} here, on {surfaces} {where(known)}"
+    in_rows = f"{wording.plural(len(known), 'row')} of this run ({surfaces} {where(known)})"
+    told = f"{'Held on' if bad == 0 else f'broken by {bad:,} of'} {of:,} {asked} in {in_rows}"
     passed = known[_PASSED.get(name, [])].sum().sum()
     told += f"; of {wording.plural(int(passed), 'wrong root')} it is not counted which are later ones" if passed else ""
     return f"{told[0].upper()}{told[1:]}."
