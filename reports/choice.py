@@ -50,7 +50,7 @@ def table(frame: pd.DataFrame) -> Table | None:
         cells.append(None if loose is None or tight is None else rounds.times_over(tight, loose))
         body.append(tuple(cells))
     shown = body[:LINES]
-    shared = _shared(rows)
+    shared, several = _shared(rows), frame["device"].nunique() > 1
     more = "" if len(shown) == len(body) else f" {len(shown)} of {len(body)} surfaces; “Winners” has all."
     columns: list[Column] = [Column("surface")]
     for error in ERRORS:
@@ -64,7 +64,8 @@ def table(frame: pd.DataFrame) -> Table | None:
     return Table(
         tuple(columns),
         shown,
-        f"Which method, at which error, on {rows['device'].iloc[0]}, the device with most results.",
+        "Which method, at which error, on "
+        f"{rows['device'].iloc[0]}{', the first with most results' if several else ''}.",
         f"{shared}The fastest variant with every ray away from silhouettes right and a largest error over the radius "
         "of the scene of at most this; max error is in scene units. Cost is the time of the second over that of the "
         "first, in the rounds that timed both; “none” where no variant of this run is that exact; “≈” stands before "

@@ -36,7 +36,7 @@ class Axis:
     needs: str  # a column, where there is none there is nothing to fit
     above_floor: bool = False  # the null method's time is taken off, in the rounds that timed both
     right: Callable[[pd.DataFrame], pd.Series] = derive.all_right  # which rows' answers are good enough to time
-    rightly: str = "each checked ray away from silhouettes answered rightly"  # the same in words
+    wrongly: str = "with a ray away from silhouettes answered wrongly, or unchecked"  # what the other rows are
     expected: str = ""
 
 
@@ -69,7 +69,7 @@ AXES = (
         ("scene", "size", "view", *_ELSE),
         needs="instances",
         right=scenes.right,
-        rightly="at most 1 in 1,000 rays away from silhouettes answered wrongly",
+        wrongly="with over 1 in 1,000 rays answered wrongly away from silhouettes, or unchecked",
         expected="An exponent of 0 is a cost that pixels alone decide, 1 one in proportion to the instances.",
     ),
 )
@@ -110,7 +110,7 @@ def _points(frame: pd.DataFrame, axis: Axis) -> tuple[pd.DataFrame, dict[str, in
     rows = rows[rows.groupby(_line(axis), sort=False)["x"].transform("nunique") >= FEWEST]
     left_out = {}
     right = axis.right(rows) | ~rows["answers"].astype(bool)
-    left_out[f"without {axis.rightly}"] = int((~right).sum())
+    left_out[axis.wrongly] = int((~right).sum())
     rows = rows[right]
     if above_floor is not None:
         rows = rows.assign(ms=above_floor.reindex(rows.index))
@@ -163,10 +163,10 @@ def sections(frame: pd.DataFrame, marks: Mapping[str, Mark]) -> list[Section]:
         if found or left_out:
             lead = (
                 f"Time t against {axis.unit} n, on logarithmic axes, and the line t = c·nᵏ that fits the logarithms "
-                f"best. The exponent k stands with its 95 % interval, and is told only where that is no wider than k "
+                "best. The exponent k stands with its 95 % interval, and is told only where that is no wider than k "
                 f"itself. {axis.expected} The points of a line are of different pictures, which were timed one after "
-                f"the other: what slowed the machine down meanwhile is in the scatter. Points have {axis.rightly}."
-                f"{_told_left_out(left_out)}"
+                "the other: what slowed the machine down meanwhile is in the scatter. No point is of a row "
+                f"{axis.wrongly}.{_told_left_out(left_out)}"
             )
             blocks: list[Block] = [Text(lead)]
             blocks += [*_figures(axis, found, marks, titles), table(axis, found, titles)] if found else []
@@ -181,7 +181,7 @@ def _of_run(axis: Axis, frame: pd.DataFrame) -> Axis:
 
 def _told_left_out(left_out: Mapping[str, int]) -> str:
     each = wording.listed([f"{wording.plural(count, 'row')} {reason}" for reason, count in left_out.items()])
-    return f" Left out are {each}; a line that keeps fewer than {FEWEST} places is not drawn." if each else ""
+    return f" Left out: {each}; a line that keeps fewer than {FEWEST} places is not drawn." if each else ""
 
 
 def table(axis: Axis, found: list[Curve], titles: Mapping[str, str]) -> Table:

@@ -58,11 +58,12 @@ def _gallery(
     return Gallery(panels, caption, plots.error_legend(*scale))
 
 
-def scale_of(every: Iterable[Arrays]) -> tuple[int, int]:
-    """The decades of the pictures' positive errors but for each one's smallest hundredth, at most WIDEST_SCALE of them:
-    one scale for the report."""
+def scale_of(every: Iterable[Arrays], beside: Iterable[float] = ()) -> tuple[int, int]:
+    """The decades of the pictures' positive errors but for each one's smallest hundredth, and of the errors `beside`
+    them, at most WIDEST_SCALE: one scale for the report."""
     positive = (arrays.error[(arrays.error > 0) & np.isfinite(arrays.error)] for arrays in every)
-    ends = [(float(np.quantile(e, 0.01)), float(e.max())) for e in positive if e.size] or [(1e-7, 1e-3)]
+    ends = [(float(np.quantile(e, 0.01)), float(e.max())) for e in positive if e.size]
+    ends = [*ends, *((error, error) for error in beside if error > 0.0)] or [(1e-7, 1e-3)]
     low, high = min(low for low, _ in ends), max(high for _, high in ends)
     highest = max(math.ceil(math.log10(high)), math.floor(math.log10(low)) + 1)
     return max(math.floor(math.log10(low)), highest - WIDEST_SCALE), highest

@@ -38,14 +38,15 @@ class Material:
 
     @cached_property
     def error_scale(self) -> tuple[int, int]:
-        """The decades of the one colour scale of errors that all pictures of the report share."""
+        """The decades of the one colour scale of errors that all pictures and maps of the report share."""
         from reports.reproductions import pictures  # which takes a Material itself
 
         shown = [images.drawn(self.listed), evaluations.drawn(self.frame)]
         shown += [pictures.drawn(self.evidence, figure) for figure in pictures.FIGURES]
         rows = pd.concat(shown).drop_duplicates(["run", "key"])
         found = (self.shelf.get(row) for row in rows.itertuples())
-        return images.scale_of(arrays for arrays in found if arrays is not None)
+        mapped = self.frame.loc[self.frame["view_set"] == viewstats.DIRECTIONS, "error_max"].dropna()
+        return images.scale_of((arrays for arrays in found if arrays is not None), mapped)
 
     @cached_property
     def evidence(self) -> Evidence:

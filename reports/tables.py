@@ -100,7 +100,7 @@ def winners(frame: pd.DataFrame, leading: pd.DataFrame) -> Table:
         "What wins where.",
         f"{speedup(rows)} Max error is the largest |t − t*| in scene units over rays away from silhouettes; wrong rays "
         "are misses, false hits, exhausted rays, wrong roots and invalid answers among them, of the "
-        f"{_checked(shown)} rays of each scene's check. Not told apart: the "
+        f"{checked(shown)} rays of each scene's check. Not told apart: the "
         "fastest variants of other methods, with no wrong ray, whose times are not told to be longer than that of the "
         "fastest without one; of a method's own settings the fastest is by the median."
         + wording.zeros(shown["error_max"])
@@ -109,11 +109,11 @@ def winners(frame: pd.DataFrame, leading: pd.DataFrame) -> Table:
     )
 
 
-def _checked(rows: pd.DataFrame) -> str:
-    """How many rays each scene's check casts: one number, or the least and the most."""
+def checked(rows: pd.DataFrame) -> str:
+    """How many rays each check casts: one number, or the least and the most; a question mark where none tells."""
     known = rows["accuracy_rays"].dropna()
     if known.empty:
-        return "unknown number of"
+        return "?"
     return " to ".join(dict.fromkeys((wording.count(known.min()), wording.count(known.max()))))
 
 

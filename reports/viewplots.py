@@ -16,7 +16,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 from numpy.typing import NDArray
 
-from reports import style, wording
+from reports import style, tables, wording
 from reports.content import Figure
 from reports.drawing import LINE, NARROW, RC, WIDE, ErrorAxis, Key, label_decades, line_of, svg
 from reports.style import Mark
@@ -77,8 +77,8 @@ def over_angle(of: ViewSet, marks: Mapping[str, Mark], name: str) -> Figure:
         drawn,
         f"Time, error and wrong rays of {wording.listed(list(variants))} against the projection angle.",
         f"{of.place}.",
-        "A level line does not depend on the view. On the right, marks of one angle stand side by side."
-        + wording.zeros(of.rows["error_max"]),
+        "A level line does not depend on the view. On the right, marks of one angle stand side by side; counts are of "
+        f"the {tables.checked(of.rows)} rays of each angle's check." + wording.zeros(of.rows["error_max"]),
     )
 
 
@@ -132,12 +132,11 @@ class Scales:
     errors: Limits
 
     @classmethod
-    def of(cls, sets: Sequence[ViewSet]) -> Scales:
-        """The scales that hold every map of these sets."""
+    def of(cls, sets: Sequence[ViewSet], errors: tuple[int, int]) -> Scales:
+        """The scales of all maps of these sets; `errors` is the report's of errors."""
         every = np.concatenate([_over_mean(rows) for of in sets for _, rows in of.variants()] or [np.ones(1)])
         reach = math.log10(max(1.1, float(every.max()), float(1 / every.min())))
-        axis = ErrorAxis.of(np.concatenate([of.rows["error_max"].dropna().to_numpy(float) for of in sets]))
-        return cls((-reach, reach), (axis.lowest, axis.highest))
+        return cls((-reach, reach), errors)
 
 
 def _over_mean(rows: pd.DataFrame) -> NDArray[np.float64]:
@@ -193,9 +192,10 @@ def _maps(of: ViewSet, variants: Mapping[str, pd.DataFrame], scales: Scales, nam
         f"{of.place}, {len(of.views)} directions.",
         "Mollweide's equal-area projection: the z axis is up, azimuth 0 in the middle; a place has the colour of the "
         "nearest direction, a dot. Left, the time per ray in the domain over the variant's own mean, on one scale "
-        "for all maps of this report: an even map does not depend on the view. Right, the largest error, on one "
-        f"scale for all maps too; pale is an error of 0. {wording.ZERO} Red crosses are directions with wrong rays, "
-        "larger where there are more.",
+        "for all maps of this report: an even map does not depend on the view. Right, the largest error, in "
+        f"the colours of all pictures of this report; pale is an error of 0. {wording.ZERO} Red crosses are directions "
+        f"with wrong rays, larger where there are more; the count adds them up, of {tables.checked(of.rows)} rays of "
+        "each direction's check.",
     )
 
 

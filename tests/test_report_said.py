@@ -207,7 +207,7 @@ def test_the_first_page_says_which_pictures_its_times_are_of(tmp_path: Path) -> 
     assert table is not None
     assert table.rows[0][:3] == ("Torus, 64 × 64", "newton", 1.0), "the plan's first of equally full scenes"
     assert "view front, 64 × 64" in table.caption
-    assert "opencl:intel, the device with most results" in table.title
+    assert table.title == "Which method, at which error, on opencl:intel."
 
 
 # ---- one order, one scale
@@ -249,9 +249,12 @@ def test_maps_of_all_sets_share_their_scales(tmp_path: Path) -> None:
     for surface, top in (("torus", 1e-3), ("sphere", 1e-7)):
         for i, view in enumerate(by_direction(DirectionChoice(6))):
             cells.append(seen(surface, view, 1.0 + i, top))
-    sets = viewstats.view_sets(framed(tmp_path / "run", *cells))
-    scales = viewplots.Scales.of(sets)
-    assert scales.errors == (-7, -3)
+    loaded = load.load(tiny_run(tmp_path / "run", *cells))
+    frame = derive.derive(loaded.frame)
+    errors = Material(loaded, frame, pd.DataFrame(), Shelf(loaded.folders)).error_scale
+    assert errors == (-7, -3), "of both surfaces' errors"
+    sets = viewstats.view_sets(frame)
+    scales = viewplots.Scales.of(sets, errors)
     ticks = [
         [t for t in ("10⁻⁷", "10⁻³") if f">{t}<" in viewplots.over_directions(of, scales, "a")[0].svg] for of in sets
     ]

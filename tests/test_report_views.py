@@ -107,7 +107,7 @@ def test_the_report_shows_each_set_and_lists_its_first_view_elsewhere(run: Path,
     assert "direction 02" not in results
     kept = viewstats.one_view_of_each(frame)
     assert set(kept["view"]) == {*(f"angle {a}" for a in range(0, 91, 18)), "direction 01", "a", "b"}
-    assert views.sections(kept[kept["view_set"] != "angles"], {}) == []
+    assert views.sections(kept[kept["view_set"] != "angles"], {}, (-8, -2)) == []
 
 
 def test_the_map_is_equal_area_and_gives_each_place_its_nearest_direction() -> None:
@@ -201,12 +201,12 @@ def test_points_are_of_right_rows_in_the_floors_own_rounds_and_the_rest_is_count
     assert (curve.variant, curve.fit.exponent) == ("newton[EPSILON=0.001]", pytest.approx(2.0))
     (section,) = growth.sections(frame, style.variant_marks([("newton", curve.variant)]))
     told = printed(section.blocks)
-    assert "Left out are 1 row without every ray away from silhouettes answered rightly; a line" in told
+    assert "Left out: 1 row with a ray away from silhouettes answered wrongly, or unchecked; a line" in told
     for made in cells:
         if made["method"] == "newton" and made["surface"] == "torus":
             made["time"]["session"] = "another day"
     (section,) = growth.sections(framed(tmp_path / "apart", *cells), {})
-    assert "and 1 row that share no round with the null method; a line" in printed(section.blocks)
+    assert "and 1 row without a round shared with the null method; a line" in printed(section.blocks)
 
 
 def test_evaluations_are_drawn_and_the_worst_of_many_views_chosen(tmp_path: Path) -> None:

@@ -22,7 +22,7 @@ def sections(material: Material) -> list[Section]:
     lines = [f"git checkout {commit}"] if commit else []
     lines += ["make .venv/ready", plan.command, f"firsthit report runs/{plan.name}"]
     told = (
-        "Finished cells are reused, so that the second command goes on where the run stopped; `--force` runs all "
+        "Finished cells are reused, so that the run goes on where it stopped; `--force` runs all "
         "again. Times differ from machine to machine; answers on one device do not."
     )
     dirty = (
