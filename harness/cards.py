@@ -6,14 +6,14 @@ import ast
 import re
 from typing import Any
 
-from harness.plugins import Plugin
+from harness.plugins import BUILT_IN, Plugin
 
 _PART = re.compile(r"^\*\*(.+?)\*\*", re.MULTILINE)
 
 
 def card(plugin: Plugin) -> dict[str, Any]:
     """JSON-able: title, source, doc (the docstring's bold parts but Source, by name; a line for each of its points),
-    parameters, claims."""
+    parameters, claims, and of a method from outside the project the folder."""
     method = plugin.method
     text = ast.get_docstring(ast.parse((plugin.folder / "method.py").read_text(encoding="utf-8"))) or ""
     title, *_ = text.split("\n", 1)
@@ -28,6 +28,7 @@ def card(plugin: Plugin) -> dict[str, Any]:
             for p in method.parameters
         ],
         "claims": sorted(method.claims),
+        "outside": None if plugin.folder.is_relative_to(BUILT_IN) else str(plugin.folder),
     }
 
 

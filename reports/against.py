@@ -88,7 +88,7 @@ def report(a: Run, b: Run) -> Document:
         ),
         Section("Answers", tuple(_answers(both, by)), True),
         Section("In one run only", tuple(_alone(a, b, by)), True),
-        Section("Every cell in both", (_speed(order.sort_values([*by]), by, "Times of both."),), True),
+        Section("Every cell in both", (_speed(timed, by, "Times of both, in A's order."),), True),
     ]
     if len(shown):
         worst = shown.sort_values("size_of_change", ascending=False).head(LINES // 4)
@@ -160,6 +160,7 @@ def _answers(both: pd.DataFrame, by: list[str]) -> list[Block]:
     )
     columns = [Column(side, show, numeric=True, over=over) for over, show in shows for side in ("A", "B")]
     caption = f"{len(body)} of {len(both)} cells answer differently in some way."
+    caption += wording.zeros(both["error_max_a"], both["error_max_b"])
     table = Table(
         (*_places(by), Column("status"), *columns), body[: tables.ROW_LIMIT], "Answers that changed.", caption
     )
@@ -174,10 +175,10 @@ def _alone(a: Run, b: Run, by: list[str]) -> list[Block]:
     keys = []
     for run in (a, b):
         frame = run.frame.assign(scene=_scenes(run.frame))
-        keys.append(set(frame[frame["status"] == CellStatus.OK][by].itertuples(index=False, name=None)))
+        keys.append(dict.fromkeys(frame[frame["status"] == CellStatus.OK][by].itertuples(index=False, name=None)))
     blocks: list[Block] = []
     for side, own, other in (("A", keys[0], keys[1]), ("B", keys[1], keys[0])):
-        only = sorted(own - other)
+        only = [cell for cell in own if cell not in other]  # in the run's own order
         blocks.append(Table(tuple(_places(by)), only[: tables.ROW_LIMIT], f"Only in {side}.", f"{len(only):,} cells."))
     return blocks
 

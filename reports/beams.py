@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import matplotlib
@@ -11,7 +12,7 @@ from matplotlib.colors import to_rgb
 from numpy.typing import NDArray
 
 from harness.contract import CellStatus, RayStatus
-from reports import derive, images, style, tables, wording
+from reports import derive, images, rounds, style, tables, wording
 from reports.arrays import Arrays, Shelf
 from reports.content import Block, Column, Gallery, Panel, Picture, Section, Table, Text
 
@@ -68,7 +69,8 @@ def _table(rows: pd.DataFrame) -> Table:
         body,
         "Beams held against rays.",
         "Counts are of the rays of each picture's check; misses include silhouettes. Look for surfaces whose false "
-        "hits outnumber the hits that only a beam can see: there the interval extension overestimates most.",
+        "hits outnumber the hits that only a beam can see: there the interval extension overestimates most."
+        + wording.zeros(rows["pixel_error_p50"]),
         group=3,
     )
 
@@ -117,6 +119,8 @@ def prepass_sections(frame: pd.DataFrame) -> list[Section]:
     both = plain.merge(behind, on=keys, suffixes=("", "_behind"))
     if both.empty:
         return []
+    slower = [math.nan if one is None else one.median for one in rounds.ratios(both, "_behind")]
+    both = both.assign(faster=[1.0 / ratio for ratio in slower])
     named = tables.places(both)
     body = [
         (
@@ -126,7 +130,7 @@ def prepass_sections(frame: pd.DataFrame) -> list[Section]:
             row.variant,
             row.median_ms,
             row.median_ms_behind,
-            row.median_ms / row.median_ms_behind if row.right and row.right_behind else None,
+            row.faster if row.right and row.right_behind else None,
             row.evaluations_mean,
             row.evaluations_mean_behind,
             row.prepass_evaluations_mean_behind,
@@ -152,7 +156,7 @@ def prepass_sections(frame: pd.DataFrame) -> list[Section]:
     caption = (
         "Each method alone and behind beams over tiles of pixels, which leave to a ray the depths where the surface "
         "may lie. Evaluations are per ray cast, those that pass the domain by included. Faster is the plain time over "
-        "that with beams, where neither has a wrong ray; above 1× the prepass pays; it cannot where a method is hardly "
-        "slower than it."
+        "that with beams, in the rounds that timed both, where neither has a wrong ray; above 1× the prepass pays; it "
+        "cannot where a method is hardly slower than it."
     )
     return [Section("Where the prepass pays", (Table(columns, body, "The prepass.", caption, group=3),), wide=True)]

@@ -6,7 +6,7 @@ from typing import Any
 
 import pandas as pd
 
-from reports import derive, rounds, ties, wording
+from reports import derive, rounds, tables, ties, wording
 from reports.content import Column, Table
 
 ERRORS = (1e-3, 1e-6)  # largest |t − t*| over the scene's radius
@@ -19,7 +19,8 @@ def scenes(frame: pd.DataFrame) -> pd.DataFrame:
     if rows.empty:
         return rows
     rows = rows[rows["device"] == rows["device"].value_counts(sort=False).idxmax()]
-    return rows[rows["comparison"].isin([derive.fullest(own) for _, own in rows.groupby("surface", sort=False)])]
+    fullest = [derive.fullest(own.sort_index()) for _, own in rows.groupby("surface", sort=False)]  # the plan's first
+    return rows[rows["comparison"].isin(fullest)]
 
 
 def fastest(rows: pd.DataFrame, error: float) -> Any | None:
@@ -40,15 +41,16 @@ def table(frame: pd.DataFrame) -> Table | None:
     if rows.empty:
         return None
     body: list[tuple[Any, ...]] = []
-    order = list(dict.fromkeys(frame["surface"]))
+    order, named = list(dict.fromkeys(frame["surface"])), tables.places(frame)
     for _, own in sorted(rows.groupby("surface", sort=False), key=lambda pair: order.index(pair[0])):
         loose, tight = (fastest(own, error) for error in ERRORS)
-        cells: list[Any] = [own["surface_title"].iloc[0]]
+        cells: list[Any] = [named[str(own["comparison"].iloc[0])]]
         for won, error in zip((loose, tight), ERRORS, strict=True):
             cells += ["none", None, None] if won is None else [_named(won, own, error), won.median_ms, won.error_max]
         cells.append(None if loose is None or tight is None else rounds.times_over(tight, loose))
         body.append(tuple(cells))
     shown = body[:LINES]
+    shared, several = _shared(rows), frame["device"].nunique() > 1
     more = "" if len(shown) == len(body) else f" {len(shown)} of {len(body)} surfaces; “Winners” has all."
     columns: list[Column] = [Column("surface")]
     for error in ERRORS:
@@ -62,12 +64,23 @@ def table(frame: pd.DataFrame) -> Table | None:
     return Table(
         tuple(columns),
         shown,
-        f"Which method, at which error, on {rows['device'].iloc[0]}.",
-        "The fastest variant with every ray away from silhouettes right and a largest error over the radius of the "
-        "scene of at most this; max error is in scene units. Cost is the time of the second over that of the first; "
-        "“none” where no variant of this run is that exact; “≈” stands before variants of other methods whose times "
-        f"are not told apart from its own.{more}",
+        "Which method, at which error, on "
+        f"{rows['device'].iloc[0]}{', the first with most results' if several else ''}.",
+        f"{shared}The fastest variant with every ray away from silhouettes right and a largest error over the radius "
+        "of the scene of at most this; max error is in scene units. Cost is the time of the second over that of the "
+        "first, in the rounds that timed both; “none” where no variant of this run is that exact; “≈” stands before "
+        "variants of other methods whose times are not told apart from its "
+        f"own.{wording.zeros([row[i] for row in shown for i in (3, 6)])}{more}",
     )
+
+
+def _shared(rows: pd.DataFrame) -> str:
+    """The view and the size of the scenes, where these are the same for all; the names tell what differs."""
+    told = [f"view {rows['view'].iloc[0]}"] if rows["view"].nunique() == 1 else []
+    sizes = {tables.picture_size(row) for row in rows.itertuples()}
+    told += sizes if len(sizes) == 1 else []
+    scenes = "the scene with most methods of each surface"
+    return f"Of {', '.join([scenes, *told])}. "
 
 
 def _named(row: Any, own: pd.DataFrame, error: float) -> str:

@@ -28,11 +28,13 @@ VARIANTS = 4  # of one method that are drawn
 DODGE = 0.6  # of a bin's width, over which its marks are spread so that all are seen
 _ROUNDOFF: Mapping[str, float] = {str(name): unit for name, unit in UNIT_ROUNDOFF.items()}
 EXPLANATION = (
-    "Each ray's error |t − t*| over the radius, against the condition number of its root: how far the root moves when "
-    "the terms of f change by a relative amount. The black line is condition × unit roundoff (condition at least 1), "
-    "what the problem allows. A mark is the largest error among the rays of a narrow range of condition; the thin line "
-    "below it reaches down to their median. A method along the line is as bad as the problem and no worse; one that "
-    "stays high above it is unstable, or stops early. Rays at silhouettes are included: they have the largest "
+    "The error |t − t*| over the radius of each ray that hits the right root, against the condition number of its "
+    "root: how far the root moves when the terms of f change by a relative amount. The black line is condition × unit "
+    "roundoff (condition at least 1), what the problem allows. A mark is the largest error among the rays of a narrow "
+    "range of condition; the thin line below it reaches down to their median. A method along the line is as bad as the "
+    "problem and no worse; one that stays high above it is unstable, or stops early. "
+    + wording.ZERO
+    + " Rays at silhouettes are included: they have the largest "
     f"conditions. Of the device with most results, and at most {VARIANTS} variants of each method."
 )
 
@@ -149,12 +151,16 @@ def _dress(axes: Axes, edges: NDArray[np.float64], axis: ErrorAxis, precision: s
 
 
 def _caption(clouds: list[Cloud], radius: str) -> str:
-    """Who is furthest above the line in each precision."""
+    """Who is furthest above the line in each precision, and who least: all whose printed figure is the same."""
     told = []
     for precision in sorted({cloud.precision for cloud in clouds}):
         own = [cloud for cloud in clouds if cloud.precision == precision]
-        worst, best = max(own, key=lambda cloud: cloud.excess), min(own, key=lambda cloud: cloud.excess)
-        lowest, highest = (f"{wording.short(cloud.excess)} ({cloud.variant})" for cloud in (best, worst))
-        told.append(f"{precision}: {highest}" if best is worst else f"{precision}: from {lowest} to {highest}")
+        figures = {cloud.variant: wording.short(cloud.excess) for cloud in sorted(own, key=lambda c: c.excess)}
+        lowest, highest = (figures[variant] for variant in (next(iter(figures)), next(reversed(figures))))
+        low, high = (
+            f"{end} ({wording.listed([v for v, figure in figures.items() if figure == end])})"
+            for end in (lowest, highest)
+        )
+        told.append(f"{precision}: {high}" if lowest == highest else f"{precision}: from {low} to {high}")
     note = "" if radius == "domain's" else " This run does not tell the domain's radius; the line takes the scene's."
     return f"Worst error over the line, in {'; in '.join(told)}.{note}"

@@ -113,8 +113,13 @@ def baseline_of(frame: pd.DataFrame) -> str:
 
 
 def _floor_ms(timed: pd.DataFrame) -> pd.Series:
+    return floor_rows(timed).set_index(GROUP)["median_ms"].rename("floor_ms")
+
+
+def floor_rows(timed: pd.DataFrame) -> pd.DataFrame:
+    """Of each group the row of a method that answers nothing, the slowest, where it has one: the harness's floor."""
     floor = ~timed["answers"].astype(bool) & (timed["prepass"] != "beams")  # behind a prepass it measures that too
-    return timed[floor].groupby(GROUP)["median_ms"].max().rename("floor_ms")
+    return timed[floor].sort_values("median_ms", ascending=False, kind="stable").drop_duplicates(GROUP)
 
 
 def _peak_share(frame: pd.DataFrame, peaks: Mapping[str, float]) -> pd.Series:

@@ -22,31 +22,35 @@ EVERY_VIEW = 3  # views of a surface that are all shown; of more, each variant's
 MOST_SURFACES = 4  # of a run that has this section
 MAP = "viridis"
 EXPLANATION = (
-    "Evaluations of f that each ray costs, from dark to bright on one logarithmic scale, and beside it its error. "
-    "Bright rings along silhouettes are rays that nearly touch the surface: sphere tracing's critical case, in "
-    "toledo2007's Fig. 4. “Per ray cast” counts those that pass the domain by too, as every table of this report does. "
-    "Of the device with most results, in its first precision."
+    "Evaluations of f that each ray costs, from dark to bright on one logarithmic scale, and beside it its error, in "
+    f"the colours of all pictures of this report. {wording.ZERO} Bright rings along silhouettes are rays that nearly "
+    "touch the surface: sphere tracing's critical case, in toledo2007's Fig. 4. Wrong are rays away from silhouettes; "
+    "grazing and drowned ones are counted apart. “Per ray cast” counts those that pass the domain by too, as every "
+    "table of this report does. Of the device with most results, in its first precision."
 )
 
 
-def sections(shelf: Shelf, frame: pd.DataFrame) -> list[Section]:
-    """A gallery for each surface, in runs of at most MOST_SURFACES; no section where no cell tells its evaluations."""
+def drawn(frame: pd.DataFrame) -> pd.DataFrame:
+    """The rows whose rays are shown; none in runs of more than MOST_SURFACES."""
     rows = frame[(frame["status"] == CellStatus.OK) & frame["answers"] & frame["arrays"].notna()]
     if rows.empty or rows["surface"].nunique() > MOST_SURFACES:
-        return []
+        return rows.head(0)
     rows = rows[rows["device"] == rows["device"].value_counts(sort=False).idxmax()]
     rows = rows[rows["precision"] == rows["precision"].iloc[0]].drop_duplicates(["surface", "view", "variant"])
+    by_surface = (own for _, own in rows.groupby("surface", sort=False))
+    return pd.concat([own if own["view"].nunique() <= EVERY_VIEW else _worst(own) for own in by_surface])
+
+
+def sections(shelf: Shelf, frame: pd.DataFrame, errors: tuple[int, int]) -> list[Section]:
+    """A gallery for each surface; no section where no cell tells its evaluations. `errors` is of images.scale_of."""
     shown: list[tuple[Any, Arrays]] = []
-    for _, own in rows.groupby("surface", sort=False):
-        kept = own if own["view"].nunique() <= EVERY_VIEW else _worst(own)
-        for row in kept.itertuples():
-            arrays = shelf.get(row)
-            if arrays is not None and arrays.evaluations is not None:
-                shown.append((row, arrays))
+    for row in drawn(frame).itertuples():
+        arrays = shelf.get(row)
+        if arrays is not None and arrays.evaluations is not None:
+            shown.append((row, arrays))
     if not shown:
         return []
     most = max(int(arrays.evaluations.max()) for _, arrays in shown if arrays.evaluations is not None)
-    errors = images.scale_of([arrays for _, arrays in shown])
     counted = _legend(max(most, 2))
     blocks: list[Block] = [Text(EXPLANATION), counted]
     for surface in dict.fromkeys(row.surface for row, _ in shown):
@@ -85,7 +89,8 @@ def _panel(row: Any, arrays: Arrays, most: int, errors: tuple[int, int]) -> Pane
             f"evaluations: {wording.number(arrays.evaluations.mean())} per ray cast, {wording.number(spent.mean())} "
             f"per ray that spends any, at most {spent.max():,}"
         )
-    wrong = f"{wording.count(row.wrong_rays)} wrong" if row.wrong_rays else "no wrong ray"
+    of = wording.count(row.accuracy_rays)
+    wrong = f"{wording.count(row.wrong_rays)} of {of} wrong" if row.wrong_rays else f"none of {of} wrong"
     grazing = f" · {wording.count(row.grazing_wrong_rays)} wrong at grazing" if row.grazing_wrong_rays else ""
     drowned = f" · {wording.count(row.drowned_wrong_rays)} wrong at drowned" if row.drowned_wrong_rays else ""
     return Panel(name, pictures, f"{cost} · max {wording.error(row.error_max)} · {wrong}{grazing}{drowned}")

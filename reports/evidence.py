@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -33,6 +34,7 @@ class Evidence:
     frame: pd.DataFrame  # with the columns of derive
     studies: Mapping[str, list[dict[str, Any]]]
     shelf: Shelf
+    apart: set[tuple[str, str]] = field(default_factory=set)  # keys of pairs that `ratios` left out
 
     @cached_property
     def finished(self) -> pd.DataFrame:
@@ -75,51 +77,46 @@ class Evidence:
         fast: Pick,
         surfaces: Iterable[str] | None = None,
         precision: str | None = "float32",
-        above_floor: bool = False,
     ) -> pd.DataFrame:
-        """How many times as long `slow` takes as `fast`, where both were timed in turns: one row for each group.
+        """How many times as long `slow` takes as `fast`: one row for each group that timed both in the same rounds.
 
-        Columns: those of `fast`, and `ratio`, `ratio_low`, `ratio_high` (of the ends of both intervals; NaN where one
-        of them is not proved, by too few samples), `slow_ms` and `fast_ms`. With `above_floor` the null
-        method's time is taken off both first, where it was measured.
+        Columns as in `over`. Pairs that were not timed in turns are left out, and noted in `apart`.
         """
         a, b = (self.rows(pick, surfaces, precision).dropna(subset=["median_ms"]) for pick in (slow, fast))
-        return over(a, b, derive.GROUP, above_floor)
+        return self.over(a, b, derive.GROUP)
+
+    def over(self, slow: pd.DataFrame, fast: pd.DataFrame, keys: list[str]) -> pd.DataFrame:
+        """As the function `over`; the pairs that it leaves out are noted in `apart`."""
+        found = over(slow, fast, keys)
+        pairs = fast[[*keys, "key"]].merge(slow[[*keys, "key"]], on=keys, suffixes=("", "_slow"))
+        every, kept = (set(zip(of["key_slow"], of["key"], strict=True)) for of in (pairs, found))
+        self.apart.update(every - kept)
+        return found
 
     def arrays(self, row: Any) -> Arrays | None:
         return self.shelf.get(row)
 
 
-_TIMES = ["median_ms", "lower_ms", "upper_ms"]
+_RATIO = ["ratio", "ratio_low", "ratio_high"]
 
 
-def over(slow: pd.DataFrame, fast: pd.DataFrame, keys: list[str], above_floor: bool = False) -> pd.DataFrame:
-    """Timed rows `slow` over timed rows `fast` with the same `keys`, with the columns of Evidence.ratios."""
-    a, b = (rows.assign(**{end: rows[end].where(proved(rows)) for end in _TIMES[1:]}) for rows in (slow, fast))
-    both = b.merge(a[[*keys, *_TIMES, *rounds.COLUMNS]], on=keys, suffixes=("", "_slow"))
-    floor = both["floor_ms"].fillna(0.0) if above_floor else 0.0
-    for name in _TIMES:
-        both[name] = (both[name] - floor).clip(lower=1e-9)
-        both[f"{name}_slow"] -= floor
-    both = both.assign(
-        slow_ms=both["median_ms_slow"],
-        fast_ms=both["median_ms"],
-        ratio=both["median_ms_slow"] / both["median_ms"],
-        ratio_low=both["lower_ms_slow"] / both["upper_ms"],
-        ratio_high=both["upper_ms_slow"] / both["lower_ms"],
-    )
-    return both if above_floor else _in_common_rounds(both)
+def over(slow: pd.DataFrame, fast: pd.DataFrame, keys: list[str]) -> pd.DataFrame:
+    """Timed rows `slow` over timed rows `fast` with the same `keys`, where some round timed both; other pairs are left
+    out, since medians of different rounds make no ratio.
 
-
-def _in_common_rounds(both: pd.DataFrame) -> pd.DataFrame:
-    """`both` with the ratios of those pairs that were timed in enough rounds together taken from these."""
-    of_slow = both[[f"{name}_slow" for name in rounds.COLUMNS]].set_axis(rounds.COLUMNS, axis=1)
-    pairs = zip(of_slow.itertuples(), both[rounds.COLUMNS].itertuples(), strict=True)
-    for slow, fast in pairs:
-        found = rounds.ratio(slow, fast)
-        if found is not None and found.proved:
-            both.loc[slow.Index, ["ratio", "ratio_low", "ratio_high"]] = found.median, found.lower, found.upper
-    return both
+    Columns: those of `fast`, `ratio`, the median over the common rounds, with its 95 % interval `ratio_low` to
+    `ratio_high` (NaN where too few common rounds prove none), and `slow_ms`, `fast_ms` and `key_slow`.
+    """
+    told = ["key", "median_ms", *rounds.COLUMNS]
+    both = fast.merge(slow[[*keys, *told]], on=keys, suffixes=("", "_slow"))
+    found = {}
+    for at, paired in zip(both.index, rounds.ratios(both, "_slow"), strict=True):
+        if paired is not None:
+            ends = (paired.lower, paired.upper) if paired.proved else (math.nan, math.nan)
+            found[at] = (paired.median, *ends)
+    ratios = pd.DataFrame(list(found.values()), index=list(found), columns=_RATIO, dtype="float64")
+    both = both.assign(slow_ms=both["median_ms_slow"], fast_ms=both["median_ms"])
+    return both.loc[ratios.index].join(ratios).reset_index(drop=True)
 
 
 def proved(rows: pd.DataFrame) -> pd.Series:

@@ -53,11 +53,11 @@ def power_law(x: ArrayLike, y: ArrayLike) -> Power | Refusal:
     scatter = math.sqrt(float(((v - level - exponent * u) ** 2).sum()) / freedom)
     half_width = student(freedom) * scatter / math.sqrt(spread)
     if not 2.0 * half_width <= abs(exponent):
-        ends = f"{exponent - half_width:.2f} to {exponent + half_width:.2f}".replace("-", "−")
+        ends = f"{exponent - half_width:.2f} to {exponent + half_width:.2f}"
         return Refusal(
             points,
-            f"{points} points do not determine an exponent: the 95 % interval of {exponent:.2f}, {ends}, "
-            f"is wider than that",
+            f"{points} points do not determine an exponent: the 95 % interval of {exponent:.2f}, {ends}, is wider than "
+            "that".replace("-", "−"),
         )
     return Power(exponent, half_width, math.exp(level), points, scatter)
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import matplotlib
@@ -13,7 +14,7 @@ from matplotlib.figure import Figure as Drawing
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from harness.contract import CellStatus
-from reports import style, tables, wording
+from reports import derive, rounds, scenes, style, tables, wording
 from reports.content import Block, Column, Figure, Section, Table, Text
 from reports.drawing import LINE, NARROW, RC, Key, label_decades, line_of, svg
 from reports.fits import FEWEST, Power, Refusal, power_law
@@ -33,7 +34,9 @@ class Axis:
     of: Callable[[pd.DataFrame], Any]
     fixed: tuple[str, ...]
     needs: str  # a column, where there is none there is nothing to fit
-    above_floor: bool = False  # the null method's time is taken off
+    above_floor: bool = False  # the null method's time is taken off, in the rounds that timed both
+    right: Callable[[pd.DataFrame], pd.Series] = derive.all_right  # which rows' answers are good enough to time
+    wrongly: str = "with a ray away from silhouettes answered wrongly, or unchecked"  # what the other rows are
     expected: str = ""
 
 
@@ -55,7 +58,8 @@ AXES = (
         ("size", "view", *_ELSE),
         needs="degree",
         above_floor=True,
-        expected="Times are above the null method's, where it ran. Surfaces differ in more than their degree, in the "
+        expected="Times are above the null method's, where it ran, in the rounds that timed both. Surfaces differ in "
+        "more than their degree, in the "
         "share of the picture they cover most of all, so that the interval is wide.",
     ),
     Axis(
@@ -64,6 +68,8 @@ AXES = (
         lambda rows: rows["instances"],
         ("scene", "size", "view", *_ELSE),
         needs="instances",
+        right=scenes.right,
+        wrongly="with over 1 in 1,000 rays answered wrongly away from silhouettes, or unchecked",
         expected="An exponent of 0 is a cost that pixels alone decide, 1 one in proportion to the instances.",
     ),
 )
@@ -83,15 +89,59 @@ class Curve:
 
 def curves(frame: pd.DataFrame, axis: Axis) -> list[Curve]:
     """Every variant with at least three different places on `axis`, in the plan's order."""
+    return _curves(axis, _points(frame, axis)[0])
+
+
+def _points(frame: pd.DataFrame, axis: Axis) -> tuple[pd.DataFrame, dict[str, int]]:
+    """The rows that points are made of, with `x` and `ms`, and how many of the others are left out for which reason.
+
+    Only lines are counted that had enough places before.
+    """
     if axis.needs not in frame:
-        return []
+        return frame.head(0), {}
     rows = frame[(frame["status"] == CellStatus.OK) & frame["median_ms"].notna()]
     rows = rows.assign(x=axis.of(rows).astype("float64"), ms=rows["median_ms"])
+    rows = rows[rows["x"] > 0]
+    above_floor = _over_floor(rows, axis)
     if axis.above_floor:
-        rows = rows.assign(ms=rows["ms"] - rows["floor_ms"].fillna(0.0))[rows["answers"].astype(bool)]
-    by = [*axis.fixed, "variant"]
-    rows = rows.loc[(rows["x"] > 0) & (rows["ms"] > 0), [*by, "x", "ms"]]
-    rows = rows[rows.groupby(by, sort=False)["x"].transform("nunique") >= FEWEST]
+        rows = rows[rows["answers"].astype(bool)]
+    if rows.empty:
+        return rows, {}
+    rows = rows[rows.groupby(_line(axis), sort=False)["x"].transform("nunique") >= FEWEST]
+    left_out = {}
+    right = axis.right(rows) | ~rows["answers"].astype(bool)
+    left_out[axis.wrongly] = int((~right).sum())
+    rows = rows[right]
+    if above_floor is not None:
+        rows = rows.assign(ms=above_floor.reindex(rows.index))
+        left_out["without a round shared with the null method"] = int(rows["ms"].isna().sum())
+        left_out["no slower than the null method"] = int((rows["ms"] <= 0.0).sum())
+        rows = rows[rows["ms"] > 0.0]
+    return rows, {reason: count for reason, count in left_out.items() if count}
+
+
+def _over_floor(rows: pd.DataFrame, axis: Axis) -> pd.Series | None:
+    """By how much each row takes longer than its group's null method; None where the axis or the run has no such."""
+    floors = derive.floor_rows(rows)
+    if not axis.above_floor or floors.empty:
+        return None
+    by_group = {tuple(getattr(row, name) for name in derive.GROUP): row for row in floors.itertuples()}
+    found = {}
+    for row in rows.itertuples():
+        floor = by_group.get(tuple(getattr(row, name) for name in derive.GROUP))
+        found[row.Index] = math.nan if floor is None else rounds.above(row, floor)
+    return pd.Series(found, dtype="float64")
+
+
+def _line(axis: Axis) -> list[str]:
+    return [*axis.fixed, "variant"]
+
+
+def _curves(axis: Axis, rows: pd.DataFrame) -> list[Curve]:
+    by = _line(axis)
+    if rows.empty:
+        return []
+    rows = rows.loc[rows.groupby(by, sort=False)["x"].transform("nunique") >= FEWEST, [*by, "x", "ms"]]
     found = []
     for (*place, variant), own in rows.groupby(by, sort=False):
         own = own.sort_values("x", kind="stable")
@@ -101,19 +151,37 @@ def curves(frame: pd.DataFrame, axis: Axis) -> list[Curve]:
 
 
 def sections(frame: pd.DataFrame, marks: Mapping[str, Mark]) -> list[Section]:
-    """A section for each axis along which some variant was timed at three places or more; `marks` by variant."""
+    """A section for each axis along which some variant was timed at three places or more; `marks` by variant.
+
+    Where all of its rows are left out, the section says so.
+    """
     made = []
     titles = frame.drop_duplicates("surface").set_index("surface")["surface_title"].to_dict()
-    for axis in AXES:
-        if found := curves(frame, axis):
+    for axis in (_of_run(axis, frame) for axis in AXES):
+        rows, left_out = _points(frame, axis)
+        found = _curves(axis, rows)
+        if found or left_out:
             lead = (
                 f"Time t against {axis.unit} n, on logarithmic axes, and the line t = c·nᵏ that fits the logarithms "
-                f"best. The exponent k stands with its 95 % interval, and is told only where that is no wider than k "
-                f"itself. {axis.expected}"
+                "best. The exponent k stands with its 95 % interval, and is told only where that is no wider than k "
+                f"itself. {axis.expected} The points of a line are of different pictures, which were timed one after "
+                "the other: what slowed the machine down meanwhile is in the scatter. No point is of a row "
+                f"{axis.wrongly}.{_told_left_out(left_out)}"
             )
-            blocks: list[Block] = [Text(lead), *_figures(axis, found, marks, titles), table(axis, found, titles)]
+            blocks: list[Block] = [Text(lead)]
+            blocks += [*_figures(axis, found, marks, titles), table(axis, found, titles)] if found else []
             made.append(Section(TITLES[axis.name], tuple(blocks)))
     return made
+
+
+def _of_run(axis: Axis, frame: pd.DataFrame) -> Axis:
+    """The axis as this run has it: without the null method nothing is taken off."""
+    return axis if bool((~frame["answers"].astype(bool)).any()) else replace(axis, above_floor=False)
+
+
+def _told_left_out(left_out: Mapping[str, int]) -> str:
+    each = wording.listed([f"{wording.plural(count, 'row')} {reason}" for reason, count in left_out.items()])
+    return f" Left out: {each}; a line that keeps fewer than {FEWEST} places is not drawn." if each else ""
 
 
 def table(axis: Axis, found: list[Curve], titles: Mapping[str, str]) -> Table:
@@ -218,6 +286,7 @@ def _figure(
     exponents = [curve.fit.exponent for curve in found if isinstance(curve.fit, Power)]
     without = len(found) - len(exponents)
     told = f"Exponents from {min(exponents):.2f} to {max(exponents):.2f}" if exponents else "No exponent is determined"
+    told = f"One exponent, {exponents[0]:.2f}" if len(exponents) == 1 else told
     told += f", none for {without} of {len(found)} variants and places" if exponents and without else ""
     return Figure(
         name,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import math
+from collections.abc import Iterable
 from typing import Any
 
 import matplotlib
@@ -24,27 +25,30 @@ GRAZING_PALE = 0.55  # how far the colour of a wrong ray fades to white in the g
 WIDEST_SCALE = 10  # decades
 
 
-def galleries(shelf: Shelf, frame: pd.DataFrame) -> dict[str, Gallery]:
-    """A gallery for each surface that has pictures, by the surface's name."""
+def drawn(frame: pd.DataFrame) -> pd.DataFrame:
+    """The rows that the galleries of the surfaces show."""
+    return pd.concat([frame.head(0), *(derive.drawn(rows) for _, rows in frame.groupby("surface", sort=False))])
+
+
+def galleries(shelf: Shelf, frame: pd.DataFrame, scale: tuple[int, int]) -> dict[str, Gallery]:
+    """A gallery for each surface that has pictures, by the surface's name; `scale` is of scale_of."""
     picked: dict[str, list[tuple[Any, Arrays]]] = {}
-    for surface, rows in frame.groupby("surface", sort=False):
-        for row in derive.drawn(rows).itertuples():
-            arrays = shelf.get(row)
-            if arrays is not None:
-                picked.setdefault(str(surface), []).append((row, arrays))
-    scale = scale_of([arrays for cells in picked.values() for _, arrays in cells])
+    for row in drawn(frame).itertuples():
+        arrays = shelf.get(row)
+        if arrays is not None:
+            picked.setdefault(str(row.surface), []).append((row, arrays))
     return {surface: _gallery(cells, scale, _caption(cells[0][0])) for surface, cells in picked.items()}
 
 
-def gallery(shelf: Shelf, rows: pd.DataFrame, caption: str, name: str) -> Gallery | None:
+def gallery(shelf: Shelf, rows: pd.DataFrame, caption: str, name: str, scale: tuple[int, int]) -> Gallery | None:
     """Every row of `rows` that has pictures, in its order, titled by its column `setting` and, where several are there,
-    its view; `name` sets these pictures apart from others of the rows."""
+    its view; `name` sets these pictures apart from others of the rows, `scale` is of scale_of."""
     views = rows["view"].nunique() > 1
     rows = rows.assign(panel=rows["surface_title"] + (", " + rows["view"] if views else "") + ": " + rows["setting"])
     cells = [(row, arrays) for row in rows.itertuples() if (arrays := shelf.get(row)) is not None]
     if not cells:
         return None
-    return _gallery(cells, scale_of([arrays for _, arrays in cells]), caption, f"{name}-", titled=True)
+    return _gallery(cells, scale, f"{caption} {wording.ZERO}", f"{name}-", titled=True)
 
 
 def _gallery(
@@ -54,12 +58,13 @@ def _gallery(
     return Gallery(panels, caption, plots.error_legend(*scale))
 
 
-def scale_of(every: list[Arrays]) -> tuple[int, int]:
-    """The decades of the pictures' positive errors but for each one's smallest hundredth, at most WIDEST_SCALE of them:
-    one scale for the report."""
-    positive = [arrays.error[(arrays.error > 0) & np.isfinite(arrays.error)] for arrays in every]
-    low = min((float(np.quantile(e, 0.01)) for e in positive if e.size), default=1e-7)
-    high = max((float(e.max()) for e in positive if e.size), default=1e-3)
+def scale_of(every: Iterable[Arrays], beside: Iterable[float] = ()) -> tuple[int, int]:
+    """The decades of the pictures' positive errors but for each one's smallest hundredth, and of the errors `beside`
+    them, at most WIDEST_SCALE: one scale for the report."""
+    positive = (arrays.error[(arrays.error > 0) & np.isfinite(arrays.error)] for arrays in every)
+    ends = [(float(np.quantile(e, 0.01)), float(e.max())) for e in positive if e.size]
+    ends = [*ends, *((error, error) for error in beside if error > 0.0)] or [(1e-7, 1e-3)]
+    low, high = min(low for low, _ in ends), max(high for _, high in ends)
     highest = max(math.ceil(math.log10(high)), math.floor(math.log10(low)) + 1)
     return max(math.floor(math.log10(low)), highest - WIDEST_SCALE), highest
 
@@ -72,7 +77,7 @@ def _panel(row: Any, arrays: Arrays, scale: tuple[int, int], prefix: str, titled
     )
     counts = zip((getattr(row, kind) for kind in KINDS), style.WRONG, strict=True)
     wrong = ", ".join(f"{kind.title} {n:,}" for n, kind in counts if not wording.absent(n) and n > 0)
-    note = f"max {wording.error(row.error_max)} · {wrong or 'no wrong ray'}"
+    note = f"max {wording.error(row.error_max)} · {wrong or 'no wrong ray away from silhouettes'}"
     if not wording.absent(row.grazing_wrong_rays) and row.grazing_wrong_rays > 0:
         note += f" · {wording.count(row.grazing_wrong_rays)} wrong at grazing"
     if not wording.absent(row.drowned_wrong_rays) and row.drowned_wrong_rays > 0:
@@ -82,12 +87,12 @@ def _panel(row: Any, arrays: Arrays, scale: tuple[int, int], prefix: str, titled
 
 def _caption(row: Any) -> str:
     return (
-        f"{row.surface_title} on {row.device}, view {row.view}: what each method drew, and its error beside it. "
-        "Dark blue to yellow is a growing |t − t*| on one logarithmic scale for all surfaces' pages; the bright "
-        "colours "
-        "are rays answered wrongly, paler where they graze the surface or f drowns in its own rounding; counts are of "
-        f"the {wording.count(row.accuracy_rays)} rays checked. Look for wrong rays away from the silhouette, and for "
-        "bands or facets in the error."
+        f"{row.surface_title} on {row.device}, view {row.view}: what each method drew, and its error beside it. Dark "
+        "blue to yellow is a growing |t − t*| on one logarithmic scale for all pictures of this report, whose end "
+        f"colours also stand for what lies beyond. {wording.ZERO} The bright colours are rays answered wrongly, paler "
+        "where they graze the surface or f drowns in its own rounding; counts are of the "
+        f"{wording.count(row.accuracy_rays)} rays checked. Look for wrong rays away from the silhouette, and for bands "
+        "or facets in the error."
     )
 
 

@@ -8,7 +8,7 @@ from functools import cached_property
 
 import pandas as pd
 
-from reports import claims, style, viewstats
+from reports import claims, evaluations, images, style, viewstats
 from reports.arrays import Shelf
 from reports.claims import Claim, Verdict
 from reports.evidence import Evidence
@@ -35,6 +35,18 @@ class Material:
     def listed(self) -> pd.DataFrame:
         """`frame` for what lists scenes one by one: the first view stands for a large set."""
         return viewstats.one_view_of_each(self.frame)
+
+    @cached_property
+    def error_scale(self) -> tuple[int, int]:
+        """The decades of the one colour scale of errors that all pictures and maps of the report share."""
+        from reports.reproductions import pictures  # which takes a Material itself
+
+        shown = [images.drawn(self.listed), evaluations.drawn(self.frame)]
+        shown += [pictures.drawn(self.evidence, figure) for figure in pictures.FIGURES]
+        rows = pd.concat(shown).drop_duplicates(["run", "key"])
+        found = (self.shelf.get(row) for row in rows.itertuples())
+        mapped = self.frame.loc[self.frame["view_set"] == viewstats.DIRECTIONS, "error_max"].dropna()
+        return images.scale_of((arrays for arrays in found if arrays is not None), mapped)
 
     @cached_property
     def evidence(self) -> Evidence:

@@ -20,7 +20,8 @@ _NEEDED = [
 def sections(frame: pd.DataFrame) -> list[Section]:
     """One section where at least two variants of one comparison were timed in the same rounds; else none."""
     rows = tables.worth_printing(derive.contenders(frame))[_NEEDED]
-    scenes = [group for _, group in rows.groupby("comparison", sort=False)]
+    by_scene = {scene: group for scene, group in rows.groupby("comparison", sort=False)}
+    scenes = [by_scene[scene] for scene in dict.fromkeys(frame["comparison"]) if scene in by_scene]  # the plan's order
     shown = scenes[: max(1, int((np.cumsum([len(group) for group in scenes]) <= tables.ROW_LIMIT).sum()))]
     tabled = [table for group in shown if (table := _table(group))]
     told = (

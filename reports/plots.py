@@ -86,7 +86,17 @@ def overview(frame: pd.DataFrame, marks: Mapping[str, Mark], titles: Mapping[str
         f"Speed of each method on {', '.join(titles.values())}, for {', '.join(devices)}.",
         "How fast each method is.",
         "Its fastest variant among those with no wrong ray, on a logarithmic axis: right is faster. A method without a "
-        "mark has no such variant there.",
+        f"mark has no such variant there.{_bound_marks(rows)}",
+    )
+
+
+def _bound_marks(rows: pd.DataFrame) -> str:
+    bound = int(rows["floor_bound"].sum())
+    return (
+        f" Of {len(rows)} marks {bound} are floor-bound: under {derive.FLOOR_FACTOR:g} times the time of the harness "
+        "itself."
+        if bound
+        else ""
     )
 
 
@@ -174,29 +184,42 @@ def _key(shown: pd.DataFrame, marks: Mapping[str, Mark]) -> tuple[list[Any], lis
 def _caption(shown: pd.DataFrame) -> str:
     baseline = derive.baseline_of(shown)
     over = {(row.device, row.precision): row for row in derive.baseline_rows(shown).itertuples()}
-    gains = shown[shown["speedup"] > 1.0].sort_values("speedup", ascending=False)
-    row = None
-    for gaining in gains.itertuples():
-        beaten = over.get((gaining.device, gaining.precision))
-        if beaten is not None and ties.is_slower(beaten, gaining):
-            row = gaining
-            break
+    gains = [
+        gaining
+        for gaining in shown[shown["speedup"] > 1.0].sort_values("speedup", ascending=False).itertuples()
+        if (beaten := over.get((gaining.device, gaining.precision))) is not None and ties.is_slower(beaten, gaining)
+    ]
+    row = next((gaining for gaining in gains if not gaining.floor_bound), None)
+    bound = sum(bool(gaining.floor_bound) for gaining in gains)
     seen = f" {baseline} answers some rays wrongly here or was not timed, so that no gain over it is told."
     if row is not None:
         seen = (
             f" The largest gain with no wrong ray: {row.variant} on {row.device} in {row.precision}, "
             f"{wording.factor(row.speedup)} as fast as {baseline}, at a largest error of "
-            f"{wording.error(row.error_max)}."
+            f"{wording.error(row.error_max)} scene units{_floor(row)}."
         )
+    elif bound:
+        seen = f" Every gain over {baseline} is floor-bound here, so that none is told as the largest."
     elif over:
         seen = f" No variant that is told to be faster than {baseline} answers every ray rightly here."
+    if row is not None and bound:
+        seen += f" {wording.plural(bound, 'floor-bound row')} left out: there the harness is measured more."
     exact = int((shown["error_max"] == 0).sum())
     stand = "stands" if exact == 1 else "stand"
-    zeros = f" {wording.plural(exact, 'row')} with an error of exactly 0 {stand} left of the break." if exact else ""
+    zeros = (
+        f" {wording.plural(exact, 'row')} with an error of 0 {stand} left of the break. {wording.ZERO}" if exact else ""
+    )
     return (
         "Up is faster, left is more exact; what lies below and right of the black line is beaten in both. "
         f"Hollow marks answer some rays wrongly and cannot be on the front.{zeros}{seen}"
     )
+
+
+def _floor(row: Any) -> str:
+    """What the harness itself takes of a row's time."""
+    if wording.absent(row.floor_ms):
+        return "; the harness's floor was not measured there"
+    return f"; of its {wording.number(row.median_ms)} ms the harness's floor is {wording.number(row.floor_ms)} ms"
 
 
 def error_legend(lowest: int, highest: int) -> Figure:

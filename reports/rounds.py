@@ -7,6 +7,7 @@ alone, so that medians of different rounds make no ratio.
 from __future__ import annotations
 
 import json
+import math
 from typing import Any
 
 import pandas as pd
@@ -28,16 +29,30 @@ def ratio(row: Any, other: Any) -> Ratio | None:
 
 
 def times_over(row: Any, other: Any) -> float:
-    """`row`'s time over `other`'s: the median of the rounds that timed both, or of too few such rounds the medians'."""
+    """`row`'s time over `other`'s: the median over the rounds that timed both; NaN where none did."""
     paired = ratio(row, other)
-    if paired is not None and paired.proved:
-        return paired.median
-    return float(row.median_ms / other.median_ms)
+    return math.nan if paired is None else paired.median
+
+
+def ratios(both: pd.DataFrame, suffix: str) -> list[Ratio | None]:
+    """For each line of `both`, two rows side by side: the time of the columns that end in `suffix` over the other's."""
+    other = both[[f"{name}{suffix}" for name in COLUMNS]].set_axis(COLUMNS, axis=1)
+    return [ratio(a, b) for a, b in zip(other.itertuples(), both[COLUMNS].itertuples(), strict=True)]
+
+
+def above(row: Any, other: Any) -> float:
+    """By how many ms `row` takes longer than `other`: the median over the rounds that timed both; NaN without one."""
+    if ratio(row, other) is None:
+        return math.nan
+    others = dict(zip(json.loads(other.rounds), other.samples_ms, strict=True))
+    own = zip(json.loads(row.rounds), row.samples_ms, strict=True)
+    return measure.median_interval([ms - others[at] for at, ms in own if at in others])[0]
 
 
 def over_first(rows: pd.DataFrame, firsts: pd.DataFrame, keys: list[str]) -> pd.Series:
-    """The time of the row of `firsts` with the same `keys` over each of `rows`, by their index; NaN without one."""
-    told = [*keys, *COLUMNS, "median_ms"]
+    """The time of the row of `firsts` with the same `keys` over each of `rows`, by their index; NaN without one that
+    shares a round."""
+    told = [*keys, *COLUMNS]
     by_key = {tuple(getattr(row, key) for key in keys): row for row in firsts[told].itertuples()}
     found = {}
     for row in rows.loc[rows["median_ms"].notna(), told].itertuples():

@@ -8,7 +8,7 @@ from typing import Any
 import pandas as pd
 
 from harness.contract import CellStatus
-from reports import wording
+from reports import rounds, wording
 from reports.content import Block, Column, Section, Table, Text
 
 LEVELS = (1.0, 0.1, 0.01, 0.001)  # pixel footprints
@@ -33,16 +33,16 @@ def sections(frame: pd.DataFrame) -> list[Section]:
     return made
 
 
-def _right(rows: pd.DataFrame) -> pd.DataFrame:
-    """Those with no more than 1 in 1,000 rays wrong that are neither grazing nor drowned."""
-    return rows[rows["wrong_rays"].astype("float64") <= 1e-3 * rows["accuracy_rays"].astype("float64")]
+def right(rows: pd.DataFrame) -> pd.Series:
+    """Which rows have no more than 1 in 1,000 rays wrong that are neither grazing nor drowned."""
+    return rows["wrong_rays"].astype("float64") <= 1e-3 * rows["accuracy_rays"].astype("float64")
 
 
 def _equal_error(rows: pd.DataFrame) -> Table | None:
     """At each level of image error, the fastest ray caster and the fastest tessellation that keep it."""
     body: list[tuple[Any, ...]] = []
     for _, own in rows.groupby(PLACE, sort=False):
-        usable = _right(own)
+        usable = own[right(own)]
         meshes, casters = usable[usable["casts"] == MESHES], usable[usable["casts"] != MESHES]
         if not (own["casts"] == MESHES).any() or casters.empty:
             continue
@@ -58,7 +58,7 @@ def _equal_error(rows: pd.DataFrame) -> Table | None:
                     if one is None
                     else [one["variant"], one["pixel_error_p99"], one["median_ms"], one["bytes"]]
                 )
-            body.append((*told, None if mesh is None else mesh["median_ms"] / cast["median_ms"]))
+            body.append((*told, None if mesh is None else rounds.times_over(mesh, cast)))
     if not body:
         return None
     columns = [Column("scene", stretch=1), Column("99 % of\nerrors under,\npixels", wording.number, numeric=True)]
@@ -74,7 +74,9 @@ def _equal_error(rows: pd.DataFrame) -> Table | None:
         body,
         "Time and memory at equal image error.",
         "The fastest of either kind that keeps the error, with at most 1 in 1,000 rays wrong away from silhouettes; "
-        "none where no setting of this run does. Bytes are those of instances, triangles and vertices on the device.",
+        "none where no setting of this run does. Bytes are those of instances, triangles and vertices on the device. "
+        "Tessellated over ray cast is the time's median ratio in the rounds that timed both."
+        + wording.zeros([row[i] for row in body for i in (3, 7)]),
         group=1,
     )
 
@@ -121,7 +123,8 @@ def _each(rows: pd.DataFrame) -> Table | None:
         body,
         "Every scene by every variant.",
         "Fragments are those of all proxies or triangles, hidden ones too; discarded, as a share of them, are a "
-        "proxy's without a hit. Counts of wrong rays are of the rays that fragments cast for the check.",
+        "proxy's without a hit. Counts of wrong rays are of the rays that fragments cast for the check."
+        + wording.zeros(rows["pixel_error_p50"], rows["pixel_error_p99"]),
         group=1,
     )
 
@@ -148,10 +151,11 @@ def _detail(rows: pd.DataFrame) -> Table | None:
         ),
         body,
         "Tolerances as large as pixels show, against the methods' own.",
-        "Saved is a share of what the method's own tolerance takes; below 0 it is lost. A method's tolerance may grow "
-        "to so many footprints of a pixel at the instance's distance. Evaluations are those of all fragments of a "
-        "pixel. What ends a march by its distance to the surface ends it beside silhouettes too: these hits are the "
-        "wrong rays that come.",
+        "Saved is a share of what the method's own tolerance takes, of times in the rounds that timed both; below 0 it "
+        "is lost. A method's tolerance may grow to so many footprints of a pixel at the instance's distance. "
+        "Evaluations are those of all fragments of a pixel. What ends a march by its distance to the surface ends it "
+        "beside silhouettes too: these hits are the "
+        "wrong rays that come." + wording.zeros([row[i] for row in body for i in (8, 9)]),
         group=1,
     )
 
@@ -182,7 +186,7 @@ def _savings(rows: pd.DataFrame) -> Iterator[tuple[Any, ...]]:
             1.0 - row.evaluations_mean / base["evaluations_mean"],
             base["median_ms"],
             row.median_ms,
-            1.0 - row.median_ms / base["median_ms"],
+            1.0 - rounds.times_over(row, base),
             row.pixel_error_p50,
             row.pixel_error_p99,
             base["wrong_rays"],

@@ -88,7 +88,7 @@ def table(verdicts: pd.DataFrame, facts: Mapping[str, Facts], title: str) -> Tab
         body,
         f"Where each method breaks: {title}",
         "The parameter at which a variant breaks is explained below for each family. Look for families that a variant "
-        "holds with a large worst error: right roots, but badly computed.",
+        f"holds with a large worst error: right roots, but badly computed.{wording.zeros(verdicts['worst_ratio'])}",
         group=1,
     )
 
@@ -132,6 +132,7 @@ def summary(rungs: pd.DataFrame, facts: Mapping[str, Facts]) -> Table:
             tally = (len(held), len(judged), held["worst_ratio"].max())
             body.append((precision, device, variant, *tally, told or "nothing"))
     body.sort(key=lambda row: (row[0], row[1], -row[3]))
+    worst = [row[5] for row in body]
     columns: tuple[Column, ...] = (
         Column("precision"),
         Column("device"),
@@ -143,14 +144,15 @@ def summary(rungs: pd.DataFrame, facts: Mapping[str, Facts]) -> Table:
     )
     if len(devices) == 1:
         columns, body = columns[:1] + columns[2:], [row[:1] + row[2:] for row in body]
+    where = f" On {wording.listed(list(devices))}." if len(devices) == 1 else ""
     return Table(
         columns,
         body,
-        "Which families of hard rays each variant holds, and what breaks it.",
-        "“Of” counts the families with decided rays that the variant was run on and accepts. Held is a family with at "
-        f"least {wording.share(breaks.HELD)} of the decided rays right on every rung; worst error is over condition × "
-        "unit roundoff, in the families held. Behind each family that breaks a variant stands the first parameter that "
-        "does.",
+        f"Which families of hard rays each variant holds, and what breaks it.{where}",
+        "“Of” counts the families with decided rays that the variant was run on and accepts. Held is a family with "
+        f"at least {wording.share(breaks.HELD)} of the decided rays right on every rung; worst error is over "
+        f"condition × unit roundoff, in the families held.{wording.zeros(worst)} Behind each family that breaks a "
+        "variant stands the first parameter that does.",
         group=1 if len(devices) == 1 else 2,
     )
 
@@ -167,4 +169,6 @@ def verdict(rungs: pd.DataFrame) -> str:
         held, tried = by_variant.sum(), by_variant.size()
         best = [f"{name}, of {tried[name]} that it answered" for name in sorted(held.index[held == held.max()])]
         tallies.append(f"{held.max()} of {own['family'].nunique()} in {precision} ({wording.listed(best)})")
-    return f"Families of hard rays with rays decided: the most that any variant holds are {wording.listed(tallies)}."
+    where = f"on {wording.listed(sorted(set(rungs['device'])))}"
+    most = f"the most that any variant holds are {wording.listed(tallies)}"
+    return f"Families of hard rays with rays decided {where}: {most}."

@@ -41,7 +41,7 @@ def _claims(material: Material) -> str:
     if decided < len(material.judged) / 4:
         return ""
     return (
-        f"Of {decided} claims of the papers that this run decides, {outcomes[Outcome.CONFIRMED]} hold on this device "
+        f"Of {decided} claims of the papers that this run decides, {outcomes[Outcome.CONFIRMED]} hold here "
         f"and {outcomes[Outcome.REFUTED]} do not."
     )
 
@@ -84,11 +84,24 @@ def _verdict(frame: pd.DataFrame) -> str:
 def _gain(won: pd.DataFrame) -> str:
     """How many times as fast as the baseline the winner is, where that is right too, and how exact both are."""
     baseline = derive.baseline_of(won)
-    over = won[won["speedup"].notna()]
+    told = won[won["speedup"].notna()]
+    over = told[~told["floor_bound"].astype(bool)]
+    if len(told) and over.empty:
+        return ", where every time is floor-bound: under " + _bound(told) + ", so that no gain is told"
     if over.empty or ((won["method"] == won["baseline"]) | (won["variant"] == won["baseline"])).any():
         return ""
     low, high = wording.factor(over["speedup"].min()), wording.factor(over["speedup"].max())
     gain = low if low == high else f"{low} to {high}"
-    where = "there" if len(over) == len(won) else f"in the {len(over)} in which that has no such ray either"
+    where = "there" if len(told) == len(won) else f"in the {len(told)} in which that has no such ray either"
+    bound = len(told) - len(over)
+    floor = f" ({bound} left out, whose times are floor-bound: under {_bound(told)})" if bound else ""
     most = wording.error(won["error_max"].max())
-    return f": {gain} as fast as {baseline} {where}, with a largest error of {most} scene units"
+    return f": {gain} as fast as {baseline} {where}{floor}, with a largest error of {most} scene units"
+
+
+def _bound(rows: pd.DataFrame) -> str:
+    """What a floor-bound time is under, in words, with the floors of these rows."""
+    floors = rows.loc[rows["floor_bound"].astype(bool), "floor_ms"]
+    low, high = wording.number(floors.min()), wording.number(floors.max())
+    span = f"{low} ms" if low == high else f"{low} to {high} ms"
+    return f"{derive.FLOOR_FACTOR:g} times the harness's floor of {span}"

@@ -99,11 +99,22 @@ def winners(frame: pd.DataFrame, leading: pd.DataFrame) -> Table:
         body,
         "What wins where.",
         f"{speedup(rows)} Max error is the largest |t − t*| in scene units over rays away from silhouettes; wrong rays "
-        "are misses, false hits, exhausted rays, wrong roots and invalid answers among them. Not told apart: the "
+        "are misses, false hits, exhausted rays, wrong roots and invalid answers among them, of the "
+        f"{checked(shown)} rays of each scene's check. Not told apart: the "
         "fastest variants of other methods, with no wrong ray, whose times are not told to be longer than that of the "
-        "fastest without one; of a method's own settings the fastest is by the median." + note,
+        "fastest without one; of a method's own settings the fastest is by the median."
+        + wording.zeros(shown["error_max"])
+        + note,
         group=2,
     )
+
+
+def checked(rows: pd.DataFrame) -> str:
+    """How many rays each check casts: one number, or the least and the most; a question mark where none tells."""
+    known = rows["accuracy_rays"].dropna()
+    if known.empty:
+        return "?"
+    return " to ".join(dict.fromkeys((wording.count(known.min()), wording.count(known.max()))))
 
 
 def speedup(rows: pd.DataFrame) -> str:
@@ -111,8 +122,8 @@ def speedup(rows: pd.DataFrame) -> str:
     return (
         f"Speed-up is {derive.baseline_of(rows)}'s time over this one's on the same device, in the same precision: the "
         "median of the ratios within the rounds that timed both, which need not be the ratio of the two medians; "
-        "– where "
-        "one of the two answers a ray away from silhouettes wrongly or was not timed."
+        "– where one of the two answers a ray away from silhouettes wrongly, was not timed or shares no round with the "
+        "other."
     )
 
 
@@ -142,7 +153,7 @@ def wins(leading: pd.DataFrame) -> Table:
         "Which method is fastest with no wrong ray, and how often.",
         "Scenes are those with a variant that has no wrong ray away from silhouettes; not told apart are those on "
         f"which the times of several methods are not. {speedup(leading)} It and the largest |t − t*|, in scene units, "
-        "are of the fastest variants.",
+        f"are of the fastest variants.{wording.zeros(leading['error_max'])}",
         group=1,
     )
 
@@ -197,7 +208,7 @@ def results(rows: pd.DataFrame) -> Table:
             Column("grazing\nwrong", wording.count, numeric=True),
             Column("drowned\nwrong", wording.count, numeric=True),
             Column("evals per\nray cast", wording.number, numeric=True),
-            Column("share\nof peak", wording.share, numeric=True),
+            Column("share\nof peak", wording.rough, numeric=True),
             Column("compile\nms", wording.number, numeric=True),
             Column("clock"),
             Column("flags", stretch=1),
@@ -275,7 +286,8 @@ def _results_caption(rows: pd.DataFrame) -> tuple[str, str]:
         scene(rows),
         "Fastest first for each device and precision; ± is how far the 95 % interval reaches from the median, over the "
         "median; "
-        f"errors are |t − t*| in scene units. {speedup(rows)}{checked}",
+        f"errors are |t − t*| in scene units.{wording.zeros(rows['error_max'], rows['error_p99'])} {speedup(rows)}"
+        f"{checked}",
     )
 
 
@@ -348,7 +360,7 @@ def devices(plan: Plan) -> Table:
         versions = ", ".join(f"{name} {version}" for name, version in _pairs(device.get("versions")))
         told = (device.get("title"), device.get("driver"), device.get("compiler"), device.get("compute_units"))
         probes = device.get("probes") or {}
-        peak = (probes.get("peak_gflops"), probes.get("peak_shape"))
+        peak = (probes.get("peak_gflops"), probes.get("peak_median_gflops"), probes.get("peak_shape"))
         float64 = "yes" if device.get("float64") else "no"
         how = (float64, device.get("clock"), versions, device.get("problem"))
         body.append((device.get("name"), *told, *peak, *how))
@@ -358,7 +370,8 @@ def devices(plan: Plan) -> Table:
         Column("driver"),
         Column("compiler"),
         Column("units", numeric=True),
-        Column("peak\nGFLOP/s", wording.number, numeric=True),
+        Column("peak", _two_digits, numeric=True, over="GFLOP/s"),
+        Column("median", _two_digits, numeric=True, over="GFLOP/s"),
         Column("reached by"),
         Column("float64"),
         Column("clock"),
@@ -369,10 +382,15 @@ def devices(plan: Plan) -> Table:
     columns, body = tuple(columns[i] for i in known), [tuple(row[i] for i in known) for row in body]
     caption = (
         "The clock is the one to be believed there, and times are by it. The peak is the best rate of float32 "
-        "multiply-adds, two operations each, that a loop of the probe reached, however many chains it had: what shares "
-        "of a peak are of."
+        "multiply-adds, two operations each, that a launch of the probe's loops reached, however many chains it had: "
+        "what shares of a peak are of. The median is of all launches of that loop: where it is far below the peak, "
+        "other programs slowed the probe down, and the next one may find another peak."
     )
     return Table(columns, body, "Devices of this run.", caption)
+
+
+def _two_digits(value: Any) -> str:
+    return wording.NONE if wording.absent(value) else f"{float(f'{value:.1e}'):,g}"
 
 
 def environment(plan: Plan) -> Table:

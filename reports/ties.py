@@ -20,7 +20,7 @@ _TOLD = ["method", "variant", "key", *COLUMNS]
 RULE = (
     "Two times differ where both variants were timed in the same rounds and a signed-rank test of the rounds' ratios "
     f"leaves a chance of at most {LEVEL:g}, which takes {NEEDED} rounds, and the 95 % interval of their median is "
-    "all on one side of 1"
+    "all on one side of 1. Times that share no round differ where the 95 % intervals of both medians do not meet"
 )
 
 

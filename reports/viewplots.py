@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -16,7 +16,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 from numpy.typing import NDArray
 
-from reports import style, wording
+from reports import style, tables, wording
 from reports.content import Figure
 from reports.drawing import LINE, NARROW, RC, WIDE, ErrorAxis, Key, label_decades, line_of, svg
 from reports.style import Mark
@@ -77,7 +77,8 @@ def over_angle(of: ViewSet, marks: Mapping[str, Mark], name: str) -> Figure:
         drawn,
         f"Time, error and wrong rays of {wording.listed(list(variants))} against the projection angle.",
         f"{of.place}.",
-        "A level line does not depend on the view. On the right, marks of one angle stand side by side.",
+        "A level line does not depend on the view. On the right, marks of one angle stand side by side; counts are of "
+        f"the {tables.checked(of.rows)} rays of each angle's check." + wording.zeros(of.rows["error_max"]),
     )
 
 
@@ -123,25 +124,43 @@ def mollweide(
     return 2 / np.pi * longitude * np.cos(theta), np.sin(theta)
 
 
-def over_directions(of: ViewSet, name: str) -> list[Figure]:
+@dataclass(frozen=True)
+class Scales:
+    """The ends of the colour scales that all maps of a report share, in decimal exponents."""
+
+    times: Limits  # of a time per ray over the variant's mean
+    errors: Limits
+
+    @classmethod
+    def of(cls, sets: Sequence[ViewSet], errors: tuple[int, int]) -> Scales:
+        """The scales of all maps of these sets; `errors` is the report's of errors."""
+        every = np.concatenate([_over_mean(rows) for of in sets for _, rows in of.variants()] or [np.ones(1)])
+        reach = math.log10(max(1.1, float(every.max()), float(1 / every.min())))
+        return cls((-reach, reach), errors)
+
+
+def _over_mean(rows: pd.DataFrame) -> NDArray[np.float64]:
+    times = np.asarray(rows["us_per_ray"], np.float64)
+    over: NDArray[np.float64] = times / times.mean()
+    return over
+
+
+def over_directions(of: ViewSet, scales: Scales, name: str) -> list[Figure]:
     """For each variant two maps: its time per ray over its mean, and its largest error; wrong rays marked on both."""
     variants = dict(of.variants())
     names = list(variants)
     batches = [names[i : i + ACROSS * DOWN] for i in range(0, len(names), ACROSS * DOWN)]
-    return [_maps(of, {v: variants[v] for v in batch}, f"{name}-{i}") for i, batch in enumerate(batches)]
+    return [_maps(of, {v: variants[v] for v in batch}, scales, f"{name}-{i}") for i, batch in enumerate(batches)]
 
 
-def _maps(of: ViewSet, variants: Mapping[str, pd.DataFrame], name: str) -> Figure:
-    ratios = {variant: rows["us_per_ray"] / rows["us_per_ray"].mean() for variant, rows in variants.items()}
-    every = np.concatenate([ratio.to_numpy() for ratio in ratios.values()])
-    reach = max(1.1, float(every.max()), float(1 / every.min()))
-    axis = ErrorAxis.of(of.rows["error_max"].dropna())
+def _maps(of: ViewSet, variants: Mapping[str, pd.DataFrame], scales: Scales, name: str) -> Figure:
+    ratios = {variant: _over_mean(rows) for variant, rows in variants.items()}
     lines = -(-len(variants) // ACROSS)
     line, below, above = 1.12, 0.5, 0.05
     height = above + line * lines + below
     with matplotlib.rc_context(RC):
         drawing = Drawing(figsize=(WIDE, height))
-        times, errors = (-math.log10(reach), math.log10(reach)), (axis.lowest, axis.highest)
+        times, errors = scales.times, scales.errors
         cell = WIDE / ACROSS
         for i, (variant, rows) in enumerate(variants.items()):
             left, top = cell * (i % ACROSS), height - above - line * (i // ACROSS)
@@ -153,7 +172,7 @@ def _maps(of: ViewSet, variants: Mapping[str, pd.DataFrame], name: str) -> Figur
             wrong = rows["wrong_rays"].fillna(0).to_numpy(float)
             wide, high = (cell - 0.14) / 2, (cell - 0.14) / 4
             for j, (values, scale, cmap) in enumerate(
-                ((np.log10(ratios[variant].to_numpy(float)), times, TIME_MAP), (exponents, errors, style.ERROR_MAP))
+                ((np.log10(ratios[variant]), times, TIME_MAP), (exponents, errors, style.ERROR_MAP))
             ):
                 box = (
                     (left + 0.05 + j * (wide + 0.04)) / WIDE,
@@ -172,9 +191,11 @@ def _maps(of: ViewSet, variants: Mapping[str, pd.DataFrame], name: str) -> Figur
         f"Maps over the sphere of directions of time and error of {wording.listed(list(variants))}.",
         f"{of.place}, {len(of.views)} directions.",
         "Mollweide's equal-area projection: the z axis is up, azimuth 0 in the middle; a place has the colour of the "
-        "nearest direction, a dot. Left, the time per ray in the domain over the variant's own mean, all on one scale: "
-        "an even map does not depend on the view. Right, the largest error; a pale map is an error of 0. Red crosses "
-        "are directions with wrong rays, larger where there are more.",
+        "nearest direction, a dot. Left, the time per ray in the domain over the variant's own mean, on one scale "
+        "for all maps of this report: an even map does not depend on the view. Right, the largest error, in "
+        f"the colours of all pictures of this report; pale is an error of 0. {wording.ZERO} Red crosses are directions "
+        f"with wrong rays, larger where there are more; the count adds them up, of {tables.checked(of.rows)} rays of "
+        "each direction's check.",
     )
 
 
@@ -205,7 +226,7 @@ def _map(
     axes.axis("off")
 
 
-def _told_times(rows: pd.DataFrame, ratio: pd.Series) -> str:
+def _told_times(rows: pd.DataFrame, ratio: NDArray[np.float64]) -> str:
     return f"mean {wording.number(1e3 * rows['us_per_ray'].mean())} ns, {ratio.min():.2f} to {ratio.max():.2f}"
 
 

@@ -32,8 +32,9 @@ def _kept(sets: list[ViewSet]) -> list[ViewSet]:
     return list({of.first.surface: of for of in reversed(sets)}.values())[::-1][:MOST_SETS]
 
 
-def sections(frame: pd.DataFrame, marks: Mapping[str, Mark]) -> list[Section]:
-    """One section of tables and one of pictures, where some set of views is there; `marks` by variant."""
+def sections(frame: pd.DataFrame, marks: Mapping[str, Mark], errors: tuple[int, int]) -> list[Section]:
+    """One section of tables and one of pictures, where some set of views is there; `marks` by variant, `errors` the
+    decades of the report's colour scale of errors."""
     every = viewstats.view_sets(frame)
     if not every:
         return []
@@ -44,10 +45,13 @@ def sections(frame: pd.DataFrame, marks: Mapping[str, Mark]) -> list[Section]:
         tabled += filter(None, (viewstats.dependence(of), viewstats.wrong_rays(of)))
     made = [Section("View dependence", tuple(tabled), wide=True)]
     lines = [viewplots.over_angle(of, marks, f"angles-{i}") for i, of in enumerate(sets) if of.kind == ANGLES]
+    mapped = [of for of in sets if of.kind == DIRECTIONS][:MOST_MAPPED]
+    scales = viewplots.Scales.of(mapped, errors) if mapped else None
     maps = [
         figure
-        for i, of in enumerate([of for of in sets if of.kind == DIRECTIONS][:MOST_MAPPED])
-        for figure in viewplots.over_directions(of, f"sphere-{i}")
+        for i, of in enumerate(mapped)
+        if scales
+        for figure in viewplots.over_directions(of, scales, f"sphere-{i}")
     ]
     made += [Section("View dependence: over the projection angle", tuple(lines))] if lines else []
     made += [Section("View dependence: over the sphere of directions", tuple(maps), wide=True)] if maps else []

@@ -76,6 +76,13 @@ def share(value: Any) -> str:
     return "< 0.1 %" if 0.0 < value < 0.0005 else f"{100 * value:.{0 if value >= 0.1 else 1}f} %"
 
 
+def rough(value: Any) -> str:
+    """A share of one as per cent that is known to one digit at most: ≈ 20 %."""
+    if absent(value):
+        return NONE
+    return "< 0.1 %" if 0.0 < value < 0.0005 else f"≈ {100 * float(f'{value:.0e}'):g} %"
+
+
 def percentage(value: Any) -> str:
     """A share of one as per cent with two decimals, as in the papers' tables."""
     return NONE if absent(value) else f"{100 * value:.2f} %"
@@ -84,6 +91,14 @@ def percentage(value: Any) -> str:
 def portion(value: Any) -> str:
     """A share of one as per cent, rounded down: only what is whole is 100 %."""
     return NONE if absent(value) else "100 %" if value == 1 else f"{math.floor(1000 * value) / 10:.1f} %"
+
+
+ZERO = "An error of 0 is of a t within the oracle's certified interval of the root."
+
+
+def zeros(*columns: Any) -> str:
+    """What an error of 0 is, as a further sentence, where a value of these columns is one."""
+    return f" {ZERO}" if any((pd.Series(column).astype("float64") == 0.0).any() for column in columns) else ""
 
 
 def power_of_ten(exponent: int) -> str:

@@ -137,7 +137,7 @@ def cell(variant: str, surface: str, device: str, precision: str) -> dict[str, A
             "clock": "wall" if device.startswith("opengl") else "device",
             "samples_ms": samples,
             "rounds": list(range(20)),
-            "session": f"{surface} {device}",
+            "session": surface,
             "batch": 1,
             "median_ms": median,
             "lower_ms": median * (0.995 if narrow else 0.95),

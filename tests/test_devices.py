@@ -35,7 +35,7 @@ def test_error_free_transforms_are_exact_and_the_peak_rate_is_measured(device):
     assert probes.two_sum == 1.0
     assert probes.two_prod_split == 1.0
     assert probes.round_to_nearest == 1.0
-    assert probes.peak_gflops > 0.0
+    assert 0.0 < probes.peak_median_gflops <= probes.peak_gflops
     assert "multiply-adds" in probes.peak_shape
 
 

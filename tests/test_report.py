@@ -280,7 +280,7 @@ def test_a_damaged_array_file_is_listed_and_the_other_pictures_drawn(tmp_path: P
     shown = pd.concat([derive.drawn(rows) for _, rows in frame.groupby("surface")])
     damaged = {f"arrays/{key}.npz" for key in shown["key"] if key.startswith(victim.name[0])}
     shelf = arrays.Shelf(loaded.folders)
-    galleries = images.galleries(shelf, frame)
+    galleries = images.galleries(shelf, frame, (-8, -2))
     assert {file.file for file in shelf.damaged.values()} == set(shelf.damaged) == damaged
     assert sum(len(gallery.panels) for gallery in galleries.values()) == len(shown) - len(damaged)
 

@@ -26,7 +26,7 @@ def test_each_row_is_one_variant_and_its_slowest_device_is_once_as_fast(tmp_path
         slowest = max((present[device][0] for device in right), default=0.0)
         for device, (ms, faster, overhead) in present.items():
             assert (faster is None) == (device not in right), "no ratio of a row with wrong rays"
-            assert faster is None or abs(faster - slowest / ms) < 1e-12
+            assert faster is None or abs(faster * ms / slowest - 1) < 0.1, "of common rounds, near that of the medians"
             assert np.isnan(overhead) == (device == "opengl:llvmpipe"), "no overhead over a clock that is not believed"
         assert set(present) <= set(rows["device"])
 

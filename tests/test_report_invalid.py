@@ -57,7 +57,7 @@ def test_rows_of_before_invalid_was_counted_still_load(tmp_path: Path) -> None:
 def test_an_invalid_answer_breaks_what_a_method_claims_of_the_ray(tmp_path: Path) -> None:
     frame = frame_of(tmp_path / "a", made(invalid=7, grazing_invalid=2))
     for name, count in (("no_missed_root", 9), ("conservative_bound", 7), ("no_false_hit", 7)):
-        assert f"broken by {count} of" in cards._claims([name], frame), name
+        assert f"Broken by {count} of" in cards._claims("ray_march", [name], frame), name
 
 
 def test_undecided_hits_are_told_under_the_results(tmp_path: Path) -> None:

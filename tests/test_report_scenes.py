@@ -14,6 +14,9 @@ def row(variant, ms, error, casts="rays", wrong=0, pixels=0.0, evaluations=10.0)
         "status": "ok",
         "answers": True,
         "median_ms": ms,
+        "samples_ms": [ms] * 8,
+        "rounds": str(list(range(8))),
+        "session": "one",
         "scene": "pipes",
         "surface": "pipes 9",
         "surface_title": "Nine pipes",
@@ -61,6 +64,13 @@ def test_the_fastest_that_keeps_the_error_stands_for_its_kind():
     assert [lines[0.01][i] for i in (2, 6, 10)] == ["newton", "polygon b", pytest.approx(4.0)]
     assert lines[0.001][6] is None
     assert lines[0.01][9] == 4000
+
+
+def test_times_of_different_rounds_make_no_ratio():
+    rows = [row("newton", 10.0, 0.0005), row("polygon b", 40.0, 0.005, "mesh")]
+    rows[0]["session"] = "another"
+    (line, *_) = table(rows, "Time and memory").rows
+    assert line[6] == "polygon b" and math.isnan(line[10])
 
 
 def test_a_tolerance_is_held_against_the_same_knobs_without_it():

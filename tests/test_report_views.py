@@ -27,7 +27,13 @@ def viewed(
     made |= {"slot": slot, "key": digest(slot), "size": size, "view": view.name, "view_set": view.set}
     made |= {"comparison": f"{surface} {view.name} {size}", "arrays": None}
     made["camera"] = {"azimuth": view.azimuth, "elevation": view.elevation, "fov": view.fov, "distance": 5.0}
-    made["time"] |= {"median_ms": ms, "lower_ms": ms, "upper_ms": ms}
+    made["time"] |= {
+        "median_ms": ms,
+        "lower_ms": ms,
+        "upper_ms": ms,
+        "samples_ms": [ms] * 20,
+        "session": made["comparison"],
+    }
     rays = made["accuracy"]["rays"]
     made["accuracy"] |= {"domain_rays": rays // 2, "truth_hits": rays // 4, "misses": wrong}
     made["accuracy"] |= {"false_hits": 0, "exhausted": 0, "wrong_root": 0}
@@ -101,7 +107,7 @@ def test_the_report_shows_each_set_and_lists_its_first_view_elsewhere(run: Path,
     assert "direction 02" not in results
     kept = viewstats.one_view_of_each(frame)
     assert set(kept["view"]) == {*(f"angle {a}" for a in range(0, 91, 18)), "direction 01", "a", "b"}
-    assert views.sections(kept[kept["view_set"] != "angles"], {}) == []
+    assert views.sections(kept[kept["view_set"] != "angles"], {}, (-8, -2)) == []
 
 
 def test_the_map_is_equal_area_and_gives_each_place_its_nearest_direction() -> None:
@@ -180,6 +186,29 @@ def test_growth_against_pixels_and_degree_and_instances(tmp_path: Path) -> None:
     assert "0.90" in printed(sections[0].blocks) and "2.00" in printed(sections[1].blocks)
 
 
+def test_points_are_of_right_rows_in_the_floors_own_rounds_and_the_rest_is_counted(tmp_path: Path) -> None:
+    view, cells = View("front"), []
+    for surface, (_, degree, _) in SURFACES.items():
+        cells.append(viewed("newton[EPSILON=0.001]", view, 0.3 + 0.01 * degree**2.0, surface))
+        cells.append(viewed("ray_march", view, 9.0 * degree, surface, wrong=int(degree == 2)))
+        cells.append(viewed("null", view, 0.3, surface))
+    for made in cells:  # the machine was busy in rounds that only the null method was timed in
+        if made["method"] == "null":
+            made["time"] |= {"samples_ms": [0.3] * 20 + [9.9] * 30, "rounds": list(range(50)), "median_ms": 9.9}
+    frame = framed(tmp_path / "run", *cells)
+    degree_axis = growth.AXES[1]
+    (curve,) = growth.curves(frame, degree_axis)
+    assert (curve.variant, curve.fit.exponent) == ("newton[EPSILON=0.001]", pytest.approx(2.0))
+    (section,) = growth.sections(frame, style.variant_marks([("newton", curve.variant)]))
+    told = printed(section.blocks)
+    assert "Left out: 1 row with a ray away from silhouettes answered wrongly, or unchecked; a line" in told
+    for made in cells:
+        if made["method"] == "newton" and made["surface"] == "torus":
+            made["time"]["session"] = "another day"
+    (section,) = growth.sections(framed(tmp_path / "apart", *cells), {})
+    assert "and 1 row without a round shared with the null method; a line" in printed(section.blocks)
+
+
 def test_evaluations_are_drawn_and_the_worst_of_many_views_chosen(tmp_path: Path) -> None:
     seen = [
         viewed("ray_march", view, 1.0, wrong=4 if view.name == "angle 54" else 0) for view in by_angle(AngleChoice())
@@ -192,7 +221,7 @@ def test_evaluations_are_drawn_and_the_worst_of_many_views_chosen(tmp_path: Path
     for made in seen[:6]:
         np.savez_compressed(folder / made["arrays"], **made_arrays(made))
     frame = derive.derive(load.load(folder).frame)
-    (section,) = evaluations.sections(arrays.Shelf(load.load(folder).folders), frame)
+    (section,) = evaluations.sections(arrays.Shelf(load.load(folder).folders), frame, (-8, -2))
     (gallery,) = [block for block in section.blocks if isinstance(block, content.Gallery)]
     (panel,) = gallery.panels
     assert panel.title == "ray_march, Torus, angle 54" and "4 wrong" in panel.note

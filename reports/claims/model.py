@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from typing import Any
 
@@ -42,10 +42,18 @@ class Claim:
 
 
 def judge(claim: Claim, evidence: Evidence) -> Verdict:
-    """The verdict on one claim, by the rows of its own config where they are there; else what is missing is said."""
-    verdict = claim.decide(evidence.of(claim.config))
+    """The verdict on one claim, by the rows of its own config where they are there; else what is missing is said.
+
+    Pairs of rows that were left out, since they were not timed in turns, are counted in the figure.
+    """
+    own = evidence.of(claim.config)
+    own.apart.clear()
+    verdict = claim.decide(own)
+    apart = f"{wording.plural(len(own.apart), 'pair')} of rows not timed in the same rounds" if own.apart else ""
     if verdict is not None:
-        return verdict
+        return replace(verdict, figure=f"{verdict.figure}; left out: {apart}") if apart else verdict
+    if apart:
+        return Verdict(Outcome.UNTESTED, f"{apart}; `firsthit run configs/{claim.config} --force` times them in turns")
     return Verdict(Outcome.UNTESTED, claim.reason or f"this run has no rows for it; configs/{claim.config} gives them")
 
 
@@ -100,9 +108,26 @@ def largest(rows: pd.DataFrame, name: str) -> float:
 
 
 def cases(rows: pd.DataFrame) -> str:
-    """What these rows are of: 6 views, or 1 view on 3 devices."""
-    views, devices = int(rows["view"].nunique()), int(rows["device"].nunique())
-    return wording.plural(views, "view") + (f" on {devices} devices" if devices > 1 else "")
+    """What these rows are of: 6 views in float32 on opencl:intel."""
+    return f"{wording.plural(int(rows['view'].nunique()), 'view')} {where(rows)}"
+
+
+def rays(rows: pd.DataFrame) -> str:
+    """Of how many answers to rays a count over these rows is: 147,456 rays (16,384 in each of 9 rows: 3 surfaces in …).
+
+    Rows of one view that differ in device, size or variant are of the same rays.
+    """
+    each = f"{count(int(rows['accuracy_rays'].iloc[0]))} in each of " if rows["accuracy_rays"].nunique() == 1 else ""
+    surfaces = wording.plural(int(rows["surface"].nunique()), "surface")
+    total = count(counted(rows, "accuracy_rays"))
+    return f"{total} rays ({each}{wording.plural(len(rows), 'row')}: {surfaces} {where(rows)})"
+
+
+def where(rows: pd.DataFrame) -> str:
+    """In which precisions and on which devices these rows are."""
+    precisions, devices = (list(dict.fromkeys(rows[name])) for name in ("precision", "device"))
+    each = "each of " if len(devices) > 1 else ""
+    return f"in {wording.listed(precisions)} on {each}{wording.listed(devices)}"
 
 
 def count(value: int | None) -> str:
@@ -125,7 +150,7 @@ def faster(slow: Pick, fast: Pick, surfaces: tuple[str, ...] | None = None, told
         ratios = evidence.ratios(slow, fast, surfaces)
         if ratios.empty:
             return None
-        figure = f"{fast.words} is {quantities(ratios['ratio'])} as fast as {slow.words}"
+        figure = f"{fast.words} is {quantities(ratios['ratio'])} as fast as {slow.words} {where(ratios)}"
         return verdict(always(ratios), f"{figure}{lost(ratios)}" + (f"; the paper: {told}" if told else ""))
 
     return decide

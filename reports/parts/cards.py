@@ -10,8 +10,10 @@ import matplotlib
 import pandas as pd
 from matplotlib.figure import Figure as Drawing
 
+from harness.contract import CLAIMS
 from reports import style, wording
 from reports.claims import Outcome
+from reports.claims.model import where
 from reports.content import Block, Column, Figure, Section, Table
 from reports.drawing import NARROW, RC, Key, line_of, svg
 from reports.material import Material
@@ -32,14 +34,12 @@ def sections(material: Material) -> list[Section]:
 
 
 def _card(name: str, told: Mapping[str, Any], rows: pd.DataFrame, judged: list[Any]) -> list[Block]:
-    knobs = ", ".join(
-        f"{knob['name']} = {knob['default']:g} ({knob['meaning']})" for knob in told.get("parameters", [])
-    )
+    knobs = ", ".join(_knob(knob) for knob in told.get("parameters", []))
     body = [
         ("source", told.get("source")),
         *((part.lower(), _points(text)) for part, text in told.get("doc", {}).items()),
         ("knobs, with defaults", knobs or "none"),
-        ("claims", _claims(told.get("claims", []), _default(told, rows))),
+        ("claims", _claims(name, told.get("claims", []), _default(told, rows))),
     ]
     for claim, verdict in judged:
         if name in claim.methods and verdict.outcome is not Outcome.UNTESTED:
@@ -51,6 +51,11 @@ def _card(name: str, told: Mapping[str, Any], rows: pd.DataFrame, judged: list[A
             )
     title = f"{name}: {told.get('title', '')}"
     return [Table((Column(""), Column("", stretch=1)), body, title)]
+
+
+def _knob(knob: Mapping[str, Any]) -> str:
+    printed = "" if knob.get("printed") is None else f"; its source prints {knob['printed']:g}"
+    return f"{knob['name']} = {knob['default']:g} ({knob['meaning']}{printed})"
 
 
 def _points(text: str) -> str:
@@ -83,26 +88,38 @@ _BROKEN_BY = {  # the counts that contradict a claim (harness.contract.CLAIMS); 
     "conservative_bound": ["misses", "invalid"],
     "no_false_hit": ["false_hits", "invalid"],
 }
+_PASSED = {  # where roots that were passed are counted, among other wrong ones
+    "no_missed_root": [f"{kind}wrong_root" for kind in ("", "grazing_", "drowned_")],
+    "conservative_bound": ["wrong_root"],
+}
 
 
-def _claims(stated: list[str], rows: pd.DataFrame) -> str:
-    """What the method itself claims, and whether this run's counts speak against it."""
+def _claims(method: str, stated: list[str], rows: pd.DataFrame) -> str:
+    """What the method itself claims, with all that a claim excepts, and whether this run's counts speak against it."""
     if not stated:
         return "none"
-    words = []
+    lines = []
     for name in sorted(stated):
-        columns = _BROKEN_BY.get(name)
-        known = rows[rows["accuracy_rays"].notna()] if columns else rows.head(0)
-        if known.empty or not columns:
-            words.append(f"{name.replace('_', ' ')} (tested by the test suite)")
-            continue
-        if known[columns].isna().any(axis=None):
-            words.append(f"{name.replace('_', ' ')} (a row here does not count what would break it)")
-            continue
-        bad = int(known[columns].sum().sum())
-        held = "held on" if bad == 0 else f"broken by {bad:,} of"
-        every = name == "no_missed_root"
-        of = int((known["truth_hits"] + known["truth_misses"] if every else known["judged"]).sum())
-        rays = "decided rays" if every else "decided rays that are neither grazing nor drowned"
-        words.append(f"{name.replace('_', ' ')}: {held} {of:,} {rays} here")
-    return "; ".join(words)
+        meaning = f": {CLAIMS[name]}" if name in CLAIMS else ""  # an older run may know another
+        lines.append(f"• {name.replace('_', ' ')}{meaning}. {_held(method, name, rows)}")
+    return "\n".join(lines)
+
+
+def _held(method: str, name: str, rows: pd.DataFrame) -> str:
+    """What the counts of `rows` say of one claim."""
+    columns = _BROKEN_BY.get(name)
+    known = rows[rows["accuracy_rays"].notna()] if columns else rows.head(0)
+    if known.empty or not columns:
+        return f"Not counted in this run; `firsthit conform --method {method}` checks it."
+    if known[columns].isna().any(axis=None):
+        return "A row here does not count what would break it."
+    bad = int(known[columns].sum().sum())
+    every = name == "no_missed_root"
+    of = int(known["truth_hits" if every else "judged"].sum())
+    asked = "rays that meet the surface" if every else "decided rays that are neither grazing nor drowned"
+    surfaces = wording.plural(int(known["surface"].nunique()), "surface")
+    in_rows = f"{wording.plural(len(known), 'row')} of this run ({surfaces} {where(known)})"
+    told = f"{'Held on' if bad == 0 else f'broken by {bad:,} of'} {of:,} {asked} in {in_rows}"
+    passed = known[_PASSED.get(name, [])].sum().sum()
+    told += f"; of {wording.plural(int(passed), 'wrong root')} it is not counted which are later ones" if passed else ""
+    return f"{told[0].upper()}{told[1:]}."

@@ -13,10 +13,12 @@ ORDER = 60
 LEADS = True
 TOLD = (
     "Each paper's claims, in our words, judged by the rows of this run: confirmed, refuted, not decided, or not "
-    "testable here. Only times taken in turns are compared, on this device; a claim about a graphics card of 2006 or "
-    "2010 may be true there and refuted here. Wrong rays are counted against certified answers. Times differ where the "
-    f"95 % intervals of their medians do not meet. {counts.RULE}; one certified ray is enough against “none” and for "
-    "“some”. Not decided: the rows are there, but a figure is missing, or no test tells."
+    "testable here. A verdict is over all rows that its claim asks for: every device, size and view of the run. Only "
+    "times taken in turns are compared, in the rounds that timed both; pairs without such a round are left out and "
+    "counted. Times differ where the 95 % interval of their ratio is all on one side of 1. A claim about a graphics "
+    "card of 2006 or 2010 may be true there and refuted here. Wrong rays are counted against certified answers. "
+    f"{counts.RULE}; one certified ray is enough against “none” and for “some”. Not decided: the rows are there, but a "
+    "figure is missing, or no test tells."
 )
 
 

@@ -6,7 +6,7 @@ from typing import Any
 
 import pandas as pd
 
-from reports import derive, tables, ties, wording
+from reports import derive, rounds, tables, ties, wording
 from reports.content import Block, Column, Section, Table, Text
 from reports.material import Material
 
@@ -27,7 +27,8 @@ def _of(method: str, frame: pd.DataFrame) -> list[Section]:
     lines = [_line(method, group) for group in groups if group["front"].any()]
     if not lines:
         return []
-    lines.sort(key=lambda line: line[:3])
+    planned = list(dict.fromkeys(frame["comparison"]))
+    lines.sort(key=lambda line: (line[0], planned.index(line[1]), line[2]))
     named = tables.places(rows)
     body = [(degree, named[comparison], *told) for degree, comparison, *told, _ in lines]
     off = [line for line in lines if line[3] == "no"]
@@ -47,9 +48,10 @@ def _of(method: str, frame: pd.DataFrame) -> list[Section]:
         Column("faster", wording.factor, numeric=True),
     )
     caption = (
-        f"The others are those with no wrong ray away from silhouettes and no larger error than that variant of "
-        f"{method}; “none” where there is none. Faster is their fastest's time over {method}'s, where "
-        f"that has no such ray either."
+        "The others are those with no wrong ray away from silhouettes and no larger error than that variant of "
+        f"{method}; “none” where there is none. Faster is their fastest's time over {method}'s, in the rounds that "
+        "timed both, where that has no such ray "
+        f"either.{wording.zeros([line[6] for line in body], [line[9] for line in body])}"
     )
     return [Section(f"{method} on the front", (*blocks, Table(columns, body, "By degree.", caption)), wide=True)]
 
@@ -64,14 +66,14 @@ def _line(method: str, group: pd.DataFrame) -> tuple[Any, ...]:
     rival = next(others.head(1).itertuples(), None)
     told: list[Any] = [first.device, "no" if on_front.empty else "yes", str(first.variant)]
     told += [first.median_ms, first.error_max]
-    told += ["none", None, None, None] if rival is None else _rival(rival, first.median_ms if len(right) else None)
+    told += ["none", None, None, None] if rival is None else _rival(rival, first if len(right) else None)
     beaten = rival is not None and ties.is_slower(first, rival)
     return (int(first.degree), str(first.comparison), *told, beaten)
 
 
-def _rival(row: Any, own_ms: float | None) -> list[Any]:
-    """`own_ms` is None where the method's own variant answers a ray wrongly: then there is no ratio."""
-    return [str(row.variant), row.median_ms, row.error_max, None if own_ms is None else row.median_ms / own_ms]
+def _rival(row: Any, own: Any | None) -> list[Any]:
+    """`own` is None where the method's own variant answers a ray wrongly: then there is no ratio."""
+    return [str(row.variant), row.median_ms, row.error_max, None if own is None else rounds.times_over(row, own)]
 
 
 def _without(count: int) -> str:

@@ -2,7 +2,15 @@
 
 from __future__ import annotations
 
+import json
+import shlex
+from pathlib import PurePath
+
+import pandas as pd
+
+from reports import wording
 from reports.content import Code, Section, Text
+from reports.load import Plan
 from reports.material import Material
 
 ORDER = 95
@@ -14,7 +22,7 @@ def sections(material: Material) -> list[Section]:
     lines = [f"git checkout {commit}"] if commit else []
     lines += ["make .venv/ready", plan.command, f"firsthit report runs/{plan.name}"]
     told = (
-        "Finished cells are reused, so that the second command goes on where the run stopped; `--force` runs all "
+        "Finished cells are reused, so that the run goes on where it stopped; `--force` runs all "
         "again. Times differ from machine to machine; answers on one device do not."
     )
     dirty = (
@@ -22,4 +30,37 @@ def sections(material: Material) -> list[Section]:
         if plan.environment.get("dirty")
         else ""
     )
-    return [Section("How to run it again", (Code("\n".join(lines)), Text(" ".join(filter(None, (told, dirty))))))]
+    texts = filter(None, (told, dirty, _plugins(material), _config(plan)))
+    return [Section("How to run it again", (Code("\n".join(lines)), *map(Text, texts)))]
+
+
+def _plugins(material: Material) -> str:
+    """What the commit does not hold of the methods: those from outside the project, with the hashes of their files."""
+    plan = material.run.plan
+    outside = {name: told["outside"] for name, told in plan.methods.items() if told.get("outside")}
+    if not outside:
+        taken = "--plugins" in shlex.split(plan.command) and not any(
+            "outside" in told for told in plan.methods.values()
+        )
+        return "Methods that --plugins adds are no part of the commit." if taken else ""
+    each = [f"{name} from {folder}{_files(material.frame, name)}" for name, folder in sorted(outside.items())]
+    return (
+        f"No part of the commit, which does not hold what lies outside the project: {wording.listed(each)}. The same "
+        "again takes the same files there."
+    )
+
+
+def _files(frame: pd.DataFrame, method: str) -> str:
+    """The files of a method that its rows name, with their hashes; empty where none does."""
+    for text in frame.loc[(frame["method"] == method) & frame["identity"].notna(), "identity"]:
+        files = json.loads(text).get("method") or {}
+        own = [f"{file} {found}" for file, found in files.items()]
+        return f" ({', '.join(own)})" if own else ""
+    return ""
+
+
+def _config(plan: Plan) -> str:
+    """What is to be said of a config outside the project."""
+    if not PurePath(plan.config).is_absolute():
+        return ""
+    return f"The config {plan.config} is no part of the commit either; its text is in “Devices, environment, config”."

@@ -17,25 +17,25 @@ LEGEND = (
     f"faster, by the medians, and more exact; floor-bound, under {derive.FLOOR_FACTOR:g} times the null method's time, "
     "so that the harness is measured more than the method; floor, the null method itself, which finds nothing; "
     "interval wide, the budget ended before the 95 % interval of the median was within 2 % of it; drifts, the second "
-    "half of the samples "
-    "was slower or faster than the first; noisy, the middle half of the samples spreads over more than a tenth of the "
-    "median; outliers, samples far outside the rest, which are kept; overhead, what the harness's submitting and "
-    "waiting adds to the time by the device's clock, as a share of that, where it is above "
+    "half of the samples was slower or faster than the first; noisy, the middle half of the samples spreads over more "
+    "than a tenth of the median; outliers, samples far outside the rest, which are kept; overhead, what the harness's "
+    "submitting and waiting adds to the time by the device's clock, as a share of that, where it is above "
     f"{wording.share(tables.OVERHEAD_LIMIT)} and that clock is believed; the probe's peak is too low, the row computes "
-    "more than the probe found the device to be able to, so that no share is told. Evaluations are per ray cast, those "
-    "that pass the domain by included. Share of peak: operations of the function that a method evaluates, times "
+    "more than the probe found the device to be able to, so that no share is told. Evaluations are per ray cast, "
+    "those that pass the domain by included. Share of peak: operations of the function that a method evaluates, times "
     "evaluations per ray cast, times rays per second, as a share of the float32 operations per second that the device "
-    "was measured at (see “Devices of this run”). What else a method computes, and what idle lanes of a vector do, is "
-    "not counted; in float64 no peak is measured."
+    "was measured at (see “Devices of this run”), to one digit, since a peak is known no better: probes of one device "
+    "that run minutes apart beside other programs have found peaks that differ by a factor of 2. What else a method "
+    "computes, and what idle lanes of a vector do, is not counted; in float64 no peak is measured."
 )
 UNITS = (
     "The same errors in the units that papers use, over rays away from silhouettes that hit the right root: the "
-    "largest and the 99th percentile. |t − t*| in scene units; over the radius of the scene; over the feature "
-    "radius (a torus's minor radius r; the scene's where a surface has none of its own); in pixel footprints at "
-    "the hit; in units in the last place of t. Over condition × roundoff: the error over what the problem allows, "
+    f"largest and the 99th percentile. {wording.ZERO} |t − t*| in scene units; over the radius of the scene; over the "
+    "feature radius (a torus's minor radius r; the scene's where a surface has none of its own); in pixel footprints "
+    "at the hit; in units in the last place of t. Over condition × roundoff: the error over what the problem allows, "
     "max(condition, 1) × unit roundoff × the domain's radius, which a stable method keeps small. Normal: the angle "
-    "between the surface's normals at the hit and at the root. Residual: |f| at the hit over the sum of |terms of "
-    "f|, the backward error. Look for rows with a small error in one unit and a large one in another."
+    "between the surface's normals at the hit and at the root. Residual: |f| at the hit over the sum of |terms of f|, "
+    "the backward error. Look for rows with a small error in one unit and a large one in another."
 )
 
 
@@ -46,7 +46,7 @@ def sections(material: Material) -> list[Section]:
     finished = frame[frame["status"] == CellStatus.OK]
     if finished.empty:
         return [Section("Surfaces", (Text("No cell gave a result; the reasons are listed below."),))]
-    pictures = images.galleries(material.shelf, frame)
+    pictures = images.galleries(material.shelf, frame, material.error_scale)
     printed = tables.worth_printing(finished)
     told: list[Block] = [Text(LEGEND), Text(UNITS)]
     if len(printed) < len(finished):

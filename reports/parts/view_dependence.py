@@ -8,4 +8,4 @@ ORDER = 25
 
 
 def sections(material: Material) -> list[Section]:
-    return views.sections(material.frame, material.marks)
+    return views.sections(material.frame, material.marks, material.error_scale)

@@ -8,4 +8,4 @@ ORDER = 27
 
 
 def sections(material: Material) -> list[Section]:
-    return evaluations.sections(material.shelf, material.frame)
+    return evaluations.sections(material.shelf, material.frame, material.error_scale)

@@ -9,7 +9,7 @@ import pandas as pd
 from reports import derive, images, wording
 from reports.claims import picks
 from reports.content import Block, Column, Section, Table, Text
-from reports.evidence import Pick
+from reports.evidence import Evidence, Pick
 from reports.material import Material
 from reports.reproductions import verdicts
 
@@ -104,23 +104,26 @@ def sections(material: Material) -> list[Section]:
     return [section for figure in FIGURES if (section := _section(material, figure))]
 
 
-def _section(material: Material, figure: Figure) -> Section | None:
-    runs = material.frame["run"] == figure.config.removesuffix(".toml")
-    if not runs.any():
-        return None
+def drawn(evidence: Evidence, figure: Figure) -> pd.DataFrame:
+    """The rows that a figure shows, in its order, with `setting`; of the first device."""
     found = []
     for pick in figure.settings:
-        rows = material.evidence.rows(pick, figure.surfaces)
+        rows = evidence.rows(pick, figure.surfaces)
         rows = rows[rows["run"] == figure.config.removesuffix(".toml")]
         found.append(rows.assign(setting=pick.words))
     rows = pd.concat(found)
     rows = rows[rows["device"] == rows["device"].iloc[0]] if len(rows) else rows
+    rows = rows.assign(place=[figure.surfaces.index(surface) for surface in rows["surface"]])
+    return rows.sort_values(["place", "view"], kind="stable").drop_duplicates(["surface", "view", "setting"])
+
+
+def _section(material: Material, figure: Figure) -> Section | None:
+    rows = drawn(material.evidence, figure)
     if rows.empty:
         return None
-    rows["place"] = rows["surface"].map(list(figure.surfaces).index)
-    rows = rows.sort_values(["place", "view"], kind="stable").drop_duplicates(["surface", "view", "setting"])
     blocks: list[Block] = [Text(figure.told), _counts(rows, figure.title)]
-    gallery = images.gallery(material.shelf, rows, figure.caption, figure.config.removesuffix(".toml"))
+    name = figure.config.removesuffix(".toml")
+    gallery = images.gallery(material.shelf, rows, figure.caption, name, material.error_scale)
     blocks += [gallery] if gallery else []
     blocks += verdicts.of(material, figure.config, figure.title) if figure.judged else []
     return Section(figure.title, tuple(blocks))

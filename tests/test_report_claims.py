@@ -1,0 +1,74 @@
+"""What a claim's figure says of itself: which rays it counts, on which devices, and which times are no part of it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from harness.contract import digest
+from reports import claims
+from reports.claims import Outcome, picks
+from reports.evidence import Pick
+
+from .test_claims import claim, evidence, planted
+
+
+def on(device: str, made: dict[str, Any]) -> dict[str, Any]:
+    """The same cell on another device."""
+    slot = f"{made['slot']} {device}"
+    return made | {"device": device, "slot": slot, "key": digest(slot)}
+
+
+def test_a_count_of_rays_names_surfaces_precision_and_devices(tmp_path: Path) -> None:
+    rows = [planted(picks.MARCH, surface, 1.0, misses=1) for surface in ("calyx", "torus")]
+    one = claims.judge(claim("szente", "smaller than its step"), evidence(tmp_path / "one", *rows))
+    assert one.figure.endswith("of 4,608 rays (2,304 in each of 2 rows: 2 surfaces in float32 on opencl:intel)")
+    rows += [on("opencl:pocl", row) for row in rows]
+    two = claims.judge(claim("szente", "smaller than its step"), evidence(tmp_path / "two", *rows))
+    assert two.figure.endswith(
+        "of 9,216 rays (2,304 in each of 4 rows: 2 surfaces in float32 on each of opencl:intel and opencl:pocl)"
+    )
+    views = [planted(picks.BISECTION, "torus", 1.0, view, feature_error={"max": 1e-3}) for view in "ab"]
+    told = claims.judge(claim("toledo2007", "none of Sturm's failures"), evidence(tmp_path / "views", *views))
+    assert "over 2 views in float32 on opencl:intel" in told.figure
+    times = [planted(pick, "torus", ms) for pick, ms in ((picks.ONE_RAY, 2.0), (picks.TWO_RAYS, 1.0))]
+    faster = claims.judge(claim("toledo2007", "Two starts"), evidence(tmp_path / "times", *times))
+    assert "in float32 on opencl:intel" in faster.figure
+
+
+def test_a_gain_that_one_device_shows_and_another_does_not_is_refuted_with_both_named(tmp_path: Path) -> None:
+    def cells(device: str, gain: float) -> list[dict[str, Any]]:
+        made = []
+        for surface, degree, ratio in (("sphere", 2, gain), ("calyx", 5, 1.0)):
+            for pick, ms in ((picks.LU_UNCULLED, ratio), (picks.LU, 1.0)):
+                made.append(on(device, planted(pick, surface, ms) | {"degree": degree}))
+        return made
+
+    both = evidence(tmp_path / "run", *cells("opencl:intel", 1.5), *cells("opencl:pocl", 0.8))
+    told = claims.judge(claim("szente", "Culling by LU bounds"), both)
+    assert told.outcome is Outcome.REFUTED
+    assert "on opencl:intel sphere 1.50×, calyx 1.00×; on opencl:pocl sphere 0.800×, calyx 1.00×" in told.figure
+
+
+def test_times_that_were_not_taken_in_turns_are_left_out_and_counted(tmp_path: Path) -> None:
+    def timed(pick: Pick, surface: str, ms: float, session: str) -> dict[str, Any]:
+        made = planted(pick, surface, ms)
+        made["time"]["session"] = session
+        return made
+
+    two_rays = claim("toledo2007", "Two starts")
+    apart = [timed(picks.ONE_RAY, "torus", 9.0, "yesterday"), timed(picks.TWO_RAYS, "torus", 1.0, "today")]
+    found = evidence(tmp_path / "apart", *apart)
+    assert found.ratios(picks.ONE_RAY, picks.TWO_RAYS).empty
+    told = claims.judge(two_rays, found)
+    assert told.outcome is Outcome.UNTESTED
+    assert told.figure.startswith("1 pair of rows not timed in the same rounds; `firsthit run configs/")
+
+    fit = claim("szente", "23.6 times")
+    mixed = [timed(picks.MARCH, "sphere", 30.0, "today"), timed(picks.FIT, "sphere", 1.0, "today")]
+    mixed += [timed(picks.MARCH, "torus", 2.0, "yesterday"), timed(picks.FIT, "torus", 1.0, "today")]
+    told = claims.judge(fit, evidence(tmp_path / "mixed", *mixed))
+    assert told.outcome is Outcome.CONFIRMED and told.figure.startswith("30.0×")
+    assert told.figure.endswith("left out: 1 pair of rows not timed in the same rounds")
+    again = claims.judge(fit, evidence(tmp_path / "again", *mixed[:2]))
+    assert "left out" not in again.figure
