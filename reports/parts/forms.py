@@ -102,7 +102,7 @@ def _ranges(ranges: pd.DataFrame, rows: pd.DataFrame, titles: dict[str, str]) ->
         "A natural extension converges in proportion to the box, so that "
         "the factor does not fall to 1 as boxes shrink: it stays with the form. Empty boxes hold no surface; those "
         "that are not excluded are searched for nothing, or taken for the surface. Operations are those of one "
-        "evaluation of f at a point."
+        "evaluation of f at a point. The torus as printed is szente's; toledo2007 prints another form of it."
     )
     return Table(columns, body, "What a form makes of f's range.", caption, group=1)
 
