@@ -141,6 +141,11 @@ class Surface:
         return self.degree is not None
 
     @property
+    def base(self) -> str:
+        """The name without that of a form: `chmutov` of `chmutov:nested`."""
+        return self.name.partition(":")[0]
+
+    @property
     def identity(self) -> dict[str, Any]:
         """What decides the surface's values: goes into cache keys."""
         return {"formula": self.formula, "parameters": dict(self.parameters), "domain": repr(self.domain)}
@@ -385,10 +390,12 @@ class Cell:
 
     @property
     def together(self) -> str:
-        """Cells that share this are timed in one interleaved run: a comparison, or those of all views of a set."""
-        if self.family or self.view.set is None:
+        """Cells that share this are timed in one interleaved run: a comparison, those of all views of a set, and those
+        of all forms of a surface."""
+        if self.family:
             return self.comparison
-        return f"{self.surface.name} {self.view.set} {self.size}x{self.size}x{self.samples_per_pixel} {self.stage}"
+        views = self.view.name if self.view.set is None else self.view.set
+        return f"{self.surface.base} {views} {self.size}x{self.size}x{self.samples_per_pixel} {self.stage}"
 
 
 def digest(*parts: Any) -> str:

@@ -8,7 +8,7 @@ from functools import cached_property
 
 import pandas as pd
 
-from reports import claims, evaluations, images, style, viewstats
+from reports import claims, evaluations, forms, images, style, viewstats
 from reports.arrays import Shelf
 from reports.claims import Claim, Verdict
 from reports.evidence import Evidence
@@ -33,8 +33,9 @@ class Material:
 
     @cached_property
     def listed(self) -> pd.DataFrame:
-        """`frame` for what lists scenes one by one: the first view stands for a large set."""
-        return viewstats.one_view_of_each(self.frame)
+        """`frame` for what lists scenes one by one: the first view stands for a large set, and a surface as printed for
+        its other forms, which parts/forms compares."""
+        return forms.printed_alone(viewstats.one_view_of_each(self.frame))
 
     @cached_property
     def error_scale(self) -> tuple[int, int]:

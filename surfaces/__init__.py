@@ -2,6 +2,7 @@
 
 import surfaces
 torus = surfaces.get("torus", R="0.5")
+nested = surfaces.get("chmutov:nested")  # the same polynomial, written in another way
 mine = surfaces.from_formula("x^2 + y^2*z^3 - z^4", "sphere:1.5")
 values = surfaces.evaluate(mine, points)  # float64[n, 3] → float64[n]
 """
@@ -10,28 +11,48 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Mapping
+from dataclasses import replace
 
 from harness.contract import Box, Domain, FirsthitError, Sphere, Surface
 from surfaces import formula
 from surfaces.catalog import FIXED
 from surfaces.evaluation import evaluate, expression, gradient, operations, tape_of
 from surfaces.families import FAMILIES
+from surfaces.forms import FORMS, SEPARATOR
 from surfaces.validity import check
 
-__all__ = ["evaluate", "expression", "from_formula", "get", "gradient", "names", "operations", "tape_of"]
+__all__ = ["evaluate", "expression", "forms_of", "from_formula", "get", "gradient", "names", "operations", "tape_of"]
 _FIXED = {surface.name: surface for surface in FIXED}
 
 
 def names() -> tuple[str, ...]:
-    """Every catalog name, sorted."""
+    """Every catalog name, sorted; forms are not among them."""
     return tuple(sorted((*FAMILIES, *_FIXED)))
 
 
-def get(name: str, **parameters: str | float) -> Surface:
-    """A catalog surface, its parameters bound (`get("torus", R="0.5")`; numbers are taken as the decimals they print).
+def forms_of(name: str) -> tuple[str, ...]:
+    """List the names of a catalog surface's further forms, as `get` takes them: `("chmutov:nested", …)`."""
+    return tuple(f"{name}{SEPARATOR}{form}" for form in FORMS.get(name, ()))
 
-    Raises FirsthitError for an unknown name (with the nearest ones), parameter or value.
+
+def get(name: str, **parameters: str | float) -> Surface:
+    """A catalog surface or one of its forms, its parameters bound (`get("torus", R="0.5")`; numbers are taken as the
+    decimals they print).
+
+    Raises FirsthitError for an unknown name (with the nearest ones), form, parameter or value.
     """
+    name, _, form = name.partition(SEPARATOR)
+    surface = _as_printed(name, parameters)
+    if not form:
+        return surface
+    if form not in FORMS.get(name, {}):
+        known = ", ".join(forms_of(name)) or "none"
+        raise FirsthitError(f"surface {name!r} has no form {form!r}; its forms: {known}")
+    title, written = f"{surface.title}, {form}", FORMS[name][form]
+    return replace(surface, name=f"{name}{SEPARATOR}{form}", title=title, formula=written)
+
+
+def _as_printed(name: str, parameters: Mapping[str, str | float]) -> Surface:
     if name not in names():
         near = difflib.get_close_matches(name, names(), 3, 0.5)
         hint = f"did you mean {', '.join(near)}?" if near else "see `firsthit list surfaces`"

@@ -9,7 +9,7 @@ from __future__ import annotations
 from math import sqrt
 
 from harness.contract import Box, Sphere, Surface
-from surfaces.entries import FULL, REVOLVED, entry
+from surfaces.entries import FULL, REVOLVED, entry, sum_over_axes
 
 _CUBE = Box((-1, -1, -1), (1, 1, 1))  # toledo2007, Fig. 2: "clipped outside the domain [-1, 1]^3"
 _HAUSER = "H. Hauser, The Hironaka theorem on resolution of singularities, 2003 (gallery)"
@@ -233,22 +233,21 @@ FIXED: tuple[Surface, ...] = (
     entry(
         "chmutov",
         "Chmutov septic",
-        "x*(x^2*(x^2*(64*x^2 - 112) + 56) - 7) + y*(y^2*(y^2*(64*y^2 - 112) + 56) - 7)"
-        " + z*(z^2*(z^2*(64*z^2 - 112) + 56) - 7) + 1",
+        sum_over_axes("64*t^7 - 112*t^5 + 56*t^3 - 7*t", "+ 1"),
         7,
         _CUBE,
-        "S. V. Chmutov 1992; beamcasting, Fig. 2: 64t^7 - 112t^5 + 56t^3 - 7t of x, y and z, nested",
+        "S. V. Chmutov 1992; beamcasting, Fig. 2",
         singular_points=81,
         symmetries=("swap_xy", "cycle_xyz"),
     ),
     entry(
         "blinn_blob",
         "Blinn blob",
-        "exp(1 - 4*(x^2 + y^2 + z^2)) + exp(1 - 8*((x - 1)^2 + y^2 + z^2)) + exp(1 - 8*(x^2 + (y - 1)^2 + z^2))"
-        " + exp(1 - 16*(x^2 + y^2 + (z - 0.5)^2)) - 1",
+        "e*exp(-4*(x^2 + y^2 + z^2)) + e*exp(-8*((x - 1)^2 + y^2 + z^2)) + e*exp(-8*(x^2 + (y - 1)^2 + z^2))"
+        " + e*exp(-16*(x^2 + y^2 + (z - 0.5)^2)) - 1",
         None,
         Box((-0.75, -0.75, -0.75), (1.5, 1.5, 1.0)),
-        "J. F. Blinn 1982; beamcasting, Fig. 2 (b = e, drawn into the exponents)",
+        "J. F. Blinn 1982; beamcasting, Fig. 2",
         symmetries=("swap_xy",),
     ),
     entry(

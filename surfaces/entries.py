@@ -47,6 +47,11 @@ ROUND = ("rotate_z_5", "rotate_x_5", "mirror_z")
 REVOLVED = ("rotate_z_5", "mirror_x", "mirror_z")
 
 
+def sum_over_axes(term: str, constant: str) -> str:
+    """Write the sum of a term in t, taken of x, y and z, and of a constant that stands with its sign."""
+    return " + ".join(f"({term.replace('t', axis)})" for axis in "xyz") + f" {constant}"
+
+
 def entry(
     name: str,
     title: str,

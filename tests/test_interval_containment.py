@@ -75,6 +75,9 @@ class Thin:
     def pi(self) -> Any:
         return self.wide(np.float64(np.pi), np.float64(np.pi))
 
+    def e(self) -> Any:
+        return self.wide(np.float64(np.e), np.float64(np.e))
+
     def add(self, a: Any, b: Any) -> Any:
         return self.wide(a[0] + b[0], a[1] + b[1])
 

@@ -99,7 +99,7 @@ def _methods(options: argparse.Namespace) -> str:
 def _surfaces(_options: argparse.Namespace) -> str:
     import surfaces
 
-    chosen = [surfaces.get(name) for name in surfaces.names()]
+    chosen = [surfaces.get(form) for name in surfaces.names() for form in (name, *surfaces.forms_of(name))]
     rows = [
         (s.name, "-" if s.degree is None else s.degree, sum(surfaces.operations(s).values()), s.title, s.source)
         for s in chosen

@@ -1,6 +1,6 @@
 """Methods that cast beams: what their hits mean, and the level at which each box was eliminated."""
 
-from reports import beams
+from reports import beams, forms
 from reports.content import Section
 from reports.material import Material
 
@@ -8,4 +8,5 @@ ORDER = 28
 
 
 def sections(material: Material) -> list[Section]:
-    return [*beams.sections(material.shelf, material.frame), *beams.prepass_sections(material.frame)]
+    frame = forms.printed_alone(material.frame)
+    return [*beams.sections(material.shelf, frame), *beams.prepass_sections(frame)]

@@ -1,6 +1,6 @@
 """Error against condition."""
 
-from reports import condition
+from reports import condition, forms
 from reports.content import Section
 from reports.material import Material
 
@@ -8,4 +8,4 @@ ORDER = 40
 
 
 def sections(material: Material) -> list[Section]:
-    return condition.sections(material.shelf, material.frame, material.marks)
+    return condition.sections(material.shelf, forms.printed_alone(material.frame), material.marks)

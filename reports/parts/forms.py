@@ -1,0 +1,219 @@
+"""How a formula is written: the same surface in several forms, by range, work, time and error."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+import matplotlib
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure as Drawing
+from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
+
+from harness.contract import CellStatus
+from reports import rounds, style, ties, wording
+from reports.content import Block, Column, Figure, Section, Table, Text
+from reports.drawing import LINE, RC, WIDE, svg
+from reports.forms import PRINTED, base_of, form_of
+from reports.material import Material
+
+ORDER = 22
+SIDES = (0.25, 0.03125, 0.00390625)  # of boxes, over the domain's radius, that the table names
+_ONE_PICTURE = ["device", "precision", "view", "size", "samples_per_pixel", "stage"]
+_STYLES = (  # by the order in which forms first appear, so that a form looks alike in all panels
+    ("#222222", "o", "-"),
+    ("#0072B2", "s", "--"),
+    ("#D55E00", "^", ":"),
+    ("#009E73", "D", "-."),
+    ("#CC79A7", "v", (0, (5, 1))),
+    ("#B8A800", "P", (0, (1, 1))),
+)
+LEAD = (
+    "One polynomial may be written in many ways, and exact arithmetic cannot tell them apart; a test expands them all. "
+    "Two things can. An interval extension takes every place at which a variable stands for another variable, so that "
+    "it is wider than f's range, the more so the more places there are and the more their terms cancel. And each "
+    "form rounds its own intermediate results. All forms of a surface see the same rays, and are timed in turns. "
+    "“As printed” is the catalog's form, that of the paper which the surface is from."
+)
+WARNING = (
+    "Fewer evaluations are no tighter extension: a beam ends at the first piece that it cannot exclude, so that an "
+    "extension that excludes nothing ends it at once, in front of the surface. Read evaluations with the wrong rays."
+)
+
+
+def sections(material: Material) -> list[Section]:
+    """One section where a run holds two forms of one surface on the same picture, or the study of their ranges."""
+    rows = _picture(material.evidence.of("forms.toml").frame)
+    ranges = pd.DataFrame(material.run.studies.get("form_ranges", []))
+    blocks: list[Block] = [Text(LEAD)]
+    if not ranges.empty:
+        titles = dict(zip(material.frame["surface"], material.frame["surface_title"], strict=True))
+        blocks += [Text(_narrowest(ranges, titles)), _ranges(ranges, rows, titles), _figure(ranges, titles)]
+    if not rows.empty:
+        told = rows[rows["status"] == CellStatus.OK]
+        blocks += [_work(told), Text(WARNING), _errors(told)]
+    return [Section("How a formula is written", tuple(blocks), wide=True)] if len(blocks) > 1 else []
+
+
+def _picture(frame: pd.DataFrame) -> pd.DataFrame:
+    """The rows of surfaces with several forms on the first device, precision, view and size that has any."""
+    rows = frame[frame["answers"].astype(bool)]
+    rows = rows.assign(base=rows["surface"].map(base_of), form=rows["surface"].map(form_of))
+    several = rows.groupby([*_ONE_PICTURE, "base"])["surface"].transform("nunique") > 1
+    rows = rows[several]
+    return rows if rows.empty else rows[(rows[_ONE_PICTURE] == rows[_ONE_PICTURE].iloc[0]).all(axis=1)]
+
+
+def _narrowest(ranges: pd.DataFrame, titles: dict[str, str]) -> str:
+    """Of each surface the form of the narrowest extension over the smallest boxes, beside that as printed."""
+    told = []
+    for base, own in ranges[ranges["side"] == ranges["side"].min()].groupby("surface", sort=False):
+        factors = dict(zip(own["form"].map(form_of), own["factor"], strict=True))
+        best = min(factors, key=lambda form: factors[form])
+        rest = "" if best == PRINTED else f", {best} {wording.factor(factors[best])}"
+        told.append(f"{titles.get(str(base), base)} {wording.factor(factors[PRINTED])} {PRINTED}{rest}")
+    return f"The narrowest extension of each, over the smallest boxes: {'; '.join(told)}."
+
+
+def _ranges(ranges: pd.DataFrame, rows: pd.DataFrame, titles: dict[str, str]) -> Table:
+    operations = dict(zip(rows["surface"], rows["operations"], strict=True))
+    body: list[tuple[Any, ...]] = []
+    for form, own in ranges.groupby("form", sort=False):
+        by_side = own.set_index("side")
+        counted = operations.get(form)
+        spent = None if wording.absent(counted) else sum(json.loads(str(counted)).values())
+        factors = [by_side["factor"].get(side) for side in SIDES]
+        shares = [by_side["excluded"].get(side) for side in SIDES]
+        base = base_of(str(form))
+        body.append((titles.get(base, base), form_of(str(form)), spent, *factors, *shares))
+    heads = [f"1/{1 / side:.0f}" for side in SIDES]
+    columns = (
+        Column("surface"),
+        Column("form"),
+        Column("operations", wording.count, numeric=True),
+        *(Column(head, wording.factor, numeric=True, over="width over the range's") for head in heads),
+        *(Column(head, wording.share, numeric=True, over="empty boxes excluded") for head in heads),
+    )
+    caption = (
+        "Width of the natural interval extension over that of f's range, as the ratio of their means over random "
+        "boxes, the same for all forms, whose sides are 1/4, 1/32 and 1/256 of the domain's radius; 1× is exact. "
+        "A natural extension converges in proportion to the box, so that "
+        "the factor does not fall to 1 as boxes shrink: it stays with the form. Empty boxes hold no surface; those "
+        "that are not excluded are searched for nothing, or taken for the surface. Operations are those of one "
+        "evaluation of f at a point. The torus as printed is szente's; toledo2007 prints another form of it."
+    )
+    return Table(columns, body, "What a form makes of f's range.", caption, group=1)
+
+
+def _figure(ranges: pd.DataFrame, titles: dict[str, str]) -> Figure:
+    bases = list(dict.fromkeys(ranges["surface"]))
+    forms = list(dict.fromkeys(ranges["form"].map(form_of)))
+    looks = {form: _STYLES[i % len(_STYLES)] for i, form in enumerate(forms)}
+    height = 2.1
+    with matplotlib.rc_context(RC):
+        drawing = Drawing(figsize=(WIDE, height))
+        panels = drawing.subplots(1, len(bases), squeeze=False)[0]
+        drawing.subplots_adjust(0.6 / WIDE, 0.42 / height, 1 - 0.05 / WIDE, 1 - 0.22 / height, 0.16)
+        for axes, base in zip(panels, bases, strict=True):
+            _panel(axes, ranges[ranges["surface"] == base], looks)
+            axes.set_title(titles.get(base, base), color=style.INK)
+        drawing.supxlabel("side of the boxes over the domain's radius", y=0.1 / height, va="center", fontsize=6.5)
+        drawing.supylabel("width over the range's", x=0.08 / WIDE, ha="center", fontsize=6.5)
+        drawn = svg(drawing)
+    return Figure(
+        "forms-range",
+        drawn,
+        f"Overestimation of the ranges of {wording.listed([titles.get(base, base) for base in bases])} by form.",
+        "Overestimation against the size of boxes.",
+        "1 is exact. Look for the distance between forms at the left ends: no subdivision closes it.",
+    )
+
+
+def _panel(axes: Axes, own: pd.DataFrame, looks: Mapping[str, tuple[str, str, Any]]) -> None:
+    for form, line in own.groupby(own["form"].map(form_of), sort=False):
+        color, marker, dashes = looks[str(form)]
+        axes.plot(line["side"], line["factor"], color=color, marker=marker, ls=dashes, label=form, **LINE)
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    sides = sorted(set(own["side"]))[::2]
+    axes.xaxis.set_major_locator(FixedLocator(sides))
+    axes.xaxis.set_minor_locator(NullLocator())
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda side, _: f"1/{1 / side:.0f}"))
+    high = own["factor"].max()
+    axes.set_ylim(0.95, high * 1.1 * high**0.35)  # room for the key
+    axes.yaxis.set_major_locator(FixedLocator([1, 1.2, 1.5, 2] if high < 3 else [1, 2, 5, 10, 20, 50, 100]))
+    axes.yaxis.set_minor_locator(NullLocator())
+    axes.yaxis.set_major_formatter(FuncFormatter(lambda factor, _: f"{factor:g}×"))
+    axes.legend(loc="upper left", borderaxespad=0.2, handlelength=3.2, ncols=2)
+
+
+def _work(rows: pd.DataFrame) -> Table:
+    """Evaluations per ray and the time over that of the form as printed, in the rounds that timed both."""
+
+    def told(row: Any, printed: Any) -> tuple[Any, Any]:
+        return row.evaluations_mean, _times(row, printed)
+
+    columns, body = _by_variant(rows, told, (Column("evals", wording.number, numeric=True), Column("time")))
+    caption = (
+        "Evaluations of f or of its extension per ray cast (per pixel, of beams), and the time of the form as printed, "
+        "below it the others' over that: the median of the ratios within rounds; “even” where these do not tell the "
+        f"two apart, “?” where fewer than {ties.NEEDED} rounds timed both. "
+        f"{_where(rows)}"
+    )
+    return Table(columns, body, "What a form costs.", caption, group=1)
+
+
+def _times(row: Any, printed: Any) -> str | None:
+    if wording.absent(row.median_ms) or printed is None or wording.absent(printed.median_ms):
+        return None
+    if row.surface == printed.surface:
+        return f"{wording.number(row.median_ms)} ms"
+    factor = wording.factor(rounds.times_over(row, printed))
+    paired = rounds.ratio(row, printed)
+    if paired is None or paired.pairs < ties.NEEDED:
+        return f"{factor} ?"
+    return factor if ties.verdict(paired) in (ties.SLOWER, ties.FASTER) else "even"
+
+
+def _errors(rows: pd.DataFrame) -> Table:
+    def told(row: Any, _: Any) -> tuple[Any, Any]:
+        return row.wrong_rays, row.relative_error_p99
+
+    heads = (Column("wrong", wording.count, numeric=True), Column("p99", wording.error, numeric=True))
+    columns, body = _by_variant(rows, told, heads)
+    rays = wording.count(rows["accuracy_rays"].max())
+    caption = (
+        f"Wrong rays of {rays}, without grazing and drowned ones, and the 99th percentile of the error |t − t*| of "
+        "right hits over the scene's radius. To degree 4 point methods take f's coefficients along the ray, which are "
+        "expanded from the form as it is written."
+    )
+    return Table(columns, body, "What a form's answers are worth.", caption, group=1)
+
+
+def _by_variant(
+    rows: pd.DataFrame, told: Any, heads: tuple[Column, Column]
+) -> tuple[tuple[Column, ...], list[tuple[Any, ...]]]:
+    """Columns and lines of a table with a line for each form, and two columns for each variant."""
+    variants = list(dict.fromkeys(rows["variant"]))
+    body: list[tuple[Any, ...]] = []
+    for _, forms in rows.groupby("base", sort=False):
+        title = str(forms["surface_title"].iloc[0]).partition(", ")[0]
+        printed = _by_name(forms[forms["form"] == PRINTED].itertuples())
+        for form, own in forms.groupby("form", sort=False):
+            found = _by_name(own.itertuples())
+            cells = [told(found[v], printed.get(v)) if v in found else (None, None) for v in variants]
+            body.append((title, form, *(value for pair in cells for value in pair)))
+    named = (Column("surface"), Column("form"))
+    pairs = (Column(head.title, head.show, numeric=True, over=variant) for variant in variants for head in heads)
+    return (*named, *pairs), body
+
+
+def _by_name(rows: Iterable[Any]) -> dict[str, Any]:
+    return {str(row.variant): row for row in rows}
+
+
+def _where(rows: pd.DataFrame) -> str:
+    first = rows.iloc[0]
+    return f"{first['device']}, {first['precision']}, {first['size']} × {first['size']}."
