@@ -173,7 +173,7 @@ class Runner:
             assert checked.evaluations is not None and checked.levels is not None
             mean, largest = checked.evaluations  # of the frame: large beams are shared by more pixels than are checked
             counted = {"beam_only": int(beam_only.sum()), "evaluations_mean": mean, "evaluations_max": largest}
-            state.summary |= counted
+            state.summary |= counted | {"lanes": checked.lanes}
             state.arrays["level"] = checked.levels.reshape(config.size, config.size)
         fault = None if casts_beams else self._compilers_fault(state, rays, hits)
         return fault or self._unfit(state)

@@ -8,13 +8,15 @@ import numpy as np
 import pytest
 
 import surfaces
-from harness import beams
+from harness import beams, lanes
 from harness.accuracy import Verdicts, Wrong, judge
 from harness.assemble import KERNELS, file_section, map_program, method_program
 from harness.backends import map_rows
-from harness.backends.beams import beam_hits_from, launch_beams
+from harness.backends.beams import Layout, beam_hits_from, first_level, last_level, launch_beams, layout_of, start_of
 from harness.camera import camera_for, rays_of, scene_radius
-from harness.contract import FirsthitError, Hits, RayStatus, Section, Surface, Truth, TruthStatus, View
+from harness.config import load
+from harness.contract import DeviceInfo, FirsthitError, Hits, RayStatus, Section, Surface, Truth, TruthStatus, View
+from harness.plan import plan
 from harness.plugins import find_methods
 from surfaces.sections import surface_sections, unsupported
 
@@ -22,14 +24,22 @@ from .conftest import opened, usable_devices
 from .test_renders import _case, _view
 
 METHODS = [name for name, plugin in find_methods().plugins.items() if plugin.method.casts in ("beams", "quadtree")]
+CASTERS = [*((name, {}) for name in METHODS), ("interval_adaptive", {"DESCENT": 0})]  # as printed
 TYPICAL = ("torus", "dingdong_beamcasting", "blinn_blob")
 VIEW = View("oblique", azimuth=30, elevation=35)
 SIZE = 80  # twice test_renders' rays; no power of two
+WIDE = surfaces.from_formula("x + y + z", "box:1e6,1e6,1e6")  # its domain cuts no box off
 FIRST = 3  # the quadtree's first level, whatever fills the device
 
 
-def frame(device, method, surface, camera, size, precision="float32", first=None, edit=None, **knobs):
+def frame(device, method, surface, camera, size, precision="float32", edit=None, **knobs):
     """Hits and levels of every pixel; `edit` changes the program's text."""
+    outputs, _ = outputs_of(device, method, surface, camera, size, precision, edit, **knobs)
+    return beam_hits_from(outputs)
+
+
+def outputs_of(device, method, surface, camera, size, precision="float32", edit=None, **knobs):
+    """All outputs of a launch, and its layout."""
     plugin = find_methods().get(method)
     program = method_program(
         plugin.method, plugin.folder, plugin.variant(knobs), surface, precision, device.language, "beams"
@@ -38,11 +48,12 @@ def frame(device, method, surface, camera, size, precision="float32", first=None
         sections = tuple(Section(s.origin, edit(s.text)) for s in program.sections)
         program = dataclasses.replace(program, sections=sections)
     quadtree = plugin.method.casts == "quadtree"
-    launch = launch_beams(device, program, device.build(program), camera, size, quadtree, first)
+    layout = layout_of(dict(plugin.variant(knobs).parameters))
+    launch = launch_beams(device, program, device.build(program), camera, size, quadtree, layout, True, True)
     launch.run()
-    found = beam_hits_from(launch.read())
+    outputs = launch.read()
     launch.release()
-    return found
+    return outputs, layout
 
 
 def deviating(hits, truth, surface, pixels):
@@ -55,13 +66,13 @@ def deviating(hits, truth, surface, pixels):
 
 
 @pytest.mark.parametrize("name", surfaces.names())
-@pytest.mark.parametrize("method", METHODS)
-def test_no_root_of_any_surface_is_missed(method, name):
+@pytest.mark.parametrize(("method", "knobs"), CASTERS)
+def test_no_root_of_any_surface_is_missed(method, knobs, name):
     """On the device whose compiler is the fastest; the typical surfaces are looked at on every one."""
     device = opened(usable_devices()[-1].name)
     surface, rays, truth = _case(name)
     camera = camera_for(_view(name), surface)
-    hits, _ = frame(device, method, surface, camera, SIZE)
+    hits, _ = frame(device, method, surface, camera, SIZE, **knobs)
     missed, late = deviating(hits, truth, surface, beams.pixels_of(camera, round(len(rays) ** 0.5), SIZE))
     assert not missed.any()
     assert not late.any()
@@ -76,7 +87,7 @@ def test_adaptive_and_uniform_answer_alike_and_miss_nothing(device, name, precis
         pytest.skip("the surface has no float64 here")
     camera = camera_for(_view(name), surface)
     uniform, _ = frame(device, "interval_uniform", surface, camera, SIZE, precision)
-    adaptive, _ = frame(device, "interval_adaptive", surface, camera, SIZE, precision, first=FIRST)
+    adaptive, _ = frame(device, "interval_adaptive", surface, camera, SIZE, precision, FIRST_LEVEL=FIRST)
     missed, late = deviating(adaptive, truth, surface, beams.pixels_of(camera, round(len(rays) ** 0.5), SIZE))
     assert not missed.any()
     assert not late.any()
@@ -86,11 +97,44 @@ def test_adaptive_and_uniform_answer_alike_and_miss_nothing(device, name, precis
     assert adaptive.evaluations.sum() < 0.8 * uniform.evaluations.sum()
 
 
-def test_a_quadtree_that_starts_at_the_pixels_is_the_uniform_method(device):
+@pytest.mark.parametrize("precision", ["float32", "float64"])
+@pytest.mark.parametrize("name", TYPICAL)
+def test_the_printed_descent_misses_nothing_and_costs_more(device, name, precision):
+    surface, rays, truth = _case(name)
+    if precision == "float64" and (not device.info.float64 or unsupported(surface, precision, device.language)):
+        pytest.skip("the surface has no float64 here")
+    camera = camera_for(_view(name), surface)
+    ours, _ = frame(device, "interval_adaptive", surface, camera, SIZE, precision, FIRST_LEVEL=FIRST)
+    printed, _ = frame(device, "interval_adaptive", surface, camera, SIZE, precision, FIRST_LEVEL=FIRST, DESCENT=0)
+    missed, late = deviating(printed, truth, surface, beams.pixels_of(camera, round(len(rays) ** 0.5), SIZE))
+    assert not missed.any()
+    assert not late.any()
+    assert not np.any(printed.status == RayStatus.EXHAUSTED)
+    assert printed.evaluations.sum() > 1.2 * ours.evaluations.sum()
+
+
+@pytest.mark.parametrize(("descent", "expected"), [(0, 16 * 4 + 64 * 5 + 256 * 6), (1, 16 * 4 + 64 * 2 + 256 * 2)])
+def test_the_printed_descent_halves_the_whole_depth_again_at_each_level(device, descent, expected):
+    """Nothing can be excluded, so that every search goes straight to the nearest piece. At level L it is the whole
+    depth / 2^(L + 1): L + 2 evaluations, or, from the parent's piece on, that piece and its first half."""
+    camera = camera_for(View("inside", distance=1.5), surfaces.get("sphere"))
+    knobs = {
+        "FIRST_LEVEL": 2,
+        "DESCENT": descent,
+        "edit": lambda text: text.replace("= range.lo > 0.0 || range.hi < 0.0", "= false"),
+    }
+    hits, levels = frame(device, "interval_adaptive", WIDE, camera, 16, **knobs)
+    assert (hits.status == RayStatus.HIT).all()
+    assert (levels == 4).all()
+    assert hits.evaluations.sum() == expected
+
+
+@pytest.mark.parametrize("descent", [0, 1])
+def test_a_quadtree_that_starts_at_the_pixels_is_the_uniform_method(device, descent):
     surface = surfaces.get("torus")
     camera = camera_for(VIEW, surface)
     uniform, _ = frame(device, "interval_uniform", surface, camera, 50)
-    adaptive, levels = frame(device, "interval_adaptive", surface, camera, 50, first=6)
+    adaptive, levels = frame(device, "interval_adaptive", surface, camera, 50, FIRST_LEVEL=6, DESCENT=descent)
     assert np.array_equal(uniform.t, adaptive.t, equal_nan=True)
     assert np.array_equal(uniform.evaluations, adaptive.evaluations)
     assert (levels == 6).all()
@@ -101,18 +145,108 @@ def test_a_shared_beams_evaluations_are_counted_once(device):
     surface = Surface("nothing", "Nothing", "1 + x^2", surfaces.get("torus").domain, "test", 2)
     view = View("inside", fov=20.0, distance=1.5)
     for size, first in ((64, 3), (50, 2), (1, 0)):
-        hits, levels = frame(device, "interval_adaptive", surface, camera_for(view, surface), size, first=first)
+        hits, levels = frame(device, "interval_adaptive", surface, camera_for(view, surface), size, FIRST_LEVEL=first)
         across = -(-size // 2 ** ((size - 1).bit_length() - first))  # cells of the level that are in the image
         assert hits.evaluations.sum() == across**2
         assert np.ptp(hits.evaluations) <= 1
         assert (levels == first).all()
 
 
-def test_two_runs_give_the_same_bits(device):
+@pytest.mark.parametrize("knobs", [{}, {"GROUPED": 0}, {"REMAP": 3}, {"REMAP": 3, "GROUPED": 0}])
+@pytest.mark.parametrize("descent", [0, 1])
+def test_where_a_work_item_lies_changes_no_bit(device, knobs, descent):
     surface = surfaces.get("barth_sextic")
-    one, two = (frame(device, "interval_adaptive", surface, camera_for(VIEW, surface), 96)[0] for _ in range(2))
-    assert np.array_equal(one.t, two.t, equal_nan=True)
-    assert np.array_equal(one.evaluations, two.evaluations)
+    camera, fixed = camera_for(VIEW, surface), {"FIRST_LEVEL": FIRST, "DESCENT": descent}
+    for size in (96, 50):
+        one, two = (frame(device, "interval_adaptive", surface, camera, size, **fixed, **k)[0] for k in ({}, knobs))
+        assert np.array_equal(one.t, two.t, equal_nan=True)
+        assert np.array_equal(one.evaluations, two.evaluations)
+
+
+def test_neighbouring_work_items_have_the_pixels_that_the_knob_says(device):
+    """The first eight items alone: eight pixels of the first row, or a block of four by two."""
+    surface = surfaces.get("sphere")
+    for grouped, shape in ((0, (1, 8)), (1, (2, 4))):
+        knobs = {"GROUPED": grouped, "edit": lambda text: text.replace("item < count", "item < 8")}
+        hits, _ = frame(device, "interval_uniform", surface, camera_for(VIEW, surface), 16, **knobs)
+        answered = np.argwhere(hits.status.reshape(16, 16) != RayStatus.INVALID)
+        assert answered.tolist() == [[y, x] for y in range(shape[0]) for x in range(shape[1])]
+
+
+def test_a_remapped_quarter_comes_after_the_others(device):
+    """Cells that cost more than the limit are queued from the end, and none of them from the front."""
+    surface, size = surfaces.get("octdong"), 64
+    camera = camera_for(VIEW, surface)
+    for limit in (0, 5):
+        outputs, layout = outputs_of(device, "interval_adaptive", surface, camera, size, FIRST_LEVEL=FIRST, REMAP=limit)
+        hits, levels = beam_hits_from(outputs)
+        shape, (queue, counts) = (size, size), outputs[2:]
+        tree = lanes.Tree(size, FIRST, last_level(size), layout.grouped)
+        spent = lanes.spent_by_items(tree, hits.evaluations.reshape(shape), levels.reshape(shape), queue, counts)
+        assert sum(int(own.sum()) for own in spent.values()) == hits.evaluations.sum()
+        assert (counts[16 + FIRST] > 0) == (limit > 0)
+        cells = queue[: 3 * 4**FIRST].reshape(-1, 3)
+        front, later = cells[: counts[FIRST], 2], cells[len(cells) - counts[16 + FIRST] :, 2]
+        if limit:
+            assert front.max() <= limit < later.min()
+
+
+def test_the_first_level_fills_the_device():
+    """132 units of 1,024 work items, as on an H100; a processor's unit is filled by a work group."""
+    named = DeviceInfo("opencl:none", "", "", "", 132, True, "wall", (), resident=1024)
+    level = first_level(named, 14)
+    assert 4 ** (level - 1) < 132 * 1024 <= 4**level
+    assert first_level(named, 5) == 5
+    processor = dataclasses.replace(named, compute_units=4, resident=None)
+    assert first_level(processor, 14) == 4
+    assert 4**4 == 4 * 64
+    assert start_of(named, 4096, True, layout_of({"FIRST_LEVEL": -1})) == level
+    assert start_of(named, 4096, True, layout_of({"FIRST_LEVEL": 3})) == 3
+    assert start_of(named, 64, True, layout_of({"FIRST_LEVEL": 9})) == 6
+    assert start_of(named, 64, False, layout_of({"FIRST_LEVEL": 3})) == 6
+
+
+def test_a_gpu_is_filled_by_the_first_level(device):
+    info = device.info
+    if info.resident is None:
+        pytest.skip("a processor: no GPU whose compute units hold many work items")
+    surface, size = surfaces.get("sphere"), 4096
+    _, levels = frame(device, "interval_adaptive", surface, camera_for(VIEW, surface), size)
+    assert 4 ** int(levels.min()) >= info.resident * (info.compute_units or 1)
+
+
+def test_a_configs_knobs_reach_the_launch(tmp_path):
+    path = tmp_path / "made.toml"
+    path.write_text(
+        'title = "t"\nsurfaces = ["sphere"]\nsizes = [64]\ndevices = ["opencl:none"]\n[[method]]\n'
+        'name = "interval_adaptive"\nparameters = { FIRST_LEVEL = 3, GROUPED = 0 }\n[[view]]\nname = "v"\n'
+    )
+    catalog = find_methods()
+    info = DeviceInfo("opencl:none", "", "", "", 1, True, "wall", ())
+    (planned,) = plan(load(path, catalog), catalog, [info])
+    assert planned.frame.layout == Layout(3, grouped=False)
+
+
+def test_idle_lanes_of_known_counts():
+    assert lanes.idle_share(np.array([4, 4, 4, 4]), 4) == 0.0
+    assert lanes.idle_share(np.array([4, 0, 0, 0, 2, 2, 2, 2]), 4) == pytest.approx(12 / 24)
+    assert lanes.idle_share(np.array([3, 1, 2]), 2) == pytest.approx(1 - 6 / 10)  # the last lane has no item
+    assert lanes.idle_share(np.zeros(5, np.int64), 4) == 0.0
+
+
+@pytest.mark.parametrize("grouped", [0, 1])
+def test_a_levels_items_are_its_pixels_in_the_layouts_order(device, grouped):
+    surface, size = surfaces.get("torus"), 50
+    camera = camera_for(VIEW, surface)
+    outputs, layout = outputs_of(device, "interval_uniform", surface, camera, size, GROUPED=grouped)
+    hits, levels = beam_hits_from(outputs)
+    (level,) = lanes.of_frame(lanes.Tree(size, 6, 6, layout.grouped), hits, levels, outputs)
+    picture = np.zeros((64, 64), np.int64)
+    picture[:size, :size] = hits.evaluations.reshape(size, size)
+    blocks = picture if not grouped else picture.reshape(16, 4, 8, 8).transpose(0, 2, 1, 3)  # of 4 x 8: 32 items
+    expected = 1.0 - picture.sum() / (32 * blocks.reshape(-1, 32).max(axis=1).sum())
+    assert (level["level"], level["items"], level["evaluations"]) == (6, 4096, hits.evaluations.sum())
+    assert level["idle"]["32"] == pytest.approx(expected)
 
 
 @pytest.mark.parametrize("method", METHODS)
@@ -149,7 +283,6 @@ void map_item(IN real x[INPUTS], OUT real y[OUTPUTS]) {
 }
 """,
 )
-WIDE = surfaces.from_formula("x + y + z", "box:1e6,1e6,1e6")  # its domain cuts no box off
 
 
 def escaping(device, precision, rng, edit=lambda text: text, count=4000):

@@ -36,7 +36,16 @@ METHOD = Method(
     name="interval_adaptive",
     source="beamcasting",
     needs=("surface_range",),
-    parameters=(Parameter("BISECTIONS", 1, "ε: a level's last piece is the domain's depth / 2^(level + BISECTIONS)"),),
+    parameters=(
+        Parameter("BISECTIONS", 1, "ε: a level's last piece is the domain's depth / 2^(level + BISECTIONS)"),
+        Parameter(
+            "DESCENT", 1, "a quarter's search: 1 goes on at its parent's piece, 0 halves [w, far] anew", printed=0
+        ),
+        Parameter("FIRST_LEVEL", -1, "the first level, at most the pixels'; -1: the one whose cells fill the device"),
+        Parameter("GROUPED", 1, "the first level's cells lie in Z order; 0: row by row"),
+        Parameter("REMAP", 0, "quarters of a cell with more evaluations than this come after the others; 0: in turn"),
+    ),
+    settings={"Adaptive": {"DESCENT": 0}},
     claims=frozenset({"no_missed_root", "finds_touch"}),
     casts="quadtree",
 )

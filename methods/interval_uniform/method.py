@@ -44,6 +44,7 @@ METHOD = Method(
     needs=("surface_range",),
     parameters=(
         Parameter("BISECTIONS", 1, "ε: the last piece is the domain's depth / 2^(the pixels' level + BISECTIONS)"),
+        Parameter("GROUPED", 1, "pixels lie over work items in Z order; 0: row by row"),
     ),
     claims=frozenset({"no_missed_root", "finds_touch"}),
     casts="beams",
