@@ -308,6 +308,7 @@ class DeviceInfo:
     clock: Literal["device", "wall"]  # which clock is to be believed
     versions: tuple[tuple[str, str], ...]  # the bindings' package versions
     problem: str | None = None  # why it cannot run kernels, where it cannot
+    resident: int | None = None  # work items that fill one of its compute units; None: a work group does
 
 
 @dataclass(frozen=True, eq=False)

@@ -15,6 +15,7 @@ from harness import identity as identities
 from harness import prepass, raster, stability
 from harness.assemble import fill_program, method_program, with_free_loops
 from harness.backends import LANGUAGES, RASTERISES
+from harness.backends.beams import layout_of
 from harness.camera import camera_for, rays_of
 from harness.config import Config, Experiment
 from harness.contract import (
@@ -77,7 +78,8 @@ class Planned:
             return self.raster_frame(self.samples, reports=False)
         camera, size = self.camera, self.samples
         rays = rays_of(camera, size) if self.cell.stage == "rays" else None
-        return Frame(self.timed, camera, rays, size, self.casts, self.prepass)
+        layout = layout_of(dict(self.cell.variant.parameters))
+        return Frame(self.timed, camera, rays, size, self.casts, self.prepass, layout=layout)
 
     @property
     def samples(self) -> int:

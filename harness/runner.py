@@ -7,6 +7,7 @@ only cells that were not finished.
 from __future__ import annotations
 
 import itertools
+import math
 import time
 import uuid
 from collections.abc import Callable, Iterable
@@ -26,7 +27,7 @@ from harness.contract import CellStatus, FirsthitError, Hits, Program, Surface, 
 from harness.costs import operations_per_evaluation
 from harness.executor import CellError, LocalExecutor
 from harness.oracle import cached_first_hits
-from harness.pictures import pictures_of
+from harness.pictures import headlight, pictures_of
 from harness.plan import Planned, shuffled
 from harness.plugins import Catalog
 from harness.store import Row, Store
@@ -136,27 +137,12 @@ class Runner:
         rays = rays_of(state.planned.camera, config.size)
         truth = cached_first_hits(cell.surface, rays, self._store.truth)
         casts_beams, checks = state.planned.casts != "rays", state.planned.checks
-        if casts_beams or cell.prepass != "none":
-            assert state.frame
-            pixels = beams.pixels_of(state.planned.camera, config.size, state.frame.size)
-            frame = replace(state.frame, rays=rays)
-
-            def cast(program: Program) -> Checked:
-                return self._executor.check_frame(cell.device, replace(frame, program=program), pixels.index)
-        else:
-
-            def cast(program: Program) -> Checked:
-                return self._executor.check(cell.device, program, rays)
-
-        checked = cast(checks[0])
-        if casts_beams:
-            along, ahead = beams.along_rays(checked.hits, pixels), state.planned.camera[3:6]
-            hits = answers.validated_beams(along, cell.surface.domain, rays, ahead)
-        else:
-            hits = answers.validated(checked.hits, cell.surface.domain, rays, counts=cell.prepass == "none")
+        checked, hits = self._cast(state, rays, checks[0])
         state.compile_ms = checked.compile_ms
         verdicts = accuracy.judge(hits, truth, scene_radius(cell.surface), config.grazing_margin, cell.precision)
         if casts_beams:
+            assert state.frame
+            pixels = beams.pixels_of(state.planned.camera, config.size, state.frame.size)
             verdicts, beam_only = beams.set_apart(verdicts, hits, truth, pixels)
         footprint = pixel_footprint(state.planned.camera, cell.size)
         deviations = accuracy.deviations(cell.surface, rays, hits, truth, verdicts)
@@ -179,12 +165,33 @@ class Runner:
             assert checked.evaluations is not None and checked.levels is not None
             mean, largest = checked.evaluations  # of the frame: large beams are shared by more pixels than are checked
             counted = {"beam_only": int(beam_only.sum()), "evaluations_mean": mean, "evaluations_max": largest}
-            state.summary |= counted
+            state.summary |= counted | {"lanes": checked.lanes}
             state.arrays["level"] = checked.levels.reshape(config.size, config.size)
-        fault = freeloops.removed(checks, hits, lambda: cast(with_free_loops(checks[0])).hits)
+        fault = freeloops.removed(checks, hits, lambda: self._cast(state, rays, with_free_loops(checks[0]))[0].hits)
         if not fault and not casts_beams:
             fault = self._compilers_fault(state, rays, hits)
+        if cell.samples_per_pixel > 1:
+            side = config.size * round(cell.samples_per_pixel**0.5)
+            samples = rays_of(state.planned.camera, side)
+            shade = headlight(cell.surface, samples, self._cast(state, samples, checks[0])[1])
+            state.arrays["samples"] = shade.reshape(side, side)
         return fault or self._unfit(state)
+
+    def _cast(self, state: _Live, rays: NDArray[np.float32], program: Program) -> tuple[Checked, Hits]:
+        """What `program` answers for `rays`, float32[n², 6], a grid of the cell's view, and that as valid hits."""
+        cell, camera = state.planned.cell, state.planned.camera
+        casts_beams = state.planned.casts != "rays"
+        if not casts_beams and cell.prepass == "none":
+            checked = self._executor.check(cell.device, program, rays)
+            return checked, answers.validated(checked.hits, cell.surface.domain, rays)
+        assert state.frame
+        pixels = beams.pixels_of(camera, math.isqrt(len(rays)), state.frame.size)
+        frame = replace(state.frame, program=program, rays=rays)
+        checked = self._executor.check_frame(cell.device, frame, pixels.index)
+        if casts_beams:
+            along = beams.along_rays(checked.hits, pixels)
+            return checked, answers.validated_beams(along, cell.surface.domain, rays, camera[3:6])
+        return checked, answers.validated(checked.hits, cell.surface.domain, rays, counts=False)
 
     def _compilers_fault(self, state: _Live, rays: NDArray[np.float32], hits: Hits) -> str | None:
         cell, plugin = state.planned.cell, self._catalog.get(state.planned.cell.variant.method)

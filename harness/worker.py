@@ -19,6 +19,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from harness import lanes
 from harness.backends import (
     Array,
     BuildError,
@@ -32,7 +33,16 @@ from harness.backends import (
     open_device,
     same_values,
 )
-from harness.backends.beams import beam_hits_from, launch_beams, launch_narrowed_camera, launch_narrowed_rays
+from harness.backends.beams import (
+    BY_DEVICE,
+    Layout,
+    beam_hits_from,
+    last_level,
+    launch_beams,
+    launch_narrowed_camera,
+    launch_narrowed_rays,
+    start_of,
+)
 from harness.backends.raster import Batch, Picture, Rasteriser
 from harness.backends.trial import trial_launch
 from harness.contract import Casts, DeviceInfo, FirsthitError, Hits, Program
@@ -56,6 +66,7 @@ class Frame:
     batches: tuple[Batch, ...] = ()  # of a frame that is rasterised, in order; `program` is the first one's, or
     # for the check the one that reports all pixels' rays
     depth_map: tuple[float, float] = (0.0, 0.0)  # a, b of its depth buffer's a + b / s
+    layout: Layout = BY_DEVICE  # of beams
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,6 +78,7 @@ class Checked:
     levels: NDArray[np.uint8] | None = None  # [n] of the quadtree, at which each ray's pixel was decided
     evaluations: tuple[float | None, int] | None = None  # mean and largest over the frame's pixels, as Hits.spent
     prepass_evaluations: float | None = None  # the prepass's own, mean over the frame's pixels
+    lanes: list[dict[str, Any]] | None = None  # of beams: what each level's work items spend, as lanes.summary
 
 
 @dataclass(frozen=True, eq=False)
@@ -152,12 +164,26 @@ class Worker:
             _need_same(hits, hits_from(again))
             return Checked(hits, compile_ms + more_ms, prepass_evaluations=float(spent.sum()) / frame.size**2)
         quadtree = frame.casts == "quadtree"
-        launch = launch_beams(self._device, frame.program, built, frame.camera, frame.size, quadtree, blank=True)
+        launch = launch_beams(
+            self._device,
+            frame.program,
+            built,
+            frame.camera,
+            frame.size,
+            quadtree,
+            frame.layout,
+            blank=True,
+            queues=True,
+        )
         outputs, again = _twice(launch)
         hits, levels = beam_hits_from(outputs)
         _need_same(hits, beam_hits_from(again)[0])
         picked = Hits(hits.t[pixels], hits.status[pixels], hits.evaluations[pixels])
-        return Checked(picked, compile_ms, levels[pixels], hits.spent)
+        start = start_of(self._device.info, frame.size, quadtree, frame.layout)
+        tree = lanes.Tree(frame.size, start, last_level(frame.size), frame.layout.grouped)
+        return Checked(
+            picked, compile_ms, levels[pixels], hits.spent, lanes=lanes.of_frame(tree, hits, levels, outputs)
+        )
 
     def rasterise(self, frame: Frame, twice: bool) -> Rasterised:
         """Draw a frame of reporting programs; `twice`: a FirsthitError where two pictures of it differ."""
@@ -187,7 +213,7 @@ class Worker:
             return launch_narrowed_camera(self._device, programs, (before, built), frame.camera, frame.size)
         if frame.casts != "rays":
             quadtree = frame.casts == "quadtree"
-            return launch_beams(self._device, frame.program, built, frame.camera, frame.size, quadtree)
+            return launch_beams(self._device, frame.program, built, frame.camera, frame.size, quadtree, frame.layout)
         if frame.rays is None:
             return launch_camera(self._device, frame.program, built, frame.camera, frame.size)
         return launch_rays(self._device, frame.program, built, frame.rays)

@@ -29,6 +29,7 @@ class Arrays:
     status: NDArray[np.uint8] | None = None  # RayStatus, what can be no answer among it
     level: NDArray[np.uint8] | None = None  # of the quadtree, at which the pixel's box was decided; of beams only
     drowned: NDArray[np.bool_] | None = None  # None in older runs
+    samples: NDArray[np.float32] | None = None  # shade of each pixel's samples, [s h, s w]; None where there is one
 
     @property
     def apart(self) -> NDArray[np.bool_]:
@@ -38,6 +39,7 @@ class Arrays:
 
 NEEDED = ("truth", "error", "wrong", "grazing", "shade")
 OPTIONAL = ("condition", "evaluations", "status", "level", "drowned")
+MOST_SAMPLES = 64  # on each side of a pixel
 
 
 def read(path: Path) -> Arrays:
@@ -46,12 +48,20 @@ def read(path: Path) -> Arrays:
         with np.load(path, allow_pickle=False) as file:
             named = {name: file[name] for name in NEEDED}
             named |= {name: file[name] for name in OPTIONAL if name in file}
+            samples = file.get("samples")
     except (KeyError, EOFError, zipfile.BadZipFile, zlib.error) as error:
         raise ValueError(f"damaged: {error}") from error
     shapes = {array.shape for array in named.values()}
     if len(shapes) != 1 or len(next(iter(shapes))) != 2 or 0 in next(iter(shapes)):
         raise ValueError(f"its arrays are not of one two-dimensional shape: {sorted(shapes)}")
-    return Arrays(**named)
+    return Arrays(**named, samples=_whole_pixels(samples, shapes.pop()))
+
+
+def _whole_pixels(samples: NDArray[Any] | None, shape: tuple[int, ...]) -> NDArray[Any] | None:
+    """`samples`, if any; a ValueError where they are not as many on each side of every pixel."""
+    if samples is None or any(samples.shape == tuple(s * side for side in shape) for s in range(1, MOST_SAMPLES + 1)):
+        return samples
+    raise ValueError(f"its samples {samples.shape} do not fill pixels {shape}")
 
 
 @dataclass(frozen=True)

@@ -97,10 +97,13 @@ def _caption(row: Any) -> str:
 
 
 def shaded(arrays: Arrays) -> NDArray[np.float64]:
-    """float64[h, w, 3] in 0…1: the hit points lit from the camera, on white."""
-    light = np.clip(np.nan_to_num(arrays.shade.astype(np.float64)), 0.0, 1.0)[..., None]
+    """float64[h, w, 3] in 0…1: the hit points lit from the camera, on white; of several samples the mean colour."""
+    shade = arrays.shade if arrays.samples is None else arrays.samples
+    light = np.clip(np.nan_to_num(shade.astype(np.float64)), 0.0, 1.0)[..., None]
     lit = _rgb(style.SURFACE_SHADOW) * (1 - light) + _rgb(style.SURFACE_LIGHT) * light
-    return np.where(np.isnan(arrays.shade)[..., None], 1.0, lit)
+    colors = np.where(np.isnan(shade)[..., None], 1.0, lit)
+    height, width = arrays.shade.shape
+    return np.asarray(colors.reshape(height, len(shade) // height, width, -1, 3).mean(axis=(1, 3)))
 
 
 def error_map(arrays: Arrays, scale: tuple[int, int]) -> NDArray[np.float64]:

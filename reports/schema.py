@@ -85,6 +85,7 @@ SCHEMA: tuple[Field, ...] = (
     *(field for unit in UNITS for field in _fields("real", _PERCENTILES, at=f"accuracy.{unit}", prefix=f"{unit}_")),
     *_fields("whole", "beam_only", at="accuracy"),  # hits of what the pixel's beam sees and its ray passes by
     *_fields("real", "evaluations_mean evaluations_max prepass_evaluations_mean", at="accuracy"),
+    *_fields("json", "lanes", at="accuracy"),  # of beams: what each level's work items spend and leave idle
     *_fields("text", "arrays"),
     *_fields("json", "operations"),
     *_fields("whole", "evaluation_operations"),

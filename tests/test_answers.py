@@ -11,7 +11,7 @@ import surfaces
 from harness import answers, raster
 from harness.assemble import fill_program, method_program
 from harness.backends import Launch, Timing, hits_from, launch_camera, launch_rays, same_values
-from harness.backends.beams import beam_hits_from, launch_beams
+from harness.backends.beams import Layout, beam_hits_from, launch_beams
 from harness.camera import camera_for, meets, rays_of
 from harness.contract import (
     Box,
@@ -129,7 +129,9 @@ def _beams(device, folder, kernel, casts, size=12):
     method = dataclasses.replace(MADE, casts=casts, needs=("surface_range",))
     program = _program(device, folder, kernel, "beams", method)
     camera = camera_for(VIEW, surfaces.get("sphere"))
-    launch = launch_beams(device, program, device.build(program), camera, size, casts == "quadtree", 1, blank=True)
+    launch = launch_beams(
+        device, program, device.build(program), camera, size, casts == "quadtree", Layout(1), blank=True
+    )
     launch.run()
     hits, levels = beam_hits_from(launch.read())
     launch.release()

@@ -12,7 +12,7 @@ from harness import beams
 from harness.accuracy import Verdicts, Wrong, judge
 from harness.assemble import KERNELS, file_section, map_program, method_program
 from harness.backends import map_rows
-from harness.backends.beams import beam_hits_from, launch_beams
+from harness.backends.beams import beam_hits_from, launch_beams, layout_of
 from harness.camera import camera_for, rays_of, scene_radius
 from harness.contract import FirsthitError, Hits, RayStatus, Section, Surface, Truth, TruthStatus, View
 from harness.plugins import find_methods
@@ -22,14 +22,22 @@ from .conftest import opened, usable_devices
 from .test_renders import _case, _view
 
 METHODS = [name for name, plugin in find_methods().plugins.items() if plugin.method.casts in ("beams", "quadtree")]
+CASTERS = [*((name, {}) for name in METHODS), ("interval_adaptive", {"DESCENT": 0})]  # as printed
 TYPICAL = ("torus", "dingdong_beamcasting", "blinn_blob")
 VIEW = View("oblique", azimuth=30, elevation=35)
 SIZE = 80  # twice test_renders' rays; no power of two
+WIDE = surfaces.from_formula("x + y + z", "box:1e6,1e6,1e6")  # its domain cuts no box off
 FIRST = 3  # the quadtree's first level, whatever fills the device
 
 
-def frame(device, method, surface, camera, size, precision="float32", first=None, edit=None, **knobs):
+def frame(device, method, surface, camera, size, precision="float32", edit=None, **knobs):
     """Hits and levels of every pixel; `edit` changes the program's text."""
+    outputs, _ = outputs_of(device, method, surface, camera, size, precision, edit, **knobs)
+    return beam_hits_from(outputs)
+
+
+def outputs_of(device, method, surface, camera, size, precision="float32", edit=None, **knobs):
+    """All outputs of a launch, and its layout."""
     plugin = find_methods().get(method)
     program = method_program(
         plugin.method, plugin.folder, plugin.variant(knobs), surface, precision, device.language, "beams"
@@ -38,11 +46,12 @@ def frame(device, method, surface, camera, size, precision="float32", first=None
         sections = tuple(Section(s.origin, edit(s.text)) for s in program.sections)
         program = dataclasses.replace(program, sections=sections)
     quadtree = plugin.method.casts == "quadtree"
-    launch = launch_beams(device, program, device.build(program), camera, size, quadtree, first)
+    layout = layout_of(dict(plugin.variant(knobs).parameters))
+    launch = launch_beams(device, program, device.build(program), camera, size, quadtree, layout, True, True)
     launch.run()
-    found = beam_hits_from(launch.read())
+    outputs = launch.read()
     launch.release()
-    return found
+    return outputs, layout
 
 
 def deviating(hits, truth, surface, pixels):
@@ -55,13 +64,13 @@ def deviating(hits, truth, surface, pixels):
 
 
 @pytest.mark.parametrize("name", surfaces.names())
-@pytest.mark.parametrize("method", METHODS)
-def test_no_root_of_any_surface_is_missed(method, name):
+@pytest.mark.parametrize(("method", "knobs"), CASTERS)
+def test_no_root_of_any_surface_is_missed(method, knobs, name):
     """On the device whose compiler is the fastest; the typical surfaces are looked at on every one."""
     device = opened(usable_devices()[-1].name)
     surface, rays, truth = _case(name)
     camera = camera_for(_view(name), surface)
-    hits, _ = frame(device, method, surface, camera, SIZE)
+    hits, _ = frame(device, method, surface, camera, SIZE, **knobs)
     missed, late = deviating(hits, truth, surface, beams.pixels_of(camera, round(len(rays) ** 0.5), SIZE))
     assert not missed.any()
     assert not late.any()
@@ -76,7 +85,7 @@ def test_adaptive_and_uniform_answer_alike_and_miss_nothing(device, name, precis
         pytest.skip("the surface has no float64 here")
     camera = camera_for(_view(name), surface)
     uniform, _ = frame(device, "interval_uniform", surface, camera, SIZE, precision)
-    adaptive, _ = frame(device, "interval_adaptive", surface, camera, SIZE, precision, first=FIRST)
+    adaptive, _ = frame(device, "interval_adaptive", surface, camera, SIZE, precision, FIRST_LEVEL=FIRST)
     missed, late = deviating(adaptive, truth, surface, beams.pixels_of(camera, round(len(rays) ** 0.5), SIZE))
     assert not missed.any()
     assert not late.any()
@@ -86,11 +95,44 @@ def test_adaptive_and_uniform_answer_alike_and_miss_nothing(device, name, precis
     assert adaptive.evaluations.sum() < 0.8 * uniform.evaluations.sum()
 
 
-def test_a_quadtree_that_starts_at_the_pixels_is_the_uniform_method(device):
+@pytest.mark.parametrize("precision", ["float32", "float64"])
+@pytest.mark.parametrize("name", TYPICAL)
+def test_the_printed_descent_misses_nothing_and_costs_more(device, name, precision):
+    surface, rays, truth = _case(name)
+    if precision == "float64" and (not device.info.float64 or unsupported(surface, precision, device.language)):
+        pytest.skip("the surface has no float64 here")
+    camera = camera_for(_view(name), surface)
+    ours, _ = frame(device, "interval_adaptive", surface, camera, SIZE, precision, FIRST_LEVEL=FIRST)
+    printed, _ = frame(device, "interval_adaptive", surface, camera, SIZE, precision, FIRST_LEVEL=FIRST, DESCENT=0)
+    missed, late = deviating(printed, truth, surface, beams.pixels_of(camera, round(len(rays) ** 0.5), SIZE))
+    assert not missed.any()
+    assert not late.any()
+    assert not np.any(printed.status == RayStatus.EXHAUSTED)
+    assert printed.evaluations.sum() > 1.2 * ours.evaluations.sum()
+
+
+@pytest.mark.parametrize(("descent", "expected"), [(0, 16 * 4 + 64 * 5 + 256 * 6), (1, 16 * 4 + 64 * 2 + 256 * 2)])
+def test_the_printed_descent_halves_the_whole_depth_again_at_each_level(device, descent, expected):
+    """Nothing can be excluded, so that every search goes straight to the nearest piece. At level L it is the whole
+    depth / 2^(L + 1): L + 2 evaluations, or, from the parent's piece on, that piece and its first half."""
+    camera = camera_for(View("inside", distance=1.5), surfaces.get("sphere"))
+    knobs = {
+        "FIRST_LEVEL": 2,
+        "DESCENT": descent,
+        "edit": lambda text: text.replace("= range.lo > 0.0 || range.hi < 0.0", "= false"),
+    }
+    hits, levels = frame(device, "interval_adaptive", WIDE, camera, 16, **knobs)
+    assert (hits.status == RayStatus.HIT).all()
+    assert (levels == 4).all()
+    assert hits.evaluations.sum() == expected
+
+
+@pytest.mark.parametrize("descent", [0, 1])
+def test_a_quadtree_that_starts_at_the_pixels_is_the_uniform_method(device, descent):
     surface = surfaces.get("torus")
     camera = camera_for(VIEW, surface)
     uniform, _ = frame(device, "interval_uniform", surface, camera, 50)
-    adaptive, levels = frame(device, "interval_adaptive", surface, camera, 50, first=6)
+    adaptive, levels = frame(device, "interval_adaptive", surface, camera, 50, FIRST_LEVEL=6, DESCENT=descent)
     assert np.array_equal(uniform.t, adaptive.t, equal_nan=True)
     assert np.array_equal(uniform.evaluations, adaptive.evaluations)
     assert (levels == 6).all()
@@ -101,18 +143,22 @@ def test_a_shared_beams_evaluations_are_counted_once(device):
     surface = Surface("nothing", "Nothing", "1 + x^2", surfaces.get("torus").domain, "test", 2)
     view = View("inside", fov=20.0, distance=1.5)
     for size, first in ((64, 3), (50, 2), (1, 0)):
-        hits, levels = frame(device, "interval_adaptive", surface, camera_for(view, surface), size, first=first)
+        hits, levels = frame(device, "interval_adaptive", surface, camera_for(view, surface), size, FIRST_LEVEL=first)
         across = -(-size // 2 ** ((size - 1).bit_length() - first))  # cells of the level that are in the image
         assert hits.evaluations.sum() == across**2
         assert np.ptp(hits.evaluations) <= 1
         assert (levels == first).all()
 
 
-def test_two_runs_give_the_same_bits(device):
+@pytest.mark.parametrize("knobs", [{}, {"GROUPED": 0}, {"REMAP": 3}, {"REMAP": 3, "GROUPED": 0}])
+@pytest.mark.parametrize("descent", [0, 1])
+def test_where_a_work_item_lies_changes_no_bit(device, knobs, descent):
     surface = surfaces.get("barth_sextic")
-    one, two = (frame(device, "interval_adaptive", surface, camera_for(VIEW, surface), 96)[0] for _ in range(2))
-    assert np.array_equal(one.t, two.t, equal_nan=True)
-    assert np.array_equal(one.evaluations, two.evaluations)
+    camera, fixed = camera_for(VIEW, surface), {"FIRST_LEVEL": FIRST, "DESCENT": descent}
+    for size in (96, 50):
+        one, two = (frame(device, "interval_adaptive", surface, camera, size, **fixed, **k)[0] for k in ({}, knobs))
+        assert np.array_equal(one.t, two.t, equal_nan=True)
+        assert np.array_equal(one.evaluations, two.evaluations)
 
 
 @pytest.mark.parametrize("method", METHODS)
@@ -149,7 +195,6 @@ void map_item(IN real x[INPUTS], OUT real y[OUTPUTS]) {
 }
 """,
 )
-WIDE = surfaces.from_formula("x + y + z", "box:1e6,1e6,1e6")  # its domain cuts no box off
 
 
 def escaping(device, precision, rng, edit=lambda text: text, count=4000):

@@ -232,6 +232,49 @@ def test_planted_work_and_errors_flip_a_verdict(tmp_path: Path) -> None:
         assert outcome(f"samples {error}", "beamcasting", "approximate the surface better", *cells) is expected
 
 
+@pytest.mark.parametrize(
+    ("words", "before", "after"),
+    [
+        ("Grouping threads", picks.UNIFORM_IN_ROWS, picks.UNIFORM),
+        ("Remapping threads", picks.ADAPTIVE, picks.REMAPPED),
+        ("Divergence within a warp", picks.UNIFORM, picks.ADAPTIVE),
+    ],
+)
+def test_idle_lanes_decide_what_divergence_costs(tmp_path: Path, words: str, before: Pick, after: Pick) -> None:
+    def lanes_of(idle: float) -> list[dict[str, Any]]:
+        idle_by_width = {"8": 0.0, "16": 0.0, "32": idle}
+        return [{"level": level, "items": 64, "evaluations": 500, "idle": idle_by_width} for level in (8, 9)]
+
+    def outcome(name: str, *shares: tuple[float, float]) -> Outcome:
+        cells = [
+            planted(pick, f"surface {i}", 1.0, lanes=lanes_of(idle))
+            for i, pair in enumerate(shares)
+            for pick, idle in zip((before, after), pair, strict=True)
+        ]
+        return claims.judge(claim("beamcasting", words), evidence(tmp_path / name, *cells)).outcome
+
+    if words.startswith("Divergence"):
+        assert outcome("much", (0.1, 0.4), (0.1, 0.25)) is Outcome.CONFIRMED
+        assert outcome("little", (0.3, 0.1), (0.3, 0.2)) is Outcome.REFUTED
+        assert outcome("both", (0.1, 0.4), (0.1, 0.2)) is Outcome.UNDECIDED
+    else:
+        assert outcome("less", (0.4, 0.3), (0.2, 0.18)) is Outcome.CONFIRMED
+        assert outcome("more", (0.4, 0.45), (0.2, 0.195)) is Outcome.REFUTED
+        assert outcome("both", (0.4, 0.3), (0.2, 0.21)) is Outcome.UNDECIDED
+
+
+def test_beamcastings_tables_stand_on_the_printed_descent_beside_ours(tmp_path: Path) -> None:
+    times = ((picks.UNIFORM, 6.0, 12.0), (picks.ADAPTIVE, 4.0, 6.0), (picks.ADAPTIVE_OURS, 2.0, 3.0))
+    cells = [planted(pick, "sphere", ms, evaluations_mean=spent) for pick, ms, spent in times]
+    for made in cells:
+        made["size"] = 512
+    _, report = reported(tiny_run(tmp_path / "run", *cells))
+    told = next(printed(s.blocks) for s in report.sections if s.title == "beamcasting, Tables I and II")
+    line = next(line for line in told.splitlines() if line.startswith("512 | 1 | Sphere | 167 | 860"))
+    assert line.endswith("| 250 | 1,120 | 1.50× | 1.30× | 1.15× | 2.00× | 3.00×")
+    assert "perspective frustum" in told and "nothing is shaded" in told
+
+
 def test_a_study_decides_and_a_changed_digit_refutes(tmp_path: Path) -> None:
     from harness.studies import condition_numbers
 

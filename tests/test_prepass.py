@@ -39,7 +39,7 @@ def spans(device, surface, camera, size):
     program = prepass.program(surface, "float32", device.language)
     last, across = last_level(size), prepass.tiles_per_side(size)
     stop = max(0, last - prepass.TILE_BITS)
-    steps, queue = quadtree_steps(device, device.build(program), size, first_level(device, stop), last, stop)
+    steps, queue = quadtree_steps(device, device.build(program), size, first_level(device.info, stop), last, stop)
     values = 2 * across**2
     reserved = [Reserved(values, real_type(program)), Reserved(values, np.int32)]
     scratch = [Reserved(queue, np.int32), Reserved(LEVELS, np.int32)]

@@ -36,6 +36,21 @@ def test_error_pictures_show_each_kind_of_ray_in_its_colour() -> None:
     assert np.all(image[0, 8] > image[0, 3] - 1e-9) and not np.allclose(image[0, 8], image[0, 3])
 
 
+def test_a_pixel_of_several_samples_has_the_mean_of_their_colours(tmp_path: Path) -> None:
+    shape, nan = (1, 2), np.nan
+    blank = {"truth": np.zeros(shape, np.uint8), "wrong": np.zeros(shape, np.uint8), "grazing": np.zeros(shape, bool)}
+    blank |= {"error": np.zeros(shape, np.float32), "shade": np.array([[1.0, nan]], np.float32)}
+    samples = np.array([[1.0, 1.0, nan, nan], [1.0, 0.0, nan, 1.0]], np.float32)
+    np.savez(tmp_path / "made.npz", samples=samples, **blank)
+    light, shadow = (np.array(images._rgb(color)) for color in (style.SURFACE_LIGHT, style.SURFACE_SHADOW))
+    image = images.shaded(arrays.read(tmp_path / "made.npz"))
+    assert np.allclose(image[0, 0], (3 * light + shadow) / 4)
+    assert np.allclose(image[0, 1], (3 + light) / 4), "three samples see the white behind"
+    np.savez(tmp_path / "made.npz", samples=samples[:, :3], **blank)
+    with pytest.raises(ValueError, match="do not fill"):
+        arrays.read(tmp_path / "made.npz")
+
+
 def test_a_zero_error_has_its_place_left_of_the_smallest(frame: pd.DataFrame) -> None:
     axis = drawing.ErrorAxis.of(pd.Series([0.0, 3e-7, 2e-3, np.inf]))
     assert (axis.lowest, axis.highest) == (-7, -2)

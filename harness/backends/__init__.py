@@ -22,6 +22,8 @@ from harness.contract import DeviceInfo, FirsthitError, Hits, Program, RayStatus
 Array = NDArray[Any]
 INSTALL = {"opencl": "pyopencl", "opengl": "moderngl"}
 LANGUAGES: dict[str, Language] = {"opengl": "glsl", "opencl": "cl"}
+# A GPU's compute unit with 65,536 registers holds 1,024 work items of 64 each, which beams and ranges may well need
+GPU_RESIDENT = 1024
 RASTERISES = ("opengl",)  # backends whose devices draw triangles
 
 

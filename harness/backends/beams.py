@@ -6,8 +6,8 @@ as many cells as its queue turns out to hold.
 
 from __future__ import annotations
 
-import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -15,14 +15,32 @@ from numpy.typing import NDArray
 
 from harness import prepass
 from harness.backends import Array, Device, Launch, Reserved, Step, real_type, unpacked
-from harness.contract import Hits, Program
+from harness.contract import DeviceInfo, Hits, Program
 
 UNITS = 64  # compute units of a device that does not say how many it has
-CELLS_PER_UNIT = 64  # fill a unit: one work group
+CELLS_PER_UNIT = 64  # fill a unit that does not say what it holds: one work group
 ITEMS_PER_UNIT = 2048  # work items that a queue is strided over, at most
 MOST_ITEMS = 2**21  # work items of any level: OpenGL promises 65535 groups
-LEVELS = 32
+LEVELS = 32  # counts: of the cells queued by each of 16 levels, then of those that each puts after its others
 PARENT = 3  # whole numbers in the queue for each cell
+ALL, ALL_IN_ROWS = -1, -2  # in place of a source in the queue: every cell of the level, in Z order or row by row
+
+
+@dataclass(frozen=True)
+class Layout:
+    """How a method's knobs lay cells over levels and work items; the launch reads them, not the kernel."""
+
+    first: int | None = None  # the quadtree's first level; None: the one that fills the device
+    grouped: bool = True  # a level whose cells are all looked at: in Z order, not row by row
+
+
+BY_DEVICE = Layout()
+
+
+def layout_of(knobs: Mapping[str, float | int]) -> Layout:
+    """What a method's knobs FIRST_LEVEL (negative: the device decides) and GROUPED say, where it has them."""
+    first = int(knobs.get("FIRST_LEVEL", -1))
+    return Layout(None if first < 0 else first, bool(knobs.get("GROUPED", 1)))
 
 
 def last_level(size: int) -> int:
@@ -30,29 +48,35 @@ def last_level(size: int) -> int:
     return max(0, (size - 1).bit_length())
 
 
-def first_level(device: Device, last: int) -> int:
-    """The shallowest level with enough cells to fill the device (beamcasting, II.E)."""
-    cells = CELLS_PER_UNIT * (device.info.compute_units or UNITS)
-    return min(last, math.ceil(math.log2(cells) / 2))
+def first_level(info: DeviceInfo, last: int) -> int:
+    """The shallowest level with enough cells to fill the device (beamcasting, III.E), or `last` if none has."""
+    cells = (info.resident or CELLS_PER_UNIT) * (info.compute_units or UNITS)
+    return min(last, -(-(cells - 1).bit_length() // 2))
 
 
-def quadtree_steps(device: Device, built: Any, size: int, first: int, last: int, stop: int) -> tuple[list[Step], int]:
+def most_queued(size: int, level: int, last: int) -> int:
+    """The cells of `level` that are in a size × size image, whose pixels are level `last`: the room in its queue."""
+    return int((-(-size // 2 ** (last - level))) ** 2)
+
+
+def quadtree_steps(
+    device: Device, built: Any, size: int, first: int, last: int, stop: int, grouped: bool = True
+) -> tuple[list[Step], int]:
     """Levels `first` to `stop` of a quadtree whose level `last` has the pixels, and the whole numbers its queue takes.
 
-    Buffers 0 to 4 are camera, two outputs, queue and counts.
+    Buffers 0 to 4 are camera, two outputs, queue and counts. grouped: see Layout.
     """
     most = min(MOST_ITEMS, ITEMS_PER_UNIT * max(UNITS, device.info.compute_units or 0))
     buffers = (0, 1, 2, 3, 4)
-    fixed = {"size": size, "level": -1, "last": last, "source": -1, "target": 0}
+    source, target = ALL if grouped else ALL_IN_ROWS, 0
+    fixed = {"size": size, "level": -1, "last": last, "source": source, "target": 0}
     steps = [Step(built, buffers, (LEVELS, 1), fixed)] if stop > first else []
-    source, target = -1, 0
     for level in range(first, stop + 1):
         items = min(4**level, MOST_ITEMS if source < 0 else most)
         numbers = fixed | {"level": level, "source": source, "target": target}
         steps.append(Step(built, buffers, (items, 1), numbers))
         if level < stop:
-            across = -(-size // 2 ** (last - level))  # cells that are in the image
-            source, target = target, target + PARENT * across * across
+            source, target = target, target + PARENT * most_queued(size, level, last)
     return steps, target
 
 
@@ -63,14 +87,17 @@ def launch_beams(
     camera: NDArray[np.float32],
     size: int,
     quadtree: bool,
-    first: int | None = None,
+    layout: Layout = BY_DEVICE,
     blank: bool = False,
+    queues: bool = False,
 ) -> Launch:
-    """A beam for each pixel of a size × size image, or a quadtree of beams from level `first` (None: that fills the
-    device). camera: float32[12]. `blank`: a pixel that no cell answers reads as one without an answer."""
+    """A beam for each pixel of a size × size image, or a quadtree of beams from the layout's first level. camera:
+    float32[12]. `blank`: a pixel that no cell answers reads as one without an answer. Outputs: t and answer of each
+    pixel, for beam_hits_from; with `queues` then the queue and its counts, for lanes.spent_by_items.
+    """
     last = last_level(size)
-    start = (first_level(device, last) if first is None else first) if quadtree else last
-    steps, queue = quadtree_steps(device, built, size, start, last, last)
+    start = start_of(device.info, size, quadtree, layout)
+    steps, queue = quadtree_steps(device, built, size, start, last, last, layout.grouped)
     buffers: list[Array | Reserved] = [
         np.ascontiguousarray(camera, np.float32),
         Reserved(size * size, real_type(program)),
@@ -78,14 +105,22 @@ def launch_beams(
         Reserved(queue, np.int32),
         Reserved(LEVELS, np.int32),
     ]
-    return device.launch_steps(buffers, (1, 2), steps)
+    return device.launch_steps(buffers, (1, 2, 3, 4) if queues else (1, 2), steps)
+
+
+def start_of(info: DeviceInfo, size: int, quadtree: bool, layout: Layout) -> int:
+    """The first level that is looked at: the pixels' own without a quadtree, and at most that."""
+    last = last_level(size)
+    if not quadtree:
+        return last
+    return first_level(info, last) if layout.first is None else min(last, layout.first)
 
 
 def _prepass(device: Device, program: Program, built: Any, size: int) -> tuple[list[Step], list[Array | Reserved]]:
     """The prepass's steps over a size × size image, and its buffers behind the camera: spans, counters, queues."""
     last = last_level(size)
     stop = max(0, last - prepass.TILE_BITS)
-    steps, queue = quadtree_steps(device, built, size, first_level(device, stop), last, stop)
+    steps, queue = quadtree_steps(device, built, size, first_level(device.info, stop), last, stop)
     values = 2 * prepass.tiles_per_side(size) ** 2
     spans, spent = Reserved(values, real_type(program)), Reserved(values, np.int32)
     return steps, [spans, spent, Reserved(queue, np.int32), Reserved(LEVELS, np.int32)]
@@ -141,6 +176,6 @@ def beam_hits_from(outputs: Sequence[Array]) -> tuple[Hits, NDArray[np.uint8]]:
     t is along the ray through the pixel's middle. A shared beam's evaluations are divided among its pixels, so that
     they add up to what was spent.
     """
-    t, answer = outputs
+    t, answer = outputs[:2]
     hits = unpacked(t, answer, answer & 3, answer >> 7)
     return hits, ((answer >> 2) & 31).astype(np.uint8)

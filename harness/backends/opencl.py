@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 
 from harness.assemble import explain_log
-from harness.backends import Array, BuildError, Device, Launch, Reserved, Step, Timing
+from harness.backends import GPU_RESIDENT, Array, BuildError, Device, Launch, Reserved, Step, Timing
 from harness.contract import DeviceInfo, Program
 
 SHORT = {"intel": "intel", "portable": "pocl", "nvidia": "nvidia", "amd": "amd", "rusticl": "rusticl", "apple": "apple"}
@@ -132,6 +132,7 @@ def _info(name: str, device: Any) -> DeviceInfo:
         clock="device",
         versions=(("pyopencl", cl.VERSION_TEXT),),
         problem=_problem(device),
+        resident=GPU_RESIDENT if device.type & cl.device_type.GPU else None,
     )
 
 

@@ -14,12 +14,13 @@ from typing import Any
 import numpy as np
 
 from harness.assemble import explain_log
-from harness.backends import Array, BuildError, Device, Launch, Reserved, Step, Timing
+from harness.backends import GPU_RESIDENT, Array, BuildError, Device, Launch, Reserved, Step, Timing
 from harness.backends.opengl_raster import RasterLaunch
 from harness.backends.raster import Batch, Rasteriser
 from harness.contract import DeviceInfo, FirsthitError, Program, source
 
 SHORT = ("llvmpipe", "softpipe", "nvidia", "geforce", "radeon", "intel", "apple")
+SOFTWARE = ("llvmpipe", "softpipe")
 GROUP = 64
 REQUIRED = 430
 DOUBLES = """#version 430
@@ -67,6 +68,7 @@ def find() -> list[DeviceInfo]:
             clock="device",
             versions=versions,
             problem=problem,
+            resident=None if short in SOFTWARE else GPU_RESIDENT,
         )
     ]
 

@@ -15,6 +15,7 @@ from harness import compilercheck
 from harness.answers import validated, validated_beams
 from harness.assemble import Language, method_program
 from harness.backends import LANGUAGES
+from harness.backends.beams import layout_of
 from harness.contract import PRECISIONS, CellStatus, FirsthitError, Hits, Precision, Program, Surface, Variant
 from harness.executor import CellError, LocalExecutor, discover_devices
 from harness.plugins import Catalog, find_methods
@@ -120,7 +121,8 @@ def cast(
     def run(device: str, program: Program, index: NDArray[np.intp]) -> Hits:
         if camera is None or casts == "rays":
             return executor.check(device, program, rays[index]).hits
-        frame = Frame(program, camera, None, math.isqrt(len(rays)), casts)
+        layout = layout_of(dict(variant.parameters))
+        frame = Frame(program, camera, None, math.isqrt(len(rays)), casts, layout=layout)
         return executor.check_frame(device, frame, index.astype(np.int32)).hits
 
     executor = LocalExecutor(options.timeout)

@@ -1,3 +1,5 @@
+#define ALL_IN_ROWS (-2)
+
 // Cells of the quadtree over the image: cell (x, y) of `level` is 2^(last - level) pixels wide, 1 at level `last`.
 // `path` and `evaluations` are what its parent handed down: see path_depth, and its share of the evaluations spent, or
 // NO_ANSWER where they are no count.
@@ -13,19 +15,30 @@ int even_bits(int v) {
 }
 
 // Cell `item` of a level whose cells are all looked at, in Z order: neighbouring work items have neighbouring cells.
+// Where `source` says ALL_IN_ROWS, row by row.
 Cell level_cell(Work work, int item) {
+    bool in_rows = work.source == ALL_IN_ROWS;
     Cell cell;
-    cell.x = even_bits(item);
-    cell.y = even_bits(item >> 1);
+    cell.x = in_rows ? item & ((1 << work.level) - 1) : even_bits(item);
+    cell.y = in_rows ? item >> work.level : even_bits(item >> 1);
     cell.level = work.level;
     cell.path = 1;
     cell.evaluations = 0;
     return cell;
 }
 
-// Quarter `item` % 4 of the queue's cell `item` / 4. The quarters share what their parent has cost.
+// How many cells of `level` are in the image: so many the level may queue.
+int most_queued(Work work, int level) {
+    int across = (work.size + (1 << (work.last - level)) - 1) >> (work.last - level);
+    return across * across;
+}
+
+// Quarter `item` % 4 of the queue's cell `item` / 4. The quarters share what their parent has cost. The queue is filled
+// from its front, and from its end by what shall come after all that.
 Cell queued_cell(Work work, int item) {
-    int place = work.source + 3 * (item >> 2);
+    int parent = item >> 2;
+    if (parent >= work.front) parent = most_queued(work, work.level - 1) - 1 - (parent - work.front);
+    int place = work.source + 3 * parent;
     int quarter = item & 3;
     int corner = queued(work, place);
     Cell cell;
@@ -57,12 +70,18 @@ Beam cell_beam(Work work, Cell cell) {
     return camera_beam(work.camera, i0, j0, min(i0 + side, work.size), min(j0 + side, work.size), work.size);
 }
 
-// Hands the cell to the next level: its quarters begin at `path`.
-void queue_quarters(Work work, Cell cell, int path, Hit hit) {
-    int place = work.target + 3 * queue_slot(work);
+// Hands the cell to the next level: its quarters begin at `path`; `later`: after those of all cells that are not later.
+void queue_cell(Work work, Cell cell, int path, Hit hit, bool later) {
+    int slot = queue_slot(work, later ? work.level + 16 : work.level);
+    if (later) slot = most_queued(work, work.level) - 1 - slot;
+    int place = work.target + 3 * slot;
     enqueue(work, place, cell.x | (cell.y << 16));
     enqueue(work, place + 1, path);
     enqueue(work, place + 2, spent(cell, hit));
+}
+
+void queue_quarters(Work work, Cell cell, int path, Hit hit) {
+    queue_cell(work, cell, path, hit, false);
 }
 
 // Evaluations, level and status in one word; NO_ANSWER where they are none.

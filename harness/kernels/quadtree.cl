@@ -2,7 +2,7 @@
 #define trailing_zeros(v) popcount(((v) & -(v)) - 1)  // of a positive whole number
 typedef struct Work {
     __global real *t; __global int *answer; __global int *queue; __global int *counts;
-    Camera camera; int size; int level; int last; int source; int target;
+    Camera camera; int size; int level; int last; int source; int target; int front;
 } Work;
 
 int queued(Work work, int place) {
@@ -13,8 +13,8 @@ void enqueue(Work work, int place, int value) {
     work.queue[place] = value;
 }
 
-int queue_slot(Work work) {
-    return atomic_inc(&work.counts[work.level]);
+int queue_slot(Work work, int counter) {
+    return atomic_inc(&work.counts[counter]);
 }
 
 void answer_pixel(Work work, int pixel, real distance, int word) {

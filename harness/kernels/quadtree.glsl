@@ -14,7 +14,7 @@ uniform int last;
 uniform int source;
 uniform int target;
 
-struct Work { Camera camera; int size; int level; int last; int source; int target; };
+struct Work { Camera camera; int size; int level; int last; int source; int target; int front; };
 
 int queued(Work work, int place) {
     return queue[place];
@@ -24,8 +24,8 @@ void enqueue(Work work, int place, int value) {
     queue[place] = value;
 }
 
-int queue_slot(Work work) {
-    return atomicAdd(counts[work.level], 1);
+int queue_slot(Work work, int counter) {
+    return atomicAdd(counts[counter], 1);
 }
 
 void answer_pixel(Work work, int pixel, real distance, int word) {

@@ -1,12 +1,19 @@
-// Subdivide on a cell of the image's quadtree: BeamCast on its beam from where the parent's found something; what is
-// not empty is handed to its four quarters. BeamCast stops at pieces half as deep at each further level (ε / 2).
-// `path` is the way taken from the whole beam, 1: a 0 or a 1 for each half in depth chosen.
+// Subdivide on a cell of the image's quadtree: BeamCast on its beam from where the parent's search stopped; what is not
+// empty is handed to its four quarters. BeamCast stops at pieces half as deep at each further level (ε / 2).
+// `path` is the way taken from the beam that is halved, 1: a 0 or a 1 for each half in depth chosen. What is handed
+// down is, with DESCENT 1, the parent's path, and the whole beam is halved; with DESCENT 0 the depth w where the
+// parent's piece begins, in DEPTH_STEPS, and [w, far] is halved anew.
+#define DEPTH_STEPS 8388608.0  // 2^23: float32 holds each; 1 is the whole beam's beginning
+
 void cast_cell(Work work, Cell cell) {
     Beam beam = cell_beam(work, cell);
     Hit hit = no_hit(beam.far);
     int deepest = cell.level + BISECTIONS;
-    int depth = cell.path == 1 ? 0 : deepest - 1;
-    int path = cell.path;
+    real whole = beam.far - beam.near;
+    real epsilon = 1.4140625 * whole / real(1 << deepest);  // near the square root of 2: see method.py
+    int depth = cell.path == 1 || DESCENT == 0 ? 0 : deepest - 1;
+    int path = DESCENT == 0 ? 1 : cell.path;
+    if (DESCENT == 0) beam.near = beam.near + whole * (real(cell.path - 1) / DEPTH_STEPS);
     real width = (beam.far - beam.near) / real(1 << depth);
     bool searching = true;
     while (searching) {
@@ -25,7 +32,7 @@ void cast_cell(Work work, Cell cell) {
             depth -= up;
             width *= real(1 << up);
             searching = path != 1;
-        } else if (depth < deepest) {
+        } else if (DESCENT == 0 ? width >= epsilon : depth < deepest) {
             path *= 2;
             depth += 1;
             width *= 0.5;
@@ -36,7 +43,11 @@ void cast_cell(Work work, Cell cell) {
     }
     if (hit.status == MISS || cell.level == work.last) {
         paint(work, cell, hit);
-    } else {
-        queue_quarters(work, cell, path, hit);
+        return;
     }
+    if (DESCENT == 0) {
+        real ahead = path_depth(beam, path, width) - work.camera.near;
+        path = max(int(ahead / whole * DEPTH_STEPS), 1);
+    }
+    queue_cell(work, cell, path, hit, REMAP > 0 && hit.evaluations > REMAP);
 }

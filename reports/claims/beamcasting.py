@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Callable
 
 import numpy as np
 import pandas as pd
 
 from harness import ranks
-from reports import wording
+from reports import derive, lanes, wording
 from reports.claims import picks
 from reports.claims.model import (
     Claim,
@@ -23,10 +24,13 @@ from reports.claims.model import (
     untestable,
     verdict,
 )
-from reports.evidence import Evidence
+from reports.evidence import Evidence, Pick
 
 PAPER = "beamcasting"
 TABLES = "beamcasting-tables.toml"
+DIVERGENCE = "beamcasting-divergence.toml"
+MUCH = 0.25  # the share of a warp's lanes from which on idle ones cost much
+TOLD_APART = 0.01  # idle shares differ by so much from run to run, as the queue's order does
 LEVEL = 0.01  # a chance above this is no evidence that a gain grows
 _BOTH = ("interval_uniform", "interval_adaptive")
 
@@ -129,6 +133,39 @@ def _complexity(evidence: Evidence) -> Verdict | None:
     )
 
 
+def _idle(evidence: Evidence, pick: Pick) -> pd.DataFrame:
+    """The rows of `pick` whose work items' evaluations are known, with the idle share of warps in `idle`."""
+    rows = evidence.rows(pick)
+    idle = [lanes.idle_share(row, lanes.WARP) for row in rows.itertuples()]
+    return rows.assign(idle=pd.Series(idle, rows.index, dtype="float64")).dropna(subset=["idle"])
+
+
+def _divergence(evidence: Evidence) -> Verdict | None:
+    adaptive, uniform = (_idle(evidence, pick) for pick in (picks.ADAPTIVE, picks.UNIFORM))
+    if adaptive.empty or uniform.empty:
+        return None
+    shares, beside = (quantities(rows["idle"], wording.share) for rows in (adaptive, uniform))
+    told = f"idle of {lanes.WARP} lanes: adaptive {shares}; uniform {beside}"
+    return verdict(at_least(adaptive["idle"].min(), adaptive["idle"].max(), MUCH), told)
+
+
+def _less_idle(before: Pick, after: Pick) -> Callable[[Evidence], Verdict | None]:
+    """A judge of "`after` leaves less idle than `before`": by more than runs differ by, on every surface."""
+
+    def decide(evidence: Evidence) -> Verdict | None:
+        both = _idle(evidence, before).merge(_idle(evidence, after), on=derive.GROUP, suffixes=("", "_after"))
+        if both.empty:
+            return None
+        gain = both["idle"] - both["idle_after"]
+        shares = (quantities(both[name], wording.share) for name in ("idle", "idle_after"))
+        told = f"idle of {lanes.WARP} lanes: {' before, '.join(shares)} after"
+        if len(ratios := evidence.ratios(before, after)):
+            told += f"; time before over after: {quantities(ratios['ratio'])}"
+        return verdict(at_least(float(gain.min()), float(gain.max()), TOLD_APART), told)
+
+    return decide
+
+
 CLAIMS = (
     Claim(
         PAPER,
@@ -203,11 +240,31 @@ CLAIMS = (
     ),
     Claim(
         PAPER,
+        "III.E",
+        "Grouping threads by the place of their beams lowers divergence.",
+        f"Idle share of {lanes.WARP} lanes, uniform method: pixels row by row, and in Z order",
+        _less_idle(picks.UNIFORM_IN_ROWS, picks.UNIFORM),
+        ("interval_uniform",),
+        DIVERGENCE,
+    ),
+    Claim(
+        PAPER,
         "V",
         "Divergence within a warp costs much.",
-        "none",
-        untestable,
-        reason="a processor has no warps; a GPU's profiler would decide it",
+        f"Idle share of {lanes.WARP} lanes, adaptive method as printed: at least {MUCH:.0%} on every surface",
+        _divergence,
+        _BOTH,
+        DIVERGENCE,
+    ),
+    Claim(
+        PAPER,
+        "V",
+        "Remapping threads by where their beams are to the surface lowers divergence (planned).",
+        "Idle share of "
+        f"{lanes.WARP} lanes: quarters as queued, and those whose parent evaluated f more than 16 times after the rest",
+        _less_idle(picks.ADAPTIVE, picks.REMAPPED),
+        ("interval_adaptive",),
+        DIVERGENCE,
     ),
     Claim(
         PAPER,

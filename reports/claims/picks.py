@@ -28,8 +28,11 @@ CONTROL = Pick("control point bound", "lu_lipschitz", {"BOUND": 0, "CULL": 0, "L
 LU_UNCULLED = Pick("LU bound without culling", "lu_lipschitz", {"BOUND": 1, "SIDES": 2, "CULL": 0, "LOCAL": 0})
 LU_LOCAL = Pick("LU bound that follows the ray", "lu_lipschitz", {"BOUND": 1, "CULL": 1, "LOCAL": 1})
 
-UNIFORM = Pick("uniform", "interval_uniform")
-ADAPTIVE = Pick("adaptive", "interval_adaptive")
+UNIFORM = Pick("uniform", "interval_uniform", {"GROUPED": 1})
+UNIFORM_IN_ROWS = Pick("uniform, row by row", "interval_uniform", {"GROUPED": 0})
+ADAPTIVE = Pick("adaptive", "interval_adaptive", {"DESCENT": 0, "REMAP": 0})
+REMAPPED = Pick("adaptive, remapped", "interval_adaptive", {"DESCENT": 0, "REMAP": 16})
+ADAPTIVE_OURS = Pick("adaptive from the parent's piece", "interval_adaptive", {"DESCENT": 1, "REMAP": 0})
 
 TORUS = ("torus",)
 TABLE_4 = ("sphere", "torus", "calyx", "barth_sextic", "endrass_octic", "barth_decic", "sixteen_ball")

@@ -88,4 +88,5 @@ def _line(what: tuple[str, ...], ours: pd.DataFrame, theirs: pd.DataFrame) -> It
     spread = (float(np.median(times)), min(times), max(times)) if times else (None, None, None)
     spent = right["evaluations_mean"].sum() / left["evaluations_mean"].sum()
     wrong = (left["wrong_rays"].sum(), right["wrong_rays"].sum(), left["judged"].sum())
-    yield (*what, len(common), *spread, spent, *wrong, left["relative_error_max"].max(), right["relative_error_max"].max())
+    errors = (left["relative_error_max"].max(), right["relative_error_max"].max())
+    yield (*what, len(common), *spread, spent, *wrong, *errors)

@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 
 from harness.contract import RayStatus
-from reports import beams, published, wording
+from reports import beams, derive, lanes, published, wording
 from reports.claims import picks
-from reports.content import Column, Gallery, Section, Table, Text
+from reports.content import Block, Column, Gallery, Section, Table, Text
 from reports.material import Material
 from reports.reproductions import verdicts
 
@@ -31,14 +31,28 @@ _NAMES = {
 
 
 def sections(material: Material) -> list[Section]:
-    return [*_tables(material), *_figure_1(material)]
+    return [*_tables(material), *_figure_1(material), *_divergence(material)]
+
+
+_TOLD = (
+    "A beam here is a perspective frustum: all rays from one eye through a rectangle of the picture. The paper's is a "
+    "right prism in image space, U × V × T with T = [−1, 1], and its camera is not printed. Times here are of casting "
+    "alone, all levels and the clearing of their counters: a hit's distance, its status and its evaluations are "
+    "stored, and nothing is shaded. The paper's frames per second are of whole frames, with a second kernel that "
+    "shades by the gradient and a textured quad: work that both methods share draws its ratio towards 1. Adaptive is "
+    "the paper's Subdivide as printed, which halves [w, far] anew for each quarter; ε, which the paper does not "
+    "print, gives both methods pieces of about the same depth. The last column goes on at the parent's piece, ours."
+)
 
 
 def _tables(material: Material) -> list[Section]:
-    ratios = material.evidence.of("beamcasting-tables.toml").ratios(picks.UNIFORM, picks.ADAPTIVE, _NAMES)
+    evidence = material.evidence.of("beamcasting-tables.toml")
+    ratios = evidence.ratios(picks.UNIFORM, picks.ADAPTIVE, _NAMES)
     if ratios.empty:
         return []
     ratios = ratios[ratios["device"] == ratios["device"].iloc[0]]
+    best = evidence.ratios(picks.UNIFORM, picks.ADAPTIVE_OURS, _NAMES).set_index(derive.GROUP)["ratio"].to_dict()
+    spent = evidence.rows(picks.UNIFORM).set_index(derive.GROUP)["evaluations_mean"].to_dict()
     paper = published.table("beamcasting_tables_fps")
     body: list[tuple[Any, ...]] = []
     for row in ratios.sort_values(["size", "samples_per_pixel"], kind="stable").itertuples():
@@ -46,7 +60,9 @@ def _tables(material: Material) -> list[Section]:
         theirs = [paper.number(c, **where) for c in ("uniform_fps", "adaptive_fps", "adaptive_over_uniform")]
         told = (row.size, row.samples_per_pixel, row.surface_title, 1e3 / row.slow_ms, theirs[0])
         last = None if theirs[2] is None else row.ratio / theirs[2]
-        body.append((*told, 1e3 / row.fast_ms, theirs[1], row.ratio, theirs[2], last))
+        group = tuple(getattr(row, name) for name in derive.GROUP)
+        adaptive = (1e3 / row.fast_ms, theirs[1], row.ratio, theirs[2], last)
+        body.append((*told, *adaptive, spent[group] / row.evaluations_mean, best.get(group)))
     pairs = [
         Column(who, show, numeric=True, over=over)
         for over, show in (
@@ -63,6 +79,8 @@ def _tables(material: Material) -> list[Section]:
             Column("surface", stretch=1),
             *pairs,
             Column("ours over\npaper", wording.factor, numeric=True),
+            Column("the ratio in\nevaluations", wording.factor, numeric=True),
+            Column("from the\nparent's piece", wording.factor, numeric=True),
         ),
         body,
         "beamcasting, Tables I and II: adaptive beams against uniform ones.",
@@ -72,7 +90,8 @@ def _tables(material: Material) -> list[Section]:
     )
     return [
         Section(
-            "beamcasting, Tables I and II", (table, *verdicts.of(material, "beamcasting-tables.toml", "beamcasting"))
+            "beamcasting, Tables I and II",
+            (Text(_TOLD), table, *verdicts.of(material, "beamcasting-tables.toml", "beamcasting")),
         )
     ]
 
@@ -110,3 +129,78 @@ def _figure_1(material: Material) -> list[Section]:
         group=1,
     )
     return [Section("beamcasting, Figure 1", (told, gallery, table))]
+
+
+_SETTINGS = (picks.UNIFORM_IN_ROWS, picks.UNIFORM, picks.ADAPTIVE, picks.REMAPPED, picks.ADAPTIVE_OURS)
+_IDLE = (
+    "Work items that run in step, in a processor's vector or a GPU's warp, wait for the one that evaluates f most "
+    "often. A group's lanes take its largest count each; idle is what is not evaluated of that. Counts are of the "
+    "frame that was checked; groups are neighbours in the order of the work items. Turns of the search that only test "
+    "the domain are not counted, nor that lanes evaluate at different turns: shares are lower bounds. The order of a "
+    "level's queue changes from run to run, and shares by about a hundredth."
+)
+
+
+def _divergence(material: Material) -> list[Section]:
+    """Idle lanes, of whole frames by setting, and level by level on the surface of the paper's Figure 1."""
+    config = "beamcasting-divergence.toml"
+    evidence = material.evidence.of(config)
+    rows = [(pick, row) for pick in _SETTINGS for row in evidence.rows(pick, _NAMES).itertuples()]
+    rows = [(pick, row) for pick, row in rows if row.run == config.removesuffix(".toml") and lanes.levels_of(row)]
+    if not rows:
+        return []
+    rows = [(pick, row) for pick, row in rows if row.device == rows[0][1].device]
+    order = list(_NAMES)
+    rows.sort(key=lambda one: order.index(one[1].surface))
+    body = [(_NAMES[row.surface], pick.words, row.evaluations_mean, *_shares(row), row.median_ms) for pick, row in rows]
+    shares = [Column(str(width), wording.share, numeric=True, over="idle of so many lanes") for width in lanes.WIDTHS]
+    whole = Table(
+        (
+            Column("surface"),
+            Column("setting", stretch=1),
+            Column("evals per\npixel", wording.number, numeric=True),
+            *shares,
+            Column("ms", wording.number, numeric=True),
+        ),
+        body,
+        "beamcasting, divergence: lanes that wait.",
+        f"On {rows[0][1].device}. Row by row is what the paper's grouping by place (III.E) is held against; remapped: "
+        "quarters of a cell that evaluated f more than 16 times come after the others (its plan, V).",
+        group=1,
+    )
+    levels = [
+        (
+            pick.words,
+            level["level"],
+            level["items"],
+            level["evaluations"] / level["items"],
+            *(level["idle"][str(width)] for width in lanes.WIDTHS),
+        )
+        for pick, row in rows
+        if row.surface == "octdong"
+        for level in lanes.levels_of(row)
+    ]
+    by_level = Table(
+        (
+            Column("setting", stretch=1),
+            Column("level", wording.count, numeric=True),
+            Column("work\nitems", wording.count, numeric=True),
+            Column("evals\nper item", wording.number, numeric=True),
+            *shares,
+        ),
+        levels,
+        "The Octdong level by level.",
+        "The first level is the one that fills the device. Coarse levels wait most: they have fewest neighbours alike.",
+        group=1,
+    )
+    blocks: tuple[Block, ...] = (
+        Text(_IDLE),
+        whole,
+        *([by_level] if levels else []),
+        *verdicts.of(material, config, "beamcasting"),
+    )
+    return [Section("beamcasting, divergence", blocks)]
+
+
+def _shares(row: Any) -> tuple[float | None, ...]:
+    return tuple(lanes.idle_share(row, width) for width in lanes.WIDTHS)

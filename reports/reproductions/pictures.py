@@ -88,10 +88,10 @@ FIGURES = (
     ),
     Figure(
         "beamcasting, Figures 2 to 4",
-        "The paper shows its twelve surfaces with 1 and with 4 samples per pixel. Here: the rays of the accuracy "
-        "check.",
-        "The twelve surfaces by adaptive beams. Look at silhouettes, where a beam may touch what its centre ray does "
-        "not.",
+        "The paper shows its twelve surfaces with 1 and with 4 samples per pixel, whose colours it combines. Here: the "
+        "rays of the accuracy check; of 4 samples a pixel has the mean of their colours.",
+        "The twelve surfaces by adaptive beams as printed, with 1 and with 4 samples per pixel. Look at silhouettes: "
+        "4 samples smooth their steps, and narrower beams touch less of what their centre rays pass by.",
         "beamcasting-tables.toml",
         _ANY_BEAM,
         (picks.ADAPTIVE,),
@@ -112,6 +112,8 @@ def drawn(evidence: Evidence, figure: Figure) -> pd.DataFrame:
         rows = rows[rows["run"] == figure.config.removesuffix(".toml")]
         found.append(rows.assign(setting=pick.words))
     rows = pd.concat(found)
+    if rows["samples_per_pixel"].nunique() > 1:
+        rows["setting"] += rows["samples_per_pixel"].map(lambda n: f", {wording.plural(n, 'sample')} per pixel")
     rows = rows[rows["device"] == rows["device"].iloc[0]] if len(rows) else rows
     rows = rows.assign(place=[figure.surfaces.index(surface) for surface in rows["surface"]])
     return rows.sort_values(["place", "view"], kind="stable").drop_duplicates(["surface", "view", "setting"])

@@ -1,0 +1,24 @@
+"""Rows → what the work items of a frame of beams leave idle where they run in step."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+from reports import wording
+
+WIDTHS = (8, 16, 32)
+WARP = 32  # lanes
+
+
+def levels_of(row: Any) -> list[dict[str, Any]]:
+    """Of each level: level, items, evaluations, idle by width; none where the row has no lanes."""
+    return [] if wording.absent(row.lanes) else list(json.loads(row.lanes) or [])
+
+
+def idle_share(row: Any, width: int) -> float | None:
+    """The idle share of all levels together, in groups of `width` lanes; None where the row has no lanes."""
+    levels = levels_of(row)
+    spent = sum(level["evaluations"] for level in levels)
+    taken = sum(level["evaluations"] / (1.0 - level["idle"][str(width)]) for level in levels)
+    return 1.0 - spent / taken if taken else None
