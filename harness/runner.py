@@ -147,7 +147,9 @@ class Runner:
             along, ahead = beams.along_rays(checked.hits, pixels), state.planned.camera[3:6]
             hits = answers.validated_beams(along, cell.surface.domain, rays, ahead)
         else:
-            hits = answers.validated(checked.hits, cell.surface.domain, rays, counts=cell.prepass == "none")
+            hits = answers.validated(
+                checked.hits, cell.surface.domain, rays, counts=cell.prepass == "none", origin=cell.origin
+            )
         state.compile_ms = checked.compile_ms
         verdicts = accuracy.judge(hits, truth, scene_radius(cell.surface), config.grazing_margin, cell.precision)
         if casts_beams:
@@ -184,7 +186,9 @@ class Runner:
             return None
         program = partial(method_program, plugin.method, plugin.folder, cell.variant, cell.surface, cell.precision)
         run = compilercheck.with_listed_rays(self._executor, rays)
-        second = compilercheck.SecondBuild(cell.device, cell.precision, partial(program, entry="rays"), run)
+        second = compilercheck.SecondBuild(
+            cell.device, cell.precision, partial(program, entry="rays", origin=cell.origin), run
+        )
         return compilercheck.doubts_about(cell.surface, rays, hits, second).fault
 
     def _unfit(self, state: _Live) -> str | None:
@@ -210,7 +214,7 @@ class Runner:
         for group, program in zip(stability.groups(cell.family), state.planned.checks, strict=True):
             truth = cached_first_hits(group.surface, group.rays, self._store.truth)
             checked = self._executor.check(cell.device, program, group.rays)
-            hits = answers.validated(checked.hits, group.surface.domain, group.rays)
+            hits = answers.validated(checked.hits, group.surface.domain, group.rays, origin=cell.origin)
             state.compile_ms += checked.compile_ms
             state.rungs += group.judge(hits, truth, cell.precision)
         rays, undecided = (sum(rung[name] for rung in state.rungs) for name in ("rays", "undecided"))
@@ -284,6 +288,7 @@ class Runner:
             "answers": method.answers,
             "casts": method.casts,
             "prepass": cell.prepass,
+            "origin": cell.origin if method.casts == "rays" else None,
             "proxy": cell.proxy if cell.stage == "raster" else None,
             "pixel_tolerance": cell.tolerance if cell.stage == "raster" else None,
             "scene": cell.scene.family if cell.scene else None,

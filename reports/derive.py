@@ -46,7 +46,7 @@ def derive(frame: pd.DataFrame, peaks: Mapping[str, float] | None = None) -> pd.
     timed = frame[(frame["status"] == CellStatus.OK) & frame["median_ms"].notna()]
     frame = frame.join(_baseline_ms(timed), on=GROUP)
     frame["speedup"] = rounds.over_first(frame, baseline_rows(timed), GROUP).where(frame["answers"] & all_right(frame))
-    frame = frame.join(_floor_ms(timed), on=GROUP)
+    frame["floor_ms"] = _floor_ms(frame, timed)
     frame["floor_bound"] = frame["answers"] & (frame["median_ms"] < FLOOR_FACTOR * frame["floor_ms"])
     share = _peak_share(frame, peaks or {})
     frame["peak_too_low"] = (share > 1.0).astype("boolean")
@@ -112,9 +112,12 @@ def baseline_of(frame: pd.DataFrame) -> str:
     return " or ".join(dict.fromkeys(map(str, frame["baseline"]))) or BASELINE
 
 
-def _floor_ms(timed: pd.DataFrame) -> pd.Series:
+def _floor_ms(frame: pd.DataFrame, timed: pd.DataFrame) -> pd.Series:
+    """By row of `frame`: the null method's time with rays of the same origin, where it was timed so; else of any."""
     floor = ~timed["answers"].astype(bool) & (timed["prepass"] != "beams")  # behind a prepass it measures that too
-    return timed[floor].groupby(GROUP)["median_ms"].max().rename("floor_ms")
+    null = timed[floor].rename(columns={"median_ms": "null_ms"})
+    own, any_origin = (null.groupby(keys)["null_ms"].max() for keys in ([*GROUP, "origin"], GROUP))
+    return frame.join(own, on=[*GROUP, "origin"])["null_ms"].fillna(frame.join(any_origin, on=GROUP)["null_ms"])
 
 
 def _peak_share(frame: pd.DataFrame, peaks: Mapping[str, float]) -> pd.Series:

@@ -127,7 +127,9 @@ class _Side:
 def _hits(side: _Side, planned: Planned, rays: NDArray[np.float32], size: int, executor: LocalExecutor) -> Hits:
     device, domain = planned.cell.device, planned.cell.surface.domain
     if planned.casts == "rays" and side.check:
-        return answers.validated(executor.check(device, side.check, rays).hits, domain, rays)
+        return answers.validated(
+            executor.check(device, side.check, rays).hits, domain, rays, origin=planned.cell.origin
+        )
     pixels = beams.pixels_of(planned.camera, size, side.frame.size)
     along = beams.along_rays(executor.check_frame(device, side.frame, pixels.index).hits, pixels)
     return answers.validated_beams(along, domain, rays, planned.camera[3:6])

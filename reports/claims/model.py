@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from typing import Any
 
@@ -43,9 +43,10 @@ class Claim:
 
 def judge(claim: Claim, evidence: Evidence) -> Verdict:
     """The verdict on one claim, by the rows of its own config where they are there; else what is missing is said."""
-    verdict = claim.decide(evidence.of(claim.config))
+    own = evidence.of(claim.config)
+    verdict = claim.decide(own)
     if verdict is not None:
-        return verdict
+        return replace(verdict, figure=f"{verdict.figure} ({own.note})") if own.note else verdict
     return Verdict(Outcome.UNTESTED, claim.reason or f"this run has no rows for it; configs/{claim.config} gives them")
 
 

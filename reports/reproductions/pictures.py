@@ -110,7 +110,7 @@ def _section(material: Material, figure: Figure) -> Section | None:
         return None
     found = []
     for pick in figure.settings:
-        rows = material.evidence.rows(pick, figure.surfaces)
+        rows = material.evidence.of(figure.config).rows(pick, figure.surfaces)
         rows = rows[rows["run"] == figure.config.removesuffix(".toml")]
         found.append(rows.assign(setting=pick.words))
     rows = pd.concat(found)
