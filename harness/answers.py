@@ -3,7 +3,7 @@
 A hit is a finite t inside the interval that its ray spends in the domain, from t_min on. The kernel knows that interval
 to float32 only: it widens the domain by a few roundings, so that a surface that touches the wall is not cut off, and
 rounds t. So the domain is taken SLACK of its size (radius, and distance of its centre from the origin) wider here, and
-t may be off by as much; t that is counted from the eye also by SLACK_OF_T of the eye's distance. A hit elsewhere, a
+t may be off by as much; where rays are clipped at the eye, also by SLACK_OF_T of its distance. A hit elsewhere, a
 status that is none and a count of evaluations outside 0 … MOST_EVALUATIONS (the kernels' packing tells those two) is
 INVALID: a wrong answer of its own kind, whatever the truth. So is a hit of no evaluation. A ray that passes the domain
 by spends none, and beams share theirs among pixels, so that 0 is a count.
@@ -49,7 +49,7 @@ def reachable(
     origin: Origin = "nearest",
 ) -> NDArray[np.bool_]:
     """bool[n]: whether t is inside the interval that its ray float32[n, 6] spends in the domain from t_min on."""
-    if origin != "eye":
+    if origin == "nearest":
         return _within(domain, rays, t, t_min, SLACK * _size(domain))
     away = np.linalg.norm(rays[:, :3].astype(np.float64) - domain.center, axis=1)
     doubled = np.exp2(np.ceil(np.log2(np.maximum(away, domain.radius))))  # so that few distances stand for all

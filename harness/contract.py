@@ -349,7 +349,7 @@ class Truth:
     #   roundoffs; inf without any; 0 for TOUCH and UNDECIDED. Below an arithmetic's unit roundoff f's sign is in doubt
 
 
-_FROM: Mapping[Origin, str] = {"nearest": "", "entry": " from the entry", "eye": " from the eye"}
+FROM_ORIGIN: Mapping[Origin, str] = {"nearest": "", "entry": " from the entry", "eye": " from the eye"}
 
 
 @dataclass(frozen=True)
@@ -379,7 +379,7 @@ class Cell:
         behind = "" if self.prepass == "none" else f"+{self.prepass}"
         loose = f" to {self.tolerance:g} pixels" if self.tolerance else ""
         proxy = "" if self.proxy == "box" else f" in a {self.proxy}"
-        return f"{self.variant}{behind}{loose}{proxy}{_FROM[self.origin]}"
+        return f"{self.variant}{behind}{loose}{proxy}{FROM_ORIGIN[self.origin]}"
 
     @property
     def slot(self) -> str:

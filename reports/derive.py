@@ -11,7 +11,7 @@ from collections.abc import Mapping
 import pandas as pd
 
 from harness.config import BASELINE
-from harness.contract import CellStatus
+from harness.contract import FROM_ORIGIN, CellStatus
 from reports import rounds
 from reports.schema import KINDS, SCHEMA
 
@@ -97,10 +97,16 @@ def baseline_rows(timed: pd.DataFrame) -> pd.DataFrame:
 
     Where a method is named that has several variants, the one without bound parameters in its name, if any.
     """
-    named = timed["variant"] == timed["baseline"]
+    named = casters(timed) == timed["baseline"]
     rows = timed[named | (timed["method"] == timed["baseline"])]
     rows = rows.assign(swept=~named[rows.index]).sort_values("swept", kind="stable").drop_duplicates(GROUP)
     return rows[all_right(rows)]
+
+
+def casters(rows: pd.DataFrame) -> pd.Series:
+    """The variants without where their rays begin."""
+    named = zip(rows["variant"], rows["origin"].fillna("nearest"), strict=True)
+    return pd.Series([str(v).removesuffix(FROM_ORIGIN[o]) for v, o in named], rows.index, dtype=object)
 
 
 def _baseline_ms(timed: pd.DataFrame) -> pd.Series:

@@ -1,8 +1,6 @@
-// A method's rays begin where they enter the domain, or at the eye within it: its t runs from about 0.
-real origin_shift(Ray ray) {
-    return max(domain_span(ray).lo, real(0));
-}
-
-Ray ray_from_origin(Ray ray, real shift) {
-    return advanced_ray(ray, shift);
+// A method's ray begins where it enters the domain, or at the eye within it: its t runs from about 0.
+OwnRay own_ray(Ray ray) {
+    Span span = domain_span(ray);
+    real shift = max(span.lo, real(0));
+    return make_own_ray(advanced_ray(ray, shift), shift, make_span(span.lo - shift, span.hi - shift));
 }

@@ -1,8 +1,4 @@
-// A method's rays begin at the eye, as they are given: its t has the roundings of the eye's distance.
-real origin_shift(Ray ray) {
-    return 0.0;
-}
-
-Ray ray_from_origin(Ray ray, real shift) {
-    return ray;
+// A method's ray begins at the eye, as it is given: its t has the roundings of the eye's distance.
+OwnRay own_ray(Ray ray) {
+    return make_own_ray(ray, 0.0, domain_span(ray));
 }
