@@ -3,9 +3,10 @@
 A hit is a finite t inside the interval that its ray spends in the domain, from t_min on. The kernel knows that interval
 to float32 only: it widens the domain by a few roundings, so that a surface that touches the wall is not cut off, and
 rounds t. So the domain is taken SLACK of its size (radius, and distance of its centre from the origin) wider here, and
-t may be off by as much. A hit elsewhere, a status that is none and a count of evaluations outside 0 … MOST_EVALUATIONS
-(the kernels' packing tells those two) is INVALID: a wrong answer of its own kind, whatever the truth. So is a hit of
-no evaluation. A ray that passes the domain by spends none, and beams share theirs among pixels, so that 0 is a count.
+t may be off by as much; where rays are clipped at the eye, also by SLACK_OF_T of its distance. A hit elsewhere, a
+status that is none and a count of evaluations outside 0 … MOST_EVALUATIONS (the kernels' packing tells those two) is
+INVALID: a wrong answer of its own kind, whatever the truth. So is a hit of no evaluation. A ray that passes the domain
+by spends none, and beams share theirs among pixels, so that 0 is a count.
 """
 
 from __future__ import annotations
@@ -15,29 +16,57 @@ import dataclasses
 import numpy as np
 from numpy.typing import NDArray
 
-from harness.contract import Box, Domain, Hits, RayStatus, Sphere
+from harness.contract import Box, Domain, Hits, Origin, RayStatus, Sphere
 from harness.oracle.clip import clip_many
 
 SLACK = 2.0**-17  # of the domain's size: 128 roundings in float32, of which the clip spends 16
 
+SLACK_OF_T = 2.0**-20  # 16 roundings in float32
 
-def validated(hits: Hits, domain: Domain, rays: NDArray[np.float32], t_min: float = 0.0, counts: bool = True) -> Hits:
+
+def validated(
+    hits: Hits,
+    domain: Domain,
+    rays: NDArray[np.float32],
+    t_min: float = 0.0,
+    counts: bool = True,
+    origin: Origin = "nearest",
+) -> Hits:
     """The answers for rays float32[n, 6], with those that cannot be answers marked INVALID and their t NaN.
 
     A ray that `counts` evaluations of its own has spent one where it hits; behind a prepass, which shares its own among
-    a tile's rays, it need not.
+    a tile's rays, it need not. `origin` is where the program's t began.
     """
-    possible = reachable(domain, rays, hits.t, t_min)
+    possible = reachable(domain, rays, hits.t, t_min, origin)
     return only(hits, possible & (hits.evaluations > 0) if counts else possible)
 
 
 def reachable(
-    domain: Domain, rays: NDArray[np.float32], t: NDArray[np.float64], t_min: float = 0.0
+    domain: Domain,
+    rays: NDArray[np.float32],
+    t: NDArray[np.float64],
+    t_min: float = 0.0,
+    origin: Origin = "nearest",
 ) -> NDArray[np.bool_]:
     """bool[n]: whether t is inside the interval that its ray float32[n, 6] spends in the domain from t_min on."""
-    size = _size(domain)
-    reach = clip_many(_widened(domain, SLACK * size), rays.astype(np.float64))
-    lower, upper = np.maximum(reach.enter_lower, t_min) - SLACK * size, reach.leave_upper + SLACK * size
+    if origin == "nearest":
+        return _within(domain, rays, t, t_min, SLACK * _size(domain))
+    away = np.linalg.norm(rays[:, :3].astype(np.float64) - domain.center, axis=1)
+    doubled = np.exp2(np.ceil(np.log2(np.maximum(away, domain.radius))))  # so that few distances stand for all
+    possible = np.zeros(len(rays), np.bool_)
+    for distance in np.unique(doubled):
+        mine = doubled == distance
+        off = SLACK * _size(domain) + SLACK_OF_T * float(distance)
+        possible[mine] = _within(domain, rays[mine], t[mine], t_min, off)
+    return possible
+
+
+def _within(
+    domain: Domain, rays: NDArray[np.float32], t: NDArray[np.float64], t_min: float, off: float
+) -> NDArray[np.bool_]:
+    """bool[n]: as `reachable`, where the domain's ends and t may be `off`, scene units."""
+    reach = clip_many(_widened(domain, off), rays.astype(np.float64))
+    lower, upper = np.maximum(reach.enter_lower, t_min) - off, reach.leave_upper + off
     return np.asarray(~reach.missed & (lower <= t) & (t <= upper))
 
 

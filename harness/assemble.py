@@ -11,7 +11,19 @@ from functools import cache
 from pathlib import Path
 from typing import Literal
 
-from harness.contract import Box, FirsthitError, Method, Parameter, Precision, Program, Proxy, Section, Surface, Variant
+from harness.contract import (
+    Box,
+    FirsthitError,
+    Method,
+    Origin,
+    Parameter,
+    Precision,
+    Program,
+    Proxy,
+    Section,
+    Surface,
+    Variant,
+)
 
 KERNELS = Path(__file__).parent / "kernels"
 AFTER_TABLES = ("fit_samples",)  # libraries that read the surface's degree and the method's tables
@@ -92,13 +104,16 @@ def method_program(
     entry: Literal["rays", "camera", "beams"],
     narrowed: Section | None = None,
     t_min: float = 0.0,
+    origin: Origin = "nearest",
 ) -> Program:
     """The program that casts rays or beams at `surface` by `variant`; `folder` holds the method's kernel.glsl.
 
     `narrowed` is the prepass's parameters where rays are to be narrowed by it. `t_min`, in units of t, is where listed
     rays begin. In GLSL the compiler may remove none of its loops, but of a camera's program, which is only timed.
+    `origin` is where the method sees its rays begin.
 
-    Raises FirsthitError where the surface lacks a function that the method needs, or t_min is no distance.
+    Raises FirsthitError where the surface lacks a function that the method needs, t_min is no distance, or the method
+    casts no rays whose origin could be chosen.
     """
     from surfaces.sections import libraries_for, surface_sections
 
@@ -112,8 +127,10 @@ def method_program(
         sections += surface_sections(surface, needs, precision, language)
         sections.append(_domain_section(surface))
     sections += method_sections(method, folder, variant, surface, precision, language)
+    if reason := origin_refusal(method, origin):
+        raise FirsthitError(reason)
     if entry != "beams":
-        sections.append(file_section(KERNELS / "cast.glsl"))
+        sections += _cast_sections(origin)
     if listed:
         sections += [_t_min_section(t_min, precision, language), file_section(KERNELS / "listed.glsl")]
     if entry == "camera":
@@ -137,6 +154,18 @@ def kept_loops() -> Section:
 def with_free_loops(program: Program) -> Program:
     """The program as it is timed: a compiler may remove the loops that nothing depends on."""
     return replace(program, sections=tuple(s for s in program.sections if s != kept_loops()))
+
+
+def origin_refusal(method: Method, origin: Origin) -> str | None:
+    """Why a method cannot begin its rays at `origin`, if it cannot."""
+    if origin == "nearest" or method.casts == "rays":
+        return None
+    cast = "triangles" if method.casts == "mesh" else "beams"
+    return f"an origin is chosen for rays, and the method {method.name} casts {cast}"
+
+
+def _cast_sections(origin: Origin) -> list[Section]:
+    return [file_section(KERNELS / f"{part}.glsl") for part in ("origin", f"origin_{origin}", "cast")]
 
 
 def _t_min_section(t_min: float, precision: Precision, language: Language) -> Section:
@@ -181,11 +210,12 @@ def raster_program(
     reports: bool,
     free: bool = False,
     pixels: float = 0.0,
+    origin: Origin = "nearest",
 ) -> Program:
     """The program whose fragments, of a proxy about each instance of `surface`, cast rays by `variant`, in GLSL and
     float32. With `reports` it also writes what the check reads, and the compiler may remove none of its loops.
     `free`: parameters and domain are each instance's own. `pixels`: how many footprints of a pixel the method's
-    tolerance may grow to; 0 leaves it alone.
+    tolerance may grow to; 0 leaves it alone. `origin`: as for method_program, of the ray in the instance's coordinates.
 
     Raises FirsthitError where the surface lacks a function that the method or the shading needs.
     """
@@ -205,7 +235,8 @@ def raster_program(
         sections.append(file_section(KERNELS / "raster_tolerance.glsl"))
     sections += method_sections(method, folder, variant, surface, "float32", "glsl", pixels > 0.0)
     sections.append(Section("generated: shading", f"#define SHADING_NORMAL {normal}"))
-    parts = ("cast", *RAY_OF_PIXEL, "raster_fragment", "raster_shade", *(["turns", "raster_report"] * reports))
+    sections += _cast_sections(origin)
+    parts = (*RAY_OF_PIXEL, "raster_fragment", "raster_shade", *(["turns", "raster_report"] * reports))
     sections += [file_section(KERNELS / f"{part}.glsl") for part in parts]
     sections.append(file_section(KERNELS / f"entry_raster{'_check' * reports}.frag.glsl"))
     if reports:

@@ -15,11 +15,13 @@ from pathlib import Path
 from typing import Any
 
 from harness.contract import (
+    ORIGINS,
     PRECISIONS,
     PREPASSES,
     PROXIES,
     STAGES,
     FirsthitError,
+    Origin,
     Precision,
     Prepass,
     Proxy,
@@ -112,8 +114,8 @@ class GateChoice:
 
 @dataclass(frozen=True)
 class Config:
-    """An experiment: methods × prepass × surfaces × views × sizes × samples × stages × precisions × devices, and,
-    untimed, methods × families of hard rays × precisions × devices. `surfaces` and `families` may be ["all"].
+    """An experiment: methods × prepass × origins × surfaces × views × sizes × samples × stages × precisions × devices,
+    and, untimed, methods × families of hard rays × precisions × devices. `surfaces` and `families` may be ["all"].
 
     `baseline` is the method, or the variant by its label, that reports give speed-ups over.
     `studies` are computations of harness.studies. With `include`, a list of config files, it holds nothing else:
@@ -135,6 +137,7 @@ class Config:
     precisions: list[str] = field(default_factory=lambda: ["float32"])
     stages: list[str] = field(default_factory=lambda: ["compute"])
     prepass: list[str] = field(default_factory=lambda: ["none"])
+    origins: list[str] = field(default_factory=lambda: ["nearest"])  # of rays; beams and triangles have none
     proxies: list[str] = field(default_factory=lambda: ["box"])  # of stage raster
     tolerances: list[float] = field(default_factory=lambda: [0.0])  # of stage raster, in pixels; 0: the method's own
     devices: list[str] = field(default_factory=lambda: ["all"])
@@ -160,6 +163,7 @@ class Experiment:
     stages: tuple[Stage, ...]
     included: tuple[Path, ...] = ()  # of a config that includes others
     prepasses: tuple[Prepass, ...] = ("none",)
+    origins: tuple[Origin, ...] = ("nearest",)
     proxies: tuple[Proxy, ...] = ("box",)
     scenes: tuple[Scene, ...] = ()
     own_stages: Mapping[Variant, tuple[Stage, ...]] = field(default_factory=dict)  # where they are not `stages`
@@ -398,6 +402,7 @@ def load(path: Path, catalog: Catalog) -> Experiment:
     _known(config.stages, STAGES, "stages", source)
     _check_gate(config.gate, source)
     _known(config.prepass, PREPASSES, "prepass", source)
+    _known(config.origins, ORIGINS, "origins", source)
     _known(config.proxies, PROXIES, "proxies", source)
 
     variants: list[Variant] = []
@@ -451,6 +456,7 @@ def load(path: Path, catalog: Catalog) -> Experiment:
         typing.cast(tuple[Precision, ...], tuple(config.precisions)),
         typing.cast(tuple[Stage, ...], tuple(config.stages)),
         prepasses=typing.cast(tuple[Prepass, ...], tuple(config.prepass)),
+        origins=typing.cast(tuple[Origin, ...], tuple(config.origins)),
         proxies=typing.cast(tuple[Proxy, ...], tuple(config.proxies)),
         scenes=tuple(scenes),
         own_stages=own_stages,

@@ -23,7 +23,9 @@ Stage = Literal["compute", "rays", "raster"]
 Casts = Literal["rays", "beams", "quadtree", "mesh"]
 Proxy = Literal["box", "sphere", "tetrahedron"]
 Prepass = Literal["none", "beams"]
+Origin = Literal["nearest", "entry", "eye"]
 PREPASSES: tuple[Prepass, ...] = ("none", "beams")
+ORIGINS: tuple[Origin, ...] = ("nearest", "entry", "eye")
 PROXIES: tuple[Proxy, ...] = ("box", "sphere", "tetrahedron")
 PRECISIONS: tuple[Precision, ...] = ("float32", "float64")
 UNIT_ROUNDOFF: dict[Precision, float] = {"float32": 2.0**-24, "float64": 2.0**-53}
@@ -348,6 +350,9 @@ class Truth:
     #   roundoffs; inf without any; 0 for TOUCH and UNDECIDED. Below an arithmetic's unit roundoff f's sign is in doubt
 
 
+FROM_ORIGIN: Mapping[Origin, str] = {"nearest": "", "entry": " from the entry", "eye": " from the eye"}
+
+
 @dataclass(frozen=True)
 class Cell:
     """One point of the experiment grid: a view, or a family of hard rays, which is checked but not timed."""
@@ -365,13 +370,17 @@ class Cell:
     proxy: Proxy = "box"  # of stage raster: the geometry whose fragments cast rays
     tolerance: float = 0.0  # of stage raster: pixel footprints that a method's own tolerance may grow to
     scene: Any = None  # a harness.scenes.Scene of several instances, of which `surface` then is the stand-in
+    origin: Origin = "nearest"  # where a method sees its ray begin: at the point nearest the domain's centre, where the
+    #   ray enters the domain, or at the eye, as the ray was given; t is told along the ray as given all the same
 
     @property
     def caster(self) -> str:
-        """The variant, with the prepass that it works behind, its tolerance in pixels and a proxy that is no box."""
+        """The variant, with the prepass that it works behind, its tolerance in pixels, a proxy that is no box, and an
+        origin that is not the nearest point."""
         behind = "" if self.prepass == "none" else f"+{self.prepass}"
         loose = f" to {self.tolerance:g} pixels" if self.tolerance else ""
-        return f"{self.variant}{behind}{loose}" + ("" if self.proxy == "box" else f" in a {self.proxy}")
+        proxy = "" if self.proxy == "box" else f" in a {self.proxy}"
+        return f"{self.variant}{behind}{loose}{proxy}{FROM_ORIGIN[self.origin]}"
 
     @property
     def slot(self) -> str:

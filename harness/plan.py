@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from harness import identity as identities
 from harness import prepass, raster, stability
-from harness.assemble import fill_program, method_program, with_free_loops
+from harness.assemble import fill_program, method_program, origin_refusal, with_free_loops
 from harness.backends import LANGUAGES, RASTERISES
 from harness.backends.beams import layout_of
 from harness.camera import camera_for, rays_of
@@ -23,6 +23,7 @@ from harness.contract import (
     Cell,
     DeviceInfo,
     FirsthitError,
+    Origin,
     Program,
     Proxy,
     Stage,
@@ -144,6 +145,8 @@ def _refusal(
         return "the device has no float64"
     if cell.precision not in method.precisions:
         return f"the method has no {cell.precision} form"
+    if reason := origin_refusal(method, cell.origin):
+        return reason
     if cell.stage == "raster":
         if not able(info):
             return "the stage raster needs a rasteriser, and the device has none"
@@ -173,7 +176,15 @@ def _programs(cell: Cell, surfaces: list[Surface], catalog: Catalog) -> tuple[tu
     def program(surface: Surface, entry: Literal["rays", "camera", "beams"]) -> Program:
         narrowed = prepass.parameters() if cell.prepass == "beams" else None
         return method_program(
-            plugin.method, plugin.folder, cell.variant, surface, cell.precision, language, entry, narrowed
+            plugin.method,
+            plugin.folder,
+            cell.variant,
+            surface,
+            cell.precision,
+            language,
+            entry,
+            narrowed,
+            origin=cell.origin,
         )
 
     if plugin.method.casts != "rays":
@@ -198,7 +209,7 @@ def _planned(cell: Cell, info: DeviceInfo | None, catalog: Catalog, experiment: 
             if cell.stage == "raster":
                 scene = cell.scene or single(cell.surface, cell.view)
                 raster.depth_map(scene, camera_for(cell.view, cell.surface))
-                drawn = raster.draws(scene, cell.variant, cell.proxy, catalog, cell.tolerance)
+                drawn = raster.draws(scene, cell.variant, cell.proxy, catalog, cell.tolerance, cell.origin)
                 checks, frame = tuple(draw.check for draw in drawn), drawn[0].timed
             else:
                 checks, frame = _programs(cell, surfaces, catalog)
@@ -246,13 +257,36 @@ def plan(experiment: Experiment, catalog: Catalog, found: list[DeviceInfo], time
     if not any(devices.values()):
         wanted = "no usable device" if set(config.devices) <= {"all", "any"} else f"none of {', '.join(config.devices)}"
         raise FirsthitError(f"{wanted} found on this machine; see `firsthit devices`", exit_code=3)
-    runs_on = list(itertools.product(experiment.variants, experiment.prepasses, devices.items(), experiment.precisions))
+    runs_on = [
+        (variant, before, origin, device, precision)
+        for variant, before in itertools.product(experiment.variants, experiment.prepasses)
+        for origin, device, precision in itertools.product(
+            _origins(variant, experiment, catalog), devices.items(), experiment.precisions
+        )
+    ]
     stages = dict.fromkeys(stage for variant in experiment.variants for stage in experiment.stages_of(variant))
     scenes = itertools.product(experiment.surfaces, config.view, config.sizes, config.samples_per_pixel, stages)
     cells = [
-        (Cell(variant, surface, view, size, samples, precision, stage, name, None, before, proxy, pixels), info)
+        (
+            Cell(
+                variant,
+                surface,
+                view,
+                size,
+                samples,
+                precision,
+                stage,
+                name,
+                None,
+                before,
+                proxy,
+                pixels,
+                origin=origin,
+            ),
+            info,
+        )
         for surface, view, size, samples, stage in scenes
-        for variant, before, (name, info), precision in runs_on
+        for variant, before, origin, (name, info), precision in runs_on
         if stage in experiment.stages_of(variant)
         for proxy, pixels in _rasterings(stage, variant, experiment, catalog)
     ]
@@ -272,12 +306,13 @@ def plan(experiment: Experiment, catalog: Catalog, found: list[DeviceInfo], time
                 proxy,
                 pixels,
                 scene,
+                origin,
             ),
             info,
         )
         for scene in experiment.scenes
         for view, size, samples in itertools.product(_views(scene, config), config.sizes, config.samples_per_pixel)
-        for variant, before, (name, info), precision in runs_on
+        for variant, before, origin, (name, info), precision in runs_on
         for proxy, pixels in _rasterings("raster", variant, experiment, catalog)
     ]
     cells += [
@@ -293,13 +328,19 @@ def plan(experiment: Experiment, catalog: Catalog, found: list[DeviceInfo], time
                 name,
                 family,
                 before,
+                origin=origin,
             ),
             info,
         )
         for family in config.families
-        for variant, before, (name, info), precision in runs_on
+        for variant, before, origin, (name, info), precision in runs_on
     ]
     return [_planned(cell, info, catalog, experiment, timed) for cell, info in cells]
+
+
+def _origins(variant: Variant, experiment: Experiment, catalog: Catalog) -> tuple[Origin, ...]:
+    """The origins that make a difference to a method: beams and triangles have none, and are cast once."""
+    return experiment.origins if catalog.get(variant.method).method.casts == "rays" else ("nearest",)
 
 
 def _rasterings(stage: Stage, variant: Variant, experiment: Experiment, catalog: Catalog) -> list[tuple[Proxy, float]]:

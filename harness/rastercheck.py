@@ -17,7 +17,7 @@ from harness import accuracy, answers, freeloops
 from harness.backends.raster import Picture
 from harness.camera import meets, pixel_footprint, scene_radius
 from harness.config import AccuracyChoice
-from harness.contract import Hits
+from harness.contract import Hits, Origin
 from harness.executor import LocalExecutor
 from harness.pictures import pictures_of
 from harness.plan import Planned
@@ -40,7 +40,7 @@ def check(executor: LocalExecutor, planned: Planned, config: AccuracyChoice, fol
     picture = drawn.picture
     rays = picture.rays
     truth: Seen = scene_truth(scene, rays, picture, folder, config.grazing_margin * scene_radius(cell.surface))
-    hits = hits_of(scene, picture)
+    hits = hits_of(scene, picture, cell.origin)
     verdicts = accuracy.judge(hits, truth.truth, scene_radius(cell.surface), config.grazing_margin, cell.precision)
     alone = cell.scene is None
     deviations = (
@@ -83,7 +83,7 @@ def check(executor: LocalExecutor, planned: Planned, config: AccuracyChoice, fol
     return Outcome(summary, pictures, drawn.compile_ms, fault)
 
 
-def hits_of(scene: Scene, picture: Picture) -> Hits:
+def hits_of(scene: Scene, picture: Picture, origin: Origin = "nearest") -> Hits:
     """What a frame with reporting programs answered, in world units; INVALID where that can be no answer: what is seen
     is to lie in its surface's domain, a triangle in front of the eye."""
     possible = picture.in_world & (picture.t >= 0.0)
@@ -93,5 +93,5 @@ def hits_of(scene: Scene, picture: Picture) -> Hits:
         kind = np.broadcast_to([numbers[surface] for surface in group.surfaces], len(group))[picture.instance[mine]]
         for surface, k in numbers.items():
             at = mine[kind == k]
-            possible[at] = answers.reachable(surface.domain, picture.local_rays[at], picture.t[at])
+            possible[at] = answers.reachable(surface.domain, picture.local_rays[at], picture.t[at], origin=origin)
     return answers.only(picture.hits(scale_of(scene, picture)), possible)

@@ -183,7 +183,7 @@ class Runner:
         casts_beams = state.planned.casts != "rays"
         if not casts_beams and cell.prepass == "none":
             checked = self._executor.check(cell.device, program, rays)
-            return checked, answers.validated(checked.hits, cell.surface.domain, rays)
+            return checked, answers.validated(checked.hits, cell.surface.domain, rays, origin=cell.origin)
         assert state.frame
         pixels = beams.pixels_of(camera, math.isqrt(len(rays)), state.frame.size)
         frame = replace(state.frame, program=program, rays=rays)
@@ -191,7 +191,8 @@ class Runner:
         if casts_beams:
             along = beams.along_rays(checked.hits, pixels)
             return checked, answers.validated_beams(along, cell.surface.domain, rays, camera[3:6])
-        return checked, answers.validated(checked.hits, cell.surface.domain, rays, counts=False)
+        hits = answers.validated(checked.hits, cell.surface.domain, rays, counts=False, origin=cell.origin)
+        return checked, hits
 
     def _compilers_fault(self, state: _Live, rays: NDArray[np.float32], hits: Hits) -> str | None:
         cell, plugin = state.planned.cell, self._catalog.get(state.planned.cell.variant.method)
@@ -199,7 +200,9 @@ class Runner:
             return None
         program = partial(method_program, plugin.method, plugin.folder, cell.variant, cell.surface, cell.precision)
         run = compilercheck.with_listed_rays(self._executor, rays)
-        second = compilercheck.SecondBuild(cell.device, cell.precision, partial(program, entry="rays"), run)
+        second = compilercheck.SecondBuild(
+            cell.device, cell.precision, partial(program, entry="rays", origin=cell.origin), run
+        )
         return compilercheck.doubts_about(cell.surface, rays, hits, second).fault
 
     def _unfit(self, state: _Live) -> str | None:
@@ -225,7 +228,7 @@ class Runner:
         for group, program in zip(stability.groups(cell.family), state.planned.checks, strict=True):
             truth = cached_first_hits(group.surface, group.rays, self._store.truth)
             checked = self._executor.check(cell.device, program, group.rays)
-            hits = answers.validated(checked.hits, group.surface.domain, group.rays)
+            hits = answers.validated(checked.hits, group.surface.domain, group.rays, origin=cell.origin)
             state.compile_ms += checked.compile_ms
             state.rungs += group.judge(hits, truth, cell.precision)
         rays, undecided = (sum(rung[name] for rung in state.rungs) for name in ("rays", "undecided"))
@@ -299,6 +302,7 @@ class Runner:
             "answers": method.answers,
             "casts": method.casts,
             "prepass": cell.prepass,
+            "origin": cell.origin if method.casts == "rays" else None,
             "proxy": cell.proxy if cell.stage == "raster" else None,
             "pixel_tolerance": cell.tolerance if cell.stage == "raster" else None,
             "scene": cell.scene.family if cell.scene else None,

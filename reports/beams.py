@@ -115,7 +115,7 @@ def prepass_sections(frame: pd.DataFrame) -> list[Section]:
     rows = derive.contenders(frame)
     rows = rows.assign(right=derive.all_right(rows))
     plain, behind = rows[rows["prepass"] != "beams"], rows[rows["prepass"] == "beams"]
-    keys = [*derive.GROUP, "method", "parameters"]
+    keys = [*derive.GROUP, "method", "parameters", "origin"]
     both = plain.merge(behind, on=keys, suffixes=("", "_behind"))
     if both.empty:
         return []

@@ -19,7 +19,7 @@ ALL_DEVICES = "all devices"
 
 def derive(families: pd.DataFrame, rungs: pd.DataFrame) -> pd.DataFrame:
     """One row for each rung: its cell's columns, the rung's own, and `share_right` of its decided rays (or NaN)."""
-    told = ["key", "slot", "family", "method", "variant", "parameters", "precision", "device"]
+    told = ["key", "slot", "family", "method", "variant", "parameters", "origin", "precision", "device"]
     rows = families.loc[families["answers"].astype(bool), told].merge(rungs, on="key", sort=False)
     return rows.assign(share_right=_share(rows["right"], rows["decided"]))
 

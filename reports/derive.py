@@ -6,12 +6,12 @@ a GROUP.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import pandas as pd
 
 from harness.config import BASELINE
-from harness.contract import CellStatus
+from harness.contract import FROM_ORIGIN, CellStatus
 from reports import rounds
 from reports.schema import KINDS, SCHEMA
 
@@ -46,7 +46,7 @@ def derive(frame: pd.DataFrame, peaks: Mapping[str, float] | None = None) -> pd.
     timed = frame[(frame["status"] == CellStatus.OK) & frame["median_ms"].notna()]
     frame = frame.join(_baseline_ms(timed), on=GROUP)
     frame["speedup"] = rounds.over_first(frame, baseline_rows(timed), GROUP).where(frame["answers"] & all_right(frame))
-    frame = frame.join(_floor_ms(timed), on=GROUP)
+    frame["floor_ms"] = _floor_ms(frame, timed)
     frame["floor_bound"] = frame["answers"] & (frame["median_ms"] < FLOOR_FACTOR * frame["floor_ms"])
     share = _peak_share(frame, peaks or {})
     frame["peak_too_low"] = (share > 1.0).astype("boolean")
@@ -97,10 +97,16 @@ def baseline_rows(timed: pd.DataFrame) -> pd.DataFrame:
 
     Where a method is named that has several variants, the one without bound parameters in its name, if any.
     """
-    named = timed["variant"] == timed["baseline"]
+    named = casters(timed) == timed["baseline"]
     rows = timed[named | (timed["method"] == timed["baseline"])]
     rows = rows.assign(swept=~named[rows.index]).sort_values("swept", kind="stable").drop_duplicates(GROUP)
     return rows[all_right(rows)]
+
+
+def casters(rows: pd.DataFrame) -> pd.Series:
+    """The variants without where their rays begin."""
+    named = zip(rows["variant"], rows["origin"].fillna("nearest"), strict=True)
+    return pd.Series([str(v).removesuffix(FROM_ORIGIN[o]) for v, o in named], rows.index, dtype=object)
 
 
 def _baseline_ms(timed: pd.DataFrame) -> pd.Series:
@@ -112,14 +118,19 @@ def baseline_of(frame: pd.DataFrame) -> str:
     return " or ".join(dict.fromkeys(map(str, frame["baseline"]))) or BASELINE
 
 
-def _floor_ms(timed: pd.DataFrame) -> pd.Series:
-    return floor_rows(timed).set_index(GROUP)["median_ms"].rename("floor_ms")
-
-
-def floor_rows(timed: pd.DataFrame) -> pd.DataFrame:
-    """Of each group the row of a method that answers nothing, the slowest, where it has one: the harness's floor."""
+def floor_rows(timed: pd.DataFrame, keys: Sequence[str] = GROUP) -> pd.DataFrame:
+    """Of each group by `keys` the row of a method that answers nothing, the slowest, if any: the harness's floor."""
     floor = ~timed["answers"].astype(bool) & (timed["prepass"] != "beams")  # behind a prepass it measures that too
-    return timed[floor].sort_values("median_ms", ascending=False, kind="stable").drop_duplicates(GROUP)
+    return timed[floor].sort_values("median_ms", ascending=False, kind="stable").drop_duplicates(list(keys))
+
+
+def _floor_ms(frame: pd.DataFrame, timed: pd.DataFrame) -> pd.Series:
+    """By row of `frame`: the null method's time with rays of the same origin, where it was timed so; else of any."""
+    own, other = (
+        frame.join(floor_rows(timed, keys).set_index(keys)["median_ms"].rename("null_ms"), on=keys)["null_ms"]
+        for keys in ([*GROUP, "origin"], GROUP)
+    )
+    return own.fillna(other)
 
 
 def _peak_share(frame: pd.DataFrame, peaks: Mapping[str, float]) -> pd.Series:

@@ -13,28 +13,48 @@ from typing import Any
 import pandas as pd
 
 from harness import measure
-from harness.contract import CellStatus
+from harness.contract import ORIGINS, CellStatus, Origin
 from reports import derive, rounds
 from reports.arrays import Arrays, Shelf
+
+STOOD: Mapping[str, Origin] = {
+    # Where a paper's rays begin, by the first word of its configs' names. toledo2007, sections 3, 4.3 and 4.4: "from
+    # where the ray-casting starts" is the bounding box; t = 0 is the ray's entry, λ its exit.
+    "toledo": "entry",
+    # szente, section 2: f is sampled along the view ray p(t) of each pixel; no step moves its origin.
+    "szente": "eye",
+    # beamcasting has no rays: its boxes are in world coordinates. What stands beside its beams is ours.
+}
+_WORDS: Mapping[Origin, str] = {
+    "nearest": "their point nearest the domain's centre",
+    "entry": "their entry into the domain",
+    "eye": "the eye",
+}
 
 
 @dataclass(frozen=True)
 class Pick:
-    """A method with some of its knobs at stated values; `words` name it in texts."""
+    """A method with some of its knobs at stated values; `words` name it in texts. `origin` is where its rays begin;
+    None: where those of the paper do that is judged."""
 
     words: str
     method: str
     knobs: Mapping[str, float] = field(default_factory=dict)
+    origin: Origin | None = None
 
 
 @dataclass(frozen=True, eq=False)
 class Evidence:
-    """All that a run holds, for those who judge by it. Only cells that ended well count."""
+    """All that a run holds, for those who judge by it. Only cells that ended well count.
+
+    Rays that begin at several origins are never mixed: a pick states its own, or takes `origin`.
+    """
 
     frame: pd.DataFrame  # with the columns of derive
     studies: Mapping[str, list[dict[str, Any]]]
     shelf: Shelf
     apart: set[tuple[str, str]] = field(default_factory=set)  # keys of pairs that `ratios` left out
+    config: str = ""  # by whose paper it is judged, see STOOD
 
     @cached_property
     def finished(self) -> pd.DataFrame:
@@ -43,7 +63,31 @@ class Evidence:
 
     def of(self, config: str) -> Evidence:
         """The rows of `config`'s own run alone, where this collects several and that one is among them; else all."""
-        return self._runs.get(Path(config).stem, self)
+        if config not in self._judged:
+            self._judged[config] = replace(self._runs.get(Path(config).stem, self), config=config)
+        return self._judged[config]
+
+    @cached_property
+    def _judged(self) -> dict[str, Evidence]:
+        return {}
+
+    @cached_property
+    def origin(self) -> Origin:
+        """Where rays begin: as in the paper, where rows are of such rays, else at the first of ORIGINS of which rows
+        are."""
+        there = set(self.finished["origin"].dropna())
+        return next((origin for origin in (self._stated, *ORIGINS) if origin in there), self._stated)
+
+    @property
+    def _stated(self) -> Origin:
+        return STOOD.get(Path(self.config).stem.partition("-")[0], "nearest")
+
+    @property
+    def note(self) -> str:
+        """In words, where rays begin if not as in the paper; else empty."""
+        if self.origin == self._stated:
+            return ""
+        return f"of rays that begin at {_WORDS[self.origin]}, where the paper's begin at {_WORDS[self._stated]}"
 
     @cached_property
     def _runs(self) -> dict[str, Evidence]:
@@ -57,11 +101,13 @@ class Evidence:
     def rows(
         self, pick: Pick, surfaces: Iterable[str] | None = None, precision: str | None = "float32"
     ) -> pd.DataFrame:
-        """The finished rows of `pick`, one for each scene, device and precision (the first, where knobs leave several).
+        """The finished rows of `pick` from one origin, one for each scene, device and precision (the first, where knobs
+        leave several). Beams and triangles have no origin, and their rows stand beside those of any.
 
         `precision` None takes all precisions, `surfaces` None all surfaces.
         """
         rows = self._methods.get(pick.method, self.finished.head(0))
+        rows = rows[rows["origin"].isna() | (rows["origin"] == (pick.origin or self.origin))]
         if precision is not None:
             rows = rows[rows["precision"] == precision]
         if surfaces is not None:

@@ -173,6 +173,7 @@ def _savings(rows: pd.DataFrame) -> Iterator[tuple[Any, ...]]:
             & (rows["method"] == row.method)
             & (rows["parameters"] == row.parameters)
             & (rows["proxy"] == row.proxy)
+            & (rows["origin"].fillna("") == ("" if wording.absent(row.origin) else row.origin))
             & (rows["pixel_tolerance"] == 0.0)
         ]
         if own.empty:

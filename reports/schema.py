@@ -59,7 +59,9 @@ SCHEMA: tuple[Field, ...] = (
     *_fields("text", "precision stage device status", required=True),
     *_fields("text", "reason"),
     *_fields("flag", "answers", required=True),
-    *_fields("text", "casts prepass proxy scene"),
+    *_fields(
+        "text", "casts prepass origin proxy scene"
+    ),  # origin: of rays; null for beams and triangles, and in older rows
     *_fields("real", "pixel_tolerance"),
     *_fields("whole", "instances"),
     *_fields("text", "clock", at="time"),
@@ -107,6 +109,7 @@ DERIVED: tuple[Field, ...] = (
 FAMILY: tuple[Field, ...] = (
     *_fields("text", "run key slot family method variant", required=True),
     *_fields("json", "parameters"),
+    *_fields("text", "origin"),
     *_fields("text", "precision device status", required=True),
     *_fields("text", "reason"),
     *_fields("flag", "answers", required=True),

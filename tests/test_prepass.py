@@ -66,7 +66,7 @@ def test_every_root_lies_between_the_depths_of_its_tile(name):
     assert 0 < spent < 2.0 * SIZE**2
 
 
-def narrowed(device, method, surface, camera, precision="float32", rays=None, size=SIZE, **knobs):
+def narrowed(device, method, surface, camera, precision="float32", rays=None, size=SIZE, origin="nearest", **knobs):
     """Hits of listed rays, or of every pixel, behind the prepass."""
     plugin = find_methods().get(method)
     entry = "camera" if rays is None else "rays"
@@ -81,6 +81,7 @@ def narrowed(device, method, surface, camera, precision="float32", rays=None, si
             device.language,
             entry,
             prepass.parameters(),
+            origin=origin,
         ),
     )
     built = tuple(device.build(program) for program in programs)

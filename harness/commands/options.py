@@ -16,7 +16,7 @@ from harness.answers import validated, validated_beams
 from harness.assemble import Language, method_program
 from harness.backends import LANGUAGES
 from harness.backends.beams import layout_of
-from harness.contract import PRECISIONS, CellStatus, FirsthitError, Hits, Precision, Program, Surface, Variant
+from harness.contract import ORIGINS, PRECISIONS, CellStatus, FirsthitError, Hits, Precision, Program, Surface, Variant
 from harness.executor import CellError, LocalExecutor, discover_devices
 from harness.plugins import Catalog, find_methods
 from harness.worker import Frame
@@ -35,7 +35,13 @@ def add_method(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--knob", action="append", default=[], metavar="NAME=VALUE", help="a parameter of the method")
     parser.add_argument("--device", metavar="NAME", help="see `firsthit list devices`; default: the first usable one")
     parser.add_argument("--precision", choices=PRECISIONS, default="float32")
+    add_origin(parser)
     parser.add_argument("--timeout", type=float, default=60.0, metavar="SECONDS", help="give up after (default: 60)")
+
+
+def add_origin(parser: argparse.ArgumentParser) -> None:
+    help_ = "where the method sees its rays begin: nearest the domain's centre (default), at their entry, at the eye"
+    parser.add_argument("--origin", choices=ORIGINS, default="nearest", help=help_)
 
 
 def _assignments(texts: list[str], option: str) -> dict[str, str]:
@@ -116,7 +122,8 @@ def cast(
     entry: Literal["rays", "beams"] = "rays" if casts == "rays" else "beams"
 
     def program(language: Language) -> Program:
-        return method_program(plugin.method, plugin.folder, variant, surface, precision, language, entry, None, t_min)
+        stated = plugin.method, plugin.folder, variant, surface, precision, language, entry
+        return method_program(*stated, t_min=t_min, origin=options.origin)
 
     def run(device: str, program: Program, index: NDArray[np.intp]) -> Hits:
         if camera is None or casts == "rays":
@@ -131,7 +138,7 @@ def cast(
         if camera is not None and casts != "rays":
             hits = validated_beams(hits, surface.domain, rays, camera[3:6])
         else:
-            hits = validated(hits, surface.domain, rays, t_min)
+            hits = validated(hits, surface.domain, rays, t_min, origin=options.origin)
         if not plugin.method.answers:
             return hits
         second = compilercheck.SecondBuild(device, precision, program, run)

@@ -12,7 +12,7 @@ from harness import config, raster
 from harness.answers import invalid
 from harness.assemble import fill_program
 from harness.camera import camera_for
-from harness.commands.options import given_variant, writable
+from harness.commands.options import add_origin, given_variant, writable
 from harness.commands.pictures import need_pillow, save
 from harness.contract import PROXIES, FirsthitError
 from harness.executor import CellError, LocalExecutor, discover_devices
@@ -36,6 +36,7 @@ def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -
     parser.add_argument("--method", required=True, metavar="NAME", help="of instances without a method of their own")
     parser.add_argument("--knob", action="append", default=[], metavar="NAME=VALUE", help="a parameter of the method")
     parser.add_argument("--proxy", choices=PROXIES, default="box", help="what triggers fragments (default: box)")
+    add_origin(parser)
     parser.add_argument("--size", type=int, default=512, help="pixels per side (default: 512)")
     parser.add_argument("--timeout", type=float, default=60.0, metavar="SECONDS", help="give up after (default: 60)")
     parser.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help=".png file to write")
@@ -68,7 +69,9 @@ def _scene(options: argparse.Namespace) -> int:
     if not usable:
         raise FirsthitError("no device that rasterises; `firsthit devices` says what is here", exit_code=3)
     camera = camera_for(scene.view, scene.stand_in)
-    batches = tuple(draw.batch(True) for draw in raster.draws(scene, variant, options.proxy, catalog))
+    batches = tuple(
+        draw.batch(True) for draw in raster.draws(scene, variant, options.proxy, catalog, origin=options.origin)
+    )
     depths, side = raster.depth_map(scene, camera), 2 * options.size
     executor = LocalExecutor(options.timeout)
     try:
@@ -85,6 +88,6 @@ def _scene(options: argparse.Namespace) -> int:
     print(
         f"{output}: {scene.title}; {np.mean(picture.batch >= 0):.1%} of the pixels drawn, "
         f"{1.0 - hits / max(1, fragments):.1%} of {fragments:,} fragments discarded"
-        + (f", {bad} pixels invalid" if (bad := invalid(hits_of(scene, picture))) else "")
+        + (f", {bad} pixels invalid" if (bad := invalid(hits_of(scene, picture, options.origin))) else "")
     )
     return 0

@@ -134,7 +134,8 @@ class _Side:
 def _hits(side: _Side, planned: Planned, rays: NDArray[np.float32], size: int, executor: LocalExecutor) -> Hits:
     device, domain = planned.cell.device, planned.cell.surface.domain
     if planned.casts == "rays" and side.check:
-        return answers.validated(executor.check(device, side.check, rays).hits, domain, rays)
+        checked = executor.check(device, side.check, rays)
+        return answers.validated(checked.hits, domain, rays, origin=planned.cell.origin)
     frame = replace(side.frame, program=side.check or side.frame.program)
     pixels = beams.pixels_of(planned.camera, size, frame.size)
     along = beams.along_rays(executor.check_frame(device, frame, pixels.index).hits, pixels)

@@ -1,12 +1,14 @@
-// The span a ray spends in the ball, widened by a few roundings: a surface that touches the sphere is not cut off.
+// The span a ray spends in the ball, widened by more than its roundings, those of a far origin included: a surface that
+// touches the sphere is not cut off.
 Span domain_span(Ray ray) {
     vec3 o = difference(ray.origin, DOMAIN_CENTER);
     real squared_length = inner_product(ray.direction, ray.direction);
     real middle = -inner_product(o, ray.direction) / squared_length;
     vec3 nearest = moved(o, middle, ray.direction);
-    real squared_radius = DOMAIN_RADIUS * DOMAIN_RADIUS;
+    real slack = 8.0 * UNIT_ROUNDOFF * fabs(middle);
+    real squared_radius = (DOMAIN_RADIUS + slack) * (DOMAIN_RADIUS + slack);
     real squared_half = squared_radius * (1.0 + 16.0 * UNIT_ROUNDOFF) - inner_product(nearest, nearest);
     if (squared_half < 0.0) return make_span(1.0, 0.0);
-    real half_length = sqrt(squared_half / squared_length) * (1.0 + 4.0 * UNIT_ROUNDOFF);
+    real half_length = sqrt(squared_half / squared_length) * (1.0 + 4.0 * UNIT_ROUNDOFF) + slack;
     return make_span(middle - half_length, middle + half_length);
 }

@@ -51,7 +51,8 @@ def judge(claim: Claim, evidence: Evidence) -> Verdict:
     verdict = claim.decide(own)
     apart = f"{wording.plural(len(own.apart), 'pair')} of rows not timed in the same rounds" if own.apart else ""
     if verdict is not None:
-        return replace(verdict, figure=f"{verdict.figure}; left out: {apart}") if apart else verdict
+        figure = f"{verdict.figure}; left out: {apart}" if apart else verdict.figure
+        return replace(verdict, figure=f"{figure} ({own.note})" if own.note else figure)
     if apart:
         return Verdict(Outcome.UNTESTED, f"{apart}; `firsthit run configs/{claim.config} --force` times them in turns")
     return Verdict(Outcome.UNTESTED, claim.reason or f"this run has no rows for it; configs/{claim.config} gives them")

@@ -77,7 +77,8 @@ def _key(names: list[str]) -> Figure:
 
 
 def _default(told: Mapping[str, Any], rows: pd.DataFrame) -> pd.DataFrame:
-    """The rows with every knob at its default, which are what a method's claims are about."""
+    """The rows with every knob at its default, and rays from the nearest point: what a method's claims are about."""
+    rows = rows[rows["origin"].fillna("nearest") == "nearest"]
     defaults = {knob["name"]: knob["default"] for knob in told.get("parameters", [])}
     bound = rows["parameters"].map(lambda text: json.loads(text) if isinstance(text, str) else {})
     return rows[bound.map(lambda knobs: defaults | knobs == defaults).astype(bool)]

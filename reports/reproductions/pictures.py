@@ -108,7 +108,7 @@ def drawn(evidence: Evidence, figure: Figure) -> pd.DataFrame:
     """The rows that a figure shows, in its order, with `setting`; of the first device."""
     found = []
     for pick in figure.settings:
-        rows = evidence.rows(pick, figure.surfaces)
+        rows = evidence.of(figure.config).rows(pick, figure.surfaces)
         rows = rows[rows["run"] == figure.config.removesuffix(".toml")]
         found.append(rows.assign(setting=pick.words))
     rows = pd.concat(found)

@@ -1,0 +1,217 @@
+"""What it is worth to a method that its rays begin near the surface: wrong rays, error and time by where they begin."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from harness.contract import ORIGINS, CellStatus
+from reports import breaks, counts, derive, tables, wording
+from reports.content import Block, Column, Section, Table, Text
+from reports.evidence import over
+from reports.load import Facts
+
+CHEAP = 1.05  # a shift that multiplies a frame's time by at most this, in the mean, is called cheap
+_OF = ["device", "precision", "caster"]
+_ERROR = "relative_error_max"
+_CAPTION = (
+    "Nearest: the harness moves each ray's origin, by error-free arithmetic, to the point nearest the domain's centre; "
+    "entry: to where the ray enters the domain; eye: the ray stays as it is given. The programs differ in that alone. "
+    "Errors are largest |t − t*| of right hits over the scene's radius, t along the ray as given from every origin, so "
+    "that from the eye they include the rounding of t itself. Time is over that from the eye."
+)
+
+
+def paired(frame: pd.DataFrame) -> pd.DataFrame:
+    """The timed rows of variants whose rays began at several origins in one comparison; `caster`: without origin."""
+    rows = frame[(frame["status"] == CellStatus.OK) & frame["median_ms"].notna() & frame["origin"].notna()]
+    rows = rows.assign(caster=derive.casters(rows))
+    rows["silhouette_wrong_rays"] = rows["grazing_wrong_rays"] + rows["drowned_wrong_rays"]
+    several = rows.groupby([*derive.GROUP, "caster"])["origin"].transform("nunique") > 1
+    return rows[several.astype(bool)].assign(cost=lambda kept: _costs(kept))
+
+
+def _costs(rows: pd.DataFrame) -> pd.Series:
+    """Each row's time over that of the same rays from the eye, in the rounds that timed both; NaN without those."""
+    keys = [*derive.GROUP, "caster"]
+    eye = rows[rows["origin"] == "eye"]
+    found = pd.Series(np.nan, rows.index)
+    for _, own in rows[rows["origin"] != "eye"].groupby("origin", sort=False):
+        ratios = over(own, eye, keys).set_index(keys)["ratio"]
+        found.update(own.join(ratios, on=keys)["ratio"])
+    return found
+
+
+def sections(frame: pd.DataFrame, rungs: pd.DataFrame, facts: Mapping[str, Facts]) -> list[Section]:
+    """One section where rays of one variant began at several origins."""
+    rows = paired(frame)
+    blocks: list[Block] = []
+    if len(rows):
+        blocks += [Text(told, strong=True) for told in conclusions(rows)]
+        blocks += [table(rows), scenes(rows)]
+    hard = hard_rays(rungs, facts)
+    blocks += [hard] if hard else []
+    return [Section("What the shift is worth", tuple(blocks), wide=True)] if blocks else []
+
+
+def _mean(ratios: pd.Series) -> float:
+    """The geometric mean; NaN of none."""
+    known = ratios.dropna().astype("float64")
+    return float(np.exp(np.log(known).mean())) if len(known) else float("nan")
+
+
+def _present(rows: pd.DataFrame) -> list[str]:
+    return [origin for origin in ORIGINS if (rows["origin"] == origin).any()]
+
+
+def _wrong(rows: pd.DataFrame) -> int:
+    """Wrong rays of every class."""
+    return int(rows[["wrong_rays", "silhouette_wrong_rays"]].sum().sum())
+
+
+def conclusions(rows: pd.DataFrame) -> list[str]:
+    """What the shift from the eye to the nearest point gains and costs, each in a sentence or two; [] without both."""
+    answering = rows[rows["answers"].astype(bool)]
+    before, after = (answering[answering["origin"] == origin] for origin in ("eye", "nearest"))
+    if before.empty or after.empty:
+        return []
+    better, worse = _changed(before, after)
+    cost = _mean(rows.loc[after.index, "cost"])
+    gained, harmed = (
+        wording.listed([f"{name} ({was:,} to {now:,})" for name, was, now in found]) or "none"
+        for found in (better, worse)
+    )
+    errors = _errors(before, after)
+    first = (
+        f"Moving the origins of rays from the eye to the point nearest the domain's centre takes the wrong rays of all "
+        f"{answering['caster'].nunique()} variants together, silhouettes included, from {_wrong(before):,} to "
+        f"{_wrong(after):,} of {int(after['accuracy_rays'].sum()):,}. Fewer beyond chance: {gained}. More beyond "
+        f"chance: {harmed}. The largest error from the eye is {wording.factor(errors.median())} that from the nearest "
+        f"point in the median of all scenes and variants, and {wording.factor(errors.max())} at most. {counts.RULE}."
+    )
+    paid = f"The shift multiplies the time of a frame by {wording.hundredths(cost)} in the mean"
+    if better and not worse and cost <= CHEAP:
+        return [first, f"{paid}: robustness for next to nothing, before any knob of a method is turned."]
+    if better:
+        return [first, f"{paid}: it is worth that to the variants named, and to no other."]
+    return [first, f"{paid}, and buys no right ray here."]
+
+
+def _changed(
+    before: pd.DataFrame, after: pd.DataFrame
+) -> tuple[list[tuple[str, int, int]], list[tuple[str, int, int]]]:
+    """The variants with fewer wrong rays after than before, and those with more, by a test; most first."""
+    names = list(dict.fromkeys(after["caster"]))
+    better: list[tuple[str, int, int]] = []
+    worse: list[tuple[str, int, int]] = []
+    for name in names:
+        one, other = (rows[rows["caster"] == name] for rows in (before, after))
+        was, now = _wrong(one), _wrong(other)
+        rays = int(one["accuracy_rays"].sum()), int(other["accuracy_rays"].sum())
+        if counts.exceeds(was, rays[0], now, rays[1], tries=2 * len(names)):
+            better.append((name, was, now))
+        if counts.exceeds(now, rays[1], was, rays[0], tries=2 * len(names)):
+            worse.append((name, was, now))
+    for found in (better, worse):
+        found.sort(key=lambda one: -abs(one[1] - one[2]))
+    return better, worse
+
+
+def _errors(before: pd.DataFrame, after: pd.DataFrame) -> pd.Series:
+    """The largest error before over that after, scene by scene."""
+    keys = [*derive.GROUP, "caster"]
+    both = before.merge(after[[*keys, _ERROR]], on=keys, suffixes=("", "_after"))
+    return (both[_ERROR] / both[f"{_ERROR}_after"].where(both[f"{_ERROR}_after"] > 0)).astype("float64").dropna()
+
+
+def _line(own: pd.DataFrame, origins: Sequence[str]) -> tuple[Any, ...]:
+    """Counts summed, errors at their largest, times in the geometric mean: over the scenes of one variant."""
+    by = {origin: own[own["origin"] == origin] for origin in origins}
+    answers = bool(own["answers"].iloc[0])
+    clear, silhouettes, errors = (
+        tuple(of(rows) if answers and len(rows) else None for rows in by.values())
+        for of in (
+            lambda rows: int(rows["wrong_rays"].sum()),
+            lambda rows: int(rows["silhouette_wrong_rays"].sum()),
+            lambda rows: rows[_ERROR].max(),
+        )
+    )
+    return (*clear, *silhouettes, *errors, *(_mean(by[origin]["cost"]) for origin in origins if origin != "eye"))
+
+
+def _columns(origins: Sequence[str]) -> tuple[Column, ...]:
+    figures = (
+        ("wrong rays", wording.count),
+        ("wrong at silhouettes", wording.count),
+        ("largest error", wording.error),
+    )
+    told = [Column(origin, show, numeric=True, over=over_) for over_, show in figures for origin in origins]
+    times = [Column(o, wording.hundredths, numeric=True, over="time over the eye's") for o in origins if o != "eye"]
+    return (*told, *times)
+
+
+def table(rows: pd.DataFrame) -> Table:
+    """One line for each variant, over all its scenes."""
+    origins = _present(rows)
+    several = [name for name in ("device", "precision") if rows[name].nunique() > 1]
+    body = [
+        (
+            *(own[name].iloc[0] for name in several),
+            caster,
+            own["comparison"].nunique(),
+            *_line(own, origins),
+        )
+        for (*_, caster), own in rows.groupby(_OF, sort=False)
+    ]
+    head = (*(Column(name) for name in several), Column("variant", stretch=1), Column("scenes", wording.count, True))
+    return Table((*head, *_columns(origins)), body, "What the shift is worth to each method.", _CAPTION, len(several))
+
+
+def scenes(rows: pd.DataFrame) -> Table:
+    """One line for each variant and scene."""
+    origins, named = _present(rows), tables.places(rows)
+    several = [name for name in ("device", "precision") if rows[name].nunique() > 1]
+    body = [
+        (named[str(comparison)], *(own[name].iloc[0] for name in several), caster, *_line(own, origins))
+        for (comparison, *_, caster), own in rows.groupby(["comparison", *_OF], sort=False)
+    ]
+    head = (Column("scene", stretch=1), *(Column(name) for name in several), Column("variant", stretch=1))
+    return Table(
+        (*head, *_columns(origins)), body[: tables.ROW_LIMIT], "The same, scene by scene.", "", 1 + len(several)
+    )
+
+
+def hard_rays(rungs: pd.DataFrame, facts: Mapping[str, Facts]) -> Table | None:
+    """How many families of hard rays each variant holds from each origin, and which from the eye or the nearest point
+    alone; None unless some variant's rays began at both."""
+    rungs = rungs[rungs["origin"].notna()] if len(rungs) else rungs
+    if rungs.empty or rungs["origin"].nunique() < 2:
+        return None
+    origins, body = _present(rungs), []
+    origin_of = dict(zip(rungs["variant"], rungs["origin"], strict=True))
+    for device, own in breaks.by_device(rungs).items():
+        verdicts = breaks.verdicts(own)
+        verdicts = verdicts[verdicts["decided"] > 0].assign(origin=lambda rows: rows["variant"].map(origin_of))
+        verdicts = verdicts.assign(caster=derive.casters(verdicts), held=verdicts["breaks_at"].isna())
+        for (precision, caster), rows in verdicts.groupby(["precision", "caster"], sort=False):
+            by = rows.pivot_table(index="family", columns="origin", values="held", aggfunc="all").dropna()
+            if {*by} >= {"nearest", "eye"}:
+                lost, won = (
+                    ", ".join(facts[str(family)].title for family in by.index[by[one] & ~by[other]]) or "none"
+                    for one, other in (("nearest", "eye"), ("eye", "nearest"))
+                )
+                held = (int(by[origin].sum()) if origin in by else None for origin in origins)
+                body.append((precision, device, caster, len(by), *held, lost, won))
+    columns = (
+        Column("precision"),
+        Column("device"),
+        Column("variant", stretch=2),
+        Column("of", wording.count, numeric=True),
+        *(Column(origin, wording.count, numeric=True, over="families held") for origin in origins),
+        Column("held only when moved", stretch=4),
+        Column("held only from the eye", stretch=3),
+    )
+    return Table(columns, body, "Families of hard rays held from each origin.", "", 2) if body else None

@@ -1,0 +1,145 @@
+"""The report of where rays begin: what the shift gains and costs, never by rows of several origins mixed."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from harness.contract import FROM_ORIGIN, ORIGINS, digest
+from reports import breaks, claims, derive, load, origins
+from reports.arrays import Shelf
+from reports.claims import Claim, Outcome, Verdict
+from reports.evidence import Evidence, Pick
+from tests.synthetic_run import FAMILIES, cell, family_cell, reported, retime, tiny_run
+
+KINDS = ("misses", "false_hits", "exhausted", "wrong_root", "invalid")
+
+
+def moved(
+    origin: Any, wrong: int, error: float, median: float, variant: str = "ray_march", surface: str = "torus"
+) -> dict[str, Any]:
+    """A finished cell whose rays begin at `origin`, with so many exhausted rays, so large an error, in so many ms."""
+    made = cell(variant, surface, "opencl:intel", "float32")
+    made["variant"] = variant + FROM_ORIGIN[origin]
+    slot = made["slot"].replace(variant, made["variant"], 1)
+    made |= {"slot": slot, "key": digest(slot), "origin": origin, "casts": "rays", "arrays": None}
+    retime(made, median)
+    none = {f"{prefix}{kind}": 0 for prefix in ("", "grazing_", "drowned_") for kind in KINDS}
+    made["accuracy"] |= none | {"exhausted": wrong}
+    made["accuracy"]["relative_error"] |= {"max": error}
+    return made
+
+
+def rows_of(folder: Path, *cells: dict[str, Any]) -> Any:
+    return derive.derive(load.load(tiny_run(folder, *cells)).frame)
+
+
+GAINS = (moved("nearest", 2, 1e-6, 1.02), moved("entry", 3, 2e-6, 1.01), moved("eye", 300, 1e-3, 1.0))
+
+
+def test_gain_and_cost_are_told_and_called_cheap(tmp_path: Path) -> None:
+    first, second = origins.conclusions(origins.paired(rows_of(tmp_path / "run", *GAINS)))
+    assert "from 300 to 2 of 2,304. Fewer beyond chance: ray_march (300 to 2). More beyond chance: none." in first
+    assert "1,000× that from the nearest point" in first
+    assert "by 1.02 in the mean: robustness for next to nothing" in second
+
+
+def test_a_gain_that_costs_time_is_not_called_cheap(tmp_path: Path) -> None:
+    cells = (moved("nearest", 2, 1e-6, 1.2), moved("eye", 300, 1e-3, 1.0))
+    _, second = origins.conclusions(origins.paired(rows_of(tmp_path / "run", *cells)))
+    assert "by 1.20 in the mean: it is worth that to the variants named" in second
+
+
+@pytest.mark.parametrize(("nearest", "eye"), [(5, 8), (8, 5)])
+def test_a_few_rays_are_no_gain(tmp_path: Path, nearest: int, eye: int) -> None:
+    cells = (moved("nearest", nearest, 1e-6, 1.0), moved("eye", eye, 1e-6, 1.0))
+    first, second = origins.conclusions(origins.paired(rows_of(tmp_path / "run", *cells)))
+    assert "Fewer beyond chance: none. More beyond chance: none." in first and "buys no right ray here" in second
+
+
+def test_a_loss_is_told_and_never_called_cheap(tmp_path: Path) -> None:
+    worse = (
+        moved("nearest", 200, 1e-6, 1.0, "newton[EPSILON=0.001]"),
+        moved("eye", 1, 1e-6, 1.0, "newton[EPSILON=0.001]"),
+    )
+    first, second = origins.conclusions(origins.paired(rows_of(tmp_path / "run", *GAINS, *worse)))
+    assert "More beyond chance: newton[EPSILON=0.001] (1 to 200)." in first
+    assert "next to nothing" not in second
+
+
+def test_tables_have_a_line_for_each_variant_and_scene(tmp_path: Path) -> None:
+    null = [moved(origin, 0, 0.0, ms, "null") for origin, ms in zip(ORIGINS, (0.2, 0.15, 0.1), strict=True)]
+    ball = [moved(origin, 1, 1e-5, 1.0, surface="sphere") for origin in ("nearest", "eye")]
+    alone = moved("nearest", 0, 1e-6, 1.0, "newton[EPSILON=0.001]")
+    rows = origins.paired(rows_of(tmp_path / "run", *GAINS, *null, *ball, alone))
+    by = {line[0]: line[1:] for line in origins.table(rows).rows}
+    assert set(by) == {"ray_march", "null"}, "what began at one origin alone is no pair"
+    assert by["ray_march"][:4] == (2, 3, 3, 301) and by["ray_march"][7:10] == pytest.approx((1e-5, 2e-6, 1e-3))
+    assert by["null"][1:10] == (None,) * 9, "it finds nothing, so that its misses say nothing"
+    assert by["null"][10:] == pytest.approx((2.0, 1.5))
+    assert len(origins.scenes(rows).rows) == 3
+
+
+def test_families_held_from_one_origin_alone_are_named(tmp_path: Path) -> None:
+    cells = []
+    for family in ("grazing", "thin_torus"):
+        for origin in ("nearest", "eye"):
+            variant = "newton[EPSILON=0.001]" if (family, origin) == ("thin_torus", "eye") else "_odd#[STEP_$=0.5]"
+            made = family_cell("newton[EPSILON=1e-06]", family, "opencl:intel", "float32")
+            if variant.startswith("newton"):
+                made["rungs"] = family_cell(variant, family, "opencl:intel", "float32")["rungs"]
+            made |= {"variant": "newton" + FROM_ORIGIN[origin], "origin": origin}
+            cells.append(made | {"key": digest(family, origin), "slot": f"{family} {origin}"})
+    run = load.load(tiny_run(tmp_path / "run", *cells))
+    table = origins.hard_rays(breaks.derive(run.families, run.rungs), run.plan.facts)
+    assert table is not None
+    ((_, _, caster, of, nearest, eye, lost, won),) = table.rows
+    assert (caster, of, nearest, eye, won) == ("newton", 2, 2, 1, "none")
+    assert lost == FAMILIES["thin_torus"]["title"]
+
+
+def test_the_section_stands_in_the_report_only_with_pairs(tmp_path: Path) -> None:
+    for name, cells, there in (("pairs", GAINS, True), ("alone", GAINS[:1], False)):
+        _, document = reported(tiny_run(tmp_path / name, *cells))
+        assert ("What the shift is worth" in [section.title for section in document.sections]) is there
+
+
+def test_evidence_takes_the_papers_origin_or_the_picks_and_never_several(tmp_path: Path) -> None:
+    frame = rows_of(tmp_path / "run", *GAINS)
+    evidence = Evidence(frame, {}, Shelf({}))
+    march = Pick("march", "ray_march")
+    for config, origin in (("toledo-x.toml", "entry"), ("szente-x.toml", "eye"), ("beamcasting-x.toml", "nearest")):
+        own = evidence.of(config)
+        assert own.rows(march)["origin"].tolist() == [origin] and own.note == ""
+        assert own.rows(Pick("march", "ray_march", origin="nearest"))["origin"].tolist() == ["nearest"]
+    assert evidence.rows(march)["origin"].tolist() == ["nearest"]
+
+
+def test_a_verdict_says_where_rays_begin_if_not_as_in_the_paper(tmp_path: Path) -> None:
+    decide = lambda evidence: Verdict(Outcome.CONFIRMED, f"{len(evidence.rows(Pick('', 'ray_march')))} row")  # noqa: E731
+    claim = Claim("toledo2007", "3", "text", "rows", decide, config="toledo-x.toml")
+    nearest = Evidence(rows_of(tmp_path / "near", GAINS[0], GAINS[2]), {}, Shelf({}))
+    entry = Evidence(rows_of(tmp_path / "entry", *GAINS), {}, Shelf({}))
+    assert claims.judge(claim, entry).figure == "1 row"
+    told = claims.judge(claim, nearest).figure
+    assert told.startswith("1 row (of rays that begin at their point nearest") and "entry" in told
+
+
+def test_triangles_and_rows_of_older_runs_have_no_origin_and_stand_beside_any(tmp_path: Path) -> None:
+    old = cell("ray_march", "torus", "opencl:intel", "float32")
+    evidence = Evidence(rows_of(tmp_path / "run", old), {}, Shelf({}))
+    assert len(evidence.of("toledo-x.toml").rows(Pick("", "ray_march"))) == 1
+
+
+def test_the_floor_is_that_of_the_same_origin(tmp_path: Path) -> None:
+    null = [moved(origin, 0, 0.0, ms, "null") for origin, ms in zip(ORIGINS, (0.2, 0.15, 0.1), strict=True)]
+    frame = rows_of(tmp_path / "run", *GAINS, *null).set_index("variant")["floor_ms"]
+    assert frame["ray_march"] == pytest.approx(0.2) and frame["ray_march from the eye"] == pytest.approx(0.1)
+
+
+def test_a_baseline_is_named_without_its_origin(tmp_path: Path) -> None:
+    cells = [moved("entry", 0, 1e-6, ms, name) for name, ms in (("newton[EPSILON=0.001]", 2.0), ("ray_march", 1.0))]
+    frame = load.load(tiny_run(tmp_path / "run", *cells)).frame.assign(baseline="newton[EPSILON=0.001]")
+    assert derive.derive(frame).set_index("method")["speedup"]["ray_march"] == pytest.approx(2.0, rel=0.2)
