@@ -57,6 +57,14 @@ def test_forms_are_held_against_the_printed_one_round_by_round(tmp_path: Path) -
     assert worth["nested"][2] == 7 and worth[forms.PRINTED][2] == 0
 
 
+def test_a_failed_form_is_left_out_and_costs_no_page_of_others(tmp_path: Path) -> None:
+    failed = written("nested", 0.5, 2) | {"status": "failed", "reason": "no", "time": None, "accuracy": None}
+    _, report = reported(tiny_run(tmp_path / "one", written("", 1.0, 1), failed))
+    assert TITLE not in [section.title for section in report.sections]
+    two = page(tiny_run(tmp_path / "two", written("", 1.0, 1), failed, written("expanded", 2.0, 3)))
+    assert list(lines(two, "What a form costs.")) == [forms.PRINTED, "expanded"]
+
+
 def test_one_form_alone_makes_no_page_and_stays_in_the_lists(tmp_path: Path) -> None:
     _, report = reported(tiny_run(tmp_path / "run", written("nested", 0.5, 2)))
     titles = [section.title for section in report.sections]

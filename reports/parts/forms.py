@@ -52,14 +52,13 @@ def sections(material: Material) -> list[Section]:
         titles = dict(zip(material.frame["surface"], material.frame["surface_title"], strict=True))
         blocks += [Text(_narrowest(ranges, titles)), _ranges(ranges, rows, titles), _figure(ranges, titles)]
     if not rows.empty:
-        told = rows[rows["status"] == CellStatus.OK]
-        blocks += [_work(told), Text(WARNING), _errors(told)]
+        blocks += [_work(rows), Text(WARNING), _errors(rows)]
     return [Section("How a formula is written", tuple(blocks), wide=True)] if len(blocks) > 1 else []
 
 
 def _picture(frame: pd.DataFrame) -> pd.DataFrame:
-    """The rows of surfaces with several forms on the first device, precision, view and size that has any."""
-    rows = frame[frame["answers"].astype(bool)]
+    """The finished rows of surfaces with several forms on the first device, precision, view and size that has any."""
+    rows = frame[frame["answers"].astype(bool) & (frame["status"] == CellStatus.OK)]
     rows = rows.assign(base=rows["surface"].map(base_of), form=rows["surface"].map(form_of))
     several = rows.groupby([*_ONE_PICTURE, "base"])["surface"].transform("nunique") > 1
     rows = rows[several]
@@ -199,7 +198,7 @@ def _by_variant(
     variants = list(dict.fromkeys(rows["variant"]))
     body: list[tuple[Any, ...]] = []
     for _, forms in rows.groupby("base", sort=False):
-        title = str(forms["surface_title"].iloc[0]).partition(", ")[0]
+        title = str(forms["surface_title"].iloc[0]).removesuffix(f", {forms['form'].iloc[0]}")
         printed = _by_name(forms[forms["form"] == PRINTED].itertuples())
         for form, own in forms.groupby("form", sort=False):
             found = _by_name(own.itertuples())
