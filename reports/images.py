@@ -91,8 +91,8 @@ def _caption(row: Any) -> str:
         "blue to yellow is a growing |t − t*| on one logarithmic scale for all pictures of this report, whose end "
         f"colours also stand for what lies beyond. {wording.ZERO} The bright colours are rays answered wrongly, paler "
         "where they graze the surface or f drowns in its own rounding; counts are of the "
-        f"{wording.count(row.accuracy_rays)} rays checked. Look for wrong rays away from the silhouette, and for bands "
-        "or facets in the error."
+        f"{wording.count(row.accuracy_rays)} rays checked, and max is the largest error away from silhouettes. Look "
+        "for wrong rays away from the silhouette, and for bands or facets in the error."
     )
 
 

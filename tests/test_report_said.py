@@ -20,6 +20,7 @@ from reports import (
     content,
     derive,
     load,
+    machine,
     plots,
     style,
     summary,
@@ -155,7 +156,7 @@ def test_a_share_of_a_peak_has_one_digit_and_the_devices_say_how_well_it_is_know
     folder = tiny_run(tmp_path / "run", cell("ray_march", "torus", "opencl:intel", "float32"))
     devices = json.loads((folder / "plan.json").read_text())["devices"]
     devices[0]["probes"] |= {"peak_gflops": 528.8, "peak_median_gflops": 311.2}
-    table = tables.devices(load.load(planned(folder, devices=devices)).plan)
+    table = machine.devices(load.load(planned(folder, devices=devices)).plan)
     titles = [column.title for column in table.columns if column.over]
     assert titles == ["peak", "median"]
     line = " | ".join(column.show(value) for column, value in zip(table.columns, table.rows[0], strict=True))

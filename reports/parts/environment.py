@@ -1,6 +1,6 @@
 """Devices, machine, software and config."""
 
-from reports import tables
+from reports import machine
 from reports.content import Code, Section
 from reports.material import Material
 
@@ -9,5 +9,5 @@ ORDER = 80
 
 def sections(material: Material) -> list[Section]:
     plan = material.run.plan
-    tabled = (tables.devices(plan), tables.environment(plan))
+    tabled = (machine.devices(plan), machine.environment(plan))
     return [Section("Devices, environment, config", (*tabled, Code(plan.config_text, "toml")), wide=True)]
