@@ -269,7 +269,7 @@ def test_beamcastings_tables_stand_on_the_printed_descent_beside_ours(tmp_path: 
         made["size"] = 512
     _, report = reported(tiny_run(tmp_path / "run", *cells))
     told = next(printed(s.blocks) for s in report.sections if s.title == "beamcasting, Tables I and II")
-    line = next(line for line in told.splitlines() if line.startswith("512 | 1 | Sphere | 167 | 860"))
+    line = next(line for line in told.splitlines() if line.startswith("512 | 1 | sphere | 167 | 860"))
     assert line.endswith("| 250 | 1,120 | 1.50× | 1.30× | 1.15× | 2.00× | 3.00×")
     assert "perspective frustum" in told and "nothing is shaded" in told
 
