@@ -110,7 +110,7 @@ def test_a_row_keeps_its_lanes_and_every_sample_of_a_pixels_shading(tmp_path):
     path = tmp_path / "t.toml"
     path.write_text(
         'title = "t"\nsurfaces = ["sphere"]\nsizes = [32]\nsamples_per_pixel = [1, 4]\ndevices = ["any"]\n'
-        '[[method]]\nname = "interval_adaptive"\n[[method]]\nname = "interval_march"\n[[view]]\nname = "v"\n'
+        '[[method]]\nname = "interval_adaptive"\n[[method]]\nname = "newton"\n[[view]]\nname = "v"\n'
         "[accuracy]\nsize = 16\nmax_wrong_share = 1.0\n[budget]\nseconds = 0.01\n"
     )
     done = run("run", path, "--runs", tmp_path / "runs")

@@ -27,13 +27,19 @@ search stopped. Each level halves ε, since the width of a beam bounds what its 
 
 **Evaluations** A large beam's are divided among the pixels below it, in whole numbers that add up to what was spent.
 
-**Where the paper's ratio is not reached** opencl:intel, float32, processor time: uniform over adaptive is 1.5 to 2.7 at
-512 x 512 and 1.8 to 3.1 at 1024 x 1024 or 512 x 512 with 4 samples, above the paper's 1.16 to 2.85 on each of eleven
-surfaces. On chmutov it is 1.1 (the paper: 1.53 to 1.90): the extension of the septic overestimates so far that large
-beams exclude little, 15 evaluations a pixel against 21, where the other surfaces need a fifth to a half.
+**Against the paper's tables** opencl:intel, float32, processor time: uniform over adaptive as printed is 1.71 and 1.77
+in the mean of twelve surfaces at 512 × 512 and 1024 × 1024, with 4 samples 1.77 and 1.97; the paper has 1.38, 1.60,
+1.81 and 2.01. In evaluations it is 1.0 to 3.7, and 1.3 to 6.7 from the parent's piece. The sphere gains least (1.0 to
+1.2 in time; the paper 1.3 to 1.8), since most of its pixels are hit and halve all the depth again at each level.
 
 **Tried**, processor time of opencl:intel at 512 × 512, float32, as ms on both cores, sphere / tangle:
-- The first level from 2 to 8: 21 to 25 / 63 to 73, no trend. What counts is the pixels' own level.
+- The first level from 2 to 8: 21 to 25 / 63 to 73, no trend. What counts is the pixels' own level. Uniform over
+  adaptive in evaluations at first levels 4, 7 and 8, as printed: 1.30, 1.29, 1.23 / 2.00, 1.94, 1.68; from the parent's
+  piece 3.36, 3.05, 2.24 / 2.45, 2.33, 1.92: one level above the pixels' own keeps most of it.
+- REMAP = 16, as printed: 0.98 to 1.04 times as fast on sphere, octdong, steiner and tangle; of 32 lanes 23 to 42 % are
+  idle instead of 27 to 44 %. Sorting each level's queue whole, by what the parent spent or by its depth, leaves 17 to
+  59 % idle, and its best case, each level sorted by what its items spend, 1 %: where a parent's search stopped tells
+  little of its quarters'. Not kept.
 - A cell's pixels painted by one loop at every level: 22 / 63; a path without loop and division for the pixels' level:
   21 / 61. Kept.
 - Going on at the halves of the parent's piece instead of at that piece: 5.4 / 13.2 evaluations per pixel against
