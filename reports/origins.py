@@ -67,6 +67,13 @@ def _present(rows: pd.DataFrame) -> list[str]:
     return [origin for origin in ORIGINS if (rows["origin"] == origin).any()]
 
 
+def _from_all(rows: pd.DataFrame, origins: Sequence[str]) -> pd.DataFrame:
+    """The rows of variants and scenes that have one from each of `origins`, so that sums over scenes compare."""
+    there = rows["origin"].where(rows["origin"].isin(list(origins)))
+    found = there.groupby([rows[name] for name in (*derive.GROUP, "caster")]).transform("nunique")
+    return rows[found == len(origins)]
+
+
 def _wrong(rows: pd.DataFrame) -> int:
     """Wrong rays of every class."""
     return int(rows[["wrong_rays", "silhouette_wrong_rays"]].sum().sum())
@@ -74,7 +81,7 @@ def _wrong(rows: pd.DataFrame) -> int:
 
 def conclusions(rows: pd.DataFrame) -> list[str]:
     """What the shift from the eye to the nearest point gains and costs, each in a sentence or two; [] without both."""
-    answering = rows[rows["answers"].astype(bool)]
+    answering = _from_all(rows[rows["answers"].astype(bool)], ("eye", "nearest"))
     before, after = (answering[answering["origin"] == origin] for origin in ("eye", "nearest"))
     if before.empty or after.empty:
         return []
@@ -154,8 +161,9 @@ def _columns(origins: Sequence[str]) -> tuple[Column, ...]:
 
 
 def table(rows: pd.DataFrame) -> Table:
-    """One line for each variant, over all its scenes."""
+    """One line for each variant, over its scenes that have a row from every origin that the run has."""
     origins = _present(rows)
+    rows = _from_all(rows, origins)
     several = [name for name in ("device", "precision") if rows[name].nunique() > 1]
     body = [
         (
