@@ -53,7 +53,7 @@ def sections(frame: pd.DataFrame, rungs: pd.DataFrame, facts: Mapping[str, Facts
         blocks += [Text(told, strong=True) for told in conclusions(rows)]
         blocks += [table(rows), scenes(rows)]
     hard = hard_rays(rungs, facts)
-    blocks += [hard] if hard else []
+    blocks += [Text(_held(hard), strong=True), hard] if hard else []
     return [Section("What the shift is worth", tuple(blocks), wide=True)] if blocks else []
 
 
@@ -222,4 +222,17 @@ def hard_rays(rungs: pd.DataFrame, facts: Mapping[str, Facts]) -> Table | None:
         Column("held only when moved", stretch=4),
         Column("held only from the eye", stretch=3),
     )
-    return Table(columns, body, "Families of hard rays held from each origin.", "", 2) if body else None
+    caption = "Held as where each method breaks; “of” counts the families with decided rays from every origin."
+    return Table(columns, body, "Families of hard rays held from each origin.", caption, 2) if body else None
+
+
+def _held(of: Table) -> str:
+    """What the shift does to families of hard rays, in two sentences; by the table of `hard_rays`."""
+    place = {column.title: k for k, column in enumerate(of.columns)}
+    held = [(row[place["nearest"]], row[place["eye"]], row) for row in of.rows]
+    alike = [f"{row[place['variant']]} in {row[place['precision']]}" for near, eye, row in held if near == eye]
+    total, moved = sum(row[place["of"]] for _, _, row in held), sum(near for near, *_ in held)
+    return (
+        f"Of {total:,} pairs of a variant and a family of hard rays, {moved:,} are held with the origins moved next to "
+        f"the domain's centre, and {sum(eye for _, eye, _ in held):,} with rays that begin at the eye. As many from either: {wording.listed(alike) or 'none'}."
+    )

@@ -11,6 +11,7 @@ from harness.contract import FROM_ORIGIN, ORIGINS, digest
 from reports import breaks, claims, derive, load, origins
 from reports.arrays import Shelf
 from reports.claims import Claim, Outcome, Verdict
+from reports.content import Text
 from reports.evidence import Evidence, Pick
 from tests.synthetic_run import FAMILIES, cell, family_cell, reported, retime, tiny_run
 
@@ -101,6 +102,10 @@ def test_families_held_from_one_origin_alone_are_named(tmp_path: Path) -> None:
     ((_, _, caster, of, nearest, eye, lost, won),) = table.rows
     assert (caster, of, nearest, eye, won) == ("newton", 2, 2, 1, "none")
     assert lost == FAMILIES["thin_torus"]["title"]
+    _, document = reported(run.folder)
+    (section,) = (section for section in document.sections if section.title == "What the shift is worth")
+    assert isinstance(section.blocks[0], Text)
+    assert section.blocks[0].text.startswith("Of 2 pairs of a variant and a family of hard rays, 2 are held")
 
 
 def test_the_section_stands_in_the_report_only_with_pairs(tmp_path: Path) -> None:
