@@ -21,7 +21,8 @@ _CAPTION = (
     "Nearest: the harness moves each ray's origin, by error-free arithmetic, to the point nearest the domain's centre; "
     "entry: to where the ray enters the domain; eye: the ray stays as it is given. The programs differ in that alone. "
     "Errors are largest |t − t*| of right hits over the scene's radius, t along the ray as given from every origin, so "
-    "that from the eye they include the rounding of t itself. Time is over that from the eye."
+    "that from the eye they include the rounding of t itself. Time is over that from the eye, in the geometric mean of "
+    "the scenes where both answer every ray away from silhouettes rightly."
 )
 
 
@@ -31,12 +32,14 @@ def paired(frame: pd.DataFrame) -> pd.DataFrame:
     rows = rows.assign(caster=derive.casters(rows))
     rows["silhouette_wrong_rays"] = rows["grazing_wrong_rays"] + rows["drowned_wrong_rays"]
     several = rows.groupby([*derive.GROUP, "caster"])["origin"].transform("nunique") > 1
-    return rows[several.astype(bool)].assign(cost=lambda kept: _costs(kept))
+    return rows[several.astype(bool)].assign(cost=lambda kept: _costs(kept).reindex(kept.index))
 
 
 def _costs(rows: pd.DataFrame) -> pd.Series:
-    """Each row's time over that of the same rays from the eye, in the rounds that timed both; NaN without those."""
+    """Each row's time over that of the same rays from the eye, in the rounds that timed both; NaN without those, or
+    where one of them answers a ray away from silhouettes wrongly."""
     keys = [*derive.GROUP, "caster"]
+    rows = rows[derive.all_right(rows) | ~rows["answers"].astype(bool)]
     eye = rows[rows["origin"] == "eye"]
     found = pd.Series(np.nan, rows.index)
     for _, own in rows[rows["origin"] != "eye"].groupby("origin", sort=False):
@@ -95,16 +98,39 @@ def conclusions(rows: pd.DataFrame) -> list[str]:
     first = (
         f"Moving the origins of rays from the eye to the point nearest the domain's centre takes the wrong rays of all "
         f"{answering['caster'].nunique()} variants together, silhouettes included, from {_wrong(before):,} to "
-        f"{_wrong(after):,} of {int(after['accuracy_rays'].sum()):,}. Fewer beyond chance: {gained}. More beyond "
-        f"chance: {harmed}. The largest error from the eye is {wording.factor(errors.median())} that from the nearest "
-        f"point in the median of all scenes and variants, and {wording.factor(errors.max())} at most. {counts.RULE}."
+        f"{_wrong(after):,} of {int(after['accuracy_rays'].sum()):,}{_by_view(before, after)}. Fewer beyond chance: "
+        f"{gained}. More beyond chance: {harmed}. The largest error from the eye is {wording.factor(errors.median())} "
+        "that from the nearest point in the median of all scenes and variants, and "
+        f"{wording.short(errors.max())}× at most. {counts.RULE}."
     )
-    paid = f"The shift multiplies the time of a frame by {wording.hundredths(cost)} in the mean"
-    if better and not worse and cost <= CHEAP:
-        return [first, f"{paid}: robustness for next to nothing, before any knob of a method is turned."]
-    if better:
-        return [first, f"{paid}: it is worth that to the variants named, and to no other."]
-    return [first, f"{paid}, and buys no right ray here."]
+    return [first, _price(cost, bool(better), bool(worse))]
+
+
+def _price(cost: float, gains: bool, harms: bool) -> str:
+    """Whether what the shift gains is worth the factor `cost` of a frame's time; NaN where that is not known."""
+    if np.isnan(cost):
+        return (
+            "No variant answers every ray away from silhouettes rightly from both origins: what that costs is not told."
+        )
+    paid = (
+        f"Where both answer every ray away from silhouettes rightly, the shift multiplies the time of a frame by "
+        f"{wording.hundredths(cost)} in the mean"
+    )
+    if not gains:
+        return f"{paid}, and buys no right ray here."
+    if harms or cost > CHEAP:
+        return f"{paid}: it is worth that to the variants named, and to no other."
+    return f"{paid}: robustness for next to nothing, before any knob of a method is turned."
+
+
+def _by_view(before: pd.DataFrame, after: pd.DataFrame) -> str:
+    """The same counts view by view, where there are several."""
+    views = list(dict.fromkeys(before["view"]))
+    told = [
+        f"{_wrong(before[before['view'] == view]):,} to {_wrong(after[after['view'] == view]):,} in {view}"
+        for view in views
+    ]
+    return f" ({wording.listed(told)})" if len(views) > 1 else ""
 
 
 def _changed(
@@ -231,8 +257,10 @@ def _held(of: Table) -> str:
     place = {column.title: k for k, column in enumerate(of.columns)}
     held = [(row[place["nearest"]], row[place["eye"]], row) for row in of.rows]
     alike = [f"{row[place['variant']]} in {row[place['precision']]}" for near, eye, row in held if near == eye]
-    total, moved = sum(row[place["of"]] for _, _, row in held), sum(near for near, *_ in held)
+    total = sum(row[place["of"]] for _, _, row in held)
+    moved, given = sum(near for near, *_ in held), sum(eye for _, eye, _ in held)
     return (
         f"Of {total:,} pairs of a variant and a family of hard rays, {moved:,} are held with the origins moved next to "
-        f"the domain's centre, and {sum(eye for _, eye, _ in held):,} with rays that begin at the eye. As many from either: {wording.listed(alike) or 'none'}."
+        f"the domain's centre, and {given:,} with rays that begin at the eye. As many from either: "
+        f"{wording.listed(alike) or 'none'}."
     )

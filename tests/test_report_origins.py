@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 from harness.contract import FROM_ORIGIN, ORIGINS, digest
@@ -40,22 +41,34 @@ def rows_of(folder: Path, *cells: dict[str, Any]) -> Any:
 GAINS = (moved("nearest", 2, 1e-6, 1.02), moved("entry", 3, 2e-6, 1.01), moved("eye", 300, 1e-3, 1.0))
 
 
+def right(nearest_ms: float) -> tuple[dict[str, Any], ...]:
+    """A scene with no wrong ray from either end, so that its times may be told."""
+    times = {"nearest": nearest_ms, "eye": 1.0}
+    return tuple(moved(origin, 0, 1e-6, ms, surface="sphere") for origin, ms in times.items())
+
+
 def test_gain_and_cost_are_told_and_called_cheap(tmp_path: Path) -> None:
-    first, second = origins.conclusions(origins.paired(rows_of(tmp_path / "run", *GAINS)))
-    assert "from 300 to 2 of 2,304. Fewer beyond chance: ray_march (300 to 2). More beyond chance: none." in first
-    assert "1,000× that from the nearest point" in first
+    first, second = origins.conclusions(origins.paired(rows_of(tmp_path / "run", *GAINS, *right(1.02))))
+    assert "from 300 to 2 of 4,608. Fewer beyond chance: ray_march (300 to 2). More beyond chance: none." in first
+    assert "1,000× at most" in first
     assert "by 1.02 in the mean: robustness for next to nothing" in second
 
 
 def test_a_gain_that_costs_time_is_not_called_cheap(tmp_path: Path) -> None:
-    cells = (moved("nearest", 2, 1e-6, 1.2), moved("eye", 300, 1e-3, 1.0))
-    _, second = origins.conclusions(origins.paired(rows_of(tmp_path / "run", *cells)))
+    _, second = origins.conclusions(origins.paired(rows_of(tmp_path / "run", *GAINS, *right(1.2))))
     assert "by 1.20 in the mean: it is worth that to the variants named" in second
+
+
+def test_no_time_is_told_of_wrong_answers(tmp_path: Path) -> None:
+    rows = origins.paired(rows_of(tmp_path / "run", *GAINS))
+    _, second = origins.conclusions(rows)
+    assert second.endswith("what that costs is not told.")
+    assert np.isnan(origins.table(rows).rows[0][-2])
 
 
 @pytest.mark.parametrize(("nearest", "eye"), [(5, 8), (8, 5)])
 def test_a_few_rays_are_no_gain(tmp_path: Path, nearest: int, eye: int) -> None:
-    cells = (moved("nearest", nearest, 1e-6, 1.0), moved("eye", eye, 1e-6, 1.0))
+    cells = (moved("nearest", nearest, 1e-6, 1.0), moved("eye", eye, 1e-6, 1.0), *right(1.0))
     first, second = origins.conclusions(origins.paired(rows_of(tmp_path / "run", *cells)))
     assert "Fewer beyond chance: none. More beyond chance: none." in first and "buys no right ray here" in second
 
@@ -65,7 +78,7 @@ def test_a_loss_is_told_and_never_called_cheap(tmp_path: Path) -> None:
         moved("nearest", 200, 1e-6, 1.0, "newton[EPSILON=0.001]"),
         moved("eye", 1, 1e-6, 1.0, "newton[EPSILON=0.001]"),
     )
-    first, second = origins.conclusions(origins.paired(rows_of(tmp_path / "run", *GAINS, *worse)))
+    first, second = origins.conclusions(origins.paired(rows_of(tmp_path / "run", *GAINS, *worse, *right(1.0))))
     assert "More beyond chance: newton[EPSILON=0.001] (1 to 200)." in first
     assert "next to nothing" not in second
 
