@@ -89,7 +89,7 @@ def conclusions(rows: pd.DataFrame) -> list[str]:
     if before.empty or after.empty:
         return []
     better, worse = _changed(before, after)
-    cost = _mean(rows.loc[after.index, "cost"])
+    cost = float(after["cost"].median())
     gained, harmed = (
         wording.listed([f"{name} ({was:,} to {now:,})" for name, was, now in found]) or "none"
         for found in (better, worse)
@@ -114,7 +114,7 @@ def _price(cost: float, gains: bool, harms: bool) -> str:
         )
     paid = (
         f"Where both answer every ray away from silhouettes rightly, the shift multiplies the time of a frame by "
-        f"{wording.hundredths(cost)} in the mean"
+        f"{wording.hundredths(cost)} in the median"
     )
     if not gains:
         return f"{paid}, and buys no right ray here."

@@ -51,12 +51,12 @@ def test_gain_and_cost_are_told_and_called_cheap(tmp_path: Path) -> None:
     first, second = origins.conclusions(origins.paired(rows_of(tmp_path / "run", *GAINS, *right(1.02))))
     assert "from 300 to 2 of 4,608. Fewer beyond chance: ray_march (300 to 2). More beyond chance: none." in first
     assert "1,000× at most" in first
-    assert "by 1.02 in the mean: robustness for next to nothing" in second
+    assert "by 1.02 in the median: robustness for next to nothing" in second
 
 
 def test_a_gain_that_costs_time_is_not_called_cheap(tmp_path: Path) -> None:
     _, second = origins.conclusions(origins.paired(rows_of(tmp_path / "run", *GAINS, *right(1.2))))
-    assert "by 1.20 in the mean: it is worth that to the variants named" in second
+    assert "by 1.20 in the median: it is worth that to the variants named" in second
 
 
 def test_no_time_is_told_of_wrong_answers(tmp_path: Path) -> None:
