@@ -82,8 +82,9 @@ def drawn(rows: pd.DataFrame, per_method: int = 1) -> pd.DataFrame:
 
 
 def fullest(rows: pd.DataFrame) -> str:
-    """The scene of one surface's rows with most methods, among equals with most variants, then the first."""
-    counted = rows.groupby("comparison", sort=False)[["method", "variant"]].nunique()
+    """The scene of one surface's rows with most methods, among equals with most variants, wherever their rays begin,
+    then the first."""
+    counted = rows.assign(variant=casters(rows)).groupby("comparison", sort=False)[["method", "variant"]].nunique()
     return str(counted.sort_values(["method", "variant"], ascending=False, kind="stable").index[0])
 
 

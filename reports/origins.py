@@ -21,7 +21,8 @@ _CAPTION = (
     "Nearest: the harness moves each ray's origin, by error-free arithmetic, to the point nearest the domain's centre; "
     "entry: to where the ray enters the domain; eye: the ray stays as it is given. The programs differ in that alone. "
     "Errors are largest |t − t*| of right hits over the scene's radius, t along the ray as given from every origin, so "
-    "that from the eye they include the rounding of t itself. Time is over that from the eye."
+    "that from the eye they include the rounding of t itself. Time is over that from the eye, in the geometric mean of "
+    "the scenes where both answer every ray away from silhouettes rightly."
 )
 
 
@@ -31,12 +32,14 @@ def paired(frame: pd.DataFrame) -> pd.DataFrame:
     rows = rows.assign(caster=derive.casters(rows))
     rows["silhouette_wrong_rays"] = rows["grazing_wrong_rays"] + rows["drowned_wrong_rays"]
     several = rows.groupby([*derive.GROUP, "caster"])["origin"].transform("nunique") > 1
-    return rows[several.astype(bool)].assign(cost=lambda kept: _costs(kept))
+    return rows[several.astype(bool)].assign(cost=lambda kept: _costs(kept).reindex(kept.index))
 
 
 def _costs(rows: pd.DataFrame) -> pd.Series:
-    """Each row's time over that of the same rays from the eye, in the rounds that timed both; NaN without those."""
+    """Each row's time over that of the same rays from the eye, in the rounds that timed both; NaN without those, or
+    where one of them answers a ray away from silhouettes wrongly."""
     keys = [*derive.GROUP, "caster"]
+    rows = rows[derive.all_right(rows) | ~rows["answers"].astype(bool)]
     eye = rows[rows["origin"] == "eye"]
     found = pd.Series(np.nan, rows.index)
     for _, own in rows[rows["origin"] != "eye"].groupby("origin", sort=False):
@@ -53,7 +56,7 @@ def sections(frame: pd.DataFrame, rungs: pd.DataFrame, facts: Mapping[str, Facts
         blocks += [Text(told, strong=True) for told in conclusions(rows)]
         blocks += [table(rows), scenes(rows)]
     hard = hard_rays(rungs, facts)
-    blocks += [hard] if hard else []
+    blocks += [Text(_held(hard), strong=True), hard] if hard else []
     return [Section("What the shift is worth", tuple(blocks), wide=True)] if blocks else []
 
 
@@ -67,6 +70,13 @@ def _present(rows: pd.DataFrame) -> list[str]:
     return [origin for origin in ORIGINS if (rows["origin"] == origin).any()]
 
 
+def _from_all(rows: pd.DataFrame, origins: Sequence[str]) -> pd.DataFrame:
+    """The rows of variants and scenes that have one from each of `origins`, so that sums over scenes compare."""
+    there = rows["origin"].where(rows["origin"].isin(list(origins)))
+    found = there.groupby([rows[name] for name in (*derive.GROUP, "caster")]).transform("nunique")
+    return rows[found == len(origins)]
+
+
 def _wrong(rows: pd.DataFrame) -> int:
     """Wrong rays of every class."""
     return int(rows[["wrong_rays", "silhouette_wrong_rays"]].sum().sum())
@@ -74,12 +84,12 @@ def _wrong(rows: pd.DataFrame) -> int:
 
 def conclusions(rows: pd.DataFrame) -> list[str]:
     """What the shift from the eye to the nearest point gains and costs, each in a sentence or two; [] without both."""
-    answering = rows[rows["answers"].astype(bool)]
+    answering = _from_all(rows[rows["answers"].astype(bool)], ("eye", "nearest"))
     before, after = (answering[answering["origin"] == origin] for origin in ("eye", "nearest"))
     if before.empty or after.empty:
         return []
     better, worse = _changed(before, after)
-    cost = _mean(rows.loc[after.index, "cost"])
+    cost = float(after["cost"].median())
     gained, harmed = (
         wording.listed([f"{name} ({was:,} to {now:,})" for name, was, now in found]) or "none"
         for found in (better, worse)
@@ -88,16 +98,39 @@ def conclusions(rows: pd.DataFrame) -> list[str]:
     first = (
         f"Moving the origins of rays from the eye to the point nearest the domain's centre takes the wrong rays of all "
         f"{answering['caster'].nunique()} variants together, silhouettes included, from {_wrong(before):,} to "
-        f"{_wrong(after):,} of {int(after['accuracy_rays'].sum()):,}. Fewer beyond chance: {gained}. More beyond "
-        f"chance: {harmed}. The largest error from the eye is {wording.factor(errors.median())} that from the nearest "
-        f"point in the median of all scenes and variants, and {wording.factor(errors.max())} at most. {counts.RULE}."
+        f"{_wrong(after):,} of {int(after['accuracy_rays'].sum()):,}{_by_view(before, after)}. Fewer beyond chance: "
+        f"{gained}. More beyond chance: {harmed}. The largest error from the eye is {wording.factor(errors.median())} "
+        "that from the nearest point in the median of all scenes and variants, and "
+        f"{wording.short(errors.max())}× at most. {counts.RULE}."
     )
-    paid = f"The shift multiplies the time of a frame by {wording.hundredths(cost)} in the mean"
-    if better and not worse and cost <= CHEAP:
-        return [first, f"{paid}: robustness for next to nothing, before any knob of a method is turned."]
-    if better:
-        return [first, f"{paid}: it is worth that to the variants named, and to no other."]
-    return [first, f"{paid}, and buys no right ray here."]
+    return [first, _price(cost, bool(better), bool(worse))]
+
+
+def _price(cost: float, gains: bool, harms: bool) -> str:
+    """Whether what the shift gains is worth the factor `cost` of a frame's time; NaN where that is not known."""
+    if np.isnan(cost):
+        return (
+            "No variant answers every ray away from silhouettes rightly from both origins: what that costs is not told."
+        )
+    paid = (
+        f"Where both answer every ray away from silhouettes rightly, the shift multiplies the time of a frame by "
+        f"{wording.hundredths(cost)} in the median"
+    )
+    if not gains:
+        return f"{paid}, and buys no right ray here."
+    if harms or cost > CHEAP:
+        return f"{paid}: it is worth that to the variants named, and to no other."
+    return f"{paid}: robustness for next to nothing, before any knob of a method is turned."
+
+
+def _by_view(before: pd.DataFrame, after: pd.DataFrame) -> str:
+    """The same counts view by view, where there are several."""
+    views = list(dict.fromkeys(before["view"]))
+    told = [
+        f"{_wrong(before[before['view'] == view]):,} to {_wrong(after[after['view'] == view]):,} in {view}"
+        for view in views
+    ]
+    return f" ({wording.listed(told)})" if len(views) > 1 else ""
 
 
 def _changed(
@@ -154,8 +187,9 @@ def _columns(origins: Sequence[str]) -> tuple[Column, ...]:
 
 
 def table(rows: pd.DataFrame) -> Table:
-    """One line for each variant, over all its scenes."""
+    """One line for each variant, over its scenes that have a row from every origin that the run has."""
     origins = _present(rows)
+    rows = _from_all(rows, origins)
     several = [name for name in ("device", "precision") if rows[name].nunique() > 1]
     body = [
         (
@@ -214,4 +248,19 @@ def hard_rays(rungs: pd.DataFrame, facts: Mapping[str, Facts]) -> Table | None:
         Column("held only when moved", stretch=4),
         Column("held only from the eye", stretch=3),
     )
-    return Table(columns, body, "Families of hard rays held from each origin.", "", 2) if body else None
+    caption = "Held as where each method breaks; “of” counts the families with decided rays from every origin."
+    return Table(columns, body, "Families of hard rays held from each origin.", caption, 2) if body else None
+
+
+def _held(of: Table) -> str:
+    """What the shift does to families of hard rays, in two sentences; by the table of `hard_rays`."""
+    place = {column.title: k for k, column in enumerate(of.columns)}
+    held = [(row[place["nearest"]], row[place["eye"]], row) for row in of.rows]
+    alike = [f"{row[place['variant']]} in {row[place['precision']]}" for near, eye, row in held if near == eye]
+    total = sum(row[place["of"]] for _, _, row in held)
+    moved, given = sum(near for near, *_ in held), sum(eye for _, eye, _ in held)
+    return (
+        f"Of {total:,} pairs of a variant and a family of hard rays, {moved:,} are held with the origins moved next to "
+        f"the domain's centre, and {given:,} with rays that begin at the eye. As many from either: "
+        f"{wording.listed(alike) or 'none'}."
+    )

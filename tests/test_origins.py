@@ -285,3 +285,12 @@ def test_rows_say_where_their_rays_begin(tmp_path):
     assert told >= rays | {("interval_uniform", None)}
     by_origin = {row["origin"]: row for row in rows if row["method"] == "bernstein" and not row["family"]}
     assert by_origin["entry"]["accuracy"]["error"]["max"] < by_origin["eye"]["accuracy"]["error"]["max"]
+
+
+def test_a_march_by_shells_stays_in_its_table_from_afar(device):
+    """From 115 radii the squared distance from the centre cancels to below 0, where there is no shell."""
+    nowhere = surfaces.from_formula("x^2 + y^2 + z^2 + 0.5", "sphere:1")
+    rays = rays_of(camera_for(View("far", azimuth=30, elevation=35, fov=1), nowhere), 33)
+    far, near = (cast(device, "sphere_tracing_lipschitz", nowhere, rays, origin) for origin in ("eye", "nearest"))
+    assert (far.status == RayStatus.MISS).all() and (near.status == RayStatus.MISS).all()
+    assert far.evaluations.max() <= 2 * near.evaluations.max()

@@ -5,12 +5,14 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 from harness.contract import FROM_ORIGIN, ORIGINS, digest
 from reports import breaks, claims, derive, load, origins
 from reports.arrays import Shelf
 from reports.claims import Claim, Outcome, Verdict
+from reports.content import Text
 from reports.evidence import Evidence, Pick
 from tests.synthetic_run import FAMILIES, cell, family_cell, reported, retime, tiny_run
 
@@ -39,22 +41,34 @@ def rows_of(folder: Path, *cells: dict[str, Any]) -> Any:
 GAINS = (moved("nearest", 2, 1e-6, 1.02), moved("entry", 3, 2e-6, 1.01), moved("eye", 300, 1e-3, 1.0))
 
 
+def right(nearest_ms: float) -> tuple[dict[str, Any], ...]:
+    """A scene with no wrong ray from either end, so that its times may be told."""
+    times = {"nearest": nearest_ms, "eye": 1.0}
+    return tuple(moved(origin, 0, 1e-6, ms, surface="sphere") for origin, ms in times.items())
+
+
 def test_gain_and_cost_are_told_and_called_cheap(tmp_path: Path) -> None:
-    first, second = origins.conclusions(origins.paired(rows_of(tmp_path / "run", *GAINS)))
-    assert "from 300 to 2 of 2,304. Fewer beyond chance: ray_march (300 to 2). More beyond chance: none." in first
-    assert "1,000× that from the nearest point" in first
-    assert "by 1.02 in the mean: robustness for next to nothing" in second
+    first, second = origins.conclusions(origins.paired(rows_of(tmp_path / "run", *GAINS, *right(1.02))))
+    assert "from 300 to 2 of 4,608. Fewer beyond chance: ray_march (300 to 2). More beyond chance: none." in first
+    assert "1,000× at most" in first
+    assert "by 1.02 in the median: robustness for next to nothing" in second
 
 
 def test_a_gain_that_costs_time_is_not_called_cheap(tmp_path: Path) -> None:
-    cells = (moved("nearest", 2, 1e-6, 1.2), moved("eye", 300, 1e-3, 1.0))
-    _, second = origins.conclusions(origins.paired(rows_of(tmp_path / "run", *cells)))
-    assert "by 1.20 in the mean: it is worth that to the variants named" in second
+    _, second = origins.conclusions(origins.paired(rows_of(tmp_path / "run", *GAINS, *right(1.2))))
+    assert "by 1.20 in the median: it is worth that to the variants named" in second
+
+
+def test_no_time_is_told_of_wrong_answers(tmp_path: Path) -> None:
+    rows = origins.paired(rows_of(tmp_path / "run", *GAINS))
+    _, second = origins.conclusions(rows)
+    assert second.endswith("what that costs is not told.")
+    assert np.isnan(origins.table(rows).rows[0][-2])
 
 
 @pytest.mark.parametrize(("nearest", "eye"), [(5, 8), (8, 5)])
 def test_a_few_rays_are_no_gain(tmp_path: Path, nearest: int, eye: int) -> None:
-    cells = (moved("nearest", nearest, 1e-6, 1.0), moved("eye", eye, 1e-6, 1.0))
+    cells = (moved("nearest", nearest, 1e-6, 1.0), moved("eye", eye, 1e-6, 1.0), *right(1.0))
     first, second = origins.conclusions(origins.paired(rows_of(tmp_path / "run", *cells)))
     assert "Fewer beyond chance: none. More beyond chance: none." in first and "buys no right ray here" in second
 
@@ -64,7 +78,7 @@ def test_a_loss_is_told_and_never_called_cheap(tmp_path: Path) -> None:
         moved("nearest", 200, 1e-6, 1.0, "newton[EPSILON=0.001]"),
         moved("eye", 1, 1e-6, 1.0, "newton[EPSILON=0.001]"),
     )
-    first, second = origins.conclusions(origins.paired(rows_of(tmp_path / "run", *GAINS, *worse)))
+    first, second = origins.conclusions(origins.paired(rows_of(tmp_path / "run", *GAINS, *worse, *right(1.0))))
     assert "More beyond chance: newton[EPSILON=0.001] (1 to 200)." in first
     assert "next to nothing" not in second
 
@@ -76,7 +90,10 @@ def test_tables_have_a_line_for_each_variant_and_scene(tmp_path: Path) -> None:
     rows = origins.paired(rows_of(tmp_path / "run", *GAINS, *null, *ball, alone))
     by = {line[0]: line[1:] for line in origins.table(rows).rows}
     assert set(by) == {"ray_march", "null"}, "what began at one origin alone is no pair"
-    assert by["ray_march"][:4] == (2, 3, 3, 301) and by["ray_march"][7:10] == pytest.approx((1e-5, 2e-6, 1e-3))
+    assert by["ray_march"][:4] == (1, 2, 3, 300), (
+        "the ball has no row from the entry: its sum would compare with nothing"
+    )
+    assert by["ray_march"][7:10] == pytest.approx((1e-6, 2e-6, 1e-3))
     assert by["null"][1:10] == (None,) * 9, "it finds nothing, so that its misses say nothing"
     assert by["null"][10:] == pytest.approx((2.0, 1.5))
     assert len(origins.scenes(rows).rows) == 3
@@ -98,6 +115,10 @@ def test_families_held_from_one_origin_alone_are_named(tmp_path: Path) -> None:
     ((_, _, caster, of, nearest, eye, lost, won),) = table.rows
     assert (caster, of, nearest, eye, won) == ("newton", 2, 2, 1, "none")
     assert lost == FAMILIES["thin_torus"]["title"]
+    _, document = reported(run.folder)
+    (section,) = (section for section in document.sections if section.title == "What the shift is worth")
+    assert isinstance(section.blocks[0], Text)
+    assert section.blocks[0].text.startswith("Of 2 pairs of a variant and a family of hard rays, 2 are held")
 
 
 def test_the_section_stands_in_the_report_only_with_pairs(tmp_path: Path) -> None:

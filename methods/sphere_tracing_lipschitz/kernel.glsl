@@ -29,7 +29,7 @@ Hit first_hit(Ray ray, real t0, real t1) {
         // a step is at most as long as a shell is thick, so the shell changes by one at most
         if (SHELLS > 1) {
             real away = origin_away + t * (advance + t);
-            if (away < real(shell * shell) * squared_thickness) shell -= 1;
+            if (away < real(shell * shell) * squared_thickness) shell = max(shell - 1, 0);
             if (away > real((shell + 1) * (shell + 1)) * squared_thickness) shell = min(shell + 1, SHELLS - 1);
         }
         step = max(min(fabs(f) * REACH[shell], thickness), least);
