@@ -45,7 +45,7 @@ def test_verdicts_name_the_rung_that_breaks(hard: Path) -> None:
 
 def test_breaks_are_those_that_the_harness_finds() -> None:
     rng = np.random.default_rng(7)
-    told = dict.fromkeys(("key", "slot", "family", "method", "variant", "precision", "device"), "x")
+    told = dict.fromkeys(("key", "slot", "family", "method", "variant", "origin", "precision", "device"), "x")
     for harder in ("smaller", "larger"):
         for _ in range(50):
             decided = rng.choice([0, 50, 100], 6)
