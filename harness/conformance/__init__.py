@@ -13,7 +13,8 @@ whose limit for wrong answers is wider: the papers start their rays outside.
 
 **Settings** The papers' own settings (Method.settings) are held to the same claims as the default, and otherwise to the
 limits of a surface that is not typical, since a paper may prefer speed (its thresholds) or leave out what would cure
-some rays. What a method's page calls weak without naming it a setting is not checked.
+some rays (toledo2007's Newton gives up on up to 0.61 of the Barth sextic's). From inside the domain a setting may give
+up on any share. What a method's page calls weak without naming it a setting is not checked.
 """
 
 from harness.conformance.cases import (

@@ -16,7 +16,7 @@ from reports.viewstats import spread
 
 ORDER = 10
 CONFIG = "toledo-table1.toml"
-PICKS = (*picks.TABLE_1, *picks.POLYGONS)
+PICKS = (*picks.TABLE_1, *picks.OURS_OF_TABLE_1, *picks.POLYGONS)
 REFERENCE = picks.NEWTON_3  # what the ratios of techniques are over
 OURS, PAPER = "ours", "paper"
 
@@ -106,7 +106,7 @@ def _frames(rows: pd.DataFrame, angles: list[str]) -> Table:
         mean = paper.number("average", technique=pick.words)
         over = mean / theirs_reference if mean and theirs_reference else None
         body.append((pick.words, OURS, *(own.get(view) for view in angles), own.mean(), own.mean() / reference))
-        body.append((pick.words, PAPER, *theirs, mean, over))
+        body += [(pick.words, PAPER, *theirs, mean, over)] if mean else []  # the paper has no row of ours at its best
     return Table(
         (
             Column("technique", stretch=1),
@@ -126,7 +126,7 @@ def _frames(rows: pd.DataFrame, angles: list[str]) -> Table:
 
 def _rates(rows: pd.DataFrame) -> Table:
     paper, body = published.table("toledo2007_table1_megapixels"), []
-    for pick in picks.TABLE_1:
+    for pick in (*picks.TABLE_1, *picks.OURS_OF_TABLE_1):
         own = _of(rows, pick)
         if own.empty:
             continue
