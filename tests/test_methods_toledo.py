@@ -235,6 +235,15 @@ def test_two_more_sturm_iterations_quarter_the_error():
     assert (ratios < 5.0).all()
 
 
+def test_the_discard_before_the_search_changes_no_answer_and_saves_evaluations():
+    knobs = {"BY_SIGN": 0, "ITERATIONS": 18, "SHARE": 0.0}
+    surface, rays, _ = _case("cayley", OBLIQUE, 96)
+    discarding, searching = (_cast("sturm", surface, rays, DISCARD=k, **knobs) for k in (1, 0))
+    assert (discarding.status == searching.status).all()
+    assert np.array_equal(discarding.t, searching.t, equal_nan=True)
+    assert discarding.evaluations.mean() < 0.7 * searching.evaluations.mean()
+
+
 def test_sturm_with_a_wrong_sign_is_caught(tmp_path):
     folder = _broken(tmp_path, "sturm", "offset * chain[g] - chain[f]", "chain[f] - offset * chain[g]")
     assert _outcome("sturm", "torus", OBLIQUE, folder=folder).wrong > 0.1

@@ -29,7 +29,6 @@ class Figure:
     judged: bool = True  # the verdicts of the config's claims stand here, not beside a table of it
 
 
-_CUBICS = ("cayley", "clebsch", "ding_dong", "monkey_saddle", "whitney_umbrella", "cartan_umbrella")
 _ANY_BEAM = (
     "sphere",
     "dingdong_beamcasting",
@@ -50,7 +49,7 @@ FIGURES = (
         "The paper shows cubics in the box [−1, 1]³ by Sturm's method, and reports errors close to singular points.",
         "Cubics by Sturm's method as printed. Look for wrong rays at nodes and along the handles of umbrellas.",
         "toledo-fig2.toml",
-        _CUBICS,
+        picks.CUBICS,
         (picks.STURM,),
     ),
     Figure(

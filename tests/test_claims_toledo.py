@@ -1,0 +1,73 @@
+"""toledo2007's claims about pieces of its casters, and the tables beside them: planted rows flip the verdicts."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from reports import claims
+from reports.claims import Outcome, picks
+from reports.evidence import Pick
+from tests.synthetic_run import printed, reported, tiny_run
+from tests.test_claims import claim, evidence, planted
+
+
+def in_proxy(proxy: str, fragments: int, hits: int, median: float) -> dict[str, Any]:
+    """A row of Newton as printed at one of Table 1's views, from the fragments of `proxy`."""
+    counted = {"fragments": fragments, "fragments_discarded": fragments - hits, "pixels_drawn": hits}
+    made = planted(Pick(f"Newton in a {proxy}", "newton", picks.NEWTON_3.knobs), "torus", median, **counted)
+    return made | {"stage": "raster", "proxy": proxy, "view_set": "angles"}
+
+
+def named(folder: Path, name: str, *cells: dict[str, Any]) -> Path:
+    """A run that bears a config's name."""
+    run = tiny_run(folder, *cells)
+    told = json.loads((run / "plan.json").read_text()) | {"name": name}
+    (run / "plan.json").write_text(json.dumps(told))
+    return run
+
+
+@pytest.mark.parametrize(("fragments", "expected"), [(220, Outcome.CONFIRMED), (120, Outcome.REFUTED)])
+def test_a_tetrahedrons_waste_is_counted_in_fragments(tmp_path: Path, fragments: int, expected: Outcome) -> None:
+    cells = (in_proxy("box", 130, 78, 1.0), in_proxy("tetrahedron", fragments, 78, 2.0))
+    verdict = claims.judge(claim("toledo2007", "tetrahedron about the torus"), evidence(tmp_path / "run", *cells))
+    assert verdict.outcome is expected
+    assert "40.00 %" in verdict.figure and "2.00× the box's time" in verdict.figure
+
+
+@pytest.mark.parametrize(
+    ("words", "without", "having"),
+    [
+        ("discard before the search", picks.STURM_SEARCHING, picks.STURM),
+        ("start on the sphere", picks.NEWTON_FROM_BOX, picks.NEWTON_3),
+    ],
+)
+def test_a_piece_pays_where_it_is_faster(tmp_path: Path, words: str, without: Pick, having: Pick) -> None:
+    for slow, expected in ((2.0, Outcome.CONFIRMED), (0.5, Outcome.REFUTED)):
+        cells = (planted(without, "torus", slow, evaluations_mean=9.0), planted(having, "torus", 1.0))
+        verdict = claims.judge(claim("toledo2007", words), evidence(tmp_path / f"{slow}", *cells))
+        assert verdict.outcome is expected
+        assert f"{without.words}: 9.00 evaluations a ray" in verdict.figure
+
+
+@pytest.mark.parametrize(("cubic", "expected"), [(3.0, Outcome.CONFIRMED), (0.5, Outcome.REFUTED)])
+def test_cubics_by_sturm_are_held_against_a_quadric(tmp_path: Path, cubic: float, expected: Outcome) -> None:
+    cells = (planted(picks.STURM, "cayley", cubic), planted(picks.CLOSED_FORM, "sphere", 1.0))
+    verdict = claims.judge(claim("toledo2007", "ray casting of quadrics"), evidence(tmp_path / "run", *cells))
+    assert verdict.outcome is expected
+
+
+def test_the_worth_of_pieces_and_proxies_stand_in_the_report(tmp_path: Path) -> None:
+    cells = [planted(picks.STURM_SEARCHING, "cayley", 3.0, evaluations_mean=20.0, false_hits=2)]
+    cells += [planted(picks.STURM, "cayley", 1.5, evaluations_mean=4.0)]
+    _, report = reported(named(tmp_path / "a", "toledo-cubics", *cells))
+    told = next(printed(s.blocks) for s in report.sections if s.title == "toledo2007, piece by piece")
+    (line,) = [line for line in told.splitlines() if line.startswith("Sturm: discard")]
+    assert "| 1 | 2.00× | 2.00× | 2.00× | 20.0 | 4.00 | 2 | 0" in line
+    cells = [in_proxy("box", 130, 78, 1.0), in_proxy("tetrahedron", 220, 78, 2.0)]
+    _, report = reported(named(tmp_path / "b", "toledo-proxies", *cells))
+    told = next(printed(s.blocks) for s in report.sections if s.title == "toledo2007, piece by piece")
+    assert "| tetrahedron | 220 | 64.55 %" in told
