@@ -15,11 +15,13 @@ from pathlib import Path
 from typing import Any
 
 from harness.contract import (
+    NORMALS,
     PRECISIONS,
     PREPASSES,
     PROXIES,
     STAGES,
     FirsthitError,
+    Normal,
     Precision,
     Prepass,
     Proxy,
@@ -135,6 +137,7 @@ class Config:
     prepass: list[str] = field(default_factory=lambda: ["none"])
     proxies: list[str] = field(default_factory=lambda: ["box"])  # of stage raster
     tolerances: list[float] = field(default_factory=lambda: [0.0])  # of stage raster, in pixels; 0: the method's own
+    normals: list[str] = field(default_factory=lambda: ["distance"])  # of stage raster: what hits are shaded by
     devices: list[str] = field(default_factory=lambda: ["all"])
     seed: int = 1
     accuracy: AccuracyChoice = field(default_factory=AccuracyChoice)
@@ -159,6 +162,7 @@ class Experiment:
     included: tuple[Path, ...] = ()  # of a config that includes others
     prepasses: tuple[Prepass, ...] = ("none",)
     proxies: tuple[Proxy, ...] = ("box",)
+    normals: tuple[Normal, ...] = ("distance",)
     scenes: tuple[Scene, ...] = ()
     own_stages: Mapping[Variant, tuple[Stage, ...]] = field(default_factory=dict)  # where they are not `stages`
 
@@ -397,6 +401,7 @@ def load(path: Path, catalog: Catalog) -> Experiment:
     _check_gate(config.gate, source)
     _known(config.prepass, PREPASSES, "prepass", source)
     _known(config.proxies, PROXIES, "proxies", source)
+    _known(config.normals, NORMALS, "normals", source)
 
     variants: list[Variant] = []
     own_stages: dict[Variant, tuple[Stage, ...]] = {}
@@ -449,6 +454,7 @@ def load(path: Path, catalog: Catalog) -> Experiment:
         typing.cast(tuple[Stage, ...], tuple(config.stages)),
         prepasses=typing.cast(tuple[Prepass, ...], tuple(config.prepass)),
         proxies=typing.cast(tuple[Proxy, ...], tuple(config.proxies)),
+        normals=typing.cast(tuple[Normal, ...], tuple(config.normals)),
         scenes=tuple(scenes),
         own_stages=own_stages,
     )

@@ -22,9 +22,11 @@ Precision = Literal["float32", "float64"]
 Stage = Literal["compute", "rays", "raster"]
 Casts = Literal["rays", "beams", "quadtree", "mesh"]
 Proxy = Literal["box", "sphere", "tetrahedron"]
+Normal = Literal["distance", "gradient", "core_circle"]
 Prepass = Literal["none", "beams"]
 PREPASSES: tuple[Prepass, ...] = ("none", "beams")
 PROXIES: tuple[Proxy, ...] = ("box", "sphere", "tetrahedron")
+NORMALS: tuple[Normal, ...] = ("distance", "gradient", "core_circle")
 PRECISIONS: tuple[Precision, ...] = ("float32", "float64")
 UNIT_ROUNDOFF: dict[Precision, float] = {"float32": 2.0**-24, "float64": 2.0**-53}
 STAGES: tuple[Stage, ...] = ("compute", "rays", "raster")
@@ -359,13 +361,16 @@ class Cell:
     proxy: Proxy = "box"  # of stage raster: the geometry whose fragments cast rays
     tolerance: float = 0.0  # of stage raster: pixel footprints that a method's own tolerance may grow to
     scene: Any = None  # a harness.scenes.Scene of several instances, of which `surface` then is the stand-in
+    normal: Normal = "distance"  # of stage raster: what hits are shaded by, see assemble.raster_program
 
     @property
     def caster(self) -> str:
-        """The variant, with the prepass that it works behind, its tolerance in pixels and a proxy that is no box."""
+        """The variant, with the prepass that it works behind, its tolerance in pixels, a proxy that is no box, and
+        normals that are not of the distance."""
         behind = "" if self.prepass == "none" else f"+{self.prepass}"
         loose = f" to {self.tolerance:g} pixels" if self.tolerance else ""
-        return f"{self.variant}{behind}{loose}" + ("" if self.proxy == "box" else f" in a {self.proxy}")
+        shaded = "" if self.normal == "distance" else f" shaded by {self.normal}"
+        return f"{self.variant}{behind}{loose}" + ("" if self.proxy == "box" else f" in a {self.proxy}") + shaded
 
     @property
     def slot(self) -> str:

@@ -22,6 +22,7 @@ from harness.contract import (
     Cell,
     DeviceInfo,
     FirsthitError,
+    Normal,
     Program,
     Proxy,
     Stage,
@@ -192,7 +193,7 @@ def _planned(cell: Cell, info: DeviceInfo | None, catalog: Catalog, experiment: 
             if cell.stage == "raster":
                 scene = cell.scene or single(cell.surface, cell.view)
                 raster.depth_map(scene, camera_for(cell.view, cell.surface))
-                drawn = raster.draws(scene, cell.variant, cell.proxy, catalog, cell.tolerance)
+                drawn = raster.draws(scene, cell.variant, cell.proxy, catalog, cell.tolerance, cell.normal)
                 checks, frame = tuple(draw.check for draw in drawn), drawn[0].timed
             else:
                 checks, frame = _programs(cell, surfaces, catalog)
@@ -244,11 +245,16 @@ def plan(experiment: Experiment, catalog: Catalog, found: list[DeviceInfo], time
     stages = dict.fromkeys(stage for variant in experiment.variants for stage in experiment.stages_of(variant))
     scenes = itertools.product(experiment.surfaces, config.view, config.sizes, config.samples_per_pixel, stages)
     cells = [
-        (Cell(variant, surface, view, size, samples, precision, stage, name, None, before, proxy, pixels), info)
+        (
+            Cell(
+                variant, surface, view, size, samples, precision, stage, name, None, before, proxy, pixels, None, normal
+            ),
+            info,
+        )
         for surface, view, size, samples, stage in scenes
         for variant, before, (name, info), precision in runs_on
         if stage in experiment.stages_of(variant)
-        for proxy, pixels in _rasterings(stage, variant, experiment, catalog)
+        for proxy, pixels, normal in _rasterings(stage, variant, experiment, catalog)
     ]
     cells += [
         (
@@ -266,13 +272,14 @@ def plan(experiment: Experiment, catalog: Catalog, found: list[DeviceInfo], time
                 proxy,
                 pixels,
                 scene,
+                normal,
             ),
             info,
         )
         for scene in experiment.scenes
         for view, size, samples in itertools.product(_views(scene, config), config.sizes, config.samples_per_pixel)
         for variant, before, (name, info), precision in runs_on
-        for proxy, pixels in _rasterings("raster", variant, experiment, catalog)
+        for proxy, pixels, normal in _rasterings("raster", variant, experiment, catalog)
     ]
     cells += [
         (
@@ -296,13 +303,16 @@ def plan(experiment: Experiment, catalog: Catalog, found: list[DeviceInfo], time
     return [_planned(cell, info, catalog, experiment, timed) for cell, info in cells]
 
 
-def _rasterings(stage: Stage, variant: Variant, experiment: Experiment, catalog: Catalog) -> list[tuple[Proxy, float]]:
-    """The proxies and the tolerances in pixels that make a difference to a method in a stage."""
+def _rasterings(
+    stage: Stage, variant: Variant, experiment: Experiment, catalog: Catalog
+) -> list[tuple[Proxy, float, Normal]]:
+    """The proxies, the tolerances in pixels and the normals that make a difference to a method in a stage."""
     method = catalog.get(variant.method).method
     if stage != "raster" or method.casts == "mesh":
-        return [("box", 0.0)]
+        return [("box", 0.0, "distance")]
     tolerances = experiment.config.tolerances if any(knob.per for knob in method.parameters) else [0.0]
-    return list(itertools.product(experiment.proxies, tolerances))
+    normals: tuple[Normal, ...] = experiment.normals if method.answers else ("distance",)
+    return list(itertools.product(experiment.proxies, tolerances, normals))
 
 
 def _views(scene: Scene, config: Config) -> list[View]:

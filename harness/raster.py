@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from harness.assemble import PROXY_SIDES, mesh_program, raster_program
 from harness.backends.raster import RECORD, Batch
-from harness.contract import Box, FirsthitError, MeshRecipe, Program, Proxy, Surface, Variant
+from harness.contract import Box, FirsthitError, MeshRecipe, Normal, Program, Proxy, Surface, Variant
 from harness.plugins import Catalog, Plugin
 from harness.scenes.model import Group, Scene, bounding_radius
 
@@ -48,11 +48,13 @@ class Draw:
         return Batch(program, records, made.triangles.ravel(), made.vertices, made.closed)
 
 
-def draws(scene: Scene, variant: Variant, proxy: Proxy, catalog: Catalog, pixels: float = 0.0) -> tuple[Draw, ...]:
-    """A draw for each group; FirsthitError where its method cannot draw it. `pixels` as for raster_program; a group
-    with a variant of its own keeps that one's tolerance."""
+def draws(
+    scene: Scene, variant: Variant, proxy: Proxy, catalog: Catalog, pixels: float = 0.0, normal: Normal = "distance"
+) -> tuple[Draw, ...]:
+    """A draw for each group; FirsthitError where its method cannot draw it. `pixels` and `normal` as for
+    raster_program; a group with a variant of its own keeps that one's tolerance."""
     return tuple(
-        _draw(group, group.variant or variant, proxy, catalog, 0.0 if group.variant else pixels)
+        _draw(group, group.variant or variant, proxy, catalog, 0.0 if group.variant else pixels, normal)
         for group in scene.groups
     )
 
@@ -106,7 +108,7 @@ def _several(group: Group, name: str) -> bool:
     return len({dict(surface.parameters)[name] for surface in group.distinct}) > 1
 
 
-def _draw(group: Group, variant: Variant, proxy: Proxy, catalog: Catalog, pixels: float) -> Draw:
+def _draw(group: Group, variant: Variant, proxy: Proxy, catalog: Catalog, pixels: float, normal: Normal) -> Draw:
     plugin: Plugin = catalog.get(variant.method)
     method, surface = plugin.method, group.distinct[0]
     if method.casts == "mesh":
@@ -116,7 +118,7 @@ def _draw(group: Group, variant: Variant, proxy: Proxy, catalog: Catalog, pixels
     if group.varies and len(surface.parameters) > MOST_PARAMETERS:
         raise FirsthitError(f"instances of {surface.name} cannot differ: it has over {MOST_PARAMETERS} parameters")
     timed, check = (
-        raster_program(method, plugin.folder, variant, surface, proxy, reports, group.varies, pixels)
+        raster_program(method, plugin.folder, variant, surface, proxy, reports, group.varies, pixels, normal)
         for reports in (False, True)
     )
     return Draw(group, proxy, None, timed, check)

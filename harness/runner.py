@@ -285,6 +285,7 @@ class Runner:
             "casts": method.casts,
             "prepass": cell.prepass,
             "proxy": cell.proxy if cell.stage == "raster" else None,
+            "normal": cell.normal if cell.stage == "raster" else None,
             "pixel_tolerance": cell.tolerance if cell.stage == "raster" else None,
             "scene": cell.scene.family if cell.scene else None,
             "instances": cell.scene.instances if cell.scene else None,

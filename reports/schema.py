@@ -59,7 +59,7 @@ SCHEMA: tuple[Field, ...] = (
     *_fields("text", "precision stage device status", required=True),
     *_fields("text", "reason"),
     *_fields("flag", "answers", required=True),
-    *_fields("text", "casts prepass proxy scene"),
+    *_fields("text", "casts prepass proxy normal scene"),
     *_fields("real", "pixel_tolerance"),
     *_fields("whole", "instances"),
     *_fields("text", "clock", at="time"),

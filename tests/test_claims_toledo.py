@@ -38,6 +38,20 @@ def test_a_tetrahedrons_waste_is_counted_in_fragments(tmp_path: Path, fragments:
     assert "40.00 %" in verdict.figure and "2.00× the box's time" in verdict.figure
 
 
+@pytest.mark.parametrize(("slower", "expected"), [(1.2, Outcome.CONFIRMED), (0.9, Outcome.REFUTED)])
+def test_normals_are_held_against_each_other_view_by_view(tmp_path: Path, slower: float, expected: Outcome) -> None:
+    cells = []
+    for normal, median in (("core_circle", 1.0), ("distance", 1.1), ("gradient", slower)):
+        made = planted(Pick(f"shaded by {normal}", "newton", picks.NEWTON_3.knobs), "torus", median)
+        cells.append(made | {"stage": "raster", "proxy": "box", "normal": normal})
+    verdict = claims.judge(claim("toledo2007", "normal from the torus's core"), evidence(tmp_path / "a", *cells))
+    assert verdict.outcome is expected
+    assert verdict.figure.endswith("by the distance's gradient 1.10×")
+    _, report = reported(named(tmp_path / "b", "toledo-normals", *cells))
+    told = next(printed(s.blocks) for s in report.sections if s.title == "toledo2007, piece by piece")
+    assert f"front | 1.00 | 1.10 | {slower:.3g}" in told
+
+
 @pytest.mark.parametrize(
     ("words", "without", "having"),
     [

@@ -15,6 +15,7 @@ from reports.evidence import Evidence, Pick, over, proved
 PAPER = "toledo2007"
 CUBICS = "toledo-cubics.toml"
 PROXIES = "toledo-proxies.toml"
+NORMALS = "toledo-normals.toml"
 VIEWS = "toledo-fig4.toml"
 SEARCHED = (*picks.CUBICS, *picks.TORUS)
 
@@ -98,6 +99,34 @@ def _tetrahedron_wastes(evidence: Evidence) -> Verdict | None:
     return verdict(every(both["waste"] - both["waste_box"], lambda more: more > 0.0), figure)
 
 
+def by_normal(evidence: Evidence) -> pd.DataFrame:
+    """The torus by Newton as printed, shaded by each normal, on the first device that has several."""
+    found = evidence.finished
+    found = found[found["method"].eq(picks.NEWTON_3.method) & found["surface"].isin(picks.TORUS)]
+    found = found[found["proxy"].eq("box")].dropna(subset=["median_ms", "normal"])
+    if found["normal"].nunique() < 2:
+        return found.iloc[:0]
+    return found[found["device"] == found["device"].iloc[0]]
+
+
+def shaded(rows: pd.DataFrame, slow: str, fast: str) -> pd.DataFrame:
+    """The time of frames shaded by the normal `slow` over those shaded by `fast`, view by view."""
+    long, short = (rows[rows["normal"] == name] for name in (slow, fast))
+    return over(long, short, ["comparison", "device"])
+
+
+def _core_circle_is_cheaper(evidence: Evidence) -> Verdict | None:
+    rows = by_normal(evidence)
+    ratios = shaded(rows, "gradient", "core_circle")
+    if ratios.empty:
+        return None
+    figure = f"frames shaded by f's gradient take {quantities(ratios['ratio'])} the time of those shaded by the core "
+    figure += f"circle{lost(ratios)}"
+    other = shaded(rows, "distance", "core_circle")
+    figure += "" if other.empty else f"; by the distance's gradient {quantities(other['ratio'])}"
+    return verdict(always(ratios), figure)
+
+
 def _pays(piece: Pick, without: Pick, surfaces: tuple[str, ...]) -> Judge:
     """A judge of "`piece` is faster than `without`", told with what both spend in evaluations and their wrong rays."""
 
@@ -144,6 +173,15 @@ CLAIMS = (
         _tetrahedron_wastes,
         ("newton",),
         PROXIES,
+    ),
+    Claim(
+        PAPER,
+        "4.5",
+        "The normal from the torus's core circle is cheaper than that from f's partial derivatives.",
+        "Time of frames by Newton 0.001 shaded by f's gradient over the same shaded by equation 6, every view",
+        _core_circle_is_cheaper,
+        ("newton",),
+        NORMALS,
     ),
     Claim(
         PAPER,

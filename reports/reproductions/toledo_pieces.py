@@ -8,7 +8,7 @@ import pandas as pd
 
 from reports import wording
 from reports.claims import toledo_pieces
-from reports.claims.toledo_pieces import CUBICS, PIECES, PROXIES, Piece
+from reports.claims.toledo_pieces import CUBICS, NORMALS, PIECES, PROXIES, Piece
 from reports.content import Block, Column, Section, Table
 from reports.evidence import Evidence
 from reports.material import Material
@@ -25,7 +25,10 @@ def sections(material: Material) -> list[Section]:
     rows = toledo_pieces.by_proxy(material.evidence.of(PROXIES))
     if not rows.empty:
         blocks.append(_proxies(rows))
-    for config, told in ((CUBICS, "section 3"), (PROXIES, "proxies")):
+    rows = toledo_pieces.by_normal(material.evidence.of(NORMALS))
+    if not rows.empty:
+        blocks.append(_normals(rows))
+    for config, told in ((CUBICS, "section 3"), (PROXIES, "proxies"), (NORMALS, "section 4.5")):
         if (material.frame["run"] == config.removesuffix(".toml")).any():
             blocks += verdicts.of(material, config, f"toledo2007, {told}")
     return [Section("toledo2007, piece by piece", tuple(blocks), wide=True)] if blocks else []
@@ -84,4 +87,26 @@ def _proxies(rows: pd.DataFrame) -> Table:
         f"On {rows['device'].iloc[0]}, {rows['size'].iloc[0]} pixels square. The tetrahedron is the smallest about the "
         "box; Loop and Blinn's is about a piece of the surface, and may be smaller.",
         group=1,
+    )
+
+
+def _normals(rows: pd.DataFrame) -> Table:
+    body = []
+    for view in dict.fromkeys(rows["view"]):
+        own = rows[rows["view"] == view].set_index("normal")["median_ms"]
+        times = tuple(own.get(name) for name in ("core_circle", "distance", "gradient"))
+        ratios = toledo_pieces.shaded(rows[rows["view"] == view], "gradient", "core_circle")["ratio"]
+        body.append((view, *times, ratios.iloc[0] if len(ratios) else None))
+    return Table(
+        (
+            Column("view", stretch=1),
+            Column("core circle,\nequation 6", wording.number, numeric=True, over="ms, shaded by"),
+            Column("gradient of\nthe distance", wording.number, numeric=True, over="ms, shaded by"),
+            Column("gradient\nof f", wording.number, numeric=True, over="ms, shaded by"),
+            Column("gradient of f over\ncore circle", wording.factor, numeric=True),
+        ),
+        body,
+        "The torus by Newton 0.001, shaded by three normals.",
+        f"On {rows['device'].iloc[0]}, {rows['size'].iloc[0]} pixels square. f is written in factors here; the paper "
+        "calls its partial derivatives expensive and does not print them.",
     )
