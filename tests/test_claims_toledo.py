@@ -8,7 +8,8 @@ from typing import Any
 
 import pytest
 
-from reports import claims
+from harness.store import FORMAT
+from reports import claims, content
 from reports.claims import Outcome, picks
 from reports.evidence import Pick
 from tests.synthetic_run import printed, reported, tiny_run
@@ -85,3 +86,25 @@ def test_the_worth_of_pieces_and_proxies_stand_in_the_report(tmp_path: Path) -> 
     _, report = reported(named(tmp_path / "b", "toledo-proxies", *cells))
     told = next(printed(s.blocks) for s in report.sections if s.title == "toledo2007, piece by piece")
     assert "| tetrahedron | 220 | 64.55 %" in told
+
+
+def test_figure_3_is_drawn_from_its_study_and_its_words_are_judged(tmp_path: Path) -> None:
+    from harness.studies import torus_along_rays
+
+    rows = torus_along_rays.compute()
+    run = tiny_run(tmp_path / "run", planted(picks.STURM, "torus", 1.0))
+    (run / "studies").mkdir(exist_ok=True)
+    stored = {"format": FORMAT, "key": "k", "study": "torus_along_rays", "title": "", "rows": rows, "seconds": 0.0}
+    (run / "studies" / "k.json").write_text(json.dumps(stored))
+    told = json.loads((run / "plan.json").read_text()) | {"studies": [{"study": "torus_along_rays", "key": "k"}]}
+    (run / "plan.json").write_text(json.dumps(told))
+    _, report = reported(run)
+    (section,) = [section for section in report.sections if section.title == "toledo2007, Figure 3"]
+    (figure,) = [block for block in section.blocks if isinstance(block, content.Figure)]
+    assert all(row["case"] in figure.svg for row in rows[:-1])
+    told = printed(section.blocks)
+    assert "local minima: 2 at most, local maxima: 1 at most" in told
+    assert told.count("confirmed") == 1 and told.count("refuted") == 1
+    other = [rows[-1] | {"case": "sampled", "minima": 1, "maxima": 2}]
+    swapped = evidence(tmp_path / "b", planted(picks.STURM, "torus", 1.0), studies={"torus_along_rays": other})
+    assert claims.judge(claim("toledo2007", "two local maxima"), swapped).outcome is Outcome.CONFIRMED

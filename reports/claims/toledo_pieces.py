@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import pandas as pd
 
@@ -16,6 +17,8 @@ PAPER = "toledo2007"
 CUBICS = "toledo-cubics.toml"
 PROXIES = "toledo-proxies.toml"
 NORMALS = "toledo-normals.toml"
+FIGURE_3 = "toledo-fig3.toml"
+EXACT = 1e-9  # of what float64 can say
 VIEWS = "toledo-fig4.toml"
 SEARCHED = (*picks.CUBICS, *picks.TORUS)
 
@@ -127,6 +130,31 @@ def _core_circle_is_cheaper(evidence: Evidence) -> Verdict | None:
     return verdict(always(ratios), figure)
 
 
+def _sampled(evidence: Evidence) -> dict[str, Any] | None:
+    rows = evidence.studies.get("torus_along_rays", [])
+    return next((row for row in rows if row["case"] == "sampled"), None)
+
+
+def _extremes(evidence: Evidence) -> Verdict | None:
+    found = _sampled(evidence)
+    if found is None:
+        return None
+    minima, maxima = found["minima"], found["maxima"]
+    figure = f"local minima: {minima} at most, local maxima: {maxima} at most, on {found['rays']:,} rays"
+    figure += "; with a = 1 the two words are exchanged" if (minima, maxima) == (2, 1) else ""
+    return verdict(maxima <= 2 and minima <= 1, figure)
+
+
+def _mean_of_roots(evidence: Evidence) -> Verdict | None:
+    found = _sampled(evidence)
+    if found is None:
+        return None
+    off, other = found["mean_error"], found["equation_error"]
+    figure = f"t_M is off the mean by {wording.error(off)} at most, T by equation 2 off the torus's formula by "
+    figure += f"{wording.error(other)} of its largest value, on {found['rays']:,} rays"
+    return verdict(off < EXACT and other < EXACT, figure)
+
+
 def _pays(piece: Pick, without: Pick, surfaces: tuple[str, ...]) -> Judge:
     """A judge of "`piece` is faster than `without`", told with what both spend in evaluations and their wrong rays."""
 
@@ -147,6 +175,24 @@ def _pays(piece: Pick, without: Pick, surfaces: tuple[str, ...]) -> Judge:
 
 
 CLAIMS = (
+    Claim(
+        PAPER,
+        "4.2",
+        "T has at most two local maxima and at most one local minimum.",
+        "Roots of T' by the sign of T'', along random rays",
+        _extremes,
+        ("double_derivative_bisection",),
+        FIGURE_3,
+    ),
+    Claim(
+        PAPER,
+        "4.2",
+        "t_M = -(o·v) is the mean of the roots of T', with T as equation 2 prints it.",
+        "Complex roots of T' in float64, and equation 2 against the catalog's formula, along random rays",
+        _mean_of_roots,
+        ("double_derivative_bisection",),
+        FIGURE_3,
+    ),
     Claim(
         PAPER,
         "3",
