@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 
+from harness.contract import digest
 from harness.store import FORMAT
 from reports import claims, content
 from reports.claims import Outcome, picks
@@ -108,3 +109,34 @@ def test_figure_3_is_drawn_from_its_study_and_its_words_are_judged(tmp_path: Pat
     other = [rows[-1] | {"case": "sampled", "minima": 1, "maxima": 2}]
     swapped = evidence(tmp_path / "b", planted(picks.STURM, "torus", 1.0), studies={"torus_along_rays": other})
     assert claims.judge(claim("toledo2007", "two local maxima"), swapped).outcome is Outcome.CONFIRMED
+
+
+def on_lattice(pick: Pick, tori: int, median: float, **more: Any) -> dict[str, Any]:
+    made = planted(pick, "torus", median, f"lattice {tori}")
+    made["build"] = (made["build"] or {}) | {"bytes": more.pop("bytes", 1000)}
+    return made | {"scene": "lattice", "instances": tori, "stage": "raster", "pixel_tolerance": 0.0} | more
+
+
+@pytest.mark.parametrize(
+    ("mesh", "told", "expected"), [(9000, "9.00×", Outcome.CONFIRMED), (900, "0.900×", Outcome.REFUTED)]
+)
+def test_memory_is_counted_in_bytes_on_the_device(tmp_path: Path, mesh: int, told: str, expected: Outcome) -> None:
+    cells = (on_lattice(picks.NEWTON_3, 16, 1.0), on_lattice(picks.POLYGONS[0], 16, 1.0, bytes=mesh))
+    verdict = claims.judge(claim("toledo2007", "needs less memory"), evidence(tmp_path / "run", *cells))
+    assert verdict.outcome is expected
+    assert f"Polygon 32*32 {told} of 16 tori" in verdict.figure
+
+
+@pytest.mark.parametrize(
+    ("coarse", "told", "expected"), [(0.5, "2.00×", Outcome.CONFIRMED), (1.6, "0.625×", Outcome.REFUTED)]
+)
+def test_level_of_detail_is_judged_where_tori_are_farthest(
+    tmp_path: Path, coarse: float, told: str, expected: Outcome
+) -> None:
+    cells = []
+    for tori, own in ((1, 1.0), (64, coarse)):
+        fine, loose = on_lattice(picks.STURM, tori, 1.0), on_lattice(picks.STURM, tori, own, pixel_tolerance=0.1)
+        cells += [fine, loose | {"slot": f"loose {tori}", "key": digest(f"loose {tori}")}]
+    verdict = claims.judge(claim("toledo2007", "level of detail"), evidence(tmp_path / "run", *cells))
+    assert verdict.outcome is expected
+    assert f"64 tori {told}" in verdict.figure

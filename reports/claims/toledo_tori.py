@@ -20,6 +20,8 @@ PICKS = (picks.NEWTON_3, picks.NEWTON_5, *picks.POLYGONS[:3])
 OURS = picks.NEWTON_3_FORWARDS
 OVERTAKES = 700  # tori
 MANY = 16_000
+LOD = "toledo-lod.toml"
+DETAIL = 0.1  # footprints of a pixel that an error may grow to, and is not seen
 INTERACTIVE_MS = 20.0  # 50 frames per second
 
 
@@ -111,6 +113,53 @@ def _only_one_interactive(evidence: Evidence) -> Verdict | None:
     return verdict(quick == [picks.NEWTON_3.words], told)
 
 
+def _less_memory(evidence: Evidence) -> Verdict | None:
+    """By the bytes that a frame keeps on the device: instances, and the proxy's corners or one mesh that all share."""
+    rows = tori(evidence)
+    rows = rows[rows["technique"] != OURS.words] if len(rows) else rows
+    newton = _bytes(rows, picks.NEWTON_3)
+    told, held = [], []
+    for pick in PICKS[2:]:
+        own = _bytes(rows, pick)
+        both_drew = sorted(own.index.intersection(newton.index))
+        if not both_drew:
+            continue
+        least, most = both_drew[0], both_drew[-1]
+        held += [bool(own[n] > newton[n]) for n in both_drew]
+        shares = [f"{wording.factor(own[n] / newton[n])} of {n:,}" for n in dict.fromkeys((least, most))]
+        told.append(f"{pick.words} {' and '.join(shares)}")
+    if not told:
+        return None
+    figure = f"bytes over Newton 0.001's ({newton.iloc[0]:,.0f} for {newton.index[0]:,}): {'; '.join(told)} tori"
+    return verdict(all(held), f"{figure}; all tori share one mesh, which the paper's may not have")
+
+
+def _bytes(rows: pd.DataFrame, pick: Pick) -> pd.Series:
+    """Bytes by number of tori, ascending."""
+    own = rows[rows["technique"] == pick.words] if len(rows) else rows
+    return own.set_index(own["instances"].astype(int))["bytes"].astype("float64").dropna().sort_index()
+
+
+def detail(evidence: Evidence) -> pd.DataFrame:
+    """Sturm on lattices at its own 18 halvings over Sturm at DETAIL pixels, for each number of tori."""
+    rows = evidence.finished[evidence.finished["method"].eq(picks.STURM.method)]
+    rows = rows[rows["scene"].eq("lattice")].dropna(subset=["median_ms"])
+    whole, seen = (rows[rows["pixel_tolerance"].sub(size).abs() < 1e-9] for size in (0.0, DETAIL))
+    return over(whole, seen, ["comparison", "device"])
+
+
+def _detail_pays(evidence: Evidence) -> Verdict | None:
+    ratios = detail(evidence)
+    if ratios.empty:
+        return None
+    ratios = ratios.assign(tori=ratios["instances"].astype(int)).sort_values("tori")
+    each = ", ".join(f"{row.tori:,} tori {wording.factor(row.ratio)}" for row in ratios.itertuples())
+    worst = wording.number(ratios["pixel_error_max"].max())
+    figure = f"18 halvings over those for {DETAIL:g} pixels: {each}; largest error {worst} pixels{lost(ratios)}"
+    afar = ratios[ratios["tori"] == ratios["tori"].max()]
+    return verdict(always(afar), figure)
+
+
 def _most_dependent(evidence: Evidence) -> Verdict | None:
     found, noise, sound = {}, {}, True
     for pick in picks.TABLE_1:
@@ -134,6 +183,24 @@ def _most_dependent(evidence: Evidence) -> Verdict | None:
 
 
 CLAIMS = (
+    Claim(
+        PAPER,
+        "1",
+        "A ray-cast primitive needs less memory than its tessellation.",
+        "Bytes on the device for frames of Figure 6, against three polygon resolutions",
+        _less_memory,
+        ("newton", "polygon"),
+        CONFIG,
+    ),
+    Claim(
+        PAPER,
+        "3",
+        "Fewer halvings for surfaces that are farther away (level of detail) improve the speed.",
+        f"Time of Sturm with 18 halvings over Sturm with as many as {DETAIL:g} pixels need, on the farthest lattice",
+        _detail_pays,
+        ("sturm",),
+        LOD,
+    ),
     Claim(
         PAPER,
         "Table 1",
