@@ -148,6 +148,21 @@ def _cubics(evidence: Evidence) -> Verdict | None:
     return verdict(None if more is None else not more, told)
 
 
+def _evident_after_zooming(evidence: Evidence) -> Verdict | None:
+    """In the zoomed view that has most of them, silhouettes included: at a singular point nearly all is one."""
+    rows = evidence.rows(picks.STURM, picks.CUBICS)
+    if rows.empty:
+        return None
+    bad = rows[[*_WRONG, "drowned_wrong_rays"]].astype("float64").sum(axis=1, skipna=False)
+    if bad.isna().any():
+        return verdict(None, "a view has no count of wrong rays")
+    worst = rows.loc[bad.idxmax()]
+    most, of = int(bad.max()), int(worst["accuracy_rays"])
+    figure = f"most on {worst['surface_title']}, {worst['view']}: {most} of {of:,} rays; {int(bad.sum())} over all "
+    figure += wording.plural(len(rows), "view")
+    return verdict(counts.share_exceeds(most, of, MANY_WRONG), figure)
+
+
 CLAIMS = (
     Claim(
         PAPER,
@@ -188,6 +203,15 @@ CLAIMS = (
         _cubics,
         ("sturm",),
         "toledo-fig2.toml",
+    ),
+    Claim(
+        PAPER,
+        "3",
+        "Close to singular points Sturm's errors on cubics are evident after zooming.",
+        "Wrong rays of Sturm, silhouettes included, in the zoomed view with most of them: over 0.1 %",
+        _evident_after_zooming,
+        ("sturm",),
+        "toledo-fig2-zoom.toml",
     ),
     Claim(
         PAPER,

@@ -53,6 +53,23 @@ FIGURES = (
         (picks.STURM,),
     ),
     Figure(
+        "toledo2007, Figure 2, zoomed",
+        "The paper says that errors close to singular points are evident after zooming. Here: Ding-Dong at its node and "
+        "both umbrellas where their handles end, in windows 0.2 and 0.03 wide.",
+        "Cubics by Sturm's method as printed, zoomed at singular points. Look along the umbrellas' handles.",
+        "toledo-fig2-zoom.toml",
+        picks.CUBICS[2:3] + picks.CUBICS[4:],
+        (picks.STURM,),
+    ),
+    Figure(
+        "toledo2007, Figure 2, a node",
+        "The same at one of the four nodes of Cayley's cubic.",
+        "A node of Cayley's cubic by Sturm's method as printed, zoomed.",
+        "toledo-fig2-node.toml",
+        ("cayley",),
+        (picks.STURM,),
+    ),
+    Figure(
         "toledo2007, Figure 4",
         "The paper shows a torus on which Sturm's method fails at one viewing angle, and draws the ray on which sphere "
         "tracing is slow. Here: the torus at Table 1's six angles.",
