@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import io
 import json
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
+from PIL import Image
 
 from harness.contract import digest
 from harness.store import FORMAT
@@ -150,3 +153,28 @@ def test_errors_near_singular_points_are_those_of_the_worst_view(tmp_path: Path,
     assert verdict.outcome is expected
     if bad:
         assert f"zoomed closely: {bad + 2} of" in verdict.figure, "2 drowned ones are planted in each view"
+
+
+def test_figure_5_tells_a_boxs_fragments_from_the_torus(tmp_path: Path) -> None:
+    made = planted(picks.STURM, "torus", 1.0, "angle 18", fragments=40, fragments_discarded=30)
+    made |= {"stage": "raster", "proxy": "box", "arrays": f"arrays/{made['key']}.npz"}
+    run = named(tmp_path / "run", "toledo-table1", made)
+    shade, evaluations = np.full((4, 4), np.nan, np.float32), np.zeros((4, 4), np.int32)
+    evaluations[1:], shade[2] = 2, 1.0
+    blank = {
+        "truth": np.zeros((4, 4), np.uint8),
+        "wrong": np.zeros((4, 4), np.uint8),
+        "grazing": np.zeros((4, 4), bool),
+    }
+    (run / "arrays").mkdir(exist_ok=True)
+    arrays = blank | {"error": np.zeros((4, 4), np.float32), "shade": shade, "evaluations": evaluations}
+    np.savez_compressed(run / made["arrays"], **arrays)
+    _, report = reported(run)
+    (section,) = [section for section in report.sections if section.title == "toledo2007, Figure 5, left"]
+    (gallery,) = [block for block in section.blocks if isinstance(block, content.Gallery)]
+    assert [panel.title for panel in gallery.panels] == ["tilted by 18°"]
+    assert "75 % wasted" in gallery.panels[0].note
+    pixels = np.asarray(Image.open(io.BytesIO(gallery.panels[0].pictures[0].png)).convert("RGB")).reshape(4, 120, -1, 3)
+    assert [len(np.unique(row.reshape(-1, 3), axis=0)) for row in pixels] == [1] * 4
+    white, box, torus, below = (tuple(row[0, 0]) for row in pixels)
+    assert white == (255, 255, 255) and box == below != torus != white != box

@@ -54,8 +54,8 @@ FIGURES = (
     ),
     Figure(
         "toledo2007, Figure 2, zoomed",
-        "The paper says that errors close to singular points are evident after zooming. Here: Ding-Dong at its node and "
-        "both umbrellas where their handles end, in windows 0.2 and 0.03 wide.",
+        "The paper says that errors close to singular points are evident after zooming. Here: Ding-Dong at its node "
+        "and both umbrellas where their handles end, in windows 0.2 and 0.03 wide.",
         "Cubics by Sturm's method as printed, zoomed at singular points. Look along the umbrellas' handles.",
         "toledo-fig2-zoom.toml",
         picks.CUBICS[2:3] + picks.CUBICS[4:],
