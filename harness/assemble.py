@@ -15,6 +15,7 @@ from harness.contract import (
     Box,
     FirsthitError,
     Method,
+    Normal,
     Origin,
     Parameter,
     Precision,
@@ -27,6 +28,7 @@ from harness.contract import (
 
 KERNELS = Path(__file__).parent / "kernels"
 AFTER_TABLES = ("fit_samples",)  # libraries that read the surface's degree and the method's tables
+TORUS = "(x^2 + y^2 + z^2 + R^2 - r^2)^2 - 4*R^2*(x^2 + y^2)"  # about z, as the catalog writes it
 PROXY_SIDES = 16  # of the polygon about a ball's outline: 1.3 % more than the disk
 RAY_OF_PIXEL = ("camera", "raster_view", "raster_ray")
 Language = Literal["glsl", "cl"]
@@ -211,18 +213,21 @@ def raster_program(
     free: bool = False,
     pixels: float = 0.0,
     origin: Origin = "nearest",
+    normal: Normal = "distance",
 ) -> Program:
     """The program whose fragments, of a proxy about each instance of `surface`, cast rays by `variant`, in GLSL and
     float32. With `reports` it also writes what the check reads, and the compiler may remove none of its loops.
     `free`: parameters and domain are each instance's own. `pixels`: how many footprints of a pixel the method's
     tolerance may grow to; 0 leaves it alone. `origin`: as for method_program, of the ray in the instance's coordinates.
+    `normal`: what hits are shaded by, the gradient of the distance (of f, where none is stated), that of f, or the
+    torus's core circle.
 
     Raises FirsthitError where the surface lacks a function that the method or the shading needs.
     """
     from surfaces.sections import libraries_for, surface_sections
 
-    normal = "surface_distance_normal" if surface.distance else "surface_normal"
-    needs = (*method.needs, normal)
+    shading = _shading(surface, normal, free)
+    needs = (*method.needs, *([] if normal == "core_circle" else [shading]))
     early = [name for name in method.libraries if name not in AFTER_TABLES]
     sections = _head("glsl", "float32", (*libraries_for(needs, surface), *early))
     if free:
@@ -234,7 +239,11 @@ def raster_program(
     if pixels:
         sections.append(file_section(KERNELS / "raster_tolerance.glsl"))
     sections += method_sections(method, folder, variant, surface, "float32", "glsl", pixels > 0.0)
-    sections.append(Section("generated: shading", f"#define SHADING_NORMAL {normal}"))
+    if normal == "core_circle":
+        ring, tube = (literal(float(dict(surface.parameters)[name]), "float32", "glsl") for name in ("R", "r"))
+        radii = f"#define RING_RADIUS {ring}\n#define TUBE_RADIUS {tube}"
+        sections += [Section("generated: radii", radii), file_section(KERNELS / "normal_core_circle.glsl")]
+    sections.append(Section("generated: shading", f"#define SHADING_NORMAL {shading}"))
     sections += _cast_sections(origin)
     parts = (*RAY_OF_PIXEL, "raster_fragment", "raster_shade", *(["turns", "raster_report"] * reports))
     sections += [file_section(KERNELS / f"{part}.glsl") for part in parts]
@@ -250,6 +259,16 @@ def raster_program(
         file_section(KERNELS / "entry_raster.vert.glsl"),
     ]
     return Program("glsl", "float32", "raster", tuple(sections), tuple(vertex))
+
+
+def _shading(surface: Surface, normal: Normal, free: bool) -> str:
+    """The function that hits are shaded by; FirsthitError where it is the core circle's and there is none."""
+    if normal != "core_circle":
+        return "surface_distance_normal" if surface.distance and normal == "distance" else "surface_normal"
+    values = {name: float(text) for name, text in surface.parameters}
+    if surface.formula != TORUS or free or values["R"] < values["r"]:
+        raise FirsthitError(f"{surface.name} is shaded by no core circle: only tori with R >= r that share both are")
+    return "core_circle_normal"
 
 
 def mesh_program(folder: Path, reports: bool) -> Program:

@@ -15,12 +15,14 @@ from pathlib import Path
 from typing import Any
 
 from harness.contract import (
+    NORMALS,
     ORIGINS,
     PRECISIONS,
     PREPASSES,
     PROXIES,
     STAGES,
     FirsthitError,
+    Normal,
     Origin,
     Precision,
     Prepass,
@@ -140,6 +142,7 @@ class Config:
     origins: list[str] = field(default_factory=lambda: ["nearest"])  # of rays; beams and triangles have none
     proxies: list[str] = field(default_factory=lambda: ["box"])  # of stage raster
     tolerances: list[float] = field(default_factory=lambda: [0.0])  # of stage raster, in pixels; 0: the method's own
+    normals: list[str] = field(default_factory=lambda: ["distance"])  # of stage raster: what hits are shaded by
     devices: list[str] = field(default_factory=lambda: ["all"])
     seed: int = 1
     accuracy: AccuracyChoice = field(default_factory=AccuracyChoice)
@@ -165,6 +168,7 @@ class Experiment:
     prepasses: tuple[Prepass, ...] = ("none",)
     origins: tuple[Origin, ...] = ("nearest",)
     proxies: tuple[Proxy, ...] = ("box",)
+    normals: tuple[Normal, ...] = ("distance",)
     scenes: tuple[Scene, ...] = ()
     own_stages: Mapping[Variant, tuple[Stage, ...]] = field(default_factory=dict)  # where they are not `stages`
 
@@ -404,6 +408,7 @@ def load(path: Path, catalog: Catalog) -> Experiment:
     _known(config.prepass, PREPASSES, "prepass", source)
     _known(config.origins, ORIGINS, "origins", source)
     _known(config.proxies, PROXIES, "proxies", source)
+    _known(config.normals, NORMALS, "normals", source)
 
     variants: list[Variant] = []
     own_stages: dict[Variant, tuple[Stage, ...]] = {}
@@ -458,6 +463,7 @@ def load(path: Path, catalog: Catalog) -> Experiment:
         prepasses=typing.cast(tuple[Prepass, ...], tuple(config.prepass)),
         origins=typing.cast(tuple[Origin, ...], tuple(config.origins)),
         proxies=typing.cast(tuple[Proxy, ...], tuple(config.proxies)),
+        normals=typing.cast(tuple[Normal, ...], tuple(config.normals)),
         scenes=tuple(scenes),
         own_stages=own_stages,
     )

@@ -22,11 +22,13 @@ Precision = Literal["float32", "float64"]
 Stage = Literal["compute", "rays", "raster"]
 Casts = Literal["rays", "beams", "quadtree", "mesh"]
 Proxy = Literal["box", "sphere", "tetrahedron"]
+Normal = Literal["distance", "gradient", "core_circle"]
 Prepass = Literal["none", "beams"]
 Origin = Literal["nearest", "entry", "eye"]
 PREPASSES: tuple[Prepass, ...] = ("none", "beams")
 ORIGINS: tuple[Origin, ...] = ("nearest", "entry", "eye")
 PROXIES: tuple[Proxy, ...] = ("box", "sphere", "tetrahedron")
+NORMALS: tuple[Normal, ...] = ("distance", "gradient", "core_circle")
 PRECISIONS: tuple[Precision, ...] = ("float32", "float64")
 UNIT_ROUNDOFF: dict[Precision, float] = {"float32": 2.0**-24, "float64": 2.0**-53}
 STAGES: tuple[Stage, ...] = ("compute", "rays", "raster")
@@ -372,15 +374,17 @@ class Cell:
     scene: Any = None  # a harness.scenes.Scene of several instances, of which `surface` then is the stand-in
     origin: Origin = "nearest"  # where a method sees its ray begin: at the point nearest the domain's centre, where the
     #   ray enters the domain, or at the eye, as the ray was given; t is told along the ray as given all the same
+    normal: Normal = "distance"  # of stage raster: what hits are shaded by, see assemble.raster_program
 
     @property
     def caster(self) -> str:
-        """The variant, with the prepass that it works behind, its tolerance in pixels, a proxy that is no box, and an
-        origin that is not the nearest point."""
+        """The variant, with the prepass that it works behind, its tolerance in pixels, a proxy that is no box, an
+        origin that is not the nearest point, and normals that are not of the distance."""
         behind = "" if self.prepass == "none" else f"+{self.prepass}"
         loose = f" to {self.tolerance:g} pixels" if self.tolerance else ""
         proxy = "" if self.proxy == "box" else f" in a {self.proxy}"
-        return f"{self.variant}{behind}{loose}{proxy}{FROM_ORIGIN[self.origin]}"
+        shaded = "" if self.normal == "distance" else f" shaded by {self.normal}"
+        return f"{self.variant}{behind}{loose}{proxy}{FROM_ORIGIN[self.origin]}{shaded}"
 
     @property
     def slot(self) -> str:

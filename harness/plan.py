@@ -23,6 +23,7 @@ from harness.contract import (
     Cell,
     DeviceInfo,
     FirsthitError,
+    Normal,
     Origin,
     Program,
     Proxy,
@@ -209,7 +210,7 @@ def _planned(cell: Cell, info: DeviceInfo | None, catalog: Catalog, experiment: 
             if cell.stage == "raster":
                 scene = cell.scene or single(cell.surface, cell.view)
                 raster.depth_map(scene, camera_for(cell.view, cell.surface))
-                drawn = raster.draws(scene, cell.variant, cell.proxy, catalog, cell.tolerance, cell.origin)
+                drawn = raster.draws(scene, cell.variant, cell.proxy, catalog, cell.tolerance, cell.origin, cell.normal)
                 checks, frame = tuple(draw.check for draw in drawn), drawn[0].timed
             else:
                 checks, frame = _programs(cell, surfaces, catalog)
@@ -282,13 +283,14 @@ def plan(experiment: Experiment, catalog: Catalog, found: list[DeviceInfo], time
                 proxy,
                 pixels,
                 origin=origin,
+                normal=normal,
             ),
             info,
         )
         for surface, view, size, samples, stage in scenes
         for variant, before, origin, (name, info), precision in runs_on
         if stage in experiment.stages_of(variant)
-        for proxy, pixels in _rasterings(stage, variant, experiment, catalog)
+        for proxy, pixels, normal in _rasterings(stage, variant, experiment, catalog)
     ]
     cells += [
         (
@@ -307,13 +309,14 @@ def plan(experiment: Experiment, catalog: Catalog, found: list[DeviceInfo], time
                 pixels,
                 scene,
                 origin,
+                normal,
             ),
             info,
         )
         for scene in experiment.scenes
         for view, size, samples in itertools.product(_views(scene, config), config.sizes, config.samples_per_pixel)
         for variant, before, origin, (name, info), precision in runs_on
-        for proxy, pixels in _rasterings("raster", variant, experiment, catalog)
+        for proxy, pixels, normal in _rasterings("raster", variant, experiment, catalog)
     ]
     cells += [
         (
@@ -343,13 +346,16 @@ def _origins(variant: Variant, experiment: Experiment, catalog: Catalog) -> tupl
     return experiment.origins if catalog.get(variant.method).method.casts == "rays" else ("nearest",)
 
 
-def _rasterings(stage: Stage, variant: Variant, experiment: Experiment, catalog: Catalog) -> list[tuple[Proxy, float]]:
-    """The proxies and the tolerances in pixels that make a difference to a method in a stage."""
+def _rasterings(
+    stage: Stage, variant: Variant, experiment: Experiment, catalog: Catalog
+) -> list[tuple[Proxy, float, Normal]]:
+    """The proxies, the tolerances in pixels and the normals that make a difference to a method in a stage."""
     method = catalog.get(variant.method).method
     if stage != "raster" or method.casts == "mesh":
-        return [("box", 0.0)]
+        return [("box", 0.0, "distance")]
     tolerances = experiment.config.tolerances if any(knob.per for knob in method.parameters) else [0.0]
-    return list(itertools.product(experiment.proxies, tolerances))
+    normals: tuple[Normal, ...] = experiment.normals if method.answers else ("distance",)
+    return list(itertools.product(experiment.proxies, tolerances, normals))
 
 
 def _views(scene: Scene, config: Config) -> list[View]:

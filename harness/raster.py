@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from harness.assemble import PROXY_SIDES, mesh_program, raster_program
 from harness.backends.raster import RECORD, Batch
-from harness.contract import Box, FirsthitError, MeshRecipe, Origin, Program, Proxy, Surface, Variant
+from harness.contract import Box, FirsthitError, MeshRecipe, Normal, Origin, Program, Proxy, Surface, Variant
 from harness.plugins import Catalog, Plugin
 from harness.scenes.model import Group, Scene, bounding_radius
 
@@ -55,11 +55,12 @@ def draws(
     catalog: Catalog,
     pixels: float = 0.0,
     origin: Origin = "nearest",
+    normal: Normal = "distance",
 ) -> tuple[Draw, ...]:
-    """A draw for each group; FirsthitError where its method cannot draw it. `pixels` and `origin` as for
+    """A draw for each group; FirsthitError where its method cannot draw it. `pixels`, `origin` and `normal` as for
     raster_program; a group with a variant of its own keeps that one's tolerance. Triangles have no origin."""
     return tuple(
-        _draw(group, group.variant or variant, proxy, catalog, 0.0 if group.variant else pixels, origin)
+        _draw(group, group.variant or variant, proxy, catalog, 0.0 if group.variant else pixels, origin, normal)
         for group in scene.groups
     )
 
@@ -113,7 +114,9 @@ def _several(group: Group, name: str) -> bool:
     return len({dict(surface.parameters)[name] for surface in group.distinct}) > 1
 
 
-def _draw(group: Group, variant: Variant, proxy: Proxy, catalog: Catalog, pixels: float, origin: Origin) -> Draw:
+def _draw(
+    group: Group, variant: Variant, proxy: Proxy, catalog: Catalog, pixels: float, origin: Origin, normal: Normal
+) -> Draw:
     plugin: Plugin = catalog.get(variant.method)
     method, surface = plugin.method, group.distinct[0]
     if method.casts == "mesh":
@@ -123,7 +126,7 @@ def _draw(group: Group, variant: Variant, proxy: Proxy, catalog: Catalog, pixels
     if group.varies and len(surface.parameters) > MOST_PARAMETERS:
         raise FirsthitError(f"instances of {surface.name} cannot differ: it has over {MOST_PARAMETERS} parameters")
     timed, check = (
-        raster_program(method, plugin.folder, variant, surface, proxy, reports, group.varies, pixels, origin)
+        raster_program(method, plugin.folder, variant, surface, proxy, reports, group.varies, pixels, origin, normal)
         for reports in (False, True)
     )
     return Draw(group, proxy, None, timed, check)

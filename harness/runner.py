@@ -304,6 +304,7 @@ class Runner:
             "prepass": cell.prepass,
             "origin": cell.origin if method.casts == "rays" else None,
             "proxy": cell.proxy if cell.stage == "raster" else None,
+            "normal": cell.normal if cell.stage == "raster" else None,
             "pixel_tolerance": cell.tolerance if cell.stage == "raster" else None,
             "scene": cell.scene.family if cell.scene else None,
             "instances": cell.scene.instances if cell.scene else None,

@@ -59,9 +59,8 @@ SCHEMA: tuple[Field, ...] = (
     *_fields("text", "precision stage device status", required=True),
     *_fields("text", "reason"),
     *_fields("flag", "answers", required=True),
-    *_fields(
-        "text", "casts prepass origin proxy scene"
-    ),  # origin: of rays; null for beams and triangles, and in older rows
+    *_fields("text", "casts prepass proxy normal scene"),
+    *_fields("text", "origin"),  # of rays; null for beams and triangles, and in older rows
     *_fields("real", "pixel_tolerance"),
     *_fields("whole", "instances"),
     *_fields("text", "clock", at="time"),

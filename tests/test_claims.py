@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from harness.contract import digest
+from harness.plugins import find_methods
 from reports import claims, content, derive, load, published
 from reports.arrays import Shelf
 from reports.claims import Claim, Outcome, picks
@@ -79,6 +80,33 @@ def test_planted_times_flip_a_verdict(
     for name, factor, outcome in (("as-claimed", 30.0, Outcome.CONFIRMED), ("against", 0.5, Outcome.REFUTED)):
         cells = (planted(slow, surface, factor), planted(fast, surface, 1.0))
         assert claims.judge(claim(paper, words), evidence(tmp_path / name, *cells)).outcome is outcome
+
+
+def test_the_picks_of_toledos_table_1_are_the_settings_that_their_methods_print() -> None:
+    methods = find_methods()
+    for pick in picks.TABLE_1:
+        assert pick.knobs.items() <= dict(methods.get(pick.method).setting(pick.words).parameters).items(), pick.words
+    for pick in picks.OURS_OF_TABLE_1:
+        default = methods.get(pick.method).variant({}).parameters
+        changed = {name for name, value in default if pick.knobs.get(name, value) != value}
+        assert changed <= {"ITERATIONS", "EPSILON"}, f"{pick.words}: ours but for the printed error"
+
+
+def test_ours_stands_beside_the_printed_verdict_and_decides_nothing(tmp_path: Path) -> None:
+    cells = [planted(picks.LOOP_BLINN, "torus", 1.0), planted(picks.NEWTON_3, "torus", 2.0)]
+    closed = claim("toledo2007", "faster than closed forms")
+    assert "Ours" not in claims.judge(closed, evidence(tmp_path / "alone", *cells)).figure
+    cells.append(planted(picks.NEWTON_3_FORWARDS, "torus", 0.5))
+    verdict = claims.judge(closed, evidence(tmp_path / "both", *cells))
+    assert verdict.outcome is Outcome.REFUTED
+    assert "Ours at its best, steps forwards" in verdict.figure and verdict.figure.endswith("(confirmed)")
+
+
+def test_vanishing_rays_are_those_without_their_hit(tmp_path: Path) -> None:
+    bound = claim("toledo2007", "step bound")
+    for kind, expected in (("misses", Outcome.CONFIRMED), ("exhausted", Outcome.REFUTED)):
+        cells = [planted(picks.NEWTON_UNBOUND, "torus", 1.0, **{kind: 300}), planted(picks.NEWTON_3, "torus", 1.0)]
+        assert claims.judge(bound, evidence(tmp_path / kind, *cells)).outcome is expected
 
 
 def test_times_of_different_scenes_are_no_ratio(tmp_path: Path) -> None:

@@ -11,7 +11,7 @@ from harness.accuracy import judge
 from harness.assemble import fill_program
 from harness.backends.raster import Rasteriser
 from harness.camera import camera_for, pixel_footprint, rays_of, scene_radius
-from harness.contract import PROXIES, FirsthitError, RayStatus, View
+from harness.contract import NORMALS, PROXIES, FirsthitError, RayStatus, View
 from harness.oracle import first_hits
 from harness.plugins import find_methods
 from harness.scenes import single
@@ -42,10 +42,10 @@ def variant(method, **knobs):
     return find_methods().get(method).variant(knobs)
 
 
-def draw(gl, scene, chosen, size, proxy="box", reports=True, pixels=0.0):
+def draw(gl, scene, chosen, size, proxy="box", reports=True, pixels=0.0, normal="distance"):
     """The picture of a scene by a variant; without reports, its colours alone."""
     camera = camera_for(scene.view, scene.stand_in if scene.instances > 1 else scene.groups[0].distinct[0])
-    batches = [d.batch(reports) for d in raster.draws(scene, chosen, proxy, find_methods(), pixels)]
+    batches = [d.batch(reports) for d in raster.draws(scene, chosen, proxy, find_methods(), pixels, normal)]
     built = [gl.build(batch.program) for batch in batches]
     fill = gl.build(fill_program()) if reports else None
     launch = gl.launch_raster(batches, built, camera, raster.depth_map(scene, camera), size, fill)
@@ -102,6 +102,25 @@ def test_the_timed_picture_is_the_checked_one_and_proxies_differ_in_waste_alone(
     fragments = {proxy: int(picture.fragments.sum()) for proxy, picture in pictures.items()}
     assert all((picture.fragments <= 1).all() for picture in pictures.values())
     assert fragments["box"] < fragments["sphere"] < fragments["tetrahedron"]
+
+
+def test_three_normals_shade_the_torus_alike_and_by_programs_of_their_own(gl):
+    """toledo2007, equation 6: the core circle's normal is the gradient's, where the point lies on the torus."""
+    scene, chosen = single(surfaces.get("torus"), VIEW), variant("newton", EPSILON=0.00003)
+    pictures = {name: draw(gl, scene, chosen, SIZE, reports=False, normal=name).astype(int) for name in NORMALS}
+    for name in NORMALS:
+        assert np.abs(pictures[name] - pictures["distance"]).max() <= 1
+    (texts,) = {len({raster.draws(scene, chosen, "box", find_methods(), 0.0, n)[0].timed.hash for n in NORMALS})}
+    assert texts == len(NORMALS)
+    assert len(np.unique(pictures["core_circle"])) > 50
+
+
+@pytest.mark.parametrize("name", ["sphere", "spindle_torus", "barth_sextic"])
+def test_only_a_torus_is_shaded_by_its_core_circle(name):
+    with pytest.raises(FirsthitError, match="core circle"):
+        raster.draws(
+            single(surfaces.get(name), VIEW), variant("interval_march"), "box", find_methods(), 0.0, "core_circle"
+        )
 
 
 def test_rays_that_give_up_are_exhausted_and_not_missed(gl):

@@ -7,7 +7,7 @@ import pytest
 
 from harness import studies
 from harness.cli import main
-from harness.studies import condition_numbers, extrema_bounds, mesh_errors
+from harness.studies import condition_numbers, extrema_bounds, mesh_errors, torus_along_rays
 from reports import published
 
 
@@ -58,6 +58,30 @@ def test_published_tables_cite_their_paper():
         assert any(title in table.citation for title in ("Szente", "de Toledo", "beam casting"))
         assert table.rows
         assert None not in table.rows[0], "more cells than columns"
+
+
+def test_the_torus_along_rays_has_the_shapes_that_its_cases_name():
+    rows = {row["case"]: row for row in torus_along_rays.compute()}
+    shapes = {
+        name: (len(row["roots"]), len(row["extremes"]), len(row["bends"]))
+        for name, row in rows.items()
+        if "roots" in row
+    }
+    assert shapes == {
+        "four roots": (4, 3, 2),
+        "two roots, one minimum": (2, 1, 0),
+        "two roots about a maximum below 0": (2, 3, 2),
+        "two roots in the first minimum": (2, 3, 2),
+        "two roots in the second minimum": (2, 3, 2),
+        "a touch, and two roots": (3, 3, 2),
+        "no root, two minima": (0, 3, 2),
+    }
+    for row in rows.values():
+        if len(row.get("extremes", ())) == 3:
+            assert row["t_m"] == pytest.approx(sum(row["extremes"]) / 3.0, abs=1e-9)
+    sampled = rows["sampled"]
+    assert (sampled["minima"], sampled["maxima"]) == (2, 1)
+    assert max(sampled["mean_error"], sampled["equation_error"]) < 1e-12
 
 
 def test_polygonal_tori_are_off_by_both_chords_where_they_add(monkeypatch, tmp_path):

@@ -18,7 +18,7 @@ from harness import sources
 from harness.contract import digest
 from harness.store import FORMAT, write_atomically
 
-NAMES = ("condition_numbers", "extrema_bounds", "form_ranges", "mesh_errors")
+NAMES = ("condition_numbers", "extrema_bounds", "form_ranges", "mesh_errors", "torus_along_rays")
 
 
 def _module(name: str) -> Any:

@@ -1,13 +1,15 @@
 // Derivative bisection (toledo2007, 4.2) of pieces of [t0, t1], the nearest first.
 
-// The first root in [a, b], where f changes sign once, or has one extreme towards 0; after the answer's evaluations.
+// A root in [a, b], the first one where f changes sign once, or has one extreme towards 0; after the answer's evaluations.
 Hit derivative_bisection(Hit hit, Along along, real a, real b) {
     Dual fa = surface_dual_along(along, a);
     Dual fb = surface_dual_along(along, b);
     hit.evaluations += 2;
     real side = fa.value < 0.0 ? -1.0 : 1.0;
     bool crossed = side * fb.value <= 0.0;
-    if (!(a <= b) || !(crossed || (side * fa.derivative < 0.0 && side * fb.derivative > 0.0))) return hit;
+    // of a piece of our own split the slopes at its ends tell whether f turns in it; at t_M's they tell nothing
+    bool turns = SPLIT == 1 ? side * fa.derivative < 0.0 && side * fb.derivative > 0.0 : a < b;
+    if (!(a <= b) || !(crossed || turns)) return hit;
     for (int i = 0; i < ITERATIONS; i++) {
         real m = 0.5 * (a + b);
         Dual f = surface_dual_along(along, m);

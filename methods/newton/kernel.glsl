@@ -1,14 +1,18 @@
 // Newton-Raphson on f along the ray from the bounding sphere's near side; no step longer than λ (toledo2007, 4.4).
 Hit first_hit(Ray ray, real t0, real t1) {
     Hit hit = no_hit(t1);
-    vec3 o = difference(ray.origin, DOMAIN_CENTER);
-    real middle = -inner_product(o, ray.direction);
-    vec3 nearest = moved(o, middle, ray.direction);
-    real squared_half = BOUNDING_RADIUS * BOUNDING_RADIUS - inner_product(nearest, nearest);
-    if (squared_half < 0.0) return hit;
-    real half_length = sqrt(squared_half);
-    real t = max(t0, middle - half_length);
-    real end = min(t1, middle + half_length);
+    real t = t0;
+    real end = t1;
+    if (SPHERE_START == 1) {
+        vec3 o = difference(ray.origin, DOMAIN_CENTER);
+        real middle = -inner_product(o, ray.direction);
+        vec3 nearest = moved(o, middle, ray.direction);
+        real squared_half = BOUNDING_RADIUS * BOUNDING_RADIUS - inner_product(nearest, nearest);
+        if (squared_half < 0.0) return hit;
+        real half_length = sqrt(squared_half);
+        t = max(t0, middle - half_length);
+        end = min(t1, middle + half_length);
+    }
 
     real longest = STEP_BOUND * BOUNDING_RADIUS;
     real last = EPSILON * FEATURE_RADIUS;
@@ -21,7 +25,10 @@ Hit first_hit(Ray ray, real t0, real t1) {
         if (FORWARD == 1) step = (f.value < 0.0) == outside_is_negative ? fabs(step) : -fabs(step);
         t += step;
         if (t > end) return missed(hit);
-        if (fabs(step) < last) return hit_at(hit, t);
+        if (fabs(step) < last) {
+            if (FORWARD == 1) return hit_at(hit, t);
+            return t < t0 - last ? exhausted(hit, t0) : hit_at(hit, max(t, t0));  // signed steps may end before the start
+        }
         if (hit.evaluations == MAX_EVALUATIONS) return exhausted(hit, t);
         f = surface_dual_along(along, t);
         hit.evaluations += 1;

@@ -1,5 +1,5 @@
 // Steps as long as the distance to the surface, until it is nearly 0 (toledo2007, 4.3). With RAYS 2 the march jumps to
-// t_M as soon as the distance grows, and ends where it has fallen again and grows again.
+// t_M as soon as the distance grows, with AHEAD never back, and then ends where the distance has fallen and grows again.
 Hit first_hit(Ray ray, real t0, real t1) {
     Hit hit = no_hit(t1);
     real near_enough = EPSILON * FEATURE_RADIUS;
@@ -15,14 +15,14 @@ Hit first_hit(Ray ray, real t0, real t1) {
             distance_here = surface_distance(ray_point(ray, t));
             hit.evaluations += 1;
             bool grows = distance_here > before;
-            bool turned = grows && fell;
+            bool turned = grows && fell && (AHEAD == 1 || !second);
             fell = !grows;
             before = distance_here;
             real next = t + distance_here;
             if (turned) {
                 fell = false;
                 before = next < t_m ? -REAL_INFINITY : before;
-                next = max(next, t_m);
+                next = AHEAD == 1 ? max(next, t_m) : max(t0, t_m);
             }
             searching = !(distance_here < near_enough || next > t1 || (turned && second)
                           || hit.evaluations == MAX_EVALUATIONS);

@@ -204,7 +204,8 @@ Hit first_hit(Ray ray, real t0, real t1) {
     Count after = sign_changes(chain, b);
     hit.evaluations += 2;
     if (before.changes < after.changes) return exhausted(hit, t0);
-    if (before.changes == after.changes) return missed(hit);
+    bool without = before.changes == after.changes;
+    if (DISCARD == 1 && without) return missed(hit);
     int i = 0;
     while (i < ITERATIONS
            && (BY_SIGN == 0 || before.changes - after.changes > 1 || before.negative == after.negative)) {
@@ -226,5 +227,6 @@ Hit first_hit(Ray ray, real t0, real t1) {
         i += 1;
     }
     hit.evaluations += ITERATIONS;
+    if (DISCARD == 0 && without) return missed(hit);
     return hit_at(hit, stretch.middle + stretch.reach * (0.5 * (a + b)));
 }

@@ -72,6 +72,7 @@ METHOD = Method(
             per="2.0 * DOMAIN_RADIUS",
         ),
         Parameter("BY_SIGN", 1, "1: bisect by the sign of f once one root is left; 0: count to the end", printed=0),
+        Parameter("DISCARD", 1, "1: a ray without a root ends before the search, as printed; 0: after it"),
         Parameter(
             "CAREFUL",
             1,

@@ -2,18 +2,31 @@
 
 from reports.evidence import Pick
 
-_NEWTON = {"STEP_BOUND": 0.15, "FORWARD": 1}
+_NEWTON = {"STEP_BOUND": 0.15, "FORWARD": 0, "SPHERE_START": 1, "MAX_EVALUATIONS": 20}
 NEWTON_3 = Pick("Newton 0.001", "newton", _NEWTON | {"EPSILON": 0.001})
 NEWTON_5 = Pick("Newton 0.00003", "newton", _NEWTON | {"EPSILON": 0.00003})
-NEWTON_UNBOUND = Pick("Newton with steps up to 100", "newton", {"STEP_BOUND": 100, "FORWARD": 1, "EPSILON": 0.001})
-STURM = Pick("Sturm", "sturm", {"BY_SIGN": 0, "ITERATIONS": 18})
-STURM_SHORT = Pick("Sturm with 8 halvings", "sturm", {"BY_SIGN": 0, "ITERATIONS": 8})
+NEWTON_UNBOUND = Pick("Newton with steps up to 100", "newton", _NEWTON | {"EPSILON": 0.001, "STEP_BOUND": 100})
+NEWTON_FROM_BOX = Pick("Newton 0.001 from the box", "newton", _NEWTON | {"EPSILON": 0.001, "SPHERE_START": 0})
+_FORWARDS = {"STEP_BOUND": 0.15, "FORWARD": 1, "SPHERE_START": 1}
+NEWTON_3_FORWARDS = Pick("Newton 0.001 forwards", "newton", _FORWARDS | {"EPSILON": 0.001})
+NEWTON_5_FORWARDS = Pick("Newton 0.00003 forwards", "newton", _FORWARDS | {"EPSILON": 0.00003})
+FORWARDS_UNBOUND = Pick("steps forwards up to 100", "newton", _FORWARDS | {"EPSILON": 0.001, "STEP_BOUND": 100})
+FORWARDS_FROM_BOX = Pick("forwards from the box", "newton", _FORWARDS | {"EPSILON": 0.001, "SPHERE_START": 0})
+_STURM = {"BY_SIGN": 0, "SHARE": 0.0}
+STURM = Pick("Sturm", "sturm", _STURM | {"ITERATIONS": 18, "DISCARD": 1})
+STURM_SEARCHING = Pick("Sturm that discards after its search", "sturm", _STURM | {"ITERATIONS": 18, "DISCARD": 0})
+STURM_SHORT = Pick("Sturm with 8 halvings", "sturm", _STURM | {"ITERATIONS": 8, "DISCARD": 1})
+STURM_BY_SIGN = Pick("Sturm by sign", "sturm", {"BY_SIGN": 1, "ITERATIONS": 18})
 BISECTION = Pick("D.D. Bisection", "double_derivative_bisection", {"SPLIT": 0, "ITERATIONS": 12})
+BISECTION_AT_BENDS = Pick("D.D. Bisection at f'' = 0", "double_derivative_bisection", {"SPLIT": 1, "ITERATIONS": 12})
 ONE_RAY = Pick("Sphere Tracing", "sphere_tracing", {"RAYS": 1, "EPSILON": 0.001})
-TWO_RAYS = Pick("2-rays S. Tracing", "sphere_tracing", {"RAYS": 2, "EPSILON": 0.001})
+TWO_RAYS = Pick("2-rays S. Tracing", "sphere_tracing", {"RAYS": 2, "EPSILON": 0.001, "AHEAD": 0})
+TWO_RAYS_AHEAD = Pick("2-rays S. Tracing ahead", "sphere_tracing", {"RAYS": 2, "EPSILON": 0.001, "AHEAD": 1})
 LOOP_BLINN = Pick("Loop-Blinn", "analytic", {"SCREEN": 1, "POLISH": 0, "NEAR": 0.5, "FAR": 64.0})
+CLOSED_FORM = Pick("a closed form", "analytic")
 ANALYTIC = Pick("closed form", "analytic", {"SCREEN": 0, "POLISH": 0})
 TABLE_1 = (STURM, BISECTION, ONE_RAY, TWO_RAYS, NEWTON_5, NEWTON_3)
+OURS_OF_TABLE_1 = (STURM_BY_SIGN, BISECTION_AT_BENDS, TWO_RAYS_AHEAD, NEWTON_5_FORWARDS, NEWTON_3_FORWARDS)
 
 MARCH = Pick("ray marching", "ray_march")
 _FIT = {"BASIS": 0, "EFT": 1, "EVAL": 1}
@@ -35,6 +48,7 @@ REMAPPED = Pick("adaptive, remapped", "interval_adaptive", {"DESCENT": 0, "REMAP
 ADAPTIVE_OURS = Pick("adaptive from the parent's piece", "interval_adaptive", {"DESCENT": 1, "REMAP": 0})
 
 TORUS = ("torus",)
+CUBICS = ("cayley", "clebsch", "ding_dong", "monkey_saddle", "whitney_umbrella", "cartan_umbrella")
 TABLE_4 = ("sphere", "torus", "calyx", "barth_sextic", "endrass_octic", "barth_decic", "sixteen_ball")
 TABLE_5 = ("sphere", "flirt", "calyx", "barth_sextic")
 HIGH_DEGREE = ("endrass_octic", "barth_decic", "sixteen_ball")

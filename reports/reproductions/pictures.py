@@ -29,7 +29,6 @@ class Figure:
     judged: bool = True  # the verdicts of the config's claims stand here, not beside a table of it
 
 
-_CUBICS = ("cayley", "clebsch", "ding_dong", "monkey_saddle", "whitney_umbrella", "cartan_umbrella")
 _ANY_BEAM = (
     "sphere",
     "dingdong_beamcasting",
@@ -50,18 +49,36 @@ FIGURES = (
         "The paper shows cubics in the box [−1, 1]³ by Sturm's method, and reports errors close to singular points.",
         "Cubics by Sturm's method as printed. Look for wrong rays at nodes and along the handles of umbrellas.",
         "toledo-fig2.toml",
-        _CUBICS,
+        picks.CUBICS,
+        (picks.STURM,),
+    ),
+    Figure(
+        "toledo2007, Figure 2, zoomed",
+        "The paper says that errors close to singular points are evident after zooming. Here: Ding-Dong at its node "
+        "and both umbrellas where their handles end, in windows 0.2 and 0.03 wide.",
+        "Cubics by Sturm's method as printed, zoomed at singular points. Look along the umbrellas' handles.",
+        "toledo-fig2-zoom.toml",
+        picks.CUBICS[2:3] + picks.CUBICS[4:],
+        (picks.STURM,),
+    ),
+    Figure(
+        "toledo2007, Figure 2, a node",
+        "The same at one of the four nodes of Cayley's cubic.",
+        "A node of Cayley's cubic by Sturm's method as printed, zoomed.",
+        "toledo-fig2-node.toml",
+        ("cayley",),
         (picks.STURM,),
     ),
     Figure(
         "toledo2007, Figure 4",
         "The paper shows a torus on which Sturm's method fails at one viewing angle, and draws the ray on which sphere "
         "tracing is slow. Here: the torus at Table 1's six angles.",
-        "The torus by Sturm, D.D. Bisection and Sphere Tracing, view by view. Look for Sturm's wrong rays near edges, "
-        "and for the one angle at which D.D. Bisection as printed takes later roots.",
+        "The torus by Sturm, D.D. Bisection, Sphere Tracing and Newton, view by view. Look for Sturm's wrong rays near "
+        "edges; D.D. Bisection as printed has none of them. Newton's signed steps as printed leave the rays exhausted "
+        "that pass the torus closely, which a picture does not show where they have no hit; our steps forwards do not.",
         "toledo-fig4.toml",
         ("torus",),
-        (picks.STURM, picks.BISECTION, picks.ONE_RAY),
+        (picks.STURM, picks.BISECTION, picks.ONE_RAY, picks.NEWTON_3, picks.NEWTON_3_FORWARDS),
     ),
     Figure(
         "szente, Figure 1",

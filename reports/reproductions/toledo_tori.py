@@ -9,7 +9,7 @@ import pandas as pd
 
 from reports import wording
 from reports.claims import picks
-from reports.claims.toledo_tori import CONFIG, PICKS, crossing, curve, tori
+from reports.claims.toledo_tori import CONFIG, OURS, PICKS, crossing, curve, tori
 from reports.content import Block, Column, Section, Table
 from reports.material import Material
 from reports.reproductions import verdicts
@@ -34,7 +34,7 @@ def sections(material: Material) -> list[Section]:
 def _times(rows: pd.DataFrame) -> Table:
     counts = sorted(int(n) for n in rows["instances"].unique())
     body: list[tuple[Any, ...]] = []
-    for pick in PICKS:
+    for pick in (*PICKS, OURS):
         own = curve(rows, pick)
         if not own.empty:
             body.append((pick.words, *(own.get(n) for n in counts)))
@@ -51,7 +51,7 @@ def _times(rows: pd.DataFrame) -> Table:
 
 
 def _crossings(rows: pd.DataFrame) -> Table:
-    newton = curve(rows, picks.NEWTON_3)
+    newton, ours = curve(rows, picks.NEWTON_3), curve(rows, OURS)
     body = []
     for pick in PICKS[1:]:
         own = curve(rows, pick)
@@ -59,11 +59,13 @@ def _crossings(rows: pd.DataFrame) -> Table:
         if both.empty:
             continue
         last = max(both)
-        body.append((pick.words, _told(crossing(newton, own)), last, own[last] / newton[last], CLAIMED[pick.words]))
+        told = (_told(crossing(newton, own)), None if ours.empty else _told(crossing(ours, own)))
+        body.append((pick.words, *told, last, own[last] / newton[last], CLAIMED[pick.words]))
     return Table(
         (
             Column("against"),
             Column("Newton 0.001 is faster from", stretch=1),
+            Column("ours, forwards, is from", stretch=1),
             Column("tori, at most", wording.count, numeric=True),
             Column("time there over\nNewton 0.001's", wording.factor, numeric=True),
             Column("the paper", stretch=1),

@@ -1,0 +1,23 @@
+"""Verdicts on toledo2007's methods as printed, with what ours at its best makes of the same figure."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+from reports.claims.model import Verdict
+from reports.evidence import Evidence
+
+Judge = Callable[[Evidence], Verdict | None]
+
+
+def beside(printed: Judge, ours: Judge, whose: str) -> Judge:
+    """A judge by `printed` alone, whose figure ends with that of `ours` where it has one; `whose` names the change."""
+
+    def decide(evidence: Evidence) -> Verdict | None:
+        found, other = printed(evidence), ours(evidence)
+        if found is None or other is None:
+            return found
+        return replace(found, figure=f"{found.figure}. Ours at its best, {whose}: {other.figure} ({other.outcome})")
+
+    return decide

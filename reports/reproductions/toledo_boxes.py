@@ -1,0 +1,70 @@
+"""toledo2007's Figures 1 and 5: tori in the boxes whose fragments cast their rays, and the views of Table 1."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from matplotlib.colors import to_rgb
+from numpy.typing import NDArray
+
+from reports import images, wording
+from reports.arrays import Arrays
+from reports.claims import picks
+from reports.content import Gallery, Panel, Picture, Section, Text
+from reports.material import Material
+
+ORDER = 9
+SCENES, VIEWS = "toledo-fig1.toml", "toledo-table1.toml"
+BOX = "#cfe3f2"  # a fragment without a hit
+
+
+def sections(material: Material) -> list[Section]:
+    found = []
+    for config, title, told in (
+        (
+            SCENES,
+            "toledo2007, Figures 1 and 5, right",
+            "Tori on a lattice, and the faces of their boxes that trigger the fragments which cast rays. A fragment "
+            "without a hit is discarded; here it is pale blue.",
+        ),
+        (
+            VIEWS,
+            "toledo2007, Figure 5, left",
+            "The torus and its box from Table 1's six angles: as many pixels as are blue or grey run the ray caster, "
+            "and those that are blue are its waste.",
+        ),
+    ):
+        panels = tuple(_panels(material, config))
+        if panels:
+            gallery = Gallery(panels, "Pale blue: fragments of the box without a hit. Drawn by Sturm as printed.")
+            found.append(Section(title, (Text(told), gallery)))
+    return found
+
+
+def _panels(material: Material, config: str) -> list[Panel]:
+    """One for each view or scene that Sturm drew by the fragments of boxes in `config`'s own run."""
+    rows = material.evidence.rows(picks.STURM)
+    rows = rows[(rows["run"] == config.removesuffix(".toml")) & (rows["stage"] == "raster") & (rows["proxy"] == "box")]
+    if rows.empty:
+        return []
+    rows = rows[rows["device"] == rows["device"].iloc[0]]
+    drawn = [(row, arrays) for row in rows.itertuples() if (arrays := material.shelf.get(row)) is not None]
+    return [_panel(row, arrays) for row, arrays in drawn if arrays.evaluations is not None]
+
+
+def _panel(row: Any, arrays: Arrays) -> Panel:
+    tori = 1 if pd.isna(row.instances) else int(row.instances)
+    title = row.view.replace("angle ", "tilted by ") + "°" if tori == 1 else f"{tori:,} tori"
+    told = f"{wording.count(row.fragments)} fragments, {wording.share(row.fragments_discarded / row.fragments)} wasted"
+    told += f", at {row.size} × {row.size}"
+    picture = Picture(f"boxes-{row.key}", images.png(boxed(arrays)), f"{title}, and the fragments of the box")
+    return Panel(title, (picture,), told)
+
+
+def boxed(arrays: Arrays) -> NDArray[np.float64]:
+    """float64[h, w, 3] in 0…1: hits lit from the camera, other pixels in which f was evaluated pale blue, on white."""
+    assert arrays.evaluations is not None
+    empty = np.isnan(arrays.shade) & (arrays.evaluations > 0)
+    return np.where(empty[..., None], np.asarray(to_rgb(BOX)), images.shaded(arrays))

@@ -1,0 +1,77 @@
+"""toledo2007's Figure 3: T, T' and T'' along rays through the torus, case by case."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import matplotlib
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure as Drawing
+from matplotlib.lines import Line2D
+
+from reports import style
+from reports.content import Block, Figure, Section
+from reports.drawing import RC, WIDE, svg
+from reports.material import Material
+from reports.reproductions import verdicts
+
+ORDER = 11
+CONFIG = "toledo-fig3.toml"
+ACROSS = 4
+BEYOND = 0.15  # of the stretch between the outermost marks, drawn at both ends
+CURVES = ((0, "T", "#0072B2", "-"), (1, "T′", "#E69F00", "--"), (2, "T″", "#009E73", ":"))
+MARKS = (("roots", "o", "roots of T"), ("extremes", "^", "roots of T′"), ("bends", "s", "roots of T″"))
+
+
+def sections(material: Material) -> list[Section]:
+    rows = material.evidence.studies.get("torus_along_rays")
+    if not rows:
+        return []
+    blocks: list[Block] = [_figure([row for row in rows if row["case"] != "sampled"])]
+    blocks += verdicts.of(material, CONFIG, "toledo2007, Figure 3")
+    return [Section("toledo2007, Figure 3", tuple(blocks), wide=True)]
+
+
+def _figure(cases: list[dict[str, Any]]) -> Figure:
+    down = -(-len(cases) // ACROSS)
+    with matplotlib.rc_context(RC):
+        drawing = Drawing(figsize=(WIDE, 0.4 + 1.5 * down), layout="constrained")
+        panels = drawing.subplots(down, ACROSS, squeeze=False).ravel()
+        for axes, case in zip(panels, cases, strict=False):
+            _case(axes, case)
+        for axes in panels[len(cases) :]:
+            axes.set_axis_off()
+        handles = [Line2D([], [], color=color, ls=line, lw=1.0) for _, _, color, line in CURVES]
+        handles += [Line2D([], [], color=style.INK, marker=mark, ms=3.5, lw=0) for _, mark, _ in MARKS]
+        handles.append(Line2D([], [], color=style.FAINT, lw=0.8, ls="-."))
+        labels = [*(name for _, name, _, _ in CURVES), *(told for _, _, told in MARKS), "t_M"]
+        drawing.legend(handles, labels, loc="outside lower center", ncols=len(labels), frameon=False)
+        drawn = svg(drawing)
+    return Figure(
+        "toledo-figure-3",
+        drawn,
+        f"T and its two derivatives along {len(cases)} rays, with the roots of each.",
+        "toledo2007, Figure 3: T along rays through the torus.",
+        "T′ and T″ are scaled to T's height. Bisection looks at the ends of a piece. It comes down on a root where f "
+        "has two signs there, else on an extreme towards 0. t_M parts each ray as printed; ours parts it at the roots "
+        "of T″. In the last case but one the first minimum only touches. In the last none reaches 0: there Newton's "
+        "signed step turns back and stays.",
+    )
+
+
+def _case(axes: Axes, case: dict[str, Any]) -> None:
+    places = [t for name, _, _ in MARKS for t in case[name]]
+    reach = max(places) - min(places) or 1.0
+    t = np.linspace(min(places) - BEYOND * reach, max(places) + BEYOND * reach, 200)
+    height = np.abs(np.polyval(case["coefficients"], t)).max()
+    for order, _, color, line in CURVES:
+        values = np.polyval(np.polyder(np.array(case["coefficients"]), order), t)
+        axes.plot(t, values * height / np.abs(values).max(), color=color, ls=line, lw=1.0)
+    for name, mark, _ in MARKS:
+        at = np.array(case[name])
+        axes.plot(at, np.polyval(case["coefficients"], at), color=style.INK, marker=mark, ms=3.5, lw=0)
+    axes.axhline(0.0, color=style.FAINT, lw=0.6)
+    axes.axvline(case["t_m"], color=style.FAINT, lw=0.8, ls="-.")
+    axes.set_title(case["case"], color=style.INK)
+    axes.set_yticks([])

@@ -1,0 +1,180 @@
+"""toledo2007's claims about pieces of its casters, and the tables beside them: planted rows flip the verdicts."""
+
+from __future__ import annotations
+
+import io
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from harness.contract import digest
+from harness.store import FORMAT
+from reports import claims, content
+from reports.claims import Outcome, picks
+from reports.evidence import Pick
+from tests.synthetic_run import printed, reported, tiny_run
+from tests.test_claims import claim, evidence, planted
+
+
+def in_proxy(proxy: str, fragments: int, hits: int, median: float) -> dict[str, Any]:
+    """A row of Newton as printed at one of Table 1's views, from the fragments of `proxy`."""
+    counted = {"fragments": fragments, "fragments_discarded": fragments - hits, "pixels_drawn": hits}
+    made = planted(Pick(f"Newton in a {proxy}", "newton", picks.NEWTON_3.knobs), "torus", median, **counted)
+    return made | {"stage": "raster", "proxy": proxy, "view_set": "angles"}
+
+
+def named(folder: Path, name: str, *cells: dict[str, Any]) -> Path:
+    """A run that bears a config's name."""
+    run = tiny_run(folder, *cells)
+    told = json.loads((run / "plan.json").read_text()) | {"name": name}
+    (run / "plan.json").write_text(json.dumps(told))
+    return run
+
+
+@pytest.mark.parametrize(("fragments", "expected"), [(220, Outcome.CONFIRMED), (120, Outcome.REFUTED)])
+def test_a_tetrahedrons_waste_is_counted_in_fragments(tmp_path: Path, fragments: int, expected: Outcome) -> None:
+    cells = (in_proxy("box", 130, 78, 1.0), in_proxy("tetrahedron", fragments, 78, 2.0))
+    verdict = claims.judge(claim("toledo2007", "tetrahedron about the torus"), evidence(tmp_path / "run", *cells))
+    assert verdict.outcome is expected
+    assert "40.00 %" in verdict.figure and "2.00× the box's time" in verdict.figure
+
+
+@pytest.mark.parametrize(("slower", "expected"), [(1.2, Outcome.CONFIRMED), (0.9, Outcome.REFUTED)])
+def test_normals_are_held_against_each_other_view_by_view(tmp_path: Path, slower: float, expected: Outcome) -> None:
+    cells = []
+    for normal, median in (("core_circle", 1.0), ("distance", 1.1), ("gradient", slower)):
+        made = planted(Pick(f"shaded by {normal}", "newton", picks.NEWTON_3.knobs), "torus", median)
+        cells.append(made | {"stage": "raster", "proxy": "box", "normal": normal})
+    verdict = claims.judge(claim("toledo2007", "normal from the torus's core"), evidence(tmp_path / "a", *cells))
+    assert verdict.outcome is expected
+    assert verdict.figure.endswith("by the distance's gradient 1.10×")
+    _, report = reported(named(tmp_path / "b", "toledo-normals", *cells))
+    told = next(printed(s.blocks) for s in report.sections if s.title == "toledo2007, piece by piece")
+    assert f"front | 1.00 | 1.10 | {slower:.3g}" in told
+
+
+@pytest.mark.parametrize(
+    ("words", "without", "having"),
+    [
+        ("discard before the search", picks.STURM_SEARCHING, picks.STURM),
+        ("start on the sphere", picks.NEWTON_FROM_BOX, picks.NEWTON_3),
+    ],
+)
+def test_a_piece_pays_where_it_is_faster(tmp_path: Path, words: str, without: Pick, having: Pick) -> None:
+    for slow, expected in ((2.0, Outcome.CONFIRMED), (0.5, Outcome.REFUTED)):
+        cells = (planted(without, "torus", slow, evaluations_mean=9.0), planted(having, "torus", 1.0))
+        verdict = claims.judge(claim("toledo2007", words), evidence(tmp_path / f"{slow}", *cells))
+        assert verdict.outcome is expected
+        assert f"{without.words}: 9.00 evaluations a ray" in verdict.figure
+
+
+@pytest.mark.parametrize(("cubic", "expected"), [(3.0, Outcome.CONFIRMED), (0.5, Outcome.REFUTED)])
+def test_cubics_by_sturm_are_held_against_a_quadric(tmp_path: Path, cubic: float, expected: Outcome) -> None:
+    cells = (planted(picks.STURM, "cayley", cubic), planted(picks.CLOSED_FORM, "sphere", 1.0))
+    verdict = claims.judge(claim("toledo2007", "ray casting of quadrics"), evidence(tmp_path / "run", *cells))
+    assert verdict.outcome is expected
+
+
+def test_the_worth_of_pieces_and_proxies_stand_in_the_report(tmp_path: Path) -> None:
+    cells = [planted(picks.STURM_SEARCHING, "cayley", 3.0, evaluations_mean=20.0, false_hits=2)]
+    cells += [planted(picks.STURM, "cayley", 1.5, evaluations_mean=4.0)]
+    _, report = reported(named(tmp_path / "a", "toledo-cubics", *cells))
+    told = next(printed(s.blocks) for s in report.sections if s.title == "toledo2007, piece by piece")
+    (line,) = [line for line in told.splitlines() if line.startswith("Sturm: discard")]
+    assert "| 1 | 2.00× | 2.00× | 2.00× | 20.0 | 4.00 | 2 | 0" in line
+    cells = [in_proxy("box", 130, 78, 1.0), in_proxy("tetrahedron", 220, 78, 2.0)]
+    _, report = reported(named(tmp_path / "b", "toledo-proxies", *cells))
+    told = next(printed(s.blocks) for s in report.sections if s.title == "toledo2007, piece by piece")
+    assert "| tetrahedron | 220 | 64.55 %" in told
+
+
+def test_figure_3_is_drawn_from_its_study_and_its_words_are_judged(tmp_path: Path) -> None:
+    from harness.studies import torus_along_rays
+
+    rows = torus_along_rays.compute()
+    run = tiny_run(tmp_path / "run", planted(picks.STURM, "torus", 1.0))
+    (run / "studies").mkdir(exist_ok=True)
+    stored = {"format": FORMAT, "key": "k", "study": "torus_along_rays", "title": "", "rows": rows, "seconds": 0.0}
+    (run / "studies" / "k.json").write_text(json.dumps(stored))
+    told = json.loads((run / "plan.json").read_text()) | {"studies": [{"study": "torus_along_rays", "key": "k"}]}
+    (run / "plan.json").write_text(json.dumps(told))
+    _, report = reported(run)
+    (section,) = [section for section in report.sections if section.title == "toledo2007, Figure 3"]
+    (figure,) = [block for block in section.blocks if isinstance(block, content.Figure)]
+    assert all(row["case"] in figure.svg for row in rows[:-1])
+    told = printed(section.blocks)
+    assert "local minima: 2 at most, local maxima: 1 at most" in told
+    assert told.count("confirmed") == 1 and told.count("refuted") == 1
+    other = [rows[-1] | {"case": "sampled", "minima": 1, "maxima": 2}]
+    swapped = evidence(tmp_path / "b", planted(picks.STURM, "torus", 1.0), studies={"torus_along_rays": other})
+    assert claims.judge(claim("toledo2007", "two local maxima"), swapped).outcome is Outcome.CONFIRMED
+
+
+def on_lattice(pick: Pick, tori: int, median: float, **more: Any) -> dict[str, Any]:
+    made = planted(pick, "torus", median, f"lattice {tori}")
+    made["build"] = (made["build"] or {}) | {"bytes": more.pop("bytes", 1000)}
+    return made | {"scene": "lattice", "instances": tori, "stage": "raster", "pixel_tolerance": 0.0} | more
+
+
+@pytest.mark.parametrize(
+    ("mesh", "told", "expected"), [(9000, "9.00×", Outcome.CONFIRMED), (900, "0.900×", Outcome.REFUTED)]
+)
+def test_memory_is_counted_in_bytes_on_the_device(tmp_path: Path, mesh: int, told: str, expected: Outcome) -> None:
+    cells = (on_lattice(picks.NEWTON_3, 16, 1.0), on_lattice(picks.POLYGONS[0], 16, 1.0, bytes=mesh))
+    verdict = claims.judge(claim("toledo2007", "needs less memory"), evidence(tmp_path / "run", *cells))
+    assert verdict.outcome is expected
+    assert f"Polygon 32*32 {told} of 16 tori" in verdict.figure
+
+
+@pytest.mark.parametrize(
+    ("coarse", "told", "expected"), [(0.5, "2.00×", Outcome.CONFIRMED), (1.6, "0.625×", Outcome.REFUTED)]
+)
+def test_level_of_detail_is_judged_where_tori_are_farthest(
+    tmp_path: Path, coarse: float, told: str, expected: Outcome
+) -> None:
+    cells = []
+    for tori, own in ((1, 1.0), (64, coarse)):
+        fine, loose = on_lattice(picks.STURM, tori, 1.0), on_lattice(picks.STURM, tori, own, pixel_tolerance=0.1)
+        cells += [fine, loose | {"slot": f"loose {tori}", "key": digest(f"loose {tori}")}]
+    verdict = claims.judge(claim("toledo2007", "level of detail"), evidence(tmp_path / "run", *cells))
+    assert verdict.outcome is expected
+    assert f"64 tori {told}" in verdict.figure
+
+
+@pytest.mark.parametrize(("bad", "expected"), [(160, Outcome.CONFIRMED), (0, Outcome.REFUTED), (18, Outcome.UNDECIDED)])
+def test_errors_near_singular_points_are_those_of_the_worst_view(tmp_path: Path, bad: int, expected: Outcome) -> None:
+    views = (("zoomed", 0), ("zoomed closely", bad))
+    cells = [planted(picks.STURM, "cayley", 1.0, view, grazing_false_hits=n, rays=20_000) for view, n in views]
+    verdict = claims.judge(claim("toledo2007", "evident after zooming"), evidence(tmp_path / "run", *cells))
+    assert verdict.outcome is expected
+    if bad:
+        assert f"zoomed closely: {bad + 2} of" in verdict.figure, "2 drowned ones are planted in each view"
+
+
+def test_figure_5_tells_a_boxs_fragments_from_the_torus(tmp_path: Path) -> None:
+    made = planted(picks.STURM, "torus", 1.0, "angle 18", fragments=40, fragments_discarded=30)
+    made |= {"stage": "raster", "proxy": "box", "arrays": f"arrays/{made['key']}.npz"}
+    run = named(tmp_path / "run", "toledo-table1", made)
+    shade, evaluations = np.full((4, 4), np.nan, np.float32), np.zeros((4, 4), np.int32)
+    evaluations[1:], shade[2] = 2, 1.0
+    blank = {
+        "truth": np.zeros((4, 4), np.uint8),
+        "wrong": np.zeros((4, 4), np.uint8),
+        "grazing": np.zeros((4, 4), bool),
+    }
+    (run / "arrays").mkdir(exist_ok=True)
+    arrays = blank | {"error": np.zeros((4, 4), np.float32), "shade": shade, "evaluations": evaluations}
+    np.savez_compressed(run / made["arrays"], **arrays)
+    _, report = reported(run)
+    (section,) = [section for section in report.sections if section.title == "toledo2007, Figure 5, left"]
+    (gallery,) = [block for block in section.blocks if isinstance(block, content.Gallery)]
+    assert [panel.title for panel in gallery.panels] == ["tilted by 18°"]
+    assert "75 % wasted" in gallery.panels[0].note
+    pixels = np.asarray(Image.open(io.BytesIO(gallery.panels[0].pictures[0].png)).convert("RGB")).reshape(4, 120, -1, 3)
+    assert [len(np.unique(row.reshape(-1, 3), axis=0)) for row in pixels] == [1] * 4
+    white, box, torus, below = (tuple(row[0, 0]) for row in pixels)
+    assert white == (255, 255, 255) and box == below != torus != white != box
