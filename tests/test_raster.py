@@ -45,7 +45,7 @@ def variant(method, **knobs):
 def draw(gl, scene, chosen, size, proxy="box", reports=True, pixels=0.0, normal="distance"):
     """The picture of a scene by a variant; without reports, its colours alone."""
     camera = camera_for(scene.view, scene.stand_in if scene.instances > 1 else scene.groups[0].distinct[0])
-    batches = [d.batch(reports) for d in raster.draws(scene, chosen, proxy, find_methods(), pixels, normal)]
+    batches = [d.batch(reports) for d in raster.draws(scene, chosen, proxy, find_methods(), pixels, normal=normal)]
     built = [gl.build(batch.program) for batch in batches]
     fill = gl.build(fill_program()) if reports else None
     launch = gl.launch_raster(batches, built, camera, raster.depth_map(scene, camera), size, fill)
@@ -110,7 +110,7 @@ def test_three_normals_shade_the_torus_alike_and_by_programs_of_their_own(gl):
     pictures = {name: draw(gl, scene, chosen, SIZE, reports=False, normal=name).astype(int) for name in NORMALS}
     for name in NORMALS:
         assert np.abs(pictures[name] - pictures["distance"]).max() <= 1
-    (texts,) = {len({raster.draws(scene, chosen, "box", find_methods(), 0.0, n)[0].timed.hash for n in NORMALS})}
+    (texts,) = {len({raster.draws(scene, chosen, "box", find_methods(), 0.0, normal=n)[0].timed.hash for n in NORMALS})}
     assert texts == len(NORMALS)
     assert len(np.unique(pictures["core_circle"])) > 50
 
@@ -119,7 +119,12 @@ def test_three_normals_shade_the_torus_alike_and_by_programs_of_their_own(gl):
 def test_only_a_torus_is_shaded_by_its_core_circle(name):
     with pytest.raises(FirsthitError, match="core circle"):
         raster.draws(
-            single(surfaces.get(name), VIEW), variant("interval_march"), "box", find_methods(), 0.0, "core_circle"
+            single(surfaces.get(name), VIEW),
+            variant("interval_march"),
+            "box",
+            find_methods(),
+            0.0,
+            normal="core_circle",
         )
 
 
