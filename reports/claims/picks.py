@@ -11,7 +11,7 @@ STURM_SHORT = Pick("Sturm with 8 halvings", "sturm", {"BY_SIGN": 0, "ITERATIONS"
 BISECTION = Pick("D.D. Bisection", "double_derivative_bisection", {"SPLIT": 0, "ITERATIONS": 12})
 ONE_RAY = Pick("Sphere Tracing", "sphere_tracing", {"RAYS": 1, "EPSILON": 0.001})
 TWO_RAYS = Pick("2-rays S. Tracing", "sphere_tracing", {"RAYS": 2, "EPSILON": 0.001})
-LOOP_BLINN = Pick("Loop-Blinn", "analytic", {"SCREEN": 1, "POLISH": 0, "NEAR": 0.5, "FAR": 64.0})
+LOOP_BLINN = Pick("Loop-Blinn", "analytic", {"SCREEN": 2, "POLISH": 0})
 ANALYTIC = Pick("closed form", "analytic", {"SCREEN": 0, "POLISH": 0})
 TABLE_1 = (STURM, BISECTION, ONE_RAY, TWO_RAYS, NEWTON_5, NEWTON_3)
 
