@@ -36,7 +36,7 @@ names: of torus, Kummer, tangle and Steiner's surface in the mean, and of Cayley
     EARLY_EXIT = 1, over 0                                                  49   0.97  1.12  0.98
     cbrt (in GLSL pow), acos and cos, over square roots and polynomial      -    1.02  0.87  1.03
     ---
-    Newton's iteration from a bound, to 16 steps, over the closed form      50   0.69  0.88  0.84
+    Newton's iteration from a bound, no early exit, over the closed form    50   0.69  0.88  0.84
     Orellana and De Michele's LDL^T (not depressed), over Descartes'        99   0.99  1.01  1.01
     so, with the best of their three formulas for the factors               63   -     -     -
     so, and one Newton step on the factors (Strobach 2010 ends so too)      48   0.88  0.94  0.98
