@@ -13,7 +13,7 @@ from harness.accuracy import Wrong, judge
 from harness.assemble import map_program, method_program
 from harness.backends import hits_from, launch_rays, map_rows
 from harness.camera import camera_for, rays_of, scene_radius
-from harness.contract import FirsthitError, RayStatus, Section, TruthStatus, View
+from harness.contract import PRECISIONS, FirsthitError, RayStatus, Section, TruthStatus, View
 from harness.oracle import first_hits
 from harness.plugins import find_methods
 
@@ -236,7 +236,7 @@ def test_two_more_sturm_iterations_quarter_the_error():
 
 
 def test_the_discard_before_the_search_changes_no_answer_and_saves_evaluations():
-    knobs = {"BY_SIGN": 0, "ITERATIONS": 18, "SHARE": 0.0}
+    knobs = {"BY_SIGN": 0, "ITERATIONS": 18, "CAREFUL": 0}
     surface, rays, _ = _case("cayley", OBLIQUE, 96)
     discarding, searching = (_cast("sturm", surface, rays, DISCARD=k, **knobs) for k in (1, 0))
     assert (discarding.status == searching.status).all()
@@ -377,6 +377,55 @@ def test_quartics_without_odd_terms_and_with_double_roots(device):
     _needs_float64(device)
     roots = np.array([[-2.0, -1.0, 1.0, 2.0], [-1.0, -1.0, 1.0, 1.0], [0.0] * 4])
     assert np.abs(_closed_form(device, 4, _monic(roots)) - roots).max() < 1e-12
+
+
+def _mapped(device, precision, call, values):
+    """The numbers that a call on x[0] gives, for each of the values."""
+    text = (
+        "#define INPUTS 1\n#define OUTPUTS 1\n"
+        f"void map_item(IN real x[INPUTS], OUT real y[OUTPUTS]) {{ y[0] = {call}; }}"
+    )
+    program = map_program(Section("closed form", text), precision, device.language, ("closed_form",))
+    return np.array(map_rows(device, program, values[:, None], 1), np.float64)[:, 0]
+
+
+@pytest.mark.parametrize("precision", PRECISIONS)
+def test_the_cubics_functions_are_as_exact_as_their_corrections_need(device, precision):
+    if precision == "float64":
+        _needs_float64(device)
+    cosines = np.linspace(-1.0, 1.0, 2049)
+    expected = np.cos(np.arccos(cosines) / 3.0)
+    assert np.abs(_mapped(device, precision, "third_angle_cosine(x[0])", cosines) - expected).max() < 2e-7
+    cubes = np.append(0.0, 10.0 ** np.linspace(-30.0, 30.0, 2049))
+    found = _mapped(device, precision, "cube_root(x[0])", cubes)
+    assert found[0] == 0.0
+    assert np.abs(found[1:] / np.cbrt(cubes[1:]) - 1.0).max() < 1e-4
+
+
+def test_loop_and_blinns_setting_is_what_they_print():
+    method = find_methods().get("analytic").method
+    assert method.printed == method.settings["Loop-Blinn"] == {"POLISH": 0, "SCREEN": 2}
+
+
+@pytest.mark.parametrize("screen", [0, 1, 2])
+@pytest.mark.parametrize("name", ["torus", "cayley", "plane_squared"])
+def test_signs_of_bernstein_coefficients_discard_misses_only(name, screen):
+    surface, rays, _ = _case(name, OBLIQUE, 96)
+    sooner, later = (_cast("analytic", surface, rays, SCREEN=screen, EARLY_EXIT=e) for e in (1, 0))
+    assert (sooner.status == later.status).all()
+    assert np.array_equal(sooner.t, later.t, equal_nan=True)
+    assert (sooner.status == RayStatus.HIT).any()
+
+
+def test_a_discard_by_some_of_the_coefficients_is_caught(tmp_path):
+    folder = _broken(tmp_path, "analytic", "above = above && a[i] > 0.0;", "above = a[i] > 0.0;")
+    assert _outcome("analytic", "torus", OBLIQUE, folder=folder).wrong > 0.1
+
+
+def test_depth_within_the_domain_is_as_exact_as_the_distance():
+    """Loop and Blinn's tetrahedra bound a ray's depths; the planes do so much worse."""
+    local, depth = (_p99(_outcome("analytic", "torus", OBLIQUE, POLISH=0, SCREEN=s)) for s in (0, 2))
+    assert depth < 3.0 * local
 
 
 def test_screen_space_is_noisier_and_the_near_plane_matters():

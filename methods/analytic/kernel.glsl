@@ -1,4 +1,4 @@
-// The nearest of all roots of f in Bernstein form over [t0, t1] (Loop and Blinn 2006), or over the depth buffer's range.
+// The nearest of all roots of f in Bernstein form (Loop and Blinn 2006): over t, or over depth as perspective makes it.
 
 // t of a root s = u / (1 - u), or the infinite t of a root that is none of the interval's.
 real root_along(real s, bool reversed, real ratio, Span whole, Span stay) {
@@ -23,6 +23,7 @@ Hit first_hit(Ray ray, real t0, real t1) {
         whole = make_span((NEAR - EYE) * DOMAIN_RADIUS, (FAR - EYE) * DOMAIN_RADIUS);
         ratio = NEAR / FAR;
     }
+    if (SCREEN == 2) ratio = (EYE * DOMAIN_RADIUS + whole.lo) / (EYE * DOMAIN_RADIUS + whole.hi);
     // f as a polynomial in s: about whole.lo, then its length as the unit, then homogeneous in (u, 1 - u)
     real a[5];
     for (int i = 0; i < 5; i++) a[i] = 0.0;
@@ -37,6 +38,15 @@ Hit first_hit(Ray ray, real t0, real t1) {
     }
     for (int j = 0; j < SURFACE_DEGREE; j++) {
         for (int i = SURFACE_DEGREE - 1; i >= j; i--) a[SURFACE_DEGREE - i] += a[SURFACE_DEGREE - i - 1];
+    }
+    if (EARLY_EXIT == 1) {
+        bool above = true;
+        bool below = true;
+        for (int i = 0; i <= SURFACE_DEGREE; i++) {
+            above = above && a[i] > 0.0;
+            below = below && a[i] < 0.0;
+        }
+        if (above || below) return missed(hit);
     }
     power = 1.0;
     for (int i = 1; i <= SURFACE_DEGREE; i++) {

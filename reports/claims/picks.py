@@ -12,7 +12,7 @@ NEWTON_3_FORWARDS = Pick("Newton 0.001 forwards", "newton", _FORWARDS | {"EPSILO
 NEWTON_5_FORWARDS = Pick("Newton 0.00003 forwards", "newton", _FORWARDS | {"EPSILON": 0.00003})
 FORWARDS_UNBOUND = Pick("steps forwards up to 100", "newton", _FORWARDS | {"EPSILON": 0.001, "STEP_BOUND": 100})
 FORWARDS_FROM_BOX = Pick("forwards from the box", "newton", _FORWARDS | {"EPSILON": 0.001, "SPHERE_START": 0})
-_STURM = {"BY_SIGN": 0, "SHARE": 0.0}
+_STURM = {"BY_SIGN": 0, "CAREFUL": 0}
 STURM = Pick("Sturm", "sturm", _STURM | {"ITERATIONS": 18, "DISCARD": 1})
 STURM_SEARCHING = Pick("Sturm that discards after its search", "sturm", _STURM | {"ITERATIONS": 18, "DISCARD": 0})
 STURM_SHORT = Pick("Sturm with 8 halvings", "sturm", _STURM | {"ITERATIONS": 8, "DISCARD": 1})
@@ -22,7 +22,7 @@ BISECTION_AT_BENDS = Pick("D.D. Bisection at f'' = 0", "double_derivative_bisect
 ONE_RAY = Pick("Sphere Tracing", "sphere_tracing", {"RAYS": 1, "EPSILON": 0.001})
 TWO_RAYS = Pick("2-rays S. Tracing", "sphere_tracing", {"RAYS": 2, "EPSILON": 0.001, "AHEAD": 0})
 TWO_RAYS_AHEAD = Pick("2-rays S. Tracing ahead", "sphere_tracing", {"RAYS": 2, "EPSILON": 0.001, "AHEAD": 1})
-LOOP_BLINN = Pick("Loop-Blinn", "analytic", {"SCREEN": 1, "POLISH": 0, "NEAR": 0.5, "FAR": 64.0})
+LOOP_BLINN = Pick("Loop-Blinn", "analytic", {"SCREEN": 2, "POLISH": 0})
 CLOSED_FORM = Pick("a closed form", "analytic")
 ANALYTIC = Pick("closed form", "analytic", {"SCREEN": 0, "POLISH": 0})
 TABLE_1 = (STURM, BISECTION, ONE_RAY, TWO_RAYS, NEWTON_5, NEWTON_3)

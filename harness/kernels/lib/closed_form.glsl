@@ -1,12 +1,15 @@
 // Real roots of monic polynomials to degree 4 in closed form; NO_ROOT stands where there is none.
-// Square roots are the only radicals: float64 GLSL has neither cube roots nor cosines. What would need them, one root of
-// a cubic, is Newton's iteration from a bound of that root, as in W. Kahan, To Solve a Real Cubic Equation, 1986 (QBC).
+// One root of a cubic is Cardano's, or Viète's where three are real; the others are deflated by it as in W. Kahan, To Solve
+// a Real Cubic Equation, 1986. Square roots are the only functions called: float64 GLSL has neither cube roots nor
+// cosines, and Mesa's arc cosine is off by 1e-4. So cos(acos(c) / 3) is a polynomial in one square root, and a cube root is
+// six of them and two of Halley's steps. What both are off by, under 1e-5, CORRECTIONS of Newton's steps take away.
 // The quartic is Descartes' product of two quadratics, each coefficient by the formula that does not cancel, after
 // A. Orellana and C. De Michele, Algorithm 1010, ACM TOMS 46 (2020).
 STRUCT(Roots) struct Roots { real a; real b; real c; real d; };
 
 #define NO_ROOT (-REAL_INFINITY)
-#define CUBIC_STEPS 16
+#define A_THIRD (real(1) / real(3))
+#define CORRECTIONS (UNIT_ROUNDOFF < 2.3283064365386963e-10 ? 2 : 1)  // float64, float32
 
 Roots no_roots() {
     Roots roots;
@@ -30,41 +33,60 @@ Roots quadratic_roots(real b, real c) {
     return roots;
 }
 
-// About the cube root of x >= 0: 1/4 + 1/16 + 1/64 + ... = 1/3, then one step of Halley's.
-real cube_root_estimate(real x) {
+real halley_cube_root(real y, real x) {
+    real cube = y * y * y;
+    return y * ((cube + 2.0 * x) / (2.0 * cube + x));
+}
+
+// The cube root of x >= 0, to 1e-5 of it for x from 1e-30 to 1e30: 1/4 + 1/16 + 1/64 + ... = 1/3, then Halley's steps.
+real cube_root(real x) {
     real fourth = sqrt(sqrt(x));
     real sixteenth = sqrt(sqrt(fourth));
     real y = fourth * sixteenth * sqrt(sqrt(sixteenth));
-    real cube = y * y * y;
-    return x == 0.0 ? real(0) : y * ((cube + 2.0 * x) / (2.0 * cube + x));
+    return x == 0.0 ? real(0) : halley_cube_root(halley_cube_root(y, x), x);
 }
 
-// The largest real root of x^3 + b x^2 + c x + d (side 1), or the least (side -1); one that exists where the cubic's
-// value at its inflection has the other sign than `side`, or where all roots are real.
-real outer_cubic_root(real b, real c, real d, real side) {
-    real x = -b / 3.0;
-    real slope = (x + b) * x + c;
-    real value = slope * x + d;
-    real reach = cube_root_estimate(fabs(value));
-    slope = slope + (2.0 * x + b) * x;
-    if (slope < 0.0) reach = 1.328125 * max(reach, sqrt(-slope));
-    x += side * reach;
-    for (int i = 0; i < CUBIC_STEPS; i++) {
+// cos(acos(c) / 3) for c in [-1, 1], to 1e-7: cos(2/3 acos(w)) with w = sqrt((1 + c) / 2) has no singularity in [0, 1].
+real third_angle_cosine(real c) {
+    real w = sqrt(0.5 + 0.5 * c);
+    real tail = -0.03031306341290474 +
+                w * (0.01615948975086212 + w * (-0.006169949658215046 + w * 0.0011504290159791708));
+    return 0.5 + w * (0.5773472189903259 + w * (-0.11104323714971542 + w * (0.05286910757422447 + w * tail)));
+}
+
+// A root x of x^3 + b x^2 + c x + d, the farthest from the inflection; `largest`: the largest where three are real, and
+// then the caller knows that there are three where the value at the inflection is positive.
+real cubic_root(real b, real c, real d, bool largest) {
+    // y^3 - 3 p y + 2 q with x = middle + y has three real roots where q^2 <= p^3: sizes are compared without those powers
+    real middle = -A_THIRD * b;
+    real p = middle * middle - A_THIRD * c;
+    real q = 0.5 * (((middle + b) * middle + c) * middle + d);
+    real radius = sqrt(fabs(p));
+    real power = fabs(p) * radius;
+    real most = max(fabs(q), power);
+    real share = most > 0.0 ? min(fabs(q), power) / most : real(0);
+    bool turned = largest && q > 0.0;
+    real y = 0.0;
+    if (turned || (p > 0.0 && fabs(q) <= power)) {
+        real cosine = third_angle_cosine(turned ? -(fabs(q) <= power ? share : real(1)) : share);
+        y = (q > 0.0 && !turned ? -2.0 : 2.0) * radius * cosine;
+    } else if (most > 0.0) {
+        real u = cube_root(fabs(q) + most * sqrt(p > 0.0 ? (1.0 - share) * (1.0 + share) : 1.0 + share * share));
+        real v = p / u;
+        y = -2.0 * q / (u * u - p + v * v);
+    }
+    real x = middle + y;
+    for (int i = 0; i < CORRECTIONS; i++) {
         real q1 = x + b;
         real q0 = q1 * x + c;
-        real f = q0 * x + d;
-        real derivative = (q1 + x) * x + q0;
-        real next = derivative == 0.0 ? x : x - f / derivative;
-        if (!(side * next < side * x)) return x;
-        x = next;
+        real step = (q0 * x + d) / ((q1 + x) * x + q0);
+        if (fabs(step) < 0.015625 * fabs(y)) x -= step;
     }
     return x;
 }
 
 Roots cubic_roots(real b, real c, real d) {
-    real middle = -b / 3.0;
-    real value = ((middle + b) * middle + c) * middle + d;
-    real x = outer_cubic_root(b, c, d, value < 0.0 ? 1.0 : -1.0);
+    real x = cubic_root(b, c, d, false);
     // deflated from the end that loses less (Kahan)
     real q1 = x + b;
     real q0 = q1 * x + c;
@@ -79,11 +101,9 @@ Roots cubic_roots(real b, real c, real d) {
 
 // Of x^4 + p x^2 + q x + r = (x^2 + a x + m - h) (x^2 - a x + m + h).
 Roots depressed_quartic_roots(real p, real q, real r) {
-    // a^2 is any root >= 0 of the resolvent, and there is one; see which outer root is known to be
-    real middle = -2.0 * p / 3.0;
+    // a^2 is any root >= 0 of the resolvent; where p > 0 and its inflection is under 0, the farthest may be negative
     real c = p * p - 4.0 * r;
-    real value = ((middle + 2.0 * p) * middle + c) * middle - q * q;
-    real square = max(outer_cubic_root(2.0 * p, c, -q * q, value < 0.0 || middle < 0.0 ? 1.0 : -1.0), real(0));
+    real square = max(cubic_root(2.0 * p, c, -q * q, p > 0.0), real(0));
     real m = 0.5 * (p + square);
     real h = sqrt(max(m * m - r, real(0)));
     real a = sqrt(square);
