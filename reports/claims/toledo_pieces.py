@@ -38,7 +38,7 @@ class Piece:
 PAPERS, OURS = "the paper's", "ours"
 PIECES = (
     Piece("Sturm: discard before the search", PAPERS, CUBICS, picks.STURM_SEARCHING, picks.STURM, SEARCHED),
-    Piece("Sturm: by sign once one root is left", OURS, VIEWS, picks.STURM, picks.STURM_BY_SIGN, picks.TORUS),
+    Piece("Sturm: by sign at one root, frail chains anew", OURS, VIEWS, picks.STURM, picks.STURM_BY_SIGN, picks.TORUS),
     Piece(
         "D.D. bisection: parted at the roots of f''",
         OURS,

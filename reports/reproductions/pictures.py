@@ -74,8 +74,8 @@ FIGURES = (
         "The paper shows a torus on which Sturm's method fails at one viewing angle, and draws the ray on which sphere "
         "tracing is slow. Here: the torus at Table 1's six angles.",
         "The torus by Sturm, D.D. Bisection, Sphere Tracing and Newton, view by view. Look for Sturm's wrong rays near "
-        "edges; D.D. Bisection as printed has none of them. Newton's signed steps as printed leave the rays exhausted "
-        "that pass the torus closely, which a picture does not show where they have no hit; our steps forwards do not.",
+        "edges; D.D. Bisection as printed has none of them. Newton's signed steps as printed leave rays exhausted that "
+        "pass the torus closely: a picture shows those that hit it farther on, at 72°. Our steps forwards leave none.",
         "toledo-fig4.toml",
         ("torus",),
         (picks.STURM, picks.BISECTION, picks.ONE_RAY, picks.NEWTON_3, picks.NEWTON_3_FORWARDS),

@@ -63,8 +63,8 @@ def _pieces(worth: list[tuple[Any, ...]]) -> Table:
         ),
         worth,
         "What the pieces of toledo2007's casters are worth.",
-        "Each is timed with the piece and without it in turns; all else is as printed, but for ours of Newton. Cases "
-        "are views or surfaces; wrong rays, outside the grazing class, are summed over them.",
+        "Each is timed with the piece and without it in turns; all else is as the paper prints it. Cases are views or "
+        "surfaces; wrong rays, outside the grazing class, are summed over them.",
     )
 
 
