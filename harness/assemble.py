@@ -13,7 +13,7 @@ from typing import Literal
 from harness.contract import Box, FirsthitError, Method, Parameter, Precision, Program, Proxy, Section, Surface, Variant
 
 KERNELS = Path(__file__).parent / "kernels"
-AFTER_TABLES = ("fit_samples",)  # libraries that read the surface's degree and the method's tables
+AFTER_TABLES = ("fit_samples", "fit_whole")  # libraries that read the surface's degree and the method's tables
 PROXY_SIDES = 16  # of the polygon about a ball's outline: 1.3 % more than the disk
 RAY_OF_PIXEL = ("camera", "raster_view", "raster_ray")
 Language = Literal["glsl", "cl"]

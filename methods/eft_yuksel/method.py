@@ -42,14 +42,16 @@ from typing import Literal
 from harness.contract import Method, Parameter, Precision, Surface
 
 MAX_DEGREE = 20
+PRINTED = {"LAST": 0, "TOLERANCE": 2.0**-23, "START": 0, "SAMPLES": 0, "MATRIX": 0}
 
 
 def _tables(surface: Surface, knobs: Mapping[str, float | int], precision: Precision) -> dict[str, list[float]]:
-    from harness.fitting import derivative_factors, fit_tables
+    from harness.fitting import derivative_factors, fit_tables, whole_tables
 
     assert surface.degree is not None
     basis: Literal["monomial", "bernstein"] = "bernstein" if knobs["BASIS"] == 1 else "monomial"
-    return fit_tables(surface.degree, basis, precision) | {"FACTORS": derivative_factors(surface.degree, basis)}
+    tables = fit_tables(surface.degree, basis, precision) | whole_tables(surface.degree, basis, precision)
+    return tables | {"FACTORS": derivative_factors(surface.degree, basis)}
 
 
 def _accepts(surface: Surface) -> str | None:
@@ -64,7 +66,7 @@ METHOD = Method(
     name="eft_yuksel",
     source="szente",
     needs=("surface_value",),
-    libraries=("dual", "fit", "polynomial", "fit_samples"),
+    libraries=("dual", "fit", "polynomial", "fit_samples", "fit_whole"),
     parameters=(
         Parameter("BASIS", 0, "0: monomial on [-1, 1], 1: Bernstein on [0, 1]"),
         Parameter("EFT", 1, "1: compensated fit, 0: plain products and sums"),
@@ -72,18 +74,24 @@ METHOD = Method(
         Parameter(
             "TOLERANCE",
             2.0**-18,
-            "last Newton step of the root, in the fit's variable",
+            "last step of the root, or width of what bisection leaves, in the fit's variable",
             finer="down",
             sweep=(2.0**-8, 2.0**-12, 2.0**-22),
             per="2.0 * DOMAIN_RADIUS",
+            printed=2.0**-23,
         ),
-        Parameter("ISOLATION", 2.0**-10, "the same for the derivatives' roots"),
+        Parameter("ISOLATION", 2.0**-10, "last Newton step of the derivatives' roots, in the fit's variable"),
+        Parameter("LAST", 1, "the root's own refinement: 1: Newton's steps, 0: bisection", printed=0),
+        Parameter("START", 1, "Newton's first x: 1: by a cubic that is level at both ends, 0: the middle", printed=0),
+        Parameter("SAMPLES", 1, "1: nothing is looked for behind the samples' first change of sign", printed=0),
+        Parameter("MATRIX", 1, "the fit's inverse matrix, 1: in symmetric halves, 0: whole", printed=0),
     ),
     settings={
-        "no EFT": {"EFT": 0, "EVAL": 0},
-        "EFT": {"EFT": 1, "EVAL": 0},
-        "EFT + EVAL": {"EFT": 1, "EVAL": 1},
-        "Bernstein": {"BASIS": 1},
+        "no EFT": PRINTED | {"EFT": 0, "EVAL": 0},
+        "EFT": PRINTED | {"EFT": 1, "EVAL": 0},
+        "EVAL": PRINTED | {"EFT": 0, "EVAL": 1},
+        "EFT + EVAL": PRINTED | {"EFT": 1, "EVAL": 1},
+        "Bernstein": PRINTED | {"BASIS": 1},
     },
     claims=frozenset({"no_false_hit"}),
     accepts=_accepts,

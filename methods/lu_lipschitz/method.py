@@ -51,17 +51,19 @@ from collections.abc import Mapping
 from harness.contract import Method, Parameter, Precision, Surface
 
 MAX_DEGREE = 20
+PRINTED = {"SIDES": 2, "LOCAL": 0, "TRUST": 0.0, "MATRIX": 0}
 SHELLS = 16  # balls with a bound of f's roundings of their own
 DEPTHS = 6  # halvings whose growth of errors is tabulated; it falls no further
 COORDINATES = 6.0  # unit roundoffs of a point's distance from the centre by which its coordinates may be off
 
 
 def _tables(surface: Surface, _knobs: Mapping[str, float | int], precision: Precision) -> dict[str, list[float]]:
-    from harness.fitting import fit_tables
+    from harness.fitting import fit_tables, whole_tables
     from harness.rounding import sample_errors_grow, slope_errors_grow, value_errors
 
     assert surface.degree is not None
-    return fit_tables(surface.degree, "bernstein", precision) | {
+    fit = fit_tables(surface.degree, "bernstein", precision) | whole_tables(surface.degree, "bernstein", precision)
+    return fit | {
         "VALUE_ERRORS": list(value_errors(surface, SHELLS, COORDINATES)),
         "GROWTH": sample_errors_grow(surface.degree, precision, 0),
         "SLOPE_GROWTH": slope_errors_grow(surface.degree, precision, DEPTHS),
@@ -80,12 +82,17 @@ METHOD = Method(
     name="lu_lipschitz",
     source="szente",
     needs=("surface_value",),
-    libraries=("interval", "dual", "fit", "polynomial", "lu", "fit_samples"),
+    libraries=("interval", "dual", "fit", "polynomial", "lu", "fit_samples", "fit_whole"),
     parameters=(
         Parameter("BOUND", 1, "1: LU bounds, 0: control points"),
-        Parameter("SIDES", 1, "1: the slope towards zero counts, 2: the larger of both slopes' magnitudes, as printed"),
+        Parameter("SIDES", 1, "1: the slope towards zero counts, 2: the larger of both slopes' magnitudes", printed=2),
         Parameter("CULL", 1, "1: rays whose f is bounded away from zero end at once"),
-        Parameter("LOCAL", 1, "1: the bound follows the ray, 0: one bound for the whole ray"),
+        Parameter(
+            "LOCAL",
+            1,
+            "0: one bound for the whole ray, 1: of the coefficients on the next window, 2: of the ray's curve on it",
+            printed=0,
+        ),
         Parameter(
             "TOLERANCE",
             2.0**-16,
@@ -94,12 +101,19 @@ METHOD = Method(
             sweep=(2.0**-10, 2.0**-13, 2.0**-20),
             per="2.0 * DOMAIN_RADIUS",
         ),
-        Parameter("TRUST", 0.0625, "share of the worst case of f's roundings that is reckoned with; 1: all of it"),
+        Parameter(
+            "TRUST",
+            0.0625,
+            "share of the worst case of f's roundings that is reckoned with; 0: no roundings are, the fit's neither",
+            printed=0.0,
+        ),
+        Parameter("MATRIX", 1, "the fit's matrix 1: in symmetric halves, 0: whole", printed=0),
         Parameter("MAX_EVALUATIONS", 10000, "evaluations spent on one ray"),
     ),
     settings={
-        "LU bound": {"BOUND": 1, "SIDES": 2, "CULL": 1, "LOCAL": 0},
-        "control point": {"BOUND": 0, "SIDES": 2, "CULL": 0, "LOCAL": 0},
+        "LU bound": PRINTED | {"BOUND": 1, "CULL": 1},
+        "control point": PRINTED | {"BOUND": 0, "CULL": 0},
+        "LU bound on subintervals": PRINTED | {"BOUND": 1, "CULL": 1, "LOCAL": 2},
     },
     claims=frozenset({"conservative_bound", "no_false_hit"}),
     accepts=_accepts,

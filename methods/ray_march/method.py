@@ -22,13 +22,22 @@ from harness.contract import Method, Parameter
 METHOD = Method(
     name="ray_march",
     source="szente",
-    needs=("surface_along", "surface_value_along"),
+    needs=("surface_value", "surface_along", "surface_value_along"),
     parameters=(
         Parameter("STEPS", 10000, "steps across the domain's diameter", finer="up", sweep=(100, 300, 1000)),
         Parameter(
-            "REFINEMENTS", 12, "bisections of the bracketing step", finer="up", per="2.0 * DOMAIN_RADIUS / real(STEPS)"
+            "REFINEMENTS",
+            12,
+            "bisections of the bracketing step",
+            finer="up",
+            per="2.0 * DOMAIN_RADIUS / real(STEPS)",
+            printed=8,
         ),
+        Parameter("EXPAND", 1, "what is marched to degree 4: 1: f's expansion along the ray, 0: f itself", printed=0),
+        Parameter("BLOCK", 8, "steps that are looked at together", printed=1),
+        Parameter("SECANT", 1, "1: a secant step ends the search, 0: the bracket's far end is the hit", printed=0),
     ),
+    settings={"ray marching": {"REFINEMENTS": 8, "EXPAND": 0, "BLOCK": 1, "SECANT": 0}},
     claims=frozenset({"no_false_hit", "error_below_tolerance"}),
     tolerance=lambda surface, knobs: 2.0 * surface.domain.radius / knobs["STEPS"] * 0.5 ** knobs["REFINEMENTS"],
 )
