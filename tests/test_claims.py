@@ -244,13 +244,19 @@ def test_a_study_decides_and_a_changed_digit_refutes(tmp_path: Path) -> None:
 
 def test_the_checklist_and_the_tables_stand_in_the_report(tmp_path: Path) -> None:
     cells = [planted(pick, "sphere", ms) for pick, ms in ((picks.MARCH, 38.4), (picks.FIT, 1.0), (picks.NO_EFT, 0.61))]
+    cells += [planted(pick, "sphere", ms) for pick, ms in ((picks.MARCH_OURS, 4.0), (picks.FIT_OURS, 0.4))]
+    cells += [planted(pick, "sphere", 0.5) for pick in picks.FIT_CHANGES[:1]]
     cells += [planted(pick, "flirt", ms) for pick, ms in ((picks.CONTROL, 3.5), (picks.LU, 2.0), (picks.MARCH, 23.2))]
     _, report = reported(tiny_run(tmp_path / "run", *cells))
     by_title = {section.title: printed(section.blocks) for section in report.sections}
     assert "23.6 times as fast as ray marching, in the mean. | confirmed" in by_title["The papers' claims"]
     line = next(line for line in by_title["szente, Table 4"].splitlines() if line.startswith("sphere"))
-    assert line.endswith("38.4× | 38.4× | 1.00×"), "ours, the paper's and their ratio"
+    assert line.endswith("38.4× | 38.4× | 1.00× | 0.400 | 4.00 | 10.0×"), "ours, the paper's, their ratio; our best"
     assert "| 39 | 39 |" in line, "EFT's share of the time, ours and the paper's"
+    line = next(
+        line for line in by_title["szente, what our changes are worth"].splitlines() if "Newton's steps" in line
+    )
+    assert "| 2.00× | 2.00× | 2.00× |" in line
     line = next(line for line in by_title["szente, Table 5"].splitlines() if line.startswith("flirt"))
     assert "1.75× | 1.75× | 1.00× | 11.6× | 11.6×" in line
 

@@ -15,7 +15,8 @@ LOOP_BLINN = Pick("Loop-Blinn", "analytic", {"SCREEN": 1, "POLISH": 0, "NEAR": 0
 ANALYTIC = Pick("closed form", "analytic", {"SCREEN": 0, "POLISH": 0})
 TABLE_1 = (STURM, BISECTION, ONE_RAY, TWO_RAYS, NEWTON_5, NEWTON_3)
 
-MARCH = Pick("ray marching", "ray_march", {"REFINEMENTS": 8, "EXPAND": 0, "BLOCK": 1, "SECANT": 0})
+_MARCH = {"REFINEMENTS": 8, "EXPAND": 0, "BLOCK": 1, "SECANT": 0}
+MARCH = Pick("ray marching", "ray_march", _MARCH)
 MARCH_OURS = Pick("our ray marching", "ray_march", {"REFINEMENTS": 12, "EXPAND": 1, "BLOCK": 8, "SECANT": 1})
 _PRINTED = {"LAST": 0, "TOLERANCE": 2.0**-23, "START": 0, "SAMPLES": 0, "MATRIX": 0}
 _FIT = _PRINTED | {"BASIS": 0, "EFT": 1, "EVAL": 1}
@@ -27,6 +28,16 @@ BERNSTEIN_NEITHER = Pick("neither, Bernstein", "eft_yuksel", _FIT | {"BASIS": 1,
 BERNSTEIN_NO_EVAL = Pick("EFT without EVAL, Bernstein", "eft_yuksel", _FIT | {"BASIS": 1, "EVAL": 0})
 _OURS = {"LAST": 1, "TOLERANCE": 2.0**-18, "START": 1, "SAMPLES": 1, "MATRIX": 1}
 FIT_OURS = Pick("our EFT + EVAL", "eft_yuksel", _FIT | _OURS)
+FIT_CHANGES = (  # ours against what szente prints, one at a time
+    Pick("Newton's steps to the root, not bisection of f", "eft_yuksel", _FIT | {"LAST": 1, "TOLERANCE": 2.0**-18}),
+    Pick("Newton's method starts by a cubic, not in the middle", "eft_yuksel", _FIT | {"START": 1}),
+    Pick("nothing looked for behind the samples' change of sign", "eft_yuksel", _FIT | {"SAMPLES": 1}),
+    Pick("the inverse matrix in halves, nodes rounded first", "eft_yuksel", _FIT | {"MATRIX": 1}),
+)
+MARCH_CHANGES = (
+    Pick("8 steps looked at together, not one", "ray_march", _MARCH | {"BLOCK": 8}),
+    Pick("f's expansion to degree 4, not f", "ray_march", _MARCH | {"EXPAND": 1}),
+)
 YUKSEL = Pick("Yuksel on the expansion", "yuksel", {"START": 0})
 _LU = {"BOUND": 1, "SIDES": 2, "CULL": 1, "LOCAL": 0, "TRUST": 0.0, "MATRIX": 0}
 LU = Pick("LU bound", "lu_lipschitz", _LU)
