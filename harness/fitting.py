@@ -63,8 +63,8 @@ def _in_two_parts(name: str, values: Iterable[Fraction], precision: Precision) -
 
 
 def whole_tables(degree: int, basis: Basis, precision: Precision) -> dict[str, list[float]]:
-    """INVERSE_HI and INVERSE_LO, row by row, as szente prints it: of nodes in double precision, whatever kernels make of
-    the nodes, and rounded to double precision before it is parted."""
+    """INVERSE_HI and INVERSE_LO, row by row, as szente prints it: of nodes in double precision, whatever kernels make
+    of the nodes, and rounded to double precision before it is parted."""
     rows = inverse(degree, basis, "float64")
     doubles = (Fraction(float(value)) for row in rows for value in row)
     return _in_two_parts("INVERSE", doubles, precision)

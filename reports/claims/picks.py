@@ -17,7 +17,7 @@ TABLE_1 = (STURM, BISECTION, ONE_RAY, TWO_RAYS, NEWTON_5, NEWTON_3)
 
 _MARCH = {"REFINEMENTS": 8, "EXPAND": 0, "BLOCK": 1, "SECANT": 0}
 MARCH = Pick("ray marching", "ray_march", _MARCH)
-MARCH_OURS = Pick("our ray marching", "ray_march", {"REFINEMENTS": 12, "EXPAND": 1, "BLOCK": 8, "SECANT": 1})
+MARCH_OURS = Pick("ray marching in blocks", "ray_march", {"REFINEMENTS": 12, "EXPAND": 1, "BLOCK": 8, "SECANT": 1})
 _PRINTED = {"LAST": 0, "TOLERANCE": 2.0**-23, "START": 0, "SAMPLES": 0, "MATRIX": 0}
 _FIT = _PRINTED | {"BASIS": 0, "EFT": 1, "EVAL": 1}
 FIT = Pick("EFT + EVAL", "eft_yuksel", _FIT)

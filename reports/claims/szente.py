@@ -13,6 +13,7 @@ from reports.claims.model import (
     Verdict,
     count,
     counted,
+    each_mean,
     known,
     mean_ratio,
     quantities,
@@ -87,15 +88,15 @@ def _no_artifacts(evidence: Evidence) -> Verdict | None:
 
 
 def _speedup(evidence: Evidence) -> Verdict | None:
-    ratios = evidence.ratios(picks.MARCH, picks.FIT, picks.TABLE_4)
-    if ratios.empty:
+    step_by_step = evidence.ratios(picks.MARCH, picks.FIT, picks.TABLE_4)
+    if step_by_step.empty:
         return None
-    figure = f"{quantities(ratios['ratio'])}; the paper: 23.6× (3.3× to 38.4×)"
-    for words, fit in (("as printed", picks.FIT), ("at our best", picks.FIT_OURS)):
-        ours = evidence.ratios(picks.MARCH_OURS, fit, picks.TABLE_4)
-        if len(ours):
-            figure += f"; the fit {words} over our march: {quantities(ours['ratio'])}"
-    return verdict(mean_ratio(ratios, 23.6), figure)
+    in_blocks = evidence.ratios(picks.MARCH_OURS, picks.FIT, picks.TABLE_4)
+    best = evidence.ratios(picks.MARCH_OURS, picks.FIT_OURS, picks.TABLE_4)
+    figure = f"over marching step by step {quantities(step_by_step['ratio'])}"
+    figure += f"; over the same march in blocks {quantities(in_blocks['ratio'])}" if len(in_blocks) else ""
+    figure += f"; both at our best {quantities(best['ratio'])}" if len(best) else ""
+    return verdict(each_mean([step_by_step, in_blocks], 23.6), f"{figure}; the paper: 23.6× (3.3× to 38.4×)")
 
 
 def _values_suffice(evidence: Evidence) -> Verdict | None:
@@ -259,7 +260,8 @@ CLAIMS = (
         PAPER,
         "4",
         "23.6 times as fast as ray marching, in the mean.",
-        "Time of ray marching over EFT + EVAL, both as printed, seven surfaces",
+        "Time of ray marching over EFT + EVAL as printed, seven surfaces, by both ways to march: step by step, and in "
+        "blocks of 8 steps, since the paper does not say how its loop was scheduled",
         _speedup,
         _EFT,
         TABLE_4,

@@ -12,9 +12,9 @@ from reports.claims.model import (
     both,
     count,
     counted,
+    each_mean,
     known,
     lost,
-    mean_ratio,
     quantities,
     verdict,
 )
@@ -77,13 +77,15 @@ def _out_of_steps(evidence: Evidence) -> Verdict | None:
 
 
 def _lu_over_marching(evidence: Evidence) -> Verdict | None:
-    ratios = evidence.ratios(picks.MARCH, picks.LU, picks.TABLE_5)
-    if ratios.empty:
+    step_by_step = evidence.ratios(picks.MARCH, picks.LU, picks.TABLE_5)
+    if step_by_step.empty:
         return None
-    figure = f"{quantities(ratios['ratio'])}; the paper's text: 4.8× and 7×"
-    ours = evidence.ratios(picks.MARCH_OURS, picks.LU_OURS, picks.TABLE_5)
-    figure += f"; both at our best: {quantities(ours['ratio'])}" if len(ours) else ""
-    return verdict(mean_ratio(ratios, 4.8), figure)
+    in_blocks = evidence.ratios(picks.MARCH_OURS, picks.LU, picks.TABLE_5)
+    best = evidence.ratios(picks.MARCH_OURS, picks.LU_OURS, picks.TABLE_5)
+    figure = f"over marching step by step {quantities(step_by_step['ratio'])}"
+    figure += f"; over the same march in blocks {quantities(in_blocks['ratio'])}" if len(in_blocks) else ""
+    figure += f"; both at our best {quantities(best['ratio'])}" if len(best) else ""
+    return verdict(each_mean([step_by_step, in_blocks], 4.8), f"{figure}; the paper's text: 4.8× and 7×")
 
 
 def _lu_over_control(evidence: Evidence) -> Verdict | None:
@@ -132,7 +134,7 @@ CLAIMS = (
         PAPER,
         "4",
         "LU tracing is 4.8 times as fast as ray marching.",
-        "Time of ray marching over LU, both as printed, mean of four surfaces",
+        "Time of ray marching, step by step and in blocks, over LU as printed, mean of four surfaces",
         _lu_over_marching,
         _LU,
         TABLE_5,
