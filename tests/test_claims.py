@@ -100,6 +100,10 @@ def test_planted_wrong_rays_flip_a_verdict(tmp_path: Path) -> None:
         cells = (planted(pick, octic, 1.0, wrong_root=bad), planted(picks.FIT, octic, 1.0))
         assert outcome(f"{pick.method}{bad}{words[:3]}", words, *cells) is expected
 
+    for bad, expected in ((0, Outcome.CONFIRMED), (1, Outcome.REFUTED)):
+        cells = (planted(picks.FIT, "scattered", 2.0, wrong_root=bad), planted(picks.YUKSEL, "scattered", 1.0))
+        assert outcome(f"values {bad}", "Values of f and its degree", *cells) is expected
+
     lu = "misses no surface feature"
     assert outcome("lu-right", lu, planted(picks.LU, "flirt", 1.0)) is Outcome.CONFIRMED
     assert outcome("lu-wrong", lu, planted(picks.LU, "flirt", 1.0, misses=1)) is Outcome.REFUTED

@@ -151,7 +151,7 @@ CLAIMS = (
     Claim(
         PAPER,
         "5",
-        "LU bounds on subintervals, each extremum moved into the interval, may be faster still (future work).",
+        "LU bounds on subintervals, each extremum moved into the interval, are faster still (future work).",
         "Time of one bound for the ray over LU bounds on the next step's interval",
         _subintervals,
         _LU,
