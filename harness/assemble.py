@@ -27,7 +27,7 @@ from harness.contract import (
 )
 
 KERNELS = Path(__file__).parent / "kernels"
-AFTER_TABLES = ("fit_samples",)  # libraries that read the surface's degree and the method's tables
+AFTER_TABLES = ("fit_samples", "fit_whole")  # libraries that read the surface's degree and the method's tables
 TORUS = "(x^2 + y^2 + z^2 + R^2 - r^2)^2 - 4*R^2*(x^2 + y^2)"  # about z, as the catalog writes it
 PROXY_SIDES = 16  # of the polygon about a ball's outline: 1.3 % more than the disk
 RAY_OF_PIXEL = ("camera", "raster_view", "raster_ray")

@@ -54,10 +54,11 @@ class MethodChoice:
 
 @dataclass(frozen=True)
 class SurfaceChoice:
-    """A surface of the config's own."""
+    """A surface of the config's own; without a formula the catalog's of that name. Without a domain it is in the
+    catalog's, or in sphere:1.5."""
 
-    formula: str
-    domain: str = "sphere:1.5"
+    formula: str = ""
+    domain: str = ""
     parameters: dict[str, float] = field(default_factory=dict)
 
 
@@ -365,11 +366,11 @@ def _surface(name: str, parameters: Mapping[str, float], config: Config) -> Surf
     """A surface of the config's own, or of the catalog, with `parameters` bound."""
     import surfaces
 
-    if name not in config.surface:
-        return surfaces.get(name, **parameters)
-    stated = config.surface[name]
+    stated = config.surface.get(name, SurfaceChoice())
     given = {key: repr(value) for key, value in {**stated.parameters, **parameters}.items()}
-    return surfaces.from_formula(stated.formula, stated.domain, name=name, parameters=given)
+    if not stated.formula:
+        return cut(surfaces.get(name, **given), stated.domain)
+    return surfaces.from_formula(stated.formula, stated.domain or "sphere:1.5", name=name, parameters=given)
 
 
 def load(path: Path, catalog: Catalog) -> Experiment:

@@ -10,12 +10,14 @@ other. With s the samples, rows of the two tables are
     monomial    c[2 r] = sum of EVEN[r, i] (s[n-i] + s[i]),      c[2 r + 1] = sum of ODD[r, i] (s[n-i] - s[i])
     Bernstein   (b[n-r] + b[r]) / 2, the same with EVEN,         (b[n-r] - b[r]) / 2, the same with ODD
 
-over i = 0 … n/2, the middle sample of an even n taken once, and over i = 0 … (n-1)/2.
+over i = 0 … n/2, the middle sample of an even n taken once, and over i = 0 … (n-1)/2. `whole_tables` gives the inverse
+as the paper has it instead.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from fractions import Fraction
 from typing import Literal
 
@@ -50,6 +52,24 @@ def inverse(degree: int, basis: Basis, precision: Precision) -> list[list[Fracti
     return [[Fraction(int(v.p), int(v.q)) for v in line] for line in solved]
 
 
+def _in_two_parts(name: str, values: Iterable[Fraction], precision: Precision) -> dict[str, list[float]]:
+    """The values to about twice the precision: tables {name}_HI and {name}_LO."""
+    exact = list(values)
+    first = [_rounded(value, precision) for value in exact]
+    return {
+        f"{name}_HI": [float(value) for value in first],
+        f"{name}_LO": [float(value - hi) for value, hi in zip(exact, first, strict=True)],
+    }
+
+
+def whole_tables(degree: int, basis: Basis, precision: Precision) -> dict[str, list[float]]:
+    """INVERSE_HI and INVERSE_LO, row by row, as szente prints it: of nodes in double precision, whatever kernels make
+    of the nodes, and rounded to double precision before it is parted."""
+    rows = inverse(degree, basis, "float64")
+    doubles = (Fraction(float(value)) for row in rows for value in row)
+    return _in_two_parts("INVERSE", doubles, precision)
+
+
 def fit_tables(degree: int, basis: Basis, precision: Precision) -> dict[str, list[float]]:
     """NODES, and EVEN and ODD in two parts each (…_HI, …_LO), row by row."""
     exact, n = inverse(degree, basis, precision), degree
@@ -62,10 +82,7 @@ def fit_tables(degree: int, basis: Basis, precision: Precision) -> dict[str, lis
     parameters = [x if basis == "monomial" else (1 + x) / 2 for x in nodes(degree, precision)]
     tables = {"NODES": [float(_rounded(x, precision)) for x in parameters]}
     for name, rows in (("EVEN", even), ("ODD", odd)):
-        values = [value for row in rows for value in row]
-        first = [_rounded(value, precision) for value in values]
-        tables[f"{name}_HI"] = [float(value) for value in first]
-        tables[f"{name}_LO"] = [float(value - hi) for value, hi in zip(values, first, strict=True)]
+        tables |= _in_two_parts(name, (value for row in rows for value in row), precision)
     return tables
 
 

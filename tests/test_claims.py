@@ -128,6 +128,10 @@ def test_planted_wrong_rays_flip_a_verdict(tmp_path: Path) -> None:
         cells = (planted(pick, octic, 1.0, wrong_root=bad), planted(picks.FIT, octic, 1.0))
         assert outcome(f"{pick.method}{bad}{words[:3]}", words, *cells) is expected
 
+    for bad, expected in ((0, Outcome.CONFIRMED), (1, Outcome.REFUTED)):
+        cells = (planted(picks.FIT, "scattered", 2.0, wrong_root=bad), planted(picks.YUKSEL, "scattered", 1.0))
+        assert outcome(f"values {bad}", "Values of f and its degree", *cells) is expected
+
     lu = "misses no surface feature"
     assert outcome("lu-right", lu, planted(picks.LU, "flirt", 1.0)) is Outcome.CONFIRMED
     assert outcome("lu-wrong", lu, planted(picks.LU, "flirt", 1.0, misses=1)) is Outcome.REFUTED
@@ -217,6 +221,13 @@ def test_times_whose_intervals_meet_or_are_not_proved_decide_nothing(tmp_path: P
     ):
         cells = [spread(planted(picks.MARCH, "sphere", ratio), width), spread(planted(picks.FIT, "sphere", 1.0), 0.0)]
         assert claims.judge(mean, evidence(tmp_path / f"{ratio} {width}", *cells)).outcome is expected
+    for blocks, expected in ((24.0, Outcome.CONFIRMED), (20.0, Outcome.UNDECIDED)):
+        marches = ((picks.MARCH, 90.0), (picks.MARCH_OURS, blocks), (picks.FIT, 1.0))
+        cells = [planted(pick, "sphere", ms) for pick, ms in marches]
+        for made in cells:
+            median = made["time"]["median_ms"]
+            made["time"] |= {"lower_ms": 0.999 * median, "upper_ms": 1.001 * median}
+        assert claims.judge(mean, evidence(tmp_path / f"in blocks {blocks}", *cells)).outcome is expected
 
 
 def test_variants_timed_in_the_same_rounds_are_told_apart_by_these(tmp_path: Path) -> None:
@@ -316,13 +327,21 @@ def test_a_study_decides_and_a_changed_digit_refutes(tmp_path: Path) -> None:
 
 def test_the_checklist_and_the_tables_stand_in_the_report(tmp_path: Path) -> None:
     cells = [planted(pick, "sphere", ms) for pick, ms in ((picks.MARCH, 38.4), (picks.FIT, 1.0), (picks.NO_EFT, 0.61))]
+    cells += [planted(pick, "sphere", ms) for pick, ms in ((picks.MARCH_OURS, 28.0), (picks.FIT_OURS, 0.4))]
+    cells += [planted(pick, "sphere", 0.5) for pick in picks.FIT_CHANGES[:1]]
     cells += [planted(pick, "flirt", ms) for pick, ms in ((picks.CONTROL, 3.5), (picks.LU, 2.0), (picks.MARCH, 23.2))]
     _, report = reported(tiny_run(tmp_path / "run", *cells))
     by_title = {section.title: printed(section.blocks) for section in report.sections}
     assert "23.6 times as fast as ray marching, in the mean. | confirmed" in by_title["The papers' claims"]
     line = next(line for line in by_title["szente, Table 4"].splitlines() if line.startswith("sphere"))
-    assert line.endswith("38.4× | 38.4× | 1.00×"), "ours, the paper's and their ratio"
+    assert line.endswith("38.4× | 38.4× | 1.00× | 28.0 | 28.0× | 0.400 | 70.0×"), (
+        "ours, the paper's, their ratio; our best"
+    )
     assert "| 39 | 39 |" in line, "EFT's share of the time, ours and the paper's"
+    line = next(
+        line for line in by_title["szente, what our changes are worth"].splitlines() if "Newton's steps" in line
+    )
+    assert "| 2.00× | 2.00× | 2.00× |" in line
     line = next(line for line in by_title["szente, Table 5"].splitlines() if line.startswith("flirt"))
     assert "1.75× | 1.75× | 1.00× | 11.6× | 11.6×" in line
 

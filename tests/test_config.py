@@ -4,7 +4,7 @@ from pathlib import Path
 import pytest
 
 from harness import config, plan
-from harness.contract import DeviceInfo, FirsthitError
+from harness.contract import DeviceInfo, FirsthitError, Sphere
 from harness.plugins import find_methods
 
 GOOD = """title = "t"
@@ -86,6 +86,14 @@ def test_a_surface_of_the_configs_own(tmp_path):
     assert _load(tmp_path, text).surfaces[0].degree == 2
     with pytest.raises(FirsthitError, match=r"c\.toml:9: "):
         _load(tmp_path, text.replace("y^2 - a", "y^2 - b"))
+
+
+def test_a_surface_of_the_catalog_in_another_domain(tmp_path):
+    text = GOOD.replace('["sphere"]', '["torus"]') + '[surface.torus]\ndomain = "sphere:1"\nparameters = { r = 0.2 }\n'
+    torus = _load(tmp_path, text).surfaces[0]
+    assert (torus.title, torus.domain, dict(torus.parameters)["r"]) == ("Torus", Sphere(1.0), "0.2")
+    with pytest.raises(FirsthitError, match=r"c\.toml:8: there is no surface 'tours'"):
+        _load(tmp_path, text.replace('"torus"]', '"tours"]').replace("surface.torus", "surface.tours"))
 
 
 def test_the_papers_own_settings_go_by_name(tmp_path):

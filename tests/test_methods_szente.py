@@ -282,7 +282,7 @@ def test_degrees_from_1_to_20(method, formula):
 
 @pytest.mark.parametrize("name", ["flirt", "calyx", "barth_sextic"])
 @pytest.mark.parametrize("bound", [0, 1])
-@pytest.mark.parametrize("local", [0, 1])
+@pytest.mark.parametrize("local", [0, 1, 2])
 def test_every_way_of_bounding_gives_the_same_picture(name, bound, local):
     for cull in (0, 1):
         wrong, error = _score(_fast(), "lu_lipschitz", name, BOUND=bound, LOCAL=local, CULL=cull)
@@ -295,10 +295,10 @@ def test_bounds_that_follow_the_ray_take_fewer_evaluations_and_lu_no_more_than_c
     spent = {
         (bound, local): _cast(device, "lu_lipschitz", surface, rays, BOUND=bound, LOCAL=local).evaluations.mean()
         for bound in (0, 1)
-        for local in (0, 1)
+        for local in (0, 1, 2)
     }
     assert spent[1, 1] < 0.25 * spent[1, 0]
-    assert spent[1, 0] < spent[0, 0]
+    assert spent[1, 1] < spent[1, 2] < spent[1, 0] < spent[0, 0]
 
 
 def test_a_spent_budget_is_exhausted_and_never_a_miss(device):

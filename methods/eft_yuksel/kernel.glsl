@@ -27,7 +27,7 @@ Hit first_hit(Ray ray, real t0, real t1) {
     real last = NODES[N];
     real at_last = s[N];
     for (int i = N - 1; i > 0; i--) {
-        if ((s[i] < 0.0) != below) {
+        if (SAMPLES == 1 && (s[i] < 0.0) != below) {
             last = NODES[i];
             at_last = s[i];
         }
@@ -36,14 +36,20 @@ Hit first_hit(Ray ray, real t0, real t1) {
     real c[COEFFICIENTS];
     real q[COEFFICIENTS];
     real x[COEFFICIENTS];
-    fit(s, BERNSTEIN, EFT == 1, c);
-    derivative(c, 1, q);
+    if (MATRIX == 1) { fit(s, BERNSTEIN, EFT == 1, c); } else { fit_whole(s, EFT == 1, c); }
     x[0] = NODES[0];
-    x[1] = N == 1 ? last : linear_root(q, BERNSTEIN, NODES[0], last);
-    x[2] = last;
-    for (int d = 2; d < N; d++) {
+    if (N > 2) {
+        derivative(c, 2, q);
+        x[3] = last;
+        quadratic_roots(x, q, BERNSTEIN);
+    } else {
+        derivative(c, 1, q);
+        x[1] = N == 1 ? last : linear_root(q, BERNSTEIN, NODES[0], last);
+        x[2] = last;
+    }
+    for (int d = 3; d < N; d++) {
         derivative(c, d, q);
-        split_at_roots(x, q, d, BERNSTEIN, ISOLATION);
+        split_at_roots(x, q, d, BERNSTEIN, ISOLATION, START == 0);
     }
     derivative(c, N, q);
 
@@ -69,7 +75,17 @@ Hit first_hit(Ray ray, real t0, real t1) {
         }
     }
     if ((to < 0.0) == below) return hit;
-    Bracket bracket = make_end_bracket(a, b, from, to, piece, N);
+    if (LAST == 0) {
+        for (int i = 0; i < MOST_STEPS && b - a > TOLERANCE; i++) {
+            real middle = 0.5 * (a + b);
+            real f = EVAL == 1 ? surface_value(ray_point(ray, start + reach * middle))
+                               : polynomial_dual(q, N, BERNSTEIN, middle).value;
+            hit.evaluations += EVAL;
+            if ((f < 0.0) == below) { a = middle; } else { b = middle; }
+        }
+        return hit_at(hit, start + reach * (0.5 * (a + b)));
+    }
+    Bracket bracket = START == 1 ? make_end_bracket(a, b, from, to, piece, N) : bracket_from(a, b, 0.5);
     for (int i = 0; i < MOST_STEPS && bracket.step > TOLERANCE; i++) {
         Dual f = polynomial_dual(q, N, BERNSTEIN, bracket.x);
         if (EVAL == 1) f.value = surface_value(ray_point(ray, start + reach * bracket.x));

@@ -18,19 +18,29 @@ void restrict_to(real x, real width, IN real d[COEFFICIENTS], int degree, OUT re
     }
 }
 
-real least_value(IN real b[COEFFICIENTS], int degree) {
-    return lower_bound(BOUND == 1 ? lu_curve(b, degree) : control_point_curve(b, degree), degree);
+LowerCurve bound_of(IN real b[COEFFICIENTS], int degree) {
+    if (BOUND == 1) return lu_curve(b, degree);
+    return control_point_curve(b, degree);
 }
 
-// A bound of how steeply the polynomial with the derivative's coefficients d falls, or (SIDES 2) falls or rises.
-real steepest_slope(IN real d[COEFFICIENTS], int degree) {
-    real slope = -least_value(d, degree);
-    if (SIDES == 2) {
-        real negative[COEFFICIENTS];
-        for (int j = 0; j <= degree; j++) negative[j] = -d[j];
-        slope = max(slope, -least_value(negative, degree));
-    }
-    return slope;
+LowerCurve bound_of_negative(IN real b[COEFFICIENTS], int degree) {
+    real negative[COEFFICIENTS];
+    for (int j = 0; j <= degree; j++) negative[j] = -b[j];
+    return bound_of(negative, degree);
+}
+
+// A bound of the polynomial's least value: on [0, 1], or (LOCAL 2) on [a, b], where a curve whose lowest point lies
+// outside is lowest at the nearer end. Where TRUST is 0 the curve's own roundings do not count.
+real least_value(LowerCurve curve, real a, real b, int degree) {
+    real lowest_at = LOCAL == 2 ? clamp(curve.lowest_at, a, b) : curve.lowest_at;
+    return curve_value(curve, lowest_at, degree) - (TRUST > 0.0 ? curve_error(curve, degree) : real(0));
+}
+
+// A bound of how steeply a polynomial falls there, or (SIDES 2) falls or rises. The curves are nowhere above its
+// derivative, of this degree, and the derivative's negative.
+real steepest_slope(LowerCurve falling, LowerCurve rising, real a, real b, int degree) {
+    real slope = -least_value(falling, a, b, degree);
+    return SIDES == 2 ? max(slope, -least_value(rising, a, b, degree)) : slope;
 }
 
 real largest(IN real b[COEFFICIENTS], int degree) {
@@ -48,12 +58,14 @@ real value_error(real away) {
 
 // What the fit's coefficients are off by where samples are off by `off` and no coefficient is larger.
 real coefficient_error(real off, real size) {
+    if (TRUST == 0.0) return 0.0;
     return GROWTH[0] * off + 6.0 * UNIT_ROUNDOFF * size;
 }
 
 // The same of the derivative's coefficients, none larger than `slope`, on a piece at most `window` of the ray's stay:
 // differences of what the fit rounds, and two roundings of each of restrict_to's steps.
 real slope_error(real off, real size, real slope, real window) {
+    if (TRUST == 0.0) return 0.0;
     real growth = SLOPE_GROWTH[0];
     real piece = 1.0;
     for (int k = 1; k <= DEPTHS; k++) {
@@ -70,7 +82,7 @@ Hit first_hit(Ray ray, real t0, real t1) {
     for (int i = 0; i <= N; i++) s[i] = surface_value(ray_point(ray, t0 + reach * NODES[i]));
     hit.evaluations = N + 1;
     real b[COEFFICIENTS];
-    fit(s, true, true, b);
+    if (MATRIX == 1) { fit(s, true, true, b); } else { fit_whole(s, true, b); }
     real sign = s[0] < 0.0 ? real(-1) : real(1);
     for (int j = 0; j <= N; j++) b[j] = sign * b[j];
     vec3 from_center = difference(ray.origin, DOMAIN_CENTER);  // at t, squared: near + (drift + t) t
@@ -78,13 +90,16 @@ Hit first_hit(Ray ray, real t0, real t1) {
     real drift = 2.0 * inner_product(from_center, ray.direction);
     real off = value_error(near + max((drift + t0) * t0, (drift + t1) * t1));
     real size = largest(b, N);
-    if (CULL == 1 && least_value(b, N) > coefficient_error(off, size)) return hit;
+    if (CULL == 1 && least_value(bound_of(b, N), 0.0, 1.0, N) > coefficient_error(off, size)) return hit;
 
     real d[COEFFICIENTS];
     real e[COEFFICIENTS];
     for (int j = 0; j < N; j++) d[j] = real(N) * (b[j + 1] - b[j]);
     real slope = largest(d, N - 1);
-    real steepest = slope_error(off, size, slope, 1.0) + steepest_slope(d, N - 1);
+    LowerCurve falling = bound_of(d, N - 1);
+    LowerCurve rising = falling;
+    if (SIDES == 2) rising = bound_of_negative(d, N - 1);
+    real steepest = slope_error(off, size, slope, 1.0) + steepest_slope(falling, rising, 0.0, 1.0, N - 1);
     real window = 1.0;
     real a = 0.0;
     real x = 0.0;
@@ -95,7 +110,12 @@ Hit first_hit(Ray ray, real t0, real t1) {
         if (hit.evaluations >= MAX_EVALUATIONS) return exhausted(hit, t0 + reach * x);
         if (LOCAL == 1 && window < 1.0) {
             restrict_to(x, window, d, N - 1, e);
-            steepest = slope_error(off, size, slope, window) + steepest_slope(e, N - 1);
+            falling = bound_of(e, N - 1);
+            if (SIDES == 2) rising = bound_of_negative(e, N - 1);
+            steepest = slope_error(off, size, slope, window) + steepest_slope(falling, rising, 0.0, 1.0, N - 1);
+        }
+        if (LOCAL == 2 && window < 1.0) {
+            steepest = slope_error(off, size, slope, 1.0) + steepest_slope(falling, rising, x, x + window, N - 1);
         }
         real step = max(TOLERANCE, fx < steepest * window ? fx / steepest : window);
         a = x;
@@ -103,7 +123,7 @@ Hit first_hit(Ray ray, real t0, real t1) {
         x = min(x + step, 1.0);
         fx = sign * surface_value(ray_point(ray, t0 + reach * x));
         hit.evaluations += 1;
-        window = LOCAL == 1 ? min(2.0 * step, 1.0 - x) : 1.0;
+        window = LOCAL > 0 ? min(2.0 * step, 1.0 - x) : 1.0;
     }
     if (!(fx <= 0.0)) return exhausted(hit, t0 + reach * x);
     return hit_at(hit, t0 + reach * (fx < fa ? a + (x - a) * (fa / (fa - fx)) : x));

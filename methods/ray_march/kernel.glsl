@@ -1,5 +1,7 @@
 // Equidistant steps until f changes sign, then bisection of that step (szente's baseline).
-#define BLOCK 8
+real marched_value(Ray ray, Along along, real t) {
+    return EXPAND == 1 ? surface_value_along(along, t) : surface_value(ray_point(ray, t));
+}
 
 Hit first_hit(Ray ray, real t0, real t1) {
     Hit hit = no_hit(t1);
@@ -7,17 +9,17 @@ Hit first_hit(Ray ray, real t0, real t1) {
     real step = 2.0 * DOMAIN_RADIUS / real(STEPS);
     real a = t0;
     real b = t0;
-    real fa = surface_value_along(along, t0);
+    real fa = marched_value(ray, along, t0);
     real fb = fa;
     bool below = fa < 0.0;
     hit.evaluations = 1;
     // whole blocks without a change; their evaluations do not wait for one another
     int k = 0;
     bool same = fa != 0.0;
-    while (same && t0 + step * real(k + BLOCK) < t1) {
+    while (BLOCK > 1 && same && t0 + step * real(k + BLOCK) < t1) {
         real last = 0.0;
         for (int i = 1; i <= BLOCK; i++) {
-            last = surface_value_along(along, t0 + step * real(k + i));
+            last = marched_value(ray, along, t0 + step * real(k + i));
             same = same && last != 0.0 && (last < 0.0) == below;
         }
         hit.evaluations += BLOCK;
@@ -33,7 +35,7 @@ Hit first_hit(Ray ray, real t0, real t1) {
         fa = fb;
         k += 1;
         b = min(t0 + step * real(k), t1);
-        fb = surface_value_along(along, b);
+        fb = marched_value(ray, along, b);
         hit.evaluations += 1;
     }
     if (fb == 0.0) return hit_at(hit, b);
@@ -41,9 +43,9 @@ Hit first_hit(Ray ray, real t0, real t1) {
 
     for (int i = 0; i < REFINEMENTS; i++) {
         real m = 0.5 * (a + b);
-        real fm = surface_value_along(along, m);
+        real fm = marched_value(ray, along, m);
         if (below == (fm < 0.0)) { a = m; fa = fm; } else { b = m; fb = fm; }
     }
     hit.evaluations += REFINEMENTS;
-    return hit_at(hit, a + (b - a) * (fa / (fa - fb)));
+    return hit_at(hit, SECANT == 1 ? a + (b - a) * (fa / (fa - fb)) : b);
 }

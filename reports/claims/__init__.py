@@ -7,12 +7,22 @@ and the checklist says which config would decide it.
 from reports.claims.beamcasting import CLAIMS as _BEAMCASTING
 from reports.claims.model import Claim, Outcome, Verdict, judge
 from reports.claims.szente import CLAIMS as _SZENTE
+from reports.claims.szente_studies import CLAIMS as _SZENTE_STUDIES
 from reports.claims.szente_tracing import CLAIMS as _SZENTE_TRACING
 from reports.claims.toledo import CLAIMS as _TOLEDO
 from reports.claims.toledo_newton import CLAIMS as _NEWTON
 from reports.claims.toledo_pieces import CLAIMS as _PIECES
 from reports.claims.toledo_tori import CLAIMS as _TORI
 
-CLAIMS: tuple[Claim, ...] = (*_TOLEDO, *_NEWTON, *_PIECES, *_TORI, *_SZENTE, *_SZENTE_TRACING, *_BEAMCASTING)
+CLAIMS: tuple[Claim, ...] = (
+    *_TOLEDO,
+    *_NEWTON,
+    *_PIECES,
+    *_TORI,
+    *_SZENTE_STUDIES,
+    *_SZENTE,
+    *_SZENTE_TRACING,
+    *_BEAMCASTING,
+)
 
 __all__ = ["CLAIMS", "Claim", "Outcome", "Verdict", "judge"]

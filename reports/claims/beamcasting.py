@@ -101,8 +101,7 @@ def _beyond_algebra(evidence: Evidence) -> Verdict | None:
     if rows.empty:
         return None
     wrong = counted(rows, "misses", "wrong_root")
-    where = f"of {count(counted(rows, 'accuracy_rays'))} rays on {wording.listed(sorted(set(rows['surface_title'])))}"
-    return verdict(known(wrong, lambda n: n == 0), f"{count(wrong)} misses and wrong roots {where}")
+    return verdict(known(wrong, lambda n: n == 0), f"{count(wrong)} misses and wrong roots of {rays(rows)}")
 
 
 def _nothing_missed(evidence: Evidence) -> Verdict | None:
@@ -110,8 +109,7 @@ def _nothing_missed(evidence: Evidence) -> Verdict | None:
     if rows.empty:
         return None
     misses = counted(rows, "misses", "grazing_misses", "drowned_misses")
-    rays = counted(rows, "accuracy_rays")
-    told = f"{count(misses)} misses of {count(rays)} rays on {rows['surface'].nunique()} surfaces"
+    told = f"{count(misses)} misses of {rays(rows)}"
     return verdict(known(misses, lambda n: n == 0), told)
 
 

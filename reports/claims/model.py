@@ -87,6 +87,13 @@ def mean_ratio(ratios: pd.DataFrame, limit: float) -> bool | None:
     return at_least(low, high, limit)
 
 
+def each_mean(readings: list[pd.DataFrame], limit: float) -> bool | None:
+    """The same for several readings of one comparison, of which those without rows do not count; None where they
+    disagree."""
+    held = {mean_ratio(ratios, limit) for ratios in readings if len(ratios)}
+    return held.pop() if len(held) == 1 else None
+
+
 def known(value: Any, test: Callable[[Any], bool]) -> bool | None:
     """Whether an exact figure passes; None where it is missing."""
     return None if pd.isna(value) else bool(test(value))

@@ -28,18 +28,36 @@ ANALYTIC = Pick("closed form", "analytic", {"SCREEN": 0, "POLISH": 0})
 TABLE_1 = (STURM, BISECTION, ONE_RAY, TWO_RAYS, NEWTON_5, NEWTON_3)
 OURS_OF_TABLE_1 = (STURM_BY_SIGN, BISECTION_AT_BENDS, TWO_RAYS_AHEAD, NEWTON_5_FORWARDS, NEWTON_3_FORWARDS)
 
-MARCH = Pick("ray marching", "ray_march")
-_FIT = {"BASIS": 0, "EFT": 1, "EVAL": 1}
+_MARCH = {"REFINEMENTS": 8, "EXPAND": 0, "BLOCK": 1, "SECANT": 0}
+MARCH = Pick("ray marching", "ray_march", _MARCH)
+MARCH_OURS = Pick("ray marching in blocks", "ray_march", {"REFINEMENTS": 12, "EXPAND": 1, "BLOCK": 8, "SECANT": 1})
+_PRINTED = {"LAST": 0, "TOLERANCE": 2.0**-23, "START": 0, "SAMPLES": 0, "MATRIX": 0}
+_FIT = _PRINTED | {"BASIS": 0, "EFT": 1, "EVAL": 1}
 FIT = Pick("EFT + EVAL", "eft_yuksel", _FIT)
 NO_EFT = Pick("EVAL without EFT", "eft_yuksel", _FIT | {"EFT": 0})
 NO_EVAL = Pick("EFT without EVAL", "eft_yuksel", _FIT | {"EVAL": 0})
 NEITHER = Pick("neither", "eft_yuksel", _FIT | {"EFT": 0, "EVAL": 0})
-BERNSTEIN_NEITHER = Pick("neither, Bernstein", "eft_yuksel", {"BASIS": 1, "EFT": 0, "EVAL": 0})
-BERNSTEIN_NO_EVAL = Pick("EFT without EVAL, Bernstein", "eft_yuksel", {"BASIS": 1, "EFT": 1, "EVAL": 0})
-LU = Pick("LU bound", "lu_lipschitz", {"BOUND": 1, "CULL": 1, "LOCAL": 0})
-CONTROL = Pick("control point bound", "lu_lipschitz", {"BOUND": 0, "CULL": 0, "LOCAL": 0})
-LU_UNCULLED = Pick("LU bound without culling", "lu_lipschitz", {"BOUND": 1, "SIDES": 2, "CULL": 0, "LOCAL": 0})
-LU_LOCAL = Pick("LU bound that follows the ray", "lu_lipschitz", {"BOUND": 1, "CULL": 1, "LOCAL": 1})
+BERNSTEIN_NEITHER = Pick("neither, Bernstein", "eft_yuksel", _FIT | {"BASIS": 1, "EFT": 0, "EVAL": 0})
+BERNSTEIN_NO_EVAL = Pick("EFT without EVAL, Bernstein", "eft_yuksel", _FIT | {"BASIS": 1, "EVAL": 0})
+_OURS = {"LAST": 1, "TOLERANCE": 2.0**-18, "START": 1, "SAMPLES": 1, "MATRIX": 1}
+FIT_OURS = Pick("our EFT + EVAL", "eft_yuksel", _FIT | _OURS)
+FIT_CHANGES = (  # ours against what szente prints, one at a time
+    Pick("Newton's steps to the root, not bisection of f", "eft_yuksel", _FIT | {"LAST": 1, "TOLERANCE": 2.0**-18}),
+    Pick("Newton's method starts by a cubic, not in the middle", "eft_yuksel", _FIT | {"START": 1}),
+    Pick("nothing looked for behind the samples' change of sign", "eft_yuksel", _FIT | {"SAMPLES": 1}),
+    Pick("the inverse matrix in halves, nodes rounded first", "eft_yuksel", _FIT | {"MATRIX": 1}),
+)
+MARCH_CHANGES = (
+    Pick("8 steps looked at together, not one", "ray_march", _MARCH | {"BLOCK": 8}),
+    Pick("f's expansion to degree 4, not f", "ray_march", _MARCH | {"EXPAND": 1}),
+)
+YUKSEL = Pick("Yuksel on the expansion", "yuksel", {"START": 0})
+_LU = {"BOUND": 1, "SIDES": 2, "CULL": 1, "LOCAL": 0, "TRUST": 0.0, "MATRIX": 0}
+LU = Pick("LU bound", "lu_lipschitz", _LU)
+CONTROL = Pick("control point bound", "lu_lipschitz", _LU | {"BOUND": 0, "CULL": 0})
+LU_UNCULLED = Pick("LU bound without culling", "lu_lipschitz", _LU | {"CULL": 0})
+LU_SUBINTERVALS = Pick("LU bound on subintervals", "lu_lipschitz", _LU | {"LOCAL": 2})
+LU_OURS = Pick("our LU bound", "lu_lipschitz", {"BOUND": 1, "SIDES": 1, "CULL": 1, "LOCAL": 1, "MATRIX": 1})
 
 UNIFORM = Pick("uniform", "interval_uniform", {"GROUPED": 1})
 UNIFORM_IN_ROWS = Pick("uniform, row by row", "interval_uniform", {"GROUPED": 0})

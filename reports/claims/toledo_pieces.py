@@ -92,7 +92,9 @@ def _tetrahedron_wastes(evidence: Evidence) -> Verdict | None:
     both = tetrahedron.merge(box[["comparison", "waste"]], on="comparison", suffixes=("", "_box"))
     if both.empty:
         return None
-    times = over(tetrahedron.dropna(subset=["median_ms"]), box.dropna(subset=["median_ms"]), ["comparison", "device"])
+    times = evidence.over(
+        tetrahedron.dropna(subset=["median_ms"]), box.dropna(subset=["median_ms"]), ["comparison", "device"]
+    )
     figure = (
         f"fragments without a hit: {wording.percentage(both['waste'].min())} to "
         f"{wording.percentage(both['waste'].max())} of the tetrahedron's, "

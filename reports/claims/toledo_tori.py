@@ -145,7 +145,7 @@ def detail(evidence: Evidence) -> pd.DataFrame:
     rows = evidence.finished[evidence.finished["method"].eq(picks.STURM.method)]
     rows = rows[rows["scene"].eq("lattice")].dropna(subset=["median_ms"])
     whole, seen = (rows[rows["pixel_tolerance"].sub(size).abs() < 1e-9] for size in (0.0, DETAIL))
-    return over(whole, seen, ["comparison", "device"])
+    return evidence.over(whole, seen, ["comparison", "device"])
 
 
 def _detail_pays(evidence: Evidence) -> Verdict | None:

@@ -45,9 +45,16 @@ LowerCurve control_point_curve(IN real b[COEFFICIENTS], int degree) {
     return curve;
 }
 
+real curve_value(LowerCurve curve, real x, int degree) {
+    return curve.least + (curve.first * whole_power(1.0 - x, degree) + curve.last * whole_power(x, degree));
+}
+
+// What lowers a value of the curve by more than its rounding errors.
+real curve_error(LowerCurve curve, int degree) {
+    return real(2 * degree + 16) * UNIT_ROUNDOFF * (fabs(curve.least) + curve.first + curve.last);
+}
+
 // The curve's least value, lowered by more than its rounding errors.
 real lower_bound(LowerCurve curve, int degree) {
-    real x = curve.lowest_at;
-    real value = curve.least + (curve.first * whole_power(1.0 - x, degree) + curve.last * whole_power(x, degree));
-    return value - real(2 * degree + 16) * UNIT_ROUNDOFF * (fabs(curve.least) + curve.first + curve.last);
+    return curve_value(curve, curve.lowest_at, degree) - curve_error(curve, degree);
 }

@@ -32,6 +32,21 @@ real linear_root(IN real q[COEFFICIENTS], bool bernstein, real lo, real hi) {
     return slope == 0.0 ? hi : clamp(-q[0] / slope, lo, hi);
 }
 
+// x[1] and x[2] are the roots of a quadratic q in [x[0], x[3]], ascending, a root outside moved to the nearer end; where
+// there is none both are x[3]. By the form of the formula that does not cancel.
+void quadratic_roots(INOUT real x[COEFFICIENTS], IN real q[COEFFICIENTS], bool bernstein) {
+    real a = bernstein ? q[0] - q[1] + q[2] : q[2];
+    real b = bernstein ? q[1] - 2.0 * q[0] : q[1];
+    real discriminant = b * b - 4.0 * a * q[0];
+    real root = sqrt(max(discriminant, real(0)));
+    real sum = b < 0.0 ? b - root : b + root;
+    bool any = discriminant >= 0.0;
+    real first = clamp(any && sum != 0.0 ? -2.0 * q[0] / sum : x[3], x[0], x[3]);
+    real second = clamp(any && a != 0.0 ? -0.5 * sum / a : x[3], x[0], x[3]);
+    x[1] = min(first, second);
+    x[2] = max(first, second);
+}
+
 // What is left of an interval with a change of sign, the x to look at next, and how far that is from the last one.
 STRUCT(Bracket) struct Bracket { real a; real b; real x; real step; };
 
@@ -71,8 +86,9 @@ Bracket newton_step(Bracket bracket, Dual f, bool rising) {
 
 // One level of Yuksel's method. In: x[0] to x[degree], the ends of pieces on which q is monotone. Out: x[1] to
 // x[degree] are the pieces' roots, or a piece's far end where it has none, and x[degree + 1] is the last end: the ends
-// of pieces on which q's antiderivatives are monotone.
-void split_at_roots(INOUT real x[COEFFICIENTS], IN real q[COEFFICIENTS], int degree, bool bernstein, real tolerance) {
+// of pieces on which q's antiderivatives are monotone. Newton's method starts by the cubic, or (`middle`) in the middle.
+void split_at_roots(INOUT real x[COEFFICIENTS], IN real q[COEFFICIENTS], int degree, bool bernstein, real tolerance,
+                    bool middle) {
     real a = x[0];
     real from = polynomial_dual(q, degree, bernstein, a).value;
     x[degree + 1] = x[degree];
@@ -80,7 +96,7 @@ void split_at_roots(INOUT real x[COEFFICIENTS], IN real q[COEFFICIENTS], int deg
         real b = x[k];
         real to = polynomial_dual(q, degree, bernstein, b).value;
         if ((from < 0.0) != (to < 0.0)) {
-            Bracket bracket = make_bracket(a, b, from, to);
+            Bracket bracket = middle ? bracket_from(a, b, 0.5) : make_bracket(a, b, from, to);
             for (int i = 0; i < MOST_STEPS && bracket.step > tolerance; i++) {
                 bracket = newton_step(bracket, polynomial_dual(q, degree, bernstein, bracket.x), from < 0.0);
             }
