@@ -21,6 +21,7 @@ from reports.claims.model import (
     counted,
     known,
     quantities,
+    rays,
     untestable,
     verdict,
 )
