@@ -107,3 +107,9 @@ def test_the_page_says_what_each_change_is_worth(tmp_path: Path):
 def test_a_run_without_printed_variants_has_no_such_page(tmp_path: Path):
     _, report = reported(tiny_run(tmp_path / "run", cell("ray_march", "torus", "opencl:intel", "float32")))
     assert not [s for s in report.sections if s.title == "Deviations from the papers"]
+
+
+def test_the_projects_own_config_runs_every_change():
+    experiment = config.load(Path(__file__).parents[1] / "configs" / "deviations.toml", find_methods())
+    changed = {name for name, plugin in find_methods().plugins.items() if plugin.method.printed}
+    assert {variant.method for variant in experiment.variants} == changed | {"null"}

@@ -29,6 +29,9 @@ CAPTION = (
     "comparisons that have both."
 )
 
+_ELSE = ["prepass", "origin", "proxy", "normal"]  # what two rows of one comparison may differ in beside their knobs
+_KEYS = ["run", *derive.GROUP, *_ELSE]
+
 
 def sections(material: Material) -> list[Section]:
     """None where the run holds no method with a knob at its printed value beside its default."""
@@ -77,8 +80,10 @@ def _lines(name: str, told: Mapping[str, Any], frame: pd.DataFrame) -> Iterator[
 
 def _line(what: tuple[str, ...], ours: pd.DataFrame, theirs: pd.DataFrame) -> Iterator[tuple[Any, ...]]:
     """The line, where the two have a comparison in common."""
-    keys = [*derive.GROUP, "prepass"]
-    left, right = (rows.drop_duplicates(keys).set_index(keys) for rows in (ours, theirs))
+    left, right = (
+        rows.assign(**{name: rows[name].fillna("") for name in _ELSE}).drop_duplicates(_KEYS).set_index(_KEYS)
+        for rows in (ours, theirs)
+    )
     common = left.index.intersection(right.index)
     if common.empty:
         return
