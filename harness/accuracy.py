@@ -101,7 +101,7 @@ def undecided_hits(truth_hits: int, undecided: int, most: float, what: str = "hi
 
 
 def undecided_too_many(truth: Truth, most: float) -> str | None:
-    """As undecided_hits, of certified answers."""
+    """Do what `undecided_hits` does, for certified answers."""
     there = (truth.status == TruthStatus.CROSSING) | (truth.status == TruthStatus.TOUCH)
     return undecided_hits(int(there.sum()), int((truth.status == TruthStatus.UNDECIDED).sum()), most)
 

@@ -71,8 +71,9 @@ def _within(
 
 
 def validated_beams(hits: Hits, domain: Domain, rays: NDArray[np.float32], forward: NDArray[np.float32]) -> Hits:
-    """As `validated`, of beams brought to the rays that they hold, whose depths are along `forward`, float32[3].
+    """Do what `validated` does, for beams brought to the rays that they hold.
 
+    Depths are along `forward`, float32[3].
     A beam's hit is the middle of a piece in depth of a whole pixel: it is held against the depths of the domain's
     bounding sphere.
     """

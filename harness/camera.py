@@ -16,7 +16,7 @@ def scene_radius(surface: Surface) -> float:
 
 
 def distance_of(view: View, surface: Surface) -> float:
-    """From the eye to the target, in scene units."""
+    """Return the distance from the eye to the target, in scene units."""
     return scene_radius(surface) / math.sin(math.radians(view.fov) / 2.0) if view.distance is None else view.distance
 
 

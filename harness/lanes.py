@@ -35,7 +35,10 @@ class Tree:
 
 
 def of_frame(tree: Tree, hits: Hits, levels: NDArray[np.uint8], outputs: Sequence[Any]) -> list[dict[str, Any]] | None:
-    """What the work items of a frame's levels spend, from all outputs of its launch; None where an answer is none."""
+    """Sum up what a frame's work items spend, level by level, from all outputs of its launch.
+
+    None where an answer is invalid.
+    """
     if np.any(hits.status == RayStatus.INVALID):
         return None
     shape = (tree.size, tree.size)
@@ -44,15 +47,17 @@ def of_frame(tree: Tree, hits: Hits, levels: NDArray[np.uint8], outputs: Sequenc
 
 
 def idle_share(spent: Whole, width: int) -> float:
-    """The idle share of work items, int[n] evaluations each, in groups of `width`; 0 where nothing is spent."""
+    """Compute the idle share of work items, int[n] evaluations each, in groups of `width`; 0 where nothing is spent."""
     groups = np.pad(spent, (0, -len(spent) % width)).reshape(-1, width)
     taken = width * int(groups.max(axis=1, initial=0).sum())
     return 1.0 - int(spent.sum()) / taken if taken else 0.0
 
 
 def summary(spent: Mapping[int, Whole]) -> list[dict[str, Any]]:
-    """For each level, from its items' evaluations in their order: level, items, evaluations, and by group width the
-    idle share."""
+    """Make a dict for each level from its items' evaluations in their order.
+
+    It holds level, items, evaluations, and idle: the idle share by group width.
+    """
     return [
         {
             "level": level,
@@ -67,7 +72,7 @@ def summary(spent: Mapping[int, Whole]) -> list[dict[str, Any]]:
 def spent_by_items(
     tree: Tree, evaluations: NDArray[Any], levels: NDArray[np.uint8], queue: NDArray[Any], counts: NDArray[Any]
 ) -> dict[int, Whole]:
-    """The evaluations int[n] of each level's work items, in their order; cells outside the image spend none.
+    """Sort the evaluations int[n] of each level's work items into their order; cells outside the image spend none.
 
     evaluations, levels: [size, size], what each pixel was told. A pixel's evaluations are its cell's and its share of
     those of the cells above: what was handed down is taken off again.

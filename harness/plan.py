@@ -85,13 +85,16 @@ class Planned:
 
     @property
     def samples(self) -> int:
-        """Of the frame, per side."""
+        """Count the frame's samples per side."""
         side: float = self.cell.samples_per_pixel**0.5
         return self.cell.size * round(side)
 
     def raster_frame(self, size: int, reports: bool, free_loops: bool = False) -> Frame:
-        """What stage raster draws, size × size; with `reports`, by programs that say what they answered. `free_loops`:
-        these leave their loops to the compiler, as the timed ones do."""
+        """Build the frame that stage raster draws, size × size.
+
+        With `reports` its programs say what they answered. With `free_loops` they leave their loops to the compiler, as
+        timed ones do.
+        """
         batches = tuple(draw.batch(reports) for draw in self.draws)
         if free_loops:
             batches = tuple(dataclasses.replace(batch, program=with_free_loops(batch.program)) for batch in batches)

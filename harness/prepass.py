@@ -24,13 +24,13 @@ NEEDS = ("surface_range",)
 
 
 def parameters() -> Section:
-    """What the prepass and the rays that it narrows both have to know."""
+    """Define what the prepass and the rays that it narrows both have to know."""
     text = f"#define TILE_BITS {TILE_BITS}\n#define PREPASS_BISECTIONS {BISECTIONS}"
     return Section("generated: parameters of the prepass", text)
 
 
 def tiles_per_side(size: int) -> int:
-    """Of an image of size × size pixels."""
+    """Count the prepass's tiles on a side of an image of size × size pixels."""
     return (size - 1 >> TILE_BITS) + 1
 
 

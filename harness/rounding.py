@@ -54,8 +54,8 @@ class _Errors:
 
 @lru_cache(maxsize=128)
 def value_errors(surface: Surface, shells: int, coordinates: float) -> tuple[float, ...]:
-    """For k = 1 … shells: in unit roundoffs, what |computed f − f| may be at points of the domain within k/shells of
-    its radius of its centre, whose coordinates are off by `coordinates` unit roundoffs of that distance.
+    """Bound |computed f − f| in unit roundoffs, for k = 1 … shells, at points of the domain within k/shells of its
+    radius of its centre, whose coordinates are off by `coordinates` unit roundoffs of that distance.
 
     Only for polynomials. Raises FirsthitError where there is no finite bound.
     """
@@ -90,7 +90,7 @@ def value_errors(surface: Surface, shells: int, coordinates: float) -> tuple[flo
 
 
 def sample_errors_grow(degree: int, precision: Any, depths: int) -> list[float]:
-    """For d = 0 … depths: what an error of the samples grows to, at most, in the Bernstein coefficients of a piece that
+    """Bound for d = 0 … depths what an error of the samples grows to in the Bernstein coefficients of a piece that
     is 2^-d of the interval that the samples are of (nodes and inverse as in harness.fitting)."""
     from harness.fitting import inverse
 
@@ -103,7 +103,7 @@ def sample_errors_grow(degree: int, precision: Any, depths: int) -> list[float]:
 
 
 def slope_errors_grow(degree: int, precision: Any, depths: int) -> list[float]:
-    """For d = 0 … depths: what an error of the samples grows to, at most, in the derivative's Bernstein coefficients on
+    """Bound for d = 0 … depths what an error of the samples grows to in the derivative's Bernstein coefficients on
     any piece that is 2^-d of the interval that the samples are of, which is the unit of length (nodes and inverse as in
     harness.fitting)."""
     from harness.fitting import inverse
@@ -120,7 +120,7 @@ def slope_errors_grow(degree: int, precision: Any, depths: int) -> list[float]:
 
 
 def _restricted(rows: Any, starts: Any, widths: Any) -> Any:
-    """Of rows [m, …] of coefficients on [0, 1], those on each [start, start + width]: [pieces, m, …]."""
+    """Restrict rows [m, …] of coefficients on [0, 1] to each [start, start + width]: [pieces, m, …]."""
     pieces = np.repeat(rows[None], len(starts), axis=0)
     at, share = starts[:, None, None], (widths / (1.0 - starts))[:, None, None]
     for r in range(1, len(rows)):

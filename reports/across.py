@@ -56,11 +56,11 @@ def _table(timed: pd.DataFrame) -> Table | None:
         tuple(columns),
         body,
         "The same kernel on every device.",
-        "Faster is the slowest device's time in the row over this one's, in the rounds that timed both, among those "
-        "on which the variant answers every ray away from silhouettes rightly, and of null, which answers nothing; "
-        "each device is timed by the clock that is believed there. Overhead is what the harness's submitting and "
-        "waiting adds to the kernel's own time, as a share of that time; – where the device has no clock of its own "
-        "that is believed. Look for a device whose lead changes from variant to variant: its compiler makes more, or "
-        f"less, of one of them.{cut}",
+        "Faster is the time of the row's slowest device over this device's, in the rounds that timed both. Only those "
+        "devices count on which the variant answers every ray away from silhouettes rightly; null answers nothing and "
+        "always counts. Each device is timed by the clock that is believed there. Overhead is what the harness's "
+        "submitting and waiting adds to the kernel's own time, as a share of that time; – where the device has no "
+        "clock of its own that is believed. Look for a device whose lead changes from variant to variant: its compiler "
+        f"makes more, or less, of one of them.{cut}",
         group=2,
     )

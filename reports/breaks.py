@@ -34,7 +34,7 @@ def by_device(rungs: pd.DataFrame) -> dict[str, pd.DataFrame]:
 
 
 def verdicts(rungs: pd.DataFrame) -> pd.DataFrame:
-    """Of one device's rungs, one row for each ladder: COUNTS summed over it, `share_right`, `worst_ratio`, `breaks_at`.
+    """Sum up one device's rungs, a row for each ladder: COUNTS over it, `share_right`, `worst_ratio`, `breaks_at`.
 
     `breaks_at` is the parameter of the first rung, going harder, that breaks the variant; NaN where none does.
     """

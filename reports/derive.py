@@ -94,7 +94,7 @@ def all_right(frame: pd.DataFrame) -> pd.Series:
 
 
 def baseline_rows(timed: pd.DataFrame) -> pd.DataFrame:
-    """Of each group the row that speed-ups are over, where it answers every ray away from silhouettes rightly.
+    """Select each group's row that speed-ups are over, where it answers every ray away from silhouettes rightly.
 
     Where a method is named that has several variants, the one without bound parameters in its name, if any.
     """
@@ -115,18 +115,18 @@ def _baseline_ms(timed: pd.DataFrame) -> pd.Series:
 
 
 def baseline_of(frame: pd.DataFrame) -> str:
-    """What the speed-ups of these rows are over, in words."""
+    """Say in words what the speed-ups of these rows are over."""
     return " or ".join(dict.fromkeys(map(str, frame["baseline"]))) or BASELINE
 
 
 def floor_rows(timed: pd.DataFrame, keys: Sequence[str] = GROUP) -> pd.DataFrame:
-    """Of each group by `keys` the row of a method that answers nothing, the slowest, if any: the harness's floor."""
+    """Select in each group by `keys` the slowest row of a method that answers nothing, if any: the harness's floor."""
     floor = ~timed["answers"].astype(bool) & (timed["prepass"] != "beams")  # behind a prepass it measures that too
     return timed[floor].sort_values("median_ms", ascending=False, kind="stable").drop_duplicates(list(keys))
 
 
 def _floor_ms(frame: pd.DataFrame, timed: pd.DataFrame) -> pd.Series:
-    """By row of `frame`: the null method's time with rays of the same origin, where it was timed so; else of any."""
+    """Look up each row's null method: its time with rays of the same origin, where it was timed so, else of any."""
     own, other = (
         frame.join(floor_rows(timed, keys).set_index(keys)["median_ms"].rename("null_ms"), on=keys)["null_ms"]
         for keys in ([*GROUP, "origin"], GROUP)

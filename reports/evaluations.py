@@ -24,9 +24,10 @@ MAP = "viridis"
 EXPLANATION = (
     "Evaluations of f that each ray costs, from dark to bright on one logarithmic scale, and beside it its error, in "
     f"the colours of all pictures of this report. {wording.ZERO} Bright rings along silhouettes are rays that nearly "
-    "touch the surface: sphere tracing's critical case, in toledo2007's Fig. 4. Wrong are rays away from silhouettes; "
-    "grazing and drowned ones are counted apart, and no part of max. “Per ray cast” counts those that pass the domain "
-    "by too, as every table of this report does. Of the device with most results, in its first precision."
+    "touch the surface: sphere tracing's critical case, in toledo2007's Fig. 4. Wrong rays are those away from "
+    "silhouettes; grazing and drowned ones are counted apart, and “max” leaves them out. “Per ray cast” counts those "
+    "that pass the domain by too, as every table of this report does. Of the device with most results, in its first "
+    "precision."
 )
 
 

@@ -84,7 +84,7 @@ class Evidence:
 
     @property
     def note(self) -> str:
-        """In words, where rays begin if not as in the paper; else empty."""
+        """Say where rays begin, if not as in the paper; else empty."""
         if self.origin == self._stated:
             return ""
         return f"of rays that begin at {_WORDS[self.origin]}, where the paper's begin at {_WORDS[self._stated]}"
@@ -124,7 +124,7 @@ class Evidence:
         surfaces: Iterable[str] | None = None,
         precision: str | None = "float32",
     ) -> pd.DataFrame:
-        """How many times as long `slow` takes as `fast`: one row for each group that timed both in the same rounds.
+        """Divide the times of `slow` by those of `fast`: one row for each group that timed both in the same rounds.
 
         Columns as in `over`. Pairs that were not timed in turns are left out, and noted in `apart`.
         """
@@ -132,7 +132,7 @@ class Evidence:
         return self.over(a, b, derive.GROUP)
 
     def over(self, slow: pd.DataFrame, fast: pd.DataFrame, keys: list[str]) -> pd.DataFrame:
-        """As the function `over`; the pairs that it leaves out are noted in `apart`."""
+        """Do what the function `over` does, and note in `apart` the pairs that it leaves out."""
         found = over(slow, fast, keys)
         pairs = fast[[*keys, "key"]].merge(slow[[*keys, "key"]], on=keys, suffixes=("", "_slow"))
         every, kept = (set(zip(of["key_slow"], of["key"], strict=True)) for of in (pairs, found))

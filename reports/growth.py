@@ -121,7 +121,7 @@ def _points(frame: pd.DataFrame, axis: Axis) -> tuple[pd.DataFrame, dict[str, in
 
 
 def _over_floor(rows: pd.DataFrame, axis: Axis) -> pd.Series | None:
-    """By how much each row takes longer than its group's null method; None where the axis or the run has no such."""
+    """Compute how much longer each row takes than its group's null method; None where the axis or run has no such."""
     floors = derive.floor_rows(rows)
     if not axis.above_floor or floors.empty:
         return None
@@ -298,7 +298,7 @@ def _figure(
 
 
 def _apart(ticks: list[float]) -> list[float]:
-    """Those of rising `ticks` that stand far enough from the one before to be labelled on a logarithmic axis."""
+    """Keep those of rising `ticks` that stand far enough from the one before to be labelled on a logarithmic axis."""
     kept: list[float] = []
     for tick in ticks:
         if not kept or np.log(tick / kept[-1]) > 0.07 * np.log(ticks[-1] / ticks[0]):

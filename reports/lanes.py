@@ -1,4 +1,4 @@
-"""Rows → what the work items of a frame of beams leave idle where they run in step."""
+"""The share of lanes that the work items of a frame of beams leave idle where they run in step, read from rows."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ WARP = 32  # lanes
 
 
 def levels_of(row: Any) -> list[dict[str, Any]]:
-    """Of each level: level, items, evaluations, idle by width; none where the row has no lanes."""
+    """Read each level's numbers: level, items, evaluations, idle by width; [] where the row has no lanes."""
     return [] if wording.absent(row.lanes) else list(json.loads(row.lanes) or [])
 
 
 def idle_share(row: Any, width: int) -> float | None:
-    """The idle share of all levels together, in groups of `width` lanes; None where the row has no lanes."""
+    """Compute the idle share of all levels together in groups of `width` lanes; None where the row has no lanes."""
     levels = levels_of(row)
     spent = sum(level["evaluations"] for level in levels)
     taken = sum(level["evaluations"] / (1.0 - level["idle"][str(width)]) for level in levels)

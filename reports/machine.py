@@ -11,6 +11,7 @@ from reports.load import Plan
 
 
 def devices(plan: Plan) -> Table:
+    """List the devices of the run, each with what its probes found; columns without any value are left out."""
     body: list[tuple[Any, ...]] = []
     for device in plan.devices:
         versions = ", ".join(f"{name} {version}" for name, version in _pairs(device.get("versions")))
@@ -39,8 +40,8 @@ def devices(plan: Plan) -> Table:
     caption = (
         "The clock is the one to be believed there, and times are by it. The peak is the best rate of float32 "
         "multiply-adds, two operations each, that a launch of the probe's loops reached, however many chains it had: "
-        "what shares of a peak are of. The median is of all launches of that loop: where it is far below the peak, "
-        "other programs slowed the probe down, and the next one may find another peak."
+        "shares of a peak are shares of this rate. The median is of all launches of that loop: where it is far below "
+        "the peak, other programs slowed the probe down, and the next one may find another peak."
     )
     return Table(columns, body, "Devices of this run.", caption)
 
@@ -50,7 +51,7 @@ def _two_digits(value: Any) -> str:
 
 
 def environment(plan: Plan) -> Table:
-    """What the run was made with, one line each."""
+    """List the machine and the software that the run was made with, a line each."""
     told = {name: value for name, value in plan.environment.items() if name != "versions"}
     if told.pop("dirty", False):
         told["commit"] = f"{told.get('commit')} with uncommitted changes"
@@ -60,7 +61,7 @@ def environment(plan: Plan) -> Table:
 
 
 def _pairs(versions: Any) -> list[tuple[str, str]]:
-    """Versions as pairs, whether stored as an object or as a list of pairs."""
+    """Return versions as pairs, whether stored as an object or as a list of pairs."""
     if isinstance(versions, Mapping):
         return [(str(name), str(version)) for name, version in versions.items()]
     return [(str(pair[0]), str(pair[1])) for pair in versions or [] if isinstance(pair, list) and len(pair) == 2]

@@ -27,7 +27,7 @@ class Material:
 
     @cached_property
     def marks(self) -> Mapping[str, Mark]:
-        """By variant."""
+        """Give each variant its mark."""
         variants = pd.concat([of[["method", "variant"]] for of in (self.frame, self.run.families)])
         return style.variant_marks(variants.drop_duplicates().itertuples(index=False, name=None))
 

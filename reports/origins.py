@@ -27,7 +27,10 @@ _CAPTION = (
 
 
 def paired(frame: pd.DataFrame) -> pd.DataFrame:
-    """The timed rows of variants whose rays began at several origins in one comparison; `caster`: without origin."""
+    """Select the timed rows of variants whose rays began at several origins in one comparison.
+
+    Adds `caster`, the variant without its origin, and `cost`, its time over that from the eye.
+    """
     rows = frame[(frame["status"] == CellStatus.OK) & frame["median_ms"].notna() & frame["origin"].notna()]
     rows = rows.assign(caster=derive.casters(rows))
     rows["silhouette_wrong_rays"] = rows["grazing_wrong_rays"] + rows["drowned_wrong_rays"]
@@ -49,7 +52,7 @@ def _costs(rows: pd.DataFrame) -> pd.Series:
 
 
 def sections(frame: pd.DataFrame, rungs: pd.DataFrame, facts: Mapping[str, Facts]) -> list[Section]:
-    """One section where rays of one variant began at several origins."""
+    """Make one section where rays of one variant began at several origins."""
     rows = paired(frame)
     blocks: list[Block] = []
     if len(rows):
@@ -83,7 +86,7 @@ def _wrong(rows: pd.DataFrame) -> int:
 
 
 def conclusions(rows: pd.DataFrame) -> list[str]:
-    """What the shift from the eye to the nearest point gains and costs, each in a sentence or two; [] without both."""
+    """Say what the shift from the eye to the nearest point gains and what it costs; [] without rays from both."""
     answering = _from_all(rows[rows["answers"].astype(bool)], ("eye", "nearest"))
     before, after = (answering[answering["origin"] == origin] for origin in ("eye", "nearest"))
     if before.empty or after.empty:
@@ -100,7 +103,7 @@ def conclusions(rows: pd.DataFrame) -> list[str]:
         f"{answering['caster'].nunique()} variants together, silhouettes included, from {_wrong(before):,} to "
         f"{_wrong(after):,} of {int(after['accuracy_rays'].sum()):,}{_by_view(before, after)}. Fewer beyond chance: "
         f"{gained}. More beyond chance: {harmed}. The largest error from the eye is {wording.factor(errors.median())} "
-        "that from the nearest point in the median of all scenes and variants, and "
+        "that from the nearest point, in the median of all scenes and variants, and "
         f"{wording.short(errors.max())}× at most. {counts.RULE}."
     )
     return [first, _price(cost, bool(better), bool(worse))]
@@ -117,14 +120,14 @@ def _price(cost: float, gains: bool, harms: bool) -> str:
         f"{wording.hundredths(cost)} in the median"
     )
     if not gains:
-        return f"{paid}, and buys no right ray here."
+        return f"{paid}, and no variant answers more rays rightly for it here."
     if harms or cost > CHEAP:
         return f"{paid}: it is worth that to the variants named, and to no other."
-    return f"{paid}: robustness for next to nothing, before any knob of a method is turned."
+    return f"{paid}: it makes methods more robust and costs next to nothing."
 
 
 def _by_view(before: pd.DataFrame, after: pd.DataFrame) -> str:
-    """The same counts view by view, where there are several."""
+    """Say the counts of `conclusions` view by view, where there are several."""
     views = list(dict.fromkeys(before["view"]))
     told = [
         f"{_wrong(before[before['view'] == view]):,} to {_wrong(after[after['view'] == view]):,} in {view}"
@@ -187,7 +190,7 @@ def _columns(origins: Sequence[str]) -> tuple[Column, ...]:
 
 
 def table(rows: pd.DataFrame) -> Table:
-    """One line for each variant, over its scenes that have a row from every origin that the run has."""
+    """Make a line for each variant, over its scenes that have a row from every origin that the run has."""
     origins = _present(rows)
     rows = _from_all(rows, origins)
     several = [name for name in ("device", "precision") if rows[name].nunique() > 1]
@@ -205,7 +208,7 @@ def table(rows: pd.DataFrame) -> Table:
 
 
 def scenes(rows: pd.DataFrame) -> Table:
-    """One line for each variant and scene."""
+    """Make a line for each variant and scene."""
     origins, named = _present(rows), tables.places(rows)
     several = [name for name in ("device", "precision") if rows[name].nunique() > 1]
     body = [
@@ -219,8 +222,8 @@ def scenes(rows: pd.DataFrame) -> Table:
 
 
 def hard_rays(rungs: pd.DataFrame, facts: Mapping[str, Facts]) -> Table | None:
-    """How many families of hard rays each variant holds from each origin, and which from the eye or the nearest point
-    alone; None unless some variant's rays began at both."""
+    """Count the families of hard rays that each variant holds from each origin, and name those that it holds from the
+    eye or the nearest point alone; None unless some variant's rays began at both."""
     rungs = rungs[rungs["origin"].notna()] if len(rungs) else rungs
     if rungs.empty or rungs["origin"].nunique() < 2:
         return None
@@ -253,7 +256,7 @@ def hard_rays(rungs: pd.DataFrame, facts: Mapping[str, Facts]) -> Table | None:
 
 
 def _held(of: Table) -> str:
-    """What the shift does to families of hard rays, in two sentences; by the table of `hard_rays`."""
+    """Say in two sentences what the shift does to families of hard rays, from the table of `hard_rays`."""
     place = {column.title: k for k, column in enumerate(of.columns)}
     held = [(row[place["nearest"]], row[place["eye"]], row) for row in of.rows]
     alike = [f"{row[place['variant']]} in {row[place['precision']]}" for near, eye, row in held if near == eye]

@@ -35,13 +35,13 @@ def times_over(row: Any, other: Any) -> float:
 
 
 def ratios(both: pd.DataFrame, suffix: str) -> list[Ratio | None]:
-    """For each line of `both`, two rows side by side: the time of the columns that end in `suffix` over the other's."""
+    """Compute for each line of `both` the time of the row in the columns that end in `suffix` over the other row's."""
     other = both[[f"{name}{suffix}" for name in COLUMNS]].set_axis(COLUMNS, axis=1)
     return [ratio(a, b) for a, b in zip(other.itertuples(), both[COLUMNS].itertuples(), strict=True)]
 
 
 def above(row: Any, other: Any) -> float:
-    """By how many ms `row` takes longer than `other`: the median over the rounds that timed both; NaN without one."""
+    """Compute how many ms longer `row` takes than `other`: the median over the rounds that timed both, or NaN."""
     if ratio(row, other) is None:
         return math.nan
     others = dict(zip(json.loads(other.rounds), other.samples_ms, strict=True))

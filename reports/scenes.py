@@ -151,11 +151,11 @@ def _detail(rows: pd.DataFrame) -> Table | None:
         ),
         body,
         "Tolerances as large as pixels show, against the methods' own.",
-        "Saved is a share of what the method's own tolerance takes, of times in the rounds that timed both; below 0 it "
-        "is lost. A method's tolerance may grow to so many footprints of a pixel at the instance's distance. "
-        "Evaluations are those of all fragments of a pixel. What ends a march by its distance to the surface ends it "
-        "beside silhouettes too: these hits are the "
-        "wrong rays that come." + wording.zeros([row[i] for row in body for i in (8, 9)]),
+        "Saved is a share of what the method takes with its own tolerance, of times in the rounds that timed both; "
+        "below 0 more is taken. The tolerance may grow to so many footprints of a pixel at the instance's distance. "
+        "Evaluations are those of all fragments of a pixel. A march that ends at a distance from the surface ends "
+        "beside silhouettes too: these hits are the wrong rays that a larger tolerance adds."
+        + wording.zeros([row[i] for row in body for i in (8, 9)]),
         group=1,
     )
 

@@ -29,7 +29,7 @@ EXPLANATION = (
 
 
 def sections(rungs: pd.DataFrame, facts: Mapping[str, Facts], marks: Mapping[str, Mark]) -> list[Section]:
-    """Of the rungs of `breaks.derive`: a table for each precision, why each family is hard, and its ladders drawn."""
+    """Show the rungs of `breaks.derive`: a table for each precision, why each family is hard, and its ladders drawn."""
     if rungs.empty:
         return []
     devices = breaks.by_device(rungs)

@@ -82,7 +82,7 @@ def _verdict(frame: pd.DataFrame) -> str:
 
 
 def _gain(won: pd.DataFrame) -> str:
-    """How many times as fast as the baseline the winner is, where that is right too, and how exact both are."""
+    """Say how many times as fast as the baseline the winner is, where that is right too, and how exact it is."""
     baseline = derive.baseline_of(won)
     told = won[won["speedup"].notna()]
     over = told[~told["floor_bound"].astype(bool)]
@@ -92,7 +92,7 @@ def _gain(won: pd.DataFrame) -> str:
         return ""
     low, high = wording.factor(over["speedup"].min()), wording.factor(over["speedup"].max())
     gain = low if low == high else f"{low} to {high}"
-    where = "there" if len(told) == len(won) else f"in the {len(told)} in which that has no such ray either"
+    where = "there" if len(told) == len(won) else f"in the {len(told)} in which {baseline} has no such ray either"
     bound = len(told) - len(over)
     floor = f" ({bound} left out, whose times are floor-bound: under {_bound(told)})" if bound else ""
     most = wording.error(won["error_max"].max())
@@ -100,7 +100,7 @@ def _gain(won: pd.DataFrame) -> str:
 
 
 def _bound(rows: pd.DataFrame) -> str:
-    """What a floor-bound time is under, in words, with the floors of these rows."""
+    """Say what a floor-bound time is under, with the floors of these rows."""
     floors = rows.loc[rows["floor_bound"].astype(bool), "floor_ms"]
     low, high = wording.number(floors.min()), wording.number(floors.max())
     span = f"{low} ms" if low == high else f"{low} to {high} ms"

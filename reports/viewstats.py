@@ -60,7 +60,7 @@ def view_sets(frame: pd.DataFrame) -> list[ViewSet]:
 
 
 def one_view_of_each(frame: pd.DataFrame) -> pd.DataFrame:
-    """Of a set of more than MOST_LISTED views only the first, for what lists scenes one by one."""
+    """Keep the first view alone of a set of more than MOST_LISTED, for what lists scenes one by one."""
     views = frame.groupby(["surface", "view_set"], dropna=False)["view"]
     large = frame["view_set"].notna() & (views.transform("nunique") > MOST_LISTED)
     return frame[~large | (frame["view"] == views.transform("first"))]

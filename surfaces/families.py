@@ -31,7 +31,7 @@ def _sphere(name: str, title: str, values: Mapping[str, str]) -> Surface:
 
 
 def _torus(name: str, title: str, values: Mapping[str, str]) -> Surface:
-    """In toledo2007's tight box, [-(R+r), R+r]^2 x [-r, r]."""
+    """Make a torus in toledo2007's tight box, [-(R+r), R+r]^2 x [-r, r]."""
     ring, tube = _positive(name, values, "R"), _positive(name, values, "r")
     outer = float(exact(values["R"]) + exact(values["r"]))
     return entry(

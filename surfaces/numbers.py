@@ -15,7 +15,7 @@ Floats64 = NDArray[np.float64]
 
 
 class Arithmetic:
-    """What every number system with Python operators shares."""
+    """The operations that every number system with Python operators shares."""
 
     def add(self, a: Any, b: Any) -> Any:
         return a + b

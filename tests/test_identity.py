@@ -61,7 +61,7 @@ def reached(*modules: str) -> set[str]:
 
 
 def uncovered(files: set[str]) -> set[str]:
-    """Those that no row's key holds, but for names."""
+    """Find the files that no row's key holds, but for those that are read for names only."""
     return {file for file in files if file not in methodology()} - READ_FOR_NAMES
 
 

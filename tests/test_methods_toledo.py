@@ -56,7 +56,7 @@ def _cast(method, surface, rays, precision="float32", folder=None, **knobs):
 
 @dataclass(frozen=True)
 class Outcome:
-    """Of the rays outside the grazing class: the share answered wrongly, hits of a later root, errors of right hits."""
+    """How rays outside the grazing class were answered: the share wrong, hits of a later root, errors of right hits."""
 
     rays: int
     wrong: float

@@ -71,7 +71,7 @@ def mp_function(surface: Surface, ray: np.ndarray) -> mpmath.mpf:
 
 
 def clip_ends(surface: Surface, ray: np.ndarray) -> tuple[mpmath.mpf, mpmath.mpf] | None:
-    """Of a sphere domain, in mpmath."""
+    """Clip a ray by a sphere domain, in mpmath; None where it misses."""
     o, d, c = ([mpmath.mpf(float(v)) for v in part] for part in (ray[:3], ray[3:], surface.domain.center))
     o = [a - b for a, b in zip(o, c, strict=True)]
     qa, qb = sum(v * v for v in d), sum(v * w for v, w in zip(o, d, strict=True))

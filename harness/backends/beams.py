@@ -133,7 +133,10 @@ def launch_narrowed_camera(
     camera: NDArray[np.float32],
     size: int,
 ) -> Launch:
-    """A prepass, and the rays of a size × size image narrowed by it. programs, built: of the prepass, of the rays."""
+    """Launch a prepass, and the rays of a size × size image narrowed by it.
+
+    programs, built: of the prepass, of the rays.
+    """
     steps, scratch = _prepass(device, programs[0], built[0], size)
     outputs = [Reserved(size * size, real_type(programs[1])), Reserved(size * size, np.int32)]
     buffers: list[Array | Reserved] = [np.ascontiguousarray(camera, np.float32), *scratch, *outputs]
@@ -149,7 +152,7 @@ def launch_narrowed_rays(
     rays: NDArray[np.float32],
     pixels: NDArray[np.int32],
 ) -> Launch:
-    """The same prepass, and listed rays float32[n, 6] that lie in `pixels`, int32[n], of that image.
+    """Launch a prepass, and listed rays float32[n, 6] narrowed by it, which lie in `pixels`, int32[n], of its image.
 
     A third output holds the prepass's evaluations; they add up to all.
     """

@@ -126,7 +126,7 @@ def view_case(surface: Surface, name: str = OUTSIDE) -> Case:
 
 
 def _way_out(surface: Surface, view: View) -> float:
-    """From the domain's centre to its boundary, towards the view's eye, in scene units."""
+    """Measure the way from the domain's centre to its boundary, towards the view's eye, in scene units."""
     if not isinstance(surface.domain, Box):
         return surface.domain.radius
     backward = -camera_for(view, surface)[3:6].astype(np.float64)

@@ -108,7 +108,7 @@ def judge(
 
 
 def rank(judged: Judged) -> tuple[int, float, str, str]:
-    """To sort by: the worst first."""
+    """Return a key to sort by: the worst comes first."""
     return ORDER.index(judged.verdict), -(judged.worst.size if judged.worst else 0.0), judged.slot, judged.device
 
 

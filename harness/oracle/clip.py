@@ -131,7 +131,7 @@ def _slabs(domain: Box, rays: Floats) -> tuple[Balls, Balls, Any]:
 
 
 def _chords(domain: Sphere, rays: Floats) -> tuple[Balls, Balls, Any]:
-    """From the point nearest the centre, so that a distant origin costs no digits."""
+    """Clip from the point nearest the centre, so that a distant origin costs no digits."""
     middle = nearest(np.asarray(domain.center), rays)
     offset = [point - Balls(c) for point, c in zip(points_at(rays, middle), domain.center, strict=True)]
     direction = [Balls(rays[:, k]) for k in (3, 4, 5)]

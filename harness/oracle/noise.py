@@ -120,7 +120,7 @@ class Noise:
         self.expansion = coefficients_along(self.tape, degree) if expanded and degree else None
 
     def along(self, rays: Floats) -> NoiseAlong:
-        """For rays float64[n, 6] whose origins are where kernels move them, near the domain's centre."""
+        """Prepare for rays float64[n, 6] whose origins are where kernels move them, near the domain's centre."""
         return NoiseAlong(self, rays)
 
 

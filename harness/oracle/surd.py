@@ -69,7 +69,7 @@ class Surd:
         return not self.a and not self.b
 
     def ball(self) -> Any:
-        """As an arb_poly at the current precision."""
+        """Return the value as an arb_poly at the current precision."""
         return arb_poly(self.a) + arb_poly(self.b) * arb(self.d).sqrt()
 
 

@@ -122,7 +122,7 @@ class Scene:
 
 
 def bounding_radius(surface: Surface) -> float:
-    """Of a sphere about the domain's centre that holds what is seen of the surface, in its own units."""
+    """Return the radius, in the surface's units, of a sphere about the domain's centre that holds all that is seen."""
     return min(surface.bounding_radius or surface.domain.radius, surface.domain.radius)
 
 

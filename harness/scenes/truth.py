@@ -127,7 +127,7 @@ def _certified(surface: Surface, parts: list[_Part], folder: Path) -> tuple[_Par
 
 
 def _nearest(n: int, found: list[tuple[_Part, Truth]]) -> Seen:
-    """Of all pairs, what each ray sees first."""
+    """Choose from all pairs of a part and its truth what each of the n rays sees first."""
     lower, upper, following, condition = (np.full(n, np.nan) for _ in range(4))
     margin, contrast, second = (np.full(n, np.inf) for _ in range(3))
     status = np.full(n, TruthStatus.MISS, np.uint8)

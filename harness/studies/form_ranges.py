@@ -68,9 +68,11 @@ class Intervals(Arithmetic):
 
 
 def compute() -> list[dict[str, Any]]:
-    """One row for each form and size of box: surface, form, side (of a box, over the domain's radius), factor (the mean
-    width of the extension over that of the range), empty (how many boxes hold no surface) and excluded (the share of
-    these that the extension excludes)."""
+    """Make one row for each form and size of box.
+
+    Columns: surface, form, side (of a box, over the domain's radius), factor (the mean width of the extension over that
+    of the range), empty (how many boxes hold no surface) and excluded (the share of these that the extension excludes).
+    """
     import surfaces
 
     rows = []
@@ -97,7 +99,7 @@ def compute() -> list[dict[str, Any]]:
 
 
 def boxes(surface: Surface, halvings: int) -> tuple[Ends, Ends]:
-    """Lower and upper corners, float64[BOXES, 3], of cubes whose side is the domain's radius halved so often."""
+    """Draw lower and upper corners, float64[BOXES, 3], of cubes whose side is the domain's radius halved so often."""
     domain = surface.domain
     if isinstance(domain, Box):
         first, last = np.array(domain.lower), np.array(domain.upper)
@@ -109,7 +111,7 @@ def boxes(surface: Surface, halvings: int) -> tuple[Ends, Ends]:
 
 
 def sampled_range(surface: Surface, lower: Ends, upper: Ends) -> tuple[Ends, Ends]:
-    """The least and the largest value of f at POINTS^3 points of each box: float64[n] each."""
+    """Sample the least and the largest value of f at POINTS^3 points of each box: float64[n] each."""
     import surfaces
 
     steps = np.linspace(0.0, 1.0, POINTS)
@@ -120,7 +122,7 @@ def sampled_range(surface: Surface, lower: Ends, upper: Ends) -> tuple[Ends, End
 
 
 def extension(surface: Surface, lower: Ends, upper: Ends) -> tuple[Ends, Ends]:
-    """The natural extension of f as it is written, over each box: float64[n] each."""
+    """Evaluate the natural extension of f as it is written, over each box: float64[n] each."""
     import surfaces
 
     box = {axis: (lower[:, k], upper[:, k]) for k, axis in enumerate("xyz")}

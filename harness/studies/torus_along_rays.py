@@ -40,7 +40,10 @@ CASES: dict[str, tuple[Vector, Vector]] = {  # a point of the ray, and its direc
 
 
 def quartic(o: Vector, v: Vector) -> Vector:
-    """float64[n, 5], the coefficients of t^4 to 1 by equation 2, for points o and unit directions v, float64[n, 3]."""
+    """Compute T's coefficients of t^4 to 1, float64[n, 5], by equation 2.
+
+    o, v: points and unit directions, float64[n, 3].
+    """
     along, square = (o * v).sum(axis=1), (o * o).sum(axis=1)
     radii = RING**2 + TUBE**2
     c = 2.0 * (square - radii + 2.0 * along**2 + 2.0 * RING**2 * v[:, 2] ** 2)
@@ -50,9 +53,12 @@ def quartic(o: Vector, v: Vector) -> Vector:
 
 
 def compute() -> list[dict[str, Any]]:
-    """A row for each case: case, coefficients, t_m, roots, extremes and bends (T'' = 0), t ascending; then one of the
-    sampled rays: rays, minima and maxima (the most of one ray), mean_error (the largest |t_M - mean of T''s roots|) and
-    equation_error (the largest |T - f| over the largest |T| of its ray)."""
+    """Make a row for each case, and a last one for the sampled rays.
+
+    A case has case, coefficients, t_m, roots, extremes and bends (T'' = 0), t ascending. The sampled rays have rays,
+    minima and maxima (the most of one ray), mean_error (the largest |t_M - mean of T''s roots|) and equation_error (the
+    largest |T - f| over the largest |T| of its ray).
+    """
     rows: list[dict[str, Any]] = []
     for name, (point, heading) in CASES.items():
         o, v = point[None], (heading / np.linalg.norm(heading))[None]

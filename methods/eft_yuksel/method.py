@@ -21,17 +21,19 @@ known are missed, and so are touches, unless rounding makes them cross.
 - MATRIX: the paper multiplies with the whole inverse, made in double precision for nodes that float32 rounds. Nodes lie
   symmetrically, so sums and differences of opposite samples (error-free too) take half the products; and ours are
   rounded first, and H is inverted exactly for the rounded ones.
-- The paper gives no tolerance of isolation (its code has one for all levels), and no runtimes for BASIS = 1.
+- The paper gives no tolerance of isolation (its code has one for all levels): ours, ISOLATION, is in its settings too.
+  Steps of isolation may end on the bracket, as the GPU form that the paper names has them (Peters et al. 2023).
+- The paper has no runtimes for BASIS = 1.
 
 f is a black box: the kernel is told its values and its degree alone, and every table depends on the degree alone, so
-coefficients may change from frame to frame. What that costs beside coefficients expanded from the formula (yuksel), as
-printed: 2.2 times its time on the sphere, 1.8 on the torus.
+coefficients may change from frame to frame. As printed it takes 2.2 times as long on the sphere and 1.8 times as long
+on the torus as yuksel, which expands the coefficients from the formula.
 
 Evaluations counted are those of f; none of the fit's.
 
 **Speed** Processor time on opencl:intel, float32, 256 x 256, szente's seven surfaces of Table 4 in the domains of
 configs/szente-table4.toml. As printed it is 4.9 (16-ball) to 184 (torus) times faster than ray_march step by step, 95
-in the mean, and 1.2 to 32 times, 19 in the mean, faster than the same march in blocks (the paper: 23.6); at our best 33
+in the mean, and 1.2 to 32 times, 19 in the mean, faster than our march in blocks (the paper: 23.6); at our best 33
 times. Of the printed time EFT takes 5 to 34 %, 19 in the mean (the paper: 24); EVAL 19 % on the sphere and nothing
 beyond noise elsewhere. What each change saves alone, in the mean (at most): Newton's steps to the root 14 % (43 %,
 sphere), and where it is the fit that takes the time, nothing; the matrix in halves 13 % (31 %, decic); the samples'

@@ -16,6 +16,8 @@ one secant step ends the search; two roots closer than that can be missed.
   Newton's.
 - The exponent of Equation 8's root is 1/(n - 1), and where an end is the least control point the extremum is there
   (the published code takes 1/n, which is not a bound).
+- CULL: LU bounds cull in the paper. Whether its control points do is not said; in the setting "control point" they do
+  not.
 - SIDES: until its first root f keeps its sign, so only the slope towards zero counts; the paper takes the magnitude.
 - MATRIX: as eft_yuksel's.
 - TRUST: bounds are moved by what their coefficients may be off by (printed, 0: by nothing): f's own roundings in the
@@ -24,8 +26,9 @@ one secant step ends the search; two roots closer than that can be missed.
   TRUST of the worst case is reckoned with: 1/16, where the largest seen on random rays is 1/26 of it.
   tests/test_error_bounds.py holds the stated bounds against exact coefficients. The steps' own f is taken as computed,
   so a pair of roots between which f does not leave its roundings can be passed.
-- The paper gives neither a shortest step nor how a hit is told; here a change of sign is one, never a small |f|, so
-  that near misses do not become hits.
+- The paper gives neither a shortest step nor how a hit is told. Here a change of sign is one, never a small |f|, so
+  that near misses do not become hits, and a secant step ends the search. Its code takes 1e-5, and steps that are 1.6
+  times as long as the bound allows; the paper prints no such factor.
 - Accepts degree 1 to 20; the paper stops at 6, where its steps run out.
 
 Evaluations counted are those of f.
@@ -112,7 +115,7 @@ METHOD = Method(
             "share of the worst case of f's roundings that is reckoned with; 0: no roundings are, the fit's neither",
             printed=0.0,
         ),
-        Parameter("MATRIX", 1, "the fit's matrix 1: in symmetric halves, 0: whole", printed=0),
+        Parameter("MATRIX", 1, "the fit's inverse matrix, 1: in symmetric halves, 0: whole", printed=0),
         Parameter("MAX_EVALUATIONS", 10000, "evaluations spent on one ray"),
     ),
     settings={

@@ -12,6 +12,7 @@ than a shell is thick, and its L holds for the whole ball that ends with the nex
 - |f| / L is far under the distance where |grad f| is far under L, and a threshold on it would end far from the root.
   The march ends where the secant through the last two values is 0 within EPSILON, or where f changes sign.
 - No step is under EPSILON, so that the march ends in rounded arithmetic; roots closer than that can be passed.
+- SHELLS: Hart divides by one bound. Here each shell has one of its own; SHELLS = 1 is one for the whole domain.
 - One start: what the second one is for, two minima of a distance, is known of the torus only.
 
 **Speed** (opencl:intel, float32, torus and Barth sextic at 512x512, interleaved.) Kept: 16 shells instead of one

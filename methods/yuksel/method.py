@@ -5,17 +5,19 @@
 **Theory** As in eft_yuksel: the first root lies between two critical points where the ends differ in sign, and critical
 points are found alike from the quadratic derivative up, by formula. Here the coefficients are expanded from the
 formula, so nothing is fitted, and everything after that is done on the expansion alone. It cancels where roots are many
-or clustered: what eft_yuksel's refinement on f itself is for.
+or clustered; eft_yuksel's refinement on f itself is for such rays.
 
 **Changes against the paper**
-- Degree 4 at most, where exact coefficients are generated.
-- START: Newton's method starts where a cubic that is level at both ends would put it; printed, in the middle.
+- Degree 4 at most, where exact coefficients are generated. Nothing is fitted, and the last steps are Newton's, on the
+  expansion: what szente changes in Yuksel's method is in eft_yuksel.
+- szente prints no tolerance for it: TOLERANCE and ISOLATION are ours.
+- START: Newton's method starts where a cubic that is level at both ends would put it; as printed, in the middle.
 
 Evaluations counted are those of the expanded f, at ends of pieces and in the last refinement; none of its derivatives.
 
 **Speed** See eft_yuksel: both share the library `polynomial`. Processor time on opencl:intel, float32, 512 x 512,
 torus, flirt, Kummer quartic, Cayley cubic: the quadratic derivative by formula, instead of Newton's method from the
-linear one up, saves 7, 12, 10 and 28 %. It takes 1.3 to 1.8 times less than eft_yuksel there.
+linear one up, saves 7, 12, 10 and 28 %. eft_yuksel takes 1.3 to 1.8 times as long there.
 """
 
 from collections.abc import Mapping
@@ -54,7 +56,7 @@ METHOD = Method(
             sweep=(2.0**-8, 2.0**-12, 2.0**-22),
             per="2.0 * DOMAIN_RADIUS",
         ),
-        Parameter("ISOLATION", 2.0**-10, "the same for the derivatives' roots"),
+        Parameter("ISOLATION", 2.0**-10, "last Newton step of the derivatives' roots, likewise"),
         Parameter("START", 1, "Newton's first x: 1: by a cubic that is level at both ends, 0: the middle", printed=0),
     ),
     settings={"Yuksel": {"START": 0}},

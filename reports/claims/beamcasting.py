@@ -1,4 +1,4 @@
-"""What beamcasting claims."""
+"""Claims of beamcasting."""
 
 from __future__ import annotations
 
@@ -258,9 +258,8 @@ CLAIMS = (
     Claim(
         PAPER,
         "V",
-        "Remapping threads by where their beams are to the surface lowers divergence (planned).",
-        "Idle share of "
-        f"{lanes.WARP} lanes: quarters as queued, and those whose parent evaluated f more than 16 times after the rest",
+        "Remapping threads by the position of their beams relative to the surface lowers divergence (planned).",
+        f"Idle share of {lanes.WARP} lanes: quarters in turn, and those last whose parent evaluated f over 16 times",
         _less_idle(picks.ADAPTIVE, picks.REMAPPED),
         ("interval_adaptive",),
         DIVERGENCE,

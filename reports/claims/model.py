@@ -63,7 +63,7 @@ def untestable(_: Evidence) -> Verdict | None:
 
 
 def verdict(confirmed: bool | None, figure: str) -> Verdict:
-    """None is not decided."""
+    """Make a verdict; `confirmed` None is not decided."""
     if confirmed is None:
         return Verdict(Outcome.UNDECIDED, figure)
     return Verdict(Outcome.CONFIRMED if confirmed else Outcome.REFUTED, figure)
@@ -88,8 +88,10 @@ def mean_ratio(ratios: pd.DataFrame, limit: float) -> bool | None:
 
 
 def each_mean(readings: list[pd.DataFrame], limit: float) -> bool | None:
-    """The same for several readings of one comparison, of which those without rows do not count; None where they
-    disagree."""
+    """Tell whether `mean_ratio` holds for every reading of one comparison; None where readings disagree.
+
+    Readings without rows do not count.
+    """
     held = {mean_ratio(ratios, limit) for ratios in readings if len(ratios)}
     return held.pop() if len(held) == 1 else None
 
@@ -116,12 +118,12 @@ def largest(rows: pd.DataFrame, name: str) -> float:
 
 
 def cases(rows: pd.DataFrame) -> str:
-    """What these rows are of: 6 views in float32 on opencl:intel."""
+    """Say what these rows are of: 6 views in float32 on opencl:intel."""
     return f"{wording.plural(int(rows['view'].nunique()), 'view')} {where(rows)}"
 
 
 def rays(rows: pd.DataFrame) -> str:
-    """Of how many answers to rays a count over these rows is: 147,456 rays (16,384 in each of 9 rows: 3 surfaces in …).
+    """Say how many rays a count over these rows is out of: 147,456 rays (16,384 in each of 9 rows: 3 surfaces in …).
 
     Rows of one view that differ in device, size or variant are of the same rays.
     """
@@ -132,7 +134,7 @@ def rays(rows: pd.DataFrame) -> str:
 
 
 def where(rows: pd.DataFrame) -> str:
-    """In which precisions and on which devices these rows are."""
+    """Name the precisions and the devices of these rows."""
     precisions, devices = (list(dict.fromkeys(rows[name])) for name in ("precision", "device"))
     each = "each of " if len(devices) > 1 else ""
     return f"in {wording.listed(precisions)} on {each}{wording.listed(devices)}"
@@ -172,7 +174,7 @@ def always(ratios: pd.DataFrame) -> bool | None:
 
 
 def lost(ratios: pd.DataFrame) -> str:
-    """In how many cases it is the other way round, and in how many the intervals do not tell."""
+    """Say in how many cases it is the other way round, and in how many the intervals do not tell."""
     slower, faster = int((ratios["ratio_high"] < 1.0).sum()), int((ratios["ratio_low"] > 1.0).sum())
     told = f"; slower in {slower} of {len(ratios)}" if slower else ""
     even = len(ratios) - slower - faster

@@ -1,4 +1,4 @@
-"""What szente claims of condition numbers and of bounds of extrema."""
+"""Claims of szente about condition numbers and bounds of extrema."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ _LU = ("lu_lipschitz",)
 
 
 def condition(evidence: Evidence) -> pd.DataFrame:
-    """Our Table 1: index basis, one column for each degree; empty where the study was not run."""
+    """Build our Table 1: index basis, one column for each degree; empty where the study was not run."""
     rows = pd.DataFrame(evidence.studies.get("condition_numbers", []), columns=["basis", "degree", "condition"])
     return rows.pivot_table(index="basis", columns="degree", values="condition", sort=False)
 
 
 def bounds(evidence: Evidence) -> pd.DataFrame:
-    """Our Table 2: index (reading, bound), one column for each degree."""
+    """Build our Table 2: index (reading, bound), one column for each degree; empty where the study was not run."""
     columns = ["reading", "bound", "degree", "percent"]
     rows = pd.DataFrame(evidence.studies.get("extrema_bounds", []), columns=columns)
     return rows.pivot_table(index=["reading", "bound"], columns="degree", values="percent", sort=False)
@@ -83,7 +83,7 @@ def _never_looser(evidence: Evidence) -> Verdict | None:
 
 
 CLAIMS = (
-    Claim(PAPER, "2.1", "The condition numbers of Table 1.", "The same computed", _digits, _EFT, STUDIES),
+    Claim(PAPER, "2.1", "The condition numbers of Table 1.", "Our own, digit by digit", _digits, _EFT, STUDIES),
     Claim(
         PAPER,
         "2.1",
@@ -102,7 +102,15 @@ CLAIMS = (
         _EFT,
         STUDIES,
     ),
-    Claim(PAPER, "3", "LU bounds are never looser than control points.", "Both, averaged", _never_looser, _LU, STUDIES),
+    Claim(
+        PAPER,
+        "3",
+        "LU bounds are never looser than control points.",
+        "Mean errors of both",
+        _never_looser,
+        _LU,
+        STUDIES,
+    ),
     Claim(
         PAPER,
         "3",

@@ -1,4 +1,4 @@
-"""What toledo2007 claims."""
+"""Claims of toledo2007."""
 
 from __future__ import annotations
 
@@ -149,7 +149,7 @@ def _cubics(evidence: Evidence) -> Verdict | None:
 
 
 def _evident_after_zooming(evidence: Evidence) -> Verdict | None:
-    """In the zoomed view that has most of them, silhouettes included: at a singular point nearly all is one."""
+    """Judge by the zoomed view with most wrong rays, silhouettes included: at a singular point nearly all is one."""
     rows = evidence.rows(picks.STURM, picks.CUBICS)
     if rows.empty:
         return None

@@ -1,4 +1,4 @@
-"""What toledo2007 claims of Newton's method (4.4 and 5.1): judged as printed, with our steps forwards beside it."""
+"""Claims of toledo2007 about Newton's method (4.4 and 5.1), judged as printed, with our steps forwards beside it."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ MORE_STEPS = 1.0  # doubling the digits of 0.001 r gives more than 0.00003 r has
 
 
 def _fastest(pick: Pick, settings: tuple[Pick, ...]) -> Judge:
-    """A judge of "`pick` is the fastest of these `settings`, at every angle"."""
+    """Make a judge of "`pick` is the fastest of these `settings`, at every angle"."""
 
     def decide(evidence: Evidence) -> Verdict | None:
         rows = [evidence.rows(one, picks.TORUS).assign(words=one.words) for one in settings]
@@ -45,7 +45,7 @@ def _fastest(pick: Pick, settings: tuple[Pick, ...]) -> Judge:
 
 
 def _won(groups: list[pd.DataFrame], pick: Pick) -> Verdict:
-    """Whether `pick` is the fastest in each of these groups, by intervals that are proved."""
+    """Judge whether `pick` is the fastest in each of these groups, by intervals that are proved."""
     lost, won = [], 0
     for own in groups:
         own = own[proved(own)]
@@ -99,7 +99,7 @@ def _quadratic(coarse: Pick, fine: Pick) -> Judge:
 
 
 def _step_bound(loose: Pick, bound: Pick) -> Judge:
-    """Rays vanish that end as a miss or at a later root; those that stay in a dip, exhausted, are told beside them."""
+    """Judge by rays that vanish, as a miss or at a later root; those that stay in a dip, exhausted, are told too."""
 
     def decide(evidence: Evidence) -> Verdict | None:
         ratios = evidence.ratios(loose, bound, picks.TORUS)
@@ -169,7 +169,7 @@ CLAIMS = (
         beside(
             _fastest(picks.NEWTON_3, picks.TABLE_1),
             _fastest(picks.NEWTON_3_FORWARDS, picks.OURS_OF_TABLE_1),
-            "each method so, Newton with steps forwards",
+            "all methods so, Newton with steps forwards",
         ),
         ("newton",),
         VIEWS,

@@ -1,4 +1,4 @@
-"""Verdicts on toledo2007's methods as printed, with what ours at its best makes of the same figure."""
+"""Verdicts on toledo2007's methods as printed, with the same figure of ours at its best beside it."""
 
 from __future__ import annotations
 
@@ -12,7 +12,10 @@ Judge = Callable[[Evidence], Verdict | None]
 
 
 def beside(printed: Judge, ours: Judge, whose: str) -> Judge:
-    """A judge by `printed` alone, whose figure ends with that of `ours` where it has one; `whose` names the change."""
+    """Make a judge by `printed` alone, whose figure ends with that of `ours` where there is one.
+
+    `whose` names the change.
+    """
 
     def decide(evidence: Evidence) -> Verdict | None:
         found, other = printed(evidence), ours(evidence)

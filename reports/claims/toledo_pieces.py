@@ -1,4 +1,4 @@
-"""What toledo2007 says of single pieces of its casters: what each is worth, with it and without."""
+"""Claims of toledo2007 about single pieces of its methods: each is judged by the method with it and without it."""
 
 from __future__ import annotations
 
@@ -38,7 +38,9 @@ class Piece:
 PAPERS, OURS = "the paper's", "ours"
 PIECES = (
     Piece("Sturm: discard before the search", PAPERS, CUBICS, picks.STURM_SEARCHING, picks.STURM, SEARCHED),
-    Piece("Sturm: by sign at one root, frail chains anew", OURS, VIEWS, picks.STURM, picks.STURM_BY_SIGN, picks.TORUS),
+    Piece(
+        "Sturm: by sign at one root, double words if needed", OURS, VIEWS, picks.STURM, picks.STURM_BY_SIGN, picks.TORUS
+    ),
     Piece(
         "D.D. bisection: parted at the roots of f''",
         OURS,
@@ -56,7 +58,7 @@ PIECES = (
 
 
 def _cubics_are_slower(evidence: Evidence) -> Verdict | None:
-    """By whole frames of window-filling surfaces, as the paper counts them."""
+    """Judge by whole frames of surfaces that fill the window, as the paper counts them."""
     sturm = evidence.rows(picks.STURM, picks.CUBICS).dropna(subset=["median_ms"])
     ball = evidence.rows(picks.CLOSED_FORM, ("sphere",)).dropna(subset=["median_ms"])
     both = sturm.merge(ball[["device", "median_ms", "upper_ms"]], on="device", suffixes=("", "_ball"))
@@ -75,7 +77,7 @@ def _cubics_are_slower(evidence: Evidence) -> Verdict | None:
 
 
 def by_proxy(evidence: Evidence) -> pd.DataFrame:
-    """Table 1's views by Newton as printed, in each proxy, with `waste`, the share of its fragments without a hit."""
+    """Select Table 1's views by Newton as printed, in each proxy; `waste` is its share of fragments without a hit."""
     rows = evidence.rows(picks.NEWTON_3, picks.TORUS).iloc[:0]
     found = evidence.finished
     found = found[found["method"].eq(picks.NEWTON_3.method) & found["stage"].eq("raster")]
@@ -105,7 +107,7 @@ def _tetrahedron_wastes(evidence: Evidence) -> Verdict | None:
 
 
 def by_normal(evidence: Evidence) -> pd.DataFrame:
-    """The torus by Newton as printed, shaded by each normal, on the first device that has several."""
+    """Select the torus by Newton as printed, shaded by each normal, on the first device that has several."""
     found = evidence.finished
     found = found[found["method"].eq(picks.NEWTON_3.method) & found["surface"].isin(picks.TORUS)]
     found = found[found["proxy"].eq("box")].dropna(subset=["median_ms", "normal"])
@@ -115,7 +117,7 @@ def by_normal(evidence: Evidence) -> pd.DataFrame:
 
 
 def shaded(rows: pd.DataFrame, slow: str, fast: str) -> pd.DataFrame:
-    """The time of frames shaded by the normal `slow` over those shaded by `fast`, view by view."""
+    """Compute the time of frames shaded by the normal `slow` over that of frames shaded by `fast`, view by view."""
     long, short = (rows[rows["normal"] == name] for name in (slow, fast))
     return over(long, short, ["comparison", "device"])
 
@@ -158,7 +160,7 @@ def _mean_of_roots(evidence: Evidence) -> Verdict | None:
 
 
 def _pays(piece: Pick, without: Pick, surfaces: tuple[str, ...]) -> Judge:
-    """A judge of "`piece` is faster than `without`", told with what both spend in evaluations and their wrong rays."""
+    """Make a judge of "`piece` is faster than `without`", which also tells the evaluations and wrong rays of both."""
 
     def decide(evidence: Evidence) -> Verdict | None:
         ratios = evidence.ratios(without, piece, surfaces)

@@ -1,4 +1,4 @@
-"""What toledo2007 claims of views and of many tori (sections 5.1 and 5.2, Table 1 and Figure 6)."""
+"""Claims of toledo2007 about views and many tori (sections 5.1 and 5.2, Table 1 and Figure 6)."""
 
 from __future__ import annotations
 
@@ -114,7 +114,7 @@ def _only_one_interactive(evidence: Evidence) -> Verdict | None:
 
 
 def _less_memory(evidence: Evidence) -> Verdict | None:
-    """By the bytes that a frame keeps on the device: instances, and the proxy's corners or one mesh that all share."""
+    """Judge by a frame's bytes on the device: instances, and the proxy's corners or one mesh that all share."""
     rows = tori(evidence)
     rows = rows[rows["technique"] != OURS.words] if len(rows) else rows
     newton = _bytes(rows, picks.NEWTON_3)

@@ -22,11 +22,11 @@ TOLD = (
     "“changes against the paper”."
 )
 CAPTION = (
-    "The time as printed over the default's: the median over the surfaces, views and devices that were timed in the "
-    "same rounds, from the least to the largest; over 1 the change makes the method faster, and a dash says that no "
-    "common rounds were timed. Evaluations are means over all rays cast. Wrong rays are neither grazing nor drowned. "
-    "The largest error is over the scene's radius and of right hits. Every figure is a sum or an extreme over the "
-    "comparisons that have both."
+    "Time is that of the method as printed over that of our default: the median, the least and the largest over the "
+    "surfaces, views and devices that were timed in the same rounds. Over 1 our change makes the method faster; a "
+    "dash says that no common rounds were timed. Evaluations are means over all rays cast. Wrong rays are neither "
+    "grazing nor drowned. The largest error is over the scene's radius and of right hits. Every figure is a sum or an "
+    "extreme over the comparisons that have both."
 )
 
 _ELSE = ["prepass", "origin", "proxy", "normal"]  # what two rows of one comparison may differ in beside their knobs
@@ -34,7 +34,7 @@ _KEYS = ["run", *derive.GROUP, *_ELSE]
 
 
 def sections(material: Material) -> list[Section]:
-    """None where the run holds no method with a knob at its printed value beside its default."""
+    """Make the section; [] where the run holds no method with a knob at its printed value beside its default."""
     body = [line for name, told in material.run.plan.methods.items() for line in _lines(name, told, material.frame)]
     if not body:
         return []

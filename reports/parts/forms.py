@@ -31,20 +31,21 @@ _STYLES = (  # by the order in which forms first appear, so that a form looks al
     ("#B8A800", "P", (0, (1, 1))),
 )
 LEAD = (
-    "One polynomial may be written in many ways, and exact arithmetic cannot tell them apart; a test expands them all. "
-    "Two things can. An interval extension takes every place at which a variable stands for another variable, so that "
-    "it is wider than f's range, the more so the more places there are and the more their terms cancel. And each "
-    "form rounds its own intermediate results. All forms of a surface see the same rays, and are timed in turns. "
-    "“As printed” is the catalog's form, that of the paper which the surface is from."
+    "One polynomial may be written in many ways, and exact arithmetic cannot tell them apart; a test expands them "
+    "all. Two things differ. An interval extension treats each place in the formula where a variable stands as if it "
+    "were a variable of its own. So it is wider than f's range, the more so the more such places there are and the "
+    "more their terms cancel. And each form rounds its own intermediate results. All forms of a surface see the same "
+    "rays, and are timed in turns. “As printed” is the catalog's form, that of the paper which the surface is from."
 )
 WARNING = (
-    "Fewer evaluations are no tighter extension: a beam ends at the first piece that it cannot exclude, so that an "
-    "extension that excludes nothing ends it at once, in front of the surface. Read evaluations with the wrong rays."
+    "Fewer evaluations do not mean a tighter extension: a beam ends at the first piece that it cannot exclude, so "
+    "that an extension that excludes nothing ends it at once, in front of the surface. Read evaluations with the "
+    "wrong rays."
 )
 
 
 def sections(material: Material) -> list[Section]:
-    """One section where a run holds two forms of one surface on the same picture, or the study of their ranges."""
+    """Make one section where a run holds two forms of one surface on the same picture, or the study of their ranges."""
     rows = _picture(material.evidence.of("forms.toml").frame)
     ranges = pd.DataFrame(material.run.studies.get("form_ranges", []))
     blocks: list[Block] = [Text(LEAD)]
@@ -66,7 +67,7 @@ def _picture(frame: pd.DataFrame) -> pd.DataFrame:
 
 
 def _narrowest(ranges: pd.DataFrame, titles: dict[str, str]) -> str:
-    """Of each surface the form of the narrowest extension over the smallest boxes, beside that as printed."""
+    """Name each surface's form with the narrowest extension over the smallest boxes, beside the form as printed."""
     told = []
     for base, own in ranges[ranges["side"] == ranges["side"].min()].groupby("surface", sort=False):
         factors = dict(zip(own["form"].map(form_of), own["factor"], strict=True))
@@ -100,7 +101,7 @@ def _ranges(ranges: pd.DataFrame, rows: pd.DataFrame, titles: dict[str, str]) ->
         "boxes, the same for all forms, whose sides are 1/4, 1/32 and 1/256 of the domain's radius; 1× is exact. "
         "A natural extension converges in proportion to the box, so that "
         "the factor does not fall to 1 as boxes shrink: it stays with the form. Empty boxes hold no surface; those "
-        "that are not excluded are searched for nothing, or taken for the surface. Operations are those of one "
+        "that are not excluded are searched in vain, or taken for the surface. Operations are those of one "
         "evaluation of f at a point. The torus as printed is szente's; toledo2007 prints another form of it."
     )
     return Table(columns, body, "What a form makes of f's range.", caption, group=1)

@@ -57,7 +57,10 @@ def _of(method: str, frame: pd.DataFrame) -> list[Section]:
 
 
 def _line(method: str, group: pd.DataFrame) -> tuple[Any, ...]:
-    """What one comparison says, and last whether the rival's time is told to be less; `group` is in order of time."""
+    """Make the line of one comparison; its last item is whether the rival is told to be faster.
+
+    `group` is in order of time.
+    """
     own = group[group["method"] == method]
     right = own[derive.all_right(own)]
     on_front = right[right["front"].astype(bool)]
@@ -72,12 +75,12 @@ def _line(method: str, group: pd.DataFrame) -> tuple[Any, ...]:
 
 
 def _rival(row: Any, own: Any | None) -> list[Any]:
-    """`own` is None where the method's own variant answers a ray wrongly: then there is no ratio."""
+    """Describe the rival `row`; no ratio where `own` is None, as the method's own variant answers a ray wrongly."""
     return [str(row.variant), row.median_ms, row.error_max, None if own is None else rounds.times_over(row, own)]
 
 
 def _without(count: int) -> str:
-    """Of comparisons in which no method is on the front."""
+    """Say in how many comparisons no method is on the front; empty for none."""
     if not count:
         return ""
     return (

@@ -45,8 +45,8 @@ def _plugins(material: Material) -> str:
         return "Methods that --plugins adds are no part of the commit." if taken else ""
     each = [f"{name} from {folder}{_files(material.frame, name)}" for name, folder in sorted(outside.items())]
     return (
-        f"No part of the commit, which does not hold what lies outside the project: {wording.listed(each)}. The same "
-        "again takes the same files there."
+        f"No part of the commit, which does not hold what lies outside the project: {wording.listed(each)}. To have "
+        "the same results again, have the same files there."
     )
 
 

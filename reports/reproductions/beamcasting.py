@@ -41,7 +41,8 @@ _TOLD = (
     "stored, and nothing is shaded. The paper's frames per second are of whole frames, with a second kernel that "
     "shades by the gradient and a textured quad: work that both methods share draws its ratio towards 1. Adaptive is "
     "the paper's Subdivide as printed, which halves [w, far] anew for each quarter; ε, which the paper does not "
-    "print, gives both methods pieces of about the same depth. The last column goes on at the parent's piece, ours."
+    "print, gives both methods pieces of about the same depth. In the last column, ours, quarters go on at their "
+    "parent's piece."
 )
 
 
@@ -134,10 +135,11 @@ def _figure_1(material: Material) -> list[Section]:
 _SETTINGS = (picks.UNIFORM_IN_ROWS, picks.UNIFORM, picks.ADAPTIVE, picks.REMAPPED, picks.ADAPTIVE_OURS)
 _IDLE = (
     "Work items that run in step, in a processor's vector or a GPU's warp, wait for the one that evaluates f most "
-    "often. A group's lanes take its largest count each; idle is what is not evaluated of that. Counts are of the "
-    "frame that was checked; groups are neighbours in the order of the work items. Turns of the search that only test "
-    "the domain are not counted, nor that lanes evaluate at different turns: shares are lower bounds. The order of a "
-    "level's queue changes from run to run, and shares by about a hundredth."
+    "often. Each lane of a group takes as many turns as the lane with most evaluations; idle is the share of turns in "
+    "which a lane evaluates nothing. Counts are of the frame that was checked; groups are neighbours in the order of "
+    "the work items. Turns of the search that only test the domain are not counted, nor that lanes evaluate at "
+    "different turns: shares are lower bounds. The order of a level's queue changes from run to run, and shares by "
+    "about a hundredth."
 )
 
 
@@ -190,7 +192,8 @@ def _divergence(material: Material) -> list[Section]:
         ),
         levels,
         "The Octdong level by level.",
-        "The first level is the one that fills the device. Coarse levels wait most: they have fewest neighbours alike.",
+        "The first level is the one that fills the device. Coarse levels wait most, since their neighbouring cells "
+        "are least alike.",
         group=1,
     )
     blocks: tuple[Block, ...] = (

@@ -64,7 +64,7 @@ def _panel(row: Any, arrays: Arrays) -> Panel:
 
 
 def boxed(arrays: Arrays) -> NDArray[np.float64]:
-    """float64[h, w, 3] in 0…1: hits lit from the camera, other pixels in which f was evaluated pale blue, on white."""
+    """Paint float64[h, w, 3] in 0…1: hits lit from the camera, other pixels that evaluated f pale blue, on white."""
     assert arrays.evaluations is not None
     empty = np.isnan(arrays.shade) & (arrays.evaluations > 0)
     return np.where(empty[..., None], np.asarray(to_rgb(BOX)), images.shaded(arrays))

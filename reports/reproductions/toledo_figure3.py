@@ -53,10 +53,10 @@ def _figure(cases: list[dict[str, Any]]) -> Figure:
         drawn,
         f"T and its two derivatives along {len(cases)} rays, with the roots of each.",
         "toledo2007, Figure 3: T along rays through the torus.",
-        "T′ and T″ are scaled to T's height. Bisection looks at the ends of a piece. It comes down on a root where f "
-        "has two signs there, else on an extreme towards 0. t_M parts each ray as printed; ours parts it at the roots "
-        "of T″. In the last case but one the first minimum only touches. In the last none reaches 0: there Newton's "
-        "signed step turns back and stays.",
+        "T′ and T″ are scaled to T's height. Bisection looks at the two ends of a piece. Where f has different signs "
+        "at them, it ends at a root; else it ends at an extreme of f, on the side towards 0. t_M parts each ray as "
+        "printed; ours parts it at the roots of T″. In the last case but one the first minimum only touches. In the "
+        "last none reaches 0: there Newton's signed steps turn back and stay in the dip.",
     )
 
 

@@ -1,4 +1,4 @@
-"""toledo2007's casters piece by piece: what each piece is worth in time, evaluations and wrong rays."""
+"""toledo2007's methods piece by piece: what each piece is worth in time, evaluations and wrong rays."""
 
 from __future__ import annotations
 
@@ -62,9 +62,9 @@ def _pieces(worth: list[tuple[Any, ...]]) -> Table:
             Column("with", wording.count, numeric=True, over="wrong rays"),
         ),
         worth,
-        "What the pieces of toledo2007's casters are worth.",
-        "Each is timed with the piece and without it in turns; all else is as the paper prints it. Cases are views or "
-        "surfaces; wrong rays, outside the grazing class, are summed over them.",
+        "What the pieces of toledo2007's methods are worth.",
+        "Each method is timed with the piece and without it, in turns; all else is as the paper prints it. Cases are "
+        "views or surfaces; wrong rays are neither grazing nor drowned, and are summed over the cases.",
     )
 
 
