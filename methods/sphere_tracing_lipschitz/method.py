@@ -111,7 +111,7 @@ METHOD = Method(
             sweep=(2.0**-10, 2.0**-12, 2.0**-18),
             per="DOMAIN_RADIUS",
         ),
-        Parameter("SHELLS", 64, "shells with a bound of their own; 1: one bound for the whole domain"),
+        Parameter("SHELLS", 64, "shells with a bound of their own; 1: one bound for the whole domain", printed=1),
         Parameter("MAX_EVALUATIONS", 20000, "evaluations of f spent on one ray"),
     ),
     claims=frozenset({"conservative_bound"}),
