@@ -200,7 +200,7 @@ CLAIMS = (
         PAPER,
         "1, 2",
         "Iterative methods draw surfaces more precisely than closed forms (Loop and Blinn's).",
-        "Largest errors over r outside the grazing class: Sturm's and Newton 0.00003's under Loop-Blinn's in every view",
+        "Largest errors over r, grazing rays left out: Sturm's and Newton 0.00003's under Loop-Blinn's, in each view",
         _more_precise,
         ("sturm", "newton", "analytic"),
         VIEWS,
