@@ -164,6 +164,18 @@ def test_precision_is_judged_by_the_settings_of_small_errors(tmp_path: Path, fin
     assert "D.D. Bisection" in verdict.figure
 
 
+def test_sturm_is_judged_from_the_box_and_told_from_the_eye(tmp_path: Path) -> None:
+    cells = []
+    for origin, worst in (("entry", 0), ("eye", 400)):
+        for view, bad in (("angle 0", 0), ("angle 72", worst)):
+            pick = Pick(f"Sturm {origin}", "sturm", picks.STURM.knobs)
+            cells.append(planted(pick, "torus", 1.0, view, misses=bad) | {"origin": origin})
+    verdict = claims.judge(claim("toledo2007", "viewing angle"), evidence(tmp_path / "run", *cells))
+    assert verdict.outcome is Outcome.REFUTED
+    assert "With o read as the eye: wrong rays from 0 (view angle 0) to 400" in verdict.figure
+    assert verdict.figure.endswith("(confirmed)")
+
+
 def test_planes_are_compared_on_rays_of_one_origin(tmp_path: Path) -> None:
     """From the eye errors are larger, whatever the planes."""
     cells = []
