@@ -141,6 +141,10 @@ def test_planted_wrong_rays_flip_a_verdict(tmp_path: Path) -> None:
     assert outcome("uneven", "viewing angle", *views, paper="toledo2007") is Outcome.CONFIRMED
     assert outcome("even", "viewing angle", *even, paper="toledo2007") is Outcome.REFUTED
 
+    for missed, other, expected in ((0, 1, Outcome.CONFIRMED), (1, 0, Outcome.REFUTED)):
+        blob = planted(picks.UNIFORM, "blob", 1.0, misses=missed, wrong_root=other) | {"degree": None}
+        assert outcome(f"blob {missed}", "not restricted to algebraic", blob, paper="beamcasting") is expected
+
     tight, loose = ({"feature_error": {"max": value}} for value in (1e-3, 2e-3))
     bisection = "none of Sturm's failures"
     for name, cells, expected in (

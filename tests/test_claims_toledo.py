@@ -155,6 +155,39 @@ def test_errors_near_singular_points_are_those_of_the_worst_view(tmp_path: Path,
         assert f"zoomed closely: {bad + 2} of" in verdict.figure, "2 drowned ones are planted in each view"
 
 
+@pytest.mark.parametrize(("fine", "expected"), [(1e-5, Outcome.CONFIRMED), (1e-3, Outcome.REFUTED)])
+def test_precision_is_judged_by_the_settings_of_small_errors(tmp_path: Path, fine: float, expected: Outcome) -> None:
+    errors = ((picks.LOOP_BLINN, 1e-4), (picks.STURM, 1e-5), (picks.NEWTON_5, fine), (picks.BISECTION, 1e-2))
+    cells = [planted(pick, "torus", 1.0, feature_error={"max": error}) for pick, error in errors]
+    verdict = claims.judge(claim("toledo2007", "more precisely"), evidence(tmp_path / "run", *cells))
+    assert verdict.outcome is expected
+    assert "D.D. Bisection" in verdict.figure
+
+
+def test_sturm_is_judged_from_the_box_and_told_from_the_eye(tmp_path: Path) -> None:
+    cells = []
+    for origin, worst in (("entry", 0), ("eye", 400)):
+        for view, bad in (("angle 0", 0), ("angle 72", worst)):
+            pick = Pick(f"Sturm {origin}", "sturm", picks.STURM.knobs)
+            cells.append(planted(pick, "torus", 1.0, view, misses=bad) | {"origin": origin})
+    verdict = claims.judge(claim("toledo2007", "viewing angle"), evidence(tmp_path / "run", *cells))
+    assert verdict.outcome is Outcome.REFUTED
+    assert "With o read as the eye: wrong rays from 0 (view angle 0) to 400" in verdict.figure
+    assert verdict.figure.endswith("(confirmed)")
+
+
+def test_planes_are_compared_on_rays_of_one_origin(tmp_path: Path) -> None:
+    """From the eye errors are larger, whatever the planes."""
+    cells = []
+    for origin, error in (("entry", 1e-4), ("eye", 1e-2)):
+        for near in (0.005, 2.5):
+            pick = Pick(f"{near} from {origin}", "analytic", {"SCREEN": 1, "POLISH": 0, "NEAR": near, "FAR": 6.0})
+            cells.append(planted(pick, "torus", 1.0, error={"p99": error}) | {"origin": origin})
+    verdict = claims.judge(claim("toledo2007", "depends on the near plane"), evidence(tmp_path / "run", *cells))
+    assert verdict.outcome is Outcome.REFUTED
+    assert "by 1.00×" in verdict.figure
+
+
 def test_figure_5_tells_a_boxs_fragments_from_the_torus(tmp_path: Path) -> None:
     made = planted(picks.STURM, "torus", 1.0, "angle 18", fragments=40, fragments_discarded=30)
     made |= {"stage": "raster", "proxy": "box", "arrays": f"arrays/{made['key']}.npz"}

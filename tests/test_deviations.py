@@ -45,6 +45,16 @@ def test_a_printed_value_is_another_than_the_default(name):
         assert parameter.printed is None or type(parameter.printed) is type(parameter.default)
 
 
+@pytest.mark.parametrize(
+    "name", [n for n, p in find_methods().plugins.items() if p.method.printed and p.method.settings]
+)
+def test_as_printed_is_one_of_the_papers_named_settings(name):
+    """So the page of deviations compares with what the papers' tables hold."""
+    plugin = find_methods().get(name)
+    named = [plugin.setting(setting).parameters for setting in plugin.method.settings]
+    assert plugin.setting(AS_PRINTED).parameters in named
+
+
 def test_a_method_as_printed_is_refused_where_nothing_is_ours():
     with pytest.raises(FirsthitError, match="has no setting 'as printed'"):
         find_methods().get("null").setting(AS_PRINTED)

@@ -142,6 +142,17 @@ def test_sturm_as_printed_needs_the_shift():
 
 
 @pytest.mark.parametrize("origin", ORIGINS)
+def test_the_planes_of_loop_and_blinn_do_not_move_with_a_rays_origin(device, origin):
+    """Between planes that just hold the domain every hit is found."""
+    surface, rays, truth = case("torus")
+    chosen = find_methods().get("analytic").variant({"SCREEN": 1, "POLISH": 0, "NEAR": 2.875, "FAR": 4.875})
+    hits = cast(device, "analytic", surface, rays, origin, chosen=chosen)
+    clear = (truth.status == TruthStatus.CROSSING) & (truth.margin > 0.01)
+    assert clear.sum() > 300
+    assert (hits.status[clear] == RayStatus.HIT).all()
+
+
+@pytest.mark.parametrize("origin", ORIGINS)
 def test_a_surface_that_touches_its_domain_is_not_cut_off_from_afar(device, origin):
     """Every hit lies on the ball's end, where the clip of a far ray is off by the roundings of its distance."""
     ball = surfaces.from_formula("x^2 + y^2 + z^2 - 1", "sphere:1")

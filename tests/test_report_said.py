@@ -84,7 +84,7 @@ def test_a_card_says_what_a_claim_excepts_and_on_which_rays_it_held(tmp_path: Pa
 
 def test_a_card_says_what_the_source_prints_for_a_knob() -> None:
     knob = {"name": "SPLIT", "default": 1, "meaning": "where it parts", "printed": 0}
-    assert cards._knob(knob) == "SPLIT = 1 (where it parts; its source prints 0)"
+    assert cards._knob(knob) == "SPLIT = 1 (where it parts; as printed 0)"
     assert cards._knob(knob | {"printed": None}) == "SPLIT = 1 (where it parts)"
 
 

@@ -60,6 +60,13 @@ def test_published_tables_cite_their_paper():
         assert None not in table.rows[0], "more cells than columns"
 
 
+def test_beamcastings_ratios_are_those_of_its_frames():
+    """The paper cuts its ratios off after two digits, of frames per second that it rounds."""
+    for row in published.table("beamcasting_tables_fps").rows:
+        ratio = float(row["adaptive_fps"]) / float(row["uniform_fps"])
+        assert ratio == pytest.approx(float(row["adaptive_over_uniform"]), abs=0.011), row
+
+
 def test_the_torus_along_rays_has_the_shapes_that_its_cases_name():
     rows = {row["case"]: row for row in torus_along_rays.compute()}
     shapes = {

@@ -19,11 +19,13 @@ Hit first_hit(Ray ray, real t0, real t1) {
     Span stay = make_span(t0, t1);
     Span whole = make_span(t0 - WIDENING * (t1 - t0), t1 + WIDENING * (t1 - t0));
     real ratio = 1.0;
+    real middle = inner_product(difference(DOMAIN_CENTER, ray.origin), ray.direction);  // wherever the ray begins
+    real eye = middle - EYE * DOMAIN_RADIUS;
     if (SCREEN == 1) {
-        whole = make_span((NEAR - EYE) * DOMAIN_RADIUS, (FAR - EYE) * DOMAIN_RADIUS);
+        whole = make_span(eye + NEAR * DOMAIN_RADIUS, eye + FAR * DOMAIN_RADIUS);
         ratio = NEAR / FAR;
     }
-    if (SCREEN == 2) ratio = (EYE * DOMAIN_RADIUS + whole.lo) / (EYE * DOMAIN_RADIUS + whole.hi);
+    if (SCREEN == 2) ratio = (whole.lo - eye) / (whole.hi - eye);
     // f as a polynomial in s: about whole.lo, then its length as the unit, then homogeneous in (u, 1 - u)
     real a[5];
     for (int i = 0; i < 5; i++) a[i] = 0.0;

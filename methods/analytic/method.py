@@ -21,6 +21,9 @@ so the first one is, a touch too where rounding leaves it real.
   surface touches it, and with f = 0 there the leading coefficient is lost (without it the torus has up to 2 % of wrong
   roots in float32). A tetrahedron is not tight.
 - POLISH Newton steps on f along the ray end it; 0 leaves the closed form as it is.
+- Rays begin at their point nearest the domain's centre (the axis `origins`); eye and planes stay where they are. Of
+  24,576 rays of Table 1's views (opencl:pocl, float32) the printed setting gets none wrong from there and from the box,
+  and 54 from the eye; its largest error is 4.1e-5, 6.2e-5 and 3.0e-2 of the minor radius.
 - How Loop and Blinn solve the quartic is not in what is cited above; the closed forms here are stated in their file.
 
 The coefficients along the ray count as one evaluation, each Newton step of POLISH as another.

@@ -19,6 +19,10 @@ mean of its three extremes and so lies between the outer two: it parts the two m
   other sign of f, the extreme is ahead.
 - The paper prints its error, 0.0014 r, and not how often it halves: 12 times here, which keep 4.4e-4 r over Table 1's
   views. 11 would do (8.8e-4 r), but take opencl:intel 1.4 times as long. ITERATIONS is more by default, see `variants`.
+- Any quartic whose leading coefficient is positive along every ray is accepted; the paper's is the torus.
+- Rays begin at their point nearest the domain's centre (the axis `origins`), the paper's at the box, where its tables
+  are run here. Of 24,576 rays of Table 1's views (opencl:pocl, float32) the printed setting gets none wrong from
+  either, and 52 from the eye; its largest error is 4.3e-4 r, 4.3e-4 r and 3.4e-2 r.
 
 One evaluation of f with its derivative is counted for each point.
 

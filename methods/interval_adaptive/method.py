@@ -27,10 +27,12 @@ search stopped. Each level halves ε, since the width of a beam bounds what its 
 
 **Evaluations** A large beam's are divided among the pixels below it, in whole numbers that add up to what was spent.
 
-**Against the paper's tables** opencl:intel, float32, processor time: uniform over adaptive as printed is 1.71 and 1.77
-in the mean of twelve surfaces at 512 × 512 and 1024 × 1024, with 4 samples 1.77 and 1.97; the paper has 1.38, 1.60,
-1.81 and 2.01. In evaluations it is 1.0 to 3.7, and 1.3 to 6.7 from the parent's piece. The sphere gains least (1.0 to
-1.2 in time; the paper 1.3 to 1.8), since most of its pixels are hit and halve all the depth again at each level.
+**Against the paper's tables** opencl:intel, float32, processor time: uniform over adaptive as printed is 1.69 and 1.82
+in the mean of twelve surfaces at 512 × 512 and 1024 × 1024, with 4 samples 1.81 and 1.89; the paper has 1.38, 1.60,
+1.81 and 2.01. In evaluations it is 0.9 to 3.7, and 1.2 to 6.7 from the parent's piece. Chmutov's septic as the paper
+writes it gains least: 0.9 to 1.0, in time 0.87 to 1.16, where the paper has 1.5 to 1.9. Then comes the sphere (1.3 to
+1.4; in time 1.1 to 1.2, the paper 1.3 to 1.8), since most of its pixels are hit and halve all the depth again at each
+level.
 
 **Tried**, processor time of opencl:intel at 512 × 512, float32, as ms on both cores, sphere / tangle:
 - The first level from 2 to 8: 21 to 25 / 63 to 73, no trend. What counts is the pixels' own level. Uniform over

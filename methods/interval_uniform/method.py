@@ -21,6 +21,10 @@ middle of the first piece that cannot be excluded, as a distance along the pixel
 - ε follows the resolution: the last pieces are T / 2^(level + BISECTIONS) deep, where 2^level pixels are a side of the
   smallest square that holds the image. With BISECTIONS = 1 a piece is about half as deep as a pixel is wide. The paper
   sets a constant that it does not print.
+- The paper's text also lets BeamCast stop where it can prove that the beam sees the surface. Its procedures do not, and
+  none of this does.
+- Pixels lie over work items in Z order. The paper takes U and V from the indexes of threads in a 2D grid, whose blocks
+  it does not print, and "tried" to group threads by their beams' places; GROUPED = 0 is row by row.
 - Boxes are cut by the domain, which clips the surface here, and what lies outside it costs no evaluation. Boxes are
   rounded outward, in float32 or float64; the beam is wider than its pixel by sixteen float32 roundings, so that rays
   made on any device are in it.

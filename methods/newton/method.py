@@ -15,8 +15,12 @@ is what makes it so in practice.
   paper would discard their fragments: rightly, but for 4 rays at 54° and 232 at 72° that hit the torus behind the dip.
   A signed step that converges before the ray's start is no answer either.
 - The paper does not say when to give up. Here a ray ends as a miss where it leaves the bounding sphere or the domain,
-  and as exhausted after MAX_EVALUATIONS. The paper's settings get 20: no clear hit of Table 1's views needs more than
-  10, and with 100 the rays that stay in a dip take two thirds of all evaluations.
+  and as exhausted after MAX_EVALUATIONS. As printed it gets 20, which is our reading: no clear hit of Table 1's views
+  needs more than 10, and with 100 the rays that stay in a dip take two thirds of all evaluations.
+- Of the threshold the paper says that it assures the error. We read: the last step is shorter than it.
+- Rays begin at their point nearest the domain's centre (the axis `origins`), the paper's at the box, where its tables
+  are run here. Of 24,576 rays of Table 1's views (opencl:pocl, float32) "Newton 0.00003" gets 1,004 wrong from the
+  nearest point, 1,006 from the box and 3,508 from the eye, where f's roundings keep steps above the threshold.
 - Surfaces other than the torus are a stated extension: the paper's λ = 0.15 is relative to its canonical torus
   (R + r = 1), here to the bounding radius; its thresholds are relative to the minor radius r, here to the surface's
   feature radius, or its domain's radius where none is stated.
@@ -47,7 +51,7 @@ METHOD = Method(
         Parameter(
             "SPHERE_START", 1, "1: from the bounding sphere, as printed; 0: from where the ray enters the domain"
         ),
-        Parameter("MAX_EVALUATIONS", 100, "evaluations spent on one ray"),
+        Parameter("MAX_EVALUATIONS", 100, "evaluations spent on one ray", printed=20),
     ),
     settings={
         "Newton 0.001": {"EPSILON": 0.001, "FORWARD": 0, "MAX_EVALUATIONS": 20},

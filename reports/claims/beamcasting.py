@@ -54,7 +54,7 @@ def _always(evidence: Evidence) -> Verdict | None:
     return verdict(always(ratios), figure)
 
 
-def _grows(evidence: Evidence, by: str, kept: str) -> Verdict | None:
+def _grows(evidence: Evidence, by: str, kept: str, told_there: str) -> Verdict | None:
     ratios = _ratios(evidence)
     table = ratios.pivot_table(index=["device", "surface", kept], columns=by, values="ratio").dropna()
     if table.shape[1] < 2 or table.empty:
@@ -67,15 +67,16 @@ def _grows(evidence: Evidence, by: str, kept: str) -> Verdict | None:
     growth = np.log(table[high] / table[low])
     chance = ranks.signed_rank(list(growth))
     told = None if chance > LEVEL else bool(growth.median() > 0.0)
-    return verdict(told, f"{figure}; larger in {more} of {len(table)}, of which chance {wording.short(chance)}")
+    figure += f"; larger in {more} of {len(table)}, of which chance {wording.short(chance)}; the paper: {told_there}"
+    return verdict(told, figure)
 
 
 def _resolution(evidence: Evidence) -> Verdict | None:
-    return _grows(evidence, "size", "samples_per_pixel")
+    return _grows(evidence, "size", "samples_per_pixel", "1.59× and 1.81×, larger in 22 of 24")
 
 
 def _samples(evidence: Evidence) -> Verdict | None:
-    return _grows(evidence, "samples_per_pixel", "size")
+    return _grows(evidence, "samples_per_pixel", "size", "1.49× and 1.91×, larger in 23 of 24")
 
 
 def _closer_with_samples(evidence: Evidence) -> Verdict | None:
@@ -98,11 +99,20 @@ def _closer_with_samples(evidence: Evidence) -> Verdict | None:
 
 def _beyond_algebra(evidence: Evidence) -> Verdict | None:
     rows = pd.concat([evidence.rows(pick) for pick in (picks.UNIFORM, picks.ADAPTIVE)])
+    algebraic = rows[rows["degree"].notna()]
     rows = rows[rows["degree"].isna()]
     if rows.empty:
         return None
-    wrong = counted(rows, "misses", "wrong_root")
-    return verdict(known(wrong, lambda n: n == 0), f"{count(wrong)} misses and wrong roots of {rays(rows)}")
+    misses = counted(rows, "misses", "grazing_misses", "drowned_misses")
+    told = f"{count(misses)} misses of {rays(rows)}; {_wrong_roots(rows)}"
+    told += f", on algebraic surfaces {_wrong_roots(algebraic)}" if len(algebraic) else ""
+    return verdict(known(misses, lambda n: n == 0), told)
+
+
+def _wrong_roots(rows: pd.DataFrame) -> str:
+    """Pieces that a pixel's beam touches and its middle ray does not hit: no beam method tells these apart."""
+    wrong, of = counted(rows, "wrong_root"), counted(rows, "accuracy_rays")
+    return f"other roots than the middle ray's: {count(wrong)} of {count(of)}"
 
 
 def _nothing_missed(evidence: Evidence) -> Verdict | None:
@@ -177,7 +187,7 @@ CLAIMS = (
     ),
     Claim(
         PAPER,
-        "IV",
+        "Tables I, II",
         "The gain grows with the resolution.",
         f"That ratio at the smallest and the largest size: signed-rank test of the cases, at {LEVEL:g}",
         _resolution,
@@ -186,7 +196,7 @@ CLAIMS = (
     ),
     Claim(
         PAPER,
-        "IV",
+        "Tables I, II",
         "The gain grows with the samples per pixel.",
         f"That ratio at 1 and at 4 samples: signed-rank test of the cases, at {LEVEL:g}",
         _samples,
@@ -206,14 +216,14 @@ CLAIMS = (
         PAPER,
         "IV",
         "Beams are not restricted to algebraic surfaces.",
-        "Misses and wrong roots on the Blinn blob",
+        "Misses on the Blinn blob, silhouettes included; wrong roots beside those of algebraic surfaces",
         _beyond_algebra,
         _BOTH,
         TABLES,
     ),
     Claim(
         PAPER,
-        "I, III",
+        "I",
         "All parts of the surface are seen.",
         "Misses, silhouettes included, on every surface",
         _nothing_missed,

@@ -14,6 +14,7 @@ FORWARDS_UNBOUND = Pick("steps forwards up to 100", "newton", _FORWARDS | {"EPSI
 FORWARDS_FROM_BOX = Pick("forwards from the box", "newton", _FORWARDS | {"EPSILON": 0.001, "SPHERE_START": 0})
 _STURM = {"BY_SIGN": 0, "CAREFUL": 0}
 STURM = Pick("Sturm", "sturm", _STURM | {"ITERATIONS": 18, "DISCARD": 1})
+STURM_FROM_EYE = Pick("Sturm from the eye", "sturm", STURM.knobs, "eye")
 STURM_SEARCHING = Pick("Sturm that discards after its search", "sturm", _STURM | {"ITERATIONS": 18, "DISCARD": 0})
 STURM_SHORT = Pick("Sturm with 8 halvings", "sturm", _STURM | {"ITERATIONS": 8, "DISCARD": 1})
 STURM_BY_SIGN = Pick("Sturm by sign", "sturm", {"BY_SIGN": 1, "ITERATIONS": 18})
@@ -23,6 +24,9 @@ ONE_RAY = Pick("Sphere Tracing", "sphere_tracing", {"RAYS": 1, "EPSILON": 0.001}
 TWO_RAYS = Pick("2-rays S. Tracing", "sphere_tracing", {"RAYS": 2, "EPSILON": 0.001, "AHEAD": 0})
 TWO_RAYS_AHEAD = Pick("2-rays S. Tracing ahead", "sphere_tracing", {"RAYS": 2, "EPSILON": 0.001, "AHEAD": 1})
 LOOP_BLINN = Pick("Loop-Blinn", "analytic", {"SCREEN": 2, "POLISH": 0})
+BETWEEN_PLANES = Pick(
+    "Loop-Blinn between close planes", "analytic", {"SCREEN": 1, "POLISH": 0, "NEAR": 2.5, "FAR": 6.0}
+)
 CLOSED_FORM = Pick("a closed form", "analytic")
 ANALYTIC = Pick("closed form", "analytic", {"SCREEN": 0, "POLISH": 0})
 TABLE_1 = (STURM, BISECTION, ONE_RAY, TWO_RAYS, NEWTON_5, NEWTON_3)

@@ -54,7 +54,7 @@ def _card(name: str, told: Mapping[str, Any], rows: pd.DataFrame, judged: list[A
 
 
 def _knob(knob: Mapping[str, Any]) -> str:
-    printed = "" if knob.get("printed") is None else f"; its source prints {knob['printed']:g}"
+    printed = "" if knob.get("printed") is None else f"; as printed {knob['printed']:g}"
     return f"{knob['name']} = {knob['default']:g} ({knob['meaning']}{printed})"
 
 

@@ -18,8 +18,8 @@ LEADS = True
 ALL = "all of these"
 TOLD = (
     "Each method's default is compared with the same method in which one knob stands at the value that its source "
-    "prints, and then with all such knobs there. What differs beside these knobs is said in the method's card, under "
-    "“changes against the paper”."
+    "prints, and then with all such knobs there. Where a source prints none, the method's card says how it is read. "
+    "What differs beside these knobs is said there too, under “changes against the paper”."
 )
 CAPTION = (
     "Time is that of the method as printed over that of our default: the median, the least and the largest over the "
