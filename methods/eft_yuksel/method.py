@@ -18,6 +18,8 @@ known are missed, and so are touches, unless rounding makes them cross.
 - START: Yuksel's Newton method starts in a piece's middle. Ours starts where a cubic that is level at both ends has its
   root, or on the first and last piece to degree 4 the parabola that is level at one.
 - SAMPLES: a change of sign between samples bounds the first root from above, and only pieces before it are looked for.
+  With EVAL = 0 a plain fit that contradicts that sign then loses the root: 97 wrong rays of 36,864 on the 16-ball with
+  both our SAMPLES and our MATRIX, 25 without SAMPLES, 78 without MATRIX, 9 without either.
 - MATRIX: the paper multiplies with the whole inverse, made in double precision for nodes that float32 rounds. Nodes lie
   symmetrically, so sums and differences of opposite samples (error-free too) take half the products; and ours are
   rounded first, and H is inverted exactly for the rounded ones.
