@@ -105,7 +105,7 @@ class Balls(Arithmetic):
         return a.max(b)
 
     def sqrt(self, a: Any) -> Any:
-        # Of the part that has a root: rounding takes sums of squares a little below zero.
+        # Rounding takes sums of squares a little below zero; the root is taken of the part that is not.
         return a.nonnegative_part().sqrt() if a.contains(0) else a.sqrt()
 
     def exp(self, a: Any) -> Any:

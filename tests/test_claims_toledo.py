@@ -232,3 +232,16 @@ def test_pixels_are_counted_by_a_technique_that_loses_none():
     assert "as Newton 0.001 forwards draws them" in table.caption
     ours = next(row for row in table.rows if row[:2] == ("torus, kilopixels", "ours"))
     assert ours[2:] == (203.0, 203.0)
+
+
+def test_a_claim_about_speed_says_who_answers_wrongly(tmp_path: Path) -> None:
+    """Newton as printed leaves rays exhausted; its speed stands beside that."""
+
+    def told(name: str, exhausted: int) -> str:
+        slow, fast = planted(picks.LOOP_BLINN, "torus", 2.6), planted(picks.NEWTON_3, "torus", 1.0, exhausted=exhausted)
+        return claims.judge(
+            claim("toledo2007", "faster than closed forms"), evidence(tmp_path / name, slow, fast)
+        ).figure
+
+    assert "wrong rays: Newton 0.001 912 of 2,304, Loop-Blinn 0 of 2,304" in told("lost", 912)
+    assert "wrong" not in told("right", 0)

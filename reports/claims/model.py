@@ -161,9 +161,25 @@ def faster(slow: Pick, fast: Pick, surfaces: tuple[str, ...] | None = None, told
         if ratios.empty:
             return None
         figure = f"{fast.words} is {quantities(ratios['ratio'])} as fast as {slow.words} {where(ratios)}"
-        return verdict(always(ratios), f"{figure}{lost(ratios)}" + (f"; the paper: {told}" if told else ""))
+        figure += lost(ratios) + (f"; the paper: {told}" if told else "")
+        return verdict(always(ratios), figure + _answered_wrongly(evidence, (fast, slow), ratios, surfaces))
 
     return decide
+
+
+def _answered_wrongly(
+    evidence: Evidence, picked: tuple[Pick, ...], ratios: pd.DataFrame, surfaces: tuple[str, ...] | None
+) -> str:
+    """Say how many rays away from silhouettes each of `picked` answers wrongly where its times are compared; "" where
+    all answer rightly."""
+    told, any_wrong = [], False
+    for pick in picked:
+        rows = evidence.rows(pick, surfaces)
+        rows = rows[rows["comparison"].isin(ratios["comparison"])]
+        bad, of = counted(rows, "wrong_rays"), counted(rows, "accuracy_rays")
+        any_wrong = any_wrong or bad != 0
+        told.append(f"{pick.words} {count(bad)} of {count(of)}")
+    return f"; wrong rays: {', '.join(told)}" if any_wrong else ""
 
 
 def always(ratios: pd.DataFrame) -> bool | None:
