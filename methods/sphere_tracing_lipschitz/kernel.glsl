@@ -4,6 +4,8 @@ Hit first_hit(Ray ray, real t0, real t1) {
     vec3 o = difference(ray.origin, DOMAIN_CENTER);
     real origin_away = inner_product(o, o);
     real advance = 2.0 * inner_product(o, ray.direction);
+    // From a far origin the sum of `away` cancels; what that may be off by keeps it from falling below 0, and off the table.
+    origin_away += 16.0 * UNIT_ROUNDOFF * advance * advance;
     real thickness = DOMAIN_RADIUS / real(SHELLS);
     real squared_thickness = thickness * thickness;
     real least = EPSILON * DOMAIN_RADIUS;
@@ -29,7 +31,7 @@ Hit first_hit(Ray ray, real t0, real t1) {
         // a step is at most as long as a shell is thick, so the shell changes by one at most
         if (SHELLS > 1) {
             real away = origin_away + t * (advance + t);
-            if (away < real(shell * shell) * squared_thickness) shell = max(shell - 1, 0);
+            if (away < real(shell * shell) * squared_thickness) shell -= 1;
             if (away > real((shell + 1) * (shell + 1)) * squared_thickness) shell = min(shell + 1, SHELLS - 1);
         }
         step = max(min(fabs(f) * REACH[shell], thickness), least);
