@@ -167,7 +167,7 @@ def origin_refusal(method: Method, origin: Origin) -> str | None:
 
 
 def _cast_sections(origin: Origin) -> list[Section]:
-    return [file_section(KERNELS / f"{part}.glsl") for part in ("origin", f"origin_{origin}", "cast")]
+    return [file_section(KERNELS / f"{part}.glsl") for part in (f"origin_{origin}", "cast")]
 
 
 def _t_min_section(t_min: float, precision: Precision, language: Language) -> Section:

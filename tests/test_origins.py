@@ -79,7 +79,7 @@ def test_programs_differ_in_the_shift_alone(origin, entry):
         strict=True,
     )
     (differs,) = [pair for pair in pairs if pair[0] != pair[1]]
-    assert all("OwnRay own_ray(Ray ray)" in text for text in differs)
+    assert all("real own_shift(Ray ray)" in text for text in differs)
 
 
 def test_fragments_differ_in_the_shift_alone():

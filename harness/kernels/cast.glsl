@@ -1,15 +1,16 @@
-// The harness's part of every ray: move its origin as own_ray does, clip, call the method.
+// The harness's part of every ray: move its origin by own_shift, clip, call the method.
 STRUCT(Cast) struct Cast { real shift; Hit hit; };
 
 // The first hit with lower <= t <= upper.
 Cast cast_ray_between(Ray ray, real lower, real upper) {
     Cast result;
-    OwnRay own = own_ray(ray);
-    result.shift = own.shift;
-    real t0 = max(own.span.lo, lower - own.shift);
-    real t1 = min(own.span.hi, upper - own.shift);
+    result.shift = own_shift(ray);
+    Ray own = advanced_ray(ray, result.shift);
+    Span span = own_span(ray, own, result.shift);
+    real t0 = max(span.lo, lower - result.shift);
+    real t1 = min(span.hi, upper - result.shift);
     if (t0 <= t1) {
-        result.hit = first_hit(own.ray, t0, t1);
+        result.hit = first_hit(own, t0, t1);
     } else {
         result.hit = no_hit(t0);
     }
