@@ -91,7 +91,7 @@ def _line(what: tuple[str, ...], ours: pd.DataFrame, theirs: pd.DataFrame) -> It
     timed = (rounds.ratio(b, a) for a, b in zip(left.itertuples(), right.itertuples(), strict=True))
     times = [ratio.median for ratio in timed if ratio is not None]
     spread = (float(np.median(times)), min(times), max(times)) if times else (None, None, None)
-    spent = right["evaluations_mean"].sum() / left["evaluations_mean"].sum()
-    wrong = (left["wrong_rays"].sum(), right["wrong_rays"].sum(), left["judged"].sum())
+    spent = right["evaluations_mean"].sum(skipna=False) / left["evaluations_mean"].sum(skipna=False)
+    wrong = (left["wrong_rays"].sum(skipna=False), right["wrong_rays"].sum(skipna=False), left["judged"].sum())
     errors = (left["relative_error_max"].max(), right["relative_error_max"].max())
     yield (*what, len(common), *spread, spent, *wrong, *errors)
