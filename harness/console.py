@@ -6,7 +6,7 @@ import sys
 import time
 from collections.abc import Sequence
 
-from harness.store import Row
+from harness.results.store import Row
 
 
 def table(header: Sequence[str], rows: Sequence[Sequence[object]]) -> str:

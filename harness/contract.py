@@ -1,4 +1,4 @@
-"""The vocabulary every other part speaks in; imports nothing of ours.
+"""The vocabulary every other part speaks in; imports nothing of ours but surfaces.model, whose names it hands on.
 
 Lengths are in scene units (the surface's own coordinates), times in seconds unless a name says `_ms`.
 """
@@ -7,12 +7,17 @@ from __future__ import annotations
 
 import hashlib
 import json
-import math
-import struct
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import IntEnum, StrEnum
 from typing import TYPE_CHECKING, Any, Literal
+
+from surfaces.model import Box as Box
+from surfaces.model import Domain as Domain
+from surfaces.model import FirsthitError as FirsthitError
+from surfaces.model import Sphere as Sphere
+from surfaces.model import Surface as Surface
+from surfaces.model import as_float32 as as_float32
 
 if TYPE_CHECKING:
     import numpy as np
@@ -34,18 +39,10 @@ UNIT_ROUNDOFF: dict[Precision, float] = {"float32": 2.0**-24, "float64": 2.0**-5
 STAGES: tuple[Stage, ...] = ("compute", "rays", "raster")
 
 
-class FirsthitError(Exception):
-    """A problem the user can act on, in one line; `exit_code` 2 is usage or config, 3 a failure while running."""
-
-    def __init__(self, message: str, exit_code: int = 2) -> None:
-        super().__init__(message)
-        self.exit_code = exit_code
-
-
 class RayStatus(IntEnum):
     """A method's answer for one ray; `EXHAUSTED` gave up inside its budget and is never reported as a miss.
 
-    `INVALID` is no kernel's to give: it says that what was read back is no answer (harness.answers).
+    `INVALID` is no kernel's to give: it says that what was read back is no answer (harness.accuracy.answers).
     """
 
     MISS = 0
@@ -69,90 +66,6 @@ class CellStatus(StrEnum):
     FAILED = "failed"
     TIMEOUT = "timeout"
     CRASHED = "crashed"
-
-
-def as_float32(value: float) -> float:
-    """`value` rounded to the nearest float32; an OverflowError where there is none."""
-    return float(struct.unpack("<f", struct.pack("<f", value))[0])
-
-
-@dataclass(frozen=True)
-class Sphere:
-    """A ball. Its numbers are rounded to float32, so that kernels and oracle clip by the same domain."""
-
-    radius: float
-    center: tuple[float, float, float] = (0.0, 0.0, 0.0)
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "radius", as_float32(self.radius))
-        object.__setattr__(self, "center", tuple(as_float32(c) for c in self.center))
-        if not (math.isfinite(self.radius) and self.radius > 0.0 and all(map(math.isfinite, self.center))):
-            raise FirsthitError(f"a sphere domain needs a positive radius and a finite centre, not {self}")
-
-
-@dataclass(frozen=True)
-class Box:
-    """An axis-aligned box. Its numbers are rounded to float32, so that kernels and oracle clip by the same domain."""
-
-    lower: tuple[float, float, float]
-    upper: tuple[float, float, float]
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "lower", tuple(as_float32(c) for c in self.lower))
-        object.__setattr__(self, "upper", tuple(as_float32(c) for c in self.upper))
-        if not all(
-            math.isfinite(a) and math.isfinite(b) and a < b for a, b in zip(self.lower, self.upper, strict=True)
-        ):
-            raise FirsthitError(f"a box domain needs finite lower < upper on every axis, not {self}")
-
-    @property
-    def center(self) -> tuple[float, float, float]:
-        x, y, z = (as_float32(0.5 * (a + b)) for a, b in zip(self.lower, self.upper, strict=True))
-        return (x, y, z)
-
-    @property
-    def radius(self) -> float:
-        """Half the diagonal: the radius of the bounding sphere about `center`."""
-        return 0.5 * math.dist(self.lower, self.upper)
-
-
-Domain = Sphere | Box
-
-
-@dataclass(frozen=True)
-class Surface:
-    """An implicit surface f(x, y, z) = 0 in its domain; all else is derived from the formula.
-
-    What is stated here beside the formula (`degree`, `distance`, `facts`) is recomputed by a test.
-    """
-
-    name: str
-    title: str
-    formula: str  # in the formula language of surfaces.formula
-    domain: Domain
-    source: str
-    degree: int | None  # total degree in x, y, z; None where f is not a polynomial
-    parameters: tuple[tuple[str, str], ...] = ()  # name, exact decimal: ("R", "0.7")
-    distance: str | None = None  # a formula of the exact signed distance, where one is known
-    bounding_radius: float | None = (
-        None  # a sphere about the domain's centre that holds the surface, where one is known
-    )
-    feature_radius: float | None = None  # the length papers relate errors to (torus: minor radius r)
-    facts: tuple[tuple[str, Any], ...] = ()  # what tests recompute: ("singular_points", 50), ...
-
-    @property
-    def algebraic(self) -> bool:
-        return self.degree is not None
-
-    @property
-    def base(self) -> str:
-        """The name without that of a form: `chmutov` of `chmutov:nested`."""
-        return self.name.partition(":")[0]
-
-    @property
-    def identity(self) -> dict[str, Any]:
-        """What decides the surface's values: goes into cache keys."""
-        return {"formula": self.formula, "parameters": dict(self.parameters), "domain": repr(self.domain)}
 
 
 @dataclass(frozen=True)
@@ -189,8 +102,8 @@ class Method:
 
     name: str
     source: str
-    needs: tuple[str, ...] = ()  # generated functions the kernel calls, see surfaces.sections.FUNCTIONS
-    libraries: tuple[str, ...] = ()  # files of harness/kernels/lib the kernel includes, without their ending
+    needs: tuple[str, ...] = ()  # generated functions the kernel calls, see harness.kernels.functions.FUNCTIONS
+    libraries: tuple[str, ...] = ()  # files of harness/kernels/glsl/lib the kernel includes, without their ending
     parameters: tuple[Parameter, ...] = ()
     settings: Mapping[str, Mapping[str, float]] = field(default_factory=dict)  # the papers' own settings, by name
     claims: frozenset[str] = frozenset()  # of CLAIMS; each is tested, so what is not proved is not claimed

@@ -8,8 +8,10 @@ from typing import Any
 import pandas as pd
 
 from harness.contract import CellStatus
-from reports import derive, rounds, tables, wording
+from reports import wording
+from reports.analysis import derive, rounds
 from reports.content import Column, Section, Table
+from reports.drawing import tables
 
 _KERNEL = ["comparison", "variant", "precision"]
 

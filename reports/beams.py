@@ -12,9 +12,11 @@ from matplotlib.colors import to_rgb
 from numpy.typing import NDArray
 
 from harness.contract import CellStatus, RayStatus
-from reports import derive, images, rounds, style, tables, wording
-from reports.arrays import Arrays, Shelf
+from reports import wording
+from reports.analysis import derive, rounds
 from reports.content import Block, Column, Gallery, Panel, Picture, Section, Table, Text
+from reports.drawing import images, style, tables
+from reports.reading.arrays import Arrays, Shelf
 
 MOST_PANELS = 12
 MAP = "plasma"

@@ -6,19 +6,44 @@ run's only device stands for it.
 
 from __future__ import annotations
 
+import tempfile
 from pathlib import Path
 from typing import Any
 
 import pandas as pd
 
-from harness import measure
 from harness.contract import CellStatus, FirsthitError
-from reports import derive, tables, wording
+from harness.results import timings
+from reports import wording
+from reports.analysis import derive
 from reports.content import Block, Code, Column, Document, Section, Table, Text
-from reports.load import Plan, Run
+from reports.drawing import tables
+from reports.reading import load
+from reports.reading.load import Plan, Run
+from reports.rendering import document, html
 
 LINES = 40  # changes that the first page lists
 _PLACE = ["scene", "variant", "precision"]
+
+
+def build(a: Path, b: Path) -> Path:
+    """Write what changed from run `a` to run `b` into the folder `a`, as against-….pdf and .html; the path of the PDF.
+
+    Raises FirsthitError where either is no run folder, they have nothing in common or `a` cannot be written to.
+    """
+
+    content = report(load.load(a), load.load(b))
+    stem = name_of(a, b)
+    try:
+        with tempfile.TemporaryDirectory(prefix=".report-", dir=a) as name:
+            made = Path(name)
+            document.write_pdf(content, made / "pdf", made / f"{stem}.pdf", "")
+            html.write_html(content, {}, made / f"{stem}.html")
+            for ending in ("html", "pdf"):
+                (made / f"{stem}.{ending}").replace(a / f"{stem}.{ending}")
+    except OSError as error:
+        raise FirsthitError(f"cannot write the report into {a}: {error.strerror or error}", exit_code=3) from error
+    return a / f"{stem}.pdf"
 
 
 def paired(a: Run, b: Run) -> tuple[pd.DataFrame, list[str]]:
@@ -53,7 +78,7 @@ def paired(a: Run, b: Run) -> tuple[pd.DataFrame, list[str]]:
 
 def _proved(samples: pd.Series) -> pd.Series:
     """Which cells have enough samples for the interval of their median."""
-    return samples.map(lambda own: measure.proves(len(own or ()))).astype(bool)
+    return samples.map(lambda own: timings.proves(len(own or ()))).astype(bool)
 
 
 def _scenes(frame: pd.DataFrame) -> pd.Series:

@@ -17,11 +17,13 @@ from matplotlib.ticker import FixedLocator, FuncFormatter
 from numpy.typing import NDArray
 
 from harness.contract import UNIT_ROUNDOFF
-from reports import derive, style, wording
-from reports.arrays import Shelf
+from reports import wording
+from reports.analysis import derive
 from reports.content import Block, Figure, Section, Text
-from reports.drawing import LINE, NARROW, RC, ErrorAxis, Key, line_of, series, svg
-from reports.style import Mark
+from reports.drawing import style
+from reports.drawing.canvas import LINE, NARROW, RC, ErrorAxis, Key, line_of, series, svg
+from reports.drawing.style import Mark
+from reports.reading.arrays import Shelf
 
 BINS = 12  # of equal width in the logarithm of the condition, over the range that a surface has
 VARIANTS = 4  # of one method that are drawn

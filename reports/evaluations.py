@@ -13,10 +13,11 @@ from matplotlib.ticker import FixedLocator, FuncFormatter
 from numpy.typing import NDArray
 
 from harness.contract import CellStatus
-from reports import images, plots, style, wording
-from reports.arrays import Arrays, Shelf
+from reports import wording
 from reports.content import Block, Figure, Gallery, Panel, Picture, Section, Text
-from reports.drawing import RC, svg
+from reports.drawing import images, plots, style
+from reports.drawing.canvas import RC, svg
+from reports.reading.arrays import Arrays, Shelf
 
 EVERY_VIEW = 3  # views of a surface that are all shown; of more, each variant's worst
 MOST_SURFACES = 4  # of a run that has this section

@@ -14,11 +14,13 @@ from matplotlib.figure import Figure as Drawing
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from harness.contract import CellStatus
-from reports import derive, rounds, scenes, style, tables, wording
+from reports import scenes, wording
+from reports.analysis import derive, rounds
+from reports.analysis.fits import FEWEST, Power, Refusal, power_law
 from reports.content import Block, Column, Figure, Section, Table, Text
-from reports.drawing import LINE, NARROW, RC, Key, label_decades, line_of, svg
-from reports.fits import FEWEST, Power, Refusal, power_law
-from reports.style import Mark
+from reports.drawing import style, tables
+from reports.drawing.canvas import LINE, NARROW, RC, Key, label_decades, line_of, svg
+from reports.drawing.style import Mark
 
 PANELS = 6  # of one figure
 MOST_FIGURES = 4  # along one axis

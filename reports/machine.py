@@ -7,7 +7,7 @@ from typing import Any
 
 from reports import wording
 from reports.content import Column, Table
-from reports.load import Plan
+from reports.reading.load import Plan
 
 
 def devices(plan: Plan) -> Table:

@@ -8,12 +8,14 @@ from functools import cached_property
 
 import pandas as pd
 
-from reports import claims, evaluations, forms, images, style, viewstats
-from reports.arrays import Shelf
+from reports import claims, evaluations
+from reports.analysis import forms, viewstats
 from reports.claims import Claim, Verdict
-from reports.evidence import Evidence
-from reports.load import Run
-from reports.style import Mark
+from reports.claims.evidence import Evidence
+from reports.drawing import images, style
+from reports.drawing.style import Mark
+from reports.reading.arrays import Shelf
+from reports.reading.load import Run
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,7 +42,7 @@ class Material:
     @cached_property
     def error_scale(self) -> tuple[int, int]:
         """The decades of the one colour scale of errors that all pictures and maps of the report share."""
-        from reports.reproductions import pictures  # which takes a Material itself
+        from reports.parts.papers import pictures  # which takes a Material itself
 
         shown = [images.drawn(self.listed), evaluations.drawn(self.frame)]
         shown += [pictures.drawn(self.evidence, figure) for figure in pictures.FIGURES]

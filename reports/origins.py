@@ -9,10 +9,12 @@ import numpy as np
 import pandas as pd
 
 from harness.contract import ORIGINS, CellStatus
-from reports import breaks, counts, derive, tables, wording
+from reports import wording
+from reports.analysis import breaks, counts, derive
+from reports.claims.evidence import over
 from reports.content import Block, Column, Section, Table, Text
-from reports.evidence import over
-from reports.load import Facts
+from reports.drawing import tables
+from reports.reading.load import Facts
 
 CHEAP = 1.05  # a shift that multiplies a frame's time by at most this, in the mean, is called cheap
 _OF = ["device", "precision", "caster"]

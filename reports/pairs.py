@@ -7,9 +7,11 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from harness.measure import Ratio
-from reports import derive, rounds, tables, ties, wording
+from harness.results.timings import Ratio
+from reports import wording
+from reports.analysis import derive, rounds, ties
 from reports.content import Block, Column, Section, Table, Text
+from reports.drawing import tables
 
 _NEEDED = [
     *("comparison", "device", "precision", "key", "method", "variant", "wrong_rays", *ties.COLUMNS),

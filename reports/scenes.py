@@ -8,7 +8,8 @@ from typing import Any
 import pandas as pd
 
 from harness.contract import CellStatus
-from reports import rounds, wording
+from reports import wording
+from reports.analysis import rounds
 from reports.content import Block, Column, Section, Table, Text
 
 LEVELS = (1.0, 0.1, 0.01, 0.001)  # pixel footprints

@@ -7,10 +7,12 @@ from typing import Any
 
 import pandas as pd
 
-from reports import breaks, derive, ladders, tables, wording
+from reports import wording
+from reports.analysis import breaks, derive
 from reports.content import Block, Column, Section, Table, Text
-from reports.load import Facts
-from reports.style import Mark
+from reports.drawing import ladders, tables
+from reports.drawing.style import Mark
+from reports.reading.load import Facts
 
 NOTHING_DECIDED = "nothing decided"
 EXPLANATION = (

@@ -6,9 +6,11 @@ from collections import Counter
 
 import pandas as pd
 
-from reports import choice, derive, plots, stability, style, tables, ties, wording
+from reports import stability, wording
+from reports.analysis import derive, ties
 from reports.claims import Outcome
 from reports.content import Block, Code, Section, Text
+from reports.drawing import choice, plots, style, tables
 from reports.material import Material
 
 OVERVIEW_SCENES = 8  # scenes that fit into its figure beside the table

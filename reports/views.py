@@ -6,10 +6,11 @@ from collections.abc import Mapping
 
 import pandas as pd
 
-from reports import viewplots, viewstats
+from reports.analysis import viewstats
+from reports.analysis.viewstats import ANGLES, DIRECTIONS, ViewSet
 from reports.content import Block, Section, Text
-from reports.style import Mark
-from reports.viewstats import ANGLES, DIRECTIONS, ViewSet
+from reports.drawing import viewplots
+from reports.drawing.style import Mark
 
 MOST_SETS = 6  # of a run that are all shown
 MOST_MAPPED = 4  # whose maps are drawn

@@ -13,12 +13,12 @@ import difflib
 from collections.abc import Mapping
 from dataclasses import replace
 
-from harness.contract import Box, Domain, FirsthitError, Sphere, Surface
 from surfaces import formula
 from surfaces.catalog import FIXED
 from surfaces.evaluation import evaluate, expression, gradient, operations, tape_of
 from surfaces.families import FAMILIES
 from surfaces.forms import FORMS, SEPARATOR
+from surfaces.model import Box, Domain, FirsthitError, Sphere, Surface
 from surfaces.validity import check
 
 __all__ = ["evaluate", "expression", "forms_of", "from_formula", "get", "gradient", "names", "operations", "tape_of"]

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from math import sqrt
 
-from harness.contract import Box, Sphere, Surface
 from surfaces.entries import FULL, REVOLVED, entry, sum_over_axes
+from surfaces.model import Box, Sphere, Surface
 
 _CUBE = Box((-1, -1, -1), (1, 1, 1))  # toledo2007, Fig. 2: "clipped outside the domain [-1, 1]^3"
 _HAUSER = "H. Hauser, The Hironaka theorem on resolution of singularities, 2003 (gallery)"

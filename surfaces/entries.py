@@ -15,7 +15,7 @@ from collections.abc import Mapping
 from math import sqrt
 from typing import Any
 
-from harness.contract import Domain, Surface
+from surfaces.model import Domain, Surface
 
 PHI = (1.0 + sqrt(5.0)) / 2.0
 _HALF_ROOT_3 = sqrt(3.0) / 2.0

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from harness.contract import Surface
 from surfaces import formula, lowering
+from surfaces.model import Surface
 from surfaces.numbers import Floats, Floats64
 from surfaces.tape import Tape, walk
 

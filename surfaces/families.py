@@ -6,9 +6,9 @@ from collections.abc import Callable, Mapping
 from fractions import Fraction
 from math import sqrt
 
-from harness.contract import Box, FirsthitError, Sphere, Surface
 from surfaces.entries import REVOLVED, ROUND, entry
 from surfaces.formula import exact
+from surfaces.model import Box, FirsthitError, Sphere, Surface
 
 
 def _sphere(name: str, title: str, values: Mapping[str, str]) -> Surface:

@@ -18,7 +18,7 @@ from fractions import Fraction
 from functools import lru_cache, reduce
 from typing import Any, NoReturn
 
-from harness.contract import FirsthitError
+from surfaces.model import FirsthitError
 from surfaces.numbers import BallPolynomials, Symbols
 from surfaces.tape import UNARY, Builder, Tape, walk
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections import deque
 from typing import Any
 
-from harness.contract import Box, FirsthitError, Sphere, Surface
 from surfaces.evaluation import tape_of
 from surfaces.formula import degree
 from surfaces.lowering import enclosures
+from surfaces.model import Box, FirsthitError, Sphere, Surface
 from surfaces.numbers import Balls
 from surfaces.tape import Tape, walk
 

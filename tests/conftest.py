@@ -8,9 +8,9 @@ from functools import cache
 import numpy as np
 import pytest
 
-from harness.backends import Device, find_devices, open_device
 from harness.contract import DeviceInfo
-from harness.executor import LocalExecutor
+from harness.devices.executor import LocalExecutor
+from harness.devices.interface import Device, find_devices, open_device
 
 
 @cache

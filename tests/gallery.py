@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 
 import surfaces
-from harness.camera import camera_for, rays_of
 from harness.contract import Surface, View
+from harness.scenes.camera import camera_for, rays_of
 
 FILE = Path(__file__).parent / "data" / "gallery.toml"
 CANDIDATES = 20_000  # points of the domain that are moved to the surface

@@ -10,9 +10,11 @@ from typing import Any
 
 import numpy as np
 
-from harness import measure
 from harness.contract import digest
-from reports import breaks, content, derive, load, sections
+from harness.results import timings
+from reports import content, report
+from reports.analysis import breaks, derive
+from reports.reading import load
 
 SURFACES = {"sphere": ("Sphere", 2, 1.0), "torus": ("Torus", 4, 0.6), "barth": ("Barth #6 $extic_* @65 <b>", 6, 0.2)}
 VARIANTS: dict[str, dict[str, float]] = {
@@ -144,7 +146,7 @@ def cell(variant: str, surface: str, device: str, precision: str) -> dict[str, A
             "upper_ms": median * (1.005 if narrow else 1.06),
             "overhead_share": 0.12 if rng.random() < 0.1 else 0.02,
             "narrow": narrow,
-            **measure.steadiness(samples),
+            **timings.steadiness(samples),
         },
         "build": {"compile_ms": 120.0, "upload_ms": 0.1, "readback_ms": 0.4},
         "accuracy": None,
@@ -351,7 +353,7 @@ def tiny_run(folder: Path, *cells: dict[str, Any]) -> Path:
 
 def reported(folder: Path) -> tuple[load.Run, content.Document]:
     run = load.load(folder)
-    return run, sections.report(run, derive.derive(run.frame, run.plan.peaks), breaks.derive(run.families, run.rungs))
+    return run, report.report(run, derive.derive(run.frame, run.plan.peaks), breaks.derive(run.families, run.rungs))
 
 
 def printed(blocks: tuple[content.Block, ...]) -> str:

@@ -4,7 +4,7 @@ import json
 import numpy as np
 import pytest
 
-from harness.accuracy import (
+from harness.accuracy.judge import (
     NAMES,
     Wrong,
     deviations,

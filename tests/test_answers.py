@@ -8,11 +8,8 @@ import numpy as np
 import pytest
 
 import surfaces
-from harness import answers, raster
-from harness.assemble import fill_program, method_program
-from harness.backends import Launch, Timing, hits_from, launch_camera, launch_rays, same_values
-from harness.backends.beams import Layout, beam_hits_from, launch_beams
-from harness.camera import camera_for, meets, rays_of
+from harness.accuracy import answers
+from harness.accuracy.check_frames import hits_of
 from harness.contract import (
     Box,
     FirsthitError,
@@ -24,10 +21,14 @@ from harness.contract import (
     View,
     digest,
 )
+from harness.devices.interface import Launch, Timing, hits_from, launch_camera, launch_rays, same_values
+from harness.devices.quadtree import Layout, beam_hits_from, launch_beams
+from harness.devices.worker import Worker
+from harness.experiment import draws
+from harness.kernels.assemble import fill_program, method_program
 from harness.plugins import Catalog, Plugin, find_methods
-from harness.rastercheck import hits_of
-from harness.scenes import single
-from harness.worker import Worker
+from harness.scenes.camera import camera_for, meets, rays_of
+from harness.scenes.model import single
 
 from .conftest import opened, usable_devices
 
@@ -232,9 +233,9 @@ def _drawn(device, folder, body):
     scene = single(surfaces.get("sphere"), VIEW)
     catalog = Catalog({"made": Plugin(MADE, place)})
     camera = camera_for(VIEW, surfaces.get("sphere"))
-    batches = [d.batch(True) for d in raster.draws(scene, Variant("made"), "box", catalog)]
+    batches = [d.batch(True) for d in draws.draws(scene, Variant("made"), "box", catalog)]
     built = [device.build(batch.program) for batch in batches]
-    depths = raster.depth_map(scene, camera)
+    depths = draws.depth_map(scene, camera)
     pictures = []
     for _ in range(2):
         launch = device.launch_raster(batches, built, camera, depths, 24, device.build(fill_program()))
@@ -322,7 +323,7 @@ def test_a_program_that_answers_otherwise_when_it_is_run_again_fails(monkeypatch
     worker = Worker("made:up")
     monkeypatch.setattr(Worker, "_device", None)
     monkeypatch.setattr(worker, "_build", lambda *_: (None, 0.0))
-    monkeypatch.setattr("harness.worker.launch_rays", lambda *_: Flaky(outputs, change))
+    monkeypatch.setattr("harness.devices.worker.launch_rays", lambda *_: Flaky(outputs, change))
     if not differing:
         assert len(worker.check(None, np.zeros((count, 6), np.float32)).hits.t) == count
         return

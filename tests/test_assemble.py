@@ -5,9 +5,9 @@ import numpy as np
 import pytest
 
 import surfaces
-from harness.assemble import KERNELS, explain_log, literal, map_program, method_program, table_section
-from harness.backends import BuildError, map_rows
 from harness.contract import FirsthitError, Program, Section
+from harness.devices.interface import BuildError, map_rows
+from harness.kernels.assemble import KERNELS, explain_log, literal, map_program, method_program, table_section
 from harness.plugins import BUILT_IN, find_methods
 
 
@@ -104,7 +104,7 @@ def test_a_table_reaches_the_kernel_bit_for_bit(device):
 
 def _kernel_texts():
     files = [*KERNELS.rglob("*.glsl"), *BUILT_IN.glob("*/kernel.glsl")]
-    return {path.relative_to(KERNELS.parent.parent): path.read_text() for path in files}
+    return {path.relative_to(KERNELS.parents[2]): path.read_text() for path in files}
 
 
 def _array_passed_twice(text: str) -> list[str]:

@@ -11,12 +11,12 @@ import numpy as np
 import pytest
 
 import surfaces
-from harness.accuracy import Wrong, judge
-from harness.backends import Device
-from harness.camera import scene_radius
+from harness.accuracy.judge import Wrong, judge
 from harness.contract import RayStatus, Surface
+from harness.devices.interface import Device
 from harness.oracle import first_hits
 from harness.plugins import find_methods
+from harness.scenes.camera import scene_radius
 
 from .conftest import opened, usable_devices
 from .test_starts import cast_from

@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 
 import surfaces
-from harness import lanes
-from harness.backends.beams import Layout, beam_hits_from, first_level, last_level, layout_of, start_of
-from harness.camera import camera_for
-from harness.config import load
 from harness.contract import DeviceInfo, RayStatus
-from harness.plan import plan
+from harness.devices import lanes
+from harness.devices.quadtree import Layout, beam_hits_from, first_level, last_level, layout_of, start_of
+from harness.experiment.config import load
+from harness.experiment.plan import plan
 from harness.plugins import find_methods
+from harness.scenes.camera import camera_for
 
 from .test_beams import FIRST, VIEW, frame, outputs_of
 from .test_runner import rows, run

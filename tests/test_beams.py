@@ -8,15 +8,15 @@ import numpy as np
 import pytest
 
 import surfaces
-from harness import beams
-from harness.accuracy import Verdicts, Wrong, judge
-from harness.assemble import KERNELS, file_section, map_program, method_program
-from harness.backends import map_rows
-from harness.backends.beams import beam_hits_from, launch_beams, layout_of
-from harness.camera import camera_for, rays_of, scene_radius
+from harness.accuracy import pixels as beams
+from harness.accuracy.judge import Verdicts, Wrong, judge
 from harness.contract import FirsthitError, Hits, RayStatus, Section, Surface, Truth, TruthStatus, View
+from harness.devices.interface import map_rows
+from harness.devices.quadtree import beam_hits_from, launch_beams, layout_of
+from harness.kernels.assemble import KERNELS, file_section, map_program, method_program
+from harness.kernels.functions import surface_sections, unsupported
 from harness.plugins import find_methods
-from surfaces.sections import surface_sections, unsupported
+from harness.scenes.camera import camera_for, rays_of, scene_radius
 
 from .conftest import opened, usable_devices
 from .test_renders import _case, _view
@@ -223,7 +223,7 @@ def escaping(device, precision, rng, edit=lambda text: text, count=4000):
                 direction = length * np.array([Fraction(float(c)) for c in at[3:]])
         points.append(eye + depth * direction)
     sections = [*surface_sections(WIDE, ("surface_range",), precision, device.language)]
-    sections += [file_section(KERNELS / "beam.glsl"), BOX]
+    sections += [file_section(KERNELS / "beams/beam.glsl"), BOX]
     sections = [Section(s.origin, edit(s.text)) for s in sections]
     program = map_program(sections, precision, device.language, ("interval",))
     boxes = map_rows(device, program, np.array(rows, np.float64), 6).astype(np.float64)

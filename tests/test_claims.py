@@ -11,12 +11,14 @@ import pytest
 
 from harness.contract import digest
 from harness.plugins import find_methods
-from reports import claims, content, derive, load, published
-from reports.arrays import Shelf
+from reports import claims, content, published
+from reports.analysis import derive
 from reports.claims import Claim, Outcome, picks
-from reports.evidence import Evidence, Pick
+from reports.claims.evidence import Evidence, Pick
 from reports.parts import checklist
-from reports.reproductions import pictures, szente
+from reports.parts.papers import pictures, szente
+from reports.reading import load
+from reports.reading.arrays import Shelf
 from tests.synthetic_run import cell, printed, reported, retime, tiny_run
 
 ROOT = Path(__file__).parent.parent

@@ -13,11 +13,11 @@ import pytest
 from PIL import Image
 
 from harness.contract import digest
-from harness.store import FORMAT
+from harness.results.store import FORMAT
 from reports import claims, content
 from reports.claims import Outcome, picks
-from reports.evidence import Pick
-from reports.reproductions import toledo
+from reports.claims.evidence import Pick
+from reports.parts.papers import toledo
 from tests.synthetic_run import printed, reported, tiny_run
 from tests.test_claims import claim, evidence, planted
 

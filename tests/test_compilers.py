@@ -7,13 +7,16 @@ import numpy as np
 import pytest
 
 import surfaces
-from harness import assemble, cli, compilercheck, conformance, dense
-from harness.assemble import map_program, method_program
-from harness.backends import BuildError, hits_from, launch_rays, map_rows
+from harness import cli
+from harness.accuracy import compilers, conformance
+from harness.accuracy.conformance import dense
 from harness.contract import Hits, RayStatus, Section
+from harness.devices.interface import BuildError, hits_from, launch_rays, map_rows
+from harness.kernels import assemble
+from harness.kernels.assemble import map_program, method_program
 from harness.oracle import first_hits
 from harness.plugins import find_methods
-from harness.store import Store
+from harness.results.store import Store
 
 from .conftest import opened, usable_devices
 from .test_devices import cast
@@ -115,9 +118,9 @@ def doubts_of(plugin, surface, rays, name, precision="float32", **knobs):
     def run(name, program, index):
         return answers(opened(name), program, rays[index])
 
-    second = compilercheck.SecondBuild(name, precision, program, run)
+    second = compilers.SecondBuild(name, precision, program, run)
     hits = answers(opened(name), program(opened(name).language), rays)
-    return compilercheck.doubts_about(surface, rays, hits, second)
+    return compilers.doubts_about(surface, rays, hits, second)
 
 
 @pytest.fixture
@@ -218,7 +221,7 @@ def test_f_contradicts_what_is_wrong_and_nothing_that_is_right():
     status = np.where(np.isfinite(right), RayStatus.HIT, RayStatus.MISS).astype(np.uint8)
     clear = np.flatnonzero(~(case.truth.margin < 0.1) & (status == RayStatus.HIT))
     hits = Hits(right, status, np.ones(len(right), np.int32))
-    assert compilercheck.contradicted(surface, case.rays, hits).sum() == 0
+    assert compilers.contradicted(surface, case.rays, hits).sum() == 0
     for t, answer in (
         (np.nan, RayStatus.MISS),
         (right[clear] - 0.3, RayStatus.HIT),
@@ -229,12 +232,12 @@ def test_f_contradicts_what_is_wrong_and_nothing_that_is_right():
     ):
         wrong = dataclasses.replace(hits, t=hits.t.copy(), status=hits.status.copy())
         wrong.t[clear], wrong.status[clear] = t, answer
-        found = np.flatnonzero(compilercheck.contradicted(surface, case.rays, wrong))
+        found = np.flatnonzero(compilers.contradicted(surface, case.rays, wrong))
         expected = clear[np.isfinite(case.truth.following[clear])] if t is case.truth.following[clear] else clear
         assert set(found) <= set(clear)
         assert len(found) > 0.9 * len(expected), (t, answer)
     given_up = dataclasses.replace(hits, status=np.full(len(right), RayStatus.EXHAUSTED, np.uint8))
-    assert not compilercheck.contradicted(surface, case.rays, given_up).any()
+    assert not compilers.contradicted(surface, case.rays, given_up).any()
 
 
 def test_a_program_built_without_optimisation_is_another_program(device):

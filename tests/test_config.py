@@ -3,8 +3,8 @@ from pathlib import Path
 
 import pytest
 
-from harness import config, plan
 from harness.contract import DeviceInfo, FirsthitError, Sphere
+from harness.experiment import config, plan
 from harness.plugins import find_methods
 
 GOOD = """title = "t"

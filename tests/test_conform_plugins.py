@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from harness.cli import main
-from harness.sources import ROOT
+from harness.results.sources import ROOT
 
 from .conftest import usable_devices
 

@@ -1,4 +1,5 @@
-"""Every method × accepted surfaces × devices × precisions (harness/conformance); a new folder is covered at once.
+"""Every method × accepted surfaces × devices × precisions (harness/accuracy/conformance); a new folder is covered at
+once.
 
 Typical surfaces are checked on every device in each precision, every other accepted surface and every setting of the
 papers in one of these, in turn; all of them from all views.
@@ -13,11 +14,8 @@ import numpy as np
 import pytest
 
 import surfaces
-from harness import conformance
-from harness.accuracy import deviations, judge, summarize, wrong_share
-from harness.backends import Device, hits_from, launch_rays
-from harness.camera import scene_radius
-from harness.conformance import (
+from harness.accuracy import conformance
+from harness.accuracy.conformance import (
     Bench,
     Finding,
     examine,
@@ -27,9 +25,12 @@ from harness.conformance import (
     view_case,
     views_case,
 )
-from harness.conformance.examine import own_settings
+from harness.accuracy.conformance.examine import own_settings
+from harness.accuracy.judge import deviations, judge, summarize, wrong_share
 from harness.contract import PRECISIONS, Precision, RayStatus
+from harness.devices.interface import Device, hits_from, launch_rays
 from harness.plugins import find_methods
+from harness.scenes.camera import scene_radius
 
 from .conftest import opened, usable_devices
 from .test_devices import cast

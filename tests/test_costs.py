@@ -5,10 +5,10 @@ import re
 import pytest
 
 import surfaces
-from harness import costs
-from harness.assemble import KERNELS
+from harness.kernels import costs
+from harness.kernels.assemble import KERNELS
+from harness.kernels.functions import surface_sections
 from harness.plugins import find_methods
-from surfaces.sections import surface_sections
 
 OPERATION = re.compile(r" [-+*/] |\b(?:min|max|sqrt|exp|log|sin|cos|tan|floor|fma)\(")
 FUNCTION = re.compile(r"^(?:Interval|real|Dual|Pair|vec3|void) (\w+)\([^{]*\) \{\n(.*?)^\}", re.M | re.S)

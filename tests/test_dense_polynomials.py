@@ -1,4 +1,5 @@
-"""Methods on dense random polynomials of every degree that they accept (harness/dense.py), held against the oracle.
+"""Methods on dense random polynomials of every degree that they accept (harness/accuracy/conformance/dense.py), held
+against the oracle.
 
 By default every method is tried at a few degrees, each on one device in one precision, in turn. FIRSTHIT_RAYS asks for
 more: every method at every degree, and bernstein on each device in both precisions, with so many of its rays in all.
@@ -11,7 +12,9 @@ from functools import cache
 
 import pytest
 
-from harness import cli, conformance, dense
+from harness import cli
+from harness.accuracy import conformance
+from harness.accuracy.conformance import dense
 from harness.contract import PRECISIONS, TruthStatus
 from harness.plugins import find_methods
 

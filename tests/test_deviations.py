@@ -9,11 +9,11 @@ from typing import Any
 
 import pytest
 
-from harness import config
-from harness.cards import card
 from harness.cli import main
 from harness.contract import FirsthitError, digest
+from harness.experiment import config
 from harness.plugins import AS_PRINTED, Plugin, find_methods
+from harness.running.cards import card
 
 from .synthetic_run import cell, printed, reported, tiny_run
 

@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 
 import surfaces
-from harness.assemble import KERNELS, file_section, map_program, method_program
-from harness.backends import hits_from, launch_camera, launch_rays, map_rows, open_device
-from harness.camera import camera_for, rays_of
 from harness.contract import FirsthitError, RayStatus, TruthStatus, View
+from harness.devices.interface import hits_from, launch_camera, launch_rays, map_rows, open_device
+from harness.devices.probes import PEAK_OPERATIONS, PEAK_SHAPES, peak_section, probe
+from harness.kernels.assemble import KERNELS, file_section, map_program, method_program
 from harness.oracle import first_hits
 from harness.plugins import find_methods
-from harness.probes import PEAK_OPERATIONS, PEAK_SHAPES, peak_section, probe
+from harness.scenes.camera import camera_for, rays_of
 
 from .conftest import opened, usable_devices
 
@@ -54,7 +54,7 @@ def test_a_peak_is_looked_for_in_loops_of_several_shapes():
 def test_error_free_transforms_are_exact_in_float64(device, rng):
     if not device.info.float64:
         pytest.skip("the device has no float64")
-    program = map_program(file_section(KERNELS / "probe.glsl"), "float64", device.language)
+    program = map_program(file_section(KERNELS / "map/probe.glsl"), "float64", device.language)
     pairs = rng.integers(-(2**50), 2**50, (2000, 2)).astype(np.float64)
     s, e, p, q = map_rows(device, program, pairs, 6).T[:4]
     for (a, b), s_, e_, p_, q_ in zip(pairs, s, e, p, q, strict=True):

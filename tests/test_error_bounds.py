@@ -12,9 +12,9 @@ import numpy as np
 import pytest
 
 import surfaces
-from harness.assemble import map_program, method_program
-from harness.backends import map_rows
 from harness.contract import Box, Section, Surface
+from harness.devices.interface import map_rows
+from harness.kernels.assemble import map_program, method_program
 from harness.plugins import find_methods
 from surfaces.evaluation import tape_of
 from surfaces.lowering import real_tape

@@ -7,9 +7,9 @@ import pytest
 import sympy
 
 import surfaces
-from harness.camera import camera_for, rays_of
 from harness.contract import Cell, FirsthitError, Surface, TruthStatus, Variant, View
 from harness.oracle import first_hits
+from harness.scenes.camera import camera_for, rays_of
 from harness.studies import form_ranges
 from surfaces import formula
 from surfaces.forms import FORMS

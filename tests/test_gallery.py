@@ -11,15 +11,15 @@ import numpy as np
 import pytest
 
 import surfaces
-from harness.accuracy import Wrong, judge
-from harness.camera import scene_radius
-from harness.conformance import Case, no_false_hit, refusal, rounding_adds
-from harness.conformance.checks import CLAIM_CHECKS
+from harness.accuracy.conformance import Case, no_false_hit, refusal, rounding_adds
+from harness.accuracy.conformance.checks import CLAIM_CHECKS
+from harness.accuracy.judge import Wrong, judge
 from harness.contract import TruthStatus
+from harness.kernels.functions import unsupported
 from harness.oracle import first_hits
 from harness.oracle.noise import root_shift
 from harness.plugins import Plugin, find_methods
-from surfaces.sections import unsupported
+from harness.scenes.camera import scene_radius
 
 from .conftest import opened, usable_devices
 from .gallery import aimed, anywhere, entries, surface_named, tails, view_rays

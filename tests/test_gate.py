@@ -6,7 +6,7 @@ import sys
 import pytest
 
 from harness.cli import main
-from harness.environment import ROOT
+from harness.running.environment import ROOT
 
 from .conftest import usable_devices
 
@@ -256,7 +256,7 @@ def test_speed_against_a_revision_is_the_ratio_of_both_programs(gated):
 
 
 def test_the_projects_own_gate_config_and_baseline_fit_one_another():
-    from harness import config
+    from harness.experiment import config
     from harness.gate import baseline
     from harness.plugins import find_methods
 

@@ -7,11 +7,12 @@ from pathlib import Path
 import pytest
 
 from harness.contract import FirsthitError
-from harness.gate import baseline, figures, outputs
+from harness.gate import baseline, outputs
 from harness.gate.against import verdict_of
 from harness.gate.baseline import Baseline
 from harness.gate.judge import Judged, Tolerance, Verdict, exit_code, judge, tolerances_of
-from harness.measure import Ratio
+from harness.results import figures
+from harness.results.timings import Ratio
 
 FACTS = {"name": "opencl:a", "title": "A", "driver": "1", "compiler": "c", "processor": "p", "versions": {"b": "2"}}
 SAME = list(baseline.FACTS)
@@ -98,7 +99,7 @@ def test_rows_that_come_and_go():
 
 
 def test_a_config_may_loosen_turn_or_drop_a_figure():
-    from harness.config import ToleranceChoice
+    from harness.experiment.config import ToleranceChoice
 
     own = {
         "misses": ToleranceChoice(absolute=2),

@@ -16,9 +16,9 @@ import pytest
 
 import surfaces
 from harness import hardcases
+from harness.accuracy.rungs import first_break, judge_rung, knowable_margin, share_right
 from harness.contract import FirsthitError, Hits, RayStatus, Truth, TruthStatus
 from harness.hardcases import Rung
-from harness.hardcases.verdict import first_break, judge_rung, knowable_margin, share_right
 from harness.oracle import first_hits
 
 Exact = tuple[Fraction, ...]
@@ -255,7 +255,7 @@ def test_an_unknown_family_is_named_with_its_neighbours() -> None:
 
 def test_importing_hard_cases_is_light() -> None:
     code = (
-        "import sys, harness.hardcases.verdict\n"
+        "import sys, harness.accuracy.rungs\n"
         "print([m for m in ('sympy', 'flint', 'harness.oracle', 'matplotlib') if m in sys.modules])"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)

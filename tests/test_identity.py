@@ -12,20 +12,31 @@ import numpy as np
 import pytest
 
 import surfaces
-from harness import identity, sources, studies
+from harness import studies
 from harness.contract import FirsthitError
+from harness.experiment import identity
 from harness.oracle import cache
-from harness.sources import ROOT, TRUTH, files_in, left_out, methodology
+from harness.results import sources
+from harness.results.sources import ROOT, TRUTH, files_in, left_out, methodology
 
 from .conftest import usable_devices
 
 OWN = ("harness", "surfaces", "methods", "reports")
-ENTRANCES = ("runner", "worker", "executor", "plan", "environment", "backends.opencl", "backends.opengl")
-READ_FOR_NAMES = {  # imported by a run and left out: harness/config.py asks them which words a config may use
+ENTRANCES = (
+    "running.runner",
+    "devices.worker",
+    "devices.executor",
+    "experiment.plan",
+    "running.environment",
+    "devices.opencl",
+    "devices.opengl",
+)
+# imported by a run and left out: harness/experiment/config.py asks them which words a config may use
+READ_FOR_NAMES = {
     "harness/__init__.py",
     "harness/gate/__init__.py",
     "harness/gate/baseline.py",
-    "harness/gate/figures.py",
+    "harness/results/figures.py",
     "harness/studies/__init__.py",
 }
 
@@ -71,11 +82,11 @@ def run_files() -> set[str]:
 
 
 def test_every_module_that_a_run_imports_decides_its_row(run_files):
-    assert {"harness/oracle/classify.py", "surfaces/evaluation.py", "harness/backends/opengl_raster.py"} <= run_files
+    assert {"harness/oracle/classify.py", "surfaces/evaluation.py", "harness/devices/opengl_frames.py"} <= run_files
     assert not uncovered(run_files)
 
 
-@pytest.mark.parametrize("forgotten", ["harness/accuracy.py", "harness/oracle", "harness/kernels", "surfaces"])
+@pytest.mark.parametrize("forgotten", ["harness/accuracy/judge.py", "harness/oracle", "harness/kernels", "surfaces"])
 def test_leaving_out_what_decides_is_seen(run_files, monkeypatch, forgotten):
     monkeypatch.setitem(sources.NOT_DECIDING, forgotten, "forgotten")
     methodology.cache_clear()
@@ -97,13 +108,13 @@ def test_what_is_left_out_is_there_and_has_a_reason():
 RUN = """
 import dataclasses, json, sys
 from pathlib import Path
-from harness import config, plan
-from harness.backends import find_devices
-from harness.environment import probed
+from harness.experiment import config, plan
+from harness.devices.interface import find_devices
+from harness.running.environment import probed
 from harness.plugins import find_methods
-from harness.runner import Runner
-from harness.store import Store
-from harness.worker import Worker
+from harness.running.runner import Runner
+from harness.results.store import Store
+from harness.devices.worker import Worker
 
 class Here:
     '''Does in this process what a worker would.'''
@@ -153,18 +164,28 @@ def test_a_run_imports_nothing_that_the_walk_does_not_find(tmp_path, run_files):
         assert sum(status == "ok" for status, _ in told["rows"]) == 3, told["rows"]
         ours = {Path(file) for file in told["files"]} & {ROOT / f for room in OWN for f in files_in(ROOT / room)}
         named = {file.relative_to(ROOT).as_posix() for file in ours}
-        assert "harness/runner.py" in named and not named - run_files
+        assert "harness/running/runner.py" in named and not named - run_files
 
 
 def test_every_module_that_the_oracle_imports_decides_its_truth():
-    says_which = {"harness/__init__.py", "harness/sources.py"}  # the version, and which files these are
+    says_which = {
+        "harness/__init__.py",
+        "harness/results/__init__.py",
+        "harness/results/sources.py",
+    }  # the version, and which files these are
     assert "surfaces/evaluation.py" in reached("harness.oracle")
     assert reached("harness.oracle") - says_which <= sources.hashes(*TRUTH).keys()
 
 
 def test_every_module_that_makes_a_mesh_decides_its_file():
-    stores = {"harness/__init__.py", "harness/sources.py", "harness/store.py"}
-    assert reached("harness.meshes") - stores <= {*sources.hashes(*sources.MESHES), "harness/fitting.py"}
+    stores = {
+        "harness/__init__.py",
+        "harness/results/__init__.py",
+        "harness/results/sources.py",
+        "harness/results/store.py",
+    }
+    names = {"harness/scenes/__init__.py", "harness/kernels/__init__.py", "harness/kernels/fitting.py"}
+    assert reached("harness.scenes.meshes") - stores <= {*sources.hashes(*sources.MESHES), *names}
 
 
 def test_a_part_that_is_not_there_is_no_cover():

@@ -15,11 +15,11 @@ import pytest
 from numpy.typing import NDArray
 
 import surfaces
-from harness.assemble import KERNELS, Language, map_program
-from harness.backends import Device, map_rows
 from harness.contract import Precision, Section, Surface
+from harness.devices.interface import Device, map_rows
+from harness.kernels.assemble import KERNELS, Language, map_program
+from harness.kernels.functions import libraries_for, surface_sections, unsupported
 from surfaces.numbers import Balls
-from surfaces.sections import libraries_for, surface_sections, unsupported
 from surfaces.tape import Tape, walk
 
 BOXES = int(os.environ.get("FIRSTHIT_BOXES", "40000"))

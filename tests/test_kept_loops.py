@@ -8,16 +8,16 @@ import numpy as np
 import pytest
 
 import surfaces
-from harness.assemble import kept_loops, method_program, raster_program, with_free_loops
-from harness.backends import BuildError, hits_from, launch_rays
-from harness.camera import camera_for, meets, rays_of
+from harness.accuracy.conformance.cases import view_case
+from harness.accuracy.conformance.checks import agreement
+from harness.accuracy.freeloops import removed
 from harness.cli import main
-from harness.conformance.cases import view_case
-from harness.conformance.checks import agreement
 from harness.contract import Hits, Method, Program, RayStatus, Variant, View, digest
-from harness.freeloops import removed
+from harness.devices.interface import BuildError, hits_from, launch_rays
+from harness.kernels.assemble import kept_loops, method_program, raster_program, with_free_loops
 from harness.plugins import find_methods
-from harness.sources import ROOT
+from harness.results.sources import ROOT
+from harness.scenes.camera import camera_for, meets, rays_of
 
 from .conftest import opened, usable_devices
 from .test_conform_plugins import _example

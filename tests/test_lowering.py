@@ -11,13 +11,14 @@ import sympy
 from numpy.typing import NDArray
 
 import surfaces
-from harness.assemble import map_program
-from harness.backends import Device, map_rows
 from harness.contract import Box, FirsthitError, Precision, Section, Surface
-from surfaces import formula, lowering, printing
+from harness.devices.interface import Device, map_rows
+from harness.kernels import printing
+from harness.kernels.assemble import map_program
+from harness.kernels.functions import expands, libraries_for, surface_sections, unsupported
+from surfaces import formula, lowering
 from surfaces.evaluation import evaluate_tape, tape_of
 from surfaces.numbers import BallPolynomials, Balls, Floats
-from surfaces.sections import expands, libraries_for, surface_sections, unsupported
 from surfaces.tape import Builder, walk
 
 CATALOG = [surfaces.get(name) for name in surfaces.names()]

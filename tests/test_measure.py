@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from harness.measure import bootstrap_interval, is_narrow, median_interval, paired_ratio, steadiness
+from harness.results.timings import bootstrap_interval, is_narrow, median_interval, paired_ratio, steadiness
 
 
 def test_under_six_samples_nothing_is_proved():

@@ -8,14 +8,14 @@ import numpy as np
 import pytest
 
 import surfaces
-from harness.accuracy import judge
-from harness.assemble import map_program
-from harness.backends import map_rows
-from harness.camera import scene_radius
+from harness.accuracy.judge import judge
 from harness.contract import Box, Section
+from harness.devices.interface import map_rows
+from harness.kernels.assemble import map_program
+from harness.kernels.functions import surface_sections
+from harness.kernels.rounding import sample_errors_grow, value_errors
 from harness.plugins import find_methods
-from harness.rounding import sample_errors_grow, value_errors
-from surfaces.sections import surface_sections
+from harness.scenes.camera import scene_radius
 
 from .test_devices import cast
 from .test_renders import _case

@@ -13,12 +13,12 @@ import numpy as np
 import pytest
 
 import surfaces
-from harness import conformance
-from harness.accuracy import judge
-from harness.camera import scene_radius
+from harness.accuracy import conformance
+from harness.accuracy.judge import judge
 from harness.contract import UNIT_ROUNDOFF, RayStatus, TruthStatus
 from harness.oracle import first_hits
 from harness.plugins import find_methods
+from harness.scenes.camera import scene_radius
 
 from .conftest import opened, usable_devices
 from .test_devices import cast

@@ -13,14 +13,14 @@ import numpy as np
 import pytest
 
 import surfaces
-from harness.accuracy import NAMES, judge
-from harness.assemble import map_program, method_program
-from harness.backends import Device, hits_from, launch_rays, map_rows
-from harness.camera import camera_for, rays_of, scene_radius
+from harness.accuracy.judge import NAMES, judge
 from harness.contract import Precision, RayStatus, Section, Surface, TruthStatus, View
-from harness.fitting import fit_tables, inverse, nodes
+from harness.devices.interface import Device, hits_from, launch_rays, map_rows
+from harness.kernels.assemble import map_program, method_program
+from harness.kernels.fitting import fit_tables, inverse, nodes
 from harness.oracle import first_hits
 from harness.plugins import find_methods
+from harness.scenes.camera import camera_for, rays_of, scene_radius
 
 from .conftest import opened, usable_devices
 

@@ -9,13 +9,13 @@ from numpy.typing import NDArray
 
 import surfaces
 from harness import hardcases
-from harness.accuracy import Wrong, judge
-from harness.assemble import map_program, method_program
-from harness.backends import hits_from, launch_rays, map_rows
-from harness.camera import camera_for, rays_of, scene_radius
+from harness.accuracy.judge import Wrong, judge
 from harness.contract import PRECISIONS, FirsthitError, RayStatus, Section, TruthStatus, View
+from harness.devices.interface import hits_from, launch_rays, map_rows
+from harness.kernels.assemble import map_program, method_program
 from harness.oracle import first_hits
 from harness.plugins import find_methods
+from harness.scenes.camera import camera_for, rays_of, scene_radius
 
 from .conftest import opened, usable_devices
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import surfaces
-from harness.accuracy import judge
+from harness.accuracy.judge import judge
 from harness.contract import Hits, TruthStatus
 from harness.oracle import first_hits
 from harness.oracle.noise import Noise, RunningErrors

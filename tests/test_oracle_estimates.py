@@ -14,9 +14,9 @@ from flint import arb, arb_poly, ctx, fmpq, fmpq_poly
 
 import surfaces
 from harness import hardcases
-from harness.camera import camera_for, rays_of
 from harness.contract import Box, Surface, Truth, TruthStatus, View
 from harness.oracle import first_hits
+from harness.scenes.camera import camera_for, rays_of
 
 DIGITS = 60  # of irrational constants: 1e-60 off is 1e-30 off where two roots meet
 EXACT = 400  # bits

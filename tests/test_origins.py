@@ -12,20 +12,21 @@ import numpy as np
 import pytest
 
 import surfaces
-from harness import answers, raster
-from harness import plan as plans
-from harness.accuracy import Wrong, judge
-from harness.assemble import fill_program, method_program, raster_program
-from harness.backends import Device, hits_from, launch_rays
-from harness.camera import camera_for, rays_of, scene_radius
+from harness.accuracy import answers
+from harness.accuracy.judge import Wrong, judge
 from harness.cli import main
-from harness.config import load
 from harness.contract import ORIGINS, FirsthitError, Hits, RayStatus, Sphere, TruthStatus, View
+from harness.devices.interface import Device, hits_from, launch_rays
+from harness.experiment import draws
+from harness.experiment import plan as plans
+from harness.experiment.config import load
+from harness.kernels.assemble import fill_program, method_program, raster_program
 from harness.oracle import first_hits
 from harness.plugins import find_methods
-from harness.scenes import single
-from harness.viewsets import AngleChoice, by_angle
-from reports import counts
+from harness.scenes.camera import camera_for, rays_of, scene_radius
+from harness.scenes.model import single
+from harness.scenes.views import AngleChoice, by_angle
+from reports.analysis import counts
 
 from .conftest import opened, usable_devices
 from .test_prepass import narrowed
@@ -194,14 +195,14 @@ def test_fragments_cast_from_any_origin(origin):
     gl = drawing_device() or pytest.skip("no device that rasterises")
     surface, _, truth = case("torus", 90)
     camera, scene = camera_for(VIEW, surface), single(surface, VIEW)
-    drawn = raster.draws(scene, variant("bernstein"), "box", find_methods(), origin=origin)
+    drawn = draws.draws(scene, variant("bernstein"), "box", find_methods(), origin=origin)
     assert all("origin_" + origin in str([s.origin for s in d.check.sections]) for d in drawn)
     batches = [d.batch(True) for d in drawn]
     launch = gl.launch_raster(
         batches,
         [gl.build(b.program) for b in batches],
         camera,
-        raster.depth_map(scene, camera),
+        draws.depth_map(scene, camera),
         90,
         gl.build(fill_program()),
     )

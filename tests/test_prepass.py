@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 import surfaces
-from harness import prepass
-from harness.accuracy import Wrong, judge
-from harness.assemble import method_program
-from harness.backends import Reserved, hits_from, real_type
-from harness.backends.beams import (
+from harness.accuracy.judge import Wrong, judge
+from harness.accuracy.pixels import pixels_of
+from harness.contract import RayStatus, TruthStatus, View
+from harness.devices.interface import Reserved, hits_from, real_type
+from harness.devices.quadtree import (
     LEVELS,
     first_level,
     last_level,
@@ -18,11 +18,11 @@ from harness.backends.beams import (
     launch_narrowed_rays,
     quadtree_steps,
 )
-from harness.beams import pixels_of
-from harness.camera import camera_for, rays_of, scene_radius
-from harness.contract import RayStatus, TruthStatus, View
+from harness.kernels import prepass
+from harness.kernels.assemble import method_program
 from harness.oracle import first_hits
 from harness.plugins import find_methods
+from harness.scenes.camera import camera_for, rays_of, scene_radius
 
 from .conftest import opened, usable_devices
 from .test_devices import cast

@@ -5,8 +5,8 @@ import itertools
 import numpy as np
 import pytest
 
-from harness import ranks
-from harness.ranks import rank_sum, signed_rank
+from harness.results import ranks
+from harness.results.ranks import rank_sum, signed_rank
 
 
 def test_the_depression_scale_of_hollander_and_wolfe():

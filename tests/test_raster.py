@@ -6,16 +6,16 @@ import numpy as np
 import pytest
 
 import surfaces
-from harness import raster
-from harness.accuracy import judge
-from harness.assemble import fill_program
-from harness.backends.raster import Rasteriser
-from harness.camera import camera_for, pixel_footprint, rays_of, scene_radius
+from harness.accuracy.judge import judge
 from harness.contract import NORMALS, PROXIES, FirsthitError, RayStatus, View
+from harness.devices.frames import Rasteriser
+from harness.experiment import draws
+from harness.kernels.assemble import fill_program
 from harness.oracle import first_hits
 from harness.plugins import find_methods
-from harness.scenes import single
-from harness.viewsets import AngleChoice, by_angle
+from harness.scenes.camera import camera_for, pixel_footprint, rays_of, scene_radius
+from harness.scenes.model import single
+from harness.scenes.views import AngleChoice, by_angle
 from reports import published
 
 from .conftest import opened, usable_devices
@@ -45,10 +45,10 @@ def variant(method, **knobs):
 def draw(gl, scene, chosen, size, proxy="box", reports=True, pixels=0.0, normal="distance"):
     """The picture of a scene by a variant; without reports, its colours alone."""
     camera = camera_for(scene.view, scene.stand_in if scene.instances > 1 else scene.groups[0].distinct[0])
-    batches = [d.batch(reports) for d in raster.draws(scene, chosen, proxy, find_methods(), pixels, normal=normal)]
+    batches = [d.batch(reports) for d in draws.draws(scene, chosen, proxy, find_methods(), pixels, normal=normal)]
     built = [gl.build(batch.program) for batch in batches]
     fill = gl.build(fill_program()) if reports else None
-    launch = gl.launch_raster(batches, built, camera, raster.depth_map(scene, camera), size, fill)
+    launch = gl.launch_raster(batches, built, camera, draws.depth_map(scene, camera), size, fill)
     launch.run()
     result = launch.picture() if reports else launch.read()[0]
     launch.release()
@@ -110,7 +110,7 @@ def test_three_normals_shade_the_torus_alike_and_by_programs_of_their_own(gl):
     pictures = {name: draw(gl, scene, chosen, SIZE, reports=False, normal=name).astype(int) for name in NORMALS}
     for name in NORMALS:
         assert np.abs(pictures[name] - pictures["distance"]).max() <= 1
-    (texts,) = {len({raster.draws(scene, chosen, "box", find_methods(), 0.0, normal=n)[0].timed.hash for n in NORMALS})}
+    (texts,) = {len({draws.draws(scene, chosen, "box", find_methods(), 0.0, normal=n)[0].timed.hash for n in NORMALS})}
     assert texts == len(NORMALS)
     assert len(np.unique(pictures["core_circle"])) > 50
 
@@ -118,7 +118,7 @@ def test_three_normals_shade_the_torus_alike_and_by_programs_of_their_own(gl):
 @pytest.mark.parametrize("name", ["sphere", "spindle_torus", "barth_sextic"])
 def test_only_a_torus_is_shaded_by_its_core_circle(name):
     with pytest.raises(FirsthitError, match="core circle"):
-        raster.draws(
+        draws.draws(
             single(surfaces.get(name), VIEW),
             variant("interval_march"),
             "box",
@@ -138,7 +138,7 @@ def test_rays_that_give_up_are_exhausted_and_not_missed(gl):
 def test_an_eye_among_the_proxies_is_refused():
     surface = surfaces.get("torus")
     with pytest.raises(FirsthitError, match="inside the bounding spheres of 1 instances"):
-        raster.depth_map(single(surface, VIEW), camera_for(View("inside", distance=0.5), surface))
+        draws.depth_map(single(surface, VIEW), camera_for(View("inside", distance=0.5), surface))
 
 
 @pytest.mark.parametrize("method", ["newton", "sturm", "sphere_tracing", "interval_march"])

@@ -6,16 +6,16 @@ import numpy as np
 import pytest
 
 import surfaces
-from harness.accuracy import Wrong, judge
-from harness.camera import camera_for, rays_of, scene_radius
+from harness.accuracy.judge import Wrong, judge
 from harness.cli import main
 from harness.contract import View
-from harness.environment import ROOT
-from harness.executor import LocalExecutor
+from harness.devices.executor import LocalExecutor
 from harness.oracle import first_hits
 from harness.plugins import Catalog, find_methods
 from harness.recommend import candidates
 from harness.recommend.search import Search, Wish, certified_error
+from harness.running.environment import ROOT
+from harness.scenes.camera import camera_for, rays_of, scene_radius
 
 from .conftest import opened, usable_devices
 from .test_devices import cast

@@ -6,12 +6,13 @@ import numpy as np
 import pytest
 
 import surfaces
-from harness import hardcases, stability
-from harness.accuracy import Wrong, judge
-from harness.camera import camera_for, rays_of, scene_radius
+from harness import hardcases
+from harness.accuracy.judge import Wrong, judge
 from harness.contract import RayStatus, TruthStatus, View
+from harness.hardcases import groups
 from harness.oracle import first_hits
 from harness.plugins import find_methods
+from harness.scenes.camera import camera_for, rays_of, scene_radius
 
 from .conftest import opened, usable_devices
 from .test_devices import cast
@@ -70,7 +71,7 @@ FINDS_TOUCHES = [name for name, method in CASTERS.items() if "finds_touch" in me
 @pytest.mark.parametrize("method", NEVER_MISSES)
 def test_a_method_that_claims_it_misses_no_root_of_any_hard_case(method, family):
     device = opened(usable_devices()[0].name)
-    accepted = [group for group in stability.groups(family) if CASTERS[method].accepts(group.surface) is None]
+    accepted = [group for group in groups.groups(family) if CASTERS[method].accepts(group.surface) is None]
     if not accepted:
         pytest.skip(f"{method} accepts none of the family's surfaces")
     for group in accepted:

@@ -14,21 +14,14 @@ import pandas as pd
 import pyarrow.parquet as pq
 import pytest
 
-import reports
 from harness.contract import FirsthitError, digest
-from reports import (
-    arrays,
-    choice,
-    content,
-    derive,
-    images,
-    load,
-    schema,
-    tables,
-    ties,
-)
+from harness.results import schema
+from reports import content, report
+from reports.analysis import derive, ties
+from reports.drawing import choice, images, tables
 from reports.parts import surfaces as surface_pages
 from reports.parts import winners
+from reports.reading import arrays, load
 from tests.synthetic_run import cell, plan, printed, reported, retime, tiny_run, troubled, write_run
 
 
@@ -49,7 +42,7 @@ def frame(loaded: load.Run) -> pd.DataFrame:
 
 def test_build_writes_four_files_and_nothing_else(run: Path) -> None:
     before = {path.name for path in run.iterdir()}
-    pdf = reports.build(run)
+    pdf = report.build(run)
     assert pdf == run / "report.pdf"
     assert {path.name for path in run.iterdir()} == before | {
         "report.pdf",
@@ -59,7 +52,7 @@ def test_build_writes_four_files_and_nothing_else(run: Path) -> None:
     }
     first = pdf.read_bytes()
     assert first.startswith(b"%PDF")
-    assert reports.build(run).read_bytes() == first, "the same run must give the same PDF"
+    assert report.build(run).read_bytes() == first, "the same run must give the same PDF"
 
     csv, parquet = pd.read_csv(run / "results.csv"), pq.read_table(run / "results.parquet")
     names = [field.name for field in (*schema.SCHEMA, *schema.DERIVED)]
@@ -246,27 +239,27 @@ def test_a_folder_that_is_no_run_is_refused_in_one_line(tmp_path: Path) -> None:
         if text is not None:
             (tmp_path / name / "plan.json").write_text(text)
         with pytest.raises(FirsthitError) as raised:
-            reports.build(tmp_path / name)
+            report.build(tmp_path / name)
         assert message in str(raised.value)
         assert "\n" not in str(raised.value)
         assert raised.value.exit_code == 2
         assert len(list((tmp_path / name).iterdir())) == (text is not None), "nothing half-written"
     with pytest.raises(FirsthitError, match="there is no run folder"):
-        reports.build(tmp_path / "nowhere")
+        report.build(tmp_path / "nowhere")
 
 
 def test_runs_with_nothing_to_show_still_make_a_report(tmp_path: Path) -> None:
     skipped = troubled(cell("ray_march", "torus", "opencl:gpu#0_$", "float64"))
     bare = cell("ray_march", "torus", "opencl:intel", "float32") | {"accuracy": None, "arrays": "arrays/gone.npz"}
-    assert reports.build(tiny_run(tmp_path / "skipped", skipped)).stat().st_size > 0
+    assert report.build(tiny_run(tmp_path / "skipped", skipped)).stat().st_size > 0
     folder = tiny_run(tmp_path / "bare", bare)
     (folder / "report.pdf").mkdir()
     with pytest.raises(FirsthitError, match="cannot write the report") as raised:
-        reports.build(folder)
+        report.build(folder)
     assert raised.value.exit_code == 3
     assert not list(folder.glob(".report-*"))
     (folder / "report.pdf").rmdir()
-    assert reports.build(folder).stat().st_size > 0
+    assert report.build(folder).stat().st_size > 0
 
 
 def test_a_damaged_array_file_is_listed_and_the_other_pictures_drawn(tmp_path: Path) -> None:
@@ -344,7 +337,7 @@ def test_an_older_run_has_no_families_and_no_conditions(tmp_path: Path) -> None:
 def test_importing_reports_imports_nothing_heavy() -> None:
     heavy = "{'pandas', 'matplotlib', 'typst', 'PIL', 'pyarrow', 'numpy'}"
     code = f"import sys, reports; print(sorted({heavy} & set(sys.modules)))"
-    root = Path(reports.__file__).parents[1]
+    root = Path(report.__file__).parents[1]
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, cwd=root)
     assert done.stdout.strip() == "[]"
 

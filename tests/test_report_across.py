@@ -6,7 +6,9 @@ from pathlib import Path
 
 import numpy as np
 
-from reports import across, derive, load
+from reports import across
+from reports.analysis import derive
+from reports.reading import load
 from tests.synthetic_run import write_run
 
 

@@ -8,7 +8,7 @@ from typing import Any
 from harness.contract import digest
 from reports import claims
 from reports.claims import Outcome, picks
-from reports.evidence import Pick
+from reports.claims.evidence import Pick
 
 from .test_claims import claim, evidence, planted
 

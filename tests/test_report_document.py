@@ -9,12 +9,9 @@ from typing import Any
 import pandas as pd
 import pytest
 
-from reports import (
-    content,
-    document,
-    plots,
-    wording,
-)
+from reports import content, wording
+from reports.drawing import plots
+from reports.rendering import document
 
 
 def test_one_name_stands_for_one_figure(tmp_path: Path) -> None:

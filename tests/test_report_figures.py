@@ -8,7 +8,10 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from reports import arrays, condition, content, derive, drawing, images, load, plots, style
+from reports import condition, content
+from reports.analysis import derive
+from reports.drawing import canvas, images, plots, style
+from reports.reading import arrays, load
 from tests.synthetic_run import write_run
 
 
@@ -52,7 +55,7 @@ def test_a_pixel_of_several_samples_has_the_mean_of_their_colours(tmp_path: Path
 
 
 def test_a_zero_error_has_its_place_left_of_the_smallest(frame: pd.DataFrame) -> None:
-    axis = drawing.ErrorAxis.of(pd.Series([0.0, 3e-7, 2e-3, np.inf]))
+    axis = canvas.ErrorAxis.of(pd.Series([0.0, 3e-7, 2e-3, np.inf]))
     assert (axis.lowest, axis.highest) == (-7, -2)
     assert axis.position(pd.Series([0.0, 1e-7, 1e-2])).tolist() == [axis.zero, -7.0, -2.0]
     assert axis.zero <= -8
@@ -105,14 +108,14 @@ def test_variants_of_a_method_differ_in_their_line_alone() -> None:
 
 
 def test_a_key_takes_no_more_room_than_there_is() -> None:
-    assert drawing.Key([None] * 3, ["a", "b", "c"], 7.0)._columns == 3
-    long = drawing.Key([None] * 3, ["x" * 50, "y" * 40, "z" * 40], 7.0)
+    assert canvas.Key([None] * 3, ["a", "b", "c"], 7.0)._columns == 3
+    long = canvas.Key([None] * 3, ["x" * 50, "y" * 40, "z" * 40], 7.0)
     assert long._columns == 2, "two lines in the first column, one in the second"
-    assert long.height == drawing.Key([None] * 2, ["x" * 100, "y" * 100], 7.0).height
+    assert long.height == canvas.Key([None] * 2, ["x" * 100, "y" * 100], 7.0).height
 
 
 def test_every_method_of_the_suite_has_a_marker_of_its_own() -> None:
-    folders = (Path(style.__file__).parent.parent / "methods").glob("*/method.py")
+    folders = (Path(style.__file__).parents[2] / "methods").glob("*/method.py")
     names = sorted(path.parent.name for path in folders)
     assert set(names) <= set(style._HOUSE)
     markers = [mark.marker for mark in style._HOUSE.values()]

@@ -11,7 +11,8 @@ import pytest
 
 from harness.contract import digest
 from harness.studies import form_ranges
-from reports import content, forms
+from reports import content
+from reports.analysis import forms
 from tests.synthetic_run import cell, printed, reported, tiny_run
 
 TITLE = "How a formula is written"

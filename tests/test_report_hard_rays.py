@@ -11,12 +11,13 @@ import numpy as np
 import pandas as pd
 import pytest
 
-import reports
-from harness.cards import card
+from harness.accuracy.rungs import first_break
 from harness.contract import CLAIMS
-from harness.hardcases.verdict import first_break
 from harness.plugins import find_methods
-from reports import breaks, load
+from harness.running.cards import card
+from reports import report
+from reports.analysis import breaks
+from reports.reading import load
 from tests import synthetic_run
 from tests.synthetic_run import family_cell, printed, reported, stability_run, tiny_run
 
@@ -106,7 +107,7 @@ def test_a_run_of_families_alone_makes_a_report(hard: Path) -> None:
     assert "family: Grazing #rays_ $*" in by_title["Skipped, failed and missing"]
 
     before = {path.name for path in hard.iterdir()}
-    reports.build(hard)
+    report.build(hard)
     made = {"report.pdf", "report.html", "results.csv", "results.parquet", "stability.csv"}
     assert {path.name for path in hard.iterdir()} == before | made
     csv = pd.read_csv(hard / "stability.csv")
@@ -124,8 +125,8 @@ def test_a_run_of_families_alone_says_what_its_methods_are(tmp_path: Path) -> No
         "methods": {"bernstein": card(find_methods().get("bernstein"))}
     }
     (folder / "plan.json").write_text(json.dumps(told))
-    _, report = reported(folder)
-    page = next(printed(section.blocks) for section in report.sections if section.title == "Methods")
+    _, told = reported(folder)
+    page = next(printed(section.blocks) for section in told.sections if section.title == "Methods")
     assert f"• no false hit: {CLAIMS['no_false_hit']}. Not counted in this run; `firsthit conform" in page
 
 
@@ -133,14 +134,14 @@ def test_families_without_a_result_still_make_a_report(tmp_path: Path) -> None:
     skipped = family_cell("ray_march", "grazing", "opencl:intel", "float32")
     skipped |= {"status": "skipped", "reason": "no such thing", "rungs": None}
     folder = tiny_run(tmp_path / "run", skipped)
-    _, report = reported(folder)
-    assert [section.title for section in report.sections] == [
+    _, told = reported(folder)
+    assert [section.title for section in told.sections] == [
         "Devices, environment, config",
         "Skipped, failed and missing",
         "How to run it again",
     ]
     (folder / "stability.csv").write_text("from an earlier plan")
-    reports.build(folder)
+    report.build(folder)
     assert not (folder / "stability.csv").exists()
 
 

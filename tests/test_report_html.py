@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-import reports
-import reports.html
+from reports import report
+from reports.rendering import html
 from tests import browser
 from tests.synthetic_run import reported, write_run
 
@@ -20,7 +20,7 @@ _NAMES = "(g => JSON.parse(decodeURIComponent(g.dataset.series)))"  # method and
 @pytest.fixture(scope="module")
 def page(tmp_path_factory: pytest.TempPathFactory) -> Path:
     run = write_run(tmp_path_factory.mktemp("runs") / "quick")
-    reports.build(run)
+    report.build(run)
     return run / "report.html"
 
 
@@ -63,7 +63,7 @@ def test_the_page_says_what_the_pdf_says(page: Path) -> None:
     _, report = reported(page.parent)
     text = page.read_text(encoding="utf-8")
     for section in (report.summary, *report.sections):
-        assert f"<h2>{reports.html._e(section.title)}</h2>" in text
+        assert f"<h2>{html._e(section.title)}</h2>" in text
     assert "use of `$x` @ *p = a_b[#i] &lt;7:3&gt;" in text
 
 

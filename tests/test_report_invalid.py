@@ -7,10 +7,13 @@ from typing import Any
 
 import pandas as pd
 
-from reports import breaks, derive, load, stability, tables
+from reports import stability
+from reports.analysis import breaks, derive
 from reports.claims import Outcome, picks, szente
 from reports.content import Block, Document, Table
+from reports.drawing import tables
 from reports.parts import cards
+from reports.reading import load
 
 from .synthetic_run import cell, family_cell, reported, tiny_run
 from .test_claims import evidence, planted

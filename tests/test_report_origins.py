@@ -9,11 +9,13 @@ import numpy as np
 import pytest
 
 from harness.contract import FROM_ORIGIN, ORIGINS, digest
-from reports import breaks, claims, derive, load, origins
-from reports.arrays import Shelf
+from reports import claims, origins
+from reports.analysis import breaks, derive
 from reports.claims import Claim, Outcome, Verdict
+from reports.claims.evidence import Evidence, Pick
 from reports.content import Text
-from reports.evidence import Evidence, Pick
+from reports.reading import load
+from reports.reading.arrays import Shelf
 from tests.synthetic_run import FAMILIES, cell, family_cell, reported, retime, tiny_run
 
 KINDS = ("misses", "false_hits", "exhausted", "wrong_root", "invalid")

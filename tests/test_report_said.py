@@ -10,27 +10,16 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from harness.cards import card
 from harness.contract import CLAIMS, View, digest
 from harness.plugins import find_methods
-from harness.viewsets import DirectionChoice, by_direction
-from reports import (
-    choice,
-    condition,
-    content,
-    derive,
-    load,
-    machine,
-    plots,
-    style,
-    summary,
-    tables,
-    viewplots,
-    viewstats,
-    wording,
-)
+from harness.running.cards import card
+from harness.scenes.views import DirectionChoice, by_direction
+from reports import condition, content, machine, summary, wording
+from reports.analysis import derive, viewstats
+from reports.drawing import choice, plots, style, tables, viewplots
 from reports.parts import cards, own_front, rerun
-from reports.sections import Material, Shelf
+from reports.reading import load
+from reports.report import Material, Shelf
 from tests.synthetic_run import SURFACES, cell, printed, reported, retime, tiny_run, write_run
 
 

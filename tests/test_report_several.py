@@ -8,16 +8,12 @@ from typing import Any
 
 import pytest
 
-import reports
 from harness.contract import FirsthitError
-from reports import (
-    against,
-    arrays,
-    derive,
-    load,
-    tables,
-)
-from reports.evidence import Evidence
+from reports import compare, report
+from reports.analysis import derive
+from reports.claims.evidence import Evidence
+from reports.drawing import tables
+from reports.reading import arrays, load
 from tests.synthetic_run import cell, plan, printed, tiny_run
 
 
@@ -42,7 +38,7 @@ def test_a_run_that_collects_others_keeps_their_rows_apart(tmp_path: Path) -> No
     rows = Evidence(frame, {}, arrays.Shelf(loaded.folders))
     assert rows.of("two.toml").frame["run"].tolist() == ["two"]
     assert rows.of("elsewhere.toml").frame["run"].tolist() == ["one", "one", "two"]
-    assert reports.build(tmp_path / "all").stat().st_size > 0
+    assert report.build(tmp_path / "all").stat().st_size > 0
 
 
 def test_two_runs_are_held_against_each_other(tmp_path: Path) -> None:
@@ -51,23 +47,23 @@ def test_two_runs_are_held_against_each_other(tmp_path: Path) -> None:
     b["time"] = b["time"] | {name: 2 * b["time"][name] for name in ("median_ms", "lower_ms", "upper_ms")}
     b["accuracy"] = b["accuracy"] | {"misses": 7}
     first, second = tiny_run(tmp_path / "a", a, other), tiny_run(tmp_path / "b", b)
-    document = against.report(load.load(first), load.load(second))
+    document = compare.report(load.load(first), load.load(second))
     summary = printed(document.summary.blocks)
     assert "Of 1 cell in both runs, B is clearly slower in 1 and clearly faster in 0 of 1" in summary
     assert "more rays wrongly in 1 and fewer in 0" in summary
     by_title = {section.title: printed(section.blocks) for section in document.sections}
     assert "2.00×" in by_title["Speed"]
     assert "newton[EPSILON=0.001]" in by_title["In one run only"]
-    assert reports.compare(first, second) == first / "against-b.pdf"
+    assert compare.build(first, second) == first / "against-b.pdf"
     assert (first / "against-b.html").stat().st_size > 0
-    back = printed(against.report(load.load(second), load.load(first)).summary.blocks)
+    back = printed(compare.report(load.load(second), load.load(first)).summary.blocks)
     assert "clearly slower in 0 and clearly faster in 1 of 1" in back
     b["time"] = b["time"] | {name: a["time"][name] / 4 for name in ("median_ms", "lower_ms", "upper_ms")}
-    bought = against.report(load.load(first), load.load(tiny_run(tmp_path / "bought", b)))
+    bought = compare.report(load.load(first), load.load(tiny_run(tmp_path / "bought", b)))
     assert "clearly faster in 0 of 1" in printed(bought.summary.blocks), "speed bought with wrong rays is no gain"
     elsewhere = tiny_run(tmp_path / "c", cell("ray_march", "torus", "opencl:pocl", "float32"))
-    both, by = against.paired(load.load(first), load.load(elsewhere))
+    both, by = compare.paired(load.load(first), load.load(elsewhere))
     assert by == ["scene", "variant", "precision"], "one device each: devices are compared"
     assert len(both) == 1
     with pytest.raises(FirsthitError, match="no cell in common"):
-        against.paired(load.load(second), load.load(tiny_run(tmp_path / "d", other)))
+        compare.paired(load.load(second), load.load(tiny_run(tmp_path / "d", other)))

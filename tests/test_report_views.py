@@ -10,8 +10,11 @@ import pandas as pd
 import pytest
 
 from harness.contract import View, digest
-from harness.viewsets import AngleChoice, DirectionChoice, by_angle, by_direction
-from reports import arrays, content, derive, evaluations, fits, growth, images, load, style, viewplots, views, viewstats
+from harness.scenes.views import AngleChoice, DirectionChoice, by_angle, by_direction
+from reports import content, evaluations, growth, views
+from reports.analysis import derive, fits, viewstats
+from reports.drawing import images, style, viewplots
+from reports.reading import arrays, load
 from tests.synthetic_run import SURFACES, cell, printed, reported, tiny_run
 from tests.synthetic_run import arrays as made_arrays
 

@@ -6,15 +6,16 @@ import numpy as np
 import pytest
 
 import surfaces
-from harness import config, meshes
-from harness.accuracy import judge
+from harness.accuracy.judge import judge
+from harness.accuracy.scene_truth import scale_of, scene_truth
 from harness.cli import main
 from harness.contract import View
+from harness.experiment import config
 from harness.plugins import find_methods
-from harness.scenes import Group, Scene, scenes_of
-from harness.scenes.choice import PlacedChoice, SceneChoice, cut, rotation
+from harness.scenes import meshes
+from harness.scenes.choice import PlacedChoice, SceneChoice, cut, rotation, scenes_of
 from harness.scenes.generate import GENERATORS, generate
-from harness.scenes.truth import scale_of, scene_truth
+from harness.scenes.model import Group, Scene
 
 from .test_raster import draw, gl, variant  # noqa: F401
 
@@ -100,7 +101,7 @@ def test_an_arc_is_a_torus_in_its_box_and_so_is_its_mesh(gl, tmp_path):  # noqa:
 
 
 def test_a_mesh_needs_one_shape_for_its_group():
-    from harness.raster import refusal
+    from harness.experiment.draws import refusal
 
     reason = refusal(generate("scattered", 5, 1, VIEW), variant("polygon"), find_methods())
     assert "differ in R, r" in reason

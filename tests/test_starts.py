@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 
 import surfaces
-from harness.assemble import method_program
-from harness.backends import Device, hits_from, launch_rays
 from harness.cli import main
 from harness.contract import FirsthitError, Hits, RayStatus, Surface
+from harness.devices.interface import Device, hits_from, launch_rays
+from harness.kernels.assemble import method_program
+from harness.kernels.functions import unsupported
 from harness.plugins import find_methods
-from surfaces.sections import unsupported
 
 METHODS = sorted(
     name for name, plugin in find_methods().plugins.items() if plugin.method.casts == "rays" and name != "null"

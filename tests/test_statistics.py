@@ -11,10 +11,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from harness import measure, ranks
 from harness.contract import FirsthitError, digest
-from reports import choice, content, counts, derive, evaluations, growth, load, style, summary, ties
-from reports.arrays import Arrays
+from harness.results import ranks, timings
+from reports import content, evaluations, growth, summary
+from reports.analysis import counts, derive, ties
+from reports.drawing import choice, style
+from reports.reading import load
+from reports.reading.arrays import Arrays
 from tests.synthetic_run import cell, printed, reported, retime, tiny_run, write_run
 
 
@@ -35,7 +38,7 @@ def noisy(made: dict[str, Any], seed: int, spread: float = 0.05) -> dict[str, An
     """The same cell with samples of its own about the same median."""
     draws = np.random.default_rng(seed).normal(1.0, spread, 20)
     made["time"]["samples_ms"] = list(made["time"]["median_ms"] * draws / np.median(draws))
-    median, lower, upper, _ = measure.median_interval(made["time"]["samples_ms"])
+    median, lower, upper, _ = timings.median_interval(made["time"]["samples_ms"])
     made["time"] |= {"median_ms": median, "lower_ms": lower, "upper_ms": upper}
     return made
 
@@ -44,10 +47,10 @@ def noisy(made: dict[str, Any], seed: int, spread: float = 0.05) -> dict[str, An
 
 
 def test_an_overhead_needs_a_device_time_for_each_sample() -> None:
-    assert measure.overhead([1.1, 2.2], [1.0, 2.0]) == pytest.approx(0.1)
-    assert measure.overhead([1.0, 2.0], [1.02, 2.04]) == 0.0, "within the clocks' own error"
+    assert timings.overhead([1.1, 2.2], [1.0, 2.0]) == pytest.approx(0.1)
+    assert timings.overhead([1.0, 2.0], [1.02, 2.04]) == 0.0, "within the clocks' own error"
     for wall, device in (([1.0], []), ([], []), ([1.0], [0.0]), ([1.0], [-1.0]), ([1.0], [1.5]), ([1.0], [math.nan])):
-        assert measure.overhead(wall, device) is None
+        assert timings.overhead(wall, device) is None
 
 
 def test_no_overhead_is_told_over_a_clock_that_is_not_believed(tmp_path: Path) -> None:
@@ -70,7 +73,7 @@ def test_how_many_rounds_a_signed_rank_test_needs() -> None:
 
 
 def test_the_default_budget_gives_as_many_rounds_as_a_comparison_needs() -> None:
-    from harness.config import BudgetChoice
+    from harness.experiment.config import BudgetChoice
 
     assert BudgetChoice().rounds >= ties.NEEDED
 
@@ -78,15 +81,15 @@ def test_the_default_budget_gives_as_many_rounds_as_a_comparison_needs() -> None
 @pytest.mark.parametrize(
     ("ratio", "told"),
     [
-        (measure.Ratio(0.01, 0.009, 0.011, True, 2**-6, 7), "too few rounds: 7 can at best give a chance of 0.016"),
-        (measure.Ratio(0.01, 0.009, 0.011, True, 2**-7, 8), ties.FASTER),
-        (measure.Ratio(1.3, 1.2, 1.4, True, 1e-6, 20), ties.SLOWER),
-        (measure.Ratio(1.3, 0.9, 1.4, True, 0.2, 20), ties.ALIKE),
-        (measure.Ratio(0.963, 0.950, 0.991, True, 0.17, 118), ties.TORN),
-        (measure.Ratio(1.1, 0.9, 1.4, True, 1e-4, 20), ties.TORN),
+        (timings.Ratio(0.01, 0.009, 0.011, True, 2**-6, 7), "too few rounds: 7 can at best give a chance of 0.016"),
+        (timings.Ratio(0.01, 0.009, 0.011, True, 2**-7, 8), ties.FASTER),
+        (timings.Ratio(1.3, 1.2, 1.4, True, 1e-6, 20), ties.SLOWER),
+        (timings.Ratio(1.3, 0.9, 1.4, True, 0.2, 20), ties.ALIKE),
+        (timings.Ratio(0.963, 0.950, 0.991, True, 0.17, 118), ties.TORN),
+        (timings.Ratio(1.1, 0.9, 1.4, True, 1e-4, 20), ties.TORN),
     ],
 )
-def test_verdicts_on_two_times(ratio: measure.Ratio, told: str) -> None:
+def test_verdicts_on_two_times(ratio: timings.Ratio, told: str) -> None:
     assert ties.verdict(ratio).startswith(told)
 
 
@@ -97,7 +100,7 @@ def test_the_fastest_is_the_one_that_is_faster_in_common_rounds(tmp_path: Path) 
     slow["time"] |= {"samples_ms": [1.1 * x for x in [*load_of_rounds, *[1.0] * 20]], "rounds": list(range(40))}
     quick["time"] |= {"samples_ms": list(load_of_rounds), "rounds": list(range(20))}
     for made in (slow, quick):
-        median, lower, upper, _ = measure.median_interval(made["time"]["samples_ms"])
+        median, lower, upper, _ = timings.median_interval(made["time"]["samples_ms"])
         made["time"] |= {"median_ms": median, "lower_ms": lower, "upper_ms": upper}
     assert slow["time"]["median_ms"] < quick["time"]["median_ms"]
     leading = ties.leaders(derive.derive(load.load(tiny_run(tmp_path / "run", slow, quick)).frame))
@@ -287,14 +290,14 @@ class _Slow:
     """Repetitions of so many seconds each by the runner's own clock; what a cell's end is decided from."""
 
     def __init__(self, seconds: float) -> None:
-        from harness.config import BudgetChoice
+        from harness.experiment.config import BudgetChoice
 
         self.seconds, self.budget = seconds, BudgetChoice(seconds=1.0)
 
     def rounds(self) -> int:
         from types import SimpleNamespace
 
-        from harness.runner import Runner
+        from harness.running.runner import Runner
 
         runner: Any = SimpleNamespace(_config=SimpleNamespace(budget=self.budget))
         state: Any = SimpleNamespace(wall_ms=[], timing=0.0)
@@ -317,8 +320,8 @@ def test_a_slow_cell_is_timed_in_enough_rounds_to_compare_it_but_not_for_ever(
 def test_a_row_has_an_overhead_only_where_the_devices_clock_is_believed(clock: str, told: float | None) -> None:
     from types import SimpleNamespace
 
-    from harness.config import BudgetChoice
-    from harness.runner import Runner
+    from harness.experiment.config import BudgetChoice
+    from harness.running.runner import Runner
 
     runner: Any = SimpleNamespace(_config=SimpleNamespace(seed=1, budget=BudgetChoice()), _session="s")
     state: Any = SimpleNamespace(

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from harness.contract import FirsthitError
-from harness.store import Store, savez_atomically, write_atomically
+from harness.results.store import Store, savez_atomically, write_atomically
 
 
 def test_a_row_comes_back_and_names_its_arrays(tmp_path):

@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 
 import surfaces
-from harness.assemble import map_program, method_program
-from harness.backends import Device, hits_from, launch_rays, map_rows
 from harness.contract import RayStatus, Section
-from harness.fitting import nodes, whole_tables
+from harness.devices.interface import Device, hits_from, launch_rays, map_rows
+from harness.kernels.assemble import map_program, method_program
+from harness.kernels.fitting import nodes, whole_tables
 from harness.plugins import find_methods
 
 from .test_methods_szente import _case, _cast, _fast, _score

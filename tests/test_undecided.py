@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 import surfaces
-from harness.camera import camera_for, rays_of
 from harness.cli import main
 from harness.contract import TruthStatus, View
 from harness.oracle import cached_first_hits
+from harness.scenes.camera import camera_for, rays_of
 
 from .conftest import usable_devices
 
@@ -126,7 +126,7 @@ def one(monkeypatch):
         pytest.skip("no device")
 
     def leave(share):
-        monkeypatch.setattr("harness.runner.cached_first_hits", _undecided(share))
+        monkeypatch.setattr("harness.running.runner.cached_first_hits", _undecided(share))
 
     return usable_devices()[0].name, leave
 

@@ -9,12 +9,13 @@ import numpy as np
 import pytest
 
 import surfaces
-from harness import config, viewsets
-from harness.camera import camera_for, distance_of, meets, rays_of
 from harness.contract import FirsthitError, Sphere, View
+from harness.experiment import config
 from harness.oracle import first_hits
 from harness.plugins import find_methods
-from harness.viewsets import AngleChoice, DirectionChoice, by_angle, by_direction
+from harness.scenes import views as viewsets
+from harness.scenes.camera import camera_for, distance_of, meets, rays_of
+from harness.scenes.views import AngleChoice, DirectionChoice, by_angle, by_direction
 
 CONFIG = """title = "t"
 surfaces = ["sphere"]

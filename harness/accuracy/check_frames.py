@@ -13,16 +13,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from harness import accuracy, answers, freeloops
-from harness.backends.raster import Picture
-from harness.camera import meets, pixel_footprint, scene_radius
-from harness.config import AccuracyChoice
+from harness.accuracy import answers, freeloops, judge
+from harness.accuracy.pictures import pictures_of
+from harness.accuracy.scene_truth import Seen, scale_of, scene_truth
 from harness.contract import Hits, Origin
-from harness.executor import LocalExecutor
-from harness.pictures import pictures_of
-from harness.plan import Planned
+from harness.devices.executor import LocalExecutor
+from harness.devices.frames import Picture
+from harness.experiment.config import AccuracyChoice
+from harness.experiment.plan import Planned
+from harness.scenes.camera import meets, pixel_footprint, scene_radius
 from harness.scenes.model import Scene
-from harness.scenes.truth import Seen, scale_of, scene_truth
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,14 +41,14 @@ def check(executor: LocalExecutor, planned: Planned, config: AccuracyChoice, fol
     rays = picture.rays
     truth: Seen = scene_truth(scene, rays, picture, folder, config.grazing_margin * scene_radius(cell.surface))
     hits = hits_of(scene, picture, cell.origin)
-    verdicts = accuracy.judge(hits, truth.truth, scene_radius(cell.surface), config.grazing_margin, cell.precision)
+    verdicts = judge.judge(hits, truth.truth, scene_radius(cell.surface), config.grazing_margin, cell.precision)
     alone = cell.scene is None
     deviations = (
-        accuracy.deviations(cell.surface, rays, hits, truth.truth, verdicts)
+        judge.deviations(cell.surface, rays, hits, truth.truth, verdicts)
         if alone
-        else accuracy.Deviations(np.full(len(rays), np.nan), np.full(len(rays), np.nan))
+        else judge.Deviations(np.full(len(rays), np.nan), np.full(len(rays), np.nan))
     )
-    summary = accuracy.summarize(
+    summary = judge.summarize(
         cell.surface,
         hits,
         truth.truth,

@@ -29,13 +29,13 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
-from harness.accuracy import FAR
-from harness.assemble import Language
-from harness.backends import LANGUAGES
-from harness.camera import scene_radius
+from harness.accuracy.judge import FAR
 from harness.contract import Domain, Hits, Precision, Program, RayStatus, Surface
-from harness.executor import CellError, LocalExecutor, discover_devices
+from harness.devices.executor import CellError, LocalExecutor, discover_devices
+from harness.devices.interface import LANGUAGES
+from harness.kernels.assemble import Language
 from harness.oracle.clip import clip_many
+from harness.scenes.camera import scene_radius
 
 SAMPLE = 512  # rays
 STEPS = 64  # of a ray's stay in the domain

@@ -13,9 +13,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 
-from harness.assemble import with_free_loops
-from harness.compilercheck import DOUBTFUL
+from harness.accuracy.compilers import DOUBTFUL
 from harness.contract import Hits, Program, RayStatus
+from harness.kernels.assemble import with_free_loops
 
 
 def removed(programs: Iterable[Program], kept: Hits, cast: Callable[[], Hits]) -> str | None:

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from harness.camera import scene_radius
 from harness.contract import UNIT_ROUNDOFF, Hits, Precision, RayStatus, Surface, Truth, TruthStatus
+from harness.scenes.camera import scene_radius
 
 # Unit roundoffs under which a ray's contrast leaves f's sign in doubt: one is the kernel's, whose bound is of first
 # order and whose compiler may regroup, one is the estimate's, which is of float64.
@@ -20,7 +20,7 @@ FAR = 0.05  # a hit further than this from the first root, over the scene radius
 
 class Wrong(IntEnum):
     """What is wrong with one answer; WRONG_ROOT is a later root, or a place that is no root at all; INVALID is what can
-    be no answer, whatever the truth (harness.answers)."""
+    be no answer, whatever the truth (harness.accuracy.answers)."""
 
     RIGHT = 0
     MISS = 1

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from harness import accuracy
+from harness.accuracy import judge
 from harness.contract import Hits, RayStatus, Surface, Truth
 
 
@@ -16,7 +16,7 @@ def pictures_of(
     rays: NDArray[np.float32],
     hits: Hits,
     truth: Truth,
-    verdicts: accuracy.Verdicts,
+    verdicts: judge.Verdicts,
     size: int,
 ) -> dict[str, NDArray[Any]]:
     """The row's answers as [size, size] pictures, row 0 at the top."""

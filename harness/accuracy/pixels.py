@@ -18,7 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from harness.accuracy import Verdicts, Wrong
+from harness.accuracy.judge import Verdicts, Wrong
 from harness.contract import Hits, Truth
 
 Floats = NDArray[np.float64]

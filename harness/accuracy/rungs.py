@@ -7,10 +7,10 @@ ROUNDINGS · unit roundoff · their size, at most that of the domain. A ray that
 roots (`margin` of the oracle, or of the rung by construction) is `undecidable` and counted apart. The distance to the
 origin is no part of that size: the origin is given exactly and can be moved near without a loss.
 
-The class of drowned rays, which views have beside the grazing one (harness.accuracy), is another: there f's value is
-off, by its own roundings and by those of the point at that very place, so that flat places count, and places of a size
-far below the domain's do not. Neither class holds the other. Families keep to the points alone: their ladders are built
-along a distance, and `undecidable` says where that distance ends, whatever the formula.
+The class of drowned rays, which views have beside the grazing one (harness.accuracy.judge), is another: there f's
+value is off, by its own roundings and by those of the point at that very place, so that flat places count, and places
+of a size far below the domain's do not. Neither class holds the other. Families keep to the points alone: their
+ladders are built along a distance, and `undecidable` says where that distance ends, whatever the formula.
 """
 
 from __future__ import annotations
@@ -21,10 +21,10 @@ from typing import Any, Literal
 
 import numpy as np
 
-from harness.accuracy import NAMES, Wrong, judge
-from harness.camera import scene_radius
+from harness.accuracy.judge import NAMES, Wrong, judge
 from harness.contract import UNIT_ROUNDOFF, Hits, Precision, Truth, TruthStatus
 from harness.hardcases.model import Rung
+from harness.scenes.camera import scene_radius
 
 ROUNDINGS = 4.0
 

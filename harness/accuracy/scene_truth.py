@@ -9,10 +9,10 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from harness.backends.raster import Picture
 from harness.contract import Surface, Truth, TruthStatus
+from harness.devices.frames import Picture
+from harness.experiment.draws import pack
 from harness.oracle import cached_first_hits
-from harness.raster import pack
 from harness.scenes.model import Group, Scene
 
 CHUNK = 2**22  # pairs of ray and instance that are looked at together

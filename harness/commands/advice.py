@@ -9,10 +9,10 @@ from pathlib import Path
 from harness import console
 from harness.commands.options import add_surface, surface_of
 from harness.contract import PRECISIONS, DeviceInfo, FirsthitError, digest
-from harness.environment import probed
-from harness.executor import LocalExecutor, discover_devices
+from harness.devices.executor import LocalExecutor, discover_devices
 from harness.plugins import find_methods
 from harness.recommend.search import HEADROOM, Fallen, Recommendation, Search, Wish, named
+from harness.running.environment import probed
 
 NOTHING_HOLDS = 1
 REASON = 110  # characters of a reason

@@ -12,11 +12,12 @@ from collections.abc import Iterable, Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from harness import conformance, console
-from harness.backends import LANGUAGES
-from harness.conformance import Bench, Finding
+from harness import console
+from harness.accuracy import conformance
+from harness.accuracy.conformance import Bench, Finding
 from harness.contract import CellStatus, DeviceInfo, FirsthitError, Hits, Program, Surface
-from harness.executor import CellError, LocalExecutor, discover_devices
+from harness.devices.executor import CellError, LocalExecutor, discover_devices
+from harness.devices.interface import LANGUAGES
 from harness.plugins import Plugin, find_methods
 
 WIDTH = 100

@@ -10,15 +10,17 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
-from harness import config, console, identity, plan, stability, studies
-from harness.cards import card
+from harness import console, studies
 from harness.contract import CellStatus, DeviceInfo, FirsthitError
-from harness.environment import describe, probed
-from harness.executor import LocalExecutor, discover_devices
-from harness.plan import Planned
+from harness.devices.executor import LocalExecutor, discover_devices
+from harness.experiment import config, identity, plan
+from harness.experiment.plan import Planned
+from harness.hardcases import groups
 from harness.plugins import Catalog, find_methods
-from harness.runner import UNFINISHED, Runner
-from harness.store import Row, Store
+from harness.results.store import Row, Store
+from harness.running.cards import card
+from harness.running.environment import describe, probed
+from harness.running.runner import UNFINISHED, Runner
 
 
 def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -146,7 +148,7 @@ def _run_one(
                 "devices": [dataclasses.asdict(i) | {"versions": dict(i.versions), "probes": p} for i, p in tried],
                 "cells": [{"slot": p.cell.slot, "key": p.key} for p in planned if not p.cell.family],
                 "families": [{"slot": p.cell.slot, "key": p.key} for p in planned if p.cell.family],
-                "family_facts": {name: stability.facts(name) for name in experiment.config.families},
+                "family_facts": {name: groups.facts(name) for name in experiment.config.families},
                 "methods": {v.method: card(catalog.get(v.method)) for v in experiment.variants},
                 "studies": [{"study": name, "key": studies.key(name)} for name in experiment.config.studies],
             }
@@ -232,14 +234,14 @@ def _why_again(row: Row, catalog: Catalog) -> None:
 
 def _report(options: argparse.Namespace) -> int:
     try:
-        import reports
+        from reports import compare, report
 
         if options.other:
             if options.baseline:
                 raise FirsthitError("--baseline goes with one run: of two, each cell is held against itself")
-            print(reports.compare(options.folder, options.other))
+            print(compare.build(options.folder, options.other))
         else:
-            print(reports.build(options.folder, options.baseline))
+            print(report.build(options.folder, options.baseline))
     except ModuleNotFoundError as error:
         message = (
             f"a report needs the package {error.name}: pip install 'firsthit[report]'; runs/ can be copied elsewhere"

@@ -9,22 +9,23 @@ from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 
-from harness import batch, config, plan
 from harness.commands.options import writable
-from harness.config import Experiment
 from harness.contract import FirsthitError
-from harness.environment import describe, probed
-from harness.executor import LocalExecutor, discover_devices
+from harness.devices.executor import LocalExecutor, discover_devices
+from harness.experiment import config, plan
+from harness.experiment.config import Experiment
+from harness.experiment.plan import Planned
 from harness.gate import against, baseline, outputs
 from harness.gate.baseline import Baseline
 from harness.gate.entries import baseline_of, slot_of
-from harness.gate.figures import SPEED
 from harness.gate.judge import Judged, Tolerance, Verdict, exit_code, judge, rank, tolerances_of
 from harness.gate.revision import programs_at
-from harness.plan import Planned
 from harness.plugins import Catalog, find_methods
-from harness.runner import UNFINISHED
-from harness.store import Row, write_atomically
+from harness.results.figures import SPEED
+from harness.results.store import Row, write_atomically
+from harness.running import batch
+from harness.running.environment import describe, probed
+from harness.running.runner import UNFINISHED
 
 
 def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:

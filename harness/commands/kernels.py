@@ -8,11 +8,11 @@ import statistics
 import sys
 from typing import Literal
 
-from harness.assemble import mesh_program, method_program, raster_program
-from harness.backends import LANGUAGES
 from harness.contract import PRECISIONS, Casts, FirsthitError, Program, Surface
-from harness.executor import START_SECONDS, CellError, LocalExecutor, discover_devices
-from harness.plan import able
+from harness.devices.executor import START_SECONDS, CellError, LocalExecutor, discover_devices
+from harness.devices.interface import LANGUAGES
+from harness.experiment.plan import able
+from harness.kernels.assemble import mesh_program, method_program, raster_program
 from harness.plugins import Plugin, find_methods
 
 ENTRIES: dict[Casts, tuple[Literal["rays", "camera", "beams"], ...]] = {
@@ -48,7 +48,7 @@ def _rastered(plugin: Plugin, surface: Surface) -> dict[str, Program]:
 
 def _compile(options: argparse.Namespace) -> int:
     import surfaces
-    from surfaces.sections import unsupported
+    from harness.kernels.functions import unsupported
 
     catalog = find_methods(options.plugins)
     plugins = [catalog.get(name) for name in options.method or sorted(catalog.plugins)]

@@ -7,9 +7,9 @@ import tomllib
 
 from harness import console
 from harness.contract import CLAIMS, DeviceInfo
-from harness.environment import ROOT, probed
-from harness.executor import START_SECONDS, LocalExecutor, discover_devices
+from harness.devices.executor import START_SECONDS, LocalExecutor, discover_devices
 from harness.plugins import find_methods
+from harness.running.environment import ROOT, probed
 
 
 def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:

@@ -11,15 +11,15 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from harness import compilercheck
-from harness.answers import validated, validated_beams
-from harness.assemble import Language, method_program
-from harness.backends import LANGUAGES
-from harness.backends.beams import layout_of
+from harness.accuracy import compilers
+from harness.accuracy.answers import validated, validated_beams
 from harness.contract import ORIGINS, PRECISIONS, CellStatus, FirsthitError, Hits, Precision, Program, Surface, Variant
-from harness.executor import CellError, LocalExecutor, discover_devices
+from harness.devices.executor import CellError, LocalExecutor, discover_devices
+from harness.devices.interface import LANGUAGES
+from harness.devices.quadtree import layout_of
+from harness.devices.worker import Frame
+from harness.kernels.assemble import Language, method_program
 from harness.plugins import Catalog, find_methods
-from harness.worker import Frame
 
 
 def add_surface(parser: argparse.ArgumentParser) -> None:
@@ -101,9 +101,9 @@ def cast(
     A method that casts beams needs the `camera` that the rays are of, an image of them row by row, and answers for the
     rays' pixels. What can be no answer is INVALID. The device works in a process of its own. Raises FirsthitError where
     the method refuses the surface, the kernel fails, hangs, crashes or answers otherwise when it is run again, or the
-    device's compiler is found at fault (harness/compilercheck.py).
+    device's compiler is found at fault (harness/accuracy/compilers.py).
     """
-    from surfaces.sections import unsupported
+    from harness.kernels.functions import unsupported
 
     catalog = find_methods(options.plugins)
     plugin, variant = catalog.get(options.method), given_variant(options, catalog)
@@ -141,8 +141,8 @@ def cast(
             hits = validated(hits, surface.domain, rays, t_min, origin=options.origin)
         if not plugin.method.answers:
             return hits
-        second = compilercheck.SecondBuild(device, precision, program, run)
-        doubts = compilercheck.doubts_about(surface, rays, hits, second, t_min)
+        second = compilers.SecondBuild(device, precision, program, run)
+        doubts = compilers.doubts_about(surface, rays, hits, second, t_min)
     except CellError as error:
         what = {CellStatus.TIMEOUT: "timed out", CellStatus.CRASHED: "crashed"}.get(error.status, "failed")
         raise FirsthitError(f"{variant} on {device} {what}: {error}", exit_code=3) from None

@@ -11,12 +11,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from harness.answers import invalid
-from harness.camera import camera_for, rays_of
+from harness.accuracy.answers import invalid
+from harness.accuracy.pictures import headlight
 from harness.commands.options import add_method, add_surface, cast, surface_of, writable
 from harness.contract import FirsthitError, Hits, RayStatus, Surface, View
-from harness.pictures import headlight
-from harness.store import write_atomically
+from harness.results.store import write_atomically
+from harness.scenes.camera import camera_for, rays_of
 
 if TYPE_CHECKING:
     from PIL.Image import Image

@@ -10,11 +10,11 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from harness.accuracy import undecided_too_many
+from harness.accuracy.judge import undecided_too_many
 from harness.commands.options import add_method, add_surface, cast, surface_of, writable
-from harness.config import AccuracyChoice
 from harness.contract import FirsthitError, RayStatus, TruthStatus
-from harness.store import savez_atomically
+from harness.experiment.config import AccuracyChoice
+from harness.results.store import savez_atomically
 
 
 def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:

@@ -8,19 +8,19 @@ from pathlib import Path
 
 import numpy as np
 
-from harness import config, raster
-from harness.answers import invalid
-from harness.assemble import fill_program
-from harness.camera import camera_for
+from harness.accuracy.answers import invalid
+from harness.accuracy.check_frames import hits_of
 from harness.commands.options import add_origin, given_variant, writable
 from harness.commands.pictures import need_pillow, save
 from harness.contract import PROXIES, FirsthitError
-from harness.executor import CellError, LocalExecutor, discover_devices
-from harness.plan import able
+from harness.devices.executor import CellError, LocalExecutor, discover_devices
+from harness.devices.worker import Frame
+from harness.experiment import config, draws
+from harness.experiment.plan import able
+from harness.kernels.assemble import fill_program
 from harness.plugins import find_methods
-from harness.rastercheck import hits_of
-from harness.scenes import Scene
-from harness.worker import Frame
+from harness.scenes.camera import camera_for
+from harness.scenes.model import Scene
 
 
 def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -63,16 +63,16 @@ def _scene(options: argparse.Namespace) -> int:
     output, catalog = writable(options.output), find_methods(options.plugins)
     scene = _chosen(config.load(options.config, catalog).scenes, options.name, options.config)
     variant = given_variant(options, catalog)
-    if reason := raster.refusal(scene, variant, catalog):
+    if reason := draws.refusal(scene, variant, catalog):
         raise FirsthitError(f"{variant} cannot draw {scene.name}: {reason}")
     usable = [info.name for info in discover_devices() if able(info) and not info.problem]
     if not usable:
         raise FirsthitError("no device that rasterises; `firsthit devices` says what is here", exit_code=3)
     camera = camera_for(scene.view, scene.stand_in)
     batches = tuple(
-        draw.batch(True) for draw in raster.draws(scene, variant, options.proxy, catalog, origin=options.origin)
+        draw.batch(True) for draw in draws.draws(scene, variant, options.proxy, catalog, origin=options.origin)
     )
-    depths, side = raster.depth_map(scene, camera), 2 * options.size
+    depths, side = draws.depth_map(scene, camera), 2 * options.size
     executor = LocalExecutor(options.timeout)
     try:
         frame = Frame(fill_program(), camera, None, side, batches=batches, depth_map=depths)

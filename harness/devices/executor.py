@@ -18,9 +18,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from harness.backends import INSTALL, Timing
 from harness.contract import CellStatus, DeviceInfo, Program
-from harness.worker import Checked, Frame, Rasterised, Warmed, serve
+from harness.devices.interface import INSTALL, Timing
+from harness.devices.worker import Checked, Frame, Rasterised, Warmed, serve
 
 START_SECONDS = 60.0  # for a worker to start and a driver to load
 _SPAWN = multiprocessing.get_context("spawn")

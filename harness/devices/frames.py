@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from harness.backends import same_values
 from harness.contract import Hits, Program, RayStatus
+from harness.devices.interface import same_values
 
-RECORD = 32  # float32 of an instance, see harness/kernels/raster_instance.glsl
+RECORD = 32  # float32 of an instance, see harness/kernels/glsl/raster/instance.glsl
 
 
 @dataclass(frozen=True, eq=False)

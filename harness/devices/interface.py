@@ -16,8 +16,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from harness.assemble import Language
 from harness.contract import DeviceInfo, FirsthitError, Hits, Program, RayStatus
+from harness.kernels.assemble import Language
 
 Array = NDArray[Any]
 INSTALL = {"opencl": "pyopencl", "opengl": "moderngl"}
@@ -167,7 +167,7 @@ def map_rows(device: Device, program: Program, rows: Array, outputs: int) -> Arr
 
 def find_devices(backend: str) -> list[DeviceInfo]:
     """Every device of an installed backend ("opencl" or "opengl"); a broken one says so in its `problem`."""
-    found: list[DeviceInfo] = importlib.import_module(f"harness.backends.{backend}").find()
+    found: list[DeviceInfo] = importlib.import_module(f"harness.devices.{backend}").find()
     return found
 
 
@@ -178,7 +178,7 @@ def open_device(name: str) -> Device:
         raise FirsthitError(f"unknown device {name!r}: names start with opencl: or opengl:, see `firsthit devices`")
     if not importlib.util.find_spec(INSTALL[backend]):
         raise FirsthitError(f"device {name!r} needs the package {INSTALL[backend]}: pip install {INSTALL[backend]}")
-    module = importlib.import_module(f"harness.backends.{backend}")
+    module = importlib.import_module(f"harness.devices.{backend}")
     infos = {info.name: info for info in module.find()}
     if name not in infos:
         near = difflib.get_close_matches(name, infos, 1) or list(infos)

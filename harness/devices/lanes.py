@@ -15,8 +15,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from harness.backends.beams import LEVELS, PARENT, most_queued
 from harness.contract import Hits, RayStatus
+from harness.devices.quadtree import LEVELS, PARENT, most_queued
 
 WIDTHS = (8, 16, 32)  # float32 in AVX2, in AVX-512; a warp
 

@@ -18,9 +18,9 @@ from typing import Any
 
 import numpy as np
 
-from harness.assemble import explain_log
-from harness.backends import GPU_RESIDENT, Array, BuildError, Device, Launch, Reserved, Step, Timing
 from harness.contract import DeviceInfo, Program
+from harness.devices.interface import GPU_RESIDENT, Array, BuildError, Device, Launch, Reserved, Step, Timing
+from harness.kernels.assemble import explain_log
 
 SHORT = {"intel": "intel", "portable": "pocl", "nvidia": "nvidia", "amd": "amd", "rusticl": "rusticl", "apple": "apple"}
 INTEL_LIBRARIES = ("libintlc.so.5", "libimf.so", "libsvml.so", "libirng.so", "libtbb.so.12")

@@ -13,11 +13,11 @@ from typing import Any
 
 import numpy as np
 
-from harness.assemble import explain_log
-from harness.backends import GPU_RESIDENT, Array, BuildError, Device, Launch, Reserved, Step, Timing
-from harness.backends.opengl_raster import RasterLaunch
-from harness.backends.raster import Batch, Rasteriser
 from harness.contract import DeviceInfo, FirsthitError, Program, source
+from harness.devices.frames import Batch, Rasteriser
+from harness.devices.interface import GPU_RESIDENT, Array, BuildError, Device, Launch, Reserved, Step, Timing
+from harness.devices.opengl_frames import RasterLaunch
+from harness.kernels.assemble import explain_log
 
 SHORT = ("llvmpipe", "softpipe", "nvidia", "geforce", "radeon", "intel", "apple")
 SOFTWARE = ("llvmpipe", "softpipe")

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from harness.backends import Array, Launch, Timing
-from harness.backends.raster import Batch, Picture
+from harness.devices.frames import Batch, Picture
+from harness.devices.interface import Array, Launch, Timing
 
 GL_DEPTH_CLAMP = 0x864F  # proxies may reach in front of the near plane; what they hold does not
 

@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from harness.assemble import KERNELS, file_section, map_program
-from harness.backends import Device, map_rows, real_type
 from harness.contract import Precision, Section
+from harness.devices.interface import Device, map_rows, real_type
+from harness.kernels.assemble import KERNELS, file_section, map_program
 
 CASES = 65536
 PEAK_ITEMS = 1024  # at first: more until a launch takes PEAK_MS, since a GPU is not filled by so few
@@ -57,7 +57,7 @@ def _pairs(precision: Precision) -> NDArray[np.float64]:
 
 def probe(device: Device) -> Probes:
     """Run the probes in float32: the host's float64 sums and products of such pairs are exact."""
-    program = map_program(file_section(KERNELS / "probe.glsl"), "float32", device.language)
+    program = map_program(file_section(KERNELS / "map/probe.glsl"), "float32", device.language)
     pairs = _pairs("float32")
     sums, sum_errors, products, product_errors, fma_errors, quotients = map_rows(device, program, pairs, 6).T.astype(
         np.float64

@@ -13,9 +13,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from harness import prepass
-from harness.backends import Array, Device, Launch, Reserved, Step, real_type, unpacked
 from harness.contract import DeviceInfo, Hits, Program
+from harness.devices.interface import Array, Device, Launch, Reserved, Step, real_type, unpacked
+from harness.kernels import prepass
 
 UNITS = 64  # compute units of a device that does not say how many it has
 CELLS_PER_UNIT = 64  # fill a unit that does not say what it holds: one work group

@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from harness.backends import Array, Device, Launch, Reserved, Step, real_type
-from harness.backends.beams import LEVELS, PARENT
 from harness.contract import Program
+from harness.devices.interface import Array, Device, Launch, Reserved, Step, real_type
+from harness.devices.quadtree import LEVELS, PARENT
 
 AWAY = (0.0, 0.0, 1024.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0)  # a camera: eye, forward, right, up
 

@@ -19,8 +19,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from harness import lanes
-from harness.backends import (
+from harness.contract import Casts, DeviceInfo, FirsthitError, Hits, Program
+from harness.devices import lanes
+from harness.devices.frames import Batch, Picture, Rasteriser
+from harness.devices.interface import (
     Array,
     BuildError,
     Device,
@@ -33,7 +35,7 @@ from harness.backends import (
     open_device,
     same_values,
 )
-from harness.backends.beams import (
+from harness.devices.quadtree import (
     BY_DEVICE,
     Layout,
     beam_hits_from,
@@ -43,9 +45,7 @@ from harness.backends.beams import (
     launch_narrowed_rays,
     start_of,
 )
-from harness.backends.raster import Batch, Picture, Rasteriser
-from harness.backends.trial import trial_launch
-from harness.contract import Casts, DeviceInfo, FirsthitError, Hits, Program
+from harness.devices.trial import trial_launch
 
 ENOUGH_MS = 2.0  # a sample lasts at least about this long; shorter launches are repeated within it
 MOST_REPEATS = 64
@@ -115,7 +115,7 @@ class Worker:
         return find_devices(self._name)
 
     def probe(self) -> Any:
-        from harness.probes import probe
+        from harness.devices.probes import probe
 
         return probe(self._device)
 

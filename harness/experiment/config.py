@@ -33,8 +33,9 @@ from harness.contract import (
     View,
 )
 from harness.plugins import Catalog
-from harness.scenes import Scene, SceneChoice, cut, scenes_of
-from harness.viewsets import AngleChoice, DirectionChoice, by_angle, by_direction
+from harness.scenes.choice import SceneChoice, cut, scenes_of
+from harness.scenes.model import Scene
+from harness.scenes.views import AngleChoice, DirectionChoice, by_angle, by_direction
 
 BASELINE = "ray_march"  # what speed-ups are over where a config names nothing else
 
@@ -108,7 +109,7 @@ class ToleranceChoice:
 
 @dataclass(frozen=True)
 class GateChoice:
-    """Figures with tolerances of their own (harness.gate.figures has the others'), and the device facts that must be
+    """Figures with tolerances of their own (harness.results.figures has the others'), and the device facts that must be
     the `same` for rows to be compared."""
 
     same: list[str] = field(default_factory=lambda: ["title", "driver", "compiler", "processor"])
@@ -260,7 +261,7 @@ def _read_table(kind: type[Any], value: Any, where: Where, source: _Source) -> A
 
 def _check_gate(gate: GateChoice, source: _Source) -> None:
     from harness.gate.baseline import FACTS
-    from harness.gate.figures import KNOWN
+    from harness.results.figures import KNOWN
 
     for values, known, where in ((gate.same, FACTS, "same"), (gate.figures, KNOWN, "figures")):
         try:

@@ -16,9 +16,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from harness.assemble import PROXY_SIDES, mesh_program, raster_program
-from harness.backends.raster import RECORD, Batch
 from harness.contract import Box, FirsthitError, MeshRecipe, Normal, Origin, Program, Proxy, Surface, Variant
+from harness.devices.frames import RECORD, Batch
+from harness.kernels.assemble import PROXY_SIDES, mesh_program, raster_program
 from harness.plugins import Catalog, Plugin
 from harness.scenes.model import Group, Scene, bounding_radius
 
@@ -42,7 +42,7 @@ class Draw:
         records, program = pack(self.group), self.check if reports else self.timed
         if self.recipe is None:
             return Batch(program, records, corners(self.proxy), None, True)
-        from harness import meshes
+        from harness.scenes import meshes
 
         made = meshes.mesh(self.group.distinct[0], self.recipe)
         return Batch(program, records, made.triangles.ravel(), made.vertices, made.closed)
@@ -76,7 +76,7 @@ def refusal(scene: Scene, variant: Variant, catalog: Catalog) -> str | None:
             if reason := method.accepts(surface):
                 return f"{chosen} refuses the surface {surface.name}: {reason}"
         if method.casts == "mesh":
-            from harness import meshes
+            from harness.scenes import meshes
 
             if reason := meshes.missing():
                 return reason
@@ -99,7 +99,7 @@ def too_many(scene: Scene, variant: Variant, catalog: Catalog, most: int) -> str
         method = catalog.get(chosen.method).method
         recipe = method.mesh(group.distinct[0], dict(chosen.parameters)) if method.mesh else None
         if recipe and recipe.kind == "parametric":
-            from harness import meshes
+            from harness.scenes import meshes
 
             count += len(group) * meshes.triangles(group.distinct[0], recipe.resolution)
     return f"{count / 1e6:,.0f} million triangles a frame, over [budget] triangles" if count > most else None
@@ -133,7 +133,7 @@ def _draw(
 
 
 def pack(group: Group) -> NDArray[np.float32]:
-    """float32[n, RECORD], the instances as raster_instance.glsl reads them."""
+    """float32[n, RECORD], the instances as raster/instance.glsl reads them."""
     n = len(group)
     records = np.zeros((n, RECORD), np.float64)
     inverse = group.turn.transpose(0, 2, 1) / group.scale[:, None, None]
@@ -207,7 +207,7 @@ def depth_map(scene: Scene, camera: NDArray[np.float32]) -> tuple[float, float]:
 
 def identity(scene: Scene, proxy: Proxy, drawn: tuple[Draw, ...]) -> Mapping[str, object]:
     """What beside the programs decides a picture: goes into cache keys."""
-    from harness import meshes
+    from harness.scenes import meshes
 
     recipes = [None if d.recipe is None else [d.recipe.kind, d.recipe.resolution] for d in drawn]
     return {

@@ -9,12 +9,12 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from harness import sources
 from harness.plugins import Catalog
+from harness.results import sources
 
 SETTINGS = ("CL_CONFIG_", "POCL_", "LP_", "GALLIVM_", "MESA_", "CUDA_", "__GL_")  # what drivers and compilers listen to
 OURS = {"POCL_KERNEL_CACHE": "0", "CL_CONFIG_CPU_VECTORIZER_MODE": "16", "MESA_SHADER_CACHE_DISABLE": "true"}
-# as harness/backends sets them where the user does not
+# as harness/devices sets them where the user does not
 HASHED = ("program", "program order", "methodology", "method")
 
 

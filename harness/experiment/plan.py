@@ -11,13 +11,6 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from harness import identity as identities
-from harness import prepass, raster, stability
-from harness.assemble import fill_program, method_program, origin_refusal, with_free_loops
-from harness.backends import LANGUAGES, RASTERISES
-from harness.backends.beams import layout_of
-from harness.camera import camera_for, rays_of
-from harness.config import Config, Experiment
 from harness.contract import (
     Casts,
     Cell,
@@ -33,11 +26,20 @@ from harness.contract import (
     View,
     digest,
 )
+from harness.devices.interface import LANGUAGES, RASTERISES
+from harness.devices.quadtree import layout_of
+from harness.devices.worker import Frame
+from harness.experiment import draws as raster
+from harness.experiment import identity as identities
+from harness.experiment.config import Config, Experiment
+from harness.experiment.draws import Draw
+from harness.hardcases import groups
+from harness.kernels import prepass
+from harness.kernels.assemble import fill_program, method_program, origin_refusal, with_free_loops
 from harness.plugins import Catalog
-from harness.raster import Draw
-from harness.scenes import Scene, single
-from harness.store import Row, Store
-from harness.worker import Frame
+from harness.results.store import Row, Store
+from harness.scenes.camera import camera_for, rays_of
+from harness.scenes.model import Scene, single
 
 PREPARING = 0.3  # seconds to build and check a cell: the mean of 4,392 of configs/front.toml, on two cores
 
@@ -138,7 +140,7 @@ def _refusal(
     cell: Cell, surface: Surface, info: DeviceInfo | None, catalog: Catalog, most_triangles: int
 ) -> str | None:
     """Why a cell cannot run, if it cannot."""
-    from surfaces.sections import unsupported
+    from harness.kernels.functions import unsupported
 
     method = catalog.get(cell.variant.method).method
     if info is None:
@@ -201,7 +203,7 @@ def _programs(cell: Cell, surfaces: list[Surface], catalog: Catalog) -> tuple[tu
 
 
 def _planned(cell: Cell, info: DeviceInfo | None, catalog: Catalog, experiment: Experiment, timed: bool) -> Planned:
-    surfaces = [group.surface for group in stability.groups(cell.family)] if cell.family else [cell.surface]
+    surfaces = [group.surface for group in groups.groups(cell.family)] if cell.family else [cell.surface]
     most = experiment.config.budget.triangles
     skip = next(filter(None, (_refusal(cell, surface, info, catalog, most) for surface in surfaces)), None)
     checks: tuple[Program, ...] = ()
@@ -227,7 +229,7 @@ def _planned(cell: Cell, info: DeviceInfo | None, catalog: Catalog, experiment: 
     # which clock is believed is found by probing when a run starts, after a plan is printed: no part of the key
     facts = None if info is None else dataclasses.asdict(dataclasses.replace(info, clock="wall"))
     scene = (
-        {"family": stability.identity(cell.family)}
+        {"family": groups.identity(cell.family)}
         if cell.family
         else {
             "surface": cell.surface.identity,
@@ -325,7 +327,7 @@ def plan(experiment: Experiment, catalog: Catalog, found: list[DeviceInfo], time
         (
             Cell(
                 variant,
-                stability.groups(family)[0].surface,
+                groups.groups(family)[0].surface,
                 View("none"),
                 0,
                 1,

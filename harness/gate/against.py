@@ -12,20 +12,22 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from harness import accuracy, answers, beams, freeloops, measure
-from harness.assemble import with_free_loops
-from harness.camera import rays_of, scene_radius
-from harness.config import Experiment
+from harness.accuracy import answers, freeloops, judge
+from harness.accuracy import pixels as beams
 from harness.contract import CellStatus, Hits, Program
-from harness.executor import CellError, LocalExecutor
+from harness.devices.executor import CellError, LocalExecutor
+from harness.devices.worker import Frame
+from harness.experiment.config import Experiment
+from harness.experiment.plan import Planned, shuffled
 from harness.gate.entries import slot_of
-from harness.gate.figures import SPEED
 from harness.gate.judge import Change, Judged, Tolerance, Verdict
 from harness.gate.revision import Former
-from harness.measure import Ratio
+from harness.kernels.assemble import with_free_loops
 from harness.oracle import cached_first_hits
-from harness.plan import Planned, shuffled
-from harness.worker import Frame
+from harness.results import timings
+from harness.results.figures import SPEED
+from harness.results.timings import Ratio
+from harness.scenes.camera import rays_of, scene_radius
 
 MINIMUM_ROUNDS = 10
 SIDES = ("now", "then")
@@ -103,7 +105,7 @@ def _wrong(
     assert frame and former.timed
     present = _Side(planned.checks[0] if planned.checks else None, frame)
     other = _Side(former.check, replace(frame, program=former.timed))
-    if reason := accuracy.undecided_too_many(certified, choice.undecided):
+    if reason := judge.undecided_too_many(certified, choice.undecided):
         return reason
     for side, when in ((present, "now"), (other, "at the other revision")):
         hits = _hits(side, planned, rays, choice.size, executor)
@@ -113,11 +115,11 @@ def _wrong(
             if reason := freeloops.removed((side.check,), hits, cast_freely):
                 return f"{reason} {when}"
         precision = planned.cell.precision
-        verdicts = accuracy.judge(hits, certified, scene_radius(surface), choice.grazing_margin, precision)
-        judged = accuracy.judged(certified, verdicts)
+        verdicts = judge.judge(hits, certified, scene_radius(surface), choice.grazing_margin, precision)
+        judged = judge.judged(certified, verdicts)
         if not judged.any():
-            return accuracy.nothing_judged(len(rays))
-        share = np.mean(verdicts.wrong[judged] != accuracy.Wrong.RIGHT)
+            return judge.nothing_judged(len(rays))
+        share = np.mean(verdicts.wrong[judged] != judge.Wrong.RIGHT)
         if not share <= choice.max_wrong_share:
             return f"wrong on {share:.1%} of the rays that are neither grazing nor drowned {when}: not timed"
     return None
@@ -162,7 +164,7 @@ def _race(
                 raise CellError(CellStatus.FAILED, f"the {planned.device.clock}'s clock told {told} for a frame")
             times[side].append(told)
         rounds = range(round_number + 1)
-        ratio = measure.paired_ratio(times["now"], rounds, times["then"], rounds)
+        ratio = timings.paired_ratio(times["now"], rounds, times["then"], rounds)
         assert ratio
         narrow = ratio.proved and ratio.upper - ratio.lower <= tolerance.relative * ratio.median / 2.0
         spent = time.perf_counter() - start >= 2.0 * budget.seconds

@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import Any
 
 from harness.contract import FirsthitError, digest
-from harness.store import write_atomically
+from harness.results.store import write_atomically
 
 FORMAT = 1
 FACTS = ("title", "driver", "compiler", "processor")

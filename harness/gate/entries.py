@@ -7,12 +7,12 @@ from collections.abc import Iterable
 from typing import Any
 
 from harness.contract import DeviceInfo, digest
+from harness.experiment.identity import processor
+from harness.experiment.plan import Planned
 from harness.gate.baseline import Baseline, Entry, device_key
-from harness.gate.figures import figures
-from harness.identity import processor
-from harness.plan import Planned
 from harness.plugins import Catalog
-from harness.store import Row
+from harness.results.figures import figures
+from harness.results.store import Row
 
 # These parts of a cell's identity belong to the method, the machine or the harness; the rest is the question asked.
 _NOT_SCENE = {

@@ -9,9 +9,9 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from harness import config, plan
 from harness.contract import FirsthitError, Program
-from harness.executor import discover_devices
+from harness.devices.executor import discover_devices
+from harness.experiment import config, plan
 from harness.plugins import find_methods
 
 

@@ -10,7 +10,7 @@ from typing import Any
 
 from harness.contract import CellStatus
 from harness.gate.baseline import Baseline, Entry
-from harness.gate.figures import GATED, Better
+from harness.results.figures import GATED, Better
 
 
 class Verdict(StrEnum):

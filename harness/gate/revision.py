@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from harness.contract import FirsthitError, Program, Section
-from harness.environment import ROOT
+from harness.running.environment import ROOT
 
 EXPORT = Path(__file__).with_name("export.py")
 

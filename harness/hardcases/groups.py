@@ -30,7 +30,7 @@ class Group:
 
     def judge(self, hits: Hits, truth: Truth, precision: Precision) -> list[dict[str, Any]]:
         """One verdict for each rung; hits and truth are of `rays`."""
-        from harness.hardcases.verdict import judge_rung
+        from harness.accuracy.rungs import judge_rung
 
         verdicts, start = [], 0
         for rung in self.rungs:

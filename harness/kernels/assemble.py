@@ -26,11 +26,13 @@ from harness.contract import (
     Variant,
 )
 
-KERNELS = Path(__file__).parent / "kernels"
+ROOT = Path(__file__).parents[2]
+KERNELS = Path(__file__).parent / "glsl"
 AFTER_TABLES = ("fit_samples", "fit_whole")  # libraries that read the surface's degree and the method's tables
 TORUS = "(x^2 + y^2 + z^2 + R^2 - r^2)^2 - 4*R^2*(x^2 + y^2)"  # about z, as the catalog writes it
 PROXY_SIDES = 16  # of the polygon about a ball's outline: 1.3 % more than the disk
-RAY_OF_PIXEL = ("camera", "raster_view", "raster_ray")
+RAY_OF_PIXEL = ("rays/camera.glsl", "raster/view.glsl", "raster/ray.glsl")
+INSTANCE_OF_VIEW = ("raster/view.glsl", "raster/instance.glsl")
 Language = Literal["glsl", "cl"]
 
 
@@ -41,9 +43,13 @@ def _read(path: Path) -> str:
 
 def file_section(path: Path) -> Section:
     """A section holding one file, named by its last three path parts at most (`methods/newton/kernel.glsl`)."""
-    root = KERNELS.parent.parent
-    origin = path.relative_to(root) if path.is_relative_to(root) else Path(*path.parts[-3:])
+    origin = path.relative_to(ROOT) if path.is_relative_to(ROOT) else Path(*path.parts[-3:])
     return Section(origin.as_posix(), _read(path))
+
+
+def _files(*names: str) -> list[Section]:
+    """Sections of files below glsl/."""
+    return [file_section(KERNELS / name) for name in names]
 
 
 def _library(name: str) -> Section:
@@ -57,7 +63,7 @@ def _library(name: str) -> Section:
 def _head(language: Language, precision: Precision, libraries: Iterable[str]) -> list[Section]:
     """Prelude, number type and libraries, each once, in the order in which they need one another."""
     ordered = list(dict.fromkeys(("eft", "ray", "hit", *libraries)))
-    head = [file_section(KERNELS / f"prelude.{language}"), file_section(KERNELS / f"{precision}.{language}")]
+    head = _files(f"prelude.{language}", f"{precision}.{language}")
     return head + [_library(name) for name in ordered]
 
 
@@ -91,7 +97,7 @@ def _parameter_section(
 
 def table_section(name: str, values: Sequence[float], precision: Precision, language: Language) -> Section:
     """A constant array of reals, every digit kept: `TABLE real NAME[n]`."""
-    from surfaces.printing import table
+    from harness.kernels.printing import table
 
     return Section(f"generated: table {name}", table(name, values, precision, language))
 
@@ -117,7 +123,7 @@ def method_program(
     Raises FirsthitError where the surface lacks a function that the method needs, t_min is no distance, or the method
     casts no rays whose origin could be chosen.
     """
-    from surfaces.sections import libraries_for, surface_sections
+    from harness.kernels.functions import libraries_for, surface_sections
 
     listed = entry == "rays" and narrowed is None
     needs = (*method.needs, "surface_value") if listed else method.needs
@@ -134,17 +140,18 @@ def method_program(
     if entry != "beams":
         sections += _cast_sections(origin)
     if listed:
-        sections += [_t_min_section(t_min, precision, language), file_section(KERNELS / "listed.glsl")]
+        sections += [_t_min_section(t_min, precision, language), *_files("rays/listed.glsl")]
     if entry == "camera":
-        sections.append(file_section(KERNELS / "camera.glsl"))
+        sections += _files("rays/camera.glsl")
     if narrowed:
-        sections += [narrowed, file_section(KERNELS / "narrowed.glsl")]
+        sections += [narrowed, *_files("rays/narrowed.glsl")]
     suffix = "_narrowed" if narrowed else ""
     if entry == "rays" and language == "glsl":
-        sections.append(file_section(KERNELS / "turns.glsl"))
+        sections += _files("turns.glsl")
     if entry != "camera" and language == "glsl":
         sections.insert(1, kept_loops())
-    sections.append(file_section(KERNELS / f"entry_{entry}{suffix}.{language}"))
+    room = "beams" if entry == "beams" else "rays"
+    sections += _files(f"{room}/entry_{entry}{suffix}.{language}")
     return Program(language, precision, entry, tuple(sections))
 
 
@@ -167,12 +174,12 @@ def origin_refusal(method: Method, origin: Origin) -> str | None:
 
 
 def _cast_sections(origin: Origin) -> list[Section]:
-    return [file_section(KERNELS / f"{part}.glsl") for part in (f"origin_{origin}", "cast")]
+    return _files(f"rays/origin_{origin}.glsl", "rays/cast.glsl")
 
 
 def _t_min_section(t_min: float, precision: Precision, language: Language) -> Section:
     """T_MIN, the least number of the precision that is not under t_min."""
-    from surfaces.printing import bounds, number
+    from harness.kernels.printing import bounds, number
 
     if not 0.0 <= t_min < math.inf:
         raise FirsthitError(f"t_min is {t_min:g}: give a distance along the ray, finite and not under 0")
@@ -224,39 +231,42 @@ def raster_program(
 
     Raises FirsthitError where the surface lacks a function that the method or the shading needs.
     """
-    from surfaces.sections import libraries_for, surface_sections
+    from harness.kernels.functions import libraries_for, surface_sections
 
     shading = _shading(surface, normal, free)
     needs = (*method.needs, *([] if normal == "core_circle" else [shading]))
     early = [name for name in method.libraries if name not in AFTER_TABLES]
     sections = _head("glsl", "float32", (*libraries_for(needs, surface), *early))
     if free:
-        sections.append(file_section(KERNELS / "raster_free.glsl"))
+        sections += _files("raster/free.glsl")
         sections += surface_sections(surface, needs, "float32", "glsl", free=True)
     else:
         sections += surface_sections(surface, needs, "float32", "glsl")
     sections.append(_domain_section(surface))
     if pixels:
-        sections.append(file_section(KERNELS / "raster_tolerance.glsl"))
+        sections += _files("raster/tolerance.glsl")
     sections += method_sections(method, folder, variant, surface, "float32", "glsl", pixels > 0.0)
     if normal == "core_circle":
         ring, tube = (literal(float(dict(surface.parameters)[name]), "float32", "glsl") for name in ("R", "r"))
         radii = f"#define RING_RADIUS {ring}\n#define TUBE_RADIUS {tube}"
-        sections += [Section("generated: radii", radii), file_section(KERNELS / "normal_core_circle.glsl")]
+        sections += [Section("generated: radii", radii), *_files("raster/normal_core_circle.glsl")]
     sections.append(Section("generated: shading", f"#define SHADING_NORMAL {shading}"))
     sections += _cast_sections(origin)
-    parts = (*RAY_OF_PIXEL, "raster_fragment", "raster_shade", *(["turns", "raster_report"] * reports))
-    sections += [file_section(KERNELS / f"{part}.glsl") for part in parts]
-    sections.append(file_section(KERNELS / f"entry_raster{'_check' * reports}.frag.glsl"))
+    reporting = ("turns.glsl", "raster/report.glsl") if reports else ()
+    sections += _files(*RAY_OF_PIXEL, "raster/fragment.glsl", "raster/shade.glsl", *reporting)
+    sections += _files(f"raster/entry_raster{'_check' * reports}.frag.glsl")
     if reports:
         sections.insert(1, kept_loops())
     vertex = [
         *_head("glsl", "float32", ()),
         Section("generated: proxy", f"#define PROXY_SIDES {PROXY_SIDES}\n#define PIXELS {float(pixels)!r}"),
-        *(file_section(KERNELS / f"{part}.glsl") for part in ("raster_view", "raster_instance", f"proxy_{proxy}")),
-        file_section(KERNELS / f"raster_{'free' if free else 'baked'}.vert.glsl"),
-        file_section(KERNELS / f"raster_{'tolerance' if pixels else 'exact'}.vert.glsl"),
-        file_section(KERNELS / "entry_raster.vert.glsl"),
+        *_files(
+            *INSTANCE_OF_VIEW,
+            f"raster/proxy_{proxy}.glsl",
+            f"raster/{'free' if free else 'baked'}.vert.glsl",
+            f"raster/{'tolerance' if pixels else 'exact'}.vert.glsl",
+            "raster/entry_raster.vert.glsl",
+        ),
     ]
     return Program("glsl", "float32", "raster", tuple(sections), tuple(vertex))
 
@@ -274,33 +284,29 @@ def _shading(surface: Surface, normal: Normal, free: bool) -> str:
 def mesh_program(folder: Path, reports: bool) -> Program:
     """The program that draws triangles; `folder` holds the kernel that defines mesh_normal."""
     head = _head("glsl", "float32", ())
-    parts = (*RAY_OF_PIXEL, "raster_shade", *(["raster_report"] * reports))
-    sections = [*head, *(file_section(KERNELS / f"{part}.glsl") for part in parts)]
-    sections.append(file_section(folder / "kernel.glsl"))
-    sections.append(file_section(KERNELS / f"entry_mesh{'_check' * reports}.frag.glsl"))
-    vertex = [*head, *(file_section(KERNELS / f"{part}.glsl") for part in ("raster_view", "raster_instance"))]
-    vertex.append(file_section(KERNELS / "entry_mesh.vert.glsl"))
-    return Program("glsl", "float32", "mesh", tuple(sections), tuple(vertex))
+    sections = [*head, *_files(*RAY_OF_PIXEL, "raster/shade.glsl", *(["raster/report.glsl"] * reports))]
+    sections += [file_section(folder / "kernel.glsl"), *_files(f"raster/entry_mesh{'_check' * reports}.frag.glsl")]
+    vertex = (*head, *_files(*INSTANCE_OF_VIEW, "raster/entry_mesh.vert.glsl"))
+    return Program("glsl", "float32", "mesh", tuple(sections), vertex)
 
 
 def fill_program() -> Program:
     """The program that reports every pixel's ray."""
     head = _head("glsl", "float32", ())
-    sections = [file_section(KERNELS / f"{part}.glsl") for part in (*RAY_OF_PIXEL, "raster_report", "entry_fill.frag")]
-    vertex = (*head, file_section(KERNELS / "entry_fill.vert.glsl"))
-    return Program("glsl", "float32", "fill", (*head, *sections), vertex)
+    sections = (*head, *_files(*RAY_OF_PIXEL, "raster/report.glsl", "raster/entry_fill.frag.glsl"))
+    return Program("glsl", "float32", "fill", sections, (*head, *_files("raster/entry_fill.vert.glsl")))
 
 
 def beam_sections(
     surface: Surface, needs: Iterable[str], precision: Precision, language: Language, libraries: Iterable[str] = ()
 ) -> list[Section]:
     """What comes before the kernel of a method that casts beams."""
-    from surfaces.sections import libraries_for, surface_sections
+    from harness.kernels.functions import libraries_for, surface_sections
 
     sections = _head(language, precision, (*libraries_for(needs, surface), *libraries))
     sections += surface_sections(surface, needs, precision, language)
     turns = ["turns.glsl"] if language == "glsl" else []
-    return sections + [file_section(KERNELS / f) for f in ("beam.glsl", *turns, f"quadtree.{language}", "cells.glsl")]
+    return sections + _files("beams/beam.glsl", *turns, f"beams/quadtree.{language}", "beams/cells.glsl")
 
 
 def map_program(
@@ -311,7 +317,7 @@ def map_program(
 ) -> Program:
     """A program that runs `map_item` of the last given section over rows (INPUTS and OUTPUTS are its #defines)."""
     items = [item] if isinstance(item, Section) else list(item)
-    entry = file_section(KERNELS / f"entry_map.{language}")
+    entry = file_section(KERNELS / f"map/entry_map.{language}")
     return Program(language, precision, "map", (*_head(language, precision, libraries), *items, entry))
 
 

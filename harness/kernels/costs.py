@@ -43,15 +43,15 @@ def _sum(counted: dict[str, int]) -> int:
 
 
 def _value_along(surface: Surface) -> int:
-    from surfaces.sections import expands
+    from harness.kernels.functions import expands
 
     return 2 * (surface.degree or 0) if expands(surface) else POINT + _value(surface)
 
 
 def _dual_along(surface: Surface) -> int:
+    from harness.kernels.functions import expands
     from surfaces import tape_of
     from surfaces.lowering import counts, real_tape, tangent
-    from surfaces.sections import expands
 
     if expands(surface):
         return 4 * (surface.degree or 0) - 2
@@ -67,10 +67,10 @@ def _distance(surface: Surface) -> int:
 
 
 def _range(surface: Surface) -> int:
+    from harness.kernels.printing import BOUNDED
+    from harness.kernels.reach import safe_reach
     from surfaces import tape_of
     from surfaces.lowering import enclosures
-    from surfaces.magnitudes import safe_reach
-    from surfaces.printing import BOUNDED
 
     tape = tape_of(surface)
     constants = enclosures(tape)

@@ -36,18 +36,19 @@ from fractions import Fraction
 from pathlib import Path
 
 from harness.contract import Box, FirsthitError, Precision, Section, Surface
+from harness.kernels.printing import IntervalPrinter, Language, RealPrinter, functions_used, table
+from harness.kernels.reach import safe_reach
 from surfaces.evaluation import tape_of
 from surfaces.formula import parse
 from surfaces.lowering import coefficients_along, gradient, hessian_product, real_tape, tangent
-from surfaces.magnitudes import safe_reach
-from surfaces.printing import IntervalPrinter, Language, RealPrinter, functions_used, table
 from surfaces.tape import Tape
 
 MAX_EXPANDED_DEGREE = 4
 MAX_FITTED_DEGREE = 20
-_ROOT = Path(__file__).parent.parent
-_EXP_LOG = _ROOT / "harness" / "kernels" / "lib" / "interval_exp_log.glsl"  # only where called: see its first lines
-_FIT_SAMPLES = _ROOT / "harness" / "kernels" / "lib" / "fit_samples.glsl"  # after its tables
+_ROOT = Path(__file__).parents[2]
+_LIB = Path(__file__).parent / "glsl" / "lib"
+_EXP_LOG = _LIB / "interval_exp_log.glsl"  # only where called: see its first lines
+_FIT_SAMPLES = _LIB / "fit_samples.glsl"  # after its tables
 
 _REQUIRES: dict[str, tuple[str, ...]] = {
     "constants": (),
@@ -122,7 +123,7 @@ def surface_sections(
     surface: Surface, needs: Iterable[str], precision: Precision, language: Language, free: bool = False
 ) -> tuple[Section, ...]:
     """The constants and the needed functions, one section each, in order of need. Where the surface is `free`, its
-    domain and parameters are no constants but what harness/kernels/raster_free.glsl names.
+    domain and parameters are no constants but what harness/kernels/glsl/raster/free.glsl names.
 
     Raises FirsthitError for an unknown name and for a function this surface does not have here.
     """
@@ -144,7 +145,7 @@ def surface_sections(
 
 
 def _fit_tables(surface: Surface, precision: Precision, language: Language) -> list[Section]:
-    from harness.fitting import fit_tables
+    from harness.kernels.fitting import fit_tables
 
     if surface.degree is None or not 1 <= surface.degree <= MAX_FITTED_DEGREE:
         known = f"surface_polynomial_along is for degrees 1 to {MAX_FITTED_DEGREE}"

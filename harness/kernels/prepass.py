@@ -15,8 +15,8 @@ the torus is as cheap as the prepass and the decic's ranges exclude little.
 
 from __future__ import annotations
 
-from harness.assemble import KERNELS, Language, beam_sections, file_section
 from harness.contract import Precision, Program, Section, Surface
+from harness.kernels.assemble import KERNELS, Language, beam_sections, file_section
 
 TILE_BITS = 4  # a tile is 2^TILE_BITS pixels a side
 BISECTIONS = 1  # a tile's last piece in depth is the domain's depth / 2^(the tiles' level + BISECTIONS)
@@ -42,7 +42,7 @@ def program(surface: Surface, precision: Precision, language: Language) -> Progr
     sections = beam_sections(surface, NEEDS, precision, language)
     sections += [
         parameters(),
-        file_section(KERNELS / "prepass.glsl"),
-        file_section(KERNELS / f"entry_beams.{language}"),
+        file_section(KERNELS / "beams/prepass.glsl"),
+        file_section(KERNELS / f"beams/entry_beams.{language}"),
     ]
     return Program(language, precision, "beams", tuple(sections))

@@ -91,8 +91,8 @@ def value_errors(surface: Surface, shells: int, coordinates: float) -> tuple[flo
 
 def sample_errors_grow(degree: int, precision: Any, depths: int) -> list[float]:
     """Bound for d = 0 … depths what an error of the samples grows to in the Bernstein coefficients of a piece that
-    is 2^-d of the interval that the samples are of (nodes and inverse as in harness.fitting)."""
-    from harness.fitting import inverse
+    is 2^-d of the interval that the samples are of (nodes and inverse as in harness.kernels.fitting)."""
+    from harness.kernels.fitting import inverse
 
     matrix = np.array([[float(v) for v in row] for row in inverse(degree, "bernstein", precision)])
     pieces, grown = [matrix], []
@@ -105,8 +105,8 @@ def sample_errors_grow(degree: int, precision: Any, depths: int) -> list[float]:
 def slope_errors_grow(degree: int, precision: Any, depths: int) -> list[float]:
     """Bound for d = 0 … depths what an error of the samples grows to in the derivative's Bernstein coefficients on
     any piece that is 2^-d of the interval that the samples are of, which is the unit of length (nodes and inverse as in
-    harness.fitting)."""
-    from harness.fitting import inverse
+    harness.kernels.fitting)."""
+    from harness.kernels.fitting import inverse
 
     rows = np.array([[float(v) for v in row] for row in inverse(degree, "bernstein", precision)])
     slopes = degree * np.diff(rows, axis=0)

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from harness.contract import Surface, Truth
-from harness.sources import TRUTH, digest_of, packages
+from harness.results.sources import TRUTH, digest_of, packages
 
 
 def truth_path(folder: Path, surface: Surface, rays: NDArray[np.float32], t_min: float = 0.0) -> Path:

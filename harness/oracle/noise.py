@@ -1,6 +1,6 @@
 """How far kernels may be off in f's value at points of rays, in unit roundoffs of the arithmetic they use.
 
-**Theory.** Running error analysis, as in harness.rounding, at given points instead of over balls, and for every
+**Theory.** Running error analysis, as in harness.kernels.rounding, at given points instead of over balls, and for every
 formula. Counted are: the coordinates, off by a rounding each of the moved origin, of t·d and of their sum; constants
 that are no float32, rounded once; and each operation of the tape that kernels evaluate, with what OpenCL allows the
 functions. A surface of degree 4 or less is evaluated by some methods through its coefficients along the ray and

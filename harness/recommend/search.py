@@ -8,14 +8,15 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Literal
 
-from harness import batch, plan
-from harness.accuracy import NAMES
-from harness.config import AccuracyChoice, BudgetChoice, Config, Experiment, MethodChoice
+from harness.accuracy.judge import NAMES
 from harness.contract import CellStatus, DeviceInfo, Precision, Surface, Variant, View
-from harness.executor import LocalExecutor
+from harness.devices.executor import LocalExecutor
+from harness.experiment import plan
+from harness.experiment.config import AccuracyChoice, BudgetChoice, Config, Experiment, MethodChoice
 from harness.plugins import Catalog
 from harness.recommend.candidates import variants, views
-from harness.store import Row
+from harness.results.store import Row
+from harness.running import batch
 
 Quantile = Literal["max", "p999", "p99"]
 HEADROOM = 2.0  # of the bound on the largest error: rays that were not sampled may be worse than those that were

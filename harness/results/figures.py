@@ -7,9 +7,9 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from harness.accuracy import NAMES, Wrong
+from harness.accuracy.judge import NAMES, Wrong
 from harness.contract import FirsthitError
-from harness.store import Row
+from harness.results.store import Row
 
 Better = Literal["lower", "higher"]
 Value = float | int | None

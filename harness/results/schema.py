@@ -1,7 +1,8 @@
 """The flat rows: which values of a cell's file a report uses, what they are called and of which kind they are.
 
 A name is the last part of the value's path in the file, prefixed only where two would collide. CSV, Parquet and
-every table use these names; `reports.derive` and `reports.breaks` add the columns that follow from them.
+every table use these names; `reports.analysis.derive` and `reports.analysis.breaks` add the columns that follow from
+them.
 
 An ordinary cell is one row of SCHEMA. A cell of a family of hard rays is one row of FAMILY and, for each of its
 rungs, one of RUNG.

@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from harness import ranks
+from harness.results import ranks
 
 CONFIDENCE = 0.95
 RESAMPLES = 2000

@@ -5,13 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 
 from harness import console
-from harness.config import Experiment
-from harness.environment import describe
-from harness.executor import LocalExecutor
-from harness.plan import Planned
+from harness.devices.executor import LocalExecutor
+from harness.experiment.config import Experiment
+from harness.experiment.plan import Planned
 from harness.plugins import Catalog
-from harness.runner import UNFINISHED, Runner
-from harness.store import Row, Store
+from harness.results.store import Row, Store
+from harness.running.environment import describe
+from harness.running.runner import UNFINISHED, Runner
 
 
 def rows_of(

@@ -10,13 +10,15 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
-from harness import __version__, identity, sources
+from harness import __version__
 from harness.contract import DeviceInfo, digest
-from harness.executor import CellError, LocalExecutor
-from harness.probes import BELIEVABLE
-from harness.store import write_atomically
+from harness.devices.executor import CellError, LocalExecutor
+from harness.devices.probes import BELIEVABLE
+from harness.experiment import identity
+from harness.results import sources
+from harness.results.store import write_atomically
 
-ROOT = Path(__file__).parent.parent
+ROOT = Path(__file__).parents[2]
 PACKAGES = ("numpy", "sympy", "python-flint", "moderngl", "pyopencl")
 
 

@@ -19,19 +19,22 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from harness import accuracy, answers, beams, compilercheck, freeloops, measure, rastercheck, stability
-from harness.assemble import method_program, with_free_loops
-from harness.camera import distance_of, meets, pixel_footprint, rays_of, scene_radius
-from harness.config import Config
+from harness.accuracy import answers, check_frames, compilers, freeloops, judge
+from harness.accuracy import pixels as beams
+from harness.accuracy.pictures import headlight, pictures_of
 from harness.contract import CellStatus, FirsthitError, Hits, Program, Surface, View
-from harness.costs import operations_per_evaluation
-from harness.executor import CellError, LocalExecutor
+from harness.devices.executor import CellError, LocalExecutor
+from harness.devices.worker import Checked, Frame, Warmed
+from harness.experiment.config import Config
+from harness.experiment.plan import Planned, shuffled
+from harness.hardcases import groups as stability
+from harness.kernels.assemble import method_program, with_free_loops
+from harness.kernels.costs import operations_per_evaluation
 from harness.oracle import cached_first_hits
-from harness.pictures import headlight, pictures_of
-from harness.plan import Planned, shuffled
 from harness.plugins import Catalog
-from harness.store import Row, Store
-from harness.worker import Checked, Frame, Warmed
+from harness.results import timings
+from harness.results.store import Row, Store
+from harness.scenes.camera import distance_of, meets, pixel_footprint, rays_of, scene_radius
 
 MINIMUM_SAMPLES = 8
 LONGEST = 16  # times [budget] seconds: what the rounds that comparing a cell takes may take at most
@@ -131,7 +134,7 @@ class Runner:
         """Cast the accuracy rays and hold them against the oracle; a reason not to time the cell, if there is one."""
         cell, config = state.planned.cell, self._config.accuracy
         if state.planned.draws:
-            seen = rastercheck.check(self._executor, state.planned, config, self._store.truth)
+            seen = check_frames.check(self._executor, state.planned, config, self._store.truth)
             state.summary, state.arrays, state.compile_ms = seen.summary, seen.pictures, seen.compile_ms
             return seen.fault or self._unfit(state)
         rays = rays_of(state.planned.camera, config.size)
@@ -139,14 +142,14 @@ class Runner:
         casts_beams, checks = state.planned.casts != "rays", state.planned.checks
         checked, hits = self._cast(state, rays, checks[0])
         state.compile_ms = checked.compile_ms
-        verdicts = accuracy.judge(hits, truth, scene_radius(cell.surface), config.grazing_margin, cell.precision)
+        verdicts = judge.judge(hits, truth, scene_radius(cell.surface), config.grazing_margin, cell.precision)
         if casts_beams:
             assert state.frame
             pixels = beams.pixels_of(state.planned.camera, config.size, state.frame.size)
             verdicts, beam_only = beams.set_apart(verdicts, hits, truth, pixels)
         footprint = pixel_footprint(state.planned.camera, cell.size)
-        deviations = accuracy.deviations(cell.surface, rays, hits, truth, verdicts)
-        summary = accuracy.summarize(
+        deviations = judge.deviations(cell.surface, rays, hits, truth, verdicts)
+        summary = judge.summarize(
             cell.surface,
             hits,
             truth,
@@ -199,11 +202,11 @@ class Runner:
         if not plugin.method.answers:
             return None
         program = partial(method_program, plugin.method, plugin.folder, cell.variant, cell.surface, cell.precision)
-        run = compilercheck.with_listed_rays(self._executor, rays)
-        second = compilercheck.SecondBuild(
+        run = compilers.with_listed_rays(self._executor, rays)
+        second = compilers.SecondBuild(
             cell.device, cell.precision, partial(program, entry="rays", origin=cell.origin), run
         )
-        return compilercheck.doubts_about(cell.surface, rays, hits, second).fault
+        return compilers.doubts_about(cell.surface, rays, hits, second).fault
 
     def _unfit(self, state: _Live) -> str | None:
         """Why a checked cell has no accuracy, which it then loses, or is too wrong to be timed."""
@@ -211,11 +214,11 @@ class Runner:
         if not self._catalog.get(state.planned.cell.variant.method).method.answers:
             return None
         found, config = state.summary, self._config.accuracy
-        share = accuracy.wrong_share(found)
-        undecided = accuracy.undecided_hits(found["truth_hits"], found["undecided"], config.undecided)
+        share = judge.wrong_share(found)
+        undecided = judge.undecided_hits(found["truth_hits"], found["undecided"], config.undecided)
         if undecided or share is None:
             state.summary = state.arrays = None
-            return undecided or accuracy.nothing_judged(found["rays"])
+            return undecided or judge.nothing_judged(found["rays"])
         if state.frame and not share <= config.max_wrong_share:
             return f"wrong on {share:.1%} of the rays that are neither grazing nor drowned: not timed"
         return None
@@ -232,7 +235,7 @@ class Runner:
             state.compile_ms += checked.compile_ms
             state.rungs += group.judge(hits, truth, cell.precision)
         rays, undecided = (sum(rung[name] for rung in state.rungs) for name in ("rays", "undecided"))
-        reason = accuracy.undecided_hits(rays - undecided, undecided, self._config.accuracy.undecided, "rays")
+        reason = judge.undecided_hits(rays - undecided, undecided, self._config.accuracy.undecided, "rays")
         if reason:
             state.rungs = None
         return reason
@@ -273,7 +276,7 @@ class Runner:
     def _is_done(self, state: _Live) -> bool:
         budget, count = self._config.budget, len(state.wall_ms)
         comparable = count >= budget.rounds
-        narrow = comparable and count >= MINIMUM_SAMPLES and measure.is_narrow(state.samples, budget.interval)
+        narrow = comparable and count >= MINIMUM_SAMPLES and timings.is_narrow(state.samples, budget.interval)
         spent = state.timing >= (budget.seconds if comparable else LONGEST * budget.seconds)
         return narrow or spent or count >= budget.repetitions
 
@@ -329,8 +332,8 @@ class Runner:
 
     def _time_of(self, state: _Live) -> dict[str, Any]:
         assert state.warmed and state.planned.device
-        median, lower, upper, _ = measure.median_interval(state.samples)
-        bootstrap_lower, bootstrap_upper = measure.bootstrap_interval(state.samples, self._config.seed)
+        median, lower, upper, _ = timings.median_interval(state.samples)
+        bootstrap_lower, bootstrap_upper = timings.bootstrap_interval(state.samples, self._config.seed)
         return {
             "clock": "device" if state.by_device else "wall",
             "samples_ms": state.samples,
@@ -343,9 +346,9 @@ class Runner:
             "upper_ms": upper,
             "bootstrap_lower_ms": bootstrap_lower,
             "bootstrap_upper_ms": bootstrap_upper,
-            "narrow": measure.is_narrow(state.samples, self._config.budget.interval),
-            "overhead_share": measure.overhead(state.wall_ms, state.device_ms) if state.by_device else None,
-            **measure.steadiness(state.samples),
+            "narrow": timings.is_narrow(state.samples, self._config.budget.interval),
+            "overhead_share": timings.overhead(state.wall_ms, state.device_ms) if state.by_device else None,
+            **timings.steadiness(state.samples),
         }
 
 

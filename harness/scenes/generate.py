@@ -86,7 +86,7 @@ def molecule(count: int, seed: int, view: View) -> Scene:
 
 
 def _part(name: str, formula: str, box: Box, distance: str | None = None, **parameters: str) -> Surface:
-    """A surface of a pipe, of the families that harness.meshes knows."""
+    """A surface of a pipe, of the families that harness.scenes.meshes knows."""
     from surfaces import formula as language
 
     bound = tuple(sorted(parameters.items()))

@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from harness.contract import Box, FirsthitError, MeshRecipe, Surface, digest
-from harness.sources import MESHES, digest_of, packages
-from harness.store import savez_atomically
+from harness.results.sources import MESHES, digest_of, packages
+from harness.results.store import savez_atomically
 
 FARTHEST = 5000  # samples of a surface that are held against its mesh
 PARAMETRIC = {  # formulas whose parametric form is known here

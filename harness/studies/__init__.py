@@ -14,9 +14,9 @@ import time
 from pathlib import Path
 from typing import Any
 
-from harness import sources
 from harness.contract import digest
-from harness.store import FORMAT, write_atomically
+from harness.results import sources
+from harness.results.store import FORMAT, write_atomically
 
 NAMES = ("condition_numbers", "extrema_bounds", "form_ranges", "mesh_errors", "torus_along_rays")
 
@@ -27,7 +27,7 @@ def _module(name: str) -> Any:
 
 def key(name: str) -> str:
     """What decides a study's rows: its own text, the harness that it computes with, and the packages."""
-    from harness import meshes
+    from harness.scenes import meshes
 
     own = sources.hashes("harness/studies/__init__.py", f"harness/studies/{name}.py")
     return digest(name, own, sources.methodology(), sources.packages(), None if meshes.missing() else meshes.mesher())

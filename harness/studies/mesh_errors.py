@@ -18,8 +18,8 @@ def compute() -> list[dict[str, Any]]:
     """One row for each N: n, ring and both (the formulas), to_surface and to_mesh (measured), all over R + r; vertices,
     triangles and bytes of the mesh. Without pyvista, no rows."""
     import surfaces
-    from harness import meshes
     from harness.contract import MeshRecipe
+    from harness.scenes import meshes
 
     torus = surfaces.get("torus")
     ring, tube = (float(dict(torus.parameters)[name]) for name in ("R", "r"))

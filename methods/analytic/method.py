@@ -1,7 +1,7 @@
 """All roots in closed form, from the surface along the ray in Bernstein form; the nearest one is the answer.
 
 **Source** Loop and Blinn 2006, as its abstract and US patent 7,924,278 state it and toledo2007 (section 2) criticises
-it; the closed forms are named in harness/kernels/lib/closed_form.glsl.
+it; the closed forms are named in harness/kernels/glsl/lib/closed_form.glsl.
 
 **Theory** In Bernstein form over an interval u in [0, 1], f is a polynomial in s = u / (1 - u), its coefficients the
 Bernstein ones times binomials, and the interval is s >= 0. Where all of them have one sign, and none is 0, f has no

@@ -12,12 +12,12 @@ far end f itself confirms, holds the first root. Where the fit's coefficients ch
 every root is between two of these, and nothing is halved.
 
 A sign counts only outside an error bound, TRUST of the worst case of: what f's own roundings may be in the samples
-(harness/rounding.py), times what a piece's size makes of them (GROWTH: it falls from the inverse's norm to Lebesgue's
-constant); the fit's roundings, from the samples that they come from; and those of each halving. Coefficients inside
-the bound leave a piece open. After TRUSTED halvings, what is open or has several changes is sampled and fitted anew,
-so that errors are those of its own surroundings, not of the far ends of the ray, where f is a thousand times larger.
-What is noise even then, or the shortest piece, or beyond the FITS-th fit, f's signs decide: at the samples, and where
-the fit has its minimum.
+(harness/kernels/rounding.py), times what a piece's size makes of them (GROWTH: it falls from the inverse's norm to
+Lebesgue's constant); the fit's roundings, from the samples that they come from; and those of each halving.
+Coefficients inside the bound leave a piece open. After TRUSTED halvings, what is open or has several changes is
+sampled and fitted anew, so that errors are those of its own surroundings, not of the far ends of the ray, where f is a
+thousand times larger. What is noise even then, or the shortest piece, or beyond the FITS-th fit, f's signs decide: at
+the samples, and where the fit has its minimum.
 
 What a root is off by is mostly what f's value there is off by, and that is another thing one float further on. So the
 last of Newton's steps takes the mean of f over PAIRS pairs of points about the root, a few roundoffs apart: the median
@@ -89,8 +89,8 @@ COORDINATES = 6.0  # unit roundoffs of a point's distance from the centre by whi
 
 
 def _tables(surface: Surface, _knobs: Mapping[str, float | int], precision: Precision) -> dict[str, list[float]]:
-    from harness.fitting import fit_tables, inverse
-    from harness.rounding import sample_errors_grow, value_errors
+    from harness.kernels.fitting import fit_tables, inverse
+    from harness.kernels.rounding import sample_errors_grow, value_errors
 
     assert surface.degree is not None
     matrix = inverse(surface.degree, "bernstein", precision)

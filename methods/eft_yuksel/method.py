@@ -58,7 +58,7 @@ PRINTED = {"LAST": 0, "TOLERANCE": 2.0**-23, "START": 0, "SAMPLES": 0, "MATRIX":
 
 
 def _tables(surface: Surface, knobs: Mapping[str, float | int], precision: Precision) -> dict[str, list[float]]:
-    from harness.fitting import derivative_factors, fit_tables, whole_tables
+    from harness.kernels.fitting import derivative_factors, fit_tables, whole_tables
 
     assert surface.degree is not None
     basis: Literal["monomial", "bernstein"] = "bernstein" if knobs["BASIS"] == 1 else "monomial"

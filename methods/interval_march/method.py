@@ -14,8 +14,8 @@ answer: overestimation and roundoff can place it before a root, or where there i
 - The tolerance is a width in t over the domain's radius, not halved by level: a ray has no levels.
 
 **Speed** Processor time on opencl:intel, float32, 512 x 512: without a check for overflow at every operation, where
-surfaces/magnitudes.py proves that there is none, with fma in outward rounding and constants as factors, 1.7 (decic) to
-2.1 times (sextic) faster. Rejected: a vector's 16 rays from 4 x 4 pixels (1.25 times faster here, see ray_march).
+harness/kernels/reach.py proves that there is none, with fma in outward rounding and constants as factors, 1.7 (decic)
+to 2.1 times (sextic) faster. Rejected: a vector's 16 rays from 4 x 4 pixels (1.25 times faster here, see ray_march).
 """
 
 from harness.contract import Method, Parameter

@@ -38,8 +38,8 @@ middle of the first piece that cannot be excluded, as a distance along the pixel
 - f evaluated for every lane, also outside the domain, instead of under a branch: 46 / 107 / 122 against 42 / 110 / 127.
   Not kept, since the adaptive method loses 3 to 20 % by it.
 - What depends on the camera alone computed once per work item instead of once per beam: 38 / 103 / 122. Kept.
-- Ranges without a check for overflow at every operation (surfaces/magnitudes.py), outward rounding by fma, constants as
-  factors: 1.3 (sphere) to 1.8 times (barth_sextic) faster, interval_adaptive alike. Kept.
+- Ranges without a check for overflow at every operation (harness/kernels/reach.py), outward rounding by fma, constants
+  as factors: 1.3 (sphere) to 1.8 times (barth_sextic) faster, interval_adaptive alike. Kept.
 - Pixels row by row (GROUPED = 0) instead of in Z order: 1.10 to 1.17 times the time on sphere, octdong, steiner and
   tangle. Of 8 lanes that run in step 11 to 15 % are idle instead of 7 to 11 %, of 32 lanes 31 to 42 % instead of 15 to
   22 % (`configs/beamcasting-divergence.toml`). Kept in Z order.

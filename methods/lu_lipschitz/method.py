@@ -21,8 +21,8 @@ one secant step ends the search; two roots closer than that can be missed.
 - SIDES: until its first root f keeps its sign, so only the slope towards zero counts; the paper takes the magnitude.
 - MATRIX: as eft_yuksel's.
 - TRUST: bounds are moved by what their coefficients may be off by (printed, 0: by nothing): f's own roundings in the
-  samples (harness/rounding.py, as bernstein has them), times what the fit makes of them on a piece as long as the
-  window (GROWTH, SLOPE_GROWTH), and the roundings of the fit and of de Casteljau's algorithm. Of f's own roundings
+  samples (harness/kernels/rounding.py, as bernstein has them), times what the fit makes of them on a piece as long as
+  the window (GROWTH, SLOPE_GROWTH), and the roundings of the fit and of de Casteljau's algorithm. Of f's own roundings
   TRUST of the worst case is reckoned with: 1/16, where the largest seen on random rays is 1/26 of it.
   tests/test_error_bounds.py holds the stated bounds against exact coefficients. The steps' own f is taken as computed,
   so a pair of roots between which f does not leave its roundings can be passed.
@@ -66,8 +66,8 @@ COORDINATES = 6.0  # unit roundoffs of a point's distance from the centre by whi
 
 
 def _tables(surface: Surface, _knobs: Mapping[str, float | int], precision: Precision) -> dict[str, list[float]]:
-    from harness.fitting import fit_tables, whole_tables
-    from harness.rounding import sample_errors_grow, slope_errors_grow, value_errors
+    from harness.kernels.fitting import fit_tables, whole_tables
+    from harness.kernels.rounding import sample_errors_grow, slope_errors_grow, value_errors
 
     assert surface.degree is not None
     fit = fit_tables(surface.degree, "bernstein", precision) | whole_tables(surface.degree, "bernstein", precision)

@@ -15,7 +15,7 @@ from harness.contract import MeshRecipe, Method, Parameter, Surface
 
 
 def accepts(surface: Surface) -> str | None:
-    from harness.meshes import parametric_refusal
+    from harness.scenes.meshes import parametric_refusal
 
     return parametric_refusal(surface)
 

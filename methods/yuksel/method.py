@@ -28,7 +28,7 @@ MAX_DEGREE = 4
 
 
 def _tables(surface: Surface, _knobs: Mapping[str, float | int], _precision: Precision) -> dict[str, list[float]]:
-    from harness.fitting import derivative_factors
+    from harness.kernels.fitting import derivative_factors
 
     assert surface.degree is not None
     return {"FACTORS": derivative_factors(surface.degree, "monomial")}

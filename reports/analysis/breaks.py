@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
-from reports.schema import KINDS
+from harness.results.schema import KINDS
 
 HELD = 0.99
 COUNTS = ["rays", "decided", "right", *KINDS, "undecidable", "undecidable_right", "undecided"]

@@ -10,10 +10,10 @@ from collections.abc import Mapping, Sequence
 
 import pandas as pd
 
-from harness.config import BASELINE
 from harness.contract import FROM_ORIGIN, CellStatus
-from reports import rounds
-from reports.schema import KINDS, SCHEMA
+from harness.experiment.config import BASELINE
+from harness.results.schema import KINDS, SCHEMA
+from reports.analysis import rounds
 
 GROUP = ["comparison", "device", "precision"]
 _ACCURACY = [field.name for field in SCHEMA if field.path[0] == "accuracy"]

@@ -12,8 +12,8 @@ from typing import Any
 
 import pandas as pd
 
-from harness import measure
-from harness.measure import Ratio
+from harness.results import timings
+from harness.results.timings import Ratio
 from reports import wording
 
 COLUMNS = ["session", "rounds", "samples_ms"]
@@ -25,7 +25,7 @@ def ratio(row: Any, other: Any) -> Ratio | None:
         return None
     if any(wording.absent(one.rounds) or not one.samples_ms for one in (row, other)):
         return None
-    return measure.paired_ratio(row.samples_ms, json.loads(row.rounds), other.samples_ms, json.loads(other.rounds))
+    return timings.paired_ratio(row.samples_ms, json.loads(row.rounds), other.samples_ms, json.loads(other.rounds))
 
 
 def times_over(row: Any, other: Any) -> float:
@@ -46,7 +46,7 @@ def above(row: Any, other: Any) -> float:
         return math.nan
     others = dict(zip(json.loads(other.rounds), other.samples_ms, strict=True))
     own = zip(json.loads(row.rounds), row.samples_ms, strict=True)
-    return measure.median_interval([ms - others[at] for at, ms in own if at in others])[0]
+    return timings.median_interval([ms - others[at] for at, ms in own if at in others])[0]
 
 
 def over_first(rows: pd.DataFrame, firsts: pd.DataFrame, keys: list[str]) -> pd.Series:

@@ -6,10 +6,11 @@ from typing import Any
 
 import pandas as pd
 
-from harness import measure, ranks
-from harness.measure import Ratio
-from reports import derive, rounds, wording
-from reports.rounds import ratio
+from harness.results import ranks, timings
+from harness.results.timings import Ratio
+from reports import wording
+from reports.analysis import derive, rounds
+from reports.analysis.rounds import ratio
 
 LEVEL = 0.01  # a chance above this is no evidence that two variants differ
 NEEDED = ranks.pairs_needed(LEVEL)
@@ -40,7 +41,7 @@ def is_slower(row: Any, other: Any) -> bool:
     paired = ratio(row, other)
     if paired is not None:
         return verdict(paired) == SLOWER
-    enough = all(measure.proves(len(one.samples_ms or ())) for one in (row, other))
+    enough = all(timings.proves(len(one.samples_ms or ())) for one in (row, other))
     return bool(enough and row.lower_ms > other.upper_ms)
 
 

@@ -9,8 +9,10 @@ from typing import Any
 import pandas as pd
 
 from harness.contract import CellStatus
-from reports import derive, tables, wording
+from reports import wording
+from reports.analysis import derive
 from reports.content import Column, Table
+from reports.drawing import tables
 
 FEWEST = 3  # views that make a set
 MOST_LISTED = 8  # views of a set that are listed one by one where scenes are

@@ -9,9 +9,11 @@ from collections.abc import Callable
 import numpy as np
 import pandas as pd
 
-from harness import ranks
-from reports import derive, lanes, wording
+from harness.results import ranks
+from reports import wording
+from reports.analysis import derive, lanes
 from reports.claims import picks
+from reports.claims.evidence import Evidence, Pick
 from reports.claims.model import (
     Claim,
     Verdict,
@@ -25,7 +27,6 @@ from reports.claims.model import (
     untestable,
     verdict,
 )
-from reports.evidence import Evidence, Pick
 
 PAPER = "beamcasting"
 TABLES = "beamcasting-tables.toml"

@@ -12,10 +12,10 @@ from typing import Any
 
 import pandas as pd
 
-from harness import measure
 from harness.contract import ORIGINS, CellStatus, Origin
-from reports import derive, rounds
-from reports.arrays import Arrays, Shelf
+from harness.results import timings
+from reports.analysis import derive, rounds
+from reports.reading.arrays import Arrays, Shelf
 
 STOOD: Mapping[str, Origin] = {
     # Where a paper's rays begin, by the first word of its configs' names. toledo2007, sections 3, 4.3 and 4.4: "from
@@ -167,7 +167,7 @@ def over(slow: pd.DataFrame, fast: pd.DataFrame, keys: list[str]) -> pd.DataFram
 
 def proved(rows: pd.DataFrame) -> pd.Series:
     """Which rows have enough samples for the interval of their median."""
-    return rows["samples_ms"].map(lambda samples: measure.proves(len(samples or ()))).astype(bool)
+    return rows["samples_ms"].map(lambda samples: timings.proves(len(samples or ()))).astype(bool)
 
 
 def _has(parameters: Any, knobs: Mapping[str, float]) -> bool:

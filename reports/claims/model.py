@@ -11,7 +11,7 @@ from typing import Any
 import pandas as pd
 
 from reports import wording
-from reports.evidence import Evidence, Pick
+from reports.claims.evidence import Evidence, Pick
 
 
 class Outcome(StrEnum):

@@ -1,6 +1,6 @@
 """The papers' own settings of their methods, and ours, by their knobs."""
 
-from reports.evidence import Pick
+from reports.claims.evidence import Pick
 
 _NEWTON = {"STEP_BOUND": 0.15, "FORWARD": 0, "SPHERE_START": 1, "MAX_EVALUATIONS": 20}
 NEWTON_3 = Pick("Newton 0.001", "newton", _NEWTON | {"EPSILON": 0.001})

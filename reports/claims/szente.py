@@ -6,8 +6,10 @@ from typing import Any
 
 import pandas as pd
 
-from reports import counts, wording
+from reports import wording
+from reports.analysis import counts
 from reports.claims import picks
+from reports.claims.evidence import Evidence, Pick
 from reports.claims.model import (
     Claim,
     Verdict,
@@ -21,7 +23,6 @@ from reports.claims.model import (
     untestable,
     verdict,
 )
-from reports.evidence import Evidence, Pick
 
 PAPER = "szente"
 FIG_1, TABLE_4 = "szente-fig1.toml", "szente-table4.toml"

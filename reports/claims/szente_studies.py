@@ -5,8 +5,8 @@ from __future__ import annotations
 import pandas as pd
 
 from reports import published, wording
+from reports.claims.evidence import Evidence
 from reports.claims.model import Claim, Verdict, every, known, quantities, verdict
-from reports.evidence import Evidence
 
 PAPER = "szente"
 STUDIES = "szente-tables-1-2.toml"

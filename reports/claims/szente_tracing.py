@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from reports import counts, wording
+from reports import wording
+from reports.analysis import counts
 from reports.claims import picks
+from reports.claims.evidence import Evidence
 from reports.claims.model import (
     Claim,
     Verdict,
@@ -19,7 +21,6 @@ from reports.claims.model import (
     rays,
     verdict,
 )
-from reports.evidence import Evidence
 
 PAPER = "szente"
 TABLE_5 = "szente-table5.toml"

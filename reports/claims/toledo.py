@@ -12,8 +12,10 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from reports import counts, derive, wording
+from reports import wording
+from reports.analysis import counts, derive
 from reports.claims import picks
+from reports.claims.evidence import Evidence, Pick
 from reports.claims.model import (
     Claim,
     Verdict,
@@ -31,7 +33,6 @@ from reports.claims.model import (
     verdict,
 )
 from reports.claims.toledo_ours import beside
-from reports.evidence import Evidence, Pick
 
 PAPER = "toledo2007"
 _WRONG = ("wrong_rays", "grazing_wrong_rays")

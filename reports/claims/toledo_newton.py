@@ -6,8 +6,10 @@ import math
 
 import pandas as pd
 
-from reports import counts, derive, wording
+from reports import wording
+from reports.analysis import counts, derive
 from reports.claims import picks
+from reports.claims.evidence import Evidence, Pick, proved
 from reports.claims.model import (
     Claim,
     Verdict,
@@ -23,7 +25,6 @@ from reports.claims.model import (
     verdict,
 )
 from reports.claims.toledo_ours import Judge, beside
-from reports.evidence import Evidence, Pick, proved
 
 PAPER = "toledo2007"
 VIEWS = "toledo-fig4.toml"

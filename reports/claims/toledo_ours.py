@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
+from reports.claims.evidence import Evidence
 from reports.claims.model import Verdict
-from reports.evidence import Evidence
 
 Judge = Callable[[Evidence], Verdict | None]
 

@@ -9,9 +9,9 @@ import pandas as pd
 
 from reports import wording
 from reports.claims import picks
+from reports.claims.evidence import Evidence, Pick, over, proved
 from reports.claims.model import Claim, Verdict, always, cases, every, lost, quantities, verdict
 from reports.claims.toledo_ours import Judge, beside
-from reports.evidence import Evidence, Pick, over, proved
 
 PAPER = "toledo2007"
 CUBICS = "toledo-cubics.toml"

@@ -7,11 +7,11 @@ import math
 import pandas as pd
 
 from reports import wording
+from reports.analysis.viewstats import spread
 from reports.claims import picks
+from reports.claims.evidence import Evidence, Pick, over, proved
 from reports.claims.model import Claim, Outcome, Verdict, always, both, faster, lost, quantities, verdict
 from reports.claims.toledo_ours import Judge, beside
-from reports.evidence import Evidence, Pick, over, proved
-from reports.viewstats import spread
 
 PAPER = "toledo2007"
 CONFIG = "toledo-fig6.toml"

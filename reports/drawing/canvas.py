@@ -21,8 +21,9 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullLocator
 from numpy.typing import ArrayLike
 
-from reports import style, wording
-from reports.style import Mark
+from reports import wording
+from reports.drawing import style
+from reports.drawing.style import Mark
 
 RC: dict[Any, Any] = {
     "font.family": style.FONT,

@@ -6,8 +6,10 @@ from typing import Any
 
 import pandas as pd
 
-from reports import derive, rounds, tables, ties, wording
+from reports import wording
+from reports.analysis import derive, rounds, ties
 from reports.content import Column, Table
+from reports.drawing import tables
 
 ERRORS = (1e-3, 1e-6)  # largest |t − t*| over the scene's radius
 LINES = 26  # surfaces that fit on the first page

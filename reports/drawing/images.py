@@ -15,10 +15,12 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from harness.contract import TruthStatus
-from reports import derive, plots, style, wording
-from reports.arrays import Arrays, Shelf
+from harness.results.schema import KINDS
+from reports import wording
+from reports.analysis import derive
 from reports.content import Gallery, Panel, Picture
-from reports.schema import KINDS
+from reports.drawing import plots, style
+from reports.reading.arrays import Arrays, Shelf
 
 PIXELS = 480  # pixels are repeated to at least this side, because some viewers blur small pictures
 GRAZING_PALE = 0.55  # how far the colour of a wrong ray fades to white in the grazing and the drowned class

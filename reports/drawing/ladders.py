@@ -11,11 +11,12 @@ from matplotlib.figure import Figure as Drawing
 from matplotlib.patches import Patch
 from matplotlib.ticker import PercentFormatter
 
-from reports import style, wording
+from reports import wording
 from reports.content import Figure
-from reports.drawing import LINE, NARROW, RC, Key, line_of, series, svg
-from reports.load import Facts
-from reports.style import Mark
+from reports.drawing import style
+from reports.drawing.canvas import LINE, NARROW, RC, Key, line_of, series, svg
+from reports.drawing.style import Mark
+from reports.reading.load import Facts
 
 DODGE = 0.5  # of the step between rungs, over which the marks of one rung are spread so that all are seen
 

@@ -15,10 +15,12 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import FixedLocator, FuncFormatter
 
-from reports import derive, style, ties, wording
+from reports import wording
+from reports.analysis import derive, ties
 from reports.content import Figure
-from reports.drawing import NARROW, RC, WIDE, ErrorAxis, Key, label_decades, series, svg
-from reports.style import Mark
+from reports.drawing import style
+from reports.drawing.canvas import NARROW, RC, WIDE, ErrorAxis, Key, label_decades, series, svg
+from reports.drawing.style import Mark
 
 PANELS_ACROSS = 5
 

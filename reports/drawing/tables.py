@@ -10,9 +10,10 @@ from typing import Any
 import pandas as pd
 
 from harness.contract import CellStatus
-from reports import derive, ties, wording
+from reports import wording
+from reports.analysis import derive, ties
 from reports.content import Column, Table
-from reports.load import Facts, Unreadable
+from reports.reading.load import Facts, Unreadable
 
 ROW_LIMIT = 1_500  # rows that one list prints; a longer one belongs in results.csv
 REASON_LIMIT = 500  # characters of a reason; a compiler's full log stays in the cell's file

@@ -16,11 +16,12 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 from numpy.typing import NDArray
 
-from reports import style, tables, wording
+from reports import wording
+from reports.analysis.viewstats import ViewSet
 from reports.content import Figure
-from reports.drawing import LINE, NARROW, RC, WIDE, ErrorAxis, Key, label_decades, line_of, svg
-from reports.style import Mark
-from reports.viewstats import ViewSet
+from reports.drawing import style, tables
+from reports.drawing.canvas import LINE, NARROW, RC, WIDE, ErrorAxis, Key, label_decades, line_of, svg
+from reports.drawing.style import Mark
 
 DODGE = 0.3  # of the step between angles, over which marks are spread so that all are seen
 ACROSS, DOWN = 4, 4  # variants in one figure of maps

@@ -1,6 +1,7 @@
 """Methods that cast beams: what their hits mean, and the level at which each box was eliminated."""
 
-from reports import beams, forms
+from reports import beams
+from reports.analysis import forms
 from reports.content import Section
 from reports.material import Material
 

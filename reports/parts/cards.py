@@ -11,11 +11,12 @@ import pandas as pd
 from matplotlib.figure import Figure as Drawing
 
 from harness.contract import CLAIMS
-from reports import style, wording
+from reports import wording
 from reports.claims import Outcome
 from reports.claims.model import where
 from reports.content import Block, Column, Figure, Section, Table
-from reports.drawing import NARROW, RC, Key, line_of, svg
+from reports.drawing import style
+from reports.drawing.canvas import NARROW, RC, Key, line_of, svg
 from reports.material import Material
 
 ORDER = 70

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections import Counter
 
-from reports import claims, counts, wording
+from reports import claims, wording
+from reports.analysis import counts
 from reports.claims import Outcome
 from reports.content import Column, Section, Table, Text
 from reports.material import Material

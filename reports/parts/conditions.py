@@ -1,6 +1,7 @@
 """Error against condition."""
 
-from reports import condition, forms
+from reports import condition
+from reports.analysis import forms
 from reports.content import Section
 from reports.material import Material
 

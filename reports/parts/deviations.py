@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from reports import derive, rounds, wording
+from reports import wording
+from reports.analysis import derive, rounds
 from reports.content import Column, Section, Table, Text
 from reports.material import Material
 

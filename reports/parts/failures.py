@@ -1,7 +1,7 @@
 """Every cell that has no result, and why."""
 
-from reports import tables
 from reports.content import Section, Text
+from reports.drawing import tables
 from reports.material import Material
 
 ORDER = 90

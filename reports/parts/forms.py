@@ -13,10 +13,12 @@ from matplotlib.figure import Figure as Drawing
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from harness.contract import CellStatus
-from reports import rounds, style, ties, wording
+from reports import wording
+from reports.analysis import rounds, ties
+from reports.analysis.forms import PRINTED, base_of, form_of
 from reports.content import Block, Column, Figure, Section, Table, Text
-from reports.drawing import LINE, RC, WIDE, svg
-from reports.forms import PRINTED, base_of, form_of
+from reports.drawing import style
+from reports.drawing.canvas import LINE, RC, WIDE, svg
 from reports.material import Material
 
 ORDER = 22

@@ -6,8 +6,10 @@ from typing import Any
 
 import pandas as pd
 
-from reports import derive, rounds, tables, ties, wording
+from reports import wording
+from reports.analysis import derive, rounds, ties
 from reports.content import Block, Column, Section, Table, Text
+from reports.drawing import tables
 from reports.material import Material
 
 ORDER = 12

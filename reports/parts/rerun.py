@@ -10,8 +10,8 @@ import pandas as pd
 
 from reports import wording
 from reports.content import Code, Section, Text
-from reports.load import Plan
 from reports.material import Material
+from reports.reading.load import Plan
 
 ORDER = 95
 

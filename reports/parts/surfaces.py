@@ -5,8 +5,10 @@ from __future__ import annotations
 import pandas as pd
 
 from harness.contract import CellStatus
-from reports import derive, images, plots, style, tables, wording
+from reports import wording
+from reports.analysis import derive
 from reports.content import Block, Section, Text
+from reports.drawing import images, plots, style, tables
 from reports.material import Material
 
 ORDER = 20

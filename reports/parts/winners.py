@@ -1,7 +1,8 @@
 """Who wins in every group."""
 
-from reports import derive, tables, ties
+from reports.analysis import derive, ties
 from reports.content import Section, Text
+from reports.drawing import tables
 from reports.material import Material
 
 ORDER = 10

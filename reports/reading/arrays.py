@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from reports.load import Unreadable, problem
+from reports.reading.load import Unreadable, problem
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,8 +11,8 @@ from pathlib import Path
 import pandas as pd
 
 from harness.contract import FirsthitError
-from reports import load as loading
-from reports.load import Plan, Run, Unreadable
+from reports.reading import load as loading
+from reports.reading.load import Plan, Run, Unreadable
 
 
 def load(folder: Path, plan: Plan) -> Run:

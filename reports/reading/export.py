@@ -12,7 +12,7 @@ import pyarrow as pa
 import pyarrow.csv as pa_csv
 import pyarrow.parquet as pq
 
-from reports.schema import DERIVED, SCHEMA, Field, Kind
+from harness.results.schema import DERIVED, SCHEMA, Field, Kind
 
 _DTYPES: dict[Kind, str] = {
     "text": "object",

@@ -13,10 +13,10 @@ from typing import Any
 
 import pandas as pd
 
-from harness.config import BASELINE
 from harness.contract import CellStatus, FirsthitError
-from reports import store
-from reports.schema import FAMILY, RUNG, SCHEMA, flatten
+from harness.experiment.config import BASELINE
+from harness.results.schema import FAMILY, RUNG, SCHEMA, flatten
+from reports.reading import export
 
 FORMAT = 1
 
@@ -86,7 +86,7 @@ def load(folder: Path) -> Run:
     """The run in `folder`, or those it collects; a FirsthitError where it is no run folder or nothing is finished."""
     plan = _plan(folder)
     if plan.include:
-        from reports import collect
+        from reports.reading import collect
 
         return collect.load(folder, plan)
     return load_one(folder, plan)
@@ -151,7 +151,7 @@ def load_one(folder: Path, plan: Plan) -> Run:
     if not rows and not families and not studies:
         damaged = f" ({len(unreadable)} are unreadable: {unreadable[0].problem})" if unreadable else ""
         raise FirsthitError(f"{folder} holds no finished cell{damaged}; run `{plan.command}` first")
-    frames = (store.frame(SCHEMA, rows), store.frame(FAMILY, families), store.frame(RUNG, rungs))
+    frames = (export.frame(SCHEMA, rows), export.frame(FAMILY, families), export.frame(RUNG, rungs))
     return Run(folder, plan, *frames, tuple(unreadable), tuple(not_run), studies, {plan.name: folder})
 
 

@@ -17,8 +17,8 @@ from typing import Any
 import pandas as pd
 
 from reports.content import Block, Code, Column, Document, Figure, Gallery, Panel, Picture, Section, Table, Text
-from reports.drawing import SERIES
-from reports.style import Mark
+from reports.drawing.canvas import SERIES
+from reports.drawing.style import Mark
 
 HERE = Path(__file__).parent
 _ID = re.compile(r'\bid="([^"]+)"')

@@ -8,15 +8,15 @@ from __future__ import annotations
 import pytest
 
 import surfaces
-from harness.assemble import method_program
-from harness.backends import Device, launch_camera
-from harness.backends.beams import launch_beams
-from harness.camera import camera_for, rays_of
 from harness.contract import View
+from harness.devices.interface import Device, launch_camera
+from harness.devices.quadtree import launch_beams
+from harness.kernels.assemble import method_program
+from harness.kernels.functions import FUNCTIONS, surface_sections
 from harness.oracle import first_hits
 from harness.plugins import find_methods
-from harness.store import Store
-from surfaces.sections import FUNCTIONS, surface_sections
+from harness.results.store import Store
+from harness.scenes.camera import camera_for, rays_of
 from tests.conftest import opened, usable_devices
 
 CATALOG = find_methods()

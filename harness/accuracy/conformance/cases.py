@@ -11,13 +11,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from harness.accuracy import Verdicts, judge, judged
-from harness.answers import validated
-from harness.assemble import Language, method_program
-from harness.camera import camera_for, rays_of, scene_radius
+from harness.accuracy.answers import validated
+from harness.accuracy.judge import Verdicts, judge, judged
 from harness.contract import Box, Hits, Precision, Program, Surface, Truth, TruthStatus, View
+from harness.kernels.assemble import Language, method_program
 from harness.oracle import first_hits
 from harness.plugins import Plugin
+from harness.scenes.camera import camera_for, rays_of, scene_radius
 
 GRAZING = 1e-3
 TYPICAL = ("sphere", "torus", "barth_sextic")  # ball and box, coefficients along a ray and none

@@ -5,9 +5,18 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
-from harness.conformance.cases import OUTSIDE, Bench, Case, Finding, not_checked, touch_cases, view_case, views_case
-from harness.conformance.checks import CLAIM_CHECKS, agreement, answers, decided, finds_touch, same_bits
-from harness.conformance.knobs import settings_of, swept
+from harness.accuracy.conformance.cases import (
+    OUTSIDE,
+    Bench,
+    Case,
+    Finding,
+    not_checked,
+    touch_cases,
+    view_case,
+    views_case,
+)
+from harness.accuracy.conformance.checks import CLAIM_CHECKS, agreement, answers, decided, finds_touch, same_bits
+from harness.accuracy.conformance.knobs import settings_of, swept
 from harness.contract import PRECISIONS, FirsthitError, Precision, Surface
 from harness.plugins import Plugin
 
@@ -17,7 +26,7 @@ Located = tuple[str, Iterator[Finding]]  # what is checked there, and its findin
 
 def refusal(plugin: Plugin, surface: Surface, precision: Precision, bench: Bench) -> str | None:
     """Why the method is not to be checked here, or None."""
-    from surfaces.sections import unsupported
+    from harness.kernels.functions import unsupported
 
     if precision not in plugin.method.precisions:
         return f"the method has no {precision} form"
@@ -95,7 +104,7 @@ def own_settings(plugin: Plugin) -> list[str]:
 
 def _on_dense(bench: Bench, plugin: Plugin, _: Sequence[Surface]) -> Iterator[Located]:
     """Dense random polynomials of every degree that the method accepts."""
-    from harness import dense
+    from harness.accuracy.conformance import dense
 
     for where, case, precision in dense.cases(bench, plugin):
         yield where, examine(bench, plugin, case, precision)

@@ -10,6 +10,9 @@ from typing import Any
 from reports.content import Section
 from reports.material import Material
 
+ORDER = 65
+LEADS = True
+
 
 def sections(material: Material) -> list[Section]:
     modules: list[Any] = [

@@ -7,11 +7,12 @@ from typing import Any
 import numpy as np
 
 from harness.contract import RayStatus
-from reports import beams, derive, lanes, published, wording
+from reports import beams, published, wording
+from reports.analysis import derive, lanes
 from reports.claims import picks
 from reports.content import Block, Column, Gallery, Section, Table, Text
 from reports.material import Material
-from reports.reproductions import verdicts
+from reports.parts.papers import verdicts
 
 ORDER = 40
 _NAMES = {

@@ -6,12 +6,14 @@ from dataclasses import dataclass
 
 import pandas as pd
 
-from reports import derive, images, wording
+from reports import wording
+from reports.analysis import derive
 from reports.claims import picks
+from reports.claims.evidence import Evidence, Pick
 from reports.content import Block, Column, Section, Table, Text
-from reports.evidence import Evidence, Pick
+from reports.drawing import images
 from reports.material import Material
-from reports.reproductions import verdicts
+from reports.parts.papers import verdicts
 
 ORDER = 30
 

@@ -9,12 +9,12 @@ import pandas as pd
 
 from reports import published, wording
 from reports.claims import picks
+from reports.claims.evidence import Evidence, Pick
 from reports.claims.model import counted, largest
 from reports.claims.szente_studies import bounds, condition
 from reports.content import Block, Column, Section, Table
-from reports.evidence import Evidence, Pick
 from reports.material import Material
-from reports.reproductions import verdicts
+from reports.parts.papers import verdicts
 
 ORDER = 20
 MATCH = 0.03  # a reading matches Table 2 where no figure is off by more than this share

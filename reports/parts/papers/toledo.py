@@ -8,12 +8,12 @@ from typing import Any
 import pandas as pd
 
 from reports import published, wording
+from reports.analysis.viewstats import spread
 from reports.claims import picks
+from reports.claims.evidence import Evidence, Pick
 from reports.content import Block, Column, Section, Table
-from reports.evidence import Evidence, Pick
 from reports.material import Material
-from reports.reproductions import verdicts
-from reports.viewstats import spread
+from reports.parts.papers import verdicts
 
 ORDER = 10
 CONFIG = "toledo-table1.toml"

@@ -9,11 +9,12 @@ import pandas as pd
 from matplotlib.colors import to_rgb
 from numpy.typing import NDArray
 
-from reports import images, wording
-from reports.arrays import Arrays
+from reports import wording
 from reports.claims import picks
 from reports.content import Gallery, Panel, Picture, Section, Text
+from reports.drawing import images
 from reports.material import Material
+from reports.reading.arrays import Arrays
 
 ORDER = 9
 SCENES, VIEWS = "toledo-fig1.toml", "toledo-table1.toml"

@@ -10,11 +10,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure as Drawing
 from matplotlib.lines import Line2D
 
-from reports import style
 from reports.content import Block, Figure, Section
-from reports.drawing import RC, WIDE, svg
+from reports.drawing import style
+from reports.drawing.canvas import RC, WIDE, svg
 from reports.material import Material
-from reports.reproductions import verdicts
+from reports.parts.papers import verdicts
 
 ORDER = 11
 CONFIG = "toledo-fig3.toml"

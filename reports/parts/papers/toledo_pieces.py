@@ -8,11 +8,11 @@ import pandas as pd
 
 from reports import wording
 from reports.claims import toledo_pieces
+from reports.claims.evidence import Evidence
 from reports.claims.toledo_pieces import CUBICS, NORMALS, PIECES, PROXIES, Piece
 from reports.content import Block, Column, Section, Table
-from reports.evidence import Evidence
 from reports.material import Material
-from reports.reproductions import verdicts
+from reports.parts.papers import verdicts
 
 ORDER = 13
 

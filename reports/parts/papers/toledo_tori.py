@@ -12,7 +12,7 @@ from reports.claims import picks
 from reports.claims.toledo_tori import CONFIG, OURS, PICKS, crossing, curve, tori
 from reports.content import Block, Column, Section, Table
 from reports.material import Material
-from reports.reproductions import verdicts
+from reports.parts.papers import verdicts
 
 ORDER = 12
 CLAIMED = {  # technique against Newton 0.001 → what the text says

@@ -1,5 +1,5 @@
 // A polynomial's coefficients from its values at Chebyshev's nodes (szente, section 2.1): rows of the inverse matrix for
-// sums and differences of opposite samples. Reads the tables of harness.fitting, so it stands after them.
+// sums and differences of opposite samples. Reads the tables of harness.kernels.fitting, so it stands after them.
 #define FIT_EVENS (SURFACE_DEGREE / 2 + 1)
 #define FIT_ODDS ((SURFACE_DEGREE + 1) / 2)
 

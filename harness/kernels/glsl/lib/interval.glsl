@@ -4,7 +4,7 @@
 // normal number where it underflows. Subtracting 2 u |r| lowers r by at least one unit in its last place, however that
 // subtraction rounds, and whether or not fma fuses; REAL_TINY, four times the smallest normal number, beyond it covers
 // underflow and flushed denormals. What overflows or is no number becomes the whole line, save in the operations called
-// bounded: they are for surfaces and boxes on which nothing overflows (surfaces/magnitudes.py).
+// bounded: they are for surfaces and boxes on which nothing overflows (harness/kernels/reach.py).
 // Division and sqrt are widened by what the GLSL 4.3 and OpenCL 1.2 (full profile) specifications allow them, whichever
 // is more; sin and cos, which GLSL leaves unspecified, are computed here; exp and log are in interval_exp_log.
 STRUCT(Interval) struct Interval { real lo; real hi; };

@@ -1,0 +1,1 @@
+"""Devices behind one interface, and the worker processes that hold them."""

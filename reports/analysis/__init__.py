@@ -1,0 +1,1 @@
+"""Rows → what follows from them: speed-ups, fronts, ties, fits, exact tests. Nothing here draws."""

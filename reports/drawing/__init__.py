@@ -1,0 +1,1 @@
+"""Frames → figures, pictures and tables of a report."""

@@ -1,0 +1,1 @@
+"""Run folders → rows, arrays and plans; and rows → CSV and Parquet."""

@@ -1,0 +1,1 @@
+"""A report's content → PDF and HTML."""
