@@ -74,20 +74,20 @@ def test_devices_that_differ_have_tables_of_their_own(tmp_path: Path) -> None:
     assert together["worst_ratio"].iloc[0] == 1e6 and len(together) == len(same) // 2, "the worst error of any device"
     cells[1]["rungs"][0] |= {"right": 89, "misses": 1}
     other = tiny_run(tmp_path / "other", *cells)
-    run, report = reported(other)
+    run, document = reported(other)
     assert list(breaks.by_device(breaks.derive(run.families, run.rungs))) == ["opencl:intel", "opencl:pocl"]
-    (page,) = (printed(section.blocks) for section in report.sections if section.title == "Where each method breaks")
+    (page,) = (printed(section.blocks) for section in document.sections if section.title == "Where each method breaks")
     assert "The devices differ (opencl:intel and opencl:pocl)" in page
     assert "float32 on opencl:intel." in page and "float32 on opencl:pocl." in page
 
 
 def test_a_run_of_families_alone_makes_a_report(hard: Path) -> None:
-    run, report = reported(hard)
+    run, document = reported(hard)
     assert run.frame.empty and len(run.not_run) == 1 and len(run.unreadable) == 1
-    summary = printed(report.summary.blocks)
+    summary = printed(document.summary.blocks)
     told = "the most that any variant holds are 2 of 2 in float32 (newton[EPSILON=1e-06], of 2 that it answered)"
     assert told in summary
-    by_title = {section.title: printed(section.blocks) for section in report.sections}
+    by_title = {section.title: printed(section.blocks) for section in document.sections}
     assert list(by_title) == [
         "Where each method breaks",
         "Hard rays, family by family",
