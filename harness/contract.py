@@ -287,7 +287,7 @@ class Cell:
     scene: Any = None  # a harness.scenes.Scene of several instances, of which `surface` then is the stand-in
     origin: Origin = "nearest"  # where a method sees its ray begin: at the point nearest the domain's centre, where the
     #   ray enters the domain, or at the eye, as the ray was given; t is told along the ray as given all the same
-    normal: Normal = "distance"  # of stage raster: what hits are shaded by, see assemble.raster_program
+    normal: Normal = "distance"  # of stage raster: what hits are shaded by, see kernels.raster.raster_program
 
     @property
     def caster(self) -> str:

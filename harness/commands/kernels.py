@@ -12,7 +12,8 @@ from harness.contract import PRECISIONS, Casts, FirsthitError, Program, Surface
 from harness.devices.executor import START_SECONDS, CellError, LocalExecutor, discover_devices
 from harness.devices.interface import LANGUAGES
 from harness.experiment.plan import able
-from harness.kernels.assemble import mesh_program, method_program, raster_program
+from harness.kernels.assemble import method_program
+from harness.kernels.raster import mesh_program, raster_program
 from harness.plugins import Plugin, find_methods
 
 ENTRIES: dict[Casts, tuple[Literal["rays", "camera", "beams"], ...]] = {

@@ -17,7 +17,7 @@ from harness.devices.executor import CellError, LocalExecutor, discover_devices
 from harness.devices.worker import Frame
 from harness.experiment import config, draws
 from harness.experiment.plan import able
-from harness.kernels.assemble import fill_program
+from harness.kernels.raster import fill_program
 from harness.plugins import find_methods
 from harness.scenes.camera import camera_for
 from harness.scenes.model import Scene

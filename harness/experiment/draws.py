@@ -15,7 +15,7 @@ from dataclasses import dataclass
 
 from harness.contract import FirsthitError, MeshRecipe, Normal, Origin, Program, Proxy, Variant
 from harness.devices.frames import Batch
-from harness.kernels.assemble import mesh_program, raster_program
+from harness.kernels.raster import mesh_program, raster_program
 from harness.plugins import Catalog, Plugin
 from harness.scenes.model import Group, Scene
 from harness.scenes.records import MOST_PARAMETERS, corners, pack

@@ -35,7 +35,8 @@ from harness.experiment.config import Config, Experiment
 from harness.experiment.draws import Draw
 from harness.hardcases import groups
 from harness.kernels import prepass
-from harness.kernels.assemble import fill_program, method_program, origin_refusal, with_free_loops
+from harness.kernels.assemble import method_program, origin_refusal, with_free_loops
+from harness.kernels.raster import fill_program
 from harness.plugins import Catalog
 from harness.results.store import Row, Store
 from harness.scenes.camera import camera_for, rays_of

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from harness.contract import Box, FirsthitError, Proxy, Surface
 from harness.devices.frames import RECORD
-from harness.kernels.assemble import PROXY_SIDES
+from harness.kernels.raster import PROXY_SIDES
 from harness.scenes.model import Group, Scene, bounding_radius
 
 Floats = NDArray[np.float64]
