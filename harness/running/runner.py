@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 from harness.accuracy import answers, check_frames, compilers, freeloops, judge
 from harness.accuracy import pixels as beams
 from harness.accuracy.pictures import headlight, pictures_of
+from harness.accuracy.rungs import judge_group
 from harness.contract import CellStatus, FirsthitError, Hits, Program
 from harness.devices.executor import CellError, LocalExecutor
 from harness.devices.worker import Checked, Frame, Warmed
@@ -221,7 +222,7 @@ class Runner:
             checked = self._executor.check(cell.device, program, group.rays)
             hits = answers.validated(checked.hits, group.surface.domain, group.rays, origin=cell.origin)
             state.compile_ms += checked.compile_ms
-            state.rungs += group.judge(hits, truth, cell.precision)
+            state.rungs += judge_group(group, hits, truth, cell.precision)
         rays, undecided = (sum(rung[name] for rung in state.rungs) for name in ("rays", "undecided"))
         reason = judge.undecided_hits(rays - undecided, undecided, self._config.accuracy.undecided, "rays")
         if reason:
