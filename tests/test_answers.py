@@ -24,7 +24,7 @@ from harness.contract import (
 from harness.devices.interface import Launch, Timing, hits_from, launch_camera, launch_rays, same_values
 from harness.devices.quadtree import Layout, beam_hits_from, launch_beams
 from harness.devices.worker import Worker
-from harness.experiment import draws
+from harness.experiment.kinds import draws
 from harness.kernels.assemble import fill_program, method_program
 from harness.plugins import Catalog, Plugin, find_methods
 from harness.scenes.camera import camera_for, meets, rays_of

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import surfaces
-from harness.accuracy.conformance.cases import view_case
-from harness.accuracy.conformance.checks import agreement
+from harness.conformance.cases import view_case
+from harness.conformance.checks import agreement
 from harness.accuracy.freeloops import removed
 from harness.cli import main
 from harness.contract import Hits, Method, Program, RayStatus, Variant, View, digest

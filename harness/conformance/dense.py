@@ -14,8 +14,8 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
-from harness.accuracy import conformance
-from harness.accuracy.conformance import Bench, Case
+from harness import conformance
+from harness.conformance import Bench, Case
 from harness.contract import PRECISIONS, Precision, Surface
 from harness.oracle import first_hits
 from harness.plugins import Plugin
