@@ -15,6 +15,7 @@ import pytest
 
 import surfaces
 from harness import conformance
+from harness.accuracy.judge import deviations, judge, summarize, wrong_share
 from harness.conformance import (
     Bench,
     Finding,
@@ -26,7 +27,6 @@ from harness.conformance import (
     views_case,
 )
 from harness.conformance.examine import own_settings
-from harness.accuracy.judge import deviations, judge, summarize, wrong_share
 from harness.contract import PRECISIONS, Precision, RayStatus
 from harness.devices.interface import Device, hits_from, launch_rays
 from harness.plugins import find_methods

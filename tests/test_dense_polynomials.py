@@ -12,8 +12,7 @@ from functools import cache
 
 import pytest
 
-from harness import cli
-from harness import conformance
+from harness import cli, conformance
 from harness.conformance import dense
 from harness.contract import PRECISIONS, TruthStatus
 from harness.plugins import find_methods

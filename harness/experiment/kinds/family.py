@@ -14,6 +14,7 @@ from harness.devices.executor import LocalExecutor
 from harness.devices.messages import Frame, ListedCheck
 from harness.experiment.config import AccuracyChoice, Config
 from harness.experiment.kinds.model import Asked, Casting, Kind, Outcome
+from harness.experiment.kinds.narrowed import REFUSAL as NO_PREPASS
 from harness.hardcases import groups
 from harness.oracle import cached_first_hits
 
@@ -49,6 +50,9 @@ class Family(Kind):
     def surfaces(self, cell: Cell) -> Sequence[Surface]:
         assert cell.family
         return [group.surface for group in groups.groups(cell.family)]
+
+    def unable(self, asked: Asked) -> str | None:
+        return None if asked.cell.prepass == "none" else NO_PREPASS
 
     def question(self, cell: Cell, config: Config, timed: bool) -> dict[str, Any]:
         assert cell.family
