@@ -26,6 +26,7 @@ from harness.conformance.cases import (
     Finding,
     joined,
     not_checked,
+    refusal,
     touch_cases,
     view_case,
     views_case,
@@ -48,7 +49,6 @@ from harness.conformance.examine import (
     examine,
     examine_knobs,
     examine_touches,
-    refusal,
     rotation,
 )
 from harness.conformance.knobs import settings_of, swept

@@ -11,6 +11,7 @@ from harness.conformance.cases import (
     Case,
     Finding,
     not_checked,
+    refusal,
     touch_cases,
     view_case,
     views_case,
@@ -18,24 +19,10 @@ from harness.conformance.cases import (
 from harness.conformance.checks import CLAIM_CHECKS, agreement, answers, decided, finds_touch, same_bits
 from harness.conformance.knobs import settings_of, swept
 from harness.contract import PRECISIONS, FirsthitError, Precision, Surface
-from harness.experiment.kinds import of_method
 from harness.plugins import Plugin
 
 SWEPT = ("torus", "barth_sextic", "sphere", "plane_squared")  # a knob is swept on the first that its method accepts
 Located = tuple[str, Iterator[Finding]]  # what is checked there, and its findings, made as they are asked for
-
-
-def refusal(plugin: Plugin, surface: Surface, precision: Precision, bench: Bench) -> str | None:
-    """Why the method is not to be checked here, or None."""
-    from harness.kernels.functions import unsupported
-
-    if precision not in plugin.method.precisions:
-        return f"the method has no {precision} form"
-    if precision == "float64" and not bench.float64:
-        return "the device has no float64"
-    if reason := of_method(plugin.method).unlisted:
-        return reason
-    return plugin.method.accepts(surface) or unsupported(surface, precision, bench.language)
 
 
 def examine(bench: Bench, plugin: Plugin, case: Case, precision: Precision, setting: str = "") -> Iterator[Finding]:
