@@ -13,7 +13,7 @@ from typing import Any
 from harness import console, studies
 from harness.contract import CellStatus, DeviceInfo, FirsthitError
 from harness.devices.executor import LocalExecutor, discover_devices
-from harness.experiment import config, identity, plan
+from harness.experiment import config, identity, plan, targets
 from harness.experiment.plan import Planned
 from harness.hardcases import groups
 from harness.plugins import Catalog, find_methods
@@ -137,7 +137,7 @@ def _run_one(
     store = Store(options.runs / experiment.name)
     executor = LocalExecutor(experiment.config.budget.timeout)
     try:
-        chosen = plan.devices_of(experiment, found) if experiment.variants else {}
+        chosen = targets.devices_of(experiment, found) if experiment.variants else {}
         tried = [probed(executor, info, store.folder / "probes") for info in chosen.values() if info]
         planned = plan.plan(experiment, catalog, [info for info, _ in tried]) if experiment.variants else []
         described = _described(experiment)

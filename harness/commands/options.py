@@ -3,21 +3,18 @@
 from __future__ import annotations
 
 import argparse
-import math
 import sys
 from pathlib import Path
-from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from harness.accuracy import compilers
-from harness.accuracy.answers import validated, validated_beams
 from harness.contract import ORIGINS, PRECISIONS, CellStatus, FirsthitError, Hits, Precision, Program, Surface, Variant
 from harness.devices.executor import CellError, LocalExecutor, discover_devices
 from harness.devices.interface import LANGUAGES
-from harness.devices.quadtree import layout_of
-from harness.devices.worker import Frame
+from harness.experiment.kinds import of_method
+from harness.experiment.kinds.model import Shot
 from harness.kernels.assemble import Language, method_program
 from harness.plugins import Catalog, find_methods
 
@@ -114,31 +111,21 @@ def cast(
         raise FirsthitError(f"unknown device {device!r}: names start with opencl: or opengl:, see `firsthit devices`")
     if reason := plugin.method.accepts(surface) or unsupported(surface, precision, language):
         raise FirsthitError(f"{variant} cannot draw {surface.name} here: {reason}")
-    casts = plugin.method.casts
-    if casts == "mesh":
-        raise FirsthitError(f'{variant} draws triangles, in stage raster: name it in a config with stages = ["raster"]')
-    if casts != "rays" and camera is None:
-        raise FirsthitError(f"{variant} casts the beams of a camera's pixels, and listed rays have none")
-    entry: Literal["rays", "beams"] = "rays" if casts == "rays" else "beams"
+    kind = of_method(plugin.method)
+    if reason := kind.shot_refusal(camera):
+        raise FirsthitError(f"{variant} {reason}")
+    shot = Shot(rays, camera, dict(variant.parameters), t_min, options.origin)
 
     def program(language: Language) -> Program:
-        stated = plugin.method, plugin.folder, variant, surface, precision, language, entry
+        stated = plugin.method, plugin.folder, variant, surface, precision, language, kind.entries[0]
         return method_program(*stated, t_min=t_min, origin=options.origin)
 
     def run(device: str, program: Program, index: NDArray[np.intp]) -> Hits:
-        if camera is None or casts == "rays":
-            return executor.check(device, program, rays[index]).hits
-        layout = layout_of(dict(variant.parameters))
-        frame = Frame(program, camera, None, math.isqrt(len(rays)), casts, layout=layout)
-        return executor.check_frame(device, frame, index.astype(np.int32)).hits
+        return kind.shot_hits(executor.check(device, kind.shot(program, shot, index)).answer)
 
     executor = LocalExecutor(options.timeout)
     try:
-        hits = run(device, program(language), np.arange(len(rays)))
-        if camera is not None and casts != "rays":
-            hits = validated_beams(hits, surface.domain, rays, camera[3:6])
-        else:
-            hits = validated(hits, surface.domain, rays, t_min, origin=options.origin)
+        hits = kind.validated(run(device, program(language), np.arange(len(rays))), surface, shot)
         if not plugin.method.answers:
             return hits
         second = compilers.SecondBuild(device, precision, program, run)

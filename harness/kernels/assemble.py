@@ -135,10 +135,10 @@ def method_program(
         sections += surface_sections(surface, needs, precision, language)
         sections.append(_domain_section(surface))
     sections += method_sections(method, folder, variant, surface, precision, language)
-    if reason := origin_refusal(method, origin):
-        raise FirsthitError(reason)
     if entry != "beams":
         sections += _cast_sections(origin)
+    elif origin != "nearest":
+        raise FirsthitError(f"an origin is chosen for rays, and the method {method.name} casts beams")
     if listed:
         sections += [_t_min_section(t_min, precision, language), *_files("rays/listed.glsl")]
     if entry == "camera":
@@ -163,14 +163,6 @@ def kept_loops() -> Section:
 def with_free_loops(program: Program) -> Program:
     """The program as it is timed: a compiler may remove the loops that nothing depends on."""
     return replace(program, sections=tuple(s for s in program.sections if s != kept_loops()))
-
-
-def origin_refusal(method: Method, origin: Origin) -> str | None:
-    """Why a method cannot begin its rays at `origin`, if it cannot."""
-    if origin == "nearest" or method.casts == "rays":
-        return None
-    cast = "triangles" if method.casts == "mesh" else "beams"
-    return f"an origin is chosen for rays, and the method {method.name} casts {cast}"
 
 
 def _cast_sections(origin: Origin) -> list[Section]:
