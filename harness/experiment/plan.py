@@ -228,7 +228,7 @@ def _planned(cell: Cell, info: DeviceInfo | None, catalog: Catalog, experiment: 
     programs = tuple(program for program in (*checks, frame, before, *(draw.timed for draw in drawn)) if program)
     # which clock is believed is found by probing when a run starts, after a plan is printed: no part of the key
     facts = None if info is None else dataclasses.asdict(dataclasses.replace(info, clock="wall"))
-    scene = (
+    asked: dict[str, Any] = (
         {"family": groups.identity(cell.family)}
         if cell.family
         else {
@@ -242,9 +242,9 @@ def _planned(cell: Cell, info: DeviceInfo | None, catalog: Catalog, experiment: 
         }
     )
     if drawn:
-        scene["raster"] = raster.identity(cell.scene or single(cell.surface, cell.view), cell.proxy, drawn)
+        asked["raster"] = raster.identity(cell.scene or single(cell.surface, cell.view), cell.proxy, drawn)
     methods = [cell.variant.method, *(d.group.variant.method for d in drawn if d.group.variant)]
-    identity = scene | {
+    identity = asked | {
         "program": {s.origin: s.hash for program in programs for s in (*program.sections, *program.vertex)},
         "program order": [program.hash for program in programs],
         "parameters": dict(cell.variant.parameters),

@@ -51,12 +51,12 @@ from itertools import product
 
 from harness.contract import Method, Parameter, Surface
 
-PIECES = 16  # of a unit-cube face's side, in each direction
+PIECES = 16  # parts of a side of a cube's face, in each direction
 
 
 @lru_cache(maxsize=128)
 def leads_positively(surface: Surface) -> bool:
-    """Whether f's terms of degree 4 are proved positive in every direction: f(o + t d) then has a leading a > 0."""
+    """Returns whether f's terms of degree 4 are proved positive in every direction d, so that f(o + t d) has a > 0."""
     import flint
 
     from surfaces import tape_of

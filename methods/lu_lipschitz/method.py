@@ -92,9 +92,9 @@ from harness.contract import Method, Parameter, Precision, Surface
 
 MAX_DEGREE = 20
 PRINTED = {"SIDES": 2, "LOCAL": 0, "TRUST": 0.0, "MATRIX": 0}
-SHELLS = 16  # balls with a bound of f's roundings of their own
-DEPTHS = 6  # halvings whose growth of errors is tabulated; it falls no further
-COORDINATES = 6.0  # unit roundoffs of a point's distance from the centre by which its coordinates may be off
+SHELLS = 16  # balls about the domain's centre, each with its own bound of f's rounding errors
+DEPTHS = 6  # halvings for which the tables say how errors grow; further ones change nothing
+COORDINATES = 6.0  # error of a point's coordinates, in unit roundoffs of its distance from the centre
 
 
 def _tables(surface: Surface, _knobs: Mapping[str, float | int], precision: Precision) -> dict[str, list[float]]:

@@ -43,16 +43,16 @@ from itertools import product
 
 from harness.contract import Box, FirsthitError, Method, Parameter, Precision, Surface
 
-SLACK = 1.0 + 2.0**-16  # covers what float32 rounds: a direction's length, |p|, the clip, the table itself
+SLACK = 1.0 + 2.0**-16  # covers the float32 rounding of a direction's length, of |p|, of the clip and of the table
 CLOSE = 1.05  # boxes are split until their bound is within this factor of a gradient that occurs
-MAX_BOXES = 6000  # split and bounded at most; the answer is as certain with fewer, only less tight
+MAX_BOXES = 6000  # limit of boxes that are bounded; with fewer the bounds are as certain, but less tight
 
 
 @lru_cache(maxsize=128)
 def ball_bounds(surface: Surface, shells: int) -> tuple[float, ...]:
-    """For k = 1 … shells, at least the largest |grad f| in the domain within k/shells of its radius of its centre.
+    """Returns for k = 1 … shells an upper bound of |grad f| in the domain, up to k/shells of its radius from its centre.
 
-    Raises FirsthitError where none is finite.
+    Raises FirsthitError where a bound is not finite.
     """
     import flint
     import numpy as np
@@ -72,7 +72,7 @@ def ball_bounds(surface: Surface, shells: int) -> tuple[float, ...]:
         return math.sqrt(float(size.upper())) * SLACK if size.is_finite() else math.inf
 
     def ball(middle: Sequence[float], half: Sequence[float]) -> int:
-        """The smallest ball that the box reaches into, of shells; shells where it is outside them all."""
+        """Returns the number of the smallest ball that the box reaches into; `shells` where it reaches into none."""
         away = (max(abs(m - c) - h, 0.0) for m, c, h in zip(middle, center, half, strict=True))
         return int(shells * math.hypot(*away) / radius)
 
@@ -108,7 +108,7 @@ def ball_bounds(surface: Surface, shells: int) -> tuple[float, ...]:
 
 
 def tables(surface: Surface, knobs: Mapping[str, float | int], _: Precision) -> Mapping[str, Sequence[float]]:
-    """REACH[k] times |f| is a step that passes no root from shell k."""
+    """Returns REACH: from shell k a step of REACH[k] times |f| passes no root."""
     bounds = ball_bounds(surface, int(knobs["SHELLS"]))
     return {"REACH": [1.0 / bound for bound in (*bounds[1:], bounds[-1])]}
 
