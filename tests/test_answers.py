@@ -28,7 +28,8 @@ from harness.devices.messages import ListedCheck
 from harness.devices.quadtree import Layout, beam_hits_from, launch_beams
 from harness.devices.worker import Worker
 from harness.experiment.kinds import draws
-from harness.kernels.assemble import fill_program, method_program
+from harness.kernels.assemble import method_program
+from harness.kernels.raster import fill_program
 from harness.plugins import Catalog, Plugin, find_methods
 from harness.scenes.camera import camera_for, meets, rays_of
 from harness.scenes.model import single

@@ -20,7 +20,8 @@ from harness.devices.interface import Device, hits_from, launch_rays
 from harness.experiment import plan as plans
 from harness.experiment.config import load
 from harness.experiment.kinds import draws
-from harness.kernels.assemble import fill_program, method_program, raster_program
+from harness.kernels.assemble import method_program
+from harness.kernels.raster import fill_program, raster_program
 from harness.oracle import first_hits
 from harness.plugins import find_methods
 from harness.scenes.camera import camera_for, rays_of, scene_radius

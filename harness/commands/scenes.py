@@ -18,7 +18,7 @@ from harness.devices.frames import RasterCheck, RasterFrame
 from harness.experiment import config
 from harness.experiment.kinds import draws
 from harness.experiment.targets import able
-from harness.kernels.assemble import fill_program
+from harness.kernels.raster import fill_program
 from harness.plugins import find_methods
 from harness.scenes.camera import camera_for
 from harness.scenes.model import Scene

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from harness.contract import Hits, Method, Program, Stage, Surface, Variant
 from harness.devices.messages import Check
 from harness.experiment.kinds.model import Asked, Casting, Drawing, Kind, MethodKind, Shot
-from harness.kernels.assemble import mesh_program
+from harness.kernels.raster import mesh_program
 from harness.plugins import Plugin
 from harness.scenes import meshes
 from harness.scenes.model import Group

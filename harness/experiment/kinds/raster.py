@@ -27,7 +27,8 @@ from harness.experiment.kinds.draws import Draw, draws, identity, refusal, too_m
 from harness.experiment.kinds.model import Asked, Casting, Kind, ViewCasting
 from harness.experiment.kinds.narrowed import REFUSAL as NO_PREPASS
 from harness.experiment.targets import able
-from harness.kernels.assemble import fill_program, with_free_loops
+from harness.kernels.assemble import with_free_loops
+from harness.kernels.raster import fill_program
 from harness.scenes.camera import camera_for
 from harness.scenes.model import Scene, single
 from harness.scenes.records import depth_map

@@ -13,7 +13,8 @@ from harness.devices.executor import LocalExecutor
 from harness.devices.messages import CameraFrame, Check, Frame, ListedCheck, ListedFrame
 from harness.experiment.config import Experiment
 from harness.experiment.kinds.model import Asked, Casting, Drawing, Kind, MethodKind, Rastering, Shot, ViewCasting
-from harness.kernels.assemble import raster_program, with_free_loops
+from harness.kernels.assemble import with_free_loops
+from harness.kernels.raster import raster_program
 from harness.plugins import Plugin
 from harness.scenes.camera import rays_of
 from harness.scenes.model import Group
