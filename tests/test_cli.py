@@ -97,7 +97,7 @@ def _bad_rays(tmp_path, name):
     [
         ("empty", "no rays"),
         ("shape", "[n, 6]"),
-        ("float64", "save it as float32"),
+        ("float64", "make them float32"),
         ("nan", "row 0"),
         ("zero", "length 0"),
         ("long", "length 2"),
