@@ -1,4 +1,4 @@
-"""Who may import whom: a room imports only from rooms below it, inside functions too, and nothing imports in a circle."""
+"""Who may import whom: a room imports only from rooms below it, inside functions too; no circles."""
 
 from __future__ import annotations
 

@@ -47,8 +47,8 @@ class Planned:
     device: DeviceInfo | None
     casting: Casting | None
     skip: str | None
+    kind: kinds.Kind
     is_timed: bool = True  # False: checked only
-    checked_on_frame: bool = False  # its check needs the frame, timed or not
 
     @property
     def checks(self) -> tuple[Program, ...]:
@@ -58,7 +58,7 @@ class Planned:
     @property
     def timed(self) -> Program | None:
         """The frame's program; None where there is no frame."""
-        if self.casting is None or not (self.is_timed or self.checked_on_frame):
+        if self.casting is None or not (self.is_timed or self.kind.checked_on_frame):
             return None
         return self.casting.timed
 
@@ -92,7 +92,7 @@ def _planned(cell: Cell, info: DeviceInfo | None, catalog: Catalog, experiment: 
             casting = kind.casting(asked)
         except FirsthitError as error:
             skip = str(error)
-    planned = Planned(cell, "", {}, info, casting, skip, timed, kind.checked_on_frame)
+    planned = Planned(cell, "", {}, info, casting, skip, kind, timed)
     # which clock is believed is found by probing when a run starts, after a plan is printed: no part of the key
     facts = None if info is None else dataclasses.asdict(dataclasses.replace(info, clock="wall"))
     others = casting.others if casting else ()

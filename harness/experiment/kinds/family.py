@@ -46,6 +46,7 @@ class Family(Kind):
     """Listed rays of a family."""
 
     is_timed = False
+    listed = "families"
 
     def surfaces(self, cell: Cell) -> Sequence[Surface]:
         assert cell.family
@@ -53,6 +54,9 @@ class Family(Kind):
 
     def unable(self, asked: Asked) -> str | None:
         return None if asked.cell.prepass == "none" else NO_PREPASS
+
+    def facts(self, cell: Cell) -> dict[str, Any]:
+        return {"camera": None, "proxy": None, "normal": None, "pixel_tolerance": None}
 
     def question(self, cell: Cell, config: Config, timed: bool) -> dict[str, Any]:
         assert cell.family

@@ -28,7 +28,7 @@ from harness.experiment.config import AccuracyChoice, Config, Experiment
 from harness.kernels.assemble import Language, method_program
 from harness.kernels.functions import unsupported
 from harness.plugins import Catalog, Plugin
-from harness.scenes.camera import camera_for, pixel_footprint, rays_of
+from harness.scenes.camera import camera_for, distance_of, pixel_footprint, rays_of
 from harness.scenes.model import Group
 
 Entry = Literal["rays", "camera", "beams"]
@@ -102,6 +102,10 @@ class MethodKind(ABC):
         """List the origins that make a difference to the method; what has none is cast once."""
         return ("nearest",)
 
+    def told_origin(self, origin: Origin) -> Origin | None:
+        """Return the origin that a row tells; None where the method has none."""
+        return None
+
     def rasterings(self, method: Method, experiment: Experiment) -> list[Rastering]:
         """List the ways to rasterise that make a difference to the method."""
         return [NOT_RASTERED]
@@ -169,6 +173,7 @@ class Kind(ABC):
 
     checked_on_frame = False  # whether the check needs the frame that is timed, so that untimed cells have it too
     is_timed = True  # whether cells of this kind have a frame to time
+    listed: Literal["cells", "families"] = "cells"  # where plan.json lists its cells
 
     def surfaces(self, cell: Cell) -> Sequence[Surface]:
         """List the surfaces that the cell's programs are of."""
@@ -195,6 +200,16 @@ class Kind(ABC):
     @abstractmethod
     def casting(self, asked: Asked) -> Casting:
         """Make the cell's programs. Raises FirsthitError where they cannot be made."""
+
+    def facts(self, cell: Cell) -> dict[str, Any]:
+        """Return the leaves of the cell's row that depend on the kind.
+
+        `camera` is the view's angles in degrees and its distance from the target in scene units, also where the view
+        leaves that to the surface. Of stage raster are `proxy`, `normal` and `pixel_tolerance`.
+        """
+        view, distance = cell.view, distance_of(cell.view, cell.surface)
+        pose = {"azimuth": view.azimuth, "elevation": view.elevation, "fov": view.fov, "distance": distance}
+        return {"camera": pose, "proxy": None, "normal": None, "pixel_tolerance": None}
 
     def question(self, cell: Cell, config: Config, timed: bool) -> dict[str, Any]:
         """Return what the cell asks, JSON-able: the part of its identity that programs do not hold."""

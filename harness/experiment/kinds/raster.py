@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from harness.accuracy.check import Cast, Certified
 from harness.accuracy.judge import Deviations, Verdicts
 from harness.accuracy.scene_truth import Seen, hits_of, scene_truth
-from harness.contract import Program, Truth
+from harness.contract import Cell, Program, Truth
 from harness.devices.executor import LocalExecutor
 from harness.devices.frames import Picture, RasterCheck, RasterFrame
 from harness.devices.messages import Frame
@@ -134,6 +134,10 @@ class Raster(Kind):
         return refusal(scene, cell.variant, asked.catalog) or too_many(
             scene, cell.variant, asked.catalog, asked.most_triangles
         )
+
+    def facts(self, cell: Cell) -> dict[str, Any]:
+        own = {"proxy": cell.proxy, "normal": cell.normal, "pixel_tolerance": cell.tolerance}
+        return super().facts(cell) | own
 
     def casting(self, asked: Asked) -> Casting:
         cell = asked.cell

@@ -33,6 +33,9 @@ class RayMethods(MethodKind):
     def origins(self, experiment: Experiment) -> tuple[Origin, ...]:
         return experiment.origins
 
+    def told_origin(self, origin: Origin) -> Origin | None:
+        return origin
+
     def rasterings(self, method: Method, experiment: Experiment) -> list[Rastering]:
         tolerances = experiment.config.tolerances if any(knob.per for knob in method.parameters) else [0.0]
         normals = experiment.normals if method.answers else ("distance",)
