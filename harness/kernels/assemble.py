@@ -136,10 +136,10 @@ def method_program(
         needs = (*method.needs, "surface_value") if listed else method.needs
         sections = ray_sections(surface, needs, precision, language, early_libraries(method))
     sections += method_sections(method, folder, variant, surface, precision, language)
-    if reason := origin_refusal(method, origin):
-        raise FirsthitError(reason)
     if entry != "beams":
         sections += cast_sections(origin)
+    elif origin != "nearest":
+        raise FirsthitError(f"an origin is chosen for rays, and the method {method.name} casts beams")
     if listed:
         sections += [_t_min_section(t_min, precision, language), *files("rays/listed.glsl")]
     sections += _entry_sections(entry, narrowed, language)
@@ -196,14 +196,6 @@ def kept_loops() -> Section:
 def with_free_loops(program: Program) -> Program:
     """Return a program as it is timed, where a compiler may remove the loops that nothing depends on."""
     return replace(program, sections=tuple(s for s in program.sections if s != kept_loops()))
-
-
-def origin_refusal(method: Method, origin: Origin) -> str | None:
-    """Return why a method cannot see its rays begin at `origin`, or None if it can."""
-    if origin == "nearest" or method.casts == "rays":
-        return None
-    cast = "triangles" if method.casts == "mesh" else "beams"
-    return f"an origin is chosen for rays, and the method {method.name} casts {cast}"
 
 
 def cast_sections(origin: Origin) -> list[Section]:

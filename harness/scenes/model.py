@@ -52,6 +52,13 @@ class Group:
         """Return whether the instances differ in parameters or domain."""
         return len(self.distinct) > 1
 
+    @property
+    def differ_in(self) -> str:
+        """The names of the parameters that instances differ in, for people."""
+        bound = [dict(surface.parameters) for surface in self.distinct]
+        names = [name for name in bound[0] if len({parameters[name] for parameters in bound}) > 1]
+        return ", ".join(names) or "their domains"
+
     @cached_property
     def spheres(self) -> Floats:
         """Return centre and radius of each instance's bounding sphere, in world units: float64[n, 4]."""
