@@ -9,7 +9,8 @@ from pathlib import Path
 from harness import console
 from harness.commands.options import add_surface, surface_of
 from harness.contract import PRECISIONS, DeviceInfo, FirsthitError, digest
-from harness.devices.executor import LocalExecutor, discover_devices
+from harness.devices.discovery import discover_devices
+from harness.devices.executor import LocalExecutor
 from harness.plugins import find_methods
 from harness.recommend.search import HEADROOM, Fallen, Recommendation, Search, Wish, named
 from harness.running.environment import probed

@@ -16,7 +16,8 @@ from harness import console
 from harness.accuracy import conformance
 from harness.accuracy.conformance import Bench, Finding
 from harness.contract import CellStatus, DeviceInfo, FirsthitError, Hits, Program, Surface
-from harness.devices.executor import CellError, LocalExecutor, discover_devices
+from harness.devices.discovery import discover_devices
+from harness.devices.executor import CellError, LocalExecutor
 from harness.devices.interface import LANGUAGES
 from harness.plugins import Plugin, find_methods
 

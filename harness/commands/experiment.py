@@ -12,7 +12,8 @@ from typing import Any
 
 from harness import console, studies
 from harness.contract import CellStatus, DeviceInfo, FirsthitError
-from harness.devices.executor import LocalExecutor, discover_devices
+from harness.devices.discovery import discover_devices
+from harness.devices.executor import LocalExecutor
 from harness.experiment import config, identity, plan
 from harness.experiment.plan import Planned
 from harness.hardcases import groups

@@ -11,7 +11,8 @@ from pathlib import Path
 
 from harness.commands.options import writable
 from harness.contract import FirsthitError
-from harness.devices.executor import LocalExecutor, discover_devices
+from harness.devices.discovery import discover_devices
+from harness.devices.executor import LocalExecutor
 from harness.experiment import config, plan
 from harness.experiment.config import Experiment
 from harness.experiment.plan import Planned

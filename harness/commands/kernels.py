@@ -9,7 +9,8 @@ import sys
 from typing import Literal
 
 from harness.contract import PRECISIONS, Casts, FirsthitError, Program, Surface
-from harness.devices.executor import START_SECONDS, CellError, LocalExecutor, discover_devices
+from harness.devices.discovery import discover_devices
+from harness.devices.executor import START_SECONDS, CellError, LocalExecutor
 from harness.devices.interface import LANGUAGES
 from harness.experiment.plan import able
 from harness.kernels.assemble import mesh_program, method_program, raster_program

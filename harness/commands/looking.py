@@ -7,7 +7,8 @@ import tomllib
 
 from harness import console
 from harness.contract import CLAIMS, DeviceInfo
-from harness.devices.executor import START_SECONDS, LocalExecutor, discover_devices
+from harness.devices.discovery import discover_devices
+from harness.devices.executor import START_SECONDS, LocalExecutor
 from harness.plugins import find_methods
 from harness.running.environment import ROOT, probed
 

@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 from harness.accuracy import compilers
 from harness.accuracy.answers import validated, validated_beams
 from harness.contract import ORIGINS, PRECISIONS, CellStatus, FirsthitError, Hits, Precision, Program, Surface, Variant
-from harness.devices.executor import CellError, LocalExecutor, discover_devices
+from harness.devices.discovery import discover_devices
+from harness.devices.executor import CellError, LocalExecutor
 from harness.devices.interface import LANGUAGES
 from harness.devices.quadtree import layout_of
 from harness.devices.worker import Frame

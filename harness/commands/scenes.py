@@ -13,7 +13,8 @@ from harness.accuracy.check_frames import hits_of
 from harness.commands.options import add_origin, given_variant, writable
 from harness.commands.pictures import need_pillow, save
 from harness.contract import PROXIES, FirsthitError
-from harness.devices.executor import CellError, LocalExecutor, discover_devices
+from harness.devices.discovery import discover_devices
+from harness.devices.executor import CellError, LocalExecutor
 from harness.devices.worker import Frame
 from harness.experiment import config, draws
 from harness.experiment.plan import able

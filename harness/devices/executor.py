@@ -5,11 +5,8 @@ The runner needs no more of an executor than these methods, so that another one 
 
 from __future__ import annotations
 
-import importlib.util
 import multiprocessing
 import signal
-from collections.abc import Iterable
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
 from multiprocessing.context import SpawnProcess
@@ -19,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from harness.contract import CellStatus, DeviceInfo, Program
-from harness.devices.interface import INSTALL, Timing
+from harness.devices.interface import Timing
 from harness.devices.worker import Checked, Frame, Rasterised, Warmed, serve
 
 START_SECONDS = 60.0  # for a worker to start and a driver to load
@@ -38,28 +35,6 @@ class CellError(Exception):
 class _Process:
     process: SpawnProcess
     connection: Connection
-
-
-def discover_devices(wanted: Iterable[str] = ("all",)) -> list[DeviceInfo]:
-    """Every device of every installed backend, side by side in processes of their own: a driver that crashes costs
-    itself. Where `wanted` names devices, as a config does, only of the backends that it names."""
-    named = {name.partition(":")[0] for name in wanted}
-    backends = [backend for backend, package in INSTALL.items() if importlib.util.find_spec(package)]
-    if named <= set(INSTALL):
-        backends = [backend for backend in backends if backend in named]
-    with ThreadPoolExecutor() as pool:
-        return [info for found in pool.map(_find, backends) for info in found]
-
-
-def _find(backend: str) -> list[DeviceInfo]:
-    executor = LocalExecutor(START_SECONDS)
-    try:
-        return executor.find(backend)
-    except CellError as error:
-        problem = f"looking for it: {error}"
-        return [DeviceInfo(f"{backend}:none", "none", "none", "none", None, False, "wall", (), problem)]
-    finally:
-        executor.close()
 
 
 class LocalExecutor:
