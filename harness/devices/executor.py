@@ -10,6 +10,7 @@ import signal
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
 from multiprocessing.context import SpawnProcess
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -48,6 +49,20 @@ class LocalExecutor:
     def find(self, backend: str) -> list[DeviceInfo]:
         found: list[DeviceInfo] = self._call(backend, "find")
         return found
+
+    def running_files(self, device: str) -> list[Path] | None:
+        """The files whose code the worker of `device` has loaded: Python, bindings, drivers and their compilers.
+
+        None where the worker is gone or the system does not tell them; Linux does.
+        """
+        if device not in self._processes:
+            return None
+        try:
+            text = Path(f"/proc/{self._processes[device].process.pid}/maps").read_text(encoding="utf-8")
+        except (OSError, ValueError):
+            return None
+        mapped = (line.split(maxsplit=5) for line in text.splitlines())  # addresses, rights, offset, device, node, path
+        return sorted({Path(fields[5]) for fields in mapped if len(fields) == 6 and "x" in fields[1]})
 
     def probe(self, device: str) -> Any:
         return self._call(device, "probe")
