@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from harness import console, studies
+from harness.commands import Add
 from harness.contract import CellStatus, DeviceInfo, FirsthitError
 from harness.devices.discovery import discover_devices
 from harness.devices.executor import LocalExecutor
@@ -24,36 +25,24 @@ from harness.running.environment import describe, probed
 from harness.running.runner import UNFINISHED, Runner
 
 
-def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
-    def add(name: str, help_text: str, example: str) -> argparse.ArgumentParser:
-        parser = commands.add_parser(name, help=help_text, description=help_text, epilog=f"example: {example}")
-        return parser
-
-    parser = add("plan", "print a config's cells and how long they will take", "firsthit plan configs/quick.toml")
+def add_parsers(add: Add) -> None:
+    parser = add("plan", "firsthit plan configs/quick.toml")
     _add_config(parser)
     parser.set_defaults(run=_plan)
 
-    parser = add("run", "run a config; finished cells are reused", "firsthit run configs/quick.toml --retry failed")
+    parser = add("run", "firsthit run configs/quick.toml --retry failed")
     _add_config(parser)
     parser.add_argument("--force", action="store_true", help="run every cell again")
     parser.add_argument("--retry", choices=["failed"], help="run failed, timed out and crashed cells again")
     parser.add_argument("--device", action="append", metavar="NAME", help="run on this device only; may be repeated")
     parser.set_defaults(run=_run)
 
-    parser = add(
-        "why",
-        "say what would make a cell run again, or what set it apart from its last result",
-        "firsthit why runs/quick/cells/0123456789abcdef.json",
-    )
+    parser = add("why", "firsthit why runs/quick/cells/0123456789abcdef.json")
     parser.add_argument("cell", help="a cell's key (or its beginning), or its file")
     parser.add_argument("--runs", type=Path, default=Path("runs"), metavar="DIR", help="where to look (default: runs)")
     parser.set_defaults(run=_why)
 
-    parser = add(
-        "report",
-        "make the PDF, HTML, CSV and Parquet of a run, or hold two runs against each other; runs nothing",
-        "firsthit report runs/quick",
-    )
+    parser = add("report", "firsthit report runs/quick")
     parser.add_argument("folder", type=Path, metavar="RUN", help="a folder below runs/")
     parser.add_argument("other", type=Path, metavar="OTHER", nargs="?", help="report what changed from RUN to OTHER")
     parser.add_argument(

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from harness.accuracy.answers import invalid
 from harness.accuracy.pictures import headlight
+from harness.commands import Add
 from harness.commands.options import add_method, add_surface, cast, surface_of, writable
 from harness.contract import FirsthitError, Hits, RayStatus, Surface, View
 from harness.results.store import write_atomically
@@ -27,14 +28,8 @@ EXHAUSTED = np.array([0.84, 0.37, 0.0])
 INVALID = np.array([1.0, 0.0, 1.0])
 
 
-def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
-    text = "draw a shaded picture"
-    parser = commands.add_parser(
-        "show",
-        help=text,
-        description=text,
-        epilog="example: firsthit show --surface torus --method newton -o a.png",
-    )
+def add_parsers(add: Add) -> None:
+    parser = add("show", "firsthit show --surface torus --method newton -o a.png")
     add_surface(parser)
     add_method(parser)
     parser.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help=".png file to write")
@@ -43,10 +38,7 @@ def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -
     parser.add_argument("--fov", type=float, default=30.0, help="full vertical angle in degrees (default: 30)")
     parser.set_defaults(run=_show)
 
-    text = "draw every surface of the catalog on one sheet"
-    parser = commands.add_parser(
-        "sheet", help=text, description=text, epilog="example: firsthit sheet --method ray_march -o sheet.png"
-    )
+    parser = add("sheet", "firsthit sheet --method ray_march -o sheet.png")
     add_method(parser)
     parser.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help=".png file to write")
     parser.add_argument("--size", type=int, default=160, help="pixels per side of each picture (default: 160)")

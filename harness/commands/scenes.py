@@ -10,6 +10,7 @@ import numpy as np
 
 from harness.accuracy.answers import invalid
 from harness.accuracy.check_frames import hits_of
+from harness.commands import Add
 from harness.commands.options import add_origin, given_variant, writable
 from harness.commands.pictures import need_pillow, save
 from harness.contract import PROXIES, FirsthitError
@@ -25,14 +26,8 @@ from harness.scenes.model import Scene
 from harness.scenes.records import depth_map
 
 
-def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
-    text = "draw a scene of a config, by rasterisation"
-    parser = commands.add_parser(
-        "scene",
-        help=text,
-        description=text,
-        epilog="example: firsthit scene configs/pipes.toml --name 'pipes 2000' --method newton -o pipes.png",
-    )
+def add_parsers(add: Add) -> None:
+    parser = add("scene", "firsthit scene configs/pipes.toml --name 'pipes 2000' --method newton -o pipes.png")
     parser.add_argument("config", type=Path, metavar="CONFIG", help="a TOML file with [scene.NAME] tables")
     parser.add_argument("--name", metavar="NAME", help="which scene, as `firsthit plan` names it (default: the first)")
     parser.add_argument("--method", required=True, metavar="NAME", help="of instances without a method of their own")
