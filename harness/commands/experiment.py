@@ -6,6 +6,7 @@ import argparse
 import dataclasses
 import shlex
 import sys
+from collections.abc import Mapping
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
@@ -71,7 +72,9 @@ def _load(options: argparse.Namespace) -> tuple[config.Experiment, list[config.E
         )
     if getattr(options, "device", None):
         parts = [dataclasses.replace(p, config=dataclasses.replace(p.config, devices=options.device)) for p in parts]
-    return whole, parts, catalog, discover_devices({name for part in parts for name in part.config.devices})
+    with console.doing(f"{whole.path}: looking for devices"):
+        found = discover_devices({name for part in parts for name in part.config.devices})
+    return whole, parts, catalog, found
 
 
 def _plan(options: argparse.Namespace) -> int:
@@ -128,8 +131,9 @@ def _run_one(
     executor = LocalExecutor(experiment.config.budget.timeout)
     try:
         chosen = plan.devices_of(experiment, found) if experiment.variants else {}
-        tried = [probed(executor, info, store.folder / "probes") for info in chosen.values() if info]
-        planned = plan.plan(experiment, catalog, [info for info, _ in tried]) if experiment.variants else []
+        with console.doing(_announced(experiment, catalog, chosen)):
+            tried = [probed(executor, info, store.folder / "probes") for info in chosen.values() if info]
+            planned = plan.plan(experiment, catalog, [info for info, _ in tried]) if experiment.variants else []
         described = _described(experiment)
         environment = described["environment"]
         store.write_plan(
@@ -160,6 +164,14 @@ def _run_one(
         executor.close()
     kept = [row for key, row in before.items() if row and key not in {row["key"] for row in rows}]
     return _summary(store.folder, rows, kept)
+
+
+def _announced(experiment: config.Experiment, catalog: Catalog, chosen: Mapping[str, DeviceInfo | None]) -> str:
+    """What will be run where, before anything slow is done for it."""
+    here = [info for info in chosen.values() if info]
+    cells = len(plan.grid(experiment, catalog, here)) if experiment.variants else 0
+    where = f" on {', '.join(info.name for info in here)}" if here else ""
+    return f"{experiment.path}: {cells} cells{where}; measuring what these are worth, and planning"
 
 
 def _is_due(row: Row | None, options: argparse.Namespace) -> bool:

@@ -258,7 +258,15 @@ def _planned(cell: Cell, info: DeviceInfo | None, catalog: Catalog, experiment: 
 
 
 def plan(experiment: Experiment, catalog: Catalog, found: list[DeviceInfo], timed: bool = True) -> list[Planned]:
-    """Every cell of the grid, comparison by comparison; families last. Untimed cells are only checked."""
+    """Every cell of the grid, comparison by comparison; families last. Untimed cells are only checked.
+
+    Raises FirsthitError where none of the devices that the config names is among those `found`.
+    """
+    return [_planned(cell, info, catalog, experiment, timed) for cell, info in grid(experiment, catalog, found)]
+
+
+def grid(experiment: Experiment, catalog: Catalog, found: list[DeviceInfo]) -> list[tuple[Cell, DeviceInfo | None]]:
+    """The cells of `plan` in its order, each with its device: at once, since no program is made. Raises as `plan`."""
     config = experiment.config
     devices = devices_of(experiment, found)
     if not any(devices.values()):
@@ -344,7 +352,7 @@ def plan(experiment: Experiment, catalog: Catalog, found: list[DeviceInfo], time
         for family in config.families
         for variant, before, origin, (name, info), precision in runs_on
     ]
-    return [_planned(cell, info, catalog, experiment, timed) for cell, info in cells]
+    return cells
 
 
 def _origins(variant: Variant, experiment: Experiment, catalog: Catalog) -> tuple[Origin, ...]:
