@@ -179,12 +179,12 @@ def open_device(name: str) -> Device:
     if not importlib.util.find_spec(INSTALL[backend]):
         raise FirsthitError(f"device {name!r} needs the package {INSTALL[backend]}: pip install {INSTALL[backend]}")
     module = importlib.import_module(f"harness.devices.{backend}")
-    infos = {info.name: info for info in module.find()}
-    if name not in infos:
-        near = difflib.get_close_matches(name, infos, 1) or list(infos)
+    names: list[str] = module.names()
+    if name not in names:
+        near = difflib.get_close_matches(name, names, 1) or names
         hint = f"did you mean {near[0]!r}?" if near else f"this machine has no {backend} device"
         raise FirsthitError(f"there is no device {name!r} here; {hint} See `firsthit devices`")
-    if problem := infos[name].problem:
+    if problem := module.info(name).problem:
         raise FirsthitError(f"device {name!r} cannot be used: {problem}", exit_code=3)
     device: Device = module.open(name)
     return device

@@ -4,15 +4,24 @@ Arguments: config, plugins folder or "", device names after them. Uses only what
 """
 
 import dataclasses
+import importlib
+import importlib.util
 import json
 import sys
 from pathlib import Path
 from typing import Any
 
 from harness.contract import FirsthitError, Program
-from harness.devices.executor import discover_devices
 from harness.experiment import config, plan
 from harness.plugins import find_methods
+
+FINDERS = ("harness.devices.discovery", "harness.devices.executor")  # the newest first
+
+
+def _discover(devices: list[str]) -> Any:
+    """Call discover_devices, in whichever module this revision has it."""
+    module = next(name for name in FINDERS if importlib.util.find_spec(name))
+    return importlib.import_module(module).discover_devices(devices)
 
 
 def _json(program: Program) -> dict[str, Any]:
@@ -24,7 +33,7 @@ def export(path: str, plugins: str, devices: list[str]) -> dict[str, Any]:
     catalog = find_methods(Path(plugins) if plugins else None)
     experiment = config.load(Path(path), catalog)
     experiment = dataclasses.replace(experiment, config=dataclasses.replace(experiment.config, devices=devices))
-    planned = plan.plan(experiment, catalog, discover_devices(experiment.config.devices))
+    planned = plan.plan(experiment, catalog, _discover(devices))
     return {
         p.cell.slot: {
             "skip": p.skip,

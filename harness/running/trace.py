@@ -22,7 +22,8 @@ from harness.contract import (
     Surface,
     Variant,
 )
-from harness.devices.executor import CellError, LocalExecutor, discover_devices
+from harness.devices.discovery import discover_devices
+from harness.devices.executor import CellError, LocalExecutor
 from harness.devices.interface import LANGUAGES
 from harness.experiment.kinds import of_method
 from harness.experiment.kinds.model import Shot
