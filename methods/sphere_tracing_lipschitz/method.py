@@ -50,7 +50,7 @@ MAX_BOXES = 6000  # limit of boxes that are bounded; with fewer the bounds are a
 
 @lru_cache(maxsize=128)
 def ball_bounds(surface: Surface, shells: int) -> tuple[float, ...]:
-    """Returns for k = 1 … shells an upper bound of |grad f| in the domain, within k/shells of its radius of its centre.
+    """Returns for k = 1 … shells an upper bound of |grad f| in the domain within k/shells of its radius of its centre.
 
     Raises FirsthitError where a bound is not finite.
     """
