@@ -8,8 +8,8 @@ import tomllib
 from harness import console
 from harness.commands import Add
 from harness.contract import CLAIMS
+from harness.experiment import shipped
 from harness.plugins import find_methods
-from harness.results.sources import ROOT
 
 
 def add_parsers(add: Add) -> None:
@@ -61,9 +61,8 @@ def _surfaces(_options: argparse.Namespace) -> str:
 
 
 def _configs(_options: argparse.Namespace) -> str:
-    rows = []
-    for path in sorted((ROOT / "configs").glob("*.toml")):
-        rows.append((path.relative_to(ROOT).as_posix(), tomllib.loads(path.read_text(encoding="utf-8"))["title"]))
+    paths = [shipped.located(name) for name in shipped.names()]
+    rows = [(path.stem, tomllib.loads(path.read_text(encoding="utf-8"))["title"]) for path in paths]
     return console.table(("config", "title"), rows)
 
 

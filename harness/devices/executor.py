@@ -5,23 +5,20 @@ The runner needs no more of an executor than these methods, so that another one 
 
 from __future__ import annotations
 
-import multiprocessing
 import signal
+import subprocess
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
-from multiprocessing.context import SpawnProcess
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
 from harness.contract import CellStatus, DeviceInfo, Program
+from harness.devices import serving
 from harness.devices.interface import Timing
-from harness.devices.worker import Checked, Frame, Rasterised, Warmed, serve
+from harness.devices.messages import Answer, Check, Checked, Frame, Warmed
 
 START_SECONDS = 60.0  # for a worker to start and a driver to load
-_SPAWN = multiprocessing.get_context("spawn")
+STOP_SECONDS = 0.5  # for a worker to end by itself once its connection is closed
 
 
 class CellError(Exception):
@@ -34,7 +31,7 @@ class CellError(Exception):
 
 @dataclass(eq=False)
 class _Process:
-    process: SpawnProcess
+    process: subprocess.Popen[bytes]
     connection: Connection
 
 
@@ -72,20 +69,10 @@ class LocalExecutor:
         compile_ms: float = self._call(device, "build", program)
         return compile_ms
 
-    def check(self, device: str, program: Program, rays: NDArray[np.float32]) -> Checked:
-        """Build a listed-rays program and cast rays float32[n, 6], twice: it fails where the answers differ."""
-        checked: Checked = self._call(device, "check", program, rays)
+    def check(self, device: str, check: Check[Answer]) -> Checked[Answer]:
+        """Build a check's programs and run it; CellError where that fails, or two runs answer differently."""
+        checked: Checked[Answer] = self._call(device, "check", check)
         return checked
-
-    def check_frame(self, device: str, frame: Frame, pixels: NDArray[np.int32]) -> Checked:
-        """Build a frame of beams and run it twice; its answers for `pixels`, int32[n]. It fails where they differ."""
-        checked: Checked = self._call(device, "check_frame", frame, pixels)
-        return checked
-
-    def rasterise(self, device: str, frame: Frame, twice: bool) -> Rasterised:
-        """Draw a frame of reporting programs; `twice`: fail where two pictures of it differ."""
-        drawn: Rasterised = self._call(device, "rasterise", frame, twice)
-        return drawn
 
     def warm(self, device: str, key: str, frame: Frame) -> Warmed:
         """Build a frame and keep it ready for `sample`."""
@@ -110,23 +97,19 @@ class LocalExecutor:
 
     def _start(self, device: str) -> _Process:
         if device not in self._processes:
-            ours, theirs = _SPAWN.Pipe()
-            process = _SPAWN.Process(target=serve, args=(theirs, device), daemon=True)
-            process.start()
-            theirs.close()
-            self._processes[device] = _Process(process, ours)
+            self._processes[device] = _Process(*serving.start(device))
         return self._processes[device]
 
-    def _stop(self, device: str) -> int | None:
-        """End the worker, if need be by force; its exit code."""
+    def _stop(self, device: str) -> int:
+        """End the worker, if need be by force; its exit code, or minus the number of the signal that ended it."""
         stopped = self._processes.pop(device)
-        stopped.connection.close()
-        stopped.process.join(0.5)
-        if stopped.process.is_alive():
-            stopped.process.kill()
-        stopped.process.join()
         self._warm = {key: holder for key, holder in self._warm.items() if holder != device}
-        return stopped.process.exitcode
+        stopped.connection.close()
+        try:
+            return stopped.process.wait(STOP_SECONDS)
+        except subprocess.TimeoutExpired:
+            stopped.process.kill()
+            return stopped.process.wait()
 
     def _call(self, device: str, operation: str, *arguments: Any) -> Any:
         fresh = device not in self._processes
@@ -146,7 +129,7 @@ class LocalExecutor:
         return result
 
 
-def _explain(exit_code: int | None) -> str:
-    if exit_code is not None and exit_code < 0:
+def _explain(exit_code: int) -> str:
+    if exit_code < 0:
         return f"signal {signal.Signals(-exit_code).name}"
     return f"exit code {exit_code}"

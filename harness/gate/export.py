@@ -41,7 +41,6 @@ def export(path: str, plugins: str, devices: list[str]) -> dict[str, Any]:
             "timed": _json(p.timed) if p.timed else None,
         }
         for p in planned
-        if not p.cell.family
     }
 
 
