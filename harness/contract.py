@@ -1,4 +1,6 @@
-"""The vocabulary every other part speaks in; imports nothing of ours but surfaces.model, whose names it hands on.
+"""The vocabulary every other part speaks in.
+
+It imports nothing of ours but harness.limits, and surfaces.model, whose names it hands on.
 
 Lengths are in scene units (the surface's own coordinates), times in seconds unless a name says `_ms`.
 """
@@ -10,8 +12,9 @@ import json
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import IntEnum, StrEnum
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
+from harness.limits import AZIMUTH, DISTANCE, ELEVATION, FIELD_OF_VIEW, POSITION
 from surfaces.model import Box as Box
 from surfaces.model import Domain as Domain
 from surfaces.model import FirsthitError as FirsthitError
@@ -30,6 +33,8 @@ Proxy = Literal["box", "sphere", "tetrahedron"]
 Normal = Literal["distance", "gradient", "core_circle"]
 Prepass = Literal["none", "beams"]
 Origin = Literal["nearest", "entry", "eye"]
+Coordinate = Annotated[float, POSITION]
+Point = tuple[Coordinate, Coordinate, Coordinate]
 PREPASSES: tuple[Prepass, ...] = ("none", "beams")
 ORIGINS: tuple[Origin, ...] = ("nearest", "entry", "eye")
 PROXIES: tuple[Proxy, ...] = ("box", "sphere", "tetrahedron")
@@ -37,6 +42,7 @@ NORMALS: tuple[Normal, ...] = ("distance", "gradient", "core_circle")
 PRECISIONS: tuple[Precision, ...] = ("float32", "float64")
 UNIT_ROUNDOFF: dict[Precision, float] = {"float32": 2.0**-24, "float64": 2.0**-53}
 STAGES: tuple[Stage, ...] = ("compute", "rays", "raster")
+BASELINE = "ray_march"  # the method that speed-ups are over where a config names nothing else
 
 
 class RayStatus(IntEnum):
@@ -155,11 +161,11 @@ class View:
     """
 
     name: str
-    azimuth: float = 30.0
-    elevation: float = 30.0
-    fov: float = 30.0
-    distance: float | None = None
-    target: tuple[float, float, float] | None = None  # None: the domain's centre
+    azimuth: Annotated[float, AZIMUTH] = 30.0
+    elevation: Annotated[float, ELEVATION] = 30.0
+    fov: Annotated[float, FIELD_OF_VIEW] = 30.0
+    distance: Annotated[float, DISTANCE] | None = None
+    target: Point | None = None  # None: the domain's centre
     set: str | None = None  # views of one set are compared with each other: "angles", "directions" or a name of yours
 
 

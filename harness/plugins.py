@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from harness.contract import CLAIMS, FirsthitError, Method, Variant
+from harness.limits import is_finite
 
 BUILT_IN = Path(__file__).parent.parent / "methods"
 ENTRY_POINTS = "firsthit.methods"
@@ -27,11 +28,17 @@ class Plugin:
     folder: Path
 
     def variant(self, given: Mapping[str, float | int]) -> Variant:
-        """The method with `given` knobs turned; raises FirsthitError for a knob it does not have."""
+        """Bind the method's knobs: the `given` ones, and the others at their defaults.
+
+        Raises FirsthitError for a knob that the method does not have, for a value that is not finite, and for a broken
+        number where the knob's are whole.
+        """
         defaults = {parameter.name: parameter.default for parameter in self.method.parameters}
         for name, value in given.items():
             if name not in defaults:
                 raise FirsthitError(f"method {self.method.name!r} has no parameter {name!r}{_hint(name, defaults)}")
+            if not is_finite(value):
+                raise FirsthitError(f"{self.method.name}: {name} is a finite number, not {str(value)[:40]}")
             if isinstance(defaults[name], int) and value != int(value):
                 raise FirsthitError(f"{self.method.name}: {name} is a whole number, not {value}")
         kind = {name: type(default) for name, default in defaults.items()}

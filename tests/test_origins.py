@@ -19,7 +19,7 @@ from harness.contract import ORIGINS, FirsthitError, Hits, RayStatus, Sphere, Tr
 from harness.devices.interface import Device, hits_from, launch_rays
 from harness.experiment import draws
 from harness.experiment import plan as plans
-from harness.experiment.config import load
+from harness.experiment.reading import load
 from harness.kernels.assemble import fill_program, method_program, raster_program
 from harness.oracle import first_hits
 from harness.plugins import find_methods

@@ -13,7 +13,7 @@ from typing import Any
 from harness import console, studies
 from harness.contract import CellStatus, DeviceInfo, FirsthitError
 from harness.devices.executor import LocalExecutor, discover_devices
-from harness.experiment import config, identity, plan
+from harness.experiment import config, identity, plan, reading
 from harness.experiment.plan import Planned
 from harness.hardcases import groups
 from harness.plugins import Catalog, find_methods
@@ -73,8 +73,8 @@ def _add_config(parser: argparse.ArgumentParser) -> None:
 def _load(options: argparse.Namespace) -> tuple[config.Experiment, list[config.Experiment], Catalog, list[DeviceInfo]]:
     """The config, and what it stands for: itself, or those that it includes."""
     catalog = find_methods(options.plugins)
-    whole = config.load(options.config, catalog)
-    parts = [config.load(path, catalog) for path in whole.included] or [whole]
+    whole = reading.load(options.config, catalog)
+    parts = [reading.load(path, catalog) for path in whole.included] or [whole]
     if nested := [part.path for part in parts if part.included and part is not whole]:
         raise FirsthitError(
             f"{nested[0]} includes configs itself, so {whole.path} cannot include it; name them instead"

@@ -12,7 +12,7 @@ from pathlib import Path
 from harness.commands.options import writable
 from harness.contract import FirsthitError
 from harness.devices.executor import LocalExecutor, discover_devices
-from harness.experiment import config, plan
+from harness.experiment import plan, reading
 from harness.experiment.config import Experiment
 from harness.experiment.plan import Planned
 from harness.gate import against, baseline, outputs
@@ -85,7 +85,7 @@ def _path(options: argparse.Namespace) -> Path:
 def _checked(options: argparse.Namespace) -> _Checked:
     """Run what is not stored yet, without timing it."""
     catalog = find_methods(options.plugins)
-    experiment = config.load(options.config, catalog)
+    experiment = reading.load(options.config, catalog)
     if options.device:
         chosen = dataclasses.replace(experiment.config, devices=options.device)
         experiment = dataclasses.replace(experiment, config=chosen)

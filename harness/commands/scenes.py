@@ -15,7 +15,7 @@ from harness.commands.pictures import need_pillow, save
 from harness.contract import PROXIES, FirsthitError
 from harness.devices.executor import CellError, LocalExecutor, discover_devices
 from harness.devices.worker import Frame
-from harness.experiment import config, draws
+from harness.experiment import draws, reading
 from harness.experiment.plan import able
 from harness.kernels.assemble import fill_program
 from harness.plugins import find_methods
@@ -61,7 +61,7 @@ def _scene(options: argparse.Namespace) -> int:
     if not 1 <= options.size <= 8192:
         raise FirsthitError(f"--size {options.size}: an image has 1 to 8192 pixels per side")
     output, catalog = writable(options.output), find_methods(options.plugins)
-    scene = _chosen(config.load(options.config, catalog).scenes, options.name, options.config)
+    scene = _chosen(reading.load(options.config, catalog).scenes, options.name, options.config)
     variant = given_variant(options, catalog)
     if reason := draws.refusal(scene, variant, catalog):
         raise FirsthitError(f"{variant} cannot draw {scene.name}: {reason}")

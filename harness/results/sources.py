@@ -30,8 +30,8 @@ NOT_DECIDING = {
     "harness/recommend": "chooses among finished rows",
     "harness/studies": "are no cells; each has a key of its own, see harness/studies/__init__.py",
 }
-TRUTH = ("harness/contract.py", "harness/oracle", "surfaces")
-MESHES = ("harness/contract.py", "harness/scenes/meshes.py", "surfaces")
+TRUTH = ("harness/contract.py", "harness/limits.py", "harness/oracle", "surfaces")
+MESHES = ("harness/contract.py", "harness/limits.py", "harness/scenes/meshes.py", "surfaces")
 PACKAGES = ("numpy", "sympy", "python-flint")  # bindings are among a device's facts, a mesher among a picture's
 LIBRARIES = ("site-packages", "dist-packages")  # folders that hold other people's modules beside a plugin's
 
