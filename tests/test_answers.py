@@ -29,6 +29,7 @@ from harness.kernels.assemble import fill_program, method_program
 from harness.plugins import Catalog, Plugin, find_methods
 from harness.scenes.camera import camera_for, meets, rays_of
 from harness.scenes.model import single
+from harness.scenes.records import depth_map
 
 from .conftest import opened, usable_devices
 
@@ -235,7 +236,7 @@ def _drawn(device, folder, body):
     camera = camera_for(VIEW, surfaces.get("sphere"))
     batches = [d.batch(True) for d in draws.draws(scene, Variant("made"), "box", catalog)]
     built = [device.build(batch.program) for batch in batches]
-    depths = draws.depth_map(scene, camera)
+    depths = depth_map(scene, camera)
     pictures = []
     for _ in range(2):
         launch = device.launch_raster(batches, built, camera, depths, 24, device.build(fill_program()))

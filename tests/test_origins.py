@@ -25,6 +25,7 @@ from harness.oracle import first_hits
 from harness.plugins import find_methods
 from harness.scenes.camera import camera_for, rays_of, scene_radius
 from harness.scenes.model import single
+from harness.scenes.records import depth_map
 from harness.scenes.views import AngleChoice, by_angle
 from reports.analysis import counts
 
@@ -202,7 +203,7 @@ def test_fragments_cast_from_any_origin(origin):
         batches,
         [gl.build(b.program) for b in batches],
         camera,
-        draws.depth_map(scene, camera),
+        depth_map(scene, camera),
         90,
         gl.build(fill_program()),
     )

@@ -15,6 +15,7 @@ from harness.oracle import first_hits
 from harness.plugins import find_methods
 from harness.scenes.camera import camera_for, pixel_footprint, rays_of, scene_radius
 from harness.scenes.model import single
+from harness.scenes.records import depth_map
 from harness.scenes.views import AngleChoice, by_angle
 from reports import published
 
@@ -48,7 +49,7 @@ def draw(gl, scene, chosen, size, proxy="box", reports=True, pixels=0.0, normal=
     batches = [d.batch(reports) for d in draws.draws(scene, chosen, proxy, find_methods(), pixels, normal=normal)]
     built = [gl.build(batch.program) for batch in batches]
     fill = gl.build(fill_program()) if reports else None
-    launch = gl.launch_raster(batches, built, camera, draws.depth_map(scene, camera), size, fill)
+    launch = gl.launch_raster(batches, built, camera, depth_map(scene, camera), size, fill)
     launch.run()
     result = launch.picture() if reports else launch.read()[0]
     launch.release()
@@ -138,7 +139,7 @@ def test_rays_that_give_up_are_exhausted_and_not_missed(gl):
 def test_an_eye_among_the_proxies_is_refused():
     surface = surfaces.get("torus")
     with pytest.raises(FirsthitError, match="inside the bounding spheres of 1 instances"):
-        draws.depth_map(single(surface, VIEW), camera_for(View("inside", distance=0.5), surface))
+        depth_map(single(surface, VIEW), camera_for(View("inside", distance=0.5), surface))
 
 
 @pytest.mark.parametrize("method", ["newton", "sturm", "sphere_tracing", "interval_march"])

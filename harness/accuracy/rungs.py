@@ -17,16 +17,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import Any, Literal
+from typing import Any, Literal, TypeVar
 
 import numpy as np
 
 from harness.accuracy.judge import NAMES, Wrong, judge
 from harness.contract import UNIT_ROUNDOFF, Hits, Precision, Truth, TruthStatus
+from harness.hardcases.groups import Group
 from harness.hardcases.model import Rung
 from harness.scenes.camera import scene_radius
 
 ROUNDINGS = 4.0
+PerRay = TypeVar("PerRay", Hits, Truth)
 
 
 def knowable_margin(rung: Rung, precision: Precision) -> float:
@@ -66,6 +68,21 @@ def judge_rung(rung: Rung, hits: Hits, truth: Truth, precision: Precision) -> di
         "max_error": float(error.max()) if len(error) else None,
         "worst_ratio": float((error / allowed).max()) if len(error) else None,
     }
+
+
+def judge_group(group: Group, hits: Hits, truth: Truth, precision: Precision) -> list[dict[str, Any]]:
+    """Return the verdict of `judge_rung` on each rung of a group; hits and truth are of `group.rays`."""
+    verdicts, start = [], 0
+    for rung in group.rungs:
+        part = slice(start, start + len(rung.rays))
+        verdicts.append(judge_rung(rung, _part(hits, part), _part(truth, part), precision))
+        start = part.stop
+    return verdicts
+
+
+def _part(whole: PerRay, part: slice) -> PerRay:
+    """Return the answers or the truth of some of the rays."""
+    return type(whole)(**{name: values[part] for name, values in vars(whole).items()})
 
 
 def share_right(verdict: Mapping[str, Any]) -> float | None:

@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 from harness.contract import Surface, Truth, TruthStatus
 from harness.devices.frames import Picture
-from harness.experiment.draws import pack
 from harness.oracle import cached_first_hits
 from harness.scenes.model import Group, Scene
+from harness.scenes.records import pack
 
 CHUNK = 2**22  # pairs of ray and instance that are looked at together
 SLACK = 1e-5  # of a bounding sphere's radius, for rounding

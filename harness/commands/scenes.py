@@ -21,6 +21,7 @@ from harness.kernels.assemble import fill_program
 from harness.plugins import find_methods
 from harness.scenes.camera import camera_for
 from harness.scenes.model import Scene
+from harness.scenes.records import depth_map
 
 
 def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -72,7 +73,7 @@ def _scene(options: argparse.Namespace) -> int:
     batches = tuple(
         draw.batch(True) for draw in draws.draws(scene, variant, options.proxy, catalog, origin=options.origin)
     )
-    depths, side = draws.depth_map(scene, camera), 2 * options.size
+    depths, side = depth_map(scene, camera), 2 * options.size
     executor = LocalExecutor(options.timeout)
     try:
         frame = Frame(fill_program(), camera, None, side, batches=batches, depth_map=depths)

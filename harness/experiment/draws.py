@@ -13,18 +13,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-
-from harness.contract import Box, FirsthitError, MeshRecipe, Normal, Origin, Program, Proxy, Surface, Variant
-from harness.devices.frames import RECORD, Batch
-from harness.kernels.assemble import PROXY_SIDES, mesh_program, raster_program
+from harness.contract import FirsthitError, MeshRecipe, Normal, Origin, Program, Proxy, Variant
+from harness.devices.frames import Batch
+from harness.kernels.assemble import mesh_program, raster_program
 from harness.plugins import Catalog, Plugin
-from harness.scenes.model import Group, Scene, bounding_radius
-
-Floats = NDArray[np.float64]
-MOST_PARAMETERS = 4  # of a formula, that instances may differ in
-CLOSEST = 1e-4  # of the far plane's distance: the near plane is no closer to the eye
+from harness.scenes.model import Group, Scene
+from harness.scenes.records import MOST_PARAMETERS, corners, pack
 
 
 @dataclass(frozen=True, eq=False)
@@ -130,79 +124,6 @@ def _draw(
         for reports in (False, True)
     )
     return Draw(group, proxy, None, timed, check)
-
-
-def pack(group: Group) -> NDArray[np.float32]:
-    """float32[n, RECORD], the instances as raster/instance.glsl reads them."""
-    n = len(group)
-    records = np.zeros((n, RECORD), np.float64)
-    inverse = group.turn.transpose(0, 2, 1) / group.scale[:, None, None]
-    offset = -np.einsum("nij,nj->ni", inverse, group.place)
-    for row in range(3):
-        records[:, 4 * row : 4 * row + 3] = inverse[:, row]
-        records[:, 4 * row + 3] = offset[:, row]
-    own = {surface: _own(surface, group.varies) for surface in group.distinct}
-    records[:, 12:] = [own[surface] for surface in group.surfaces] if group.varies else own[group.distinct[0]]
-    records[:, 15] = group.scale
-    records[:, 24:27] = group.colours
-    return records.astype(np.float32)
-
-
-def _own(surface: Surface, varies: bool) -> list[float]:
-    """Numbers 12 to 31 of a record; scale and colour are left to the instance."""
-    domain, radius = surface.domain, bounding_radius(surface)
-    lower, upper = box_of(surface, tight=not varies)
-    parameters = [float(value) for _, value in sorted(surface.parameters)][:MOST_PARAMETERS] if varies else []
-    feature = surface.feature_radius or domain.radius
-    stretch = (1.0, 1.0, 1.0)
-    numbers = [*lower, 1.0, *upper, radius, *stretch, domain.radius, 0.0, 0.0, 0.0, feature, *parameters]
-    return numbers + [0.0] * (RECORD - 12 - len(numbers))
-
-
-def box_of(surface: Surface, tight: bool = True) -> tuple[Floats, Floats]:
-    """Lower and upper corner of a box that holds what is seen of the surface; `tight`: no larger than about its
-    bounding sphere, though the domain be."""
-    domain, center = surface.domain, np.array(surface.domain.center)
-    if isinstance(domain, Box):
-        lower, upper = np.array(domain.lower), np.array(domain.upper)
-    else:
-        lower, upper = center - domain.radius, center + domain.radius
-    if not tight:
-        return lower, upper
-    radius = bounding_radius(surface)
-    return np.maximum(lower, center - radius), np.minimum(upper, center + radius)
-
-
-def corners(proxy: Proxy) -> NDArray[np.uint32]:
-    """uint32[3 k], the triangles of a proxy by the numbers of its corners, counterclockwise from outside."""
-    if proxy == "sphere":
-        fan = [(0, k, k + 1) for k in range(1, PROXY_SIDES - 1)]
-        return np.array(fan, np.uint32).ravel()
-    if proxy == "tetrahedron":
-        return np.array([(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)], np.uint32).ravel()
-    sides = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
-    return np.array([(a, b, c, a, c, d) for a, b, c, d in sides], np.uint32).ravel()
-
-
-def depth_map(scene: Scene, camera: NDArray[np.float32]) -> tuple[float, float]:
-    """a and b of the depth buffer's a + b / s: 0 at the near plane, 1 at the far one, which just hold the instances.
-
-    FirsthitError where the eye is inside an instance's bounding sphere: front faces of its proxy may then not be seen.
-    """
-    eye, forward = camera[:3].astype(np.float64), camera[3:6].astype(np.float64)
-    spheres = np.concatenate([group.spheres for group in scene.groups])
-    away = np.linalg.norm(spheres[:, :3] - eye, axis=1)
-    if inside := int((away <= 1.001 * spheres[:, 3]).sum()):
-        raise FirsthitError(
-            f"the eye is inside the bounding spheres of {inside} instances: the raster stage draws what "
-            "is in front of it; raise the view's distance"
-        )
-    s = (spheres[:, :3] - eye) @ forward
-    near, far = 0.999 * float((s - spheres[:, 3]).min()), 1.001 * float((s + spheres[:, 3]).max())
-    if far <= 0.0:
-        raise FirsthitError("all instances are behind the eye; turn the view or raise its distance")
-    near = max(near, CLOSEST * far)
-    return far / (far - near), -far * near / (far - near)
 
 
 def identity(scene: Scene, proxy: Proxy, drawn: tuple[Draw, ...]) -> Mapping[str, object]:

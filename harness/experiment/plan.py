@@ -40,6 +40,7 @@ from harness.plugins import Catalog
 from harness.results.store import Row, Store
 from harness.scenes.camera import camera_for, rays_of
 from harness.scenes.model import Scene, single
+from harness.scenes.records import depth_map
 
 PREPARING = 0.3  # seconds to build and check a cell: the mean of 4,392 of configs/front.toml, on two cores
 
@@ -100,7 +101,7 @@ class Planned:
         batches = tuple(draw.batch(reports) for draw in self.draws)
         if free_loops:
             batches = tuple(dataclasses.replace(batch, program=with_free_loops(batch.program)) for batch in batches)
-        depths = raster.depth_map(self.scene, self.camera)
+        depths = depth_map(self.scene, self.camera)
         program = fill_program() if reports else batches[0].program
         return Frame(program, self.camera, None, size, self.casts, None, batches, depths)
 
@@ -214,7 +215,7 @@ def _planned(cell: Cell, info: DeviceInfo | None, catalog: Catalog, experiment: 
         try:
             if cell.stage == "raster":
                 scene = cell.scene or single(cell.surface, cell.view)
-                raster.depth_map(scene, camera_for(cell.view, cell.surface))
+                depth_map(scene, camera_for(cell.view, cell.surface))
                 drawn = raster.draws(scene, cell.variant, cell.proxy, catalog, cell.tolerance, cell.origin, cell.normal)
                 checks, frame = tuple(draw.check for draw in drawn), drawn[0].timed
             else:

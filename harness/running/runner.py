@@ -11,8 +11,7 @@ import math
 import time
 import uuid
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field, replace
-from datetime import UTC, datetime
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
@@ -22,19 +21,20 @@ from numpy.typing import NDArray
 from harness.accuracy import answers, check_frames, compilers, freeloops, judge
 from harness.accuracy import pixels as beams
 from harness.accuracy.pictures import headlight, pictures_of
-from harness.contract import CellStatus, FirsthitError, Hits, Program, Surface, View
+from harness.accuracy.rungs import judge_group
+from harness.contract import CellStatus, FirsthitError, Hits, Program
 from harness.devices.executor import CellError, LocalExecutor
 from harness.devices.worker import Checked, Frame, Warmed
 from harness.experiment.config import Config
 from harness.experiment.plan import Planned, shuffled
 from harness.hardcases import groups as stability
 from harness.kernels.assemble import method_program, with_free_loops
-from harness.kernels.costs import operations_per_evaluation
 from harness.oracle import cached_first_hits
 from harness.plugins import Catalog
 from harness.results import timings
 from harness.results.store import Row, Store
-from harness.scenes.camera import distance_of, meets, pixel_footprint, rays_of, scene_radius
+from harness.running.rows import Left, Samples, build_of, row_of, time_of
+from harness.scenes.camera import meets, pixel_footprint, rays_of, scene_radius
 
 MINIMUM_SAMPLES = 8
 LONGEST = 16  # times [budget] seconds: what the rounds that comparing a cell takes may take at most
@@ -49,26 +49,14 @@ class _Live:
 
     planned: Planned
     frame: Frame | None
+    samples: Samples
     compile_ms: float = 0.0
     warmed: Warmed | None = None
-    wall_ms: list[float] = field(default_factory=list)
-    device_ms: list[float] = field(default_factory=list)
-    rounds: list[int] = field(default_factory=list)  # the round of each sample, so that cells of one run can be paired
     preparing: float = 0.0  # seconds of checking and building
     timing: float = 0.0  # seconds of timed repetitions
     summary: dict[str, Any] | None = None
     rungs: list[dict[str, Any]] | None = None
     arrays: dict[str, NDArray[Any]] | None = None
-
-    @property
-    def by_device(self) -> bool:
-        """Whether times are by the device's own clock: where that is believed and told every sample's."""
-        assert self.planned.device
-        return self.planned.device.clock == "device" and len(self.device_ms) == len(self.wall_ms)
-
-    @property
-    def samples(self) -> list[float]:
-        return self.device_ms if self.by_device else self.wall_ms
 
 
 class Runner:
@@ -104,7 +92,8 @@ class Runner:
                 continue
             state = None
             try:
-                state = _Live(planned, planned.frame)
+                assert planned.device
+                state = _Live(planned, planned.frame, Samples(planned.device.clock))
                 reason = self._prepare(state)
             except (CellError, FirsthitError) as error:  # a mesh that cannot be made costs its own rows
                 status = error.status if isinstance(error, CellError) else CellStatus.FAILED
@@ -233,7 +222,7 @@ class Runner:
             checked = self._executor.check(cell.device, program, group.rays)
             hits = answers.validated(checked.hits, group.surface.domain, group.rays, origin=cell.origin)
             state.compile_ms += checked.compile_ms
-            state.rungs += group.judge(hits, truth, cell.precision)
+            state.rungs += judge_group(group, hits, truth, cell.precision)
         rays, undecided = (sum(rung[name] for rung in state.rungs) for name in ("rays", "undecided"))
         reason = judge.undecided_hits(rays - undecided, undecided, self._config.accuracy.undecided, "rays")
         if reason:
@@ -267,89 +256,32 @@ class Runner:
         start = time.perf_counter()
         batch = state.warmed.batch
         timing = self._executor.sample(state.planned.cell.device, state.planned.key, state.frame, batch)
-        state.wall_ms.append(timing.wall_ms / batch)
-        if timing.device_ms is not None:
-            state.device_ms.append(timing.device_ms / batch)
-        state.rounds.append(round_number)
+        state.samples.add(timing, batch, round_number)
         state.timing += time.perf_counter() - start
 
     def _is_done(self, state: _Live) -> bool:
-        budget, count = self._config.budget, len(state.wall_ms)
+        budget, count = self._config.budget, len(state.samples.wall_ms)
         comparable = count >= budget.rounds
-        narrow = comparable and count >= MINIMUM_SAMPLES and timings.is_narrow(state.samples, budget.interval)
+        narrow = comparable and count >= MINIMUM_SAMPLES and timings.is_narrow(state.samples.times, budget.interval)
         spent = state.timing >= (budget.seconds if comparable else LONGEST * budget.seconds)
         return narrow or spent or count >= budget.repetitions
 
     def _finish(self, planned: Planned, state: _Live | None, status: CellStatus, reason: str | None) -> Row:
-        cell, method = planned.cell, self._catalog.get(planned.cell.variant.method).method
-        programs = ((planned.timed,) if planned.timed else ()) + planned.checks
-        row: Row = {
-            "key": planned.key,
-            "slot": cell.slot,
-            "comparison": cell.comparison,
-            "method": cell.variant.method,
-            "variant": cell.caster,
-            "parameters": dict(cell.variant.parameters),
-            "surface": cell.surface.name,
-            "surface_title": cell.surface.title,
-            "formula": cell.surface.formula,
-            "degree": cell.surface.degree,
-            "view": cell.view.name,
-            "view_set": cell.view.set,
-            "camera": None if cell.family else _pose(cell.view, cell.surface),
-            "size": cell.size,
-            "samples_per_pixel": cell.samples_per_pixel,
-            "precision": cell.precision,
-            "stage": cell.stage,
-            "device": cell.device,
-            "answers": method.answers,
-            "casts": method.casts,
-            "prepass": cell.prepass,
-            "origin": cell.origin if method.casts == "rays" else None,
-            "proxy": cell.proxy if cell.stage == "raster" else None,
-            "normal": cell.normal if cell.stage == "raster" else None,
-            "pixel_tolerance": cell.tolerance if cell.stage == "raster" else None,
-            "scene": cell.scene.family if cell.scene else None,
-            "instances": cell.scene.instances if cell.scene else None,
-            "status": status.value,
-            "reason": reason,
-            "time": self._time_of(state) if state and state.warmed and status is CellStatus.OK else None,
-            "build": _build_of(state) if state else None,
-            "accuracy": state.summary if state else None,
-            "family": cell.family,
-            "rungs": state.rungs if state else None,
-            "arrays": None,
-            "operations": _operations(cell.surface) if state else None,
-            "evaluation_operations": operations_per_evaluation(cell.surface, method.needs) if state else None,
-            "program": {"hash": programs[0].hash} if programs else None,
-            "environment": self._environment | {"started": datetime.now(UTC).isoformat(timespec="seconds")},
-            "seconds": state.preparing + state.timing if state else 0.0,
-            "identity": planned.identity,
-        }
+        """Build the row of a cell that ended, store it, and report it."""
+        method = self._catalog.get(planned.cell.variant.method).method
+        left = self._left(state, status) if state else None
+        row = row_of(planned, method, status, reason, left, self._environment)
         self._store.write(row, state.arrays if state else None)
-        self._report(cell.slot, row)
+        self._report(planned.cell.slot, row)
         return row
 
-    def _time_of(self, state: _Live) -> dict[str, Any]:
-        assert state.warmed and state.planned.device
-        median, lower, upper, _ = timings.median_interval(state.samples)
-        bootstrap_lower, bootstrap_upper = timings.bootstrap_interval(state.samples, self._config.seed)
-        return {
-            "clock": "device" if state.by_device else "wall",
-            "samples_ms": state.samples,
-            "wall_samples_ms": state.wall_ms,
-            "rounds": state.rounds,
-            "session": self._session,  # cells of one session were interleaved: their rounds pair
-            "batch": state.warmed.batch,
-            "median_ms": median,
-            "lower_ms": lower,
-            "upper_ms": upper,
-            "bootstrap_lower_ms": bootstrap_lower,
-            "bootstrap_upper_ms": bootstrap_upper,
-            "narrow": timings.is_narrow(state.samples, self._config.budget.interval),
-            "overhead_share": timings.overhead(state.wall_ms, state.device_ms) if state.by_device else None,
-            **timings.steadiness(state.samples),
-        }
+    def _left(self, state: _Live, status: CellStatus) -> Left:
+        timed = None
+        if state.warmed and status is CellStatus.OK:
+            seed, interval = self._config.seed, self._config.budget.interval
+            timed = time_of(state.samples, state.warmed.batch, self._session, seed=seed, interval=interval)
+        build = build_of(state.warmed, state.compile_ms)
+        return Left(build, state.preparing + state.timing, timed, state.summary, state.rungs)
 
 
 def _fitting(group: list[Planned]) -> list[list[Planned]]:
@@ -358,25 +290,3 @@ def _fitting(group: list[Planned]) -> list[list[Planned]]:
     if rays * BYTES_PER_RAY <= MOST_BYTES:
         return [group]
     return [list(part) for _, part in itertools.groupby(group, key=lambda p: p.cell.comparison)]
-
-
-def _pose(view: View, surface: Surface) -> dict[str, float]:
-    """Degrees, and the distance from the target in scene units, also where the view leaves it to the surface."""
-    distance = distance_of(view, surface)
-    return {"azimuth": view.azimuth, "elevation": view.elevation, "fov": view.fov, "distance": distance}
-
-
-def _build_of(state: _Live) -> dict[str, Any]:
-    warmed = state.warmed
-    return {
-        "compile_ms": warmed.compile_ms if warmed else state.compile_ms,
-        "upload_ms": warmed.upload_ms if warmed else None,
-        "readback_ms": warmed.readback_ms if warmed else None,
-        "bytes": warmed.bytes if warmed else None,
-    }
-
-
-def _operations(surface: Surface) -> dict[str, int]:
-    import surfaces
-
-    return dict(surfaces.operations(surface))

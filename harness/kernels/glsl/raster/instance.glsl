@@ -1,5 +1,5 @@
 // One instance of a surface or mesh. The rows map world to local coordinates; local lengths times `scale` are the
-// world's. 32 floats, as harness.experiment.draws.RECORD packs them.
+// world's. 32 floats, as harness.scenes.records.pack makes them.
 struct Instance {
     vec4 row_x;
     vec4 row_y;

@@ -1,0 +1,159 @@
+"""What a cell left behind → the row that is stored of it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from datetime import UTC, datetime
+from typing import Any
+
+from harness.contract import CellStatus, Method, Surface, View
+from harness.devices.interface import Timing
+from harness.devices.worker import Warmed
+from harness.experiment.plan import Planned
+from harness.kernels.costs import operations_per_evaluation
+from harness.results import timings
+from harness.results.store import Row
+from harness.scenes.camera import distance_of
+
+
+@dataclass(eq=False)
+class Samples:
+    """The timed repetitions of one cell, in the order in which they were taken; times in ms for one frame."""
+
+    clock: str  # the device's clock that is to be believed: "device" or "wall"
+    wall_ms: list[float] = field(default_factory=list)
+    device_ms: list[float] = field(default_factory=list)  # of the device's own clock; fewer where it did not always say
+    rounds: list[int] = field(default_factory=list)  # the round of each sample, so that cells of one run can be paired
+
+    def add(self, timing: Timing, batch: int, round_number: int) -> None:
+        """Keep the time of `batch` frames, which were drawn in a row in one round."""
+        self.wall_ms.append(timing.wall_ms / batch)
+        if timing.device_ms is not None:
+            self.device_ms.append(timing.device_ms / batch)
+        self.rounds.append(round_number)
+
+    @property
+    def by_device(self) -> bool:
+        """Whether times are by the device's own clock: where that is believed and told every sample's."""
+        return self.clock == "device" and len(self.device_ms) == len(self.wall_ms)
+
+    @property
+    def times(self) -> list[float]:
+        """The times that count, in ms, by the clock that `by_device` names."""
+        return self.device_ms if self.by_device else self.wall_ms
+
+
+@dataclass(frozen=True, eq=False)
+class Left:
+    """What a cell that was tried left behind, parts of its row; None for what it did not come to."""
+
+    build: dict[str, Any]
+    seconds: float  # of checking, building and timing
+    time: dict[str, Any] | None = None
+    accuracy: dict[str, Any] | None = None
+    rungs: list[dict[str, Any]] | None = None
+
+
+def row_of(
+    planned: Planned,
+    method: Method,
+    status: CellStatus,
+    reason: str | None,
+    left: Left | None,
+    environment: Mapping[str, Any],
+) -> Row:
+    """Build the row of a cell that ended now; `left` is None for one that was skipped or not tried."""
+    cell = planned.cell
+    programs = ((planned.timed,) if planned.timed else ()) + planned.checks
+    return {
+        "key": planned.key,
+        "slot": cell.slot,
+        "comparison": cell.comparison,
+        "method": cell.variant.method,
+        "variant": cell.caster,
+        "parameters": dict(cell.variant.parameters),
+        "surface": cell.surface.name,
+        "surface_title": cell.surface.title,
+        "formula": cell.surface.formula,
+        "degree": cell.surface.degree,
+        "view": cell.view.name,
+        "view_set": cell.view.set,
+        "camera": None if cell.family else _pose(cell.view, cell.surface),
+        "size": cell.size,
+        "samples_per_pixel": cell.samples_per_pixel,
+        "precision": cell.precision,
+        "stage": cell.stage,
+        "device": cell.device,
+        "answers": method.answers,
+        "casts": method.casts,
+        "prepass": cell.prepass,
+        "origin": cell.origin if method.casts == "rays" else None,
+        "proxy": cell.proxy if cell.stage == "raster" else None,
+        "normal": cell.normal if cell.stage == "raster" else None,
+        "pixel_tolerance": cell.tolerance if cell.stage == "raster" else None,
+        "scene": cell.scene.family if cell.scene else None,
+        "instances": cell.scene.instances if cell.scene else None,
+        "status": status.value,
+        "reason": reason,
+        "time": left.time if left else None,
+        "build": left.build if left else None,
+        "accuracy": left.accuracy if left else None,
+        "family": cell.family,
+        "rungs": left.rungs if left else None,
+        "arrays": None,
+        "operations": _operations(cell.surface) if left else None,
+        "evaluation_operations": operations_per_evaluation(cell.surface, method.needs) if left else None,
+        "program": {"hash": programs[0].hash} if programs else None,
+        "environment": {**environment, "started": datetime.now(UTC).isoformat(timespec="seconds")},
+        "seconds": left.seconds if left else 0.0,
+        "identity": planned.identity,
+    }
+
+
+def time_of(samples: Samples, batch: int, session: str, *, seed: int, interval: float) -> dict[str, Any]:
+    """Sum up timed repetitions of `batch` frames each, taken in the interleaved `session`.
+
+    `seed` is the bootstrap's; `interval` is the share of the median within which its interval is to lie. Raises
+    ValueError for no samples.
+    """
+    median, lower, upper, _ = timings.median_interval(samples.times)
+    bootstrap_lower, bootstrap_upper = timings.bootstrap_interval(samples.times, seed)
+    return {
+        "clock": "device" if samples.by_device else "wall",
+        "samples_ms": samples.times,
+        "wall_samples_ms": samples.wall_ms,
+        "rounds": samples.rounds,
+        "session": session,  # cells of one session were interleaved: their rounds pair
+        "batch": batch,
+        "median_ms": median,
+        "lower_ms": lower,
+        "upper_ms": upper,
+        "bootstrap_lower_ms": bootstrap_lower,
+        "bootstrap_upper_ms": bootstrap_upper,
+        "narrow": timings.is_narrow(samples.times, interval),
+        "overhead_share": timings.overhead(samples.wall_ms, samples.device_ms) if samples.by_device else None,
+        **timings.steadiness(samples.times),
+    }
+
+
+def build_of(warmed: Warmed | None, checked_ms: float) -> dict[str, Any]:
+    """Say what building took: of the frame where one was `warmed`, else of the checked programs, `checked_ms` alone."""
+    return {
+        "compile_ms": warmed.compile_ms if warmed else checked_ms,
+        "upload_ms": warmed.upload_ms if warmed else None,
+        "readback_ms": warmed.readback_ms if warmed else None,
+        "bytes": warmed.bytes if warmed else None,
+    }
+
+
+def _pose(view: View, surface: Surface) -> dict[str, float]:
+    """Degrees, and the distance from the target in scene units, also where the view leaves it to the surface."""
+    distance = distance_of(view, surface)
+    return {"azimuth": view.azimuth, "elevation": view.elevation, "fov": view.fov, "distance": distance}
+
+
+def _operations(surface: Surface) -> dict[str, int]:
+    import surfaces
+
+    return dict(surfaces.operations(surface))
