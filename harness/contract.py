@@ -1,6 +1,6 @@
 """The vocabulary every other part speaks in.
 
-It imports nothing of ours but harness.limits, and surfaces.model, whose names it hands on.
+It imports nothing of ours but harness.limits, and surfaces.model and surfaces.words, whose names it hands on.
 
 Lengths are in scene units (the surface's own coordinates), times in seconds unless a name says `_ms`.
 """
@@ -21,6 +21,7 @@ from surfaces.model import FirsthitError as FirsthitError
 from surfaces.model import Sphere as Sphere
 from surfaces.model import Surface as Surface
 from surfaces.model import as_float32 as as_float32
+from surfaces.words import suggestion as suggestion
 
 if TYPE_CHECKING:
     import numpy as np

@@ -10,6 +10,7 @@ from harness import console
 from harness.commands.options import add_surface, surface_of
 from harness.contract import PRECISIONS, DeviceInfo, FirsthitError, digest
 from harness.devices.executor import LocalExecutor, discover_devices
+from harness.devices.interface import usable_device
 from harness.plugins import find_methods
 from harness.recommend.search import HEADROOM, Fallen, Recommendation, Search, Wish, named
 from harness.running.environment import probed
@@ -75,12 +76,13 @@ def _wish(options: argparse.Namespace) -> Wish:
 
 
 def _device(name: str | None) -> DeviceInfo:
-    usable = {info.name: info for info in discover_devices() if not info.problem}
-    if name and name not in usable:
-        raise FirsthitError(f"there is no usable device {name!r} here; there are: {', '.join(usable)}", exit_code=3)
+    found = discover_devices()
+    if name:
+        return usable_device(name, found)
+    usable = [info for info in found if not info.problem]
     if not usable:
         raise FirsthitError("no usable device; `firsthit devices` says why", exit_code=3)
-    return usable[name] if name else next(iter(usable.values()))
+    return usable[0]
 
 
 def _recommend(options: argparse.Namespace) -> int:

@@ -15,7 +15,7 @@ from harness.accuracy import compilers
 from harness.accuracy.answers import validated, validated_beams
 from harness.contract import ORIGINS, PRECISIONS, CellStatus, FirsthitError, Hits, Precision, Program, Surface, Variant
 from harness.devices.executor import CellError, LocalExecutor, discover_devices
-from harness.devices.interface import LANGUAGES
+from harness.devices.interface import LANGUAGES, no_device
 from harness.devices.quadtree import layout_of
 from harness.devices.worker import Frame
 from harness.kernels.assemble import Language, method_program
@@ -111,7 +111,7 @@ def cast(
     device = _device(options.device)
     language = LANGUAGES.get(device.partition(":")[0])
     if language is None:
-        raise FirsthitError(f"unknown device {device!r}: names start with opencl: or opengl:, see `firsthit devices`")
+        raise no_device(device, discover_devices())
     if reason := plugin.method.accepts(surface) or unsupported(surface, precision, language):
         raise FirsthitError(f"{variant} cannot draw {surface.name} here: {reason}")
     casts = plugin.method.casts

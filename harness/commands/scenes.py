@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import difflib
 from pathlib import Path
 
 import numpy as np
@@ -22,6 +21,7 @@ from harness.plugins import find_methods
 from harness.scenes.camera import camera_for
 from harness.scenes.model import Scene
 from harness.scenes.records import depth_map
+from surfaces.words import suggestion
 
 
 def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -49,9 +49,7 @@ def _chosen(scenes: tuple[Scene, ...], name: str | None, path: Path) -> Scene:
         raise FirsthitError(f"{path} has no scenes; see configs/pipes.toml for how they are stated")
     names = {scene.name: scene for scene in scenes}
     if name is not None and name not in names:
-        near = difflib.get_close_matches(name, names, 1)
-        hint = f"did you mean {near[0]!r}?" if near else f"there are: {', '.join(names)}"
-        raise FirsthitError(f"{path} has no scene {name!r}; {hint}")
+        raise FirsthitError(f"{path} has no scene {name!r}; {suggestion(name, names)}")
     return names[name] if name else scenes[0]
 
 

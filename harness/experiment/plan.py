@@ -26,7 +26,7 @@ from harness.contract import (
     View,
     digest,
 )
-from harness.devices.interface import LANGUAGES, RASTERISES
+from harness.devices.interface import LANGUAGES, RASTERISES, no_device
 from harness.devices.quadtree import layout_of
 from harness.devices.worker import Frame
 from harness.experiment import draws as raster
@@ -262,8 +262,9 @@ def plan(experiment: Experiment, catalog: Catalog, found: list[DeviceInfo], time
     config = experiment.config
     devices = devices_of(experiment, found)
     if not any(devices.values()):
-        wanted = "no usable device" if set(config.devices) <= {"all", "any"} else f"none of {', '.join(config.devices)}"
-        raise FirsthitError(f"{wanted} found on this machine; see `firsthit devices`", exit_code=3)
+        if not set(config.devices) <= {"all", "any"}:
+            raise no_device(", ".join(config.devices), found)
+        raise FirsthitError("no usable device found on this machine; see `firsthit devices`", exit_code=3)
     runs_on = [
         (variant, before, origin, device, precision)
         for variant, before in itertools.product(experiment.variants, experiment.prepasses)

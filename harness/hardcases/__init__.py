@@ -10,12 +10,12 @@ A rung's rays are at its parameter as the float32 numbers they are, not before r
 
 from __future__ import annotations
 
-import difflib
 from functools import cache
 
 from harness.contract import FirsthitError
 from harness.hardcases import polynomials, singular, tori
 from harness.hardcases.model import Family, Rung
+from surfaces.words import suggestion
 
 __all__ = ["FAMILIES", "Family", "Rung", "get", "names", "rungs"]
 
@@ -55,8 +55,7 @@ def names() -> tuple[str, ...]:
 def get(name: str) -> Family:
     """A family by name; a FirsthitError with the nearest names where there is none."""
     if name not in FAMILIES:
-        near = difflib.get_close_matches(name, FAMILIES, 3, 0.5) or FAMILIES
-        raise FirsthitError(f"there is no family of hard cases {name!r}; did you mean {', '.join(near)}?")
+        raise FirsthitError(f"there is no family of hard cases {name!r}; {suggestion(name, FAMILIES, most=3)}")
     return FAMILIES[name]
 
 
