@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from harness.contract import DeviceInfo, FirsthitError
-from harness.devices.interface import usable_device
+from harness.devices.interface import device_named
 from surfaces.words import suggestion
 
 ROOT = Path(__file__).parent.parent
@@ -37,11 +37,11 @@ def test_a_device_that_is_not_here_is_answered_with_those_that_are():
         return DeviceInfo(name, "", "", "", 1, True, "wall", (), problem)
 
     found = [device("opencl:good"), device("opencl:bad", "its compiler fails")]
-    assert usable_device("opencl:good", iter(found)) is found[0]
+    assert device_named("opencl:good", iter(found)) is found[0]
     for name, words in (
         ("opencl:god", "there is no device 'opencl:god' here; known: opencl:good, opencl:bad; see `firsthit devices`"),
         ("opencl:bad", "device 'opencl:bad' cannot be used: its compiler fails"),
     ):
         with pytest.raises(FirsthitError) as caught:
-            usable_device(name, found)
+            device_named(name, found)
         assert (str(caught.value), caught.value.exit_code) == (words, 3)

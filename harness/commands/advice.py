@@ -9,11 +9,11 @@ from pathlib import Path
 from harness import console
 from harness.commands.options import add_surface, surface_of
 from harness.contract import PRECISIONS, DeviceInfo, FirsthitError, digest
-from harness.devices.executor import LocalExecutor, discover_devices
-from harness.devices.interface import usable_device
+from harness.devices.executor import LocalExecutor
 from harness.plugins import find_methods
 from harness.recommend.search import HEADROOM, Fallen, Recommendation, Search, Wish, named
 from harness.running.environment import probed
+from harness.running.trace import usable_device
 
 NOTHING_HOLDS = 1
 REASON = 110  # characters of a reason
@@ -75,23 +75,13 @@ def _wish(options: argparse.Namespace) -> Wish:
     )
 
 
-def _device(name: str | None) -> DeviceInfo:
-    found = discover_devices()
-    if name:
-        return usable_device(name, found)
-    usable = [info for info in found if not info.problem]
-    if not usable:
-        raise FirsthitError("no usable device; `firsthit devices` says why", exit_code=3)
-    return usable[0]
-
-
 def _recommend(options: argparse.Namespace) -> int:
     wish, catalog = _wish(options), find_methods(options.plugins)
     surface = wish.surface
     folder = options.runs / f"recommend-{options.surface or 'formula'}-{digest(surface.identity)[:8]}"
     executor = LocalExecutor(60.0)
     try:
-        device, _ = probed(executor, _device(options.device), folder / "probes")
+        device, _ = probed(executor, usable_device(options.device), folder / "probes")
         found = Search(wish, catalog, device, executor, folder, _tell).run()
     finally:
         executor.close()

@@ -17,7 +17,7 @@ from harness.accuracy import conformance
 from harness.accuracy.conformance import Bench, Finding
 from harness.contract import CellStatus, DeviceInfo, FirsthitError, Hits, Program, Surface
 from harness.devices.executor import CellError, LocalExecutor, discover_devices
-from harness.devices.interface import LANGUAGES, usable_device
+from harness.devices.interface import LANGUAGES, device_named
 from harness.plugins import Plugin, find_methods
 
 WIDTH = 100
@@ -78,7 +78,7 @@ def _conform(options: argparse.Namespace) -> int:
 def _devices(names: list[str] | None) -> list[DeviceInfo]:
     found = discover_devices()
     if names:
-        return [usable_device(name, found) for name in names]
+        return [device_named(name, found) for name in names]
     usable = [info for info in found if not info.problem]
     if not usable:
         raise FirsthitError("no usable device; `firsthit devices` says why", exit_code=3)

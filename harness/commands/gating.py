@@ -15,6 +15,7 @@ from harness.devices.executor import LocalExecutor, discover_devices
 from harness.experiment import plan, reading
 from harness.experiment.config import Experiment
 from harness.experiment.plan import Planned
+from harness.experiment.shipped import located
 from harness.gate import against, baseline, outputs
 from harness.gate.baseline import Baseline
 from harness.gate.entries import baseline_of, slot_of
@@ -57,7 +58,7 @@ def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -
 
 
 def _add_shared(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("config", type=Path, metavar="CONFIG", help="a TOML file, see configs/")
+    parser.add_argument("config", type=Path, metavar="CONFIG", help="a TOML file, or a name of `firsthit list configs`")
     parser.add_argument(
         "--baseline", type=Path, metavar="FILE", help="default: baselines/NAME.toml beside the config NAME.toml"
     )
@@ -101,6 +102,7 @@ def _checked(options: argparse.Namespace) -> _Checked:
 
 
 def _gate(options: argparse.Namespace) -> int:
+    options.config = located(options.config)
     for path in filter(None, (options.junit, options.markdown)):
         writable(path)
     path = _path(options)
@@ -161,6 +163,7 @@ def _tell(options: argparse.Namespace, checked: _Checked, judged: list[Judged], 
 def _bless(options: argparse.Namespace) -> int:
     if not options.reason.strip():
         raise FirsthitError("--reason: say why the results are as they should be")
+    options.config = located(options.config)
     path = _path(options)
     old = baseline.read(path) if path.exists() else Baseline()
     checked = _checked(options)

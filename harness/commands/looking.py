@@ -8,8 +8,9 @@ import tomllib
 from harness import console
 from harness.contract import CLAIMS, DeviceInfo
 from harness.devices.executor import START_SECONDS, LocalExecutor, discover_devices
+from harness.experiment import shipped
 from harness.plugins import find_methods
-from harness.running.environment import ROOT, probed
+from harness.running.environment import probed
 
 
 def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -108,9 +109,8 @@ def _surfaces(_options: argparse.Namespace) -> str:
 
 
 def _configs(_options: argparse.Namespace) -> str:
-    rows = []
-    for path in sorted((ROOT / "configs").glob("*.toml")):
-        rows.append((path.relative_to(ROOT).as_posix(), tomllib.loads(path.read_text(encoding="utf-8"))["title"]))
+    paths = [shipped.located(name) for name in shipped.names()]
+    rows = [(path.stem, tomllib.loads(path.read_text(encoding="utf-8"))["title"]) for path in paths]
     return console.table(("config", "title"), rows)
 
 

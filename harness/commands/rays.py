@@ -11,10 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from harness.accuracy.judge import undecided_too_many
-from harness.commands.options import add_method, add_surface, cast, surface_of, writable
+from harness.commands.options import add_method, add_surface, caster_of, surface_of, tell, writable
 from harness.contract import FirsthitError, RayStatus, TruthStatus
 from harness.experiment.config import AccuracyChoice
 from harness.results.store import savez_atomically
+from harness.running.trace import cast, checked_rays
 
 
 def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -63,34 +64,19 @@ def _distance(text: str) -> float:
 
 
 def load_rays(path: Path) -> NDArray[np.float32]:
-    """float32[n, 6] from a .npy file. Raises FirsthitError for anything else, naming the first bad row."""
+    """Read float32[n, 6] from a .npy file. Raises FirsthitError for anything else, naming the first bad row."""
     try:
         rays = np.load(path, allow_pickle=False)
     except OSError as error:
         raise FirsthitError(f"cannot read {path}: {error.strerror or error}") from None
     except (ValueError, EOFError):
         raise FirsthitError(f"{path} is not a .npy file of numbers; write it with numpy.save") from None
-    if not isinstance(rays, np.ndarray) or rays.ndim != 2 or rays.shape[1] != 6:
-        shape = getattr(rays, "shape", "an archive")
-        raise FirsthitError(f"{path} holds {shape}; it must be [n, 6]: origin and direction of each ray")
-    if rays.dtype != np.float32:
-        raise FirsthitError(f"{path} holds {rays.dtype}; save it as float32, since that is what devices are given")
-    if not len(rays):
-        raise FirsthitError(f"{path} holds no rays")
-    bad = ~np.isfinite(rays).all(axis=1)
-    if bad.any():
-        raise FirsthitError(f"{path}: row {int(bad.argmax())} (counted from 0) is not finite")
-    lengths = np.linalg.norm(rays[:, 3:].astype(np.float64), axis=1)
-    bad = np.abs(lengths - 1.0) > 1e-5
-    if bad.any():
-        row = int(bad.argmax())
-        raise FirsthitError(f"{path}: row {row} (counted from 0) has a direction of length {lengths[row]:.6g}, not 1")
-    return rays
+    return checked_rays(rays, str(path))
 
 
 def _trace(options: argparse.Namespace) -> int:
     surface, rays, output = surface_of(options), load_rays(options.rays), writable(options.output)
-    hits = cast(options, surface, rays, t_min=options.t_min)
+    hits = cast(caster_of(options), surface, rays, t_min=options.t_min, tell=tell)
     savez_atomically(output, t=hits.t, status=hits.status, evaluations=hits.evaluations)
     counts = {status: int((hits.status == status).sum()) for status in RayStatus}
     print(f"{output}: {len(rays)} rays, " + ", ".join(f"{n} {status.name.lower()}" for status, n in counts.items()))

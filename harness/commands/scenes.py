@@ -16,6 +16,7 @@ from harness.devices.executor import CellError, LocalExecutor, discover_devices
 from harness.devices.worker import Frame
 from harness.experiment import draws, reading
 from harness.experiment.plan import able
+from harness.experiment.shipped import located
 from harness.kernels.assemble import fill_program
 from harness.plugins import find_methods
 from harness.scenes.camera import camera_for
@@ -32,7 +33,9 @@ def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -
         description=text,
         epilog="example: firsthit scene configs/pipes.toml --name 'pipes 2000' --method newton -o pipes.png",
     )
-    parser.add_argument("config", type=Path, metavar="CONFIG", help="a TOML file with [scene.NAME] tables")
+    parser.add_argument(
+        "config", type=Path, metavar="CONFIG", help="a TOML file with [scene.NAME] tables, or a config's name"
+    )
     parser.add_argument("--name", metavar="NAME", help="which scene, as `firsthit plan` names it (default: the first)")
     parser.add_argument("--method", required=True, metavar="NAME", help="of instances without a method of their own")
     parser.add_argument("--knob", action="append", default=[], metavar="NAME=VALUE", help="a parameter of the method")
@@ -60,7 +63,8 @@ def _scene(options: argparse.Namespace) -> int:
     if not 1 <= options.size <= 8192:
         raise FirsthitError(f"--size {options.size}: an image has 1 to 8192 pixels per side")
     output, catalog = writable(options.output), find_methods(options.plugins)
-    scene = _chosen(reading.load(options.config, catalog).scenes, options.name, options.config)
+    path = located(options.config)
+    scene = _chosen(reading.load(path, catalog).scenes, options.name, path)
     variant = given_variant(options, catalog)
     if reason := draws.refusal(scene, variant, catalog):
         raise FirsthitError(f"{variant} cannot draw {scene.name}: {reason}")

@@ -6,24 +6,24 @@ The runner needs no more of an executor than these methods, so that another one 
 from __future__ import annotations
 
 import importlib.util
-import multiprocessing
 import signal
+import subprocess
 from collections.abc import Iterable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
-from multiprocessing.context import SpawnProcess
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from harness.contract import CellStatus, DeviceInfo, Program
+from harness.devices import serving
 from harness.devices.interface import INSTALL, Timing
-from harness.devices.worker import Checked, Frame, Rasterised, Warmed, serve
+from harness.devices.worker import Checked, Frame, Rasterised, Warmed
 
 START_SECONDS = 60.0  # for a worker to start and a driver to load
-_SPAWN = multiprocessing.get_context("spawn")
+STOP_SECONDS = 0.5  # for a worker to end by itself once its connection is closed
 
 
 class CellError(Exception):
@@ -36,7 +36,7 @@ class CellError(Exception):
 
 @dataclass(eq=False)
 class _Process:
-    process: SpawnProcess
+    process: subprocess.Popen[bytes]
     connection: Connection
 
 
@@ -120,23 +120,19 @@ class LocalExecutor:
 
     def _start(self, device: str) -> _Process:
         if device not in self._processes:
-            ours, theirs = _SPAWN.Pipe()
-            process = _SPAWN.Process(target=serve, args=(theirs, device), daemon=True)
-            process.start()
-            theirs.close()
-            self._processes[device] = _Process(process, ours)
+            self._processes[device] = _Process(*serving.start(device))
         return self._processes[device]
 
-    def _stop(self, device: str) -> int | None:
-        """End the worker, if need be by force; its exit code."""
+    def _stop(self, device: str) -> int:
+        """End the worker, if need be by force; its exit code, or minus the number of the signal that ended it."""
         stopped = self._processes.pop(device)
-        stopped.connection.close()
-        stopped.process.join(0.5)
-        if stopped.process.is_alive():
-            stopped.process.kill()
-        stopped.process.join()
         self._warm = {key: holder for key, holder in self._warm.items() if holder != device}
-        return stopped.process.exitcode
+        stopped.connection.close()
+        try:
+            return stopped.process.wait(STOP_SECONDS)
+        except subprocess.TimeoutExpired:
+            stopped.process.kill()
+            return stopped.process.wait()
 
     def _call(self, device: str, operation: str, *arguments: Any) -> Any:
         fresh = device not in self._processes
@@ -156,7 +152,7 @@ class LocalExecutor:
         return result
 
 
-def _explain(exit_code: int | None) -> str:
-    if exit_code is not None and exit_code < 0:
+def _explain(exit_code: int) -> str:
+    if exit_code < 0:
         return f"signal {signal.Signals(-exit_code).name}"
     return f"exit code {exit_code}"

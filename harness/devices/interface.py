@@ -176,7 +176,7 @@ def no_device(wanted: str, found: Iterable[DeviceInfo]) -> FirsthitError:
     return FirsthitError(f"there is no device {wanted!r} here; known: {names}; see `firsthit devices`", exit_code=3)
 
 
-def usable_device(name: str, found: Iterable[DeviceInfo]) -> DeviceInfo:
+def device_named(name: str, found: Iterable[DeviceInfo]) -> DeviceInfo:
     """Return the device of that name. Raises FirsthitError where it is not among those `found`, or cannot be used."""
     by_name = {info.name: info for info in found}
     if name not in by_name:
@@ -197,6 +197,6 @@ def open_device(name: str) -> Device:
         raise no_device(name, [info for kind in installed for info in find_devices(kind)])
     if not importlib.util.find_spec(INSTALL[backend]):
         raise FirsthitError(f"device {name!r} needs the package {INSTALL[backend]}: pip install {INSTALL[backend]}")
-    usable_device(name, find_devices(backend))
+    device_named(name, find_devices(backend))
     device: Device = importlib.import_module(f"harness.devices.{backend}").open(name)
     return device

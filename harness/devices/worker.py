@@ -1,19 +1,14 @@
-"""The process that holds one device. It knows programs and buffers only: no plugins, no surfaces, no files.
+"""What the process that holds a device does: it knows programs and buffers only, no plugins, surfaces or files.
 
 Whatever a driver does to it, the runner on the other end of the pipe sees an answer, a closed pipe or silence.
 """
 
 from __future__ import annotations
 
-import contextlib
-import ctypes
-import signal
-import sys
 import time
 from collections import OrderedDict
 from dataclasses import dataclass
 from functools import cached_property
-from multiprocessing.connection import Connection
 from typing import Any
 
 import numpy as np
@@ -24,7 +19,6 @@ from harness.devices import lanes
 from harness.devices.frames import Batch, Picture, Rasteriser
 from harness.devices.interface import (
     Array,
-    BuildError,
     Device,
     Launch,
     Timing,
@@ -264,32 +258,3 @@ def _need_steady(differs: NDArray[np.bool_], what: str) -> None:
     if differs.any():
         message = f"two runs of the program answer {int(differs.sum())} of {len(differs)} {what} differently"
         raise FirsthitError(f"{message}: its kernel reads what nobody wrote, or the device is at fault", exit_code=3)
-
-
-def _die_with_parent() -> None:
-    if sys.platform == "linux":
-        pr_set_pdeathsig = 1
-        with contextlib.suppress(OSError):
-            ctypes.CDLL(None).prctl(pr_set_pdeathsig, signal.SIGKILL)
-
-
-def serve(connection: Connection, device_name: str) -> None:
-    """Answer (operation, arguments) with ("ok", result) or ("failed", reason) until the pipe closes."""
-    _die_with_parent()
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the runner decides when to stop
-    worker = Worker(device_name)
-    while True:
-        try:
-            operation, arguments = connection.recv()
-        except (EOFError, ConnectionError):  # reset, where the runner went without reading the last answer
-            return
-        try:
-            answer = ("ok", getattr(worker, operation)(*arguments))
-        except (BuildError, FirsthitError) as error:
-            answer = ("failed", str(error))
-        except Exception as error:  # a binding may raise anything; it costs this one cell
-            answer = ("failed", f"{type(error).__name__}: {error}")
-        try:
-            connection.send(answer)
-        except ConnectionError:
-            return
