@@ -25,8 +25,8 @@ from harness.plugins import Catalog, find_methods
 from harness.results.figures import SPEED
 from harness.results.store import Row, write_atomically
 from harness.running import batch
+from harness.running.due import UNFINISHED
 from harness.running.environment import describe, probed
-from harness.running.runner import UNFINISHED
 
 
 def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:

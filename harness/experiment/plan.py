@@ -37,12 +37,9 @@ from harness.hardcases import groups
 from harness.kernels import prepass
 from harness.kernels.assemble import fill_program, method_program, origin_refusal, with_free_loops
 from harness.plugins import Catalog
-from harness.results.store import Row, Store
 from harness.scenes.camera import camera_for, rays_of
 from harness.scenes.model import Scene, single
 from harness.scenes.records import depth_map
-
-PREPARING = 0.3  # seconds to build and check a cell: the mean of 4,392 of configs/front.toml, on two cores
 
 
 @dataclass(frozen=True, eq=False)
@@ -368,17 +365,6 @@ def _rasterings(
 def _views(scene: Scene, config: Config) -> list[View]:
     """A scene has its own view; a set of views is cast at it besides, where the config names one."""
     return [scene.view, *(view for view in config.view if view.set)]
-
-
-def estimate_seconds(planned: list[Planned], store: Store, budget_seconds: float) -> float:
-    """How long the cells that have no row yet will take: as long as their slot took before, else the whole budget."""
-    before: dict[str, float] = {}
-    rows: list[Row] = list(store.rows())
-    for row in rows:
-        before[row["slot"]] = row["seconds"]
-    done = {row["key"] for row in rows}
-    typical = budget_seconds + PREPARING
-    return sum(before.get(p.cell.slot, 0.0 if p.skip else typical) for p in planned if p.key not in done)
 
 
 def shuffled(items: list[str], seed: int, round_number: int) -> list[str]:

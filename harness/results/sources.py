@@ -21,6 +21,7 @@ DECIDING = ("harness", "surfaces")
 NOT_DECIDING = {
     "harness/__init__.py": "holds the version's number, which a row does not depend on",
     "harness/running/batch.py": "chooses which cells are run, and leaves running them to the runner",
+    "harness/running/due.py": "chooses which cells are run, by what is stored",
     "harness/running/cards.py": "copies docstrings for the report",
     "harness/cli.py": "reads the command line",
     "harness/commands": "read options and print; what an option changes is in the config, and so in the identity",

@@ -40,7 +40,6 @@ MINIMUM_SAMPLES = 8
 LONGEST = 16  # times [budget] seconds: what the rounds that comparing a cell takes may take at most
 BYTES_PER_RAY = 24  # of a frame kept ready, at most: its answer on the device, and as it was read back
 MOST_BYTES = 3 * 2**30  # of all frames kept ready at once
-UNFINISHED = (CellStatus.FAILED, CellStatus.TIMEOUT, CellStatus.CRASHED)
 
 
 @dataclass(eq=False)
