@@ -142,7 +142,7 @@ def test_the_certified_error_holds_the_certificates_own_width():
     ("arguments", "words"),
     [
         (("--surface", "spere", "--error", "1"), "did you mean sphere"),
-        (("--surface", "sphere", "--error", "-1"), "--error -1 is outside"),
+        (("--surface", "sphere", "--error", "-1"), "error -1 is outside"),
         (
             ("--surface", "sphere", "--error", "1", "--device", "opencl:none"),
             "there is no device 'opencl:none' here; known: open",

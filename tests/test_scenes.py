@@ -101,7 +101,7 @@ def test_an_arc_is_a_torus_in_its_box_and_so_is_its_mesh(gl, tmp_path):  # noqa:
 
 
 def test_a_mesh_needs_one_shape_for_its_group():
-    from harness.experiment.draws import refusal
+    from harness.experiment.kinds.draws import refusal
 
     reason = refusal(generate("scattered", 5, 1, VIEW), variant("polygon"), find_methods())
     assert "differ in R, r" in reason

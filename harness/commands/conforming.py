@@ -12,12 +12,13 @@ from collections.abc import Iterable, Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from harness import console
-from harness.accuracy import conformance
-from harness.accuracy.conformance import Bench, Finding
+from harness import conformance, console
+from harness.conformance import Bench, Finding
 from harness.contract import CellStatus, DeviceInfo, FirsthitError, Hits, Program, Surface
 from harness.devices.executor import CellError, LocalExecutor, discover_devices
 from harness.devices.interface import LANGUAGES, device_named
+from harness.devices.messages import ListedCheck
+from harness.experiment.kinds import of_method
 from harness.plugins import Plugin, find_methods
 
 WIDTH = 100
@@ -51,7 +52,7 @@ def _conform(options: argparse.Namespace) -> int:
 
     catalog = find_methods(options.plugins)
     answering = {name: plugin.method for name, plugin in catalog.plugins.items() if plugin.method.answers}
-    names = options.method or [name for name, method in answering.items() if method.casts == "rays"]
+    names = options.method or [name for name, method in answering.items() if not of_method(method).unlisted]
     plugins = [catalog.get(name) for name in names]
     wanted = surfaces.names() if options.surface == ["all"] else options.surface or conformance.TYPICAL
     chosen = [surfaces.get(name) for name in wanted]
@@ -87,7 +88,7 @@ def _devices(names: list[str] | None) -> list[DeviceInfo]:
 
 def _bench(executor: LocalExecutor, device: str, float64: bool) -> Bench:
     def run(program: Program, rays: NDArray[np.float32]) -> Hits:
-        return executor.check(device, program, rays).hits
+        return executor.check(device, ListedCheck(program, rays)).answer
 
     return Bench(device, LANGUAGES[device.partition(":")[0]], float64, run)
 

@@ -8,16 +8,17 @@ from pathlib import Path
 import numpy as np
 
 from harness.accuracy.answers import invalid
-from harness.accuracy.check_frames import hits_of
+from harness.accuracy.scene_truth import hits_of
 from harness.commands.options import add_origin, given_variant, writable
 from harness.commands.pictures import need_pillow, save
 from harness.contract import PROXIES, FirsthitError
 from harness.devices.executor import CellError, LocalExecutor, discover_devices
-from harness.devices.worker import Frame
-from harness.experiment import draws, reading
-from harness.experiment.plan import able
+from harness.devices.frames import RasterCheck, RasterFrame
+from harness.experiment import reading
+from harness.experiment.kinds import draws
 from harness.experiment.shipped import located
-from harness.kernels.assemble import fill_program
+from harness.experiment.targets import able
+from harness.kernels.raster import fill_program
 from harness.plugins import find_methods
 from harness.scenes.camera import camera_for
 from harness.scenes.model import Scene
@@ -78,8 +79,8 @@ def _scene(options: argparse.Namespace) -> int:
     depths, side = depth_map(scene, camera), 2 * options.size
     executor = LocalExecutor(options.timeout)
     try:
-        frame = Frame(fill_program(), camera, None, side, batches=batches, depth_map=depths)
-        picture = executor.rasterise(usable[0], frame, twice=True).picture
+        frame = RasterFrame(batches, camera, depths, side)
+        picture = executor.check(usable[0], RasterCheck(frame, fill_program())).answer
     except CellError as error:
         raise FirsthitError(f"{variant} on {usable[0]}: {error}", exit_code=3) from None
     finally:

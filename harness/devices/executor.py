@@ -14,13 +14,10 @@ from dataclasses import dataclass
 from multiprocessing.connection import Connection
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
 from harness.contract import CellStatus, DeviceInfo, Program
 from harness.devices import serving
 from harness.devices.interface import INSTALL, Timing
-from harness.devices.worker import Checked, Frame, Rasterised, Warmed
+from harness.devices.messages import Answer, Check, Checked, Frame, Warmed
 
 START_SECONDS = 60.0  # for a worker to start and a driver to load
 STOP_SECONDS = 0.5  # for a worker to end by itself once its connection is closed
@@ -82,20 +79,10 @@ class LocalExecutor:
         compile_ms: float = self._call(device, "build", program)
         return compile_ms
 
-    def check(self, device: str, program: Program, rays: NDArray[np.float32]) -> Checked:
-        """Build a listed-rays program and cast rays float32[n, 6], twice: it fails where the answers differ."""
-        checked: Checked = self._call(device, "check", program, rays)
+    def check(self, device: str, check: Check[Answer]) -> Checked[Answer]:
+        """Build a check's programs and run it; CellError where that fails, or two runs answer differently."""
+        checked: Checked[Answer] = self._call(device, "check", check)
         return checked
-
-    def check_frame(self, device: str, frame: Frame, pixels: NDArray[np.int32]) -> Checked:
-        """Build a frame of beams and run it twice; its answers for `pixels`, int32[n]. It fails where they differ."""
-        checked: Checked = self._call(device, "check_frame", frame, pixels)
-        return checked
-
-    def rasterise(self, device: str, frame: Frame, twice: bool) -> Rasterised:
-        """Draw a frame of reporting programs; `twice`: fail where two pictures of it differ."""
-        drawn: Rasterised = self._call(device, "rasterise", frame, twice)
-        return drawn
 
     def warm(self, device: str, key: str, frame: Frame) -> Warmed:
         """Build a frame and keep it ready for `sample`."""

@@ -14,9 +14,9 @@ from typing import Any
 import numpy as np
 
 from harness.contract import DeviceInfo, FirsthitError, Program, source
-from harness.devices.frames import Batch, Rasteriser
+from harness.devices.frames import Batch, Rasteriser, RasterLaunch
 from harness.devices.interface import GPU_RESIDENT, Array, BuildError, Device, Launch, Reserved, Step, Timing
-from harness.devices.opengl_frames import RasterLaunch
+from harness.devices.opengl_frames import OpenGLRasterLaunch
 from harness.kernels.assemble import explain_log
 
 SHORT = ("llvmpipe", "softpipe", "nvidia", "geforce", "radeon", "intel", "apple")
@@ -127,7 +127,7 @@ class OpenGLDevice(Device, Rasteriser):
         size: int,
         fill: Any = None,
     ) -> RasterLaunch:
-        return RasterLaunch(self._context, batches, built, camera, depth_map, size, fill)
+        return OpenGLRasterLaunch(self._context, batches, built, camera, depth_map, size, fill)
 
     def launch_steps(
         self, buffers: Sequence[Array | Reserved], outputs: Sequence[int], steps: Sequence[Step]

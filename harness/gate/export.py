@@ -51,7 +51,6 @@ def export(path: str, plugins: str, devices: list[str]) -> dict[str, Any]:
             "timed": _json(p.timed) if p.timed else None,
         }
         for p in planned
-        if not p.cell.family
     }
 
 

@@ -25,7 +25,7 @@ NOT_DECIDING = {
     "harness/running/cards.py": "copies docstrings for the report",
     "harness/cli.py": "reads the command line",
     "harness/commands": "read options and print; what an option changes is in the config, and so in the identity",
-    "harness/accuracy/conformance": "checks methods and stores no row",
+    "harness/conformance": "checks methods and stores no row",
     "harness/console.py": "prints tables and progress",
     "harness/gate": "judges finished rows",
     "harness/recommend": "chooses among finished rows",

@@ -9,7 +9,7 @@ from typing import Any
 
 from harness.contract import CellStatus, Method, Surface, View
 from harness.devices.interface import Timing
-from harness.devices.worker import Warmed
+from harness.devices.messages import Warmed
 from harness.experiment.plan import Planned
 from harness.kernels.costs import operations_per_evaluation
 from harness.results import timings

@@ -12,7 +12,7 @@ from typing import Any
 from harness import studies
 from harness.contract import CellStatus, DeviceInfo, FirsthitError
 from harness.devices.executor import LocalExecutor, discover_devices
-from harness.experiment import plan, reading
+from harness.experiment import plan, reading, targets
 from harness.experiment.config import Experiment
 from harness.experiment.plan import Planned
 from harness.experiment.shipped import located
@@ -142,7 +142,7 @@ def _run_part(part: Experiment, loaded: Loaded, runs: Path, command: str, again:
     store, environment = Store(runs / part.name), describe()
     executor = LocalExecutor(part.config.budget.timeout)
     try:
-        chosen = plan.devices_of(part, loaded.devices) if part.variants else {}
+        chosen = targets.devices_of(part, loaded.devices) if part.variants else {}
         tried = [probed(executor, info, store.folder / "probes") for info in chosen.values() if info]
         planned = plan.plan(part, loaded.catalog, [info for info, _ in tried]) if part.variants else []
         store.write_plan(
@@ -165,8 +165,8 @@ def _run_part(part: Experiment, loaded: Loaded, runs: Path, command: str, again:
 def _named(part: Experiment, planned: Sequence[Planned], catalog: Catalog) -> dict[str, Any]:
     """What a plan.json names: cells, families of hard rays, methods and studies."""
     return {
-        "cells": [{"slot": p.cell.slot, "key": p.key} for p in planned if not p.cell.family],
-        "families": [{"slot": p.cell.slot, "key": p.key} for p in planned if p.cell.family],
+        "cells": [{"slot": p.cell.slot, "key": p.key} for p in planned if p.kind.listed == "cells"],
+        "families": [{"slot": p.cell.slot, "key": p.key} for p in planned if p.kind.listed == "families"],
         "family_facts": {name: groups.facts(name) for name in part.config.families},
         "methods": {v.method: card(catalog.get(v.method)) for v in part.variants},
         "studies": [{"study": name, "key": studies.key(name)} for name in part.config.studies],

@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from harness.accuracy import compilers
-from harness.accuracy.answers import validated, validated_beams
 from harness.contract import (
     ORIGINS,
     PRECISIONS,
@@ -27,8 +24,8 @@ from harness.contract import (
 )
 from harness.devices.executor import CellError, LocalExecutor, discover_devices
 from harness.devices.interface import LANGUAGES, device_named, no_device
-from harness.devices.quadtree import layout_of
-from harness.devices.worker import Frame
+from harness.experiment.kinds import of_method
+from harness.experiment.kinds.model import Shot
 from harness.kernels.assemble import Language, method_program
 from harness.oracle import checked_t_min
 from harness.plugins import Plugin
@@ -36,7 +33,6 @@ from surfaces.words import suggestion
 
 UNIT_LENGTH = 1e-5  # what the length of a ray's direction may differ from 1
 
-Launch = Callable[[str, Program, NDArray[np.intp]], Hits]
 Tell = Callable[[str], None]
 
 
@@ -134,21 +130,23 @@ def cast(
     method = caster.plugin.method
     if reason := method.accepts(surface) or unsupported(surface, caster.precision, caster.language):
         raise FirsthitError(f"{caster.variant} cannot draw {surface.name} here: {reason}")
+    kind = of_method(method)
+    if reason := kind.shot_refusal(camera):
+        raise FirsthitError(f"{caster.variant} {reason}")
+    shot = Shot(rays, camera, dict(caster.variant.parameters), t_min, caster.origin)
     where = f"{caster.variant} on {caster.device}"
     executor = LocalExecutor(caster.timeout)
+
+    def program(language: Language) -> Program:
+        stated = method, caster.plugin.folder, caster.variant, surface, caster.precision, language, kind.entries[0]
+        return method_program(*stated, t_min=t_min, origin=caster.origin)
+
+    def launch(device: str, program: Program, index: NDArray[np.intp]) -> Hits:
+        return kind.shot_hits(executor.check(device, kind.shot(program, shot, index)).answer)
+
     try:
-        entry, launch = _entry(caster, rays, camera, executor)
-
-        def program(language: Language) -> Program:
-            stated = method, caster.plugin.folder, caster.variant, surface, caster.precision, language, entry
-            return method_program(*stated, t_min=t_min, origin=caster.origin)
-
         hits = launch(caster.device, program(caster.language), np.arange(len(rays)))
-        if entry == "beams":
-            assert camera is not None
-            hits = validated_beams(hits, surface.domain, rays, camera[3:6])
-        else:
-            hits = validated(hits, surface.domain, rays, t_min, origin=caster.origin)
+        hits = kind.validated(hits, surface, shot)
         if not method.answers:
             return hits
         second = compilers.SecondBuild(caster.device, caster.precision, program, launch)
@@ -163,26 +161,3 @@ def cast(
     if doubts.note:
         tell(f"{caster.variant} on {surface.name}: {doubts.note}")
     return hits
-
-
-def _entry(
-    caster: Caster, rays: NDArray[np.float32], camera: NDArray[np.float32] | None, executor: LocalExecutor
-) -> tuple[Literal["rays", "beams"], Launch]:
-    """Choose the entry of the method's program by what it casts, and how that is launched for some of the rays.
-
-    Raises FirsthitError for a method that casts no rays, where there is no camera whose pixels it could answer for.
-    """
-    variant, casts = caster.variant, caster.plugin.method.casts
-    if casts == "mesh":
-        raise FirsthitError(f'{variant} draws triangles, in stage raster: name it in a config with stages = ["raster"]')
-    if casts == "rays":
-        return "rays", lambda device, program, index: executor.check(device, program, rays[index]).hits
-    if camera is None:
-        raise FirsthitError(f"{variant} casts the beams of a camera's pixels, and listed rays have none")
-    frame, layout = camera, layout_of(dict(variant.parameters))
-
-    def launch(device: str, program: Program, index: NDArray[np.intp]) -> Hits:
-        asked = Frame(program, frame, None, math.isqrt(len(rays)), casts, layout=layout)
-        return executor.check_frame(device, asked, index.astype(np.int32)).hits
-
-    return "beams", launch
