@@ -25,7 +25,7 @@ OWN = ("harness", "surfaces", "methods", "reports")
 ENTRANCES = (
     "running.runner",
     "devices.worker",
-    "devices.executor",
+    "devices.discovery",
     "experiment.plan",
     "experiment.reading",
     "running.environment",

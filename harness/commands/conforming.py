@@ -13,9 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from harness import conformance, console
+from harness.commands import Add
 from harness.conformance import Bench, Finding
 from harness.contract import CellStatus, DeviceInfo, FirsthitError, Hits, Program, Surface
-from harness.devices.executor import CellError, LocalExecutor, discover_devices
+from harness.devices.discovery import discover_devices
+from harness.devices.executor import CellError, LocalExecutor
 from harness.devices.interface import LANGUAGES, device_named
 from harness.devices.messages import ListedCheck
 from harness.experiment.kinds import of_method
@@ -24,14 +26,8 @@ from harness.plugins import Plugin, find_methods
 WIDTH = 100
 
 
-def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
-    text = (
-        "check a method's answers, claims and knobs as the tests check ours, at its default and its papers' settings, "
-        "from several views; exit code 1 where a check fails or nothing was checked"
-    )
-    parser = commands.add_parser(
-        "conform", help=text, description=text, epilog="example: firsthit --plugins DIR conform --method mine"
-    )
+def add_parsers(add: Add) -> None:
+    parser = add("conform", "firsthit --plugins DIR conform --method mine")
     parser.add_argument(
         "--method", action="append", metavar="NAME", help="may be repeated (default: all that cast rays)"
     )

@@ -9,10 +9,12 @@ import numpy as np
 
 from harness.accuracy.answers import invalid
 from harness.accuracy.scene_truth import hits_of
+from harness.commands import Add
 from harness.commands.options import add_origin, given_variant, writable
 from harness.commands.pictures import need_pillow, save
 from harness.contract import PROXIES, FirsthitError
-from harness.devices.executor import CellError, LocalExecutor, discover_devices
+from harness.devices.discovery import discover_devices
+from harness.devices.executor import CellError, LocalExecutor
 from harness.devices.frames import RasterCheck, RasterFrame
 from harness.experiment import reading
 from harness.experiment.kinds import draws
@@ -26,14 +28,8 @@ from harness.scenes.records import depth_map
 from surfaces.words import suggestion
 
 
-def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
-    text = "draw a scene of a config, by rasterisation"
-    parser = commands.add_parser(
-        "scene",
-        help=text,
-        description=text,
-        epilog="example: firsthit scene configs/pipes.toml --name 'pipes 2000' --method newton -o pipes.png",
-    )
+def add_parsers(add: Add) -> None:
+    parser = add("scene", "firsthit scene configs/pipes.toml --name 'pipes 2000' --method newton -o pipes.png")
     parser.add_argument(
         "config", type=Path, metavar="CONFIG", help="a TOML file with [scene.NAME] tables, or a config's name"
     )

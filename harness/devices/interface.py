@@ -170,9 +170,9 @@ def find_devices(backend: str) -> list[DeviceInfo]:
     return found
 
 
-def no_device(wanted: str, found: Iterable[DeviceInfo]) -> FirsthitError:
-    """Make the error for a device that is not here, which names those that were `found`."""
-    names = ", ".join(info.name for info in found) or "none"
+def no_device(wanted: str, known: Iterable[str]) -> FirsthitError:
+    """Make the error for a device that is not here, which names those that are `known`."""
+    names = ", ".join(known) or "none"
     return FirsthitError(f"there is no device {wanted!r} here; known: {names}; see `firsthit devices`", exit_code=3)
 
 
@@ -180,7 +180,7 @@ def device_named(name: str, found: Iterable[DeviceInfo]) -> DeviceInfo:
     """Return the device of that name. Raises FirsthitError where it is not among those `found`, or cannot be used."""
     by_name = {info.name: info for info in found}
     if name not in by_name:
-        raise no_device(name, by_name.values())
+        raise no_device(name, by_name)
     if problem := by_name[name].problem:
         raise FirsthitError(f"device {name!r} cannot be used: {problem}", exit_code=3)
     return by_name[name]
@@ -194,9 +194,13 @@ def open_device(name: str) -> Device:
     backend = name.partition(":")[0]
     if backend not in INSTALL:
         installed = [kind for kind, package in INSTALL.items() if importlib.util.find_spec(package)]
-        raise no_device(name, [info for kind in installed for info in find_devices(kind)])
+        raise no_device(name, [info.name for kind in installed for info in find_devices(kind)])
     if not importlib.util.find_spec(INSTALL[backend]):
         raise FirsthitError(f"device {name!r} needs the package {INSTALL[backend]}: pip install {INSTALL[backend]}")
-    device_named(name, find_devices(backend))
-    device: Device = importlib.import_module(f"harness.devices.{backend}").open(name)
+    module = importlib.import_module(f"harness.devices.{backend}")
+    names: list[str] = module.names()
+    if name not in names:
+        raise no_device(name, names)
+    device_named(name, [module.info(name)])
+    device: Device = module.open(name)
     return device

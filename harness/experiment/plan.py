@@ -113,13 +113,21 @@ def _planned(cell: Cell, info: DeviceInfo | None, catalog: Catalog, experiment: 
 def plan(experiment: Experiment, catalog: Catalog, found: list[DeviceInfo], timed: bool = True) -> list[Planned]:
     """Plan every cell of the grid, comparison by comparison; families last. Untimed cells are only checked.
 
-    Raises FirsthitError where none of the config's devices is here.
+    Raises FirsthitError where none of the devices that the config names is among those `found`.
+    """
+    return [_planned(cell, info, catalog, experiment, timed) for cell, info in grid(experiment, catalog, found)]
+
+
+def grid(experiment: Experiment, catalog: Catalog, found: list[DeviceInfo]) -> list[tuple[Cell, DeviceInfo | None]]:
+    """List the cells of `plan` in its order, each with its device: at once, since no program is made.
+
+    Raises FirsthitError as `plan` does.
     """
     devices = devices_of(experiment, found)
     if not any(devices.values()):
         named = experiment.config.devices
         if not set(named) <= {"all", "any"}:
-            raise no_device(", ".join(named), found)
+            raise no_device(", ".join(named), (info.name for info in found))
         raise FirsthitError("no usable device found on this machine; see `firsthit devices`", exit_code=3)
     casters = list(_casters(experiment, catalog, list(devices)))
     cells = itertools.chain(
@@ -127,7 +135,7 @@ def plan(experiment: Experiment, catalog: Catalog, found: list[DeviceInfo], time
         _scenes(experiment, catalog, casters),
         _families(experiment, casters),
     )
-    return [_planned(cell, devices[cell.device], catalog, experiment, timed) for cell in cells]
+    return [(cell, devices[cell.device]) for cell in cells]
 
 
 @dataclass(frozen=True)

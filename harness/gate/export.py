@@ -17,7 +17,7 @@ from harness.plugins import find_methods
 
 LOAD = ("harness.experiment.reading", "harness.experiment.config", "harness.config")  # the newest name first
 PLAN = ("harness.experiment.plan", "harness.plan")
-EXECUTOR = ("harness.devices.executor", "harness.executor")
+DISCOVERY = ("harness.devices.discovery", "harness.devices.executor", "harness.executor")
 
 
 def _module(names: tuple[str, ...]) -> Any:
@@ -42,7 +42,7 @@ def export(path: str, plugins: str, devices: list[str]) -> dict[str, Any]:
     catalog = find_methods(Path(plugins) if plugins else None)
     experiment = _module(LOAD).load(Path(path), catalog)
     experiment = dataclasses.replace(experiment, config=dataclasses.replace(experiment.config, devices=devices))
-    found = _module(EXECUTOR).discover_devices(experiment.config.devices)
+    found = _module(DISCOVERY).discover_devices(experiment.config.devices)
     planned = _module(PLAN).plan(experiment, catalog, found)
     return {
         p.cell.slot: {

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Iterable, Mapping, Sequence
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
@@ -11,7 +12,8 @@ from typing import Any
 
 from harness import studies
 from harness.contract import CellStatus, DeviceInfo, FirsthitError
-from harness.devices.executor import LocalExecutor, discover_devices
+from harness.devices.discovery import discover_devices
+from harness.devices.executor import LocalExecutor
 from harness.experiment import plan, reading, targets
 from harness.experiment.config import Experiment
 from harness.experiment.plan import Planned
@@ -58,6 +60,11 @@ class Run:
 class Watcher:
     """Hears what a run does. Here nothing is done about it; a caller overrides what it wants to hear."""
 
+    def doing(self, what: str) -> AbstractContextManager[None]:
+        """Hear what goes on while a block runs that takes its time."""
+        del what
+        return nullcontext()
+
     def told(self, line: str) -> None:
         """Hear what was done beside running cells."""
 
@@ -74,7 +81,9 @@ class Watcher:
         """Hear that a config, or one of those that it includes, is done."""
 
 
-def load(name: str | Path, plugins: Path | None = None, devices: Sequence[str] = ()) -> Loaded:
+def load(
+    name: str | Path, plugins: Path | None = None, devices: Sequence[str] = (), watcher: Watcher | None = None
+) -> Loaded:
     """Read a config, given by path or by the name of one that firsthit ships, and look for the devices it names.
 
     `plugins` is a folder of further methods; `devices` take the place of those that the config names. Raises
@@ -91,7 +100,9 @@ def load(name: str | Path, plugins: Path | None = None, devices: Sequence[str] =
         chosen = list(devices)
         parts = [dataclasses.replace(p, config=dataclasses.replace(p.config, devices=chosen)) for p in parts]
     named = {device for part in parts for device in part.config.devices}
-    return Loaded(whole, tuple(parts), catalog, discover_devices(named))
+    with (watcher or Watcher()).doing(f"{whole.path}: looking for devices"):
+        found = discover_devices(named)
+    return Loaded(whole, tuple(parts), catalog, found)
 
 
 def run(
@@ -143,8 +154,9 @@ def _run_part(part: Experiment, loaded: Loaded, runs: Path, command: str, again:
     executor = LocalExecutor(part.config.budget.timeout)
     try:
         chosen = targets.devices_of(part, loaded.devices) if part.variants else {}
-        tried = [probed(executor, info, store.folder / "probes") for info in chosen.values() if info]
-        planned = plan.plan(part, loaded.catalog, [info for info, _ in tried]) if part.variants else []
+        with hears.doing(_announced(part, loaded.catalog, chosen)):
+            tried = [probed(executor, info, store.folder / "probes") for info in chosen.values() if info]
+            planned = plan.plan(part, loaded.catalog, [info for info, _ in tried]) if part.variants else []
         store.write_plan(
             _described(part, command, environment)
             | {"devices": [dataclasses.asdict(i) | {"versions": dict(i.versions), "probes": p} for i, p in tried]}
@@ -160,6 +172,14 @@ def _run_part(part: Experiment, loaded: Loaded, runs: Path, command: str, again:
     finally:
         executor.close()
     return Run(store.folder, tuple(rows), tuple(found.kept.values()))
+
+
+def _announced(part: Experiment, catalog: Catalog, chosen: Mapping[str, DeviceInfo | None]) -> str:
+    """Say what will be run where, before anything slow is done for it."""
+    here = [info for info in chosen.values() if info]
+    cells = len(plan.grid(part, catalog, here)) if part.variants else 0
+    where = f" on {', '.join(info.name for info in here)}" if here else ""
+    return f"{part.path}: {cells} cells{where}; measuring what these are worth, and planning"
 
 
 def _named(part: Experiment, planned: Sequence[Planned], catalog: Catalog) -> dict[str, Any]:

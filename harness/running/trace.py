@@ -22,7 +22,8 @@ from harness.contract import (
     Surface,
     Variant,
 )
-from harness.devices.executor import CellError, LocalExecutor, discover_devices
+from harness.devices.discovery import discover_devices
+from harness.devices.executor import CellError, LocalExecutor
 from harness.devices.interface import LANGUAGES, device_named, no_device
 from harness.experiment.kinds import of_method
 from harness.experiment.kinds.model import Shot
@@ -57,7 +58,7 @@ class Caster:
 
     def __post_init__(self) -> None:
         if self.device.partition(":")[0] not in LANGUAGES:
-            raise no_device(self.device, discover_devices())
+            raise no_device(self.device, (info.name for info in discover_devices()))
         given: list[tuple[str, str, tuple[str, ...]]] = [
             ("precision", self.precision, PRECISIONS),
             ("origin", self.origin, ORIGINS),
