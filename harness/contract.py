@@ -1,7 +1,8 @@
 """Define the words that all other parts use: what a method, a view, a program, an answer and the truth are.
 
-It imports nothing of ours but surfaces.model, whose names can be imported from here too. Lengths are in scene units (a
-surface's own coordinates), times in seconds unless a name ends in `_ms`. `t` is a distance along a ray.
+It imports nothing of ours but harness.limits, and surfaces.model and surfaces.words, whose names can be imported from
+here too. Lengths are in scene units (a surface's own coordinates), times in seconds unless a name ends in `_ms`. `t` is
+a distance along a ray.
 """
 
 from __future__ import annotations
@@ -11,14 +12,16 @@ import json
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import IntEnum, StrEnum
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
+from harness.limits import AZIMUTH, DISTANCE, ELEVATION, FIELD_OF_VIEW, POSITION
 from surfaces.model import Box as Box
 from surfaces.model import Domain as Domain
 from surfaces.model import FirsthitError as FirsthitError
 from surfaces.model import Sphere as Sphere
 from surfaces.model import Surface as Surface
 from surfaces.model import as_float32 as as_float32
+from surfaces.words import suggestion as suggestion
 
 if TYPE_CHECKING:
     import numpy as np
@@ -32,6 +35,8 @@ Proxy = Literal["box", "sphere", "tetrahedron"]
 Normal = Literal["distance", "gradient", "core_circle"]
 Prepass = Literal["none", "beams"]
 Origin = Literal["nearest", "entry", "eye"]
+Coordinate = Annotated[float, POSITION]
+Point = tuple[Coordinate, Coordinate, Coordinate]
 PREPASSES: tuple[Prepass, ...] = ("none", "beams")
 ORIGINS: tuple[Origin, ...] = ("nearest", "entry", "eye")
 PROXIES: tuple[Proxy, ...] = ("box", "sphere", "tetrahedron")
@@ -39,6 +44,7 @@ NORMALS: tuple[Normal, ...] = ("distance", "gradient", "core_circle")
 PRECISIONS: tuple[Precision, ...] = ("float32", "float64")
 UNIT_ROUNDOFF: dict[Precision, float] = {"float32": 2.0**-24, "float64": 2.0**-53}
 STAGES: tuple[Stage, ...] = ("compute", "rays", "raster")
+BASELINE = "ray_march"  # the method that speed-ups are over where a config names nothing else
 
 
 class RayStatus(IntEnum):
@@ -184,11 +190,11 @@ class View:
     """
 
     name: str
-    azimuth: float = 30.0
-    elevation: float = 30.0
-    fov: float = 30.0
-    distance: float | None = None
-    target: tuple[float, float, float] | None = None
+    azimuth: Annotated[float, AZIMUTH] = 30.0
+    elevation: Annotated[float, ELEVATION] = 30.0
+    fov: Annotated[float, FIELD_OF_VIEW] = 30.0
+    distance: Annotated[float, DISTANCE] | None = None
+    target: Point | None = None
     set: str | None = None
 
 

@@ -14,7 +14,6 @@ This is the ground: it imports nothing else of the project. `model` says what a 
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Mapping
 from dataclasses import replace
 
@@ -25,6 +24,7 @@ from surfaces.families import FAMILIES
 from surfaces.forms import FORMS, SEPARATOR
 from surfaces.model import Box, Domain, FirsthitError, Sphere, Surface
 from surfaces.validity import check
+from surfaces.words import suggestion
 
 __all__ = ["evaluate", "expression", "forms_of", "from_formula", "get", "gradient", "names", "operations", "tape_of"]
 _FIXED = {surface.name: surface for surface in FIXED}
@@ -60,8 +60,7 @@ def get(name: str, **parameters: str | float) -> Surface:
 def _as_printed(name: str, parameters: Mapping[str, str | float]) -> Surface:
     """Return a surface of the catalog in the form of its source. Raises FirsthitError as `get`."""
     if name not in names():
-        near = difflib.get_close_matches(name, names(), 3, 0.5)
-        hint = f"did you mean {', '.join(near)}?" if near else "see `firsthit list surfaces`"
+        hint = suggestion(name, names(), most=3, otherwise="see `firsthit list surfaces`")
         raise FirsthitError(f"there is no surface {name!r}; {hint}")
     known = FAMILIES[name][2] if name in FAMILIES else {}
     for key in parameters:

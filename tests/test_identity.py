@@ -28,18 +28,13 @@ ENTRANCES = (
     "devices.worker",
     "devices.discovery",
     "experiment.plan",
+    "experiment.reading",
     "running.environment",
     "devices.opencl",
     "devices.opengl",
 )
-# imported by a run and left out: harness/experiment/config.py asks them which words a config may use
-READ_FOR_NAMES = {
-    "harness/__init__.py",
-    "harness/gate/__init__.py",
-    "harness/gate/baseline.py",
-    "harness/results/figures.py",
-    "harness/studies/__init__.py",
-}
+# imported by a run and left out: harness/experiment/config.py asks for the names of studies that a config may use
+READ_FOR_NAMES = {"harness/__init__.py", "harness/studies/__init__.py"}
 
 
 def _files(module: str) -> list[str]:
@@ -117,7 +112,7 @@ def test_what_is_left_out_is_there_and_has_a_reason():
 RUN = """
 import dataclasses, json, sys
 from pathlib import Path
-from harness.experiment import config, plan
+from harness.experiment import plan, reading
 from harness.devices.interface import find_devices
 from harness.running.environment import probed
 from harness.plugins import find_methods
@@ -136,7 +131,7 @@ class Here:
         return do
 
 catalog = find_methods()
-experiment = config.load(Path(sys.argv[1]), catalog)
+experiment = reading.load(Path(sys.argv[1]), catalog)
 info = next(i for i in find_devices(sys.argv[2].partition(":")[0]) if i.name == sys.argv[2])
 folder = Path(sys.argv[1]).parent / "runs"
 info, _ = probed(Here(), info, folder)

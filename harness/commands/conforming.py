@@ -18,7 +18,7 @@ from harness.conformance import Bench, Finding
 from harness.contract import CellStatus, DeviceInfo, FirsthitError, Hits, Program, Surface
 from harness.devices.discovery import discover_devices
 from harness.devices.executor import CellError, LocalExecutor
-from harness.devices.interface import LANGUAGES
+from harness.devices.interface import LANGUAGES, device_named
 from harness.devices.messages import ListedCheck
 from harness.experiment.kinds import of_method
 from harness.plugins import Plugin, find_methods
@@ -73,13 +73,13 @@ def _conform(options: argparse.Namespace) -> int:
 
 
 def _devices(names: list[str] | None) -> list[DeviceInfo]:
-    usable = {info.name: info for info in discover_devices() if not info.problem}
-    for name in names or ():
-        if name not in usable:
-            raise FirsthitError(f"no usable device {name!r}; there are {', '.join(usable) or 'none'}")
+    found = discover_devices()
+    if names:
+        return [device_named(name, found) for name in names]
+    usable = [info for info in found if not info.problem]
     if not usable:
         raise FirsthitError("no usable device; `firsthit devices` says why", exit_code=3)
-    return [usable[name] for name in names or usable]
+    return usable
 
 
 def _bench(executor: LocalExecutor, device: str, float64: bool) -> Bench:

@@ -15,6 +15,7 @@ from harness.experiment import config, identity, plan
 from harness.experiment.plan import Planned
 from harness.plugins import Catalog, find_methods
 from harness.results.store import Row, Store
+from harness.running.due import due, estimate_seconds
 from harness.running.run import Loaded, Run, Watcher, load, run
 
 
@@ -69,11 +70,11 @@ def _plan_one(
 ) -> None:
     planned = plan.plan(experiment, catalog, devices)
     store = Store(options.runs / experiment.name)
-    rows = {p.key: store.read(p.key) for p in planned}
-    print(console.table(("key", "cell", "state"), [(p.key, p.cell.slot, _state(p, rows[p.key])) for p in planned]))
-    left = plan.estimate_seconds(planned, store, experiment.config.budget.seconds)
-    open_cells = sum(row is None for row in rows.values())
-    print(f"{experiment.path}: {len(planned)} cells, {open_cells} to run, about {console.duration(left)}")
+    found = due(planned, store)
+    states = [(p.key, p.cell.slot, _state(p, found.kept.get(p.key))) for p in planned]
+    print(console.table(("key", "cell", "state"), states))
+    left = estimate_seconds(found.todo, store, experiment.config.budget.seconds)
+    print(f"{experiment.path}: {len(planned)} cells, {len(found.todo)} to run, about {console.duration(left)}")
 
 
 def _state(planned: Planned, row: Row | None) -> str:

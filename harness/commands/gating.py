@@ -14,7 +14,7 @@ from harness.commands.options import writable
 from harness.contract import FirsthitError
 from harness.devices.discovery import discover_devices
 from harness.devices.executor import LocalExecutor
-from harness.experiment import config, plan
+from harness.experiment import plan, reading
 from harness.experiment.config import Experiment
 from harness.experiment.plan import Planned
 from harness.experiment.shipped import located
@@ -27,8 +27,8 @@ from harness.plugins import Catalog, find_methods
 from harness.results.figures import SPEED
 from harness.results.store import Row, write_atomically
 from harness.running import batch
+from harness.running.due import UNFINISHED
 from harness.running.environment import describe, probed
-from harness.running.runner import UNFINISHED
 
 
 def add_parsers(add: Add) -> None:
@@ -86,7 +86,7 @@ def _path(options: argparse.Namespace) -> Path:
 def _checked(options: argparse.Namespace) -> _Checked:
     """Run what is not stored yet, without timing it."""
     catalog = find_methods(options.plugins)
-    experiment = config.load(options.config, catalog)
+    experiment = reading.load(options.config, catalog)
     if options.device:
         chosen = dataclasses.replace(experiment.config, devices=options.device)
         experiment = dataclasses.replace(experiment, config=chosen)

@@ -21,6 +21,7 @@ from harness.contract import (
     View,
     digest,
 )
+from harness.devices.interface import no_device
 from harness.devices.messages import Frame
 from harness.experiment import identity as identities
 from harness.experiment import kinds
@@ -31,10 +32,7 @@ from harness.experiment.kinds.model import NOT_RASTERED, Rastering
 from harness.experiment.targets import devices_of
 from harness.hardcases import groups
 from harness.plugins import Catalog
-from harness.results.store import Row, Store
 from harness.scenes.model import Scene
-
-PREPARING = 0.3  # seconds to build and check a cell: the mean of 4,392 of configs/front.toml, on two cores
 
 
 @dataclass(frozen=True, eq=False)
@@ -128,8 +126,9 @@ def grid(experiment: Experiment, catalog: Catalog, found: list[DeviceInfo]) -> l
     devices = devices_of(experiment, found)
     if not any(devices.values()):
         named = experiment.config.devices
-        wanted = "no usable device" if set(named) <= {"all", "any"} else f"none of {', '.join(named)}"
-        raise FirsthitError(f"{wanted} found on this machine; see `firsthit devices`", exit_code=3)
+        if not set(named) <= {"all", "any"}:
+            raise no_device(", ".join(named), (info.name for info in found))
+        raise FirsthitError("no usable device found on this machine; see `firsthit devices`", exit_code=3)
     casters = list(_casters(experiment, catalog, list(devices)))
     cells = itertools.chain(
         _views_of_surfaces(experiment, catalog, casters),
@@ -207,17 +206,6 @@ def _rasterings(stage: Stage, variant: Variant, experiment: Experiment, catalog:
 def _views(scene: Scene, config: Config) -> list[View]:
     """A scene has its own view; a set of views is cast at it besides, where the config names one."""
     return [scene.view, *(view for view in config.view if view.set)]
-
-
-def estimate_seconds(planned: list[Planned], store: Store, budget_seconds: float) -> float:
-    """How long the cells that have no row yet will take: as long as their slot took before, else the whole budget."""
-    before: dict[str, float] = {}
-    rows: list[Row] = list(store.rows())
-    for row in rows:
-        before[row["slot"]] = row["seconds"]
-    done = {row["key"] for row in rows}
-    typical = budget_seconds + PREPARING
-    return sum(before.get(p.cell.slot, 0.0 if p.skip else typical) for p in planned if p.key not in done)
 
 
 def shuffled(items: list[str], seed: int, round_number: int) -> list[str]:
