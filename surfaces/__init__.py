@@ -14,7 +14,6 @@ This is the ground: it imports nothing else of the project. `model` says what a 
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Mapping
 from dataclasses import replace
 from importlib import import_module
@@ -22,6 +21,7 @@ from typing import TYPE_CHECKING, Any
 
 from surfaces.forms import FORMS, SEPARATOR
 from surfaces.model import Box, Domain, FirsthitError, Sphere, Surface
+from surfaces.words import suggestion
 
 if TYPE_CHECKING:
     from surfaces.evaluation import evaluate, expression, gradient, operations, tape_of
@@ -75,8 +75,7 @@ def _as_printed(name: str, parameters: Mapping[str, str | float]) -> Surface:
     from surfaces.families import FAMILIES
 
     if name not in names():
-        near = difflib.get_close_matches(name, names(), 3, 0.5)
-        hint = f"did you mean {', '.join(near)}?" if near else "see `firsthit list surfaces`"
+        hint = suggestion(name, names(), most=3, otherwise="see `firsthit list surfaces`")
         raise FirsthitError(f"there is no surface {name!r}; {hint}")
     known = FAMILIES[name][2] if name in FAMILIES else {}
     for key in parameters:

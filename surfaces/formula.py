@@ -10,7 +10,6 @@ anything. Numbers are exact: 0.3 is 3/10. Every size is checked before anything 
 
 from __future__ import annotations
 
-import difflib
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -21,6 +20,7 @@ from typing import Any, NoReturn
 from surfaces.model import FirsthitError
 from surfaces.numbers import BallPolynomials, Symbols
 from surfaces.tape import UNARY, Builder, Tape, walk
+from surfaces.words import suggestion
 
 MAX_LENGTH = 4000  # characters of a formula
 MAX_DEPTH = 60  # of parentheses, calls, signs and exponents inside one another
@@ -252,9 +252,7 @@ class _Parser:
         if re.fullmatch(r"sqrt[1-9][0-9]{0,3}", name):
             return self.root(int(name[4:]))
         known = [*COORDINATES, *self.parameters, *CONSTANTS, *FUNCTIONS]
-        near = difflib.get_close_matches(name.lower()[:40], known, 1)
-        hint = f"did you mean {near[0]!r}?" if near else f"known are {', '.join(known)}"
-        self.fail(f"unknown name {name[:40]!r}; {hint}", token.column)
+        self.fail(f"unknown name {name[:40]!r}; {suggestion(name.lower()[:40], known)}", token.column)
 
     def root(self, n: int) -> int:
         return self.builder.sqrt(self.builder.const(n))

@@ -12,6 +12,7 @@ import pytest
 ROOT = Path(__file__).parent.parent
 LAYERS = (  # from the ground up; what stands in one line does not import each other
     ("surfaces",),
+    ("harness.limits",),
     ("harness.contract", "harness.__init__"),
     ("harness.plugins", "harness.results"),
     ("harness.console", "harness.hardcases"),

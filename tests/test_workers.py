@@ -14,7 +14,8 @@ NO_GUARD = """
 import os, sys, time
 sys.path.insert(0, {root!r})
 print("the script runs", flush=True)
-from harness.devices.executor import LocalExecutor, discover_devices
+from harness.devices.discovery import discover_devices
+from harness.devices.executor import LocalExecutor
 {more}
 """
 FIND = """

@@ -31,7 +31,8 @@ from numpy.typing import NDArray
 
 from harness.accuracy.judge import FAR
 from harness.contract import Domain, Hits, Precision, Program, RayStatus, Surface
-from harness.devices.executor import CellError, LocalExecutor, discover_devices
+from harness.devices.discovery import discover_devices
+from harness.devices.executor import CellError, LocalExecutor
 from harness.devices.interface import LANGUAGES
 from harness.devices.messages import ListedCheck
 from harness.kernels.assemble import Language

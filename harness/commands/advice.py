@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 from harness import console
+from harness.commands import Add
 from harness.commands.options import add_surface, surface_of
 from harness.contract import PRECISIONS
 from harness.plugins import find_methods
@@ -16,14 +17,13 @@ NOTHING_HOLDS = 1
 REASON = 110  # characters of a reason
 
 
-def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
-    parser = commands.add_parser(
+def add_parsers(add: Add) -> None:
+    parser = add(
         "recommend",
-        help="the fastest variant whose certified error stays within a bound, and why the others fell",
-        description="Check every method, with its papers' settings and its knobs' sweeps, against the oracle on "
+        "firsthit recommend --formula 'x^4 + y^4 + z^4 - 1' --error 1e-5",
+        "Check every method, with its papers' settings and its knobs' sweeps, against the oracle on "
         "sampled views; time those within the bound, interleaved; check the fastest once more on views held out. "
         "Exit codes: 0 a variant is recommended, 1 none holds, 2 usage, 3 something failed while running.",
-        epilog="example: firsthit recommend --formula 'x^4 + y^4 + z^4 - 1' --error 1e-5",
     )
     add_surface(parser)
     parser.add_argument("--error", type=float, required=True, metavar="E", help="largest |t - t*|, scene units")

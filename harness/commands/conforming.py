@@ -13,10 +13,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from harness import conformance, console
+from harness.commands import Add
 from harness.conformance import Bench, Finding
 from harness.contract import CellStatus, DeviceInfo, FirsthitError, Hits, Program, Surface
-from harness.devices.executor import CellError, LocalExecutor, discover_devices
-from harness.devices.interface import LANGUAGES
+from harness.devices.discovery import discover_devices
+from harness.devices.executor import CellError, LocalExecutor
+from harness.devices.interface import LANGUAGES, device_named
 from harness.devices.messages import ListedCheck
 from harness.experiment.kinds import of_method
 from harness.plugins import Plugin, find_methods
@@ -24,14 +26,8 @@ from harness.plugins import Plugin, find_methods
 WIDTH = 100
 
 
-def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
-    text = (
-        "check a method's answers, claims and knobs as the tests check ours, at its default and its papers' settings, "
-        "from several views; exit code 1 where a check fails or nothing was checked"
-    )
-    parser = commands.add_parser(
-        "conform", help=text, description=text, epilog="example: firsthit --plugins DIR conform --method mine"
-    )
+def add_parsers(add: Add) -> None:
+    parser = add("conform", "firsthit --plugins DIR conform --method mine")
     parser.add_argument(
         "--method", action="append", metavar="NAME", help="may be repeated (default: all that cast rays)"
     )
@@ -77,13 +73,13 @@ def _conform(options: argparse.Namespace) -> int:
 
 
 def _devices(names: list[str] | None) -> list[DeviceInfo]:
-    usable = {info.name: info for info in discover_devices() if not info.problem}
-    for name in names or ():
-        if name not in usable:
-            raise FirsthitError(f"no usable device {name!r}; there are {', '.join(usable) or 'none'}")
+    found = discover_devices()
+    if names:
+        return [device_named(name, found) for name in names]
+    usable = [info for info in found if not info.problem]
     if not usable:
         raise FirsthitError("no usable device; `firsthit devices` says why", exit_code=3)
-    return [usable[name] for name in names or usable]
+    return usable
 
 
 def _bench(executor: LocalExecutor, device: str, float64: bool) -> Bench:

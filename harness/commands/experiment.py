@@ -5,47 +5,38 @@ from __future__ import annotations
 import argparse
 import shlex
 import sys
+from contextlib import AbstractContextManager
 from pathlib import Path
 
 from harness import console
+from harness.commands import Add
 from harness.contract import DeviceInfo, FirsthitError
 from harness.experiment import config, identity, plan
 from harness.experiment.plan import Planned
 from harness.plugins import Catalog, find_methods
 from harness.results.store import Row, Store
+from harness.running.due import due, estimate_seconds
 from harness.running.run import Loaded, Run, Watcher, load, run
 
 
-def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
-    def add(name: str, help_text: str, example: str) -> argparse.ArgumentParser:
-        parser = commands.add_parser(name, help=help_text, description=help_text, epilog=f"example: {example}")
-        return parser
-
-    parser = add("plan", "print a config's cells and how long they will take", "firsthit plan configs/quick.toml")
+def add_parsers(add: Add) -> None:
+    parser = add("plan", "firsthit plan configs/quick.toml")
     _add_config(parser)
     parser.set_defaults(run=_plan)
 
-    parser = add("run", "run a config; finished cells are reused", "firsthit run configs/quick.toml --retry failed")
+    parser = add("run", "firsthit run configs/quick.toml --retry failed")
     _add_config(parser)
     parser.add_argument("--force", action="store_true", help="run every cell again")
     parser.add_argument("--retry", choices=["failed"], help="run failed, timed out and crashed cells again")
     parser.add_argument("--device", action="append", metavar="NAME", help="run on this device only; may be repeated")
     parser.set_defaults(run=_run)
 
-    parser = add(
-        "why",
-        "say what would make a cell run again, or what set it apart from its last result",
-        "firsthit why runs/quick/cells/0123456789abcdef.json",
-    )
+    parser = add("why", "firsthit why runs/quick/cells/0123456789abcdef.json")
     parser.add_argument("cell", help="a cell's key (or its beginning), or its file")
     parser.add_argument("--runs", type=Path, default=Path("runs"), metavar="DIR", help="where to look (default: runs)")
     parser.set_defaults(run=_why)
 
-    parser = add(
-        "report",
-        "make the PDF, HTML, CSV and Parquet of a run, or hold two runs against each other; runs nothing",
-        "firsthit report runs/quick",
-    )
+    parser = add("report", "firsthit report runs/quick")
     parser.add_argument("folder", type=Path, metavar="RUN", help="a folder below runs/")
     parser.add_argument("other", type=Path, metavar="OTHER", nargs="?", help="report what changed from RUN to OTHER")
     parser.add_argument(
@@ -64,7 +55,7 @@ def _add_config(parser: argparse.ArgumentParser) -> None:
 
 
 def _load(options: argparse.Namespace) -> Loaded:
-    return load(options.config, options.plugins, getattr(options, "device", None) or ())
+    return load(options.config, options.plugins, getattr(options, "device", None) or (), _Printer())
 
 
 def _plan(options: argparse.Namespace) -> int:
@@ -79,11 +70,11 @@ def _plan_one(
 ) -> None:
     planned = plan.plan(experiment, catalog, devices)
     store = Store(options.runs / experiment.name)
-    rows = {p.key: store.read(p.key) for p in planned}
-    print(console.table(("key", "cell", "state"), [(p.key, p.cell.slot, _state(p, rows[p.key])) for p in planned]))
-    left = plan.estimate_seconds(planned, store, experiment.config.budget.seconds)
-    open_cells = sum(row is None for row in rows.values())
-    print(f"{experiment.path}: {len(planned)} cells, {open_cells} to run, about {console.duration(left)}")
+    found = due(planned, store)
+    states = [(p.key, p.cell.slot, _state(p, found.kept.get(p.key))) for p in planned]
+    print(console.table(("key", "cell", "state"), states))
+    left = estimate_seconds(found.todo, store, experiment.config.budget.seconds)
+    print(f"{experiment.path}: {len(planned)} cells, {len(found.todo)} to run, about {console.duration(left)}")
 
 
 def _state(planned: Planned, row: Row | None) -> str:
@@ -97,6 +88,9 @@ class _Printer(Watcher):
 
     def __init__(self) -> None:
         self._progress = console.Progress(0, 0.0)
+
+    def doing(self, what: str) -> AbstractContextManager[None]:
+        return console.doing(what)
 
     def told(self, line: str) -> None:
         print(line)

@@ -7,8 +7,10 @@ import itertools
 import statistics
 import sys
 
+from harness.commands import Add
 from harness.contract import PRECISIONS, FirsthitError, Program
-from harness.devices.executor import START_SECONDS, CellError, LocalExecutor, discover_devices
+from harness.devices.discovery import discover_devices
+from harness.devices.executor import START_SECONDS, CellError, LocalExecutor
 from harness.devices.interface import LANGUAGES
 from harness.experiment.kinds import of_method
 from harness.experiment.targets import able
@@ -18,11 +20,8 @@ from harness.plugins import find_methods
 TYPICAL = ("sphere", "torus", "barth_sextic")  # box and ball, coefficients along the ray and none
 
 
-def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
-    text = "compile every method's kernel on every device, for the surfaces named"
-    parser = commands.add_parser(
-        "compile", help=text, description=text, epilog="example: firsthit compile --method newton"
-    )
+def add_parsers(add: Add) -> None:
+    parser = add("compile", "firsthit compile --method newton")
     parser.add_argument("--method", action="append", metavar="NAME", help="only this one; may be repeated")
     parser.add_argument("--surface", action="append", metavar="NAME", help=f"default: {', '.join(TYPICAL)}")
     parser.add_argument("--formula", metavar="F", help="f(x, y, z) of your own beside them")

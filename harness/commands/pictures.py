@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from harness.accuracy.answers import invalid
+from harness.commands import Add
 from harness.commands.options import add_method, add_surface, caster_of, surface_of, tell, writable
 from harness.contract import FirsthitError, RayStatus, View
 from harness.results.store import write_atomically
@@ -20,14 +21,8 @@ if TYPE_CHECKING:
     from PIL.Image import Image
 
 
-def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
-    text = "draw a shaded picture"
-    parser = commands.add_parser(
-        "show",
-        help=text,
-        description=text,
-        epilog="example: firsthit show --surface torus --method newton -o a.png",
-    )
+def add_parsers(add: Add) -> None:
+    parser = add("show", "firsthit show --surface torus --method newton -o a.png")
     add_surface(parser)
     add_method(parser)
     parser.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help=".png file to write")
@@ -36,10 +31,7 @@ def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -
     parser.add_argument("--fov", type=float, default=30.0, help="full vertical angle in degrees (default: 30)")
     parser.set_defaults(run=_show)
 
-    text = "draw every surface of the catalog on one sheet"
-    parser = commands.add_parser(
-        "sheet", help=text, description=text, epilog="example: firsthit sheet --method ray_march -o sheet.png"
-    )
+    parser = add("sheet", "firsthit sheet --method ray_march -o sheet.png")
     add_method(parser)
     parser.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help=".png file to write")
     parser.add_argument("--size", type=int, default=160, help="pixels per side of each picture (default: 160)")

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from harness.accuracy.judge import undecided_too_many
+from harness.commands import Add
 from harness.commands.options import add_method, add_surface, caster_of, surface_of, tell, writable
 from harness.contract import FirsthitError, RayStatus, TruthStatus
 from harness.experiment.config import AccuracyChoice
@@ -18,27 +19,25 @@ from harness.results.store import savez_atomically
 from harness.running.trace import cast, checked_rays
 
 
-def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
-    parser = commands.add_parser(
+def add_parsers(add: Add) -> None:
+    parser = add(
         "trace",
-        help="cast a file of rays by a method",
-        description="Cast the rays float32[n, 6] (origin, direction) of a .npy file. Writes an .npz with t (float64, "
+        "firsthit trace --surface torus --method newton --rays rays.npy -o hits.npz",
+        "Cast the rays float32[n, 6] (origin, direction) of a .npy file. Writes an .npz with t (float64, "
         "NaN without a hit), status (uint8: 0 miss, 1 hit, 2 exhausted, 3 invalid: an answer that can be none) and "
         "evaluations (int32).",
-        epilog="example: firsthit trace --surface torus --method newton --rays rays.npy -o hits.npz",
     )
     add_surface(parser)
     add_method(parser)
     _add_files(parser)
     parser.set_defaults(run=_trace)
 
-    parser = commands.add_parser(
+    parser = add(
         "oracle",
-        help="certified first hits for a file of rays",
-        description="Certify the first hits of the rays float32[n, 6] of a .npy file. Writes an .npz with lower and "
+        "firsthit oracle --formula 'x^4 + y^4 + z^4 - 1' --rays rays.npy -o truth.npz",
+        "Certify the first hits of the rays float32[n, 6] of a .npy file. Writes an .npz with lower and "
         "upper (float64: proved to enclose the first hit, NaN without one) and status (uint8: 0 miss, "
         "1 crossing, 2 touch, 3 undecided).",
-        epilog="example: firsthit oracle --formula 'x^4 + y^4 + z^4 - 1' --rays rays.npy -o truth.npz",
     )
     add_surface(parser)
     _add_files(parser)

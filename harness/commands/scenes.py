@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 import argparse
-import difflib
 from pathlib import Path
 
 import numpy as np
 
 from harness.accuracy.answers import invalid
 from harness.accuracy.scene_truth import hits_of
+from harness.commands import Add
 from harness.commands.options import add_origin, given_variant, writable
 from harness.commands.pictures import need_pillow, save
 from harness.contract import PROXIES, FirsthitError
-from harness.devices.executor import CellError, LocalExecutor, discover_devices
+from harness.devices.discovery import discover_devices
+from harness.devices.executor import CellError, LocalExecutor
 from harness.devices.frames import RasterCheck, RasterFrame
-from harness.experiment import config
+from harness.experiment import reading
 from harness.experiment.kinds import draws
 from harness.experiment.shipped import located
 from harness.experiment.targets import able
@@ -24,16 +25,11 @@ from harness.plugins import find_methods
 from harness.scenes.camera import camera_for
 from harness.scenes.model import Scene
 from harness.scenes.records import depth_map
+from surfaces.words import suggestion
 
 
-def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
-    text = "draw a scene of a config, by rasterisation"
-    parser = commands.add_parser(
-        "scene",
-        help=text,
-        description=text,
-        epilog="example: firsthit scene configs/pipes.toml --name 'pipes 2000' --method newton -o pipes.png",
-    )
+def add_parsers(add: Add) -> None:
+    parser = add("scene", "firsthit scene configs/pipes.toml --name 'pipes 2000' --method newton -o pipes.png")
     parser.add_argument(
         "config", type=Path, metavar="CONFIG", help="a TOML file with [scene.NAME] tables, or a config's name"
     )
@@ -53,9 +49,7 @@ def _chosen(scenes: tuple[Scene, ...], name: str | None, path: Path) -> Scene:
         raise FirsthitError(f"{path} has no scenes; see configs/pipes.toml for how they are stated")
     names = {scene.name: scene for scene in scenes}
     if name is not None and name not in names:
-        near = difflib.get_close_matches(name, names, 1)
-        hint = f"did you mean {near[0]!r}?" if near else f"there are: {', '.join(names)}"
-        raise FirsthitError(f"{path} has no scene {name!r}; {hint}")
+        raise FirsthitError(f"{path} has no scene {name!r}; {suggestion(name, names)}")
     return names[name] if name else scenes[0]
 
 
@@ -67,7 +61,7 @@ def _scene(options: argparse.Namespace) -> int:
         raise FirsthitError(f"--size {options.size}: an image has 1 to 8192 pixels per side")
     output, catalog = writable(options.output), find_methods(options.plugins)
     path = located(options.config)
-    scene = _chosen(config.load(path, catalog).scenes, options.name, path)
+    scene = _chosen(reading.load(path, catalog).scenes, options.name, path)
     variant = given_variant(options, catalog)
     if reason := draws.refusal(scene, variant, catalog):
         raise FirsthitError(f"{variant} cannot draw {scene.name}: {reason}")

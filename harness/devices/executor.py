@@ -5,18 +5,16 @@ The runner needs no more of an executor than these methods, so that another one 
 
 from __future__ import annotations
 
-import importlib.util
 import signal
 import subprocess
-from collections.abc import Iterable
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
+from pathlib import Path
 from typing import Any
 
 from harness.contract import CellStatus, DeviceInfo, Program
 from harness.devices import serving
-from harness.devices.interface import INSTALL, Timing
+from harness.devices.interface import Timing
 from harness.devices.messages import Answer, Check, Checked, Frame, Warmed
 
 START_SECONDS = 60.0  # for a worker to start and a driver to load
@@ -37,28 +35,6 @@ class _Process:
     connection: Connection
 
 
-def discover_devices(wanted: Iterable[str] = ("all",)) -> list[DeviceInfo]:
-    """Every device of every installed backend, side by side in processes of their own: a driver that crashes costs
-    itself. Where `wanted` names devices, as a config does, only of the backends that it names."""
-    named = {name.partition(":")[0] for name in wanted}
-    backends = [backend for backend, package in INSTALL.items() if importlib.util.find_spec(package)]
-    if named <= set(INSTALL):
-        backends = [backend for backend in backends if backend in named]
-    with ThreadPoolExecutor() as pool:
-        return [info for found in pool.map(_find, backends) for info in found]
-
-
-def _find(backend: str) -> list[DeviceInfo]:
-    executor = LocalExecutor(START_SECONDS)
-    try:
-        return executor.find(backend)
-    except CellError as error:
-        problem = f"looking for it: {error}"
-        return [DeviceInfo(f"{backend}:none", "none", "none", "none", None, False, "wall", (), problem)]
-    finally:
-        executor.close()
-
-
 class LocalExecutor:
     """Workers on this machine. One step runs at a time, since software devices share the processor's cores."""
 
@@ -70,6 +46,20 @@ class LocalExecutor:
     def find(self, backend: str) -> list[DeviceInfo]:
         found: list[DeviceInfo] = self._call(backend, "find")
         return found
+
+    def running_files(self, device: str) -> list[Path] | None:
+        """The files whose code the worker of `device` has loaded: Python, bindings, drivers and their compilers.
+
+        None where the worker is gone or the system does not tell them; Linux does.
+        """
+        if device not in self._processes:
+            return None
+        try:
+            text = Path(f"/proc/{self._processes[device].process.pid}/maps").read_text(encoding="utf-8")
+        except (OSError, ValueError):
+            return None
+        mapped = (line.split(maxsplit=5) for line in text.splitlines())  # addresses, rights, offset, device, node, path
+        return sorted({Path(fields[5]) for fields in mapped if len(fields) == 6 and "x" in fields[1]})
 
     def probe(self, device: str) -> Any:
         return self._call(device, "probe")

@@ -73,6 +73,16 @@ def find() -> list[DeviceInfo]:
     ]
 
 
+def names() -> list[str]:
+    """The names of what `find` finds, which may have problems."""
+    return [found.name for found in find()]
+
+
+def info(name: str) -> DeviceInfo:
+    """One device of `names`."""
+    return next(found for found in find() if found.name == name)
+
+
 def _keeps_doubles(context: Any) -> bool:
     """Whether an array of doubles that is indexed at run time keeps them: NVIDIA's 580 rounds them to float32."""
     kept = np.array([3.0, 0.0, 0.0, 1.0 / 3.0, 0.0])

@@ -10,7 +10,6 @@ from dataclasses import dataclass
 from typing import Any
 
 from harness.contract import (
-    Cell,
     DeviceInfo,
     FirsthitError,
     Origin,
@@ -22,19 +21,18 @@ from harness.contract import (
     View,
     digest,
 )
+from harness.devices.interface import no_device
 from harness.devices.messages import Frame
 from harness.experiment import identity as identities
 from harness.experiment import kinds
+from harness.experiment.cells import Cell, FamilyCell
 from harness.experiment.config import Config, Experiment
 from harness.experiment.kinds import Asked, Casting
 from harness.experiment.kinds.model import NOT_RASTERED, Rastering
 from harness.experiment.targets import devices_of
 from harness.hardcases import groups
 from harness.plugins import Catalog
-from harness.results.store import Row, Store
 from harness.scenes.model import Scene
-
-PREPARING = 0.3  # seconds to build and check a cell: the mean of 4,392 of configs/front.toml, on two cores
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,20 +113,29 @@ def _planned(cell: Cell, info: DeviceInfo | None, catalog: Catalog, experiment: 
 def plan(experiment: Experiment, catalog: Catalog, found: list[DeviceInfo], timed: bool = True) -> list[Planned]:
     """Plan every cell of the grid, comparison by comparison; families last. Untimed cells are only checked.
 
-    Raises FirsthitError where none of the config's devices is here.
+    Raises FirsthitError where none of the devices that the config names is among those `found`.
+    """
+    return [_planned(cell, info, catalog, experiment, timed) for cell, info in grid(experiment, catalog, found)]
+
+
+def grid(experiment: Experiment, catalog: Catalog, found: list[DeviceInfo]) -> list[tuple[Cell, DeviceInfo | None]]:
+    """List the cells of `plan` in its order, each with its device: at once, since no program is made.
+
+    Raises FirsthitError as `plan` does.
     """
     devices = devices_of(experiment, found)
     if not any(devices.values()):
         named = experiment.config.devices
-        wanted = "no usable device" if set(named) <= {"all", "any"} else f"none of {', '.join(named)}"
-        raise FirsthitError(f"{wanted} found on this machine; see `firsthit devices`", exit_code=3)
+        if not set(named) <= {"all", "any"}:
+            raise no_device(", ".join(named), (info.name for info in found))
+        raise FirsthitError("no usable device found on this machine; see `firsthit devices`", exit_code=3)
     casters = list(_casters(experiment, catalog, list(devices)))
     cells = itertools.chain(
         _views_of_surfaces(experiment, catalog, casters),
         _scenes(experiment, catalog, casters),
         _families(experiment, casters),
     )
-    return [_planned(cell, devices[cell.device], catalog, experiment, timed) for cell in cells]
+    return [(cell, devices[cell.device]) for cell in cells]
 
 
 @dataclass(frozen=True)
@@ -172,7 +179,7 @@ def _scenes(experiment: Experiment, catalog: Catalog, casters: list[_Caster]) ->
 def _families(experiment: Experiment, casters: list[_Caster]) -> Iterator[Cell]:
     for family, caster in itertools.product(experiment.config.families, casters):
         surface = groups.groups(family)[0].surface
-        yield _cell(caster, Cell(caster.variant, surface, View("none"), 0, 1, "float32", "rays", "", family))
+        yield _cell(caster, FamilyCell(caster.variant, surface, View("none"), 0, 1, "float32", "rays", "", family))
 
 
 def _cell(caster: _Caster, cell: Cell, raster: Rastering = NOT_RASTERED) -> Cell:
@@ -199,17 +206,6 @@ def _rasterings(stage: Stage, variant: Variant, experiment: Experiment, catalog:
 def _views(scene: Scene, config: Config) -> list[View]:
     """A scene has its own view; a set of views is cast at it besides, where the config names one."""
     return [scene.view, *(view for view in config.view if view.set)]
-
-
-def estimate_seconds(planned: list[Planned], store: Store, budget_seconds: float) -> float:
-    """How long the cells that have no row yet will take: as long as their slot took before, else the whole budget."""
-    before: dict[str, float] = {}
-    rows: list[Row] = list(store.rows())
-    for row in rows:
-        before[row["slot"]] = row["seconds"]
-    done = {row["key"] for row in rows}
-    typical = budget_seconds + PREPARING
-    return sum(before.get(p.cell.slot, 0.0 if p.skip else typical) for p in planned if p.key not in done)
 
 
 def shuffled(items: list[str], seed: int, round_number: int) -> list[str]:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import difflib
 from pathlib import Path
 
 from harness.contract import FirsthitError
 from harness.results.sources import ROOT
+from surfaces.words import suggestion
 
 FOLDER = ROOT / "configs"
 
@@ -27,6 +27,5 @@ def located(config: str | Path) -> Path:
     known = names()
     if path.name in known:
         return FOLDER / f"{path.name}.toml"
-    near = difflib.get_close_matches(path.name, known, 1)
-    hint = f"did you mean {near[0]!r}?" if near else "see `firsthit list configs`"
+    hint = suggestion(path.name, known, otherwise="see `firsthit list configs`")
     raise FirsthitError(f"there is no config {path.name!r}, neither a file nor one that firsthit ships; {hint}")

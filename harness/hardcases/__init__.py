@@ -15,12 +15,12 @@ Tests measure it again, exactly.
 
 from __future__ import annotations
 
-import difflib
 from functools import cache
 
 from harness.contract import FirsthitError
 from harness.hardcases import polynomials, singular, tori
 from harness.hardcases.model import Family, Rung
+from surfaces.words import suggestion
 
 __all__ = ["FAMILIES", "Family", "Rung", "get", "names", "rungs"]
 
@@ -60,8 +60,7 @@ def names() -> tuple[str, ...]:
 def get(name: str) -> Family:
     """Return a family by name. Raises FirsthitError, with the nearest names, if there is none."""
     if name not in FAMILIES:
-        near = difflib.get_close_matches(name, FAMILIES, 3, 0.5) or FAMILIES
-        raise FirsthitError(f"there is no family of hard rays {name!r}; did you mean {', '.join(near)}?")
+        raise FirsthitError(f"there is no family of hard rays {name!r}; {suggestion(name, FAMILIES, most=3)}")
     return FAMILIES[name]
 
 

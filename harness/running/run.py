@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Iterable, Mapping, Sequence
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
@@ -11,8 +12,9 @@ from typing import Any
 
 from harness import studies
 from harness.contract import CellStatus, DeviceInfo, FirsthitError
-from harness.devices.executor import LocalExecutor, discover_devices
-from harness.experiment import config, plan, targets
+from harness.devices.discovery import discover_devices
+from harness.devices.executor import LocalExecutor
+from harness.experiment import plan, reading, targets
 from harness.experiment.config import Experiment
 from harness.experiment.plan import Planned
 from harness.experiment.shipped import located
@@ -20,8 +22,9 @@ from harness.hardcases import groups
 from harness.plugins import Catalog, find_methods
 from harness.results.store import Row, Store
 from harness.running.cards import card
+from harness.running.due import UNFINISHED, Again, due, estimate_seconds
 from harness.running.environment import describe, probed
-from harness.running.runner import UNFINISHED, Runner
+from harness.running.runner import Runner
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,6 +60,11 @@ class Run:
 class Watcher:
     """Hears what a run does. Here nothing is done about it; a caller overrides what it wants to hear."""
 
+    def doing(self, what: str) -> AbstractContextManager[None]:
+        """Hear what goes on while a block runs that takes its time."""
+        del what
+        return nullcontext()
+
     def told(self, line: str) -> None:
         """Hear what was done beside running cells."""
 
@@ -73,15 +81,17 @@ class Watcher:
         """Hear that a config, or one of those that it includes, is done."""
 
 
-def load(name: str | Path, plugins: Path | None = None, devices: Sequence[str] = ()) -> Loaded:
+def load(
+    name: str | Path, plugins: Path | None = None, devices: Sequence[str] = (), watcher: Watcher | None = None
+) -> Loaded:
     """Read a config, given by path or by the name of one that firsthit ships, and look for the devices it names.
 
     `plugins` is a folder of further methods; `devices` take the place of those that the config names. Raises
     FirsthitError where there is no such config, something in it is wrong, or it includes configs that include others.
     """
     catalog = find_methods(plugins)
-    whole = config.load(located(name), catalog)
-    parts = [config.load(path, catalog) for path in whole.included] or [whole]
+    whole = reading.load(located(name), catalog)
+    parts = [reading.load(path, catalog) for path in whole.included] or [whole]
     if nested := [part.path for part in parts if part.included and part is not whole]:
         raise FirsthitError(
             f"{nested[0]} includes configs itself, so {whole.path} cannot include it; name them instead"
@@ -90,7 +100,9 @@ def load(name: str | Path, plugins: Path | None = None, devices: Sequence[str] =
         chosen = list(devices)
         parts = [dataclasses.replace(p, config=dataclasses.replace(p.config, devices=chosen)) for p in parts]
     named = {device for part in parts for device in part.config.devices}
-    return Loaded(whole, tuple(parts), catalog, discover_devices(named))
+    with (watcher or Watcher()).doing(f"{whole.path}: looking for devices"):
+        found = discover_devices(named)
+    return Loaded(whole, tuple(parts), catalog, found)
 
 
 def run(
@@ -114,9 +126,10 @@ def run(
         told = _described(loaded.whole, command, describe())
         parts = [part.name for part in loaded.parts]
         Store(folder).write_plan(told | {"include": parts, "devices": [], "cells": []})
+    again: Again = "everything" if force else "unfinished" if retry_failed else "nothing"
     ended = []
     for part in loaded.parts:
-        ended.append(_run_part(part, loaded, runs, command, force, retry_failed, hears))
+        ended.append(_run_part(part, loaded, runs, command, again, hears))
         hears.ended(ended[-1])
     rows, reused = (row for one in ended for row in one.rows), (row for one in ended for row in one.reused)
     return Run(folder, tuple(rows), tuple(reused))
@@ -136,32 +149,37 @@ def _described(experiment: Experiment, command: str, environment: Mapping[str, A
     }
 
 
-def _run_part(
-    part: Experiment, loaded: Loaded, runs: Path, command: str, force: bool, retry_failed: bool, hears: Watcher
-) -> Run:
+def _run_part(part: Experiment, loaded: Loaded, runs: Path, command: str, again: Again, hears: Watcher) -> Run:
     store, environment = Store(runs / part.name), describe()
     executor = LocalExecutor(part.config.budget.timeout)
     try:
         chosen = targets.devices_of(part, loaded.devices) if part.variants else {}
-        tried = [probed(executor, info, store.folder / "probes") for info in chosen.values() if info]
-        planned = plan.plan(part, loaded.catalog, [info for info, _ in tried]) if part.variants else []
+        with hears.doing(_announced(part, loaded.catalog, chosen)):
+            tried = [probed(executor, info, store.folder / "probes") for info in chosen.values() if info]
+            planned = plan.plan(part, loaded.catalog, [info for info, _ in tried]) if part.variants else []
         store.write_plan(
             _described(part, command, environment)
             | {"devices": [dataclasses.asdict(i) | {"versions": dict(i.versions), "probes": p} for i, p in tried]}
             | _named(part, planned, loaded.catalog)
         )
-        _run_studies(part.config.studies, store.folder, force, hears)
-        before = {p.key: store.read(p.key) for p in planned}
+        _run_studies(part.config.studies, store.folder, again == "everything", hears)
+        found = due(planned, store, again)
         for message in store.unreadable.values():
             hears.warned(f"{message}; running that cell again")
-        todo = [p for p in planned if _is_due(before[p.key], force, retry_failed)]
-        hears.starts(len(todo), plan.estimate_seconds(todo, store, part.config.budget.seconds))
+        hears.starts(len(found.todo), estimate_seconds(found.todo, store, part.config.budget.seconds))
         about = {"commit": environment["commit"], "dirty": environment["dirty"]}
-        rows = Runner(part.config, loaded.catalog, store, executor, about, hears.cell).run(todo)
+        rows = Runner(part.config, loaded.catalog, store, executor, about, hears.cell).run(found.todo)
     finally:
         executor.close()
-    again = {row["key"] for row in rows}
-    return Run(store.folder, tuple(rows), tuple(row for key, row in before.items() if row and key not in again))
+    return Run(store.folder, tuple(rows), tuple(found.kept.values()))
+
+
+def _announced(part: Experiment, catalog: Catalog, chosen: Mapping[str, DeviceInfo | None]) -> str:
+    """Say what will be run where, before anything slow is done for it."""
+    here = [info for info in chosen.values() if info]
+    cells = len(plan.grid(part, catalog, here)) if part.variants else 0
+    where = f" on {', '.join(info.name for info in here)}" if here else ""
+    return f"{part.path}: {cells} cells{where}; measuring what these are worth, and planning"
 
 
 def _named(part: Experiment, planned: Sequence[Planned], catalog: Catalog) -> dict[str, Any]:
@@ -184,7 +202,3 @@ def _run_studies(names: Iterable[str], folder: Path, force: bool, hears: Watcher
             hears.told(f"study {name}: {len(done['rows'])} rows, {duration(done['seconds'])}")
         else:
             hears.told(f"study {name}: reused")
-
-
-def _is_due(row: Row | None, force: bool, retry_failed: bool) -> bool:
-    return row is None or force or (retry_failed and row["status"] in UNFINISHED)

@@ -29,7 +29,6 @@ LONGEST = 16  # times [budget] seconds: what the rounds that comparing a cell ta
 BYTES_PER_RAY = 24  # of a frame kept ready, at most: its answer on the device, and as it was read back
 MOST_BYTES = 3 * 2**30  # of all frames kept ready at once
 UNCHECKED = Outcome(0.0)
-UNFINISHED = (CellStatus.FAILED, CellStatus.TIMEOUT, CellStatus.CRASHED)
 
 
 @dataclass(eq=False)

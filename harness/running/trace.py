@@ -22,13 +22,15 @@ from harness.contract import (
     Surface,
     Variant,
 )
-from harness.devices.executor import CellError, LocalExecutor, discover_devices
-from harness.devices.interface import LANGUAGES
+from harness.devices.discovery import discover_devices
+from harness.devices.executor import CellError, LocalExecutor
+from harness.devices.interface import LANGUAGES, device_named, no_device
 from harness.experiment.kinds import of_method
 from harness.experiment.kinds.model import Shot
 from harness.kernels.assemble import Language, method_program
 from harness.oracle import checked_t_min
 from harness.plugins import Plugin
+from surfaces.words import suggestion
 
 UNIT_LENGTH = 1e-5  # what the length of a ray's direction may differ from 1
 
@@ -56,15 +58,14 @@ class Caster:
 
     def __post_init__(self) -> None:
         if self.device.partition(":")[0] not in LANGUAGES:
-            message = f"unknown device {self.device!r}: names start with opencl: or opengl:, see `firsthit devices`"
-            raise FirsthitError(message)
+            raise no_device(self.device, (info.name for info in discover_devices()))
         given: list[tuple[str, str, tuple[str, ...]]] = [
             ("precision", self.precision, PRECISIONS),
             ("origin", self.origin, ORIGINS),
         ]
         for name, value, known in given:
             if value not in known:
-                raise FirsthitError(f"unknown {name} {value!r}; there are: {', '.join(known)}")
+                raise FirsthitError(f"unknown {name} {value!r}; {suggestion(value, known)}")
 
     @property
     def language(self) -> Language:
@@ -74,12 +75,13 @@ class Caster:
 
 def usable_device(name: str | None = None) -> DeviceInfo:
     """Find the device of that name, or the first one that works where `name` is None; raises FirsthitError if none."""
-    usable = {info.name: info for info in discover_devices() if not info.problem}
-    if name and name not in usable:
-        raise FirsthitError(f"there is no usable device {name!r} here; there are: {', '.join(usable)}", exit_code=3)
+    found = discover_devices()
+    if name:
+        return device_named(name, found)
+    usable = [info for info in found if not info.problem]
     if not usable:
         raise FirsthitError("no usable device; `firsthit devices` says why", exit_code=3)
-    return usable[name] if name else next(iter(usable.values()))
+    return usable[0]
 
 
 def checked_rays(rays: object, what: str = "rays") -> NDArray[np.float32]:

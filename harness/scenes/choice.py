@@ -6,12 +6,17 @@ import dataclasses
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import Annotated
 
 import numpy as np
 
-from harness.contract import FirsthitError, Surface, Variant, View
+from harness.contract import FirsthitError, Point, Surface, Variant, View
+from harness.limits import AZIMUTH, DISTANCE, ELEVATION, FIELD_OF_VIEW, SEED, SHARE, Distinct, Within
 from harness.scenes.generate import GENERATORS, generate
 from harness.scenes.model import COLOUR, Floats, Group, Scene
+
+Angle = Annotated[float, Within(-360.0, 360.0)]  # degrees
+Intensity = Annotated[float, SHARE]  # of a colour
 
 
 @dataclass(frozen=True)
@@ -26,10 +31,10 @@ class PlacedChoice:
     surface: str
     parameters: dict[str, float] = field(default_factory=dict)
     domain: str = ""
-    at: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    turn: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    scale: float = 1.0
-    colour: tuple[float, float, float] = COLOUR
+    at: Point = (0.0, 0.0, 0.0)
+    turn: tuple[Angle, Angle, Angle] = (0.0, 0.0, 0.0)
+    scale: Annotated[float, Within(1e-9, 1e9, "a scale is positive, from {low:g} to {high:g}, not {value:g}")] = 1.0
+    colour: tuple[Intensity, Intensity, Intensity] = COLOUR
     method: str = ""
     knobs: dict[str, float] = field(default_factory=dict)
 
@@ -45,12 +50,12 @@ class SceneChoice:
     title: str = ""
     placed: list[PlacedChoice] = field(default_factory=list)
     generate: str = ""
-    counts: list[int] = field(default_factory=lambda: [100])
-    seed: int = 1
-    azimuth: float = 30.0
-    elevation: float = 30.0
-    fov: float = 30.0
-    distance: float | None = None
+    counts: Annotated[list[Annotated[int, Within(1, 10_000_000)]], Distinct()] = field(default_factory=lambda: [100])
+    seed: Annotated[int, SEED] = 1
+    azimuth: Annotated[float, AZIMUTH] = 30.0
+    elevation: Annotated[float, ELEVATION] = 30.0
+    fov: Annotated[float, FIELD_OF_VIEW] = 30.0
+    distance: Annotated[float, DISTANCE] | None = None
 
 
 def scenes_of(
@@ -73,8 +78,6 @@ def scenes_of(
         return [generate(choice.generate, count, choice.seed, view) for count in choice.counts]
     groups = []
     for one in choice.placed:
-        if not one.scale > 0.0:
-            raise FirsthitError(f"scene {name!r}: a scale is positive, not {one.scale:g}")
         groups.append(
             Group(
                 (surface_of(one),),

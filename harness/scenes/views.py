@@ -5,8 +5,10 @@ from __future__ import annotations
 import math
 import random
 from dataclasses import dataclass, field
+from typing import Annotated
 
 from harness.contract import View
+from harness.limits import AZIMUTH, DISTANCE, FIELD_OF_VIEW, SEED, Within
 
 ANGLES, DIRECTIONS = "angles", "directions"  # the sets' names, which rows carry
 GOLDEN_TURN = 180.0 * (3.0 - math.sqrt(5.0))  # degrees between neighbours of a Fibonacci lattice
@@ -20,20 +22,22 @@ class AngleChoice:
     covers as many pixels as the paper prints. From other azimuths the box is seen turned, and covers more.
     """
 
-    values: list[float] = field(default_factory=lambda: [0.0, 18.0, 36.0, 54.0, 72.0, 90.0])
-    azimuth: float = 0.0
-    fov: float = 30.0
-    distance: float | None = None
+    values: list[Annotated[float, Within(0.0, 180.0)]] = field(
+        default_factory=lambda: [0.0, 18.0, 36.0, 54.0, 72.0, 90.0]
+    )
+    azimuth: Annotated[float, AZIMUTH] = 0.0
+    fov: Annotated[float, FIELD_OF_VIEW] = 30.0
+    distance: Annotated[float, DISTANCE] | None = None
 
 
 @dataclass(frozen=True)
 class DirectionChoice:
     """`count` directions spread evenly over the sphere, all turned by one random rotation, which `seed` decides."""
 
-    count: int = 24
-    seed: int = 1
-    fov: float = 30.0
-    distance: float | None = None
+    count: Annotated[int, Within(1, 10_000)] = 24
+    seed: Annotated[int, SEED] = 1
+    fov: Annotated[float, FIELD_OF_VIEW] = 30.0
+    distance: Annotated[float, DISTANCE] | None = None
 
 
 def by_angle(choice: AngleChoice) -> list[View]:
