@@ -8,13 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from harness.contract import FirsthitError
 
 if TYPE_CHECKING:
     import sympy
 
+Number = TypeVar("Number")
 Functions = Mapping[str, Callable[..., Any]]
 POLYNOMIAL = frozenset({"input", "constant", "add", "sub", "mul", "neg"})
 FUNCTIONS = {"exp": "exp", "log": "log", "sin": "sin", "cos": "cos", "tan": "tan", "Abs": "abs"}
@@ -58,15 +59,15 @@ class Program:
                     degrees.append(max(of))
         return degrees[-1]
 
-    def run(self, inputs: Sequence[Any], constants: Sequence[Any], functions: Functions) -> Any:
+    def run(self, inputs: Sequence[Number], constants: Sequence[Number], functions: Functions) -> Number:
         """Return f at `inputs`, x, y and z, in their number system; `constants` are already converted to it."""
         return self.results(inputs, constants, functions)[-1]
 
-    def results(self, inputs: Sequence[Any], constants: Sequence[Any], functions: Functions) -> list[Any]:
+    def results(self, inputs: Sequence[Number], constants: Sequence[Number], functions: Functions) -> list[Number]:
         """Return the result of each instruction, of which the last is f."""
-        results: list[Any] = []
+        results: list[Number] = []
         for i in self.instructions:
-            a = [results[k] for k in i.args]
+            a: list[Any] = [results[k] for k in i.args]
             match i.name:
                 case "input":
                     value = inputs[i.index]
