@@ -87,4 +87,5 @@ def gradient(surface: Surface, points: Floats64) -> Floats64:
 
 @cache
 def _gradient_tape(surface: Surface) -> Tape:
+    """Return the real tape of the gradient."""
     return lowering.gradient(lowering.real_tape(tape_of(surface)))

@@ -174,6 +174,7 @@ def fractions_of(ball: Any) -> tuple[Fraction, Fraction]:
 
 
 def _bound(exact: Any, outward: int) -> Fraction:
+    """Return an exact flint.arb as a fraction, rounded away from zero to the side `outward` if it is tiny."""
     mantissa, exponent = (int(part) for part in exact.man_exp())
     size = mantissa.bit_length() + exponent
     if size > 1100:

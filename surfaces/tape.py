@@ -169,6 +169,7 @@ class Builder:
         return self.emit("add" if total > 0 else "sub", rest, self.const(abs(total)))
 
     def _scaled(self, factor: Fraction, a: int) -> int:
+        """Return factor · a."""
         if factor == 0:
             return self.const(0)
         if factor == 1:

@@ -51,6 +51,7 @@ class Family:
         return tuple(self._rung(value) for value in self.ladder)
 
     def _rung(self, value: float) -> Rung:
+        """Return one rung."""
         surface, rays = self.build(value, np.random.Generator(np.random.PCG64([self.seed, *self.name.encode()])))
         rays.setflags(write=False)
         return Rung(value, surface, rays, value if self.is_margin else inf)

@@ -36,6 +36,7 @@ Language = Literal["glsl", "cl"]
 
 @cache
 def _read(path: Path) -> str:
+    """Return the text of a file, which is read once."""
     return path.read_text(encoding="utf-8")
 
 

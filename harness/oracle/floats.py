@@ -70,6 +70,7 @@ class FloatFunction:
         return t
 
     def _dual(self, inputs: list[Dual], t: Floats) -> Dual:
+        """Return f and its derivative for inputs that are duals, each in t's shape."""
         result: Dual = self.program.run(inputs, self.duals, DUAL_FUNCTIONS)
         return Dual(np.broadcast_to(result.value, t.shape), np.broadcast_to(result.slope, t.shape))
 

@@ -223,6 +223,7 @@ class _Run:
         return a[side]
 
     def sum(self, a: Quotient, b: Quotient) -> Quotient:
+        """Return the sum of two quotients."""
         if a[1] == b[1]:
             return add(a[0], b[0]), a[1]
         mul = self.tower.mul

@@ -25,6 +25,7 @@ class Segments:
     empty: Mask  # it is proved that there is no root at all
 
     def take(self, mask: Mask) -> Segments:
+        """Return the segments of the rays in `mask`."""
         return Segments(self.lower[mask], self.upper[mask], self.rising[mask], self.found[mask], self.empty[mask])
 
 
@@ -39,6 +40,7 @@ class Pieces:
     data: tuple[Floats, ...] = ()
 
     def take(self, mask: Mask) -> Pieces:
+        """Return the pieces in `mask`."""
         return Pieces(self.ray[mask], self.lower[mask], self.upper[mask], tuple(d[mask] for d in self.data))
 
 
