@@ -85,8 +85,7 @@ def expression(tape: Tape) -> Any:
 
 
 def is_polynomial(tape: Tape) -> bool:
-    """Return whether a tape is built as a polynomial: it divides by constants, and calls functions of constants,
-    only."""
+    """Return whether a tape is built as a polynomial: it divides by, and calls functions of, constants only."""
     constant = tape.constants()
     ring = {"add", "sub", "mul", "neg", "sqr", "powi", "var"}
     return all(
@@ -308,8 +307,7 @@ class _Parser:
         return self.power(operator, left, right)
 
     def power(self, operator: _Token, base: int, exponent: int) -> int:
-        """Return a power. Raises FirsthitError for an exponent that is no whole constant, and for one that is too
-        large."""
+        """Return a power. Raises FirsthitError if the exponent is no whole constant or the power too large."""
         builder, n, value = self.builder, self.builder.value(exponent), self.builder.value(base)
         if builder.ops[base].name == "e":
             return builder.exp(exponent)

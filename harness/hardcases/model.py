@@ -46,8 +46,7 @@ class Family:
     seed: int = SEED
 
     def make(self) -> tuple[Rung, ...]:
-        """Return the ladder's rungs. Each draws the same random numbers, so that rungs differ in the parameter
-        alone."""
+        """Return the ladder's rungs, which draw the same random numbers, so that only the parameter differs."""
         return tuple(self._rung(value) for value in self.ladder)
 
     def _rung(self, value: float) -> Rung:

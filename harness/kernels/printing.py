@@ -147,8 +147,10 @@ class IntervalPrinter:
         return lo, hi
 
     def _factor(self, lower: Fraction, upper: Fraction) -> str | None:
-        """Return a constant as arguments of interval_scale: the nearest number, a place for the other factor, and 1
-        if the number is exact or 2 if it is rounded. None if the constant is so small that its error may be larger."""
+        """Return a constant as arguments of interval_scale, or None if its relative error may be too large.
+
+        They are the nearest number, a place for the other factor, and 1 if the number is exact or 2 if it is rounded.
+        """
         lo, hi = bounds(lower, upper, self.precision)
         if lo != hi and not abs(lo) > 2 * np.finfo(_TYPES[self.precision]).tiny:
             return None

@@ -31,8 +31,7 @@ class Segments:
 
 @dataclass(frozen=True)
 class Pieces:
-    """p intervals [lower, upper] of rays numbered `ray`, with data of the isolator about each; all arrays are [p,
-    ...]."""
+    """p intervals [lower, upper] of rays numbered `ray`, with data of the isolator; all arrays are [p, ...]."""
 
     ray: NDArray[np.intp]
     lower: Floats
