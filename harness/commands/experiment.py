@@ -141,7 +141,6 @@ def _run_one(
         tried = [probed(executor, info, store.folder / "probes") for info in chosen.values() if info]
         planned = plan.plan(experiment, catalog, [info for info, _ in tried]) if experiment.variants else []
         described = _described(experiment)
-        environment = described["environment"]
         store.write_plan(
             described
             | {
@@ -164,8 +163,7 @@ def _run_one(
             print(f"firsthit: {message}; running that cell again", file=sys.stderr)
         todo = [p for p in planned if _is_due(before[p.key], options)]
         progress = console.Progress(len(todo), plan.estimate_seconds(todo, store, experiment.config.budget.seconds))
-        row_environment = {"commit": environment["commit"], "dirty": environment["dirty"]}
-        rows = Runner(experiment.config, catalog, store, executor, row_environment, progress).run(todo)
+        rows = Runner(experiment.config, catalog, store, executor, described["environment"], progress).run(todo)
     finally:
         executor.close()
     kept = [row for key, row in before.items() if row and key not in {row["key"] for row in rows}]

@@ -27,8 +27,6 @@ def rows_of(
     stored = {p.key: None if force else store.read(p.key) for p in planned}
     kept = {key: row for key, row in stored.items() if row and row["status"] not in UNFINISHED}
     todo = [p for p in planned if p.key not in kept]
-    environment = describe()
-    about = {"commit": environment["commit"], "dirty": environment["dirty"]}
     progress = console.Progress(len(todo), 1.0 * len(todo))
-    rows = Runner(experiment.config, catalog, store, executor, about, progress).run(todo)
+    rows = Runner(experiment.config, catalog, store, executor, describe(), progress).run(todo)
     return kept | {row["key"]: row for row in rows}
