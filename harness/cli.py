@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 import argparse
+import importlib
 import os
 import sys
 from collections.abc import Sequence
 from pathlib import Path
 
 from harness import __version__
-from harness.commands import advice, conforming, experiment, gating, kernels, looking, pictures, rays, scenes
-from harness.contract import FirsthitError
+from harness.commands import GROUPS, adder
 
 INTERRUPTED = 3
 
 
-def build_parser() -> argparse.ArgumentParser:
+def build_parser(arguments: Sequence[str] | None = None) -> argparse.ArgumentParser:
+    """The parser of a command line. With its `arguments`, only commands named among them have their options."""
     parser = argparse.ArgumentParser(
         prog="firsthit",
         description="Which ray caster should draw this implicit surface on this device, and at what error?",
@@ -24,14 +25,21 @@ def build_parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=f"firsthit {__version__}")
     parser.add_argument("--plugins", type=Path, metavar="DIR", help="a folder of further methods, one folder each")
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
-    for module in (experiment, gating, advice, looking, pictures, scenes, rays, kernels, conforming):
-        module.add_parsers(commands)
+    for module, own in GROUPS.items():
+        if arguments is None or own.keys() & set(arguments):
+            importlib.import_module(f"harness.commands.{module}").add_parsers(adder(commands))
+        else:
+            for name, text in own.items():
+                commands.add_parser(name, help=text)
     return parser
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command; its exit code. A user's mistake is one line on stderr, never a traceback."""
-    options = build_parser().parse_args(arguments)
+    arguments = sys.argv[1:] if arguments is None else arguments
+    options = build_parser(arguments).parse_args(arguments)
+    from harness.contract import FirsthitError  # imports numpy, which help and usage do without
+
     try:
         code: int = options.run(options)
         sys.stdout.flush()

@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+import contextlib
 import sys
 import time
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
 
-from harness.results.store import Row
+if TYPE_CHECKING:
+    from harness.results.store import Row
+
+CLEAR = "\r\x1b[K"  # the line on a terminal
+WIDEST = 200  # characters of a live line
 
 
 def table(header: Sequence[str], rows: Sequence[Sequence[object]]) -> str:
@@ -23,6 +29,23 @@ def duration(seconds: float) -> str:
     return f"{hours}:{minutes:02}:{rest:02}" if hours else f"{minutes}:{rest:02}"
 
 
+@contextlib.contextmanager
+def doing(what: str) -> Iterator[None]:
+    """Say what goes on while the block runs: a live line on a terminal, which is gone afterwards; a line elsewhere."""
+    live = sys.stderr.isatty()
+    _write(f"{CLEAR}firsthit: {what}"[:WIDEST] if live else f"firsthit: {what}\n")
+    try:
+        yield
+    finally:
+        if live:
+            _write(CLEAR)
+
+
+def _write(text: str) -> None:
+    sys.stderr.write(text)
+    sys.stderr.flush()
+
+
 class Progress:
     """Cells done, the current one, the time left: one live line on a terminal, a line per finished cell elsewhere."""
 
@@ -37,23 +60,18 @@ class Progress:
         elapsed = time.perf_counter() - self._start
         if row is None:
             if self._live:
-                self._write(f"\r\x1b[K{self._head(elapsed)} {slot}"[:200])
+                _write(f"{CLEAR}{self._head(elapsed)} {slot}"[:WIDEST])
             return
         self._done += 1
         ended = f"{row['status']}: {row['reason']}" if row["reason"] else row["status"]
         outcome = f"{row['time']['median_ms']:.3g} ms" if row["time"] else ended
         warnings = [text.partition(":")[0] for text in row["time"]["warnings"]] if row["time"] else []
         line = f"{self._head(elapsed)} {slot}: {', '.join([outcome, *warnings])}"
-        self._write(f"\r\x1b[K{line}\n" if self._live else f"{line}\n")
+        _write(f"{CLEAR}{line}\n" if self._live else f"{line}\n")
 
     def _head(self, elapsed: float) -> str:
         left = elapsed / self._done * (self._total - self._done) if self._done else self._estimate
         return f"[{self._done}/{self._total}] {duration(elapsed)}, about {duration(left)} left:"
-
-    @staticmethod
-    def _write(text: str) -> None:
-        sys.stderr.write(text)
-        sys.stderr.flush()
 
 
 def warnings(rows: Sequence[Row]) -> list[str]:

@@ -1,6 +1,8 @@
-"""The vocabulary every other part speaks in; imports nothing of ours but surfaces.model, whose names it hands on.
+"""Define the words that all other parts use: what a method, a view, a program, an answer and the truth are.
 
-Lengths are in scene units (the surface's own coordinates), times in seconds unless a name says `_ms`.
+It imports nothing of ours but harness.limits, and surfaces.model and surfaces.words, whose names can be imported from
+here too. Lengths are in scene units (a surface's own coordinates), times in seconds unless a name ends in `_ms`. `t` is
+a distance along a ray.
 """
 
 from __future__ import annotations
@@ -10,18 +12,21 @@ import json
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import IntEnum, StrEnum
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
+from harness.limits import AZIMUTH, DISTANCE, ELEVATION, FIELD_OF_VIEW, POSITION
 from surfaces.model import Box as Box
 from surfaces.model import Domain as Domain
 from surfaces.model import FirsthitError as FirsthitError
 from surfaces.model import Sphere as Sphere
 from surfaces.model import Surface as Surface
 from surfaces.model import as_float32 as as_float32
+from surfaces.words import suggestion as suggestion
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
+
 
 Precision = Literal["float32", "float64"]
 Stage = Literal["compute", "rays", "raster"]
@@ -30,6 +35,8 @@ Proxy = Literal["box", "sphere", "tetrahedron"]
 Normal = Literal["distance", "gradient", "core_circle"]
 Prepass = Literal["none", "beams"]
 Origin = Literal["nearest", "entry", "eye"]
+Coordinate = Annotated[float, POSITION]
+Point = tuple[Coordinate, Coordinate, Coordinate]
 PREPASSES: tuple[Prepass, ...] = ("none", "beams")
 ORIGINS: tuple[Origin, ...] = ("nearest", "entry", "eye")
 PROXIES: tuple[Proxy, ...] = ("box", "sphere", "tetrahedron")
@@ -37,12 +44,14 @@ NORMALS: tuple[Normal, ...] = ("distance", "gradient", "core_circle")
 PRECISIONS: tuple[Precision, ...] = ("float32", "float64")
 UNIT_ROUNDOFF: dict[Precision, float] = {"float32": 2.0**-24, "float64": 2.0**-53}
 STAGES: tuple[Stage, ...] = ("compute", "rays", "raster")
+BASELINE = "ray_march"  # the method that speed-ups are over where a config names nothing else
 
 
 class RayStatus(IntEnum):
-    """A method's answer for one ray; `EXHAUSTED` gave up inside its budget and is never reported as a miss.
+    """Names a method's answers for one ray.
 
-    `INVALID` is no kernel's to give: it says that what was read back is no answer (harness.accuracy.answers).
+    EXHAUSTED: the method gave up when its budget was spent; this is never reported as a miss
+    INVALID: what was read back is no answer (harness.accuracy.answers); a kernel never gives this status itself
     """
 
     MISS = 0
@@ -52,7 +61,11 @@ class RayStatus(IntEnum):
 
 
 class TruthStatus(IntEnum):
-    """The oracle's answer for one ray."""
+    """Names the oracle's answers for one ray.
+
+    CROSSING, TOUCH: at the first root f changes its sign, or touches zero without a change
+    UNDECIDED: the oracle could prove neither of the others
+    """
 
     MISS = 0
     CROSSING = 1
@@ -61,6 +74,8 @@ class TruthStatus(IntEnum):
 
 
 class CellStatus(StrEnum):
+    """Names how a cell ended: measured, refused before it ran, or ended by an error, its time limit or a crash."""
+
     OK = "ok"
     SKIPPED = "skipped"
     FAILED = "failed"
@@ -70,25 +85,32 @@ class CellStatus(StrEnum):
 
 @dataclass(frozen=True)
 class Parameter:
-    """A method's knob: bound as a compile-time constant of this name, in capitals."""
+    """Describes a method's knob. Kernels see it as a compile-time constant of this name.
+
+    name: in capitals
+    default: its value where none is given; an int makes the knob a whole number
+    meaning: one phrase with its unit
+    finer: the way to turn it that makes the error smaller; tested, as claims are
+    sweep: further values that trade speed for error, which `recommend` tries
+    per: the length that a tolerance is a share of or, with finer "up", that is halved so many times; as kernels write
+        it. Such a knob may be loosened to an error that a pixel does not show (Cell.tolerance)
+    printed: the value that the method's source prints, where the default is another and ours
+    """
 
     name: str
     default: float | int
-    meaning: str  # one phrase with its unit
-    finer: Literal["up", "down"] | None = None  # which way the error falls; tested, as claims are
-    sweep: tuple[float | int, ...] = ()  # values beside the default that trade speed for error, for `recommend` to try
-    per: str | None = (
-        None  # the length, as kernels write it, that a tolerance is a share of, or that is halved so often
-    )
-    #   where more is finer: such a knob may be loosened to what a pixel shows
-    printed: float | int | None = None  # the source's own value, where the default is ours and another
+    meaning: str
+    finer: Literal["up", "down"] | None = None
+    sweep: tuple[float | int, ...] = ()
+    per: str | None = None
+    printed: float | int | None = None
 
 
 CLAIMS: dict[str, str] = {
     "no_missed_root": "a ray that meets the surface is never answered as a miss or by a later root; near tangency too",
     "finds_touch": "where a ray touches the surface without crossing it, that is a hit",
     "no_false_hit": "no hit where the oracle proves that there is none, on rays that are neither grazing nor drowned",
-    "error_below_tolerance": "a right hit is within Method.tolerance of its root, and what rounding must add",
+    "error_below_tolerance": "a right hit is off its root by at most Method.tolerance and what rounding must add",
     "conservative_bound": "no step is longer than a proved bound allows: no root of a ray that is neither grazing nor"
     " drowned is passed",
 }
@@ -98,45 +120,55 @@ Tables = Callable[[Surface, Mapping[str, float | int], Precision], Mapping[str, 
 
 @dataclass(frozen=True)
 class Method:
-    """One published way to find a ray's first hit; the algorithm itself is `kernel.glsl` beside the description."""
+    """Describes a way to find a ray's first hit; the algorithm itself is `kernel.glsl` in the method's folder.
+
+    source: the paper or book that publishes it
+    needs: generated functions that the kernel calls (harness.kernels.functions.FUNCTIONS)
+    libraries: files of harness/kernels/glsl/lib that the kernel includes, without their ending
+    settings: the paper's own settings, by name: values of knobs
+    claims: names of CLAIMS; each is tested, so claim only what is proved
+    tolerance: the largest error without rounding, scene units, from surface and knobs; for error_below_tolerance
+    accepts: returns None for a surface that the method can be used on, else the reason why not
+    tables: constant arrays of reals that the kernel reads, by name, from surface, knobs and precision
+    answers: False for a method that finds nothing and measures what the harness itself costs
+    casts: what the kernel defines. "rays": `Hit first_hit(Ray, real t0, real t1)`. "beams" and "quadtree":
+        `void cast_cell(Work, Cell)`, called for every pixel or, level by level, for a quadtree's cells. "mesh":
+        `vec3 mesh_normal(vec3)`, for triangles that are rasterised in place of rays
+    mesh: how a method that casts a mesh tessellates a surface, from surface and knobs
+    """
 
     name: str
     source: str
-    needs: tuple[str, ...] = ()  # generated functions the kernel calls, see harness.kernels.functions.FUNCTIONS
-    libraries: tuple[str, ...] = ()  # files of harness/kernels/glsl/lib the kernel includes, without their ending
+    needs: tuple[str, ...] = ()
+    libraries: tuple[str, ...] = ()
     parameters: tuple[Parameter, ...] = ()
-    settings: Mapping[str, Mapping[str, float]] = field(default_factory=dict)  # the papers' own settings, by name
-    claims: frozenset[str] = frozenset()  # of CLAIMS; each is tested, so what is not proved is not claimed
-    tolerance: Callable[[Surface, Mapping[str, float | int]], float] | None = (
-        None  # largest error, scene units, without
-    )
-    #   rounding: what error_below_tolerance is about
-    accepts: Callable[[Surface], str | None] = lambda _: None  # None, or the reason it refuses
-    tables: Tables | None = None  # constant arrays of reals that the kernel reads, from surface, knobs and precision
-    answers: bool = True  # False: measures the harness's floor and finds nothing
+    settings: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+    claims: frozenset[str] = frozenset()
+    tolerance: Callable[[Surface, Mapping[str, float | int]], float] | None = None
+    accepts: Callable[[Surface], str | None] = lambda _: None
+    tables: Tables | None = None
+    answers: bool = True
     precisions: tuple[Precision, ...] = PRECISIONS
-    casts: Casts = "rays"  # what the kernel defines: rays, `Hit first_hit(Ray, real t0, real t1)`; beams and quadtree,
-    #   `void cast_cell(Work, Cell)`, for every pixel, or for the quadtree's cells level by level; mesh,
-    #   `vec3 mesh_normal(vec3)`, of triangles that are rasterised in place of rays
-    mesh: Callable[[Surface, Mapping[str, float | int]], MeshRecipe] | None = None  # of a method that casts a mesh
+    casts: Casts = "rays"
+    mesh: Callable[[Surface, Mapping[str, float | int]], MeshRecipe] | None = None
 
     @property
     def printed(self) -> dict[str, float | int]:
-        """The knobs whose default is ours, with the values that the method's source prints."""
+        """Return the values that the method's source prints, by knob, for knobs whose default is another."""
         return {p.name: p.printed for p in self.parameters if p.printed is not None}
 
 
 @dataclass(frozen=True)
 class MeshRecipe:
-    """How a surface is tessellated: its parametric form over N × N, or its contour on a grid of N cells a side."""
+    """Says how a surface is tessellated: from its parametric form at N × N points, or as its contour on a grid."""
 
     kind: Literal["parametric", "contour"]
-    resolution: int
+    resolution: int  # N, or the grid's cells along its longest side
 
 
 @dataclass(frozen=True)
 class Variant:
-    """A method with its parameters bound; `parameters` holds every parameter, sorted by name."""
+    """A method with a value for each of its parameters; `parameters` holds all of them, sorted by name."""
 
     method: str
     parameters: tuple[tuple[str, float | int], ...] = ()
@@ -148,24 +180,27 @@ class Variant:
 
 @dataclass(frozen=True)
 class View:
-    """A camera. Angles in degrees; `elevation` 90 looks down the z axis.
+    """A perspective camera.
 
-    `distance` is from the target, in scene units; None puts the camera where the domain's bounding sphere just fits
-    the field of view. `fov` is the full vertical angle of a perspective camera.
+    azimuth, elevation: direction from the target to the eye, degrees; elevation 90 looks down the z axis
+    fov: the full vertical angle of view, degrees
+    distance: from the eye to the target, scene units; None: the domain's bounding sphere just fits the field of view
+    target: the point in the middle of the image, scene units; None: the domain's centre
+    set: views of one set are compared with each other: "angles", "directions" or a name of your own; None: no set
     """
 
     name: str
-    azimuth: float = 30.0
-    elevation: float = 30.0
-    fov: float = 30.0
-    distance: float | None = None
-    target: tuple[float, float, float] | None = None  # None: the domain's centre
-    set: str | None = None  # views of one set are compared with each other: "angles", "directions" or a name of yours
+    azimuth: Annotated[float, AZIMUTH] = 30.0
+    elevation: Annotated[float, ELEVATION] = 30.0
+    fov: Annotated[float, FIELD_OF_VIEW] = 30.0
+    distance: Annotated[float, DISTANCE] | None = None
+    target: Point | None = None
+    set: str | None = None
 
 
 @dataclass(frozen=True)
 class Section:
-    """A piece of program text and where it is from: a path below the project, or `generated: …`."""
+    """A piece of program text; `origin` says where it is from: a path below the project, or `generated: …`."""
 
     origin: str
     text: str
@@ -176,21 +211,26 @@ class Section:
 
 
 def source(sections: Sequence[Section]) -> str:
-    """The text of sections in order, each under a line that names it."""
+    """Return the text of the sections in order, each under a line that names its origin."""
     return "".join(f"// ==== {s.origin} ====\n{s.text.rstrip()}\n" for s in sections)
 
 
 @dataclass(frozen=True)
 class Program:
-    """One program text made of ordered sections, for one compiler and precision; of rasterisation, the fragment's, with
-    the vertices' own sections in `vertex`."""
+    """One program text for one compiler and precision.
+
+    entry: what it is started as: "rays", "camera", "beams", "map", "raster", "mesh" or "fill"
+    sections: its text in order; for "raster" and "mesh" that of the fragments
+    vertex: for "raster" and "mesh" the text of the vertices, else nothing
+    optimised: False: built without optimisation, to compare its answers with the other's; OpenCL compilers only
+    """
 
     language: Literal["glsl", "cl"]
     precision: Precision
-    entry: str  # "rays", "camera", "beams", "map", "raster", "mesh" or "fill"
+    entry: str
     sections: tuple[Section, ...]
     vertex: tuple[Section, ...] = ()
-    optimised: bool = True  # False: built without optimisation, to hold against the other; only OpenCL compilers can
+    optimised: bool = True
 
     @property
     def text(self) -> str:
@@ -202,7 +242,7 @@ class Program:
         return digest(self.language, self.precision, self.entry, *texts, *([] if self.optimised else ["unoptimised"]))
 
     def locate(self, line: int) -> tuple[str, int]:
-        """Section origin and line within it for a 1-based line of `text`."""
+        """Return the origin of the section that holds line `line` of `text` (from 1), and the line's number in it."""
         first = 1
         for section in self.sections:
             count = len(section.text.rstrip().split("\n")) + 1
@@ -214,118 +254,72 @@ class Program:
 
 @dataclass(frozen=True)
 class DeviceInfo:
-    """A device as its driver names it."""
+    """Describes a device as its driver names it.
 
-    name: str  # "opencl:intel"
-    title: str  # the hardware's own name
+    name: what commands and rows call it, for example "opencl:intel"
+    title: the hardware's own name
+    clock: the one to be trusted there, the device's own or the host's
+    versions: name and version of the Python packages that it is reached by
+    problem: why it cannot run kernels; None where it can
+    resident: work items that fill one compute unit; None where one work group fills it
+    """
+
+    name: str
+    title: str
     driver: str
     compiler: str
     compute_units: int | None
     float64: bool
-    clock: Literal["device", "wall"]  # which clock is to be believed
-    versions: tuple[tuple[str, str], ...]  # the bindings' package versions
-    problem: str | None = None  # why it cannot run kernels, where it cannot
-    resident: int | None = None  # work items that fill one of its compute units; None: a work group does
+    clock: Literal["device", "wall"]
+    versions: tuple[tuple[str, str], ...]
+    problem: str | None = None
+    resident: int | None = None
 
 
 @dataclass(frozen=True, eq=False)
 class Hits:
-    """What a method answered for n rays."""
+    """Holds what a method answered for n rays."""
 
     t: NDArray[np.float64]  # [n] along the ray as given, scene units; NaN where status is not HIT
     status: NDArray[np.uint8]  # [n] RayStatus
-    evaluations: NDArray[np.int32]  # [n] evaluations of f (value or value with derivative) spent; 0 where INVALID
+    evaluations: NDArray[np.int32]  # [n] evaluations of f, with its derivative or without; 0 where INVALID
 
     @property
     def spent(self) -> tuple[float | None, int]:
-        """Evaluations over the rays that were answered, mean and largest; None and 0 where none was."""
+        """Return mean and maximum of the evaluations over rays whose status is not INVALID; None and 0 without any."""
         spent = self.evaluations[self.status != RayStatus.INVALID]
         return (float(spent.mean()), int(spent.max())) if len(spent) else (None, 0)
 
 
 @dataclass(frozen=True, eq=False)
 class Truth:
-    """The oracle's certified answers for n rays, and what classifies them.
+    """Holds the oracle's certified answers for n rays, and what sorts the rays into classes.
 
-    `lower`, `upper` and `status` are proved. `following`, `condition`, `margin` and `contrast` are float64 estimates
-    that sort rays into classes and never decide right or wrong by themselves.
+    `lower`, `upper` and `status` are proved. The others are float64 estimates. They sort rays into classes, and never
+    decide by themselves whether an answer is right.
+
+    condition: condition number of the first root: change of t over the domain's radius, for a relative change of f's
+        terms. It is the sum of |terms of f| / (|df/dt| * radius)
+    margin: how far the ray is from another answer, scene units: the least of |f| / |grad f| at near touches before the
+        first hit, of the depth of the first root's dip, and of the roots' distances to the ends of the ray's interval
+    contrast: how far f stays clear of its own rounding: the least |f| at such places, and anywhere before the first
+        root, over the bound, in unit roundoffs, of a kernel's error in f there (oracle.noise). Below a precision's
+        unit roundoff the sign of f is in doubt
     """
 
     lower: NDArray[np.float64]  # [n] certified: lower <= t* <= upper; NaN where status is not CROSSING or TOUCH
-    upper: NDArray[np.float64]
+    upper: NDArray[np.float64]  # [n]
     status: NDArray[np.uint8]  # [n] TruthStatus
-    following: NDArray[np.float64]  # [n] the next root after the first inside the domain; inf where there is none
-    condition: NDArray[np.float64]  # [n] condition number of the first root: d t / (relative change of f's terms), over
-    #   the domain's radius: sum of |terms of f| / (|df/dt| * radius); NaN without a hit
-    margin: NDArray[np.float64]  # [n] how far, in scene units, the ray is from another answer: the smallest estimate
-    #   |f| / |grad f| over near touches before the first hit, the depth of the first root's dip, and the distance of
-    #   roots to the ends of the clip interval; inf where nothing is near
-    contrast: NDArray[np.float64]  # [n] how far f stays clear of its own rounding: the smallest |f| at such places, and
-    #   anywhere before the first root, over what kernels may be off in f's value there (oracle.noise), in unit
-    #   roundoffs; inf without any; 0 for TOUCH and UNDECIDED. Below an arithmetic's unit roundoff f's sign is in doubt
+    following: NDArray[np.float64]  # [n] t of the next root in the domain; inf where there is none
+    condition: NDArray[np.float64]  # [n] NaN without a hit
+    margin: NDArray[np.float64]  # [n] inf where nothing is near
+    contrast: NDArray[np.float64]  # [n] inf where there is no such place; 0 for TOUCH and UNDECIDED
 
 
 FROM_ORIGIN: Mapping[Origin, str] = {"nearest": "", "entry": " from the entry", "eye": " from the eye"}
 
 
-@dataclass(frozen=True)
-class Cell:
-    """One point of the experiment grid: a view, or a family of hard rays, which is checked but not timed."""
-
-    variant: Variant
-    surface: Surface
-    view: View
-    size: int  # pixels per side
-    samples_per_pixel: int
-    precision: Precision
-    stage: Stage
-    device: str
-    family: str | None = None  # of harness.hardcases; then its rungs' rays take the place of surface and view
-    prepass: Prepass = "none"  # beams: the rays are narrowed to where tiles' beams cannot exclude the surface
-    proxy: Proxy = "box"  # of stage raster: the geometry whose fragments cast rays
-    tolerance: float = 0.0  # of stage raster: pixel footprints that a method's own tolerance may grow to
-    scene: Any = None  # a harness.scenes.Scene of several instances, of which `surface` then is the stand-in
-    origin: Origin = "nearest"  # where a method sees its ray begin: at the point nearest the domain's centre, where the
-    #   ray enters the domain, or at the eye, as the ray was given; t is told along the ray as given all the same
-    normal: Normal = "distance"  # of stage raster: what hits are shaded by, see assemble.raster_program
-
-    @property
-    def caster(self) -> str:
-        """The variant, with the prepass that it works behind, its tolerance in pixels, a proxy that is no box, an
-        origin that is not the nearest point, and normals that are not of the distance."""
-        behind = "" if self.prepass == "none" else f"+{self.prepass}"
-        loose = f" to {self.tolerance:g} pixels" if self.tolerance else ""
-        proxy = "" if self.proxy == "box" else f" in a {self.proxy}"
-        shaded = "" if self.normal == "distance" else f" shaded by {self.normal}"
-        return f"{self.variant}{behind}{loose}{proxy}{FROM_ORIGIN[self.origin]}{shaded}"
-
-    @property
-    def slot(self) -> str:
-        """The cell's place in the grid, for people."""
-        if self.family:
-            return f"{self.caster} family {self.family} {self.precision} {self.device}"
-        sampling = f"{self.size}x{self.size}x{self.samples_per_pixel}"
-        where = f"{self.surface.name} {self.view.name} {sampling}"
-        return f"{self.caster} {where} {self.precision} {self.stage} {self.device}"
-
-    @property
-    def comparison(self) -> str:
-        """Cells that share this are compared with each other: they differ in variant, device and precision alone."""
-        if self.family:
-            return f"family {self.family}"
-        return f"{self.surface.name} {self.view.name} {self.size}x{self.size}x{self.samples_per_pixel} {self.stage}"
-
-    @property
-    def together(self) -> str:
-        """Cells that share this are timed in one interleaved run: a comparison, those of all views of a set, and those
-        of all forms of a surface."""
-        if self.family:
-            return self.comparison
-        views = self.view.name if self.view.set is None else self.view.set
-        return f"{self.surface.base} {views} {self.size}x{self.size}x{self.samples_per_pixel} {self.stage}"
-
-
 def digest(*parts: Any) -> str:
-    """A stable 16-digit hash of JSON-able parts."""
+    """Return a stable hash of JSON-able parts: 16 hexadecimal digits."""
     text = json.dumps(parts, sort_keys=True, separators=(",", ":"), ensure_ascii=False)
     return hashlib.sha256(text.encode()).hexdigest()[:16]

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import dataclasses
-import difflib
 import importlib.metadata
 import importlib.util
 import sys
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from harness.contract import CLAIMS, FirsthitError, Method, Variant
+from harness.limits import is_finite
+from surfaces.words import suggestion
 
 BUILT_IN = Path(__file__).parent.parent / "methods"
 ENTRY_POINTS = "firsthit.methods"
@@ -27,11 +28,19 @@ class Plugin:
     folder: Path
 
     def variant(self, given: Mapping[str, float | int]) -> Variant:
-        """The method with `given` knobs turned; raises FirsthitError for a knob it does not have."""
+        """Bind the method's knobs: the `given` ones, and the others at their defaults.
+
+        Raises FirsthitError for a knob that the method does not have, for a value that is not finite, and for a broken
+        number where the knob's are whole.
+        """
         defaults = {parameter.name: parameter.default for parameter in self.method.parameters}
         for name, value in given.items():
             if name not in defaults:
-                raise FirsthitError(f"method {self.method.name!r} has no parameter {name!r}{_hint(name, defaults)}")
+                raise FirsthitError(
+                    f"method {self.method.name!r} has no parameter {name!r}; {suggestion(name, sorted(defaults))}"
+                )
+            if not is_finite(value):
+                raise FirsthitError(f"{self.method.name}: {name} is a finite number, not {str(value)[:40]}")
             if isinstance(defaults[name], int) and value != int(value):
                 raise FirsthitError(f"{self.method.name}: {name} is a whole number, not {value}")
         kind = {name: type(default) for name, default in defaults.items()}
@@ -49,7 +58,9 @@ class Plugin:
             return dataclasses.replace(self.variant(self.method.printed), label=f"{self.method.name} {AS_PRINTED}")
         if name not in self.method.settings:
             known = [*self.method.settings, *([AS_PRINTED] if self.method.printed else [])]
-            raise FirsthitError(f"method {self.method.name!r} has no setting {name!r}{_hint(name, known)}")
+            raise FirsthitError(
+                f"method {self.method.name!r} has no setting {name!r}; {suggestion(name, sorted(known))}"
+            )
         return dataclasses.replace(self.variant(self.method.settings[name]), label=name)
 
     def deviations(self) -> list[Variant]:
@@ -71,12 +82,8 @@ class Catalog:
             return self.plugins[name]
         if name in self.broken:
             raise FirsthitError(f"method {name!r} cannot be loaded: {self.broken[name]}")
-        raise FirsthitError(f"there is no method {name!r}{_hint(name, self.plugins)}; see `firsthit list methods`")
-
-
-def _hint(name: str, known: Iterable[str]) -> str:
-    near = difflib.get_close_matches(name, list(known), 1)
-    return f"; did you mean {near[0]!r}?" if near else f"; there are: {', '.join(sorted(known)) or 'none'}"
+        hint = suggestion(name, sorted(self.plugins))
+        raise FirsthitError(f"there is no method {name!r}; {hint}; see `firsthit list methods`")
 
 
 def _load(folder: Path) -> Method:
@@ -98,7 +105,7 @@ def _load(folder: Path) -> Method:
     if not isinstance(method, Method):
         raise FirsthitError(f"{path} does not define METHOD = Method(...)")
     for claim in sorted(method.claims - CLAIMS.keys()):
-        raise FirsthitError(f"{path} claims {claim!r}, which no test knows{_hint(claim, CLAIMS)}")
+        raise FirsthitError(f"{path} claims {claim!r}, which no test knows; {suggestion(claim, sorted(CLAIMS))}")
     if "error_below_tolerance" in method.claims and method.tolerance is None:
         raise FirsthitError(f"{path} claims error_below_tolerance; that needs tolerance=..., see harness/contract.py")
     if method.name != folder.name:

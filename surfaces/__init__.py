@@ -1,15 +1,19 @@
-"""Surfaces: the catalog, formulas of one's own, and what is derived from them.
+"""Defines implicit surfaces: the catalog, formulas of one's own, and what is derived from them.
 
-import surfaces
-torus = surfaces.get("torus", R="0.5")
-nested = surfaces.get("chmutov:nested")  # the same polynomial, written in another way
-mine = surfaces.from_formula("x^2 + y^2*z^3 - z^4", "sphere:1.5")
-values = surfaces.evaluate(mine, points)  # float64[n, 3] → float64[n]
+    import surfaces
+    torus = surfaces.get("torus", R="0.5")
+    nested = surfaces.get("chmutov:nested")  # the same polynomial, written in another way
+    mine = surfaces.from_formula("x^2 + y^2*z^3 - z^4", "sphere:1.5")
+    values = surfaces.evaluate(mine, points)  # float64[n, 3] → float64[n]
+
+This is the ground: it imports nothing else of the project. `model` says what a surface is. `catalog`, `families` and
+`forms` hold the surfaces of the papers, written by means of `entries`. `formula` parses text into a `tape`, which
+`numbers` runs in several number systems and `lowering` turns into other tapes: derivatives, coefficients along a ray.
+`evaluation` computes values. `validity` proves that a formula of one's own is defined all over its domain.
 """
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Mapping
 from dataclasses import replace
 
@@ -20,26 +24,27 @@ from surfaces.families import FAMILIES
 from surfaces.forms import FORMS, SEPARATOR
 from surfaces.model import Box, Domain, FirsthitError, Sphere, Surface
 from surfaces.validity import check
+from surfaces.words import suggestion
 
 __all__ = ["evaluate", "expression", "forms_of", "from_formula", "get", "gradient", "names", "operations", "tape_of"]
 _FIXED = {surface.name: surface for surface in FIXED}
 
 
 def names() -> tuple[str, ...]:
-    """Every catalog name, sorted; forms are not among them."""
+    """Return all names of the catalog, sorted, without those of forms."""
     return tuple(sorted((*FAMILIES, *_FIXED)))
 
 
 def forms_of(name: str) -> tuple[str, ...]:
-    """List the names of a catalog surface's further forms, as `get` takes them: `("chmutov:nested", …)`."""
+    """Return the names of a catalog surface's other forms, as `get` takes them: `("chmutov:nested", …)`."""
     return tuple(f"{name}{SEPARATOR}{form}" for form in FORMS.get(name, ()))
 
 
 def get(name: str, **parameters: str | float) -> Surface:
-    """A catalog surface or one of its forms, its parameters bound (`get("torus", R="0.5")`; numbers are taken as the
-    decimals they print).
+    """Return a surface of the catalog, or one of its forms, with the parameters given: `get("torus", R="0.5")`.
 
-    Raises FirsthitError for an unknown name (with the nearest ones), form, parameter or value.
+    A parameter that is a float is taken as the decimal that it prints. Raises FirsthitError for an unknown name, with
+    the nearest names, and for an unknown form or parameter or a value that is no decimal.
     """
     name, _, form = name.partition(SEPARATOR)
     surface = _as_printed(name, parameters)
@@ -53,9 +58,9 @@ def get(name: str, **parameters: str | float) -> Surface:
 
 
 def _as_printed(name: str, parameters: Mapping[str, str | float]) -> Surface:
+    """Return a surface of the catalog in the form of its source. Raises FirsthitError as `get`."""
     if name not in names():
-        near = difflib.get_close_matches(name, names(), 3, 0.5)
-        hint = f"did you mean {', '.join(near)}?" if near else "see `firsthit list surfaces`"
+        hint = suggestion(name, names(), most=3, otherwise="see `firsthit list surfaces`")
         raise FirsthitError(f"there is no surface {name!r}; {hint}")
     known = FAMILIES[name][2] if name in FAMILIES else {}
     for key in parameters:
@@ -74,9 +79,11 @@ def from_formula(
     name: str = "formula",
     parameters: Mapping[str, str | float] | None = None,
 ) -> Surface:
-    """A surface of one's own. `domain_text`: "sphere:R", "box:a,b,c" (half extents) or "box:x0,y0,z0:x1,y1,z1".
+    """Return the surface of a formula in the language of surfaces.formula.
 
-    Raises FirsthitError for what is not a formula, does not depend on x, y, z, or is not defined all over its domain.
+    `domain_text` is "sphere:R", "box:a,b,c" with half extents, or "box:x0,y0,z0:x1,y1,z1". Raises FirsthitError if the
+    text is no formula or no domain, if f does not depend on x, y and z, or if it cannot be shown to be defined all over
+    the domain.
     """
     bound = _decimals(parameters or {})
     degree = formula.degree(formula.parse(text, bound))
@@ -94,7 +101,7 @@ def from_formula(
 
 
 def _decimals(values: Mapping[str, str | float]) -> dict[str, str]:
-    """Parameters as exact decimals."""
+    """Return parameters as exact decimals. Raises FirsthitError for a text that is none."""
     texts = {name: value.strip() if isinstance(value, str) else repr(value) for name, value in values.items()}
     for name, text in texts.items():
         try:
@@ -105,6 +112,7 @@ def _decimals(values: Mapping[str, str | float]) -> dict[str, str]:
 
 
 def _domain(text: str) -> Domain:
+    """Return the domain that a text describes. Raises FirsthitError if it describes none."""
     kind, *groups = (part.strip() for part in text.split(":"))
     numbers = [[float(formula.exact(item.strip())) for item in group.split(",")] for group in groups]
     try:

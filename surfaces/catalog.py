@@ -1,7 +1,7 @@
-"""The catalog: the surfaces of the papers, and singular ones that are hard. Those with parameters are in `families`.
+"""Holds the catalog's surfaces without parameters: those of the papers, and hard ones with singular points.
 
-Domains: spheres, as in szente, of a radius that shows all singular points; the cube of toledo2007's Fig. 2 for cubics;
-boxes where a sphere would show mostly tentacles.
+Those with parameters are in `families`. Domains are spheres, as in szente, with a radius that shows all singular
+points; for cubics the cube of toledo2007's Fig. 2; and boxes where a sphere would mostly show tentacles.
 """
 
 from __future__ import annotations

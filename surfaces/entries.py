@@ -1,10 +1,10 @@
-"""How catalog entries are written, and the facts they may state.
+"""Makes entries of the catalog, with the facts that they may state.
 
-A wrong transcription renders plausibly, so everything in `facts` is recomputed by tests/test_catalog.py:
+A wrong transcription renders plausibly. Everything in `facts` is therefore recomputed by tests/test_catalog.py:
 
     singular_points   how many real points have f = 0 and grad f = 0, all of them isolated
-    singular_along    directions (a, b, c): f and grad f vanish along the line through the origin
-    singular_at       some points where f and grad f vanish, of a whole curve of them
+    singular_along    directions (a, b, c) of lines through the origin along which f and grad f vanish
+    singular_at       some points of a curve along which f and grad f vanish
     symmetries        names of SYMMETRIES that leave f as it is
     points            points that lie on the surface
 """
@@ -48,7 +48,7 @@ REVOLVED = ("rotate_z_5", "mirror_x", "mirror_z")
 
 
 def sum_over_axes(term: str, constant: str) -> str:
-    """Write the sum of a term in t, taken of x, y and z, and of a constant that stands with its sign."""
+    """Return the sum of a term in t at x, y and z, and of a constant, which is given with its sign."""
     return " + ".join(f"({term.replace('t', axis)})" for axis in "xyz") + f" {constant}"
 
 
@@ -65,7 +65,7 @@ def entry(
     feature_radius: float | None = None,
     **facts: Any,
 ) -> Surface:
-    """A catalog surface; `facts` as in this module's docstring."""
+    """Return a surface of the catalog; this module's docstring lists the `facts`."""
     return Surface(
         name=name,
         title=title,

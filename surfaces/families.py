@@ -1,4 +1,4 @@
-"""Catalog surfaces with parameters: each family makes a surface from exact decimals."""
+"""Holds the catalog's surfaces with parameters: each family makes a surface of exact decimals."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from surfaces.model import Box, FirsthitError, Sphere, Surface
 
 
 def _sphere(name: str, title: str, values: Mapping[str, str]) -> Surface:
+    """Make a sphere in a ball half as large again."""
     radius = _positive(name, values, "R")
     return entry(
         name,
@@ -54,7 +55,10 @@ def _torus(name: str, title: str, values: Mapping[str, str]) -> Surface:
 
 
 def _kummer(name: str, title: str, values: Mapping[str, str]) -> Surface:
-    """16 real nodes for 1/3 < mu2 < 3, mu2 != 1; p, q, r, s are the planes of a tetrahedron."""
+    """Make a Kummer quartic, whose four planes are those of a tetrahedron. It has 16 real nodes.
+
+    Raises FirsthitError unless 1/3 < mu2 < 3 and mu2 is not 1.
+    """
     square = exact(values["mu2"])
     if not Fraction(1, 3) < square < 3 or square == 1:
         raise FirsthitError(f"{name}: mu2 must be between 1/3 and 3 and not 1, not {values['mu2']}")
@@ -73,7 +77,7 @@ def _kummer(name: str, title: str, values: Mapping[str, str]) -> Surface:
 
 
 def _two_spheres(name: str, title: str, values: Mapping[str, str]) -> Surface:
-    """Radii 1 and sqrt(1 + gap)."""
+    """Make two concentric spheres with the radii 1 and sqrt(1 + gap)."""
     _positive(name, values, "gap")
     return entry(
         name,
@@ -91,6 +95,7 @@ def _two_spheres(name: str, title: str, values: Mapping[str, str]) -> Surface:
 
 
 def _positive(name: str, values: Mapping[str, str], key: str) -> float:
+    """Return a parameter as a float. Raises FirsthitError unless it is positive."""
     value = float(exact(values[key]))
     if value <= 0.0:
         raise FirsthitError(f"{name}: {key} must be positive, not {values[key]}")

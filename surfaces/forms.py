@@ -1,13 +1,13 @@
-"""Further ways to write surfaces of the catalog: `surfaces.get("chmutov:nested")`.
+"""Holds other ways to write surfaces of the catalog: `surfaces.get("chmutov:nested")`.
 
-The catalog writes a surface as the paper prints it that it is from. A form here is the same polynomial, written in
-another way: exact arithmetic cannot tell them apart, rounding and interval extensions can. Name, domain, parameters and
-facts are the surface's own. tests/test_forms.py expands every form and compares.
+The catalog writes a surface as the paper that it is from prints it. A form is the same polynomial written in another
+way. Exact arithmetic cannot tell them apart; rounding and interval extensions can. Name, domain, parameters and facts
+are the surface's own. tests/test_forms.py expands every form and compares.
 
-    nested       Horner's rule, as far as it goes
-    expanded     a sum of monomials
-    factored     what is common to all terms of a variable drawn out, powers kept
-    squares      squares completed, so that each variable stands once
+    nested       by Horner's rule, as far as it can be applied
+    expanded     as a sum of monomials
+    factored     with the common factor of all terms of a variable taken out, and powers kept
+    squares      with squares completed, so that each variable occurs once
     toledo2007   as that paper's Equation 1 prints it; the catalog has the form of szente's Table 3
 """
 

@@ -1,16 +1,15 @@
-"""The formula language: text → `Tape`, by a Pratt parser of its own. Nothing is ever evaluated as Python.
+"""Parses the formula language: turns text into a `Tape`, by a Pratt parser. Nothing is ever evaluated as Python.
 
     formula  = numbers, x y z, parameters, constants, + - * / ^ (or **), parentheses, function calls
     constants: pi e phi sqrt2 sqrt3 sqrt5 (sqrt and any whole number)
     functions: sqrt exp log sin cos tan abs(a), min max(a, b, ...)
 
-`^` binds tighter than a minus sign before it and groups to the right; exponents are whole constants (`e^` takes any).
-Numbers are exact: 0.3 is 3/10. Every size is checked before anything of that size is built.
+`^` binds tighter than a minus sign before it and groups to the right. Exponents are whole constants; those of e may be
+anything. Numbers are exact: 0.3 is 3/10. Every size is checked before anything of that size is built.
 """
 
 from __future__ import annotations
 
-import difflib
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -21,11 +20,12 @@ from typing import Any, NoReturn
 from surfaces.model import FirsthitError
 from surfaces.numbers import BallPolynomials, Symbols
 from surfaces.tape import UNARY, Builder, Tape, walk
+from surfaces.words import suggestion
 
 MAX_LENGTH = 4000  # characters of a formula
-MAX_DEPTH = 60  # parentheses, calls, signs and exponents within one another
+MAX_DEPTH = 60  # of parentheses, calls, signs and exponents inside one another
 MAX_DEGREE = 64  # a polynomial of this degree in three variables has 47,905 terms
-MAX_BITS = 1000  # of a rational constant's numerator and denominator; keeps it inside float64's range
+MAX_BITS = 1000  # of a rational constant's numerator and denominator, which keeps it inside float64's range
 COORDINATES = ("x", "y", "z")
 FUNCTIONS = (*UNARY, "abs", "min", "max")
 CONSTANTS = ("pi", "e", "phi", "sqrt2", "sqrt3", "sqrt5")
@@ -40,7 +40,7 @@ _SIGN = 30
 
 
 def __getattr__(name: str) -> Any:
-    """X, Y, Z: the sympy symbols of `expression`, made when first asked for."""
+    """Return X, Y or Z, the sympy symbols of `expression`; sympy is imported when one is first asked for."""
     if name in ("X", "Y", "Z"):
         import sympy
 
@@ -49,7 +49,7 @@ def __getattr__(name: str) -> Any:
 
 
 def exact(text: str) -> Fraction:
-    """A decimal number, exactly. Raises FirsthitError for anything else or one past float64's range."""
+    """Return a decimal number exactly. Raises FirsthitError if it is none, or past the range of float64."""
     match = _NUMBER.fullmatch(text)
     if match is None or len(text) > 300:
         raise FirsthitError(f"{text[:40]!r} is not a decimal number")
@@ -67,16 +67,16 @@ def _parsed(text: str, parameters: tuple[tuple[str, str], ...], free: bool) -> T
 
 
 def parse(text: str, parameters: Mapping[str, str] | None = None, free: bool = False) -> Tape:
-    """The tape of a formula, its operations in the order written; parameters are exact decimals by name, or, where they
-    are `free`, variables like the coordinates.
+    """Return the tape of a formula, with its operations in the order written.
 
-    Raises FirsthitError with the column and a caret under it.
+    `parameters` are exact decimals by name. If `free`, they become variables, as the coordinates are. Raises
+    FirsthitError, which names the column and shows it with a caret, if the text is no formula.
     """
     return _parsed(text, tuple(sorted((parameters or {}).items())), free)
 
 
 def expression(tape: Tape) -> Any:
-    """The exact sympy expression of a tape's first output, in the symbols X, Y, Z of this module."""
+    """Return the exact sympy expression of a tape's first output, in the symbols X, Y, Z of this module."""
     import sympy
 
     symbols = {name: sympy.Symbol(name, real=True) for name in COORDINATES}
@@ -84,7 +84,8 @@ def expression(tape: Tape) -> Any:
 
 
 def is_polynomial(tape: Tape) -> bool:
-    """Whether the tape is built as a polynomial: it divides by constants only and calls functions of constants only."""
+    """Return whether a tape is built as a polynomial: it divides by constants, and calls functions of constants,
+    only."""
     constant = tape.constants()
     ring = {"add", "sub", "mul", "neg", "sqr", "powi", "var"}
     return all(
@@ -93,10 +94,10 @@ def is_polynomial(tape: Tape) -> bool:
 
 
 def degree(tape: Tape) -> int | None:
-    """The total degree in x, y, z, -1 for zero; None where the formula is not built as a polynomial.
+    """Return the total degree in x, y, z, -1 for zero; None if the formula is not built as a polynomial.
 
-    Taken along one fixed generic line in 2000-bit balls, so that terms that cancel do not count: a leading form that
-    vanishes on the line's direction, three ratios of large primes, would be missed.
+    It is computed along one fixed generic line in 2000-bit balls, so that terms that cancel do not count. Only a
+    leading form that vanishes in the line's direction, three ratios of large primes, would be missed.
     """
     if not is_polynomial(tape):
         return None
@@ -123,14 +124,17 @@ class _Token:
 
 
 class _Parser:
-    """Precedence climbing over tokens; values are operations of one `Builder`."""
+    """Parses one formula by precedence climbing. The values of its methods are operations of one `Builder`.
+
+    Raises FirsthitError for a formula that is too long, and for a parameter's name that is no word or has a meaning.
+    """
 
     def __init__(self, text: str, parameters: Mapping[str, str], free: bool) -> None:
         self.text = text
         self.free = free
         self.parameters = parameters
         self.builder = Builder()
-        self.weights: list[int] = []  # for each operation: its degree, counting a function's value as degree 1
+        self.weights: list[int] = []  # for each operation its degree, where a function's value has degree 1
         self.depth = 0
         if len(text) > MAX_LENGTH:
             raise FirsthitError(f"the formula has {len(text)} characters; at most {MAX_LENGTH} are accepted")
@@ -148,7 +152,7 @@ class _Parser:
         return name in (*COORDINATES, *FUNCTIONS, *CONSTANTS) or re.fullmatch(r"sqrt[0-9]+", name) is not None
 
     def fail(self, message: str, column: int) -> NoReturn:
-        """Raise with the part of the text around the column and a caret under it."""
+        """Raise FirsthitError with the part of the text around a column, and a caret below it."""
         start = max(0, column - 60)
         shown = "".join(c if c.isprintable() else "?" for c in self.text[start : column + 40])
         raise FirsthitError(f"formula, column {column + 1}: {message}\n    {shown}\n    {' ' * (column - start)}^")
@@ -200,7 +204,7 @@ class _Parser:
         return f"expected an operator before {token.text!r}; write * between factors"
 
     def parse(self, binding: int) -> int:
-        """A value made of everything that binds tighter than `binding`."""
+        """Parse everything that binds tighter than `binding`, as one value."""
         self.depth += 1
         if self.depth > MAX_DEPTH:
             self.fail(f"nested more than {MAX_DEPTH} deep", self.peek().column)
@@ -248,9 +252,7 @@ class _Parser:
         if re.fullmatch(r"sqrt[1-9][0-9]{0,3}", name):
             return self.root(int(name[4:]))
         known = [*COORDINATES, *self.parameters, *CONSTANTS, *FUNCTIONS]
-        near = difflib.get_close_matches(name.lower()[:40], known, 1)
-        hint = f"did you mean {near[0]!r}?" if near else f"known are {', '.join(known)}"
-        self.fail(f"unknown name {name[:40]!r}; {hint}", token.column)
+        self.fail(f"unknown name {name[:40]!r}; {suggestion(name.lower()[:40], known)}", token.column)
 
     def root(self, n: int) -> int:
         return self.builder.sqrt(self.builder.const(n))
@@ -305,7 +307,7 @@ class _Parser:
         return builder.powi(base, int(n))
 
     def checked(self, index: int, column: int) -> int:
-        """`index`, once its size is known to be bearable."""
+        """Return `index` unless its constant or its degree is too large, which raises FirsthitError."""
         value = self.builder.value(index)
         if value is not None and _bits(value) > MAX_BITS:
             self.fail(f"this constant has more than {MAX_BITS} bits", column)

@@ -1,7 +1,7 @@
-"""Tape → tape: constants folded, powers by squaring, derivatives, the coefficients along a ray.
+"""Turns tapes into other tapes: with folded constants and powers by squaring, derivatives, coefficients along a ray.
 
-Every pass is exact in exact arithmetic; each keeps the written order of operations where it can, since that decides
-rounding.
+Every pass is exact in exact arithmetic. Each keeps the written order of operations where it can, since the order
+decides rounding.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ from collections import Counter
 from collections.abc import Callable, Mapping
 from fractions import Fraction
 from functools import cache, reduce
+from typing import Any
 
 from surfaces.numbers import Balls, fractions_of
 from surfaces.tape import LEAVES, Builder, Op, Tape, walk
@@ -20,15 +21,17 @@ CONSTANT_BITS = 320
 
 @cache
 def enclosures(tape: Tape) -> dict[int, Enclosure]:
-    """For each constant operation, exact rational bounds of its value, equal where it is rational as written.
+    """Return exact rational bounds of each constant operation's value, which are equal if it is rational as written.
 
-    Raises ZeroDivisionError where a constant is undefined, past 2^1000, or divided by what may be zero.
+    Raises ZeroDivisionError if a constant is undefined, larger than 2^1000, or divided by what may be zero.
     """
     import flint
 
     constant = [i for i, is_constant in enumerate(tape.constants()) if is_constant]
     with flint.ctx.workprec(CONSTANT_BITS):
-        balls = dict(zip(constant, walk(Tape(tape.ops, tuple(constant)).pruned(), Balls(), {}), strict=True))
+        balls: dict[int, Any] = dict(
+            zip(constant, walk(Tape(tape.ops, tuple(constant)).pruned(), Balls(), {}), strict=True)
+        )
         found: dict[int, Enclosure] = {}
         for index, ball in balls.items():
             op = tape.ops[index]
@@ -39,7 +42,7 @@ def enclosures(tape: Tape) -> dict[int, Enclosure]:
 
 
 class _Squaring(Builder):
-    """Whole powers as squares and products, so that powers of one base share theirs."""
+    """Builds whole powers as squares and products, so that powers of one base share them."""
 
     def powi(self, a: int, n: int) -> int:
         if n <= 2:
@@ -50,7 +53,7 @@ class _Squaring(Builder):
 
 @cache
 def real_tape(tape: Tape) -> Tape:
-    """The tape with irrational constants as 320-bit rationals and powers by squaring: what floats evaluate."""
+    """Return the tape that floats evaluate: irrational constants become 320-bit rationals, and powers squares."""
     known = enclosures(tape)
     builder = _Squaring()
     ops = tuple(Op("const", (sum(known[i]) / 2,)) if i in known else op for i, op in enumerate(tape.ops))
@@ -58,7 +61,7 @@ def real_tape(tape: Tape) -> Tape:
 
 
 def _partials(b: Builder, op: Op, value: int) -> tuple[int, ...]:
-    """The derivatives of an operation with respect to each of its inputs."""
+    """Return the derivatives of an operation by each of its inputs; `value` is the operation's own index."""
     a = op.args[0]
     one = b.const(1)
     match op.name:
@@ -101,7 +104,7 @@ def _partials(b: Builder, op: Op, value: int) -> tuple[int, ...]:
 
 
 def _copied(tape: Tape) -> Builder:
-    """A builder that starts with the tape's operations, at their indices."""
+    """Return a builder that holds the tape's operations, at the same indices."""
     builder = Builder()
     for op in tape.ops:
         builder.emit(op.name, *op.args)
@@ -109,7 +112,7 @@ def _copied(tape: Tape) -> Builder:
 
 
 def gradient(tape: Tape, names: tuple[str, ...] = ("x", "y", "z")) -> Tape:
-    """Derivatives of the first output of a real tape by each variable, in one backward pass."""
+    """Return the derivatives of a real tape's first output by each variable, in one backward pass."""
     b = _copied(tape)
     adjoints: dict[int, int] = {tape.outputs[0]: b.const(1)}
     for index in reversed(range(len(tape.ops))):
@@ -125,8 +128,10 @@ def gradient(tape: Tape, names: tuple[str, ...] = ("x", "y", "z")) -> Tape:
 
 
 def tangent(tape: Tape, seeds: Mapping[str, str]) -> Tape:
-    """Each output followed by its derivative in the direction whose component of variable v is named seeds[v]; other
-    variables stay as they are."""
+    """Return a tape of each output, followed by its derivative along a direction.
+
+    seeds[v] names the direction's component along the variable v. Variables without one are constant.
+    """
     b = _copied(tape)
     rates: list[int] = []
     zero = b.const(0)
@@ -140,13 +145,13 @@ def tangent(tape: Tape, seeds: Mapping[str, str]) -> Tape:
 
 
 def hessian_product(tape: Tape) -> Tape:
-    """The Hessian times the vector (vx, vy, vz): three outputs."""
+    """Return the product of the Hessian and the vector (vx, vy, vz): a tape of three outputs."""
     both = tangent(gradient(tape), {"x": "vx", "y": "vy", "z": "vz"})
     return Tape(both.ops, both.outputs[1::2]).pruned()
 
 
 class _Coefficients:
-    """Polynomials in t over a builder's operations: lists of coefficients, lowest power first."""
+    """The number system of polynomials in t over a builder's operations: coefficients, the lowest power first."""
 
     def __init__(self, builder: Builder) -> None:
         self.b = builder
@@ -190,10 +195,10 @@ class _Coefficients:
 
 
 def coefficients_along(tape: Tape, degree: int) -> Tape:
-    """Coefficients in t of f(o + t d), t^0 first, degree + 1 outputs; variables ox oy oz dx dy dz, and the tape's own
-    beside x, y, z.
+    """Return a tape of the degree + 1 coefficients of f(o + t d), that of t^0 first.
 
-    `tape` is a real tape built as a polynomial of this total degree; what cancels above the degree is left out.
+    Its variables are ox oy oz dx dy dz, and the tape's own other than x, y, z. `tape` is a real tape that is built as a
+    polynomial of this total degree; terms above the degree cancel and are left out.
     """
     b = Builder()
     ray = {name: [b.var(f"o{name}"), b.var(f"d{name}")] for name in ("x", "y", "z")}
@@ -203,7 +208,7 @@ def coefficients_along(tape: Tape, degree: int) -> Tape:
 
 
 def counts(tape: Tape) -> dict[str, int]:
-    """How many of each operation floats spend on the tape, constants free."""
+    """Count the operations that floats spend on a tape, by name; those of constants are free."""
     constant = tape.constants()
     return dict(
         sorted(Counter(op.name for op, c in zip(tape.ops, constant, strict=True) if not c and op.name != "var").items())

@@ -1,4 +1,4 @@
-"""What a surface is: a formula in a domain. Imports nothing of ours.
+"""Defines what a surface is: a formula in a domain. Imports nothing of ours.
 
 Lengths are in scene units, the surface's own coordinates.
 """
@@ -20,13 +20,16 @@ class FirsthitError(Exception):
 
 
 def as_float32(value: float) -> float:
-    """`value` rounded to the nearest float32; an OverflowError where there is none."""
+    """Round to the nearest float32. Raises OverflowError past its range."""
     return float(struct.unpack("<f", struct.pack("<f", value))[0])
 
 
 @dataclass(frozen=True)
 class Sphere:
-    """A ball. Its numbers are rounded to float32, so that kernels and oracle clip by the same domain."""
+    """A ball. Its numbers are rounded to float32, so that kernels and oracle clip by the same domain.
+
+    Raises FirsthitError unless the radius is positive and the centre finite.
+    """
 
     radius: float
     center: tuple[float, float, float] = (0.0, 0.0, 0.0)
@@ -40,7 +43,10 @@ class Sphere:
 
 @dataclass(frozen=True)
 class Box:
-    """An axis-aligned box. Its numbers are rounded to float32, so that kernels and oracle clip by the same domain."""
+    """An axis-aligned box. Its numbers are rounded to float32, so that kernels and oracle clip by the same domain.
+
+    Raises FirsthitError unless lower < upper on every axis, all finite.
+    """
 
     lower: tuple[float, float, float]
     upper: tuple[float, float, float]
@@ -55,12 +61,13 @@ class Box:
 
     @property
     def center(self) -> tuple[float, float, float]:
+        """Return the middle, rounded to float32."""
         x, y, z = (as_float32(0.5 * (a + b)) for a, b in zip(self.lower, self.upper, strict=True))
         return (x, y, z)
 
     @property
     def radius(self) -> float:
-        """Half the diagonal: the radius of the bounding sphere about `center`."""
+        """Return half the diagonal, which is the radius of the bounding sphere about `center`."""
         return 0.5 * math.dist(self.lower, self.upper)
 
 
@@ -71,7 +78,8 @@ Domain = Sphere | Box
 class Surface:
     """An implicit surface f(x, y, z) = 0 in its domain; all else is derived from the formula.
 
-    What is stated here beside the formula (`degree`, `distance`, `facts`) is recomputed by a test.
+    What is stated beside the formula (`degree`, `distance`, `facts`) is recomputed by tests. `bounding_radius` is that
+    of a sphere about the domain's centre that holds the surface; None where no better one than the domain's is known.
     """
 
     name: str
@@ -81,23 +89,22 @@ class Surface:
     source: str
     degree: int | None  # total degree in x, y, z; None where f is not a polynomial
     parameters: tuple[tuple[str, str], ...] = ()  # name, exact decimal: ("R", "0.7")
-    distance: str | None = None  # a formula of the exact signed distance, where one is known
-    bounding_radius: float | None = (
-        None  # a sphere about the domain's centre that holds the surface, where one is known
-    )
+    distance: str | None = None  # a formula of the exact signed distance; None: not known
+    bounding_radius: float | None = None
     feature_radius: float | None = None  # the length papers relate errors to (torus: minor radius r)
     facts: tuple[tuple[str, Any], ...] = ()  # what tests recompute: ("singular_points", 50), ...
 
     @property
     def algebraic(self) -> bool:
+        """Return whether f is a polynomial."""
         return self.degree is not None
 
     @property
     def base(self) -> str:
-        """The name without that of a form: `chmutov` of `chmutov:nested`."""
+        """Return the name without a form's: `chmutov` of `chmutov:nested`."""
         return self.name.partition(":")[0]
 
     @property
-    def identity(self) -> dict[str, Any]:
-        """What decides the surface's values: goes into cache keys."""
+    def identity(self) -> dict[str, object]:
+        """Return what decides the surface's values, for cache keys."""
         return {"formula": self.formula, "parameters": dict(self.parameters), "domain": repr(self.domain)}

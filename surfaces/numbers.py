@@ -1,6 +1,7 @@
-"""Number systems that walk a tape: numpy floats, certified balls, polynomials of balls, sympy expressions.
+"""Defines number systems that run a tape: numpy floats, certified balls, polynomials of balls, sympy expressions.
 
-Each has one method per operation of `surfaces.tape`. Balls need python-flint, Symbols need sympy; both load when used.
+Each has a method for each operation of `surfaces.tape`. Balls need python-flint, Symbols need sympy; both are imported
+when they are first used. Their numbers have no types here, since neither library states any.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ Floats64 = NDArray[np.float64]
 
 
 class Arithmetic:
-    """The operations that every number system with Python operators shares."""
+    """The operations that number systems with Python operators share."""
 
     def add(self, a: Any, b: Any) -> Any:
         return a + b
@@ -36,7 +37,7 @@ class Arithmetic:
         return a * a
 
     def powi(self, a: Any, n: int) -> Any:
-        """a to the n by squaring, n >= 1."""
+        """Return a to the power n by squaring, n >= 1."""
         if n == 1:
             return a
         half = self.sqr(self.powi(a, n // 2))
@@ -44,7 +45,7 @@ class Arithmetic:
 
 
 class Floats(Arithmetic):
-    """float64 arrays of any one shape."""
+    """Runs a tape in float64 arrays of one shape."""
 
     def const(self, value: Fraction) -> np.float64:
         return np.float64(value.numerator / value.denominator)
@@ -73,7 +74,10 @@ class Floats(Arithmetic):
 
 
 class Balls(Arithmetic):
-    """flint.arb at the precision of `flint.ctx`: every result holds the exact value for all points of its inputs."""
+    """Runs a tape in flint.arb, at the precision of `flint.ctx`.
+
+    Every result holds the exact values for all points of its inputs.
+    """
 
     def __init__(self) -> None:
         import flint
@@ -91,7 +95,7 @@ class Balls(Arithmetic):
         return self.arb.const_e()
 
     def sqr(self, a: Any) -> Any:
-        # A ball about zero squares to one that reaches as far below zero as above it; its true range does not.
+        # the product of a ball about zero with itself reaches as far below zero as above; a square does not
         square = a * a
         return square.nonnegative_part() if square.contains(0) else square
 
@@ -105,7 +109,7 @@ class Balls(Arithmetic):
         return a.max(b)
 
     def sqrt(self, a: Any) -> Any:
-        # Rounding takes sums of squares a little below zero; the root is taken of the part that is not.
+        # rounding may take a sum of squares slightly below zero: the root is taken of the part that is not negative
         return a.nonnegative_part().sqrt() if a.contains(0) else a.sqrt()
 
     def exp(self, a: Any) -> Any:
@@ -131,9 +135,9 @@ class Balls(Arithmetic):
 
 
 class BallPolynomials(Balls):
-    """flint.arb_poly, constants as balls: the surface along a ray is its tape walked with x, y, z as polynomials in t.
+    """Runs a tape in flint.arb_poly; constants stay balls. With x, y, z as polynomials in t it gives f along a ray.
 
-    Only for tapes that are built as polynomials (`surfaces.formula.is_polynomial`).
+    It is only for tapes that are built as polynomials (`surfaces.formula.is_polynomial`).
     """
 
     def sqr(self, a: Any) -> Any:
@@ -144,7 +148,7 @@ class BallPolynomials(Balls):
 
 
 class Symbols(Arithmetic):
-    """sympy expressions. abs, min and max stay unevaluated: sympy's simplification of them can take for ever."""
+    """Runs a tape in sympy expressions. abs, min and max stay unevaluated: simplifying them can take forever."""
 
     def __init__(self) -> None:
         import sympy
@@ -195,9 +199,9 @@ class Symbols(Arithmetic):
 
 
 def fractions_of(ball: Any) -> tuple[Fraction, Fraction]:
-    """Exact bounds of a flint.arb at the precision of `flint.ctx`.
+    """Return exact bounds of a flint.arb at the precision of `flint.ctx`.
 
-    Raises OverflowError past 2^1100; what is closer to zero than 2^-1100 is bounded by that.
+    Raises OverflowError past 2^1100. A bound closer to zero than 2^-1100 is replaced by that number, or by zero.
     """
     return _bound(ball.lower(), -1), _bound(ball.upper(), 1)
 

@@ -1,8 +1,8 @@
-"""Straight-line programs: every surface is one `Tape`, and every number system walks it by the same operation names.
+"""Defines straight-line programs. A surface is one `Tape`; every number system runs it by the same operation names.
 
-The vocabulary: `const` (a Fraction), `pi`, `e`, `var` (a name); `neg sqr sqrt exp log sin cos tan abs`, `powi` (a value
-and a whole exponent of 3 or more); `add sub mul div min max`. Derivatives of abs, min and max add `sign` (-1 or 1) and
-`below` (1 where a <= b, else 0).
+The operations are `const` (a Fraction), `pi`, `e`, `var` (a name); `neg sqr sqrt exp log sin cos tan abs`; `powi` (a
+value and a whole exponent of 3 or more); `add sub mul div min max`. Derivatives of abs, min and max use two more:
+`sign` (-1 or 1) and `below` (1 if a <= b, else 0).
 """
 
 from __future__ import annotations
@@ -10,22 +10,24 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
+from typing import Any, TypeVar
 
+Number = TypeVar("Number")
 LEAVES = frozenset({"const", "pi", "e", "var"})
-UNARY = ("sqrt", "exp", "log", "sin", "cos", "tan")  # what a formula may call, beside abs, min and max
+UNARY = ("sqrt", "exp", "log", "sin", "cos", "tan")  # the functions that a formula may call beside abs, min and max
 
 
 @dataclass(frozen=True, slots=True)
 class Op:
-    """One operation; `args` are indices of earlier ones, but const: (Fraction,), var: (name,), powi: (index, n)."""
+    """One operation. `args` are the indices of earlier operations; const has (Fraction,), var (name,), powi (index,
+    n)."""
 
     name: str
     args: tuple[Any, ...] = ()
 
     @property
     def inputs(self) -> tuple[int, ...]:
-        """The indices among `args`."""
+        """Return those of `args` that are indices."""
         if self.name in LEAVES:
             return ()
         return self.args[:1] if self.name == "powi" else self.args
@@ -33,20 +35,20 @@ class Op:
 
 @dataclass(frozen=True)
 class Tape:
-    """Operations in an order in which each finds its inputs, and the indices of the results."""
+    """Operations, each after its inputs, and the indices of those that are the results."""
 
     ops: tuple[Op, ...]
     outputs: tuple[int, ...]
 
     def constants(self) -> list[bool]:
-        """For each operation, whether it depends on no variable."""
+        """Return for each operation whether it depends on no variable."""
         constant: list[bool] = []
         for op in self.ops:
             constant.append(op.name != "var" and all(constant[i] for i in op.inputs))
         return constant
 
     def pruned(self) -> Tape:
-        """Only the operations that the outputs need."""
+        """Return the tape with only those operations that the outputs need."""
         live = set(self.outputs)
         for index in reversed(range(len(self.ops))):
             if index in live:
@@ -60,10 +62,14 @@ class Tape:
         return Tape(tuple(ops), tuple(place[i] for i in self.outputs))
 
 
-def walk(tape: Tape, numbers: Any, variables: Mapping[str, Any] | Callable[[str], Any]) -> tuple[Any, ...]:
-    """The outputs in a number system: an object with one method per operation name."""
+def walk(tape: Tape, numbers: Any, variables: Mapping[str, Number] | Callable[[str], Number]) -> tuple[Number, ...]:
+    """Run a tape and return its outputs.
+
+    `numbers` is a number system: any object that has a method for each operation on the tape, by its name. `variables`
+    gives the values of the variables.
+    """
     variable = variables.__getitem__ if isinstance(variables, Mapping) else variables
-    values: list[Any] = []
+    values: list[Number] = []
     for op in tape.ops:
         if op.name == "var":
             values.append(variable(op.args[0]))
@@ -77,10 +83,10 @@ def walk(tape: Tape, numbers: Any, variables: Mapping[str, Any] | Callable[[str]
 
 
 class Builder:
-    """The number system whose numbers are operations: shares common subexpressions and folds rational constants.
+    """The number system whose numbers are indices of operations, by which tapes are built.
 
-    The order of what was written is kept, since it decides rounding; only sums and products with exact constants
-    (0, 1, -1, two constants) are rearranged.
+    Equal subexpressions become one operation, and rational constants are folded. Operations stay in the order written,
+    since it decides rounding; only sums and products with exact constants are rearranged.
     """
 
     def __init__(self) -> None:
@@ -89,18 +95,20 @@ class Builder:
         self._constant: list[bool] = []
 
     def tape(self, *outputs: int) -> Tape:
+        """Return the tape of these outputs, with only the operations that they need."""
         return Tape(tuple(self.ops), outputs).pruned()
 
     def is_constant(self, index: int) -> bool:
+        """Return whether an operation depends on no variable."""
         return self._constant[index]
 
     def value(self, index: int) -> Fraction | None:
-        """The rational number an operation is, or None."""
+        """Return the rational number that an operation is, or None if it is none."""
         op = self.ops[index]
         return op.args[0] if op.name == "const" else None
 
     def emit(self, name: str, *args: Any) -> int:
-        """The operation as written, or the same one if it is there already."""
+        """Return the index of an operation, which is added if it is not there yet."""
         key = (name, *sorted(args)) if name in ("add", "mul", "min", "max") else (name, *args)
         if key not in self._known:
             self._known[key] = len(self.ops)
@@ -110,7 +118,7 @@ class Builder:
         return self._known[key]
 
     def _split(self, index: int) -> tuple[Fraction, int | None]:
-        """(factor, rest) with value = factor * rest; rest None for a rational constant."""
+        """Return a factor and the rest whose product an operation is; the rest is None for a rational constant."""
         op = self.ops[index]
         if op.name == "const":
             return op.args[0], None
@@ -145,14 +153,15 @@ class Builder:
         return self.emit("neg", a)
 
     def _offset(self, index: int) -> tuple[int, Fraction]:
-        """(rest, offset) with value = rest + offset, for a sum that ends in a rational constant."""
+        """Return the rest and the constant of a sum that ends in a rational constant; else the operation itself and
+        0."""
         op = self.ops[index]
         if op.name in ("add", "sub") and (offset := self.value(op.args[1])) is not None:
             return op.args[0], offset if op.name == "add" else -offset
         return index, Fraction(0)
 
     def _shifted(self, a: int, offset: Fraction) -> int:
-        """a + offset, merged with an offset that a already has."""
+        """Return a + offset, merged with a constant that a already ends in."""
         rest, known = self._offset(a)
         total = known + offset
         if total == 0:

@@ -1,4 +1,5 @@
-"""Is f defined, and finite, all over its domain? Proved by ball arithmetic on ever smaller boxes, or refused."""
+"""Proves by ball arithmetic on ever smaller boxes that f is defined all over its domain; refuses a formula if it
+cannot."""
 
 from __future__ import annotations
 
@@ -8,23 +9,23 @@ from typing import Any
 from surfaces.evaluation import tape_of
 from surfaces.formula import degree
 from surfaces.lowering import enclosures
-from surfaces.model import Box, FirsthitError, Sphere, Surface
+from surfaces.model import Box, Domain, FirsthitError, Surface
 from surfaces.numbers import Balls
 from surfaces.tape import Tape, walk
 
 MAX_BOXES = 3000
-MAX_OPERATIONS = 300_000  # ball operations spent on one formula: about half a second
+MAX_OPERATIONS = 300_000  # ball operations spent on one formula, which take about half a second
 _CONDITIONS = {
     "div": "a divisor must not vanish",
     "log": "log needs a positive argument",
     "sqrt": "sqrt needs an argument that is not negative",
     "tan": "tan must stay off its poles",
 }
-_ENOUGH = {"sqrt": 1, "log": 2, "div": 2}  # of `signs_of`, to need no proof on boxes
+_ENOUGH = {"sqrt": 1, "log": 2, "div": 2}  # from which of `signs_of` on no proof on boxes is needed
 
 
 def check(surface: Surface) -> None:
-    """Raises FirsthitError where f does not depend on x, y, z, or cannot be shown to be defined all over the domain."""
+    """Raise FirsthitError if f does not depend on x, y, z, or cannot be shown to be defined all over the domain."""
     tape = tape_of(surface)
     try:
         enclosures(tape)
@@ -43,9 +44,9 @@ def check(surface: Surface) -> None:
 
 
 def signs_of(tape: Tape) -> list[int]:
-    """For each operation 2 where its structure shows it positive, 1 where it shows it not negative, else 0.
+    """Return for each operation 2 if its structure shows that it is positive, 1 if not negative, else 0.
 
-    Squares, absolute values and roots are not negative, exponentials are positive; sums, products, quotients, minima
+    Squares, absolute values and roots are not negative; exponentials are positive. Sums, products, quotients, minima
     and maxima follow from their parts.
     """
     known: list[int] = []
@@ -73,7 +74,10 @@ def signs_of(tape: Tape) -> list[int]:
 
 
 def _prove(surface: Surface, name: str, argument: Tape, budget: int) -> None:
-    """Breadth first over boxes, each halved along its longest side, `budget` of them at most."""
+    """Prove that an operation is defined for its argument all over the domain, on boxes that are halved, breadth first.
+
+    Raises FirsthitError if `budget` boxes do not prove it. Boxes are halved along their longest side.
+    """
     import flint
 
     domain, numbers = surface.domain, Balls()
@@ -102,7 +106,8 @@ def _prove(surface: Surface, name: str, argument: Tape, budget: int) -> None:
         )
 
 
-def _outside(domain: Sphere | Box, point: list[Any]) -> bool:
+def _outside(domain: Domain, point: list[Any]) -> bool:
+    """Return whether a box, three flint.arb, is proved to lie outside the domain."""
     if isinstance(domain, Box):
         return False
     squares = Balls()
@@ -111,6 +116,7 @@ def _outside(domain: Sphere | Box, point: list[Any]) -> bool:
 
 
 def _holds(name: str, value: Any) -> bool:
+    """Return whether an operation is proved to be defined for all of a flint.arb."""
     if name == "sqrt":
         return bool(value >= 0)
     if name == "log":

@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 import dataclasses
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 import surfaces
 from harness.accuracy import answers
-from harness.accuracy.check_frames import hits_of
+from harness.accuracy.scene_truth import hits_of
 from harness.contract import (
     Box,
     FirsthitError,
     Hits,
     Method,
+    Program,
     RayStatus,
     Sphere,
     Variant,
@@ -22,10 +24,12 @@ from harness.contract import (
     digest,
 )
 from harness.devices.interface import Launch, Timing, hits_from, launch_camera, launch_rays, same_values
+from harness.devices.messages import ListedCheck
 from harness.devices.quadtree import Layout, beam_hits_from, launch_beams
 from harness.devices.worker import Worker
-from harness.experiment import draws
-from harness.kernels.assemble import fill_program, method_program
+from harness.experiment.kinds import draws
+from harness.kernels.assemble import method_program
+from harness.kernels.raster import fill_program
 from harness.plugins import Catalog, Plugin, find_methods
 from harness.scenes.camera import camera_for, meets, rays_of
 from harness.scenes.model import single
@@ -322,14 +326,15 @@ def test_a_program_that_answers_otherwise_when_it_is_run_again_fails(monkeypatch
     t = np.arange(2.0 * count)
     outputs = [t, np.full(count, 4 * 9 + RayStatus.HIT, np.int32)]
     worker = Worker("made:up")
-    monkeypatch.setattr(Worker, "_device", None)
+    monkeypatch.setattr(Worker, "_device", SimpleNamespace(info=None))
     monkeypatch.setattr(worker, "_build", lambda *_: (None, 0.0))
-    monkeypatch.setattr("harness.devices.worker.launch_rays", lambda *_: Flaky(outputs, change))
+    monkeypatch.setattr("harness.devices.messages.launch_rays", lambda *_: Flaky(outputs, change))
+    check = ListedCheck(Program("cl", "float32", "rays", ()), np.zeros((count, 6), np.float32))
     if not differing:
-        assert len(worker.check(None, np.zeros((count, 6), np.float32)).hits.t) == count
+        assert len(worker.check(check).answer.t) == count
         return
     with pytest.raises(FirsthitError, match=f"answer {differing} of 5 rays differently") as caught:
-        worker.check(None, np.zeros((count, 6), np.float32))
+        worker.check(check)
     assert caught.value.exit_code == 3
 
 

@@ -10,8 +10,8 @@ import surfaces
 from harness.contract import DeviceInfo, RayStatus
 from harness.devices import lanes
 from harness.devices.quadtree import Layout, beam_hits_from, first_level, last_level, layout_of, start_of
-from harness.experiment.config import load
 from harness.experiment.plan import plan
+from harness.experiment.reading import load
 from harness.plugins import find_methods
 from harness.scenes.camera import camera_for
 

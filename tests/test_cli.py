@@ -97,7 +97,7 @@ def _bad_rays(tmp_path, name):
     [
         ("empty", "no rays"),
         ("shape", "[n, 6]"),
-        ("float64", "save it as float32"),
+        ("float64", "make them float32"),
         ("nan", "row 0"),
         ("zero", "length 0"),
         ("long", "length 2"),
@@ -124,7 +124,7 @@ def test_bad_rays_are_one_line_and_leave_no_file(tmp_path, capsys, name, words, 
         ({"--surface": "spere"}, 2, "did you mean sphere"),
         ({"--method": "newtn"}, 2, "did you mean 'newton'"),
         ({"--device": "opencl:none"}, 3, "there is no device 'opencl:none'"),
-        ({"--device": "none"}, 2, "unknown device"),
+        ({"--device": "none"}, 3, "there is no device 'none' here; known: open"),
         ({"--knob": "EPSILN=1"}, 2, "did you mean 'EPSILON'"),
         ({"--knob": "EPSILON"}, 2, "NAME=VALUE"),
         ({"--knob": "EPSILON=big"}, 2, "not a number"),
@@ -141,6 +141,16 @@ def test_bad_options_are_one_line(tmp_path, capsys, rays, changed, code, words):
     assert words in err
     assert err.count("\n") == 1
     assert not (tmp_path / "out.npz").exists()
+
+
+@pytest.mark.parametrize(
+    ("command", "words"),
+    [("run", "did you mean 'quick'"), ("plan", "did you mean 'quick'"), ("gate", "did you mean 'quick'")],
+)
+def test_a_configs_name_that_is_none_is_one_line_with_the_nearest(capsys, command, words):
+    code, _, err = told(capsys, command, "quik")
+    assert code == 2
+    assert words in err and err.count("\n") == 1
 
 
 @pytest.mark.parametrize(
@@ -176,12 +186,13 @@ def test_show_draws_the_sphere_in_the_middle(tmp_path, capsys):
 def test_lists_name_what_is_there(capsys, what):
     code, out, _ = told(capsys, "list", what)
     assert code == 0
-    expected = {"methods": "newton", "surfaces": "barth_sextic", "configs": "configs/quick.toml"}
+    expected = {"methods": "newton", "surfaces": "barth_sextic", "configs": "quick "}
     assert expected.get(what, usable_devices()[0].name) in out
 
 
-def test_plan_prints_cells_and_an_estimate_and_runs_nothing(tmp_path, capsys):
-    code, out, _ = told(capsys, "plan", "configs/quick.toml", "--runs", tmp_path)
+@pytest.mark.parametrize("config", ["configs/quick.toml", "quick"])
+def test_plan_prints_cells_and_an_estimate_and_runs_nothing(tmp_path, capsys, config):
+    code, out, _ = told(capsys, "plan", config, "--runs", tmp_path)
     assert code == 0
     assert "to run" in out
     assert not list(tmp_path.iterdir())

@@ -9,7 +9,7 @@ import pytest
 import surfaces
 from harness import cli
 from harness.accuracy import compilers, conformance
-from harness.accuracy.conformance import dense
+from harness.conformance import dense
 from harness.contract import Hits, RayStatus, Section
 from harness.devices.interface import BuildError, hits_from, launch_rays, map_rows
 from harness.kernels import assemble

@@ -4,7 +4,7 @@ from pathlib import Path
 import pytest
 
 from harness.contract import DeviceInfo, FirsthitError, Sphere
-from harness.experiment import config, plan
+from harness.experiment import config, plan, reading
 from harness.plugins import find_methods
 
 GOOD = """title = "t"
@@ -20,7 +20,7 @@ name = "null"
 def _load(tmp_path: Path, text: str) -> config.Experiment:
     path = tmp_path / "c.toml"
     path.write_text(text)
-    return config.load(path, find_methods())
+    return reading.load(path, find_methods())
 
 
 def test_knobs_multiply_and_defaults_fill_in(tmp_path):
@@ -76,7 +76,7 @@ def test_malformed_toml_names_its_place(tmp_path):
 
 def test_a_missing_file_is_one_line(tmp_path):
     with pytest.raises(FirsthitError, match="cannot read"):
-        config.load(tmp_path / "none.toml", find_methods())
+        reading.load(tmp_path / "none.toml", find_methods())
 
 
 def test_a_surface_of_the_configs_own(tmp_path):
@@ -117,7 +117,7 @@ def test_one_variant_under_two_names_is_refused(tmp_path):
     "path", sorted((Path(__file__).parent.parent / "configs").glob("*.toml")), ids=lambda p: p.stem
 )
 def test_our_own_configs_load(path):
-    experiment = config.load(path, find_methods())
+    experiment = reading.load(path, find_methods())
     assert experiment.variants or experiment.config.studies or experiment.included
 
 
@@ -162,6 +162,6 @@ def test_the_readmes_config_is_taken_as_printed(tmp_path):
     page = (Path(__file__).parent.parent / "README.md").read_text(encoding="utf-8")
     block = page.split("## Your own config\n\n")[1].split("\n\nA mistake is answered")[0]
     (tmp_path / "mine.toml").write_text(textwrap.dedent(block), encoding="utf-8")
-    experiment = config.load(tmp_path / "mine.toml", find_methods())
+    experiment = reading.load(tmp_path / "mine.toml", find_methods())
     assert experiment.config.baseline == "ray_march"
     assert experiment.config.budget.rounds == 8

@@ -1,4 +1,4 @@
-"""Every method × accepted surfaces × devices × precisions (harness/accuracy/conformance); a new folder is covered at
+"""Every method × accepted surfaces × devices × precisions (harness/conformance); a new folder is covered at
 once.
 
 Typical surfaces are checked on every device in each precision, every other accepted surface and every setting of the
@@ -14,8 +14,9 @@ import numpy as np
 import pytest
 
 import surfaces
-from harness.accuracy import conformance
-from harness.accuracy.conformance import (
+from harness import conformance
+from harness.accuracy.judge import deviations, judge, summarize, wrong_share
+from harness.conformance import (
     Bench,
     Finding,
     examine,
@@ -25,8 +26,7 @@ from harness.accuracy.conformance import (
     view_case,
     views_case,
 )
-from harness.accuracy.conformance.examine import own_settings
-from harness.accuracy.judge import deviations, judge, summarize, wrong_share
+from harness.conformance.examine import own_settings
 from harness.contract import PRECISIONS, Precision, RayStatus
 from harness.devices.interface import Device, hits_from, launch_rays
 from harness.plugins import find_methods

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 import surfaces
-from harness.accuracy import conformance
-from harness.accuracy.conformance import Case, Finding, view_case
-from harness.accuracy.conformance.knobs import swept
+from harness import conformance
+from harness.conformance import Case, Finding, view_case
+from harness.conformance.knobs import swept
 from harness.contract import Hits, RayStatus, TruthStatus
 from harness.plugins import find_methods
 

@@ -1,4 +1,4 @@
-"""Methods on dense random polynomials of every degree that they accept (harness/accuracy/conformance/dense.py), held
+"""Methods on dense random polynomials of every degree that they accept (harness/conformance/dense.py), held
 against the oracle.
 
 By default every method is tried at a few degrees, each on one device in one precision, in turn. FIRSTHIT_RAYS asks for
@@ -12,9 +12,8 @@ from functools import cache
 
 import pytest
 
-from harness import cli
-from harness.accuracy import conformance
-from harness.accuracy.conformance import dense
+from harness import cli, conformance
+from harness.conformance import dense
 from harness.contract import PRECISIONS, TruthStatus
 from harness.plugins import find_methods
 

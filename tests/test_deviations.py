@@ -11,7 +11,7 @@ import pytest
 
 from harness.cli import main
 from harness.contract import FirsthitError, digest
-from harness.experiment import config
+from harness.experiment import reading
 from harness.plugins import AS_PRINTED, Plugin, find_methods
 from harness.running.cards import card
 
@@ -70,7 +70,7 @@ def test_a_single_printed_knob_is_not_run_twice():
 def test_a_config_asks_for_each_change_alone_and_for_all(tmp_path: Path):
     path = tmp_path / "d.toml"
     path.write_text(CONFIG, encoding="utf-8")
-    variants = [str(v) for v in config.load(path, find_methods()).variants]
+    variants = [str(v) for v in reading.load(path, find_methods()).variants]
     assert variants[0] == "sturm"
     assert variants[-1] == "sturm as printed"
     assert len(variants) == len(_sturm().method.printed) + 2
@@ -120,6 +120,6 @@ def test_a_run_without_printed_variants_has_no_such_page(tmp_path: Path):
 
 
 def test_the_projects_own_config_runs_every_change():
-    experiment = config.load(Path(__file__).parents[1] / "configs" / "deviations.toml", find_methods())
+    experiment = reading.load(Path(__file__).parents[1] / "configs" / "deviations.toml", find_methods())
     changed = {name for name, plugin in find_methods().plugins.items() if plugin.method.printed}
     assert {variant.method for variant in experiment.variants} == changed | {"null"}

@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 
 import surfaces
-from harness.accuracy.conformance import Case, no_false_hit, refusal, rounding_adds
-from harness.accuracy.conformance.checks import CLAIM_CHECKS
 from harness.accuracy.judge import Wrong, judge
+from harness.conformance import Case, no_false_hit, refusal, rounding_adds
+from harness.conformance.checks import CLAIM_CHECKS
 from harness.contract import TruthStatus
 from harness.kernels.functions import unsupported
 from harness.oracle import first_hits

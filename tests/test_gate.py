@@ -256,11 +256,11 @@ def test_speed_against_a_revision_is_the_ratio_of_both_programs(gated):
 
 
 def test_the_projects_own_gate_config_and_baseline_fit_one_another():
-    from harness.experiment import config
+    from harness.experiment import reading
     from harness.gate import baseline
     from harness.plugins import find_methods
 
-    experiment = config.load(ROOT / "configs" / "gate.toml", find_methods())
+    experiment = reading.load(ROOT / "configs" / "gate.toml", find_methods())
     blessed = baseline.read(ROOT / "configs" / "baselines" / "gate.toml")
     for slots in blessed.rows.values():
         for variant in experiment.variants:

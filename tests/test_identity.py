@@ -6,6 +6,7 @@ import ast
 import json
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -25,20 +26,15 @@ OWN = ("harness", "surfaces", "methods", "reports")
 ENTRANCES = (
     "running.runner",
     "devices.worker",
-    "devices.executor",
+    "devices.discovery",
     "experiment.plan",
+    "experiment.reading",
     "running.environment",
     "devices.opencl",
     "devices.opengl",
 )
-# imported by a run and left out: harness/experiment/config.py asks them which words a config may use
-READ_FOR_NAMES = {
-    "harness/__init__.py",
-    "harness/gate/__init__.py",
-    "harness/gate/baseline.py",
-    "harness/results/figures.py",
-    "harness/studies/__init__.py",
-}
+# imported by a run and left out: harness/experiment/config.py asks for the names of studies that a config may use
+READ_FOR_NAMES = {"harness/__init__.py", "harness/studies/__init__.py"}
 
 
 def _files(module: str) -> list[str]:
@@ -53,6 +49,14 @@ def _files(module: str) -> list[str]:
     return found
 
 
+def _executed(node: ast.AST) -> Iterator[ast.AST]:
+    """Yield the node and all below it, without what stands under `if TYPE_CHECKING:`, which no run imports."""
+    yield node
+    typed = isinstance(node, ast.If) and isinstance(node.test, ast.Name) and node.test.id == "TYPE_CHECKING"
+    for child in node.orelse if typed else ast.iter_child_nodes(node):
+        yield from _executed(child)
+
+
 def reached(*modules: str) -> set[str]:
     """Files of ours that these modules import, at their tops or inside functions, and what those import."""
     found: set[str] = set()
@@ -62,7 +66,7 @@ def reached(*modules: str) -> set[str]:
         if file in found:
             continue
         found.add(file)
-        for node in ast.walk(ast.parse((ROOT / file).read_text(encoding="utf-8"))):
+        for node in _executed(ast.parse((ROOT / file).read_text(encoding="utf-8"))):
             if isinstance(node, ast.Import):
                 waiting += [f for name in node.names for f in _files(name.name)]
             elif isinstance(node, ast.ImportFrom):
@@ -108,7 +112,7 @@ def test_what_is_left_out_is_there_and_has_a_reason():
 RUN = """
 import dataclasses, json, sys
 from pathlib import Path
-from harness.experiment import config, plan
+from harness.experiment import plan, reading
 from harness.devices.interface import find_devices
 from harness.running.environment import probed
 from harness.plugins import find_methods
@@ -127,7 +131,7 @@ class Here:
         return do
 
 catalog = find_methods()
-experiment = config.load(Path(sys.argv[1]), catalog)
+experiment = reading.load(Path(sys.argv[1]), catalog)
 info = next(i for i in find_devices(sys.argv[2].partition(":")[0]) if i.name == sys.argv[2])
 folder = Path(sys.argv[1]).parent / "runs"
 info, _ = probed(Here(), info, folder)

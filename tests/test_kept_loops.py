@@ -8,13 +8,14 @@ import numpy as np
 import pytest
 
 import surfaces
-from harness.accuracy.conformance.cases import view_case
-from harness.accuracy.conformance.checks import agreement
 from harness.accuracy.freeloops import removed
 from harness.cli import main
+from harness.conformance.cases import view_case
+from harness.conformance.checks import agreement
 from harness.contract import Hits, Method, Program, RayStatus, Variant, View, digest
 from harness.devices.interface import BuildError, hits_from, launch_rays
-from harness.kernels.assemble import kept_loops, method_program, raster_program, with_free_loops
+from harness.kernels.assemble import kept_loops, method_program, with_free_loops
+from harness.kernels.raster import raster_program
 from harness.plugins import find_methods
 from harness.results.sources import ROOT
 from harness.scenes.camera import camera_for, meets, rays_of

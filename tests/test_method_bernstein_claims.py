@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 import surfaces
-from harness.accuracy import conformance
+from harness import conformance
 from harness.accuracy.judge import judge
 from harness.contract import UNIT_ROUNDOFF, RayStatus, TruthStatus
 from harness.oracle import first_hits

@@ -17,10 +17,11 @@ from harness.accuracy.judge import Wrong, judge
 from harness.cli import main
 from harness.contract import ORIGINS, FirsthitError, Hits, RayStatus, Sphere, TruthStatus, View
 from harness.devices.interface import Device, hits_from, launch_rays
-from harness.experiment import draws
 from harness.experiment import plan as plans
-from harness.experiment.config import load
-from harness.kernels.assemble import fill_program, method_program, raster_program
+from harness.experiment.kinds import draws
+from harness.experiment.reading import load
+from harness.kernels.assemble import method_program
+from harness.kernels.raster import fill_program, raster_program
 from harness.oracle import first_hits
 from harness.plugins import find_methods
 from harness.scenes.camera import camera_for, rays_of, scene_radius

@@ -10,14 +10,8 @@ from harness.accuracy.judge import Wrong, judge
 from harness.accuracy.pixels import pixels_of
 from harness.contract import RayStatus, TruthStatus, View
 from harness.devices.interface import Reserved, hits_from, real_type
-from harness.devices.quadtree import (
-    LEVELS,
-    first_level,
-    last_level,
-    launch_narrowed_camera,
-    launch_narrowed_rays,
-    quadtree_steps,
-)
+from harness.devices.narrowed import launch_narrowed_camera, launch_narrowed_rays
+from harness.devices.quadtree import LEVELS, first_level, last_level, quadtree_steps
 from harness.kernels import prepass
 from harness.kernels.assemble import method_program
 from harness.oracle import first_hits

@@ -9,8 +9,8 @@ import surfaces
 from harness.accuracy.judge import judge
 from harness.contract import NORMALS, PROXIES, FirsthitError, RayStatus, View
 from harness.devices.frames import Rasteriser
-from harness.experiment import draws
-from harness.kernels.assemble import fill_program
+from harness.experiment.kinds import draws
+from harness.kernels.raster import fill_program
 from harness.oracle import first_hits
 from harness.plugins import find_methods
 from harness.scenes.camera import camera_for, pixel_footprint, rays_of, scene_radius

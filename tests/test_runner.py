@@ -86,7 +86,9 @@ def children(pid):
 
 def workers(pid):
     commands = {child: Path(f"/proc/{child}/cmdline") for child in children(pid)}
-    return [child for child, path in commands.items() if path.exists() and b"spawn_main" in path.read_bytes()]
+    return [
+        child for child, path in commands.items() if path.exists() and b"harness.devices.serving" in path.read_bytes()
+    ]
 
 
 def is_running(pid):

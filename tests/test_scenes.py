@@ -9,8 +9,8 @@ import surfaces
 from harness.accuracy.judge import judge
 from harness.accuracy.scene_truth import scale_of, scene_truth
 from harness.cli import main
-from harness.contract import View
-from harness.experiment import config
+from harness.contract import FirsthitError, View
+from harness.experiment import reading
 from harness.plugins import find_methods
 from harness.scenes import meshes
 from harness.scenes.choice import PlacedChoice, SceneChoice, cut, rotation, scenes_of
@@ -101,7 +101,7 @@ def test_an_arc_is_a_torus_in_its_box_and_so_is_its_mesh(gl, tmp_path):  # noqa:
 
 
 def test_a_mesh_needs_one_shape_for_its_group():
-    from harness.experiment.draws import refusal
+    from harness.experiment.kinds.draws import refusal
 
     reason = refusal(generate("scattered", 5, 1, VIEW), variant("polygon"), find_methods())
     assert "differ in R, r" in reason
@@ -166,8 +166,8 @@ def test_rotations_turn_about_x_then_y_then_z():
 def test_a_scene_that_is_none_is_answered_with_its_line(tmp_path, text, message):
     path = tmp_path / "c.toml"
     path.write_text(f'title = "t"\n[[method]]\nname = "newton"\n[scene.mine]\n{text}\n')
-    with pytest.raises(config.FirsthitError, match=message) as caught:
-        config.load(path, find_methods())
+    with pytest.raises(FirsthitError, match=message) as caught:
+        reading.load(path, find_methods())
     assert f"{path}:" in str(caught.value)
 
 
@@ -175,7 +175,7 @@ def test_a_group_is_checked():
     torus = surfaces.get("torus")
     group = Group((torus,), np.zeros((1, 3)), np.eye(3)[None], np.ones(1), np.ones((1, 3)))
     for wrong in ({"scale": np.zeros(1)}, {"surfaces": (torus, torus)}, {"turn": np.eye(3)}):
-        with pytest.raises(config.FirsthitError, match="group"):
+        with pytest.raises(FirsthitError, match="group"):
             dataclasses.replace(group, **wrong)
     assert Scene("s", "s", (group,), VIEW, "s").sphere == pytest.approx([0, 0, 0, 1.0])
 

@@ -10,7 +10,7 @@ import pytest
 
 import surfaces
 from harness.contract import FirsthitError, Sphere, View
-from harness.experiment import config
+from harness.experiment import config, reading
 from harness.oracle import first_hits
 from harness.plugins import find_methods
 from harness.scenes import views as viewsets
@@ -27,7 +27,7 @@ name = "null"
 def _load(tmp_path: Path, text: str) -> config.Experiment:
     path = tmp_path / "c.toml"
     path.write_text(CONFIG + text)
-    return config.load(path, find_methods())
+    return reading.load(path, find_methods())
 
 
 def test_a_config_names_angles_and_directions_beside_views_of_its_own(tmp_path: Path) -> None:

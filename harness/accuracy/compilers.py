@@ -31,8 +31,10 @@ from numpy.typing import NDArray
 
 from harness.accuracy.judge import FAR
 from harness.contract import Domain, Hits, Precision, Program, RayStatus, Surface
-from harness.devices.executor import CellError, LocalExecutor, discover_devices
+from harness.devices.discovery import discover_devices
+from harness.devices.executor import CellError, LocalExecutor
 from harness.devices.interface import LANGUAGES
+from harness.devices.messages import ListedCheck
 from harness.kernels.assemble import Language
 from harness.oracle.clip import clip_many
 from harness.scenes.camera import scene_radius
@@ -90,7 +92,7 @@ class SecondBuild:
 
 def with_listed_rays(executor: LocalExecutor, rays: NDArray[np.float32]) -> Run:
     """How a SecondBuild of a listed-rays program runs."""
-    return lambda device, program, index: executor.check(device, program, rays[index]).hits
+    return lambda device, program, index: executor.check(device, ListedCheck(program, rays[index])).answer
 
 
 @cache

@@ -9,7 +9,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from harness.contract import Surface, Truth, TruthStatus
+from harness.accuracy import answers
+from harness.accuracy.check import Certified
+from harness.contract import Hits, Origin, Surface, Truth, TruthStatus
 from harness.devices.frames import Picture
 from harness.oracle import cached_first_hits
 from harness.scenes.model import Group, Scene
@@ -21,10 +23,9 @@ DEPTH_SHARE = 1e-6  # of the depth: what the depth buffer may not tell apart
 
 
 @dataclass(frozen=True, eq=False)
-class Seen:
+class Seen(Certified):
     """The certified picture of n rays, in world units."""
 
-    truth: Truth
     batch: NDArray[np.int32]  # [n] the group of the first hit; -1 without one
     instance: NDArray[np.int32]  # [n] within it
     gap: NDArray[np.float64]  # [n] from the first hit to the next instance's; inf where there is none
@@ -55,6 +56,23 @@ def scale_of(scene: Scene, picture: Picture) -> NDArray[np.float64]:
         mine = (picture.batch == number) & ~picture.in_world
         found[mine] = pack(group)[picture.instance[mine], 15]
     return found
+
+
+def hits_of(scene: Scene, picture: Picture, origin: Origin = "nearest") -> Hits:
+    """Return what a frame with reporting programs answered for its n pixels, in world units.
+
+    A pixel whose answer can be none is INVALID: what is seen has to lie in its surface's domain, a triangle in front of
+    the eye. `origin` is where the fragments' t began.
+    """
+    possible = picture.in_world & (picture.t >= 0.0)
+    for number, group in enumerate(scene.groups):
+        mine = np.flatnonzero((picture.batch == number) & ~picture.in_world)
+        numbers = {surface: k for k, surface in enumerate(group.distinct)}
+        kind = np.broadcast_to([numbers[surface] for surface in group.surfaces], len(group))[picture.instance[mine]]
+        for surface, k in numbers.items():
+            at = mine[kind == k]
+            possible[at] = answers.reachable(surface.domain, picture.local_rays[at], picture.t[at], origin=origin)
+    return answers.only(picture.hits(scale_of(scene, picture)), possible)
 
 
 def scene_truth(scene: Scene, rays: NDArray[np.float32], picture: Picture, folder: Path, margin: float) -> Seen:

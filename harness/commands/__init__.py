@@ -1,1 +1,55 @@
-"""What `firsthit` does, a module per group of commands. Each adds its parsers and names the function that runs."""
+"""What `firsthit` does, a module per group of commands.
+
+GROUPS says of every command what it does and which module holds it, so that a module is imported only where one of its
+commands is named: most of them import numpy, sympy and more. Each module has `add_parsers(add)`, which calls `add` for
+each of its commands, gives the parser the command's options, and sets as its default `run` the function that takes the
+parsed options and returns the exit code.
+"""
+
+from __future__ import annotations
+
+import argparse
+from typing import Protocol
+
+GROUPS: dict[str, dict[str, str]] = {
+    "experiment": {
+        "plan": "print a config's cells and how long they will take",
+        "run": "run a config; finished cells are reused",
+        "why": "say what would make a cell run again, or what set it apart from its last result",
+        "report": "make the PDF, HTML, CSV and Parquet of a run, or hold two runs against each other; runs nothing",
+    },
+    "gating": {
+        "gate": "fail where a config's results are worse than its blessed baseline",
+        "bless": "make a config's present results the baseline of its gate",
+    },
+    "advice": {
+        "recommend": "the fastest variant whose certified error stays within a bound, and why the others fell",
+    },
+    "devices": {"devices": "the devices of this machine and what their arithmetic and clocks are worth"},
+    "listing": {"list": "what there is to choose from"},
+    "pictures": {"show": "draw a shaded picture", "sheet": "draw every surface of the catalog on one sheet"},
+    "scenes": {"scene": "draw a scene of a config, by rasterisation"},
+    "rays": {"trace": "cast a file of rays by a method", "oracle": "certified first hits for a file of rays"},
+    "kernels": {"compile": "compile every method's kernel on every device, for the surfaces named"},
+    "conforming": {
+        "conform": "check a method's answers, claims and knobs as the tests check ours, at its default and its papers' "
+        "settings, from several views; exit code 1 where a check fails or nothing was checked",
+    },
+}
+
+
+class Add(Protocol):
+    """Adds the parser of a command of GROUPS; its description is what GROUPS says of it where none is given."""
+
+    def __call__(self, name: str, example: str, description: str | None = None) -> argparse.ArgumentParser: ...
+
+
+def adder(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> Add:
+    """The function that modules of commands are given, which adds to `commands`."""
+    told = {name: text for own in GROUPS.values() for name, text in own.items()}
+
+    def add(name: str, example: str, description: str | None = None) -> argparse.ArgumentParser:
+        text, epilog = told[name], f"example: {example}"
+        return commands.add_parser(name, help=text, description=description or text, epilog=epilog)
+
+    return add

@@ -7,31 +7,29 @@ import sys
 from pathlib import Path
 
 from harness import console
+from harness.commands import Add
 from harness.commands.options import add_surface, surface_of
-from harness.contract import PRECISIONS, DeviceInfo, FirsthitError, digest
-from harness.devices.executor import LocalExecutor, discover_devices
+from harness.contract import PRECISIONS
 from harness.plugins import find_methods
-from harness.recommend.search import HEADROOM, Fallen, Recommendation, Search, Wish, named
-from harness.running.environment import probed
+from harness.recommend.search import HEADROOM, QUANTILES, Fallen, Recommendation, Wish, named, recommend
 
 NOTHING_HOLDS = 1
 REASON = 110  # characters of a reason
 
 
-def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
-    parser = commands.add_parser(
+def add_parsers(add: Add) -> None:
+    parser = add(
         "recommend",
-        help="the fastest variant whose certified error stays within a bound, and why the others fell",
-        description="Check every method, with its papers' settings and its knobs' sweeps, against the oracle on "
+        "firsthit recommend --formula 'x^4 + y^4 + z^4 - 1' --error 1e-5",
+        "Check every method, with its papers' settings and its knobs' sweeps, against the oracle on "
         "sampled views; time those within the bound, interleaved; check the fastest once more on views held out. "
         "Exit codes: 0 a variant is recommended, 1 none holds, 2 usage, 3 something failed while running.",
-        epilog="example: firsthit recommend --formula 'x^4 + y^4 + z^4 - 1' --error 1e-5",
     )
     add_surface(parser)
     parser.add_argument("--error", type=float, required=True, metavar="E", help="largest |t - t*|, scene units")
     parser.add_argument(
         "--quantile",
-        choices=("max", "p999", "p99"),
+        choices=QUANTILES,
         default="max",
         help=f"of the errors that must keep E; max leaves a factor {HEADROOM:g} for rays not sampled (default: max)",
     )
@@ -47,19 +45,8 @@ def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -
     parser.set_defaults(run=_recommend)
 
 
-def _wish(options: argparse.Namespace) -> Wish:
-    limits = (
-        ("--error", options.error, 0.0, 1e30),
-        ("--fps", options.fps, 0.0, 1e6),
-        ("--size", options.size, 1, 16384),
-        ("--views", options.views, 1, 1000),
-        ("--rays", options.rays, 4, 4096),
-        ("--seconds", options.seconds, 0.0, 1e5),
-    )
-    for name, value, low, high in limits:
-        if not low <= value <= high:
-            raise FirsthitError(f"{name} {value:g} is outside [{low:g}, {high:g}]")
-    return Wish(
+def _recommend(options: argparse.Namespace) -> int:
+    wish = Wish(
         surface=surface_of(options),
         error=options.error,
         quantile=options.quantile,
@@ -72,28 +59,8 @@ def _wish(options: argparse.Namespace) -> Wish:
         seed=options.seed,
         seconds=options.seconds,
     )
-
-
-def _device(name: str | None) -> DeviceInfo:
-    usable = {info.name: info for info in discover_devices() if not info.problem}
-    if name and name not in usable:
-        raise FirsthitError(f"there is no usable device {name!r} here; there are: {', '.join(usable)}", exit_code=3)
-    if not usable:
-        raise FirsthitError("no usable device; `firsthit devices` says why", exit_code=3)
-    return usable[name] if name else next(iter(usable.values()))
-
-
-def _recommend(options: argparse.Namespace) -> int:
-    wish, catalog = _wish(options), find_methods(options.plugins)
-    surface = wish.surface
-    folder = options.runs / f"recommend-{options.surface or 'formula'}-{digest(surface.identity)[:8]}"
-    executor = LocalExecutor(60.0)
-    try:
-        device, _ = probed(executor, _device(options.device), folder / "probes")
-        found = Search(wish, catalog, device, executor, folder, _tell).run()
-    finally:
-        executor.close()
-    print(_answer(found, wish, device))
+    found = recommend(wish, find_methods(options.plugins), options.device, options.runs, _tell)
+    print(_answer(found, wish))
     return 0 if found.contenders else NOTHING_HOLDS
 
 
@@ -101,7 +68,8 @@ def _tell(line: str) -> None:
     print(f"firsthit: {line}", file=sys.stderr)
 
 
-def _answer(found: Recommendation, wish: Wish, device: DeviceInfo) -> str:
+def _answer(found: Recommendation, wish: Wish) -> str:
+    device = found.device
     bound = f"a {wish.quantile} error of {wish.error:.2g}"
     if not found.contenders:
         head = f"Nothing draws {wish.surface.title} on {device.name} within {bound}. Why each variant fell:"

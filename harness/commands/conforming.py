@@ -12,25 +12,22 @@ from collections.abc import Iterable, Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from harness import console
-from harness.accuracy import conformance
-from harness.accuracy.conformance import Bench, Finding
+from harness import conformance, console
+from harness.commands import Add
+from harness.conformance import Bench, Finding
 from harness.contract import CellStatus, DeviceInfo, FirsthitError, Hits, Program, Surface
-from harness.devices.executor import CellError, LocalExecutor, discover_devices
-from harness.devices.interface import LANGUAGES
+from harness.devices.discovery import discover_devices
+from harness.devices.executor import CellError, LocalExecutor
+from harness.devices.interface import LANGUAGES, device_named
+from harness.devices.messages import ListedCheck
+from harness.experiment.kinds import of_method
 from harness.plugins import Plugin, find_methods
 
 WIDTH = 100
 
 
-def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
-    text = (
-        "check a method's answers, claims and knobs as the tests check ours, at its default and its papers' settings, "
-        "from several views; exit code 1 where a check fails or nothing was checked"
-    )
-    parser = commands.add_parser(
-        "conform", help=text, description=text, epilog="example: firsthit --plugins DIR conform --method mine"
-    )
+def add_parsers(add: Add) -> None:
+    parser = add("conform", "firsthit --plugins DIR conform --method mine")
     parser.add_argument(
         "--method", action="append", metavar="NAME", help="may be repeated (default: all that cast rays)"
     )
@@ -51,7 +48,7 @@ def _conform(options: argparse.Namespace) -> int:
 
     catalog = find_methods(options.plugins)
     answering = {name: plugin.method for name, plugin in catalog.plugins.items() if plugin.method.answers}
-    names = options.method or [name for name, method in answering.items() if method.casts == "rays"]
+    names = options.method or [name for name, method in answering.items() if not of_method(method).unlisted]
     plugins = [catalog.get(name) for name in names]
     wanted = surfaces.names() if options.surface == ["all"] else options.surface or conformance.TYPICAL
     chosen = [surfaces.get(name) for name in wanted]
@@ -76,18 +73,18 @@ def _conform(options: argparse.Namespace) -> int:
 
 
 def _devices(names: list[str] | None) -> list[DeviceInfo]:
-    usable = {info.name: info for info in discover_devices() if not info.problem}
-    for name in names or ():
-        if name not in usable:
-            raise FirsthitError(f"no usable device {name!r}; there are {', '.join(usable) or 'none'}")
+    found = discover_devices()
+    if names:
+        return [device_named(name, found) for name in names]
+    usable = [info for info in found if not info.problem]
     if not usable:
         raise FirsthitError("no usable device; `firsthit devices` says why", exit_code=3)
-    return [usable[name] for name in names or usable]
+    return usable
 
 
 def _bench(executor: LocalExecutor, device: str, float64: bool) -> Bench:
     def run(program: Program, rays: NDArray[np.float32]) -> Hits:
-        return executor.check(device, program, rays).hits
+        return executor.check(device, ListedCheck(program, rays)).answer
 
     return Bench(device, LANGUAGES[device.partition(":")[0]], float64, run)
 

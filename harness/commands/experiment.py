@@ -3,56 +3,40 @@
 from __future__ import annotations
 
 import argparse
-import dataclasses
 import shlex
 import sys
-from datetime import UTC, datetime
+from contextlib import AbstractContextManager
 from pathlib import Path
-from typing import Any
 
-from harness import console, studies
-from harness.contract import CellStatus, DeviceInfo, FirsthitError
-from harness.devices.executor import LocalExecutor, discover_devices
+from harness import console
+from harness.commands import Add
+from harness.contract import DeviceInfo, FirsthitError
 from harness.experiment import config, identity, plan
 from harness.experiment.plan import Planned
-from harness.hardcases import groups
 from harness.plugins import Catalog, find_methods
 from harness.results.store import Row, Store
-from harness.running.cards import card
-from harness.running.environment import describe, probed
-from harness.running.runner import UNFINISHED, Runner
+from harness.running.due import due, estimate_seconds
+from harness.running.run import Loaded, Run, Watcher, load, run
 
 
-def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
-    def add(name: str, help_text: str, example: str) -> argparse.ArgumentParser:
-        parser = commands.add_parser(name, help=help_text, description=help_text, epilog=f"example: {example}")
-        return parser
-
-    parser = add("plan", "print a config's cells and how long they will take", "firsthit plan configs/quick.toml")
+def add_parsers(add: Add) -> None:
+    parser = add("plan", "firsthit plan configs/quick.toml")
     _add_config(parser)
     parser.set_defaults(run=_plan)
 
-    parser = add("run", "run a config; finished cells are reused", "firsthit run configs/quick.toml --retry failed")
+    parser = add("run", "firsthit run configs/quick.toml --retry failed")
     _add_config(parser)
     parser.add_argument("--force", action="store_true", help="run every cell again")
     parser.add_argument("--retry", choices=["failed"], help="run failed, timed out and crashed cells again")
     parser.add_argument("--device", action="append", metavar="NAME", help="run on this device only; may be repeated")
     parser.set_defaults(run=_run)
 
-    parser = add(
-        "why",
-        "say what would make a cell run again, or what set it apart from its last result",
-        "firsthit why runs/quick/cells/0123456789abcdef.json",
-    )
+    parser = add("why", "firsthit why runs/quick/cells/0123456789abcdef.json")
     parser.add_argument("cell", help="a cell's key (or its beginning), or its file")
     parser.add_argument("--runs", type=Path, default=Path("runs"), metavar="DIR", help="where to look (default: runs)")
     parser.set_defaults(run=_why)
 
-    parser = add(
-        "report",
-        "make the PDF, HTML, CSV and Parquet of a run, or hold two runs against each other; runs nothing",
-        "firsthit report runs/quick",
-    )
+    parser = add("report", "firsthit report runs/quick")
     parser.add_argument("folder", type=Path, metavar="RUN", help="a folder below runs/")
     parser.add_argument("other", type=Path, metavar="OTHER", nargs="?", help="report what changed from RUN to OTHER")
     parser.add_argument(
@@ -64,30 +48,20 @@ def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -
 
 
 def _add_config(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("config", type=Path, metavar="CONFIG", help="a TOML file, see configs/")
+    parser.add_argument("config", type=Path, metavar="CONFIG", help="a TOML file, or a name of `firsthit list configs`")
     parser.add_argument(
         "--runs", type=Path, default=Path("runs"), metavar="DIR", help="results go here (default: runs)"
     )
 
 
-def _load(options: argparse.Namespace) -> tuple[config.Experiment, list[config.Experiment], Catalog, list[DeviceInfo]]:
-    """The config, and what it stands for: itself, or those that it includes."""
-    catalog = find_methods(options.plugins)
-    whole = config.load(options.config, catalog)
-    parts = [config.load(path, catalog) for path in whole.included] or [whole]
-    if nested := [part.path for part in parts if part.included and part is not whole]:
-        raise FirsthitError(
-            f"{nested[0]} includes configs itself, so {whole.path} cannot include it; name them instead"
-        )
-    if getattr(options, "device", None):
-        parts = [dataclasses.replace(p, config=dataclasses.replace(p.config, devices=options.device)) for p in parts]
-    return whole, parts, catalog, discover_devices({name for part in parts for name in part.config.devices})
+def _load(options: argparse.Namespace) -> Loaded:
+    return load(options.config, options.plugins, getattr(options, "device", None) or (), _Printer())
 
 
 def _plan(options: argparse.Namespace) -> int:
-    _, parts, catalog, devices = _load(options)
-    for experiment in parts:
-        _plan_one(experiment, catalog, devices, options)
+    loaded = _load(options)
+    for part in loaded.parts:
+        _plan_one(part, loaded.catalog, loaded.devices, options)
     return 0
 
 
@@ -96,11 +70,11 @@ def _plan_one(
 ) -> None:
     planned = plan.plan(experiment, catalog, devices)
     store = Store(options.runs / experiment.name)
-    rows = {p.key: store.read(p.key) for p in planned}
-    print(console.table(("key", "cell", "state"), [(p.key, p.cell.slot, _state(p, rows[p.key])) for p in planned]))
-    left = plan.estimate_seconds(planned, store, experiment.config.budget.seconds)
-    open_cells = sum(row is None for row in rows.values())
-    print(f"{experiment.path}: {len(planned)} cells, {open_cells} to run, about {console.duration(left)}")
+    found = due(planned, store)
+    states = [(p.key, p.cell.slot, _state(p, found.kept.get(p.key))) for p in planned]
+    print(console.table(("key", "cell", "state"), states))
+    left = estimate_seconds(found.todo, store, experiment.config.budget.seconds)
+    print(f"{experiment.path}: {len(planned)} cells, {len(found.todo)} to run, about {console.duration(left)}")
 
 
 def _state(planned: Planned, row: Row | None) -> str:
@@ -109,81 +83,40 @@ def _state(planned: Planned, row: Row | None) -> str:
     return f"skip: {planned.skip}" if planned.skip else "to run"
 
 
+class _Printer(Watcher):
+    """Prints what a run does: progress and warnings on standard error, results on standard output."""
+
+    def __init__(self) -> None:
+        self._progress = console.Progress(0, 0.0)
+
+    def doing(self, what: str) -> AbstractContextManager[None]:
+        return console.doing(what)
+
+    def told(self, line: str) -> None:
+        print(line)
+
+    def warned(self, line: str) -> None:
+        print(f"firsthit: {line}", file=sys.stderr)
+
+    def starts(self, cells: int, seconds: float) -> None:
+        self._progress = console.Progress(cells, seconds)
+
+    def cell(self, slot: str, row: Row | None) -> None:
+        self._progress(slot, row)
+
+    def ended(self, part: Run) -> None:
+        told = ", ".join(f"{count} {status}" for status, count in part.counts.items() if count)
+        if told:
+            print(f"{part.folder}: {len(part.rows)} cells run, {len(part.reused)} reused; {told}")
+        for line in (*console.undecided((*part.rows, *part.reused)), *console.warnings(part.rows)):
+            self.warned(line)
+
+
 def _run(options: argparse.Namespace) -> int:
-    whole, parts, catalog, found = _load(options)
-    if whole.included:
-        told = _described(whole) | {"include": [part.name for part in parts], "devices": [], "cells": []}
-        Store(options.runs / whole.name).write_plan(told)
-    return max(_run_one(experiment, catalog, found, options) for experiment in parts)
-
-
-def _described(experiment: config.Experiment) -> dict[str, Any]:
-    """What every plan.json says first."""
-    return {
-        "name": experiment.name,
-        "title": experiment.config.title,
-        "config": str(experiment.path),
-        "config_text": experiment.text,
-        "baseline": experiment.config.baseline,
-        "command": shlex.join(["firsthit", *sys.argv[1:]]),
-        "created": datetime.now(UTC).isoformat(timespec="seconds"),
-        "environment": describe(),
-    }
-
-
-def _run_one(
-    experiment: config.Experiment, catalog: Catalog, found: list[DeviceInfo], options: argparse.Namespace
-) -> int:
-    store = Store(options.runs / experiment.name)
-    executor = LocalExecutor(experiment.config.budget.timeout)
-    try:
-        chosen = plan.devices_of(experiment, found) if experiment.variants else {}
-        tried = [probed(executor, info, store.folder / "probes") for info in chosen.values() if info]
-        planned = plan.plan(experiment, catalog, [info for info, _ in tried]) if experiment.variants else []
-        described = _described(experiment)
-        store.write_plan(
-            described
-            | {
-                "devices": [dataclasses.asdict(i) | {"versions": dict(i.versions), "probes": p} for i, p in tried],
-                "cells": [{"slot": p.cell.slot, "key": p.key} for p in planned if not p.cell.family],
-                "families": [{"slot": p.cell.slot, "key": p.key} for p in planned if p.cell.family],
-                "family_facts": {name: groups.facts(name) for name in experiment.config.families},
-                "methods": {v.method: card(catalog.get(v.method)) for v in experiment.variants},
-                "studies": [{"study": name, "key": studies.key(name)} for name in experiment.config.studies],
-            }
-        )
-        for name in experiment.config.studies:
-            if options.force or not studies.is_done(name, store.folder):
-                done = studies.run(name, store.folder)
-                print(f"study {name}: {len(done['rows'])} rows, {console.duration(done['seconds'])}")
-            else:
-                print(f"study {name}: reused")
-        before = {p.key: store.read(p.key) for p in planned}
-        for message in store.unreadable.values():
-            print(f"firsthit: {message}; running that cell again", file=sys.stderr)
-        todo = [p for p in planned if _is_due(before[p.key], options)]
-        progress = console.Progress(len(todo), plan.estimate_seconds(todo, store, experiment.config.budget.seconds))
-        rows = Runner(experiment.config, catalog, store, executor, described["environment"], progress).run(todo)
-    finally:
-        executor.close()
-    kept = [row for key, row in before.items() if row and key not in {row["key"] for row in rows}]
-    return _summary(store.folder, rows, kept)
-
-
-def _is_due(row: Row | None, options: argparse.Namespace) -> bool:
-    return row is None or options.force or (options.retry == "failed" and row["status"] in UNFINISHED)
-
-
-def _summary(folder: Path, rows: list[Row], kept: list[Row]) -> int:
-    counts = {status: sum(row["status"] == status for row in (*rows, *kept)) for status in CellStatus}
-    told = ", ".join(f"{count} {status}" for status, count in counts.items() if count)
-    if told:
-        print(f"{folder}: {len(rows)} cells run, {len(kept)} reused; {told}")
-    for line in console.undecided((*rows, *kept)):
-        print(f"firsthit: {line}", file=sys.stderr)
-    for line in console.warnings(rows):
-        print(f"firsthit: {line}", file=sys.stderr)
-    return 3 if any(counts[status] for status in UNFINISHED) else 0
+    command = shlex.join(["firsthit", *sys.argv[1:]])
+    retry = options.retry == "failed"
+    found = run(_load(options), options.runs, command, force=options.force, retry_failed=retry, watcher=_Printer())
+    return 3 if found.unfinished else 0
 
 
 def _why(options: argparse.Namespace) -> int:

@@ -9,12 +9,15 @@ from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 
+from harness.commands import Add
 from harness.commands.options import writable
 from harness.contract import FirsthitError
-from harness.devices.executor import LocalExecutor, discover_devices
-from harness.experiment import config, plan
+from harness.devices.discovery import discover_devices
+from harness.devices.executor import LocalExecutor
+from harness.experiment import plan, reading
 from harness.experiment.config import Experiment
 from harness.experiment.plan import Planned
+from harness.experiment.shipped import located
 from harness.gate import against, baseline, outputs
 from harness.gate.baseline import Baseline
 from harness.gate.entries import baseline_of, slot_of
@@ -24,18 +27,17 @@ from harness.plugins import Catalog, find_methods
 from harness.results.figures import SPEED
 from harness.results.store import Row, write_atomically
 from harness.running import batch
+from harness.running.due import UNFINISHED
 from harness.running.environment import describe, probed
-from harness.running.runner import UNFINISHED
 
 
-def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
-    parser = commands.add_parser(
+def add_parsers(add: Add) -> None:
+    parser = add(
         "gate",
-        help="fail where a config's results are worse than its blessed baseline",
-        description="Check every cell of a config (untimed) and hold errors, wrong rays, claims and evaluations "
+        "firsthit gate configs/gate.toml --junit gate.xml",
+        "Check every cell of a config (untimed) and hold errors, wrong rays, claims and evaluations "
         "against a blessed baseline. Exit codes: 0 nothing got worse, 1 a row regressed or is missing, 2 usage, "
         "3 a row could not be run or compared.",
-        epilog="example: firsthit gate configs/gate.toml --junit gate.xml",
     )
     _add_shared(parser)
     parser.add_argument("--junit", type=Path, metavar="FILE", help="write the verdicts as JUnit XML")
@@ -44,12 +46,11 @@ def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -
     parser.add_argument("--against", metavar="REV", help="also time every cell against this git revision's program")
     parser.set_defaults(run=_gate)
 
-    parser = commands.add_parser(
+    parser = add(
         "bless",
-        help="make a config's present results the baseline of its gate",
-        description="Check every cell of a config (untimed) and write its results into the baseline, for the devices "
+        'firsthit bless configs/gate.toml --reason "newton stops at a smaller step"',
+        "Check every cell of a config (untimed) and write its results into the baseline, for the devices "
         "here; what the baseline holds of other machines is kept.",
-        epilog='example: firsthit bless configs/gate.toml --reason "newton stops at a smaller step"',
     )
     _add_shared(parser)
     parser.add_argument("--reason", required=True, metavar="TEXT", help="why the results are as they should be")
@@ -57,7 +58,7 @@ def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -
 
 
 def _add_shared(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("config", type=Path, metavar="CONFIG", help="a TOML file, see configs/")
+    parser.add_argument("config", type=Path, metavar="CONFIG", help="a TOML file, or a name of `firsthit list configs`")
     parser.add_argument(
         "--baseline", type=Path, metavar="FILE", help="default: baselines/NAME.toml beside the config NAME.toml"
     )
@@ -85,7 +86,7 @@ def _path(options: argparse.Namespace) -> Path:
 def _checked(options: argparse.Namespace) -> _Checked:
     """Run what is not stored yet, without timing it."""
     catalog = find_methods(options.plugins)
-    experiment = config.load(options.config, catalog)
+    experiment = reading.load(options.config, catalog)
     if options.device:
         chosen = dataclasses.replace(experiment.config, devices=options.device)
         experiment = dataclasses.replace(experiment, config=chosen)
@@ -101,6 +102,7 @@ def _checked(options: argparse.Namespace) -> _Checked:
 
 
 def _gate(options: argparse.Namespace) -> int:
+    options.config = located(options.config)
     for path in filter(None, (options.junit, options.markdown)):
         writable(path)
     path = _path(options)
@@ -161,6 +163,7 @@ def _tell(options: argparse.Namespace, checked: _Checked, judged: list[Judged], 
 def _bless(options: argparse.Namespace) -> int:
     if not options.reason.strip():
         raise FirsthitError("--reason: say why the results are as they should be")
+    options.config = located(options.config)
     path = _path(options)
     old = baseline.read(path) if path.exists() else Baseline()
     checked = _checked(options)

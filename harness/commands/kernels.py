@@ -6,44 +6,27 @@ import argparse
 import itertools
 import statistics
 import sys
-from typing import Literal
 
-from harness.contract import PRECISIONS, Casts, FirsthitError, Program, Surface
-from harness.devices.executor import START_SECONDS, CellError, LocalExecutor, discover_devices
+from harness.commands import Add
+from harness.contract import PRECISIONS, FirsthitError, Program
+from harness.devices.discovery import discover_devices
+from harness.devices.executor import START_SECONDS, CellError, LocalExecutor
 from harness.devices.interface import LANGUAGES
-from harness.experiment.plan import able
-from harness.kernels.assemble import mesh_program, method_program, raster_program
-from harness.plugins import Plugin, find_methods
+from harness.experiment.kinds import of_method
+from harness.experiment.targets import able
+from harness.kernels.assemble import method_program
+from harness.plugins import find_methods
 
-ENTRIES: dict[Casts, tuple[Literal["rays", "camera", "beams"], ...]] = {
-    "mesh": (),
-    "rays": ("rays", "camera"),
-    "beams": ("beams",),
-    "quadtree": ("beams",),
-}
 TYPICAL = ("sphere", "torus", "barth_sextic")  # box and ball, coefficients along the ray and none
 
 
-def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
-    text = "compile every method's kernel on every device, for the surfaces named"
-    parser = commands.add_parser(
-        "compile", help=text, description=text, epilog="example: firsthit compile --method newton"
-    )
+def add_parsers(add: Add) -> None:
+    parser = add("compile", "firsthit compile --method newton")
     parser.add_argument("--method", action="append", metavar="NAME", help="only this one; may be repeated")
     parser.add_argument("--surface", action="append", metavar="NAME", help=f"default: {', '.join(TYPICAL)}")
     parser.add_argument("--formula", metavar="F", help="f(x, y, z) of your own beside them")
     parser.add_argument("--domain", metavar="D", default="sphere:1.5", help="its domain (default: sphere:1.5)")
     parser.set_defaults(run=_compile)
-
-
-def _rastered(plugin: Plugin, surface: Surface) -> dict[str, Program]:
-    """The method's program of stage raster: the one that reports, which holds the other's text too."""
-    method = plugin.method
-    if method.casts == "mesh":
-        return {"raster": mesh_program(plugin.folder, True)}
-    if method.casts != "rays":
-        return {}
-    return {"raster": raster_program(method, plugin.folder, plugin.variant({}), surface, "box", True)}
 
 
 def _compile(options: argparse.Namespace) -> int:
@@ -63,6 +46,7 @@ def _compile(options: argparse.Namespace) -> int:
     try:
         for plugin, surface, info, precision in itertools.product(plugins, chosen, usable, PRECISIONS):
             method, language = plugin.method, LANGUAGES[info.name.partition(":")[0]]
+            kind = of_method(method)
             refused = method.accepts(surface) or unsupported(surface, precision, language)
             if refused or precision not in method.precisions or (precision == "float64" and not info.float64):
                 continue
@@ -71,10 +55,11 @@ def _compile(options: argparse.Namespace) -> int:
                     entry: method_program(
                         method, plugin.folder, plugin.variant({}), surface, precision, language, entry
                     )
-                    for entry in ENTRIES[method.casts]
+                    for entry in kind.entries
                 }
-                if precision == "float32" and able(info):
-                    texts |= _rastered(plugin, surface)
+                drawn = kind.compiled_drawing(plugin, surface) if precision == "float32" and able(info) else None
+                if drawn:
+                    texts["raster"] = drawn
                 for entry, program in texts.items():
                     took = executor.build(info.name, program)
                     built[info.name].append((took, f"{method.name} {surface.name} {precision} {entry}"))

@@ -3,23 +3,12 @@
 from __future__ import annotations
 
 import argparse
-import math
 import sys
 from pathlib import Path
-from typing import Literal
 
-import numpy as np
-from numpy.typing import NDArray
-
-from harness.accuracy import compilers
-from harness.accuracy.answers import validated, validated_beams
-from harness.contract import ORIGINS, PRECISIONS, CellStatus, FirsthitError, Hits, Precision, Program, Surface, Variant
-from harness.devices.executor import CellError, LocalExecutor, discover_devices
-from harness.devices.interface import LANGUAGES
-from harness.devices.quadtree import layout_of
-from harness.devices.worker import Frame
-from harness.kernels.assemble import Language, method_program
+from harness.contract import ORIGINS, PRECISIONS, FirsthitError, Surface, Variant
 from harness.plugins import Catalog, find_methods
+from harness.running.trace import Caster, usable_device
 
 
 def add_surface(parser: argparse.ArgumentParser) -> None:
@@ -80,79 +69,18 @@ def given_variant(options: argparse.Namespace, catalog: Catalog) -> Variant:
     return catalog.get(options.method).variant({name: _number(text, name) for name, text in given.items()})
 
 
-def _device(name: str | None) -> str:
-    if name:
-        return name
-    usable = [info.name for info in discover_devices() if not info.problem]
-    if not usable:
-        raise FirsthitError("no usable device; `firsthit devices` says why", exit_code=3)
-    return usable[0]
-
-
-def cast(
-    options: argparse.Namespace,
-    surface: Surface,
-    rays: NDArray[np.float32],
-    camera: NDArray[np.float32] | None = None,
-    t_min: float = 0.0,
-) -> Hits:
-    """Cast rays float32[n, 6] from t_min on, by the method, knobs, device and precision that the options name.
-
-    A method that casts beams needs the `camera` that the rays are of, an image of them row by row, and answers for the
-    rays' pixels. What can be no answer is INVALID. The device works in a process of its own. Raises FirsthitError where
-    the method refuses the surface, the kernel fails, hangs, crashes or answers otherwise when it is run again, or the
-    device's compiler is found at fault (harness/accuracy/compilers.py).
-    """
-    from harness.kernels.functions import unsupported
-
+def caster_of(options: argparse.Namespace) -> Caster:
+    """The method, knobs, device, precision and origin that the options of `add_method` name."""
     catalog = find_methods(options.plugins)
-    plugin, variant = catalog.get(options.method), given_variant(options, catalog)
-    precision: Precision = options.precision
-    device = _device(options.device)
-    language = LANGUAGES.get(device.partition(":")[0])
-    if language is None:
-        raise FirsthitError(f"unknown device {device!r}: names start with opencl: or opengl:, see `firsthit devices`")
-    if reason := plugin.method.accepts(surface) or unsupported(surface, precision, language):
-        raise FirsthitError(f"{variant} cannot draw {surface.name} here: {reason}")
-    casts = plugin.method.casts
-    if casts == "mesh":
-        raise FirsthitError(f'{variant} draws triangles, in stage raster: name it in a config with stages = ["raster"]')
-    if casts != "rays" and camera is None:
-        raise FirsthitError(f"{variant} casts the beams of a camera's pixels, and listed rays have none")
-    entry: Literal["rays", "beams"] = "rays" if casts == "rays" else "beams"
+    variant = given_variant(options, catalog)
+    device = options.device or usable_device().name
+    plugin = catalog.get(options.method)
+    return Caster(plugin, variant, device, options.precision, options.origin, options.timeout)
 
-    def program(language: Language) -> Program:
-        stated = plugin.method, plugin.folder, variant, surface, precision, language, entry
-        return method_program(*stated, t_min=t_min, origin=options.origin)
 
-    def run(device: str, program: Program, index: NDArray[np.intp]) -> Hits:
-        if camera is None or casts == "rays":
-            return executor.check(device, program, rays[index]).hits
-        layout = layout_of(dict(variant.parameters))
-        frame = Frame(program, camera, None, math.isqrt(len(rays)), casts, layout=layout)
-        return executor.check_frame(device, frame, index.astype(np.int32)).hits
-
-    executor = LocalExecutor(options.timeout)
-    try:
-        hits = run(device, program(language), np.arange(len(rays)))
-        if camera is not None and casts != "rays":
-            hits = validated_beams(hits, surface.domain, rays, camera[3:6])
-        else:
-            hits = validated(hits, surface.domain, rays, t_min, origin=options.origin)
-        if not plugin.method.answers:
-            return hits
-        second = compilers.SecondBuild(device, precision, program, run)
-        doubts = compilers.doubts_about(surface, rays, hits, second, t_min)
-    except CellError as error:
-        what = {CellStatus.TIMEOUT: "timed out", CellStatus.CRASHED: "crashed"}.get(error.status, "failed")
-        raise FirsthitError(f"{variant} on {device} {what}: {error}", exit_code=3) from None
-    finally:
-        executor.close()
-    if doubts.fault:
-        raise FirsthitError(f"{variant} on {device}: {doubts.fault}", exit_code=3)
-    if doubts.note:
-        print(f"{variant} on {surface.name}: {doubts.note}", file=sys.stderr)
-    return hits
+def tell(line: str) -> None:
+    """Print a line that is no result."""
+    print(line, file=sys.stderr)
 
 
 def writable(path: Path) -> Path:

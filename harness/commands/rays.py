@@ -11,33 +11,33 @@ import numpy as np
 from numpy.typing import NDArray
 
 from harness.accuracy.judge import undecided_too_many
-from harness.commands.options import add_method, add_surface, cast, surface_of, writable
+from harness.commands import Add
+from harness.commands.options import add_method, add_surface, caster_of, surface_of, tell, writable
 from harness.contract import FirsthitError, RayStatus, TruthStatus
 from harness.experiment.config import AccuracyChoice
 from harness.results.store import savez_atomically
+from harness.running.trace import cast, checked_rays
 
 
-def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
-    parser = commands.add_parser(
+def add_parsers(add: Add) -> None:
+    parser = add(
         "trace",
-        help="cast a file of rays by a method",
-        description="Cast the rays float32[n, 6] (origin, direction) of a .npy file. Writes an .npz with t (float64, "
+        "firsthit trace --surface torus --method newton --rays rays.npy -o hits.npz",
+        "Cast the rays float32[n, 6] (origin, direction) of a .npy file. Writes an .npz with t (float64, "
         "NaN without a hit), status (uint8: 0 miss, 1 hit, 2 exhausted, 3 invalid: an answer that can be none) and "
         "evaluations (int32).",
-        epilog="example: firsthit trace --surface torus --method newton --rays rays.npy -o hits.npz",
     )
     add_surface(parser)
     add_method(parser)
     _add_files(parser)
     parser.set_defaults(run=_trace)
 
-    parser = commands.add_parser(
+    parser = add(
         "oracle",
-        help="certified first hits for a file of rays",
-        description="Certify the first hits of the rays float32[n, 6] of a .npy file. Writes an .npz with lower and "
+        "firsthit oracle --formula 'x^4 + y^4 + z^4 - 1' --rays rays.npy -o truth.npz",
+        "Certify the first hits of the rays float32[n, 6] of a .npy file. Writes an .npz with lower and "
         "upper (float64: proved to enclose the first hit, NaN without one) and status (uint8: 0 miss, "
         "1 crossing, 2 touch, 3 undecided).",
-        epilog="example: firsthit oracle --formula 'x^4 + y^4 + z^4 - 1' --rays rays.npy -o truth.npz",
     )
     add_surface(parser)
     _add_files(parser)
@@ -63,34 +63,19 @@ def _distance(text: str) -> float:
 
 
 def load_rays(path: Path) -> NDArray[np.float32]:
-    """float32[n, 6] from a .npy file. Raises FirsthitError for anything else, naming the first bad row."""
+    """Read float32[n, 6] from a .npy file. Raises FirsthitError for anything else, naming the first bad row."""
     try:
         rays = np.load(path, allow_pickle=False)
     except OSError as error:
         raise FirsthitError(f"cannot read {path}: {error.strerror or error}") from None
     except (ValueError, EOFError):
         raise FirsthitError(f"{path} is not a .npy file of numbers; write it with numpy.save") from None
-    if not isinstance(rays, np.ndarray) or rays.ndim != 2 or rays.shape[1] != 6:
-        shape = getattr(rays, "shape", "an archive")
-        raise FirsthitError(f"{path} holds {shape}; it must be [n, 6]: origin and direction of each ray")
-    if rays.dtype != np.float32:
-        raise FirsthitError(f"{path} holds {rays.dtype}; save it as float32, since that is what devices are given")
-    if not len(rays):
-        raise FirsthitError(f"{path} holds no rays")
-    bad = ~np.isfinite(rays).all(axis=1)
-    if bad.any():
-        raise FirsthitError(f"{path}: row {int(bad.argmax())} (counted from 0) is not finite")
-    lengths = np.linalg.norm(rays[:, 3:].astype(np.float64), axis=1)
-    bad = np.abs(lengths - 1.0) > 1e-5
-    if bad.any():
-        row = int(bad.argmax())
-        raise FirsthitError(f"{path}: row {row} (counted from 0) has a direction of length {lengths[row]:.6g}, not 1")
-    return rays
+    return checked_rays(rays, str(path))
 
 
 def _trace(options: argparse.Namespace) -> int:
     surface, rays, output = surface_of(options), load_rays(options.rays), writable(options.output)
-    hits = cast(options, surface, rays, t_min=options.t_min)
+    hits = cast(caster_of(options), surface, rays, t_min=options.t_min, tell=tell)
     savez_atomically(output, t=hits.t, status=hits.status, evaluations=hits.evaluations)
     counts = {status: int((hits.status == status).sum()) for status in RayStatus}
     print(f"{output}: {len(rays)} rays, " + ", ".join(f"{n} {status.name.lower()}" for status, n in counts.items()))

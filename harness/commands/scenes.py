@@ -3,36 +3,36 @@
 from __future__ import annotations
 
 import argparse
-import difflib
 from pathlib import Path
 
 import numpy as np
 
 from harness.accuracy.answers import invalid
-from harness.accuracy.check_frames import hits_of
+from harness.accuracy.scene_truth import hits_of
+from harness.commands import Add
 from harness.commands.options import add_origin, given_variant, writable
 from harness.commands.pictures import need_pillow, save
 from harness.contract import PROXIES, FirsthitError
-from harness.devices.executor import CellError, LocalExecutor, discover_devices
-from harness.devices.worker import Frame
-from harness.experiment import config, draws
-from harness.experiment.plan import able
-from harness.kernels.assemble import fill_program
+from harness.devices.discovery import discover_devices
+from harness.devices.executor import CellError, LocalExecutor
+from harness.devices.frames import RasterCheck, RasterFrame
+from harness.experiment import reading
+from harness.experiment.kinds import draws
+from harness.experiment.shipped import located
+from harness.experiment.targets import able
+from harness.kernels.raster import fill_program
 from harness.plugins import find_methods
 from harness.scenes.camera import camera_for
 from harness.scenes.model import Scene
 from harness.scenes.records import depth_map
+from surfaces.words import suggestion
 
 
-def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
-    text = "draw a scene of a config, by rasterisation"
-    parser = commands.add_parser(
-        "scene",
-        help=text,
-        description=text,
-        epilog="example: firsthit scene configs/pipes.toml --name 'pipes 2000' --method newton -o pipes.png",
+def add_parsers(add: Add) -> None:
+    parser = add("scene", "firsthit scene configs/pipes.toml --name 'pipes 2000' --method newton -o pipes.png")
+    parser.add_argument(
+        "config", type=Path, metavar="CONFIG", help="a TOML file with [scene.NAME] tables, or a config's name"
     )
-    parser.add_argument("config", type=Path, metavar="CONFIG", help="a TOML file with [scene.NAME] tables")
     parser.add_argument("--name", metavar="NAME", help="which scene, as `firsthit plan` names it (default: the first)")
     parser.add_argument("--method", required=True, metavar="NAME", help="of instances without a method of their own")
     parser.add_argument("--knob", action="append", default=[], metavar="NAME=VALUE", help="a parameter of the method")
@@ -49,9 +49,7 @@ def _chosen(scenes: tuple[Scene, ...], name: str | None, path: Path) -> Scene:
         raise FirsthitError(f"{path} has no scenes; see configs/pipes.toml for how they are stated")
     names = {scene.name: scene for scene in scenes}
     if name is not None and name not in names:
-        near = difflib.get_close_matches(name, names, 1)
-        hint = f"did you mean {near[0]!r}?" if near else f"there are: {', '.join(names)}"
-        raise FirsthitError(f"{path} has no scene {name!r}; {hint}")
+        raise FirsthitError(f"{path} has no scene {name!r}; {suggestion(name, names)}")
     return names[name] if name else scenes[0]
 
 
@@ -62,7 +60,8 @@ def _scene(options: argparse.Namespace) -> int:
     if not 1 <= options.size <= 8192:
         raise FirsthitError(f"--size {options.size}: an image has 1 to 8192 pixels per side")
     output, catalog = writable(options.output), find_methods(options.plugins)
-    scene = _chosen(config.load(options.config, catalog).scenes, options.name, options.config)
+    path = located(options.config)
+    scene = _chosen(reading.load(path, catalog).scenes, options.name, path)
     variant = given_variant(options, catalog)
     if reason := draws.refusal(scene, variant, catalog):
         raise FirsthitError(f"{variant} cannot draw {scene.name}: {reason}")
@@ -76,8 +75,8 @@ def _scene(options: argparse.Namespace) -> int:
     depths, side = depth_map(scene, camera), 2 * options.size
     executor = LocalExecutor(options.timeout)
     try:
-        frame = Frame(fill_program(), camera, None, side, batches=batches, depth_map=depths)
-        picture = executor.rasterise(usable[0], frame, twice=True).picture
+        frame = RasterFrame(batches, camera, depths, side)
+        picture = executor.check(usable[0], RasterCheck(frame, fill_program())).answer
     except CellError as error:
         raise FirsthitError(f"{variant} on {usable[0]}: {error}", exit_code=3) from None
     finally:

@@ -5,25 +5,20 @@ The runner needs no more of an executor than these methods, so that another one 
 
 from __future__ import annotations
 
-import importlib.util
-import multiprocessing
 import signal
-from collections.abc import Iterable
-from concurrent.futures import ThreadPoolExecutor
+import subprocess
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
-from multiprocessing.context import SpawnProcess
+from pathlib import Path
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
 from harness.contract import CellStatus, DeviceInfo, Program
-from harness.devices.interface import INSTALL, Timing
-from harness.devices.worker import Checked, Frame, Rasterised, Warmed, serve
+from harness.devices import serving
+from harness.devices.interface import Timing
+from harness.devices.messages import Answer, Check, Checked, Frame, Warmed
 
 START_SECONDS = 60.0  # for a worker to start and a driver to load
-_SPAWN = multiprocessing.get_context("spawn")
+STOP_SECONDS = 0.5  # for a worker to end by itself once its connection is closed
 
 
 class CellError(Exception):
@@ -36,30 +31,8 @@ class CellError(Exception):
 
 @dataclass(eq=False)
 class _Process:
-    process: SpawnProcess
+    process: subprocess.Popen[bytes]
     connection: Connection
-
-
-def discover_devices(wanted: Iterable[str] = ("all",)) -> list[DeviceInfo]:
-    """Every device of every installed backend, side by side in processes of their own: a driver that crashes costs
-    itself. Where `wanted` names devices, as a config does, only of the backends that it names."""
-    named = {name.partition(":")[0] for name in wanted}
-    backends = [backend for backend, package in INSTALL.items() if importlib.util.find_spec(package)]
-    if named <= set(INSTALL):
-        backends = [backend for backend in backends if backend in named]
-    with ThreadPoolExecutor() as pool:
-        return [info for found in pool.map(_find, backends) for info in found]
-
-
-def _find(backend: str) -> list[DeviceInfo]:
-    executor = LocalExecutor(START_SECONDS)
-    try:
-        return executor.find(backend)
-    except CellError as error:
-        problem = f"looking for it: {error}"
-        return [DeviceInfo(f"{backend}:none", "none", "none", "none", None, False, "wall", (), problem)]
-    finally:
-        executor.close()
 
 
 class LocalExecutor:
@@ -74,6 +47,20 @@ class LocalExecutor:
         found: list[DeviceInfo] = self._call(backend, "find")
         return found
 
+    def running_files(self, device: str) -> list[Path] | None:
+        """The files whose code the worker of `device` has loaded: Python, bindings, drivers and their compilers.
+
+        None where the worker is gone or the system does not tell them; Linux does.
+        """
+        if device not in self._processes:
+            return None
+        try:
+            text = Path(f"/proc/{self._processes[device].process.pid}/maps").read_text(encoding="utf-8")
+        except (OSError, ValueError):
+            return None
+        mapped = (line.split(maxsplit=5) for line in text.splitlines())  # addresses, rights, offset, device, node, path
+        return sorted({Path(fields[5]) for fields in mapped if len(fields) == 6 and "x" in fields[1]})
+
     def probe(self, device: str) -> Any:
         return self._call(device, "probe")
 
@@ -82,20 +69,10 @@ class LocalExecutor:
         compile_ms: float = self._call(device, "build", program)
         return compile_ms
 
-    def check(self, device: str, program: Program, rays: NDArray[np.float32]) -> Checked:
-        """Build a listed-rays program and cast rays float32[n, 6], twice: it fails where the answers differ."""
-        checked: Checked = self._call(device, "check", program, rays)
+    def check(self, device: str, check: Check[Answer]) -> Checked[Answer]:
+        """Build a check's programs and run it; CellError where that fails, or two runs answer differently."""
+        checked: Checked[Answer] = self._call(device, "check", check)
         return checked
-
-    def check_frame(self, device: str, frame: Frame, pixels: NDArray[np.int32]) -> Checked:
-        """Build a frame of beams and run it twice; its answers for `pixels`, int32[n]. It fails where they differ."""
-        checked: Checked = self._call(device, "check_frame", frame, pixels)
-        return checked
-
-    def rasterise(self, device: str, frame: Frame, twice: bool) -> Rasterised:
-        """Draw a frame of reporting programs; `twice`: fail where two pictures of it differ."""
-        drawn: Rasterised = self._call(device, "rasterise", frame, twice)
-        return drawn
 
     def warm(self, device: str, key: str, frame: Frame) -> Warmed:
         """Build a frame and keep it ready for `sample`."""
@@ -120,23 +97,19 @@ class LocalExecutor:
 
     def _start(self, device: str) -> _Process:
         if device not in self._processes:
-            ours, theirs = _SPAWN.Pipe()
-            process = _SPAWN.Process(target=serve, args=(theirs, device), daemon=True)
-            process.start()
-            theirs.close()
-            self._processes[device] = _Process(process, ours)
+            self._processes[device] = _Process(*serving.start(device))
         return self._processes[device]
 
-    def _stop(self, device: str) -> int | None:
-        """End the worker, if need be by force; its exit code."""
+    def _stop(self, device: str) -> int:
+        """End the worker, if need be by force; its exit code, or minus the number of the signal that ended it."""
         stopped = self._processes.pop(device)
-        stopped.connection.close()
-        stopped.process.join(0.5)
-        if stopped.process.is_alive():
-            stopped.process.kill()
-        stopped.process.join()
         self._warm = {key: holder for key, holder in self._warm.items() if holder != device}
-        return stopped.process.exitcode
+        stopped.connection.close()
+        try:
+            return stopped.process.wait(STOP_SECONDS)
+        except subprocess.TimeoutExpired:
+            stopped.process.kill()
+            return stopped.process.wait()
 
     def _call(self, device: str, operation: str, *arguments: Any) -> Any:
         fresh = device not in self._processes
@@ -156,7 +129,7 @@ class LocalExecutor:
         return result
 
 
-def _explain(exit_code: int | None) -> str:
-    if exit_code is not None and exit_code < 0:
+def _explain(exit_code: int) -> str:
+    if exit_code < 0:
         return f"signal {signal.Signals(-exit_code).name}"
     return f"exit code {exit_code}"

@@ -10,8 +10,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from harness.contract import Hits, Program, RayStatus
-from harness.devices.interface import same_values
+from harness.contract import FirsthitError, Hits, Program, RayStatus
+from harness.devices.interface import Device, Launch, same_values
+from harness.devices.messages import Check, Frame, need_steady
 
 RECORD = 32  # float32 of an instance, see harness/kernels/glsl/raster/instance.glsl
 
@@ -75,6 +76,64 @@ class Rasteriser(ABC):
         depth_map: tuple[float, float],
         size: int,
         fill: Any = None,
-    ) -> Any:
-        """A Launch that draws batches by their built programs into a size × size target. With the built `fill` program,
+    ) -> RasterLaunch:
+        """A launch that draws batches by their built programs into a size × size target. With the built `fill` program,
         the batches' programs report, and it has `picture()`."""
+
+
+class RasterLaunch(Launch):
+    """A launch that draws; where its programs report, their picture can be read."""
+
+    @abstractmethod
+    def picture(self) -> Picture:
+        """What the batches' programs reported in the last run."""
+
+
+@dataclass(frozen=True, eq=False)
+class RasterFrame(Frame):
+    """Batches drawn into a camera's image."""
+
+    batches: tuple[Batch, ...]  # in order
+    camera: NDArray[np.float32]  # [12]
+    depth_map: tuple[float, float]  # a, b of its depth buffer's a + b / s
+    size: int  # pixels per side
+
+    @property
+    def programs(self) -> tuple[Program, ...]:
+        return tuple(batch.program for batch in self.batches)
+
+    def launch(self, device: Device, built: Sequence[Any]) -> Launch:
+        return self.drawn(device, built, None)
+
+    def drawn(self, device: Device, built: Sequence[Any], fill: Any) -> RasterLaunch:
+        """Upload the frame; see Rasteriser.launch_raster for `fill`. Raises FirsthitError on a device without one."""
+        if not isinstance(device, Rasteriser):
+            raise FirsthitError(f"{device.info.name} draws no triangles")
+        return device.launch_raster(self.batches, built, self.camera, self.depth_map, self.size, fill)
+
+
+@dataclass(frozen=True, eq=False)
+class RasterCheck(Check[Picture]):
+    """A frame whose batches report what they answer, and the picture of it.
+
+    With `twice` two pictures are drawn and compared. Each is uploaded anew, since a launch's counts add up from run to
+    run.
+    """
+
+    frame: RasterFrame
+    fill: Program  # reports every pixel's ray
+    twice: bool = True
+
+    @property
+    def programs(self) -> tuple[Program, ...]:
+        return (*self.frame.programs, self.fill)
+
+    def run(self, device: Device, built: Sequence[Any]) -> Picture:
+        pictures: list[Picture] = []
+        for _ in range(1 + self.twice):
+            launch = self.frame.drawn(device, built[:-1], built[-1])
+            launch.run()
+            pictures.append(launch.picture())
+            launch.release()
+        need_steady(pictures[0].differing(pictures[-1]), "pixels")
+        return pictures[0]

@@ -5,11 +5,10 @@ Everything above sees only this module. A device is opened by name (`opencl:inte
 
 from __future__ import annotations
 
-import difflib
 import importlib
 import importlib.util
 from abc import ABC, abstractmethod
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -171,20 +170,37 @@ def find_devices(backend: str) -> list[DeviceInfo]:
     return found
 
 
+def no_device(wanted: str, known: Iterable[str]) -> FirsthitError:
+    """Make the error for a device that is not here, which names those that are `known`."""
+    names = ", ".join(known) or "none"
+    return FirsthitError(f"there is no device {wanted!r} here; known: {names}; see `firsthit devices`", exit_code=3)
+
+
+def device_named(name: str, found: Iterable[DeviceInfo]) -> DeviceInfo:
+    """Return the device of that name. Raises FirsthitError where it is not among those `found`, or cannot be used."""
+    by_name = {info.name: info for info in found}
+    if name not in by_name:
+        raise no_device(name, by_name)
+    if problem := by_name[name].problem:
+        raise FirsthitError(f"device {name!r} cannot be used: {problem}", exit_code=3)
+    return by_name[name]
+
+
 def open_device(name: str) -> Device:
-    """Open a device by name. Raises FirsthitError for an unknown, absent or unusable one."""
+    """Open a device by name. Raises FirsthitError where it is not here or cannot be used.
+
+    Only devices of its own backend are looked at: another's driver may crash, and would take this process along.
+    """
     backend = name.partition(":")[0]
     if backend not in INSTALL:
-        raise FirsthitError(f"unknown device {name!r}: names start with opencl: or opengl:, see `firsthit devices`")
+        installed = [kind for kind, package in INSTALL.items() if importlib.util.find_spec(package)]
+        raise no_device(name, [info.name for kind in installed for info in find_devices(kind)])
     if not importlib.util.find_spec(INSTALL[backend]):
         raise FirsthitError(f"device {name!r} needs the package {INSTALL[backend]}: pip install {INSTALL[backend]}")
     module = importlib.import_module(f"harness.devices.{backend}")
-    infos = {info.name: info for info in module.find()}
-    if name not in infos:
-        near = difflib.get_close_matches(name, infos, 1) or list(infos)
-        hint = f"did you mean {near[0]!r}?" if near else f"this machine has no {backend} device"
-        raise FirsthitError(f"there is no device {name!r} here; {hint} See `firsthit devices`")
-    if problem := infos[name].problem:
-        raise FirsthitError(f"device {name!r} cannot be used: {problem}", exit_code=3)
+    names: list[str] = module.names()
+    if name not in names:
+        raise no_device(name, names)
+    device_named(name, [module.info(name)])
     device: Device = module.open(name)
     return device

@@ -114,14 +114,20 @@ def _problem(device: Any) -> str | None:
     return None
 
 
-@cache
+def names() -> list[str]:
+    """The names of all OpenCL devices, in the loader's order, whether they work or not."""
+    return list(_named_devices())
+
+
 def find() -> list[DeviceInfo]:
     """Every OpenCL device, in the loader's order."""
-    return [_info(name, device) for name, device in _named_devices().items()]
+    return [info(name) for name in names()]
 
 
-def _info(name: str, device: Any) -> DeviceInfo:
-    cl = _binding()
+@cache
+def info(name: str) -> DeviceInfo:
+    """One device of `names`; whether it has a problem is found by compiling for it."""
+    cl, device = _binding(), _named_devices()[name]
     return DeviceInfo(
         name=name,
         title=device.name.strip(),
@@ -137,15 +143,15 @@ def _info(name: str, device: Any) -> DeviceInfo:
 
 
 def open(name: str) -> OpenCLDevice:
-    return OpenCLDevice(name, _named_devices()[name])
+    return OpenCLDevice(name)
 
 
 class OpenCLDevice(Device):
     language = "cl"
 
-    def __init__(self, name: str, device: Any) -> None:
-        cl = _binding()
-        self.info = _info(name, device)
+    def __init__(self, name: str) -> None:
+        cl, device = _binding(), _named_devices()[name]
+        self.info = info(name)
         self._context = cl.Context([device])
         rounds = device.single_fp_config & cl.device_fp_config.CORRECTLY_ROUNDED_DIVIDE_SQRT
         self._options = {**OPTIONS, "float32": [*OPTIONS["float32"], *([ROUNDED_DIVISION] if rounds else [])]}

@@ -14,9 +14,9 @@ from typing import Any
 import numpy as np
 
 from harness.contract import DeviceInfo, FirsthitError, Program, source
-from harness.devices.frames import Batch, Rasteriser
+from harness.devices.frames import Batch, Rasteriser, RasterLaunch
 from harness.devices.interface import GPU_RESIDENT, Array, BuildError, Device, Launch, Reserved, Step, Timing
-from harness.devices.opengl_frames import RasterLaunch
+from harness.devices.opengl_frames import OpenGLRasterLaunch
 from harness.kernels.assemble import explain_log
 
 SHORT = ("llvmpipe", "softpipe", "nvidia", "geforce", "radeon", "intel", "apple")
@@ -73,6 +73,16 @@ def find() -> list[DeviceInfo]:
     ]
 
 
+def names() -> list[str]:
+    """The names of what `find` finds, which may have problems."""
+    return [found.name for found in find()]
+
+
+def info(name: str) -> DeviceInfo:
+    """One device of `names`."""
+    return next(found for found in find() if found.name == name)
+
+
 def _keeps_doubles(context: Any) -> bool:
     """Whether an array of doubles that is indexed at run time keeps them: NVIDIA's 580 rounds them to float32."""
     kept = np.array([3.0, 0.0, 0.0, 1.0 / 3.0, 0.0])
@@ -127,7 +137,7 @@ class OpenGLDevice(Device, Rasteriser):
         size: int,
         fill: Any = None,
     ) -> RasterLaunch:
-        return RasterLaunch(self._context, batches, built, camera, depth_map, size, fill)
+        return OpenGLRasterLaunch(self._context, batches, built, camera, depth_map, size, fill)
 
     def launch_steps(
         self, buffers: Sequence[Array | Reserved], outputs: Sequence[int], steps: Sequence[Step]

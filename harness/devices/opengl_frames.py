@@ -9,13 +9,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from harness.devices.frames import Batch, Picture
-from harness.devices.interface import Array, Launch, Timing
+from harness.devices.frames import Batch, Picture, RasterLaunch
+from harness.devices.interface import Array, Timing
 
 GL_DEPTH_CLAMP = 0x864F  # proxies may reach in front of the near plane; what they hold does not
 
 
-class RasterLaunch(Launch):
+class OpenGLRasterLaunch(RasterLaunch):
     """Batches drawn in order into one target with a depth buffer; `built` has a program for each, and with `fill` they
     report."""
 

@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 
 from harness.contract import DeviceInfo, Hits, Program
 from harness.devices.interface import Array, Device, Launch, Reserved, Step, real_type, unpacked
-from harness.kernels import prepass
 
 UNITS = 64  # compute units of a device that does not say how many it has
 CELLS_PER_UNIT = 64  # fill a unit that does not say what it holds: one work group
@@ -114,62 +113,6 @@ def start_of(info: DeviceInfo, size: int, quadtree: bool, layout: Layout) -> int
     if not quadtree:
         return last
     return first_level(info, last) if layout.first is None else min(last, layout.first)
-
-
-def _prepass(device: Device, program: Program, built: Any, size: int) -> tuple[list[Step], list[Array | Reserved]]:
-    """The prepass's steps over a size × size image, and its buffers behind the camera: spans, counters, queues."""
-    last = last_level(size)
-    stop = max(0, last - prepass.TILE_BITS)
-    steps, queue = quadtree_steps(device, built, size, first_level(device.info, stop), last, stop)
-    values = 2 * prepass.tiles_per_side(size) ** 2
-    spans, spent = Reserved(values, real_type(program)), Reserved(values, np.int32)
-    return steps, [spans, spent, Reserved(queue, np.int32), Reserved(LEVELS, np.int32)]
-
-
-def launch_narrowed_camera(
-    device: Device,
-    programs: tuple[Program, Program],
-    built: tuple[Any, Any],
-    camera: NDArray[np.float32],
-    size: int,
-) -> Launch:
-    """Launch a prepass, and the rays of a size × size image narrowed by it.
-
-    programs, built: of the prepass, of the rays.
-    """
-    steps, scratch = _prepass(device, programs[0], built[0], size)
-    outputs = [Reserved(size * size, real_type(programs[1])), Reserved(size * size, np.int32)]
-    buffers: list[Array | Reserved] = [np.ascontiguousarray(camera, np.float32), *scratch, *outputs]
-    return device.launch_steps(buffers, (5, 6), [*steps, Step(built[1], (0, 5, 6, 1), (size, size))])
-
-
-def launch_narrowed_rays(
-    device: Device,
-    programs: tuple[Program, Program],
-    built: tuple[Any, Any],
-    camera: NDArray[np.float32],
-    size: int,
-    rays: NDArray[np.float32],
-    pixels: NDArray[np.int32],
-) -> Launch:
-    """Launch a prepass, and listed rays float32[n, 6] narrowed by it, which lie in `pixels`, int32[n], of its image.
-
-    A third output holds the prepass's evaluations; they add up to all.
-    """
-    steps, scratch = _prepass(device, programs[0], built[0], size)
-    row, column = np.divmod(pixels, size)
-    across = prepass.tiles_per_side(size)
-    tiles = ((row >> prepass.TILE_BITS) * across + (column >> prepass.TILE_BITS)).astype(np.int32)
-    buffers: list[Array | Reserved] = [
-        np.ascontiguousarray(camera, np.float32),
-        *scratch,
-        Reserved(2 * len(rays), real_type(programs[1])),
-        Reserved(len(rays), np.int32),
-        np.ascontiguousarray(rays, np.float32),
-        tiles,
-    ]
-    cast = Step(built[1], (0, 5, 6, 1, 7, 8), (len(rays), 1))
-    return device.launch_steps(buffers, (5, 6, 2), [*steps, cast])
 
 
 def beam_hits_from(outputs: Sequence[Array]) -> tuple[Hits, NDArray[np.uint8]]:

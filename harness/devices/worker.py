@@ -1,103 +1,25 @@
-"""The process that holds one device. It knows programs and buffers only: no plugins, no surfaces, no files.
+"""What the process that holds a device does: it knows programs and buffers only, no plugins, surfaces or files.
 
 Whatever a driver does to it, the runner on the other end of the pipe sees an answer, a closed pipe or silence.
 """
 
 from __future__ import annotations
 
-import contextlib
-import ctypes
-import signal
-import sys
 import time
 from collections import OrderedDict
-from dataclasses import dataclass
+from collections.abc import Sequence
 from functools import cached_property
-from multiprocessing.connection import Connection
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
-from harness.contract import Casts, DeviceInfo, FirsthitError, Hits, Program
-from harness.devices import lanes
-from harness.devices.frames import Batch, Picture, Rasteriser
-from harness.devices.interface import (
-    Array,
-    BuildError,
-    Device,
-    Launch,
-    Timing,
-    find_devices,
-    hits_from,
-    launch_camera,
-    launch_rays,
-    open_device,
-    same_values,
-)
-from harness.devices.quadtree import (
-    BY_DEVICE,
-    Layout,
-    beam_hits_from,
-    last_level,
-    launch_beams,
-    launch_narrowed_camera,
-    launch_narrowed_rays,
-    start_of,
-)
+from harness.contract import DeviceInfo, Program
+from harness.devices.interface import Device, Launch, Timing, find_devices, open_device
+from harness.devices.messages import Answer, Check, Checked, Frame, Warmed
 from harness.devices.trial import trial_launch
 
 ENOUGH_MS = 2.0  # a sample lasts at least about this long; shorter launches are repeated within it
 MOST_REPEATS = 64
 WARM_MS = 200.0  # a launch that takes longer has warmed the device up by itself
 KEPT_PROGRAMS = 128  # built ones: a surface's views run the same programs, one view after the other
-
-
-@dataclass(frozen=True, eq=False)
-class Frame:
-    """What is timed: a program over a camera's image, or over listed rays where `rays` are given."""
-
-    program: Program
-    camera: NDArray[np.float32]  # [12]
-    rays: NDArray[np.float32] | None  # [size * size, 6]
-    size: int  # samples per side
-    casts: Casts = "rays"
-    prepass: Program | None = None  # whose beams narrow the rays
-    batches: tuple[Batch, ...] = ()  # of a frame that is rasterised, in order; `program` is the first one's, or
-    # for the check the one that reports all pixels' rays
-    depth_map: tuple[float, float] = (0.0, 0.0)  # a, b of its depth buffer's a + b / s
-    layout: Layout = BY_DEVICE  # of beams
-
-
-@dataclass(frozen=True, eq=False)
-class Checked:
-    """Hits on the accuracy rays, and what building cost; for beams also what the whole frame says of them."""
-
-    hits: Hits
-    compile_ms: float
-    levels: NDArray[np.uint8] | None = None  # [n] of the quadtree, at which each ray's pixel was decided
-    evaluations: tuple[float | None, int] | None = None  # mean and largest over the frame's pixels, as Hits.spent
-    prepass_evaluations: float | None = None  # the prepass's own, mean over the frame's pixels
-    lanes: list[dict[str, Any]] | None = None  # of beams: what each level's work items spend, as lanes.summary
-
-
-@dataclass(frozen=True, eq=False)
-class Rasterised:
-    """What a frame whose programs report answered, and what building them cost."""
-
-    picture: Picture
-    compile_ms: float
-
-
-@dataclass(frozen=True)
-class Warmed:
-    """What the frame cost apart from running, and how often it is repeated within one sample."""
-
-    compile_ms: float
-    upload_ms: float
-    readback_ms: float
-    batch: int
-    bytes: int | None = None  # of instances, triangles and vertices that a rasterised frame keeps on the device
 
 
 class Worker:
@@ -139,93 +61,21 @@ class Worker:
         self._built.move_to_end(program.hash)
         return self._built[program.hash]
 
-    def check(self, program: Program, rays: NDArray[np.float32]) -> Checked:
-        """Build a listed-rays program and run it twice; rays: float32[n, 6]. A FirsthitError where answers differ."""
-        built, compile_ms = self._build(program)
-        outputs, again = _twice(launch_rays(self._device, program, built, rays))
-        hits = hits_from(outputs)
-        _need_same(hits, hits_from(again))
-        return Checked(hits, compile_ms)
+    def _build_all(self, programs: Sequence[Program]) -> tuple[list[Any], float]:
+        """Build programs; all built ones, and the milliseconds that compiling took, each program once."""
+        built = [self._build(program) for program in programs]
+        taken = {program.hash: compile_ms for program, (_, compile_ms) in zip(programs, built, strict=True)}
+        return [one for one, _ in built], sum(taken.values())
 
-    def check_frame(self, frame: Frame, pixels: NDArray[np.int32]) -> Checked:
-        """Build a frame of beams and run it twice; what it answers for `pixels`, int32[n], or, where beams are only the
-        prepass, for the rays of the frame, float32[n, 6], which lie in those pixels. A FirsthitError where the two
-        runs answer differently."""
-        built, compile_ms = self._build(frame.program)
-        if frame.prepass:
-            assert frame.rays is not None
-            before, more_ms = self._build(frame.prepass)
-            programs = frame.prepass, frame.program
-            launch = launch_narrowed_rays(
-                self._device, programs, (before, built), frame.camera, frame.size, frame.rays, pixels
-            )
-            (*outputs, spent), (*again, _) = _twice(launch)
-            hits = hits_from(outputs)
-            _need_same(hits, hits_from(again))
-            return Checked(hits, compile_ms + more_ms, prepass_evaluations=float(spent.sum()) / frame.size**2)
-        quadtree = frame.casts == "quadtree"
-        launch = launch_beams(
-            self._device,
-            frame.program,
-            built,
-            frame.camera,
-            frame.size,
-            quadtree,
-            frame.layout,
-            blank=True,
-            queues=True,
-        )
-        outputs, again = _twice(launch)
-        hits, levels = beam_hits_from(outputs)
-        _need_same(hits, beam_hits_from(again)[0])
-        picked = Hits(hits.t[pixels], hits.status[pixels], hits.evaluations[pixels])
-        start = start_of(self._device.info, frame.size, quadtree, frame.layout)
-        tree = lanes.Tree(frame.size, start, last_level(frame.size), frame.layout.grouped)
-        return Checked(
-            picked, compile_ms, levels[pixels], hits.spent, lanes=lanes.of_frame(tree, hits, levels, outputs)
-        )
-
-    def rasterise(self, frame: Frame, twice: bool) -> Rasterised:
-        """Draw a frame of reporting programs; `twice`: a FirsthitError where two pictures of it differ."""
-        built = [self._build(batch.program) for batch in frame.batches]
-        pictures: list[Picture] = []
-        for _ in range(1 + twice):
-            launch = self._raster(frame, self._build(frame.program)[0])  # anew: its counts add up from run to run
-            launch.run()
-            pictures.append(launch.picture())
-            launch.release()
-        _need_steady(pictures[0].differing(pictures[-1]), "pixels")
-        return Rasterised(pictures[0], sum(compile_ms for _, compile_ms in built))
-
-    def _raster(self, frame: Frame, fill: Any = None) -> Any:
-        programs = [self._build(batch.program)[0] for batch in frame.batches]
-        if not isinstance(self._device, Rasteriser):
-            raise FirsthitError(f"{self._name} draws no triangles")
-        return self._device.launch_raster(frame.batches, programs, frame.camera, frame.depth_map, frame.size, fill)
-
-    def _launch(self, frame: Frame, built: Any) -> Launch:
-        if frame.batches:
-            launch: Launch = self._raster(frame)
-            return launch
-        if frame.prepass:
-            before, _ = self._build(frame.prepass)
-            programs = frame.prepass, frame.program
-            return launch_narrowed_camera(self._device, programs, (before, built), frame.camera, frame.size)
-        if frame.casts != "rays":
-            quadtree = frame.casts == "quadtree"
-            return launch_beams(self._device, frame.program, built, frame.camera, frame.size, quadtree, frame.layout)
-        if frame.rays is None:
-            return launch_camera(self._device, frame.program, built, frame.camera, frame.size)
-        return launch_rays(self._device, frame.program, built, frame.rays)
+    def check(self, check: Check[Answer]) -> Checked[Answer]:
+        """Build a check's programs and run it. Raises FirsthitError where two runs answer differently."""
+        built, compile_ms = self._build_all(check.programs)
+        return Checked(check.run(self._device, built), compile_ms)
 
     def warm(self, key: str, frame: Frame) -> Warmed:
         """Build and upload a frame, run it until warm, read it back once, and keep it ready under `key`."""
-        built, compile_ms = self._build(frame.program)
-        compile_ms += self._build(frame.prepass)[1] if frame.prepass else 0.0
-        compile_ms += sum(
-            self._build(program)[1] for program in {b.program.hash: b.program for b in frame.batches[1:]}.values()
-        )
-        launch = self._launch(frame, built)
+        built, compile_ms = self._build_all(frame.programs)
+        launch = frame.launch(self._device, built)
         duration = launch.run().wall_ms
         if duration < WARM_MS:
             duration = launch.run().wall_ms
@@ -242,54 +92,3 @@ class Worker:
     def release(self, key: str) -> None:
         if frame := self._frames.pop(key, None):
             frame.release()
-
-
-def _twice(launch: Launch) -> tuple[list[Array], list[Array]]:
-    """The outputs of two runs of a launch, which is released."""
-    launch.run()
-    first = [output.copy() for output in launch.read()]
-    launch.run()
-    second = [output.copy() for output in launch.read()]
-    launch.release()
-    return first, second
-
-
-def _need_same(hits: Hits, again: Hits) -> None:
-    same = [same_values(values, getattr(again, name)) for name, values in vars(hits).items()]
-    _need_steady(~np.logical_and.reduce(same), "rays")
-
-
-def _need_steady(differs: NDArray[np.bool_], what: str) -> None:
-    """Raise where the same program on the same input does not answer alike twice: then it has no answers."""
-    if differs.any():
-        message = f"two runs of the program answer {int(differs.sum())} of {len(differs)} {what} differently"
-        raise FirsthitError(f"{message}: its kernel reads what nobody wrote, or the device is at fault", exit_code=3)
-
-
-def _die_with_parent() -> None:
-    if sys.platform == "linux":
-        pr_set_pdeathsig = 1
-        with contextlib.suppress(OSError):
-            ctypes.CDLL(None).prctl(pr_set_pdeathsig, signal.SIGKILL)
-
-
-def serve(connection: Connection, device_name: str) -> None:
-    """Answer (operation, arguments) with ("ok", result) or ("failed", reason) until the pipe closes."""
-    _die_with_parent()
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the runner decides when to stop
-    worker = Worker(device_name)
-    while True:
-        try:
-            operation, arguments = connection.recv()
-        except (EOFError, ConnectionError):  # reset, where the runner went without reading the last answer
-            return
-        try:
-            answer = ("ok", getattr(worker, operation)(*arguments))
-        except (BuildError, FirsthitError) as error:
-            answer = ("failed", str(error))
-        except Exception as error:  # a binding may raise anything; it costs this one cell
-            answer = ("failed", f"{type(error).__name__}: {error}")
-        try:
-            connection.send(answer)
-        except ConnectionError:
-            return

@@ -21,7 +21,6 @@ from harness.contract import FirsthitError, digest
 from harness.results.store import write_atomically
 
 FORMAT = 1
-FACTS = ("title", "driver", "compiler", "processor")
 Entry = dict[str, Any]  # status, scene, program, and the figures
 
 

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from typing import Any
 
 from harness.contract import DeviceInfo, digest
-from harness.experiment.identity import processor
+from harness.devices.host import processor
 from harness.experiment.plan import Planned
 from harness.gate.baseline import Baseline, Entry, device_key
 from harness.plugins import Catalog

@@ -1,18 +1,35 @@
 """Run as a script inside another revision's tree: a config's programs as JSON on the last line of stdout.
 
-Arguments: config, plugins folder or "", device names after them. Uses only what every revision's harness has.
+Arguments: config, plugins folder or "", device names after them. Uses only what every revision's harness has, under the
+names that it went by in each.
 """
 
 import dataclasses
+import importlib
 import json
 import sys
 from pathlib import Path
 from typing import Any
 
+import harness
 from harness.contract import FirsthitError, Program
-from harness.devices.executor import discover_devices
-from harness.experiment import config, plan
 from harness.plugins import find_methods
+
+LOAD = ("harness.experiment.reading", "harness.experiment.config", "harness.config")  # the newest name first
+PLAN = ("harness.experiment.plan", "harness.plan")
+DISCOVERY = ("harness.devices.discovery", "harness.devices.executor", "harness.executor")
+
+
+def _module(names: tuple[str, ...]) -> Any:
+    """Import the first of these modules that this revision has. Raises FirsthitError where it has none.
+
+    Its own files are looked for, since an editable installation offers those of another revision beside them.
+    """
+    tree = Path(harness.__file__).parents[1]
+    for name in names:
+        if tree.joinpath(*name.split(".")).with_suffix(".py").is_file():
+            return importlib.import_module(name)
+    raise FirsthitError(f"it has none of the modules {', '.join(names)}")
 
 
 def _json(program: Program) -> dict[str, Any]:
@@ -21,10 +38,12 @@ def _json(program: Program) -> dict[str, Any]:
 
 
 def export(path: str, plugins: str, devices: list[str]) -> dict[str, Any]:
+    """Return each view cell's programs by its slot. Raises FirsthitError where the config cannot be planned."""
     catalog = find_methods(Path(plugins) if plugins else None)
-    experiment = config.load(Path(path), catalog)
+    experiment = _module(LOAD).load(Path(path), catalog)
     experiment = dataclasses.replace(experiment, config=dataclasses.replace(experiment.config, devices=devices))
-    planned = plan.plan(experiment, catalog, discover_devices(experiment.config.devices))
+    found = _module(DISCOVERY).discover_devices(experiment.config.devices)
+    planned = _module(PLAN).plan(experiment, catalog, found)
     return {
         p.cell.slot: {
             "skip": p.skip,
@@ -32,7 +51,6 @@ def export(path: str, plugins: str, devices: list[str]) -> dict[str, Any]:
             "timed": _json(p.timed) if p.timed else None,
         }
         for p in planned
-        if not p.cell.family
     }
 
 

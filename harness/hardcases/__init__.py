@@ -1,21 +1,26 @@
-"""Hard cases: families of rays at which methods break, each a ladder along one parameter, with certified answers.
+"""Makes hard cases: families of hard rays, at which methods break.
+
+A *family* of hard rays varies one number, its parameter, and keeps everything else. The parameter's values, in order of
+rising difficulty, are the family's *ladder*; each value, with its surface and its rays, is a *rung*. These are all the
+words that the project uses for hard cases.
 
     from harness import hardcases
     for rung in hardcases.rungs("grazing"):
         truth = first_hits(rung.surface, rung.rays)
-        verdict = judge_rung(rung, hits, truth, "float32")  # hardcases.verdict
+        verdict = judge_rung(rung, hits, truth, "float32")  # harness.accuracy.rungs
 
-A rung's rays are at its parameter as the float32 numbers they are, not before rounding: tests measure it again.
+The float32 rays themselves have the parameter that their rung states, not only the numbers that were rounded to them.
+Tests measure it again, exactly.
 """
 
 from __future__ import annotations
 
-import difflib
 from functools import cache
 
 from harness.contract import FirsthitError
 from harness.hardcases import polynomials, singular, tori
 from harness.hardcases.model import Family, Rung
+from surfaces.words import suggestion
 
 __all__ = ["FAMILIES", "Family", "Rung", "get", "names", "rungs"]
 
@@ -48,19 +53,19 @@ FAMILIES: dict[str, Family] = {
 
 
 def names() -> tuple[str, ...]:
-    """Every family's name, from the contact of ray and surface to the size of numbers."""
+    """Return all families' names: first those of how ray and surface touch, last those of how large numbers are."""
     return tuple(FAMILIES)
 
 
 def get(name: str) -> Family:
-    """A family by name; a FirsthitError with the nearest names where there is none."""
+    """Return a family by name. Raises FirsthitError, with the nearest names, if there is none."""
     if name not in FAMILIES:
-        near = difflib.get_close_matches(name, FAMILIES, 3, 0.5) or FAMILIES
-        raise FirsthitError(f"there is no family of hard cases {name!r}; did you mean {', '.join(near)}?")
+        raise FirsthitError(f"there is no family of hard rays {name!r}; {suggestion(name, FAMILIES, most=3)}")
     return FAMILIES[name]
 
 
 @cache
 def rungs(name: str) -> tuple[Rung, ...]:
-    """A family's ladder, going harder; a FirsthitError for an unknown name."""
+    """Return the rungs of a family's ladder, each harder than the one before. Raises FirsthitError for an unknown
+    name."""
     return get(name).make()

@@ -1,4 +1,4 @@
-"""What a family of hard cases is: one parameter, a ladder of its values, and rays that really are there."""
+"""Defines what a family of hard rays is, and the decorator that makes one of a function."""
 
 from __future__ import annotations
 
@@ -19,48 +19,55 @@ Build = Callable[[float, np.random.Generator], tuple[Surface, Rays]]
 
 @dataclass(frozen=True, eq=False)
 class Rung:
-    """One step of a family's ladder; `rays` float32[n, 6]: origins, and directions of length 1 to float32 rounding."""
+    """One value of a family's parameter, with its surface and its rays.
+
+    `rays` is float32[n, 6]: origins, and directions whose length is 1 to float32 rounding.
+    """
 
     parameter: float
     surface: Surface
     rays: Rays
-    margin: float = inf  # every ray is at most this far, in scene units, from one with other roots; by construction
+    margin: float = inf  # no ray is farther than this, in scene units, from a ray with other roots; inf: not known
 
 
 @dataclass(frozen=True)
 class Family:
-    """Rays that get harder as one number changes; everything else stays the same from rung to rung."""
+    """Rays that get harder as one parameter changes; everything else stays the same from rung to rung."""
 
     name: str
     title: str
-    parameter: str  # what the number means, with its unit
-    harder: Literal["smaller", "larger"]
-    why: str  # what breaks here, in one sentence
+    parameter: str  # what the parameter means, with its unit
+    harder: Literal["smaller", "larger"]  # which values of the parameter are the harder ones
+    why: str  # why methods break here, in one sentence
     source: str
-    levels: tuple[float, ...]  # the parameter's values, going harder
-    build: Build  # surface and rays of one level
-    is_margin: bool  # whether moving a ray or a root by the parameter's length merges, adds or removes roots
+    ladder: tuple[float, ...]  # the parameter's values, the easiest first
+    build: Build  # makes the surface and the rays of one value of the parameter
+    is_margin: bool  # whether moving a ray or a root by the parameter, a length, merges, adds or removes roots
     seed: int = SEED
 
     def make(self) -> tuple[Rung, ...]:
-        """The ladder. Every rung draws the same random numbers, so that only the parameter tells rungs apart."""
-        return tuple(self._rung(level) for level in self.levels)
+        """Return the ladder's rungs. Each draws the same random numbers, so that rungs differ in the parameter
+        alone."""
+        return tuple(self._rung(value) for value in self.ladder)
 
-    def _rung(self, level: float) -> Rung:
-        surface, rays = self.build(level, np.random.Generator(np.random.PCG64([self.seed, *self.name.encode()])))
+    def _rung(self, value: float) -> Rung:
+        surface, rays = self.build(value, np.random.Generator(np.random.PCG64([self.seed, *self.name.encode()])))
         rays.setflags(write=False)
-        return Rung(level, surface, rays, level if self.is_margin else inf)
+        return Rung(value, surface, rays, value if self.is_margin else inf)
 
 
 def family(
     title: str,
     parameter: str,
-    levels: tuple[float, ...],
+    ladder: tuple[float, ...],
     *,
     why: str,
     source: str = "firsthit",
     is_margin: bool = False,
 ) -> Callable[[Build], Family]:
-    """Makes a family of the function that builds one rung; its name is the function's."""
-    harder: Literal["smaller", "larger"] = "smaller" if levels[-1] < levels[0] else "larger"
-    return lambda build: Family(build.__name__, title, parameter, harder, why, source, levels, build, is_margin)
+    """Return a decorator that makes a family of a function, which builds the surface and the rays of one rung.
+
+    The family has the function's name. `title`, `parameter`, `why` and `source` are printed in reports; see Family.
+    """
+    harder: Literal["smaller", "larger"] = "smaller" if ladder[-1] < ladder[0] else "larger"
+    return lambda build: Family(build.__name__, title, parameter, harder, why, source, ladder, build, is_margin)

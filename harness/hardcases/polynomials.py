@@ -1,4 +1,7 @@
-"""Hard cases of the polynomial along the ray: its degree, its roots' spacing, its coefficients' size, its flatness."""
+"""Defines families of hard rays along which the polynomial f(o + t d) is hard.
+
+Its degree falls, its roots lie close together, its coefficients are tiny or huge, or it is flat.
+"""
 
 from __future__ import annotations
 
@@ -32,12 +35,12 @@ TORUS = "((x^2 + y^2 + z^2 + R^2 - r^2)^2 - 4*R^2*(x^2 + y^2))"
     why="the leading coefficient vanishes and a root goes to infinity; closed forms and deflation divide by it",
     source="D. Hilbert, S. Cohn-Vossen 1932; surface Monkey saddle",
 )
-def lower_degree(level: float, rng: np.random.Generator) -> tuple[Surface, Rays]:
-    """At the saddle z = x³ - 3xy²; the factor x of its leading form vanishes on directions in the plane x = 0."""
+def lower_degree(value: float, rng: np.random.Generator) -> tuple[Surface, Rays]:
+    """Aim at the saddle z = x³ - 3xy². In the plane x = 0 the leading coefficient vanishes, since x divides it."""
     x, y = signs(rng) * uniform(rng, 0.2, 0.7), uniform(rng, -0.5, 0.5)
     cosine, sine = circle(rng)
-    heading = np.sqrt(1.0 - level * level) * unit(vectors(0.0, cosine + 0.5 * np.sign(cosine), sine))
-    heading += vectors(level * signs(rng), 0.0, 0.0)
+    heading = np.sqrt(1.0 - value * value) * unit(vectors(0.0, cosine + 0.5 * np.sign(cosine), sine))
+    heading += vectors(value * signs(rng), 0.0, 0.0)
     points = vectors(x, y, x * x * x - 3.0 * x * y * y)
     return surfaces.get("monkey_saddle"), rounded(points - 2.0 * heading, heading)
 
@@ -49,16 +52,16 @@ def lower_degree(level: float, rng: np.random.Generator) -> tuple[Surface, Rays]
     why="f between the first two roots is as small as the square of their distance, and the condition grows inversely",
     is_margin=True,
 )
-def clustered_roots(level: float, rng: np.random.Generator) -> tuple[Surface, Rays]:
-    """Radii 1 and 1 + level, met at angles of up to 45 degrees."""
+def clustered_roots(value: float, rng: np.random.Generator) -> tuple[Surface, Rays]:
+    """Aim at spheres of the radii 1 and 1 + value, which are met at angles of up to 45 degrees from the normal."""
     heading = directions(rng)
     feet = scaled(uniform(rng, 0.0, 0.7), across(heading, rng))
-    return surfaces.get("two_spheres", gap=repr(level * (2.0 + level))), rounded(feet - 2.0 * heading, heading)
+    return surfaces.get("two_spheres", gap=repr(value * (2.0 + value))), rounded(feet - 2.0 * heading, heading)
 
 
-def _scaled_torus(level: float, rng: np.random.Generator) -> tuple[Surface, Rays]:
-    """The torus with its equation multiplied, and the same rays whatever the factor."""
-    torus = surfaces.from_formula(f"{level!r}*{TORUS}", "sphere:1.25", "scaled_torus", {"R": "0.7", "r": "0.3"})
+def _scaled_torus(value: float, rng: np.random.Generator) -> tuple[Surface, Rays]:
+    """Return the torus with its equation multiplied by `value`, and rays that are the same for all factors."""
+    torus = surfaces.from_formula(f"{value!r}*{TORUS}", "sphere:1.25", "scaled_torus", {"R": "0.7", "r": "0.3"})
     heading = directions(rng)
     feet = scaled(uniform(rng, 0.0, 1.0), across(heading, rng))
     return torus, rounded(feet - 2.0 * heading, heading)
@@ -70,8 +73,9 @@ def _scaled_torus(level: float, rng: np.random.Generator) -> tuple[Surface, Rays
     (1.0, 1e-5, 1e-10, 1e-15, 1e-20, 1e-25, 1e-30),
     why="absolute thresholds on f pass everywhere, and products of coefficients underflow",
 )
-def tiny_coefficients(level: float, rng: np.random.Generator) -> tuple[Surface, Rays]:
-    return _scaled_torus(level, rng)
+def tiny_coefficients(value: float, rng: np.random.Generator) -> tuple[Surface, Rays]:
+    """Multiply the torus's equation by small factors."""
+    return _scaled_torus(value, rng)
 
 
 @family(
@@ -80,8 +84,9 @@ def tiny_coefficients(level: float, rng: np.random.Generator) -> tuple[Surface, 
     (1.0, 1e5, 1e10, 1e15, 1e20, 1e25, 1e30),
     why="absolute thresholds on f never pass, and products of coefficients overflow float32",
 )
-def huge_coefficients(level: float, rng: np.random.Generator) -> tuple[Surface, Rays]:
-    return _scaled_torus(level, rng)
+def huge_coefficients(value: float, rng: np.random.Generator) -> tuple[Surface, Rays]:
+    """Multiply the torus's equation by large factors."""
+    return _scaled_torus(value, rng)
 
 
 @family(
@@ -93,13 +98,16 @@ def huge_coefficients(level: float, rng: np.random.Generator) -> tuple[Surface, 
     source="szente, Table 3; surface 16-ball",
     is_margin=True,
 )
-def flat_faces(level: float, rng: np.random.Generator) -> tuple[Surface, Rays]:
-    """Past the middle of each of the six faces, by up to 0.3. 2⁻²³ is the float32 spacing above 1: none is nearer."""
+def flat_faces(value: float, rng: np.random.Generator) -> tuple[Surface, Rays]:
+    """Cast along each of the six faces, past its middle by up to 0.3.
+
+    The last value, 2⁻²³, is the float32 spacing above 1, so that no float32 ray is nearer.
+    """
     cosine, sine = circle(rng)
     aside = uniform(rng, -0.3, 0.3)
-    height = signs(rng) * (1.0 + level * halves())
+    height = signs(rng) * (1.0 + value * halves())
     origins = vectors(height, -sine * aside - 2.0 * cosine, cosine * aside - 2.0 * sine)
     rays = np.stack([origins, vectors(0.0, cosine, sine)], axis=1)
-    turn = (np.arange(3) - np.arange(COUNT)[:, None] // 2) % 3  # the face's axis: x, y, z in turn
+    turn = (np.arange(3) - np.arange(COUNT)[:, None] // 2) % 3  # the axis of the face is x, y and z in turn
     rays = np.take_along_axis(rays, turn[:, None, :], axis=2)
     return surfaces.get("sixteen_ball"), rounded(rays[:, 0], rays[:, 1])

@@ -1,7 +1,8 @@
-"""Hard cases of the torus: near tangency, along its axis, with four hits, from on and inside it, thin, and from afar.
+"""Defines families of hard rays at tori: near tangency, near the axis, with four hits, from origins on the torus, at
+thin tori, and from far away.
 
-Where not said otherwise it is toledo2007's torus, R = 0.7 and r = 0.3, in a ball with room to spare: its own tight box
-would add roots near the ends of the ray to every family.
+The torus is that of toledo2007 with R = 0.7 and r = 0.3, unless a family says otherwise. Its domain is a ball larger
+than the torus: in its own tight box every family would also have roots near the ends of its rays.
 """
 
 from __future__ import annotations
@@ -34,37 +35,44 @@ from harness.hardcases.rays import (
 )
 
 RING, TUBE = 0.7, 0.3
-AWAY = 2.0  # from where a ray starts to where it gets interesting
+AWAY = 2.0  # from a ray's origin to the point that makes it hard, scene units
 TOLEDO = "after toledo2007, section 4"
 
 
 def roomy_torus(ring: str, tube: str) -> Surface:
-    """The catalog's torus in a ball a quarter larger than it is."""
+    """Return the catalog's torus in a ball whose radius is a quarter larger than the torus's."""
     torus = surfaces.get("torus", R=ring, r=tube)
     return replace(torus, domain=Sphere(1.25 * (float(ring) + float(tube))))
 
 
 def distance_to_torus(points: Floats) -> Floats:
-    """Signed, negative inside the tube; points[..., 3]."""
+    """Return the signed distances of points[..., 3] from the torus, negative inside the tube."""
     x, y, z = np.moveaxis(points, -1, 0)
     from_core = np.sqrt(x * x + y * y) - RING
     return np.asarray(np.sqrt(from_core * from_core + z * z) - TUBE)
 
 
 def points_and_normals(around: tuple[Floats, Floats], cosine: Floats, sine: Floats) -> tuple[Floats, Floats]:
-    """Return the torus's points and normals at angles around its axis and its tube: cosines and sines, [n] each."""
+    """Return points and normals of the torus, float64[n, 3] each.
+
+    `around` holds the cosines and sines, [n] each, of the angles about the axis; `cosine` and `sine` those about the
+    tube.
+    """
     cu, su = around
     normals = vectors(cosine * cu, cosine * su, sine)
     return RING * vectors(cu, su, 0.0) + TUBE * normals, normals
 
 
 def at_depth(points: Floats, normals: Floats, tangents: Floats, height: Floats | float) -> Rays:
-    """Rays along tangents (unit vectors) whose least signed distance from the torus near `points` is `height`."""
+    """Return rays along tangents, unit vectors, whose least signed distance from the torus near `points` is `height`.
+
+    `points`, `normals` and `tangents` are float64[COUNT, 3].
+    """
     feet = points + scaled(height, normals)
 
     def least_distance(rays: Floats) -> Floats:
         o, d = rays[..., :3], rays[..., 3:]
-        t = dot(feet[:, None] - o, d) / dot(d, d)  # where the distance is stationary, to second order
+        t = dot(feet[:, None] - o, d) / dot(d, d)  # where the distance is least, to second order
         return distance_to_torus(o + scaled(t, d))
 
     return settled(feet - AWAY * tangents, tangents, least_distance, height)
@@ -77,11 +85,11 @@ def at_depth(points: Floats, normals: Floats, tangents: Floats, height: Floats |
     why="hit and miss are decided by a dip of f as deep as the distance, and the two roots merge",
     is_margin=True,
 )
-def grazing(level: float, rng: np.random.Generator) -> tuple[Surface, Rays]:
-    """About tangents of the torus's outer half, which lie outside it on both sides of the contact."""
+def grazing(value: float, rng: np.random.Generator) -> tuple[Surface, Rays]:
+    """Shift tangents of the torus's outer half outwards and inwards. Such a tangent lies outside the torus."""
     cosine = uniform(rng, 0.1, 1.0)
     points, normals = points_and_normals(circle(rng), cosine, signs(rng) * np.sqrt(1.0 - cosine * cosine))
-    return roomy_torus("0.7", "0.3"), at_depth(points, normals, across(normals, rng), level * halves())
+    return roomy_torus("0.7", "0.3"), at_depth(points, normals, across(normals, rng), value * halves())
 
 
 @family(
@@ -92,15 +100,16 @@ def grazing(level: float, rng: np.random.Generator) -> tuple[Surface, Rays]:
     source=TOLEDO,
     is_margin=True,
 )
-def torus_four_hits(level: float, rng: np.random.Generator) -> tuple[Surface, Rays]:
-    """Past the top of the near side of the tube, slightly downwards, and through the far side."""
+def torus_four_hits(value: float, rng: np.random.Generator) -> tuple[Surface, Rays]:
+    """Cast slightly downwards, so that rays just enter the near side of the tube at its top, and then meet the far
+    side."""
     cu, su = circle(rng)
     cosine, up = uniform(rng, -0.3, -0.1), signs(rng)
     sine = up * np.sqrt(1.0 - cosine * cosine)
     points, normals = points_and_normals((cu, su), cosine, sine)
     inwards, sideways = vectors(-up * sine * cu, -up * sine * su, up * cosine), vectors(-su, cu, 0.0)
     tangents = unit(inwards + scaled(uniform(rng, -0.2, 0.2), sideways))
-    return roomy_torus("0.7", "0.3"), at_depth(points, normals, tangents, -level)
+    return roomy_torus("0.7", "0.3"), at_depth(points, normals, tangents, -value)
 
 
 @family(
@@ -111,8 +120,8 @@ def torus_four_hits(level: float, rng: np.random.Generator) -> tuple[Surface, Ra
     why="two pairs of roots merge at once: f is nearly the square of a quadratic",
     is_margin=True,
 )
-def tangent_plane(level: float, rng: np.random.Generator) -> tuple[Surface, Rays]:
-    """The torus hangs below its tangent plane z = 0, so that float32 can tell the ray's height from the plane's."""
+def tangent_plane(value: float, rng: np.random.Generator) -> tuple[Surface, Rays]:
+    """Cast parallel to z = 0, which touches the torus: float32 numbers near 0 are dense enough for a ray's height."""
     torus = surfaces.from_formula(
         "(x^2 + y^2 + (z + r)^2 + R^2 - r^2)^2 - 4*R^2*(x^2 + y^2)",
         "sphere:1.5",
@@ -120,7 +129,7 @@ def tangent_plane(level: float, rng: np.random.Generator) -> tuple[Surface, Rays
         {"R": "0.7", "r": "0.3"},
     )
     along, offset = vectors(*circle(rng), 0.0), uniform(rng, -0.4, 0.4)
-    feet = scaled(offset, cross(along, vectors(0.0, 0.0, 1.0))) + vectors(0.0, 0.0, level * halves())
+    feet = scaled(offset, cross(along, vectors(0.0, 0.0, 1.0))) + vectors(0.0, 0.0, value * halves())
     return torus, rounded(feet - AWAY * along, along)
 
 
@@ -131,24 +140,29 @@ def tangent_plane(level: float, rng: np.random.Generator) -> tuple[Surface, Rays
     why="the odd coefficients of the quartic along the ray vanish by symmetry, and closed forms divide by them",
     source=TOLEDO,
 )
-def torus_axis(level: float, rng: np.random.Generator) -> tuple[Surface, Rays]:
-    """In turn: through the hole, as askew to the axis as it is off it; and across the axis, through the tube twice."""
+def torus_axis(value: float, rng: np.random.Generator) -> tuple[Surface, Rays]:
+    """Cast in turn through the hole, nearly along the axis, and across the axis, nearly in the equatorial plane.
+
+    With the parameter d, a ray through the hole passes the axis at the distance d and leans by the slope d. A ray
+    across the axis passes the axis and the equatorial plane at the distance d each, and meets the tube twice.
+    """
     cosine, sine = circle(rng)
     aside, sideways = vectors(cosine, sine, 0.0), vectors(-sine, cosine, 0.0)
     through = (halves() > 0.0)[:, None]
-    along = np.where(through, unit(vectors(0.0, 0.0, signs(rng)) + level * sideways), sideways)
-    feet = level * np.where(through, aside, aside + vectors(0.0, 0.0, signs(rng)))
+    along = np.where(through, unit(vectors(0.0, 0.0, signs(rng)) + value * sideways), sideways)
+    feet = value * np.where(through, aside, aside + vectors(0.0, 0.0, signs(rng)))
     return roomy_torus("0.7", "0.3"), settled(
-        feet - AWAY * along, along, lambda rays: np.abs(distance_to_z_axis(rays)), level
+        feet - AWAY * along, along, lambda rays: np.abs(distance_to_z_axis(rays)), value
     )
 
 
 def _starting_at(height: float, rng: np.random.Generator) -> Rays:
-    """Origins at a signed distance from the torus; every second direction heads for it, the others away from it."""
+    """Return rays with origins at a signed distance from the torus. In turn they head for the torus and away from
+    it."""
     points, normals = points_and_normals(circle(rng), *circle(rng))
     heading = directions(rng)
     cosine = dot(heading, normals)
-    heading = unit(heading + scaled(np.where(cosine < 0.0, -0.3, 0.3), normals))  # no grazing ones
+    heading = unit(heading + scaled(np.where(cosine < 0.0, -0.3, 0.3), normals))  # none of them grazes the torus
     heading = scaled(halves() * np.sign(height) * np.sign(-cosine), heading)
     return settled(
         points + height * normals, heading, lambda rays: distance_to_torus(rays[..., :3]), np.full(len(points), height)
@@ -162,8 +176,9 @@ def _starting_at(height: float, rng: np.random.Generator) -> Rays:
     why="shadow rays: the root just behind the origin must not be taken, the one just in front must not be skipped",
     is_margin=True,
 )
-def origin_on_surface(level: float, rng: np.random.Generator) -> tuple[Surface, Rays]:
-    return roomy_torus("0.7", "0.3"), _starting_at(level, rng)
+def origin_on_surface(value: float, rng: np.random.Generator) -> tuple[Surface, Rays]:
+    """Start rays just outside the torus."""
+    return roomy_torus("0.7", "0.3"), _starting_at(value, rng)
 
 
 @family(
@@ -173,8 +188,9 @@ def origin_on_surface(level: float, rng: np.random.Generator) -> tuple[Surface, 
     why="refracted rays: f has the other sign at the start, and a root lies just before or just behind it",
     is_margin=True,
 )
-def origin_inside(level: float, rng: np.random.Generator) -> tuple[Surface, Rays]:
-    return roomy_torus("0.7", "0.3"), _starting_at(-level, rng)
+def origin_inside(value: float, rng: np.random.Generator) -> tuple[Surface, Rays]:
+    """Start rays just inside the tube."""
+    return roomy_torus("0.7", "0.3"), _starting_at(-value, rng)
 
 
 @family(
@@ -183,13 +199,13 @@ def origin_inside(level: float, rng: np.random.Generator) -> tuple[Surface, Rays
     (10.0, 30.0, 100.0, 300.0, 1000.0, 3000.0, 10000.0),
     why="the hit is a short dip in a long ray, between samples, and f there is the small difference of large terms",
 )
-def thin_torus(level: float, rng: np.random.Generator) -> tuple[Surface, Rays]:
-    """Aimed at the tube within 0.8 of its radius, and past it by 1.2 to 2 of them."""
+def thin_torus(value: float, rng: np.random.Generator) -> tuple[Surface, Rays]:
+    """Aim in turn at the tube, within 0.8 of its radius from its core, and past it, at 1.2 to 2 radii from its core."""
     cu, su = circle(rng)
     heading = directions(rng)
     aside = unit(cross(heading, vectors(-su, cu, 0.0)))
-    offset = np.where(halves() > 0.0, uniform(rng, 0.0, 0.8), uniform(rng, 1.2, 2.0)) / level
-    return roomy_torus("1", repr(1.0 / level)), rounded(
+    offset = np.where(halves() > 0.0, uniform(rng, 0.0, 0.8), uniform(rng, 1.2, 2.0)) / value
+    return roomy_torus("1", repr(1.0 / value)), rounded(
         vectors(cu, su, 0.0) + scaled(offset, aside) - AWAY * heading, heading
     )
 
@@ -200,13 +216,14 @@ def thin_torus(level: float, rng: np.random.Generator) -> tuple[Surface, Rays]:
     (3.5, 28.0, 224.0, 1792.0, 14336.0, 114688.0, 917504.0),
     why="o + t·d cancels: the same picture must come out whatever the distance",
 )
-def far_origin(level: float, rng: np.random.Generator) -> tuple[Surface, Rays]:
-    """A picture of 15 × 15 pixels; on each rung exactly the same lines, their origins moved back along them.
+def far_origin(value: float, rng: np.random.Generator) -> tuple[Surface, Rays]:
+    """Cast parallel rays in 15 × 15 lines, which are exactly the same on each rung; only the origins move back on them.
 
-    The direction is k·(2, 3, 6), 7k = 1 - 2⁻²⁴, and the origins lie on its multiples and a grid of 1/16: no rounding.
+    The direction is k·(2, 3, 6) with 7k = 1 - 2⁻²⁴. Each origin is a point of a grid of 1/16 minus a multiple of
+    (2, 3, 6). So nothing is rounded.
     """
-    del rng  # a picture has no chance in it
+    del rng  # nothing here is random
     forward, right, up = (vectors(*axis) for axis in ((2.0, 3.0, 6.0), (3.0, -6.0, 2.0), (6.0, 2.0, -3.0)))
     column, row = (axis.ravel() / 16.0 for axis in np.meshgrid(np.arange(-7.0, 8.0), np.arange(7.0, -8.0, -1.0)))
     pixels = scaled(column, right) + scaled(row, up)
-    return roomy_torus("2", "1"), rounded(pixels - level / 7.0 * forward, np.rint(2.0**24 / 7.0) / 2.0**24 * forward)
+    return roomy_torus("2", "1"), rounded(pixels - value / 7.0 * forward, np.rint(2.0**24 / 7.0) / 2.0**24 * forward)

@@ -1,4 +1,9 @@
-"""Program text: whole files below `glsl/`, and sections that are generated for a surface, put in order.
+"""Makes the text of programs: whole files below `glsl/` and sections generated for a surface, in order.
 
-`assemble` makes the programs; `functions` writes what a kernel may call of a surface; `fitting`, `rounding` and `reach`
-compute the numbers that such text holds; `costs` counts its operations."""
+`assemble` makes the programs of compute shaders, `raster` those of stage raster, `prepass` the one of a prepass.
+`functions` generates the functions of a surface that kernels may call, and `printing` turns their operations into
+source text. `fitting`, `reach` and `rounding` compute numbers that such text holds. `costs` counts the operations of
+the generated functions.
+
+Nothing here knows a device: a program is text for a compiler, see `Program` in harness/contract.py.
+"""

@@ -1,4 +1,8 @@
-"""Ordered sections → one program text. Chooses whole files and generated sections; never edits kernel text."""
+"""Makes programs: puts whole kernel files and generated sections in order.
+
+Kernel files are never edited. What differs from program to program is which files and sections it holds, and the
+constants that generated sections define. The last section is a program's entry point.
+"""
 
 from __future__ import annotations
 
@@ -15,12 +19,10 @@ from harness.contract import (
     Box,
     FirsthitError,
     Method,
-    Normal,
     Origin,
     Parameter,
     Precision,
     Program,
-    Proxy,
     Section,
     Surface,
     Variant,
@@ -28,11 +30,7 @@ from harness.contract import (
 
 ROOT = Path(__file__).parents[2]
 KERNELS = Path(__file__).parent / "glsl"
-AFTER_TABLES = ("fit_samples", "fit_whole")  # libraries that read the surface's degree and the method's tables
-TORUS = "(x^2 + y^2 + z^2 + R^2 - r^2)^2 - 4*R^2*(x^2 + y^2)"  # about z, as the catalog writes it
-PROXY_SIDES = 16  # of the polygon about a ball's outline: 1.3 % more than the disk
-RAY_OF_PIXEL = ("rays/camera.glsl", "raster/view.glsl", "raster/ray.glsl")
-INSTANCE_OF_VIEW = ("raster/view.glsl", "raster/instance.glsl")
+AFTER_TABLES = ("fit_samples", "fit_whole")  # libraries that read a method's tables, and so come after them
 Language = Literal["glsl", "cl"]
 
 
@@ -42,17 +40,19 @@ def _read(path: Path) -> str:
 
 
 def file_section(path: Path) -> Section:
-    """A section holding one file, named by its last three path parts at most (`methods/newton/kernel.glsl`)."""
+    """Return one file as a section. Its origin is the path below the project (`methods/newton/kernel.glsl`), or the
+    last three parts of the path of a file outside it."""
     origin = path.relative_to(ROOT) if path.is_relative_to(ROOT) else Path(*path.parts[-3:])
     return Section(origin.as_posix(), _read(path))
 
 
-def _files(*names: str) -> list[Section]:
-    """Sections of files below glsl/."""
+def files(*names: str) -> list[Section]:
+    """Return files below glsl/ as sections."""
     return [file_section(KERNELS / name) for name in names]
 
 
 def _library(name: str) -> Section:
+    """Return a file of glsl/lib as a section; raises FirsthitError if there is none of that name."""
     path = KERNELS / "lib" / f"{name}.glsl"
     if not path.exists():
         known = ", ".join(sorted(p.stem for p in path.parent.glob("*.glsl")))
@@ -60,15 +60,17 @@ def _library(name: str) -> Section:
     return file_section(path)
 
 
-def _head(language: Language, precision: Precision, libraries: Iterable[str]) -> list[Section]:
-    """Prelude, number type and libraries, each once, in the order in which they need one another."""
+def head_sections(language: Language, precision: Precision, libraries: Iterable[str]) -> list[Section]:
+    """Return the prelude, the number type and the libraries: eft, ray, hit and those given, each once, in this
+    order."""
     ordered = list(dict.fromkeys(("eft", "ray", "hit", *libraries)))
-    head = _files(f"prelude.{language}", f"{precision}.{language}")
+    head = files(f"prelude.{language}", f"{precision}.{language}")
     return head + [_library(name) for name in ordered]
 
 
 def literal(value: float | int, precision: Precision, language: Language) -> str:
-    """`value` as shader source, every digit kept: ints stay ints, reals get the suffix their compiler needs."""
+    """Return a number as source text. An int stays an int; a real has every digit, and the suffix its compiler
+    needs."""
     if isinstance(value, int):
         return f"({value})" if value < 0 else str(value)
     suffix = "f" if precision == "float32" else {"glsl": "lf", "cl": ""}[language]
@@ -81,7 +83,11 @@ def literal(value: float | int, precision: Precision, language: Language) -> str
 def _parameter_section(
     variant: Variant, precision: Precision, language: Language, loosened: Mapping[str, Parameter] | None = None
 ) -> Section:
-    """The knobs as constants; `loosened` ones stop where the instance's tolerance is reached."""
+    """Define a variant's knobs as constants.
+
+    `loosened` holds the knobs, by name, whose value depends on the instance that a fragment casts at: a tolerance is
+    at least the instance's, and a number of halvings at most what reaches it. `Parameter.per` turns one into the other.
+    """
     lines = []
     for name, value in variant.parameters:
         text = literal(value, precision, language)
@@ -96,7 +102,7 @@ def _parameter_section(
 
 
 def table_section(name: str, values: Sequence[float], precision: Precision, language: Language) -> Section:
-    """A constant array of reals, every digit kept: `TABLE real NAME[n]`."""
+    """Return a constant array of reals as a section, `TABLE real NAME[n]`, with every digit of its numbers."""
     from harness.kernels.printing import table
 
     return Section(f"generated: table {name}", table(name, values, precision, language))
@@ -114,71 +120,94 @@ def method_program(
     t_min: float = 0.0,
     origin: Origin = "nearest",
 ) -> Program:
-    """The program that casts rays or beams at `surface` by `variant`; `folder` holds the method's kernel.glsl.
+    """Return the program that casts rays or beams at `surface` by `variant`.
 
-    `narrowed` is the prepass's parameters where rays are to be narrowed by it. `t_min`, in units of t, is where listed
-    rays begin. In GLSL the compiler may remove none of its loops, but of a camera's program, which is only timed.
-    `origin` is where the method sees its rays begin.
+    `folder` holds the method's kernel.glsl. `narrowed` gives the prepass's parameters if rays are to be narrowed by it.
+    Listed rays begin at `t_min`, in units of t. `origin` says where the method sees its rays begin. In GLSL no loop may
+    be removed by the compiler, except in a camera's program, which is only timed.
 
-    Raises FirsthitError where the surface lacks a function that the method needs, t_min is no distance, or the method
-    casts no rays whose origin could be chosen.
+    Raises FirsthitError if the surface lacks a function that the method needs, if t_min is no distance, or if the
+    method does not cast rays and so cannot begin them elsewhere.
     """
-    from harness.kernels.functions import libraries_for, surface_sections
-
     listed = entry == "rays" and narrowed is None
-    needs = (*method.needs, "surface_value") if listed else method.needs
-    early = [name for name in method.libraries if name not in AFTER_TABLES]
     if entry == "beams":
-        sections = beam_sections(surface, method.needs, precision, language, early)
+        sections = beam_sections(surface, method.needs, precision, language, early_libraries(method))
     else:
-        sections = _head(language, precision, (*libraries_for(needs, surface), *early))
-        sections += surface_sections(surface, needs, precision, language)
-        sections.append(_domain_section(surface))
+        needs = (*method.needs, "surface_value") if listed else method.needs
+        sections = ray_sections(surface, needs, precision, language, early_libraries(method))
     sections += method_sections(method, folder, variant, surface, precision, language)
-    if reason := origin_refusal(method, origin):
-        raise FirsthitError(reason)
     if entry != "beams":
-        sections += _cast_sections(origin)
+        sections += cast_sections(origin)
+    elif origin != "nearest":
+        raise FirsthitError(f"an origin is chosen for rays, and the method {method.name} casts beams")
     if listed:
-        sections += [_t_min_section(t_min, precision, language), *_files("rays/listed.glsl")]
-    if entry == "camera":
-        sections += _files("rays/camera.glsl")
-    if narrowed:
-        sections += [narrowed, *_files("rays/narrowed.glsl")]
-    suffix = "_narrowed" if narrowed else ""
-    if entry == "rays" and language == "glsl":
-        sections += _files("turns.glsl")
+        sections += [_t_min_section(t_min, precision, language), *files("rays/listed.glsl")]
+    sections += _entry_sections(entry, narrowed, language)
     if entry != "camera" and language == "glsl":
         sections.insert(1, kept_loops())
-    room = "beams" if entry == "beams" else "rays"
-    sections += _files(f"{room}/entry_{entry}{suffix}.{language}")
     return Program(language, precision, entry, tuple(sections))
 
 
+def early_libraries(method: Method) -> list[str]:
+    """Return the libraries of a method that stand before the surface's functions."""
+    return [name for name in method.libraries if name not in AFTER_TABLES]
+
+
+def ray_sections(
+    surface: Surface,
+    needs: Iterable[str],
+    precision: Precision,
+    language: Language,
+    libraries: Iterable[str],
+    free: bool = False,
+) -> list[Section]:
+    """Return what stands before the kernel of a method that casts rays: libraries, the surface and its domain.
+
+    `free` is as for `surface_sections`.
+    """
+    from harness.kernels.functions import libraries_for, surface_sections
+
+    sections = head_sections(language, precision, (*libraries_for(needs, surface), *libraries))
+    if free:
+        sections += files("raster/free.glsl")
+    sections += surface_sections(surface, needs, precision, language, free)
+    return [*sections, _domain_section(surface)]
+
+
+def _entry_sections(entry: str, narrowed: Section | None, language: Language) -> list[Section]:
+    """Return a program's entry point and what it calls beside the cast."""
+    sections = files("rays/camera.glsl") if entry == "camera" else []
+    if narrowed:
+        sections += [narrowed, *files("rays/narrowed.glsl")]
+    if entry == "rays" and language == "glsl":
+        sections += files("turns.glsl")
+    room = "beams" if entry == "beams" else "rays"
+    return sections + files(f"{room}/entry_{entry}{'_narrowed' if narrowed else ''}.{language}")
+
+
 def kept_loops() -> Section:
-    """What keeps the loops of a GLSL program whose answers are checked; behind the prelude, which holds #version."""
+    """Return what keeps the compiler from removing loops of a GLSL program whose answers are checked.
+
+    It stands after the prelude, since #version must come first.
+    """
     return file_section(KERNELS / "kept_loops.glsl")
 
 
 def with_free_loops(program: Program) -> Program:
-    """The program as it is timed: a compiler may remove the loops that nothing depends on."""
+    """Return a program as it is timed, where a compiler may remove the loops that nothing depends on."""
     return replace(program, sections=tuple(s for s in program.sections if s != kept_loops()))
 
 
-def origin_refusal(method: Method, origin: Origin) -> str | None:
-    """Why a method cannot begin its rays at `origin`, if it cannot."""
-    if origin == "nearest" or method.casts == "rays":
-        return None
-    cast = "triangles" if method.casts == "mesh" else "beams"
-    return f"an origin is chosen for rays, and the method {method.name} casts {cast}"
-
-
-def _cast_sections(origin: Origin) -> list[Section]:
-    return _files(f"rays/origin_{origin}.glsl", "rays/cast.glsl")
+def cast_sections(origin: Origin) -> list[Section]:
+    """Return what the harness does with every ray before and after the method: shift, clip and call."""
+    return files(f"rays/origin_{origin}.glsl", "rays/cast.glsl")
 
 
 def _t_min_section(t_min: float, precision: Precision, language: Language) -> Section:
-    """T_MIN, the least number of the precision that is not under t_min."""
+    """Define T_MIN, the least number of the precision that is not under t_min.
+
+    Raises FirsthitError if t_min is negative or not finite.
+    """
     from harness.kernels.printing import bounds, number
 
     if not 0.0 <= t_min < math.inf:
@@ -188,6 +217,7 @@ def _t_min_section(t_min: float, precision: Precision, language: Language) -> Se
 
 
 def _domain_section(surface: Surface) -> Section:
+    """Return the function that clips a ray by the kind of domain that the surface has."""
     return file_section(KERNELS / ("domain_box.glsl" if isinstance(surface.domain, Box) else "domain_sphere.glsl"))
 
 
@@ -200,7 +230,10 @@ def method_sections(
     language: Language,
     loose: bool = False,
 ) -> list[Section]:
-    """The method itself, with its knobs bound and its tables; after the surface's sections."""
+    """Return the method's own sections, which come after the surface's: its knobs, tables, late libraries and kernel.
+
+    If `loose`, knobs that state `per` may be loosened, see `_parameter_section`.
+    """
     loosened = {p.name: p for p in method.parameters if p.per} if loose else None
     sections = [_parameter_section(variant, precision, language, loosened)] if variant.parameters else []
     if method.tables:
@@ -210,103 +243,19 @@ def method_sections(
     return [*sections, file_section(folder / "kernel.glsl")]
 
 
-def raster_program(
-    method: Method,
-    folder: Path,
-    variant: Variant,
-    surface: Surface,
-    proxy: Proxy,
-    reports: bool,
-    free: bool = False,
-    pixels: float = 0.0,
-    origin: Origin = "nearest",
-    normal: Normal = "distance",
-) -> Program:
-    """The program whose fragments, of a proxy about each instance of `surface`, cast rays by `variant`, in GLSL and
-    float32. With `reports` it also writes what the check reads, and the compiler may remove none of its loops.
-    `free`: parameters and domain are each instance's own. `pixels`: how many footprints of a pixel the method's
-    tolerance may grow to; 0 leaves it alone. `origin`: as for method_program, of the ray in the instance's coordinates.
-    `normal`: what hits are shaded by, the gradient of the distance (of f, where none is stated), that of f, or the
-    torus's core circle.
-
-    Raises FirsthitError where the surface lacks a function that the method or the shading needs.
-    """
-    from harness.kernels.functions import libraries_for, surface_sections
-
-    shading = _shading(surface, normal, free)
-    needs = (*method.needs, *([] if normal == "core_circle" else [shading]))
-    early = [name for name in method.libraries if name not in AFTER_TABLES]
-    sections = _head("glsl", "float32", (*libraries_for(needs, surface), *early))
-    if free:
-        sections += _files("raster/free.glsl")
-        sections += surface_sections(surface, needs, "float32", "glsl", free=True)
-    else:
-        sections += surface_sections(surface, needs, "float32", "glsl")
-    sections.append(_domain_section(surface))
-    if pixels:
-        sections += _files("raster/tolerance.glsl")
-    sections += method_sections(method, folder, variant, surface, "float32", "glsl", pixels > 0.0)
-    if normal == "core_circle":
-        ring, tube = (literal(float(dict(surface.parameters)[name]), "float32", "glsl") for name in ("R", "r"))
-        radii = f"#define RING_RADIUS {ring}\n#define TUBE_RADIUS {tube}"
-        sections += [Section("generated: radii", radii), *_files("raster/normal_core_circle.glsl")]
-    sections.append(Section("generated: shading", f"#define SHADING_NORMAL {shading}"))
-    sections += _cast_sections(origin)
-    reporting = ("turns.glsl", "raster/report.glsl") if reports else ()
-    sections += _files(*RAY_OF_PIXEL, "raster/fragment.glsl", "raster/shade.glsl", *reporting)
-    sections += _files(f"raster/entry_raster{'_check' * reports}.frag.glsl")
-    if reports:
-        sections.insert(1, kept_loops())
-    vertex = [
-        *_head("glsl", "float32", ()),
-        Section("generated: proxy", f"#define PROXY_SIDES {PROXY_SIDES}\n#define PIXELS {float(pixels)!r}"),
-        *_files(
-            *INSTANCE_OF_VIEW,
-            f"raster/proxy_{proxy}.glsl",
-            f"raster/{'free' if free else 'baked'}.vert.glsl",
-            f"raster/{'tolerance' if pixels else 'exact'}.vert.glsl",
-            "raster/entry_raster.vert.glsl",
-        ),
-    ]
-    return Program("glsl", "float32", "raster", tuple(sections), tuple(vertex))
-
-
-def _shading(surface: Surface, normal: Normal, free: bool) -> str:
-    """The function that hits are shaded by; FirsthitError where it is the core circle's and there is none."""
-    if normal != "core_circle":
-        return "surface_distance_normal" if surface.distance and normal == "distance" else "surface_normal"
-    values = {name: float(text) for name, text in surface.parameters}
-    if surface.formula != TORUS or free or values["R"] < values["r"]:
-        raise FirsthitError(f"{surface.name} is shaded by no core circle: only tori with R >= r that share both are")
-    return "core_circle_normal"
-
-
-def mesh_program(folder: Path, reports: bool) -> Program:
-    """The program that draws triangles; `folder` holds the kernel that defines mesh_normal."""
-    head = _head("glsl", "float32", ())
-    sections = [*head, *_files(*RAY_OF_PIXEL, "raster/shade.glsl", *(["raster/report.glsl"] * reports))]
-    sections += [file_section(folder / "kernel.glsl"), *_files(f"raster/entry_mesh{'_check' * reports}.frag.glsl")]
-    vertex = (*head, *_files(*INSTANCE_OF_VIEW, "raster/entry_mesh.vert.glsl"))
-    return Program("glsl", "float32", "mesh", tuple(sections), vertex)
-
-
-def fill_program() -> Program:
-    """The program that reports every pixel's ray."""
-    head = _head("glsl", "float32", ())
-    sections = (*head, *_files(*RAY_OF_PIXEL, "raster/report.glsl", "raster/entry_fill.frag.glsl"))
-    return Program("glsl", "float32", "fill", sections, (*head, *_files("raster/entry_fill.vert.glsl")))
-
-
 def beam_sections(
     surface: Surface, needs: Iterable[str], precision: Precision, language: Language, libraries: Iterable[str] = ()
 ) -> list[Section]:
-    """What comes before the kernel of a method that casts beams."""
+    """Return what stands before the kernel of a method that casts beams: libraries, the surface and the quadtree.
+
+    Raises FirsthitError if the surface lacks one of the functions in `needs`.
+    """
     from harness.kernels.functions import libraries_for, surface_sections
 
-    sections = _head(language, precision, (*libraries_for(needs, surface), *libraries))
+    sections = head_sections(language, precision, (*libraries_for(needs, surface), *libraries))
     sections += surface_sections(surface, needs, precision, language)
     turns = ["turns.glsl"] if language == "glsl" else []
-    return sections + _files("beams/beam.glsl", *turns, f"beams/quadtree.{language}", "beams/cells.glsl")
+    return sections + files("beams/beam.glsl", *turns, f"beams/quadtree.{language}", "beams/cells.glsl")
 
 
 def map_program(
@@ -315,10 +264,13 @@ def map_program(
     language: Language,
     libraries: Iterable[str] = (),
 ) -> Program:
-    """A program that runs `map_item` of the last given section over rows (INPUTS and OUTPUTS are its #defines)."""
+    """Return a program that runs the function map_item, which the last of the given sections defines, on every row.
+
+    That section also defines INPUTS and OUTPUTS, how many reals a row and its result have.
+    """
     items = [item] if isinstance(item, Section) else list(item)
     entry = file_section(KERNELS / f"map/entry_map.{language}")
-    return Program(language, precision, "map", (*_head(language, precision, libraries), *items, entry))
+    return Program(language, precision, "map", (*head_sections(language, precision, libraries), *items, entry))
 
 
 ONE_COUNTER = (
@@ -328,8 +280,10 @@ _LINE = re.compile(r"(?m)^(?P<head>.*?)(?:\b0:|<kernel>:|\binput\.cl:|\.cl:|\b\d
 
 
 def explain_log(program: Program, log: str) -> str:
-    """A compiler's log with every line number replaced by the section's own file and line, and the rule of loops'
-    heads where that one is broken."""
+    """Return a compiler's log with each line number replaced by the file and line that it came from.
+
+    If the log shows that the macro of `for` was given several arguments, the rule of loops' heads is added.
+    """
 
     def at_home(match: re.Match[str]) -> str:
         origin, line = program.locate(int(match["line"]))

@@ -1,7 +1,7 @@
-"""What one evaluation costs: arithmetic operations of the generated function that a method evaluates.
+"""Counts the arithmetic operations of one evaluation: those of the generated function that a method evaluates.
 
-Additions, multiplications, divisions, minima, maxima, roots and functions count as one each; signs and comparisons are
-free, as are constants. What a method computes beside its evaluations is not counted.
+Additions, multiplications, divisions, minima, maxima, roots and functions count as one each. Signs, comparisons and
+constants are free. What a method computes beside its evaluations is not counted.
 """
 
 from __future__ import annotations
@@ -10,10 +10,10 @@ from collections.abc import Callable, Sequence
 
 from harness.contract import Surface
 
-POINT = 6  # origin + t direction
+POINT = 6  # of origin + t direction
 FREE = frozenset({"neg", "abs", "sign", "below"})
-WIDENED = 6  # interval.glsl: rounding both ends outwards
-OUTWARD = WIDENED + 1  # and the check that they are finite
+WIDENED = 6  # of widened_by_rounding in interval.glsl
+OUTWARD = WIDENED + 1  # of outward: also the check that the ends are finite
 INTERVAL = {
     **dict.fromkeys(("add", "sub", "scale"), 2 + OUTWARD),
     "neg": 0,
@@ -28,7 +28,7 @@ INTERVAL = {
     **dict.fromkeys(("sin", "cos"), 138),
     "tan": 2 * 138 + 13 + OUTWARD,
 }
-AFFINE = 10 + WIDENED  # bounded_affine, one coordinate of a piece of a ray
+AFFINE = 10 + WIDENED  # of bounded_affine: one coordinate of a piece of a ray
 
 
 def _value(surface: Surface) -> int:
@@ -89,7 +89,7 @@ def _range(surface: Surface) -> int:
 
 
 def _interval_power(n: int) -> int:
-    """Both ends by squaring, as whole_power does; of an even power the mignitude and magnitude first."""
+    """Count the operations of interval_powi: both ends by squaring, and for an even n the least and greatest |a|."""
     return 2 * (n.bit_length() + n.bit_count()) + (0 if n % 2 else 3) + OUTWARD
 
 
@@ -105,8 +105,9 @@ _COSTS: dict[str, Callable[[Surface], int]] = {
 
 
 def operations_per_evaluation(surface: Surface, needs: Sequence[str]) -> int | None:
-    """Count the operations of the first function of _COSTS that a method needs; None where it evaluates nothing.
+    """Count the operations of one evaluation by a method that needs these functions; None if it evaluates nothing.
 
-    Exact coefficients along the ray are evaluated as a polynomial.
+    The evaluation is by the first function of _COSTS among `needs`. A method that needs only the exact coefficients
+    along the ray evaluates the polynomial by Horner's rule.
     """
     return next((cost(surface) for name, cost in _COSTS.items() if name in needs), None)

@@ -1,17 +1,18 @@
-"""Tables for the kernel library `fit`: what turns samples of a polynomial at Chebyshev nodes into its coefficients.
+"""Computes the tables by which the kernel library `fit` turns a polynomial's values at Chebyshev nodes into
+coefficients.
 
-Source: szente, section 2.1. On x in [-1, 1] the nodes are -cos(i pi / n), ascending; the Bernstein basis is that of
-(1 + x) / 2 in [0, 1]. The nodes are rounded first and the inverse is exact for the rounded ones, so that a table's only
-error is that of its last part.
+Source: szente, section 2.1. The nodes on x in [-1, 1] are -cos(i pi / n), ascending. The Bernstein basis is that of
+(1 + x) / 2 in [0, 1]. The nodes are rounded first, and the inverse matrix is exact for the rounded nodes, so that an
+entry's only error is the rounding of the second of its two parts.
 
-Nodes lie symmetrically, so that sums of opposite samples determine one half of the coefficients and differences the
-other. With s the samples, rows of the two tables are
+The nodes lie symmetrically about 0. Sums of opposite samples therefore determine one half of the coefficients, and
+their differences the other half. With s the samples and b or c the coefficients, rows of the two tables are
 
     monomial    c[2 r] = sum of EVEN[r, i] (s[n-i] + s[i]),      c[2 r + 1] = sum of ODD[r, i] (s[n-i] - s[i])
     Bernstein   (b[n-r] + b[r]) / 2, the same with EVEN,         (b[n-r] - b[r]) / 2, the same with ODD
 
-over i = 0 … n/2, the middle sample of an even n taken once, and over i = 0 … (n-1)/2. `whole_tables` gives the inverse
-as the paper has it instead.
+where i runs from 0 to n/2 for EVEN, with the middle sample of an even n taken once, and to (n-1)/2 for ODD.
+`whole_tables` gives the whole inverse matrix instead, as the paper prints it.
 """
 
 from __future__ import annotations
@@ -28,17 +29,21 @@ MAX_DEGREE = 20
 
 
 def _rounded(value: Fraction, precision: Precision) -> Fraction:
+    """Round to a number of the precision."""
     return Fraction(as_float32(float(value)) if precision == "float32" else float(value))
 
 
 def nodes(degree: int, precision: Precision) -> list[Fraction]:
-    """degree + 1 nodes on [-1, 1], ascending, exactly symmetric, each a number of the precision."""
+    """Return degree + 1 nodes on [-1, 1], ascending and exactly symmetric, each a number of the precision."""
     left = [_rounded(Fraction(-math.cos(i * math.pi / degree)), precision) for i in range((degree + 1) // 2)]
     return left + [Fraction(0)] * (degree % 2 == 0) + [-x for x in reversed(left)]
 
 
 def inverse(degree: int, basis: Basis, precision: Precision) -> list[list[Fraction]]:
-    """The exact inverse of H[i][j] = h_j(nodes[i]): coefficient j is the sum over i of inverse[j][i] samples[i]."""
+    """Return the exact inverse of H[i][j] = h_j(nodes[i]), where h_j are the basis's polynomials.
+
+    Coefficient j of a polynomial is then the sum over i of inverse[j][i] samples[i].
+    """
     import flint
 
     def row(x: Fraction) -> list[Fraction]:
@@ -53,7 +58,7 @@ def inverse(degree: int, basis: Basis, precision: Precision) -> list[list[Fracti
 
 
 def _in_two_parts(name: str, values: Iterable[Fraction], precision: Precision) -> dict[str, list[float]]:
-    """The values to about twice the precision: tables {name}_HI and {name}_LO."""
+    """Return values to about twice the precision, as the tables {name}_HI and {name}_LO, whose sums they are."""
     exact = list(values)
     first = [_rounded(value, precision) for value in exact]
     return {
@@ -63,15 +68,21 @@ def _in_two_parts(name: str, values: Iterable[Fraction], precision: Precision) -
 
 
 def whole_tables(degree: int, basis: Basis, precision: Precision) -> dict[str, list[float]]:
-    """INVERSE_HI and INVERSE_LO, row by row, as szente prints it: of nodes in double precision, whatever kernels make
-    of the nodes, and rounded to double precision before it is parted."""
+    """Return the inverse matrix row by row, as the tables INVERSE_HI and INVERSE_LO.
+
+    As szente prints it, the nodes are in double precision, whatever the kernels' precision, and entries are rounded to
+    double precision before they are split in two parts.
+    """
     rows = inverse(degree, basis, "float64")
     doubles = (Fraction(float(value)) for row in rows for value in row)
     return _in_two_parts("INVERSE", doubles, precision)
 
 
 def fit_tables(degree: int, basis: Basis, precision: Precision) -> dict[str, list[float]]:
-    """NODES, and EVEN and ODD in two parts each (…_HI, …_LO), row by row."""
+    """Return the tables NODES, EVEN_HI, EVEN_LO, ODD_HI and ODD_LO, row by row.
+
+    NODES are on [-1, 1] for the monomial basis, on [0, 1] for the Bernstein basis.
+    """
     exact, n = inverse(degree, basis, precision), degree
     if basis == "monomial":
         even = [[exact[2 * r][n - i] for i in range(n // 2 + 1)] for r in range(n // 2 + 1)]
@@ -87,10 +98,12 @@ def fit_tables(degree: int, basis: Basis, precision: Precision) -> dict[str, lis
 
 
 def derivative_factors(degree: int, basis: Basis) -> list[float]:
-    """Row d, of degree + 1 numbers: what makes the coefficients of a (degree - d)th derivative, up to one factor.
+    """Return factors that make the coefficients of all derivatives, up to one common factor each.
 
-    Monomial: binomial(n - d + j, j), to multiply coefficient n - d + j with. Bernstein: binomial(d, j), to multiply the
-    (n - d)th difference number j with, and to make it part of the coefficient.
+    The result has degree + 1 rows of degree + 1 numbers; row d is for the derivative of degree d, which is number
+    n - d with n the polynomial's degree. In the monomial basis its number j is binomial(n - d + j, j), the factor of
+    coefficient n - d + j. In the Bernstein basis it is binomial(d, j), the factor of the (n - d)th difference number j,
+    which makes the binomial part of the coefficient.
     """
     n = degree
     return [

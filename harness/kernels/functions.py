@@ -1,32 +1,33 @@
-"""Generated kernel text: the surface's constants and the functions of fixed names that kernels call.
+"""Generates kernel text for a surface: its constants, and functions of fixed names that kernels call.
 
-FUNCTIONS names what a method may need:
+FUNCTIONS holds the names that a method may need, and `Method.needs` those that it does:
 
     constants                 #define SURFACE_DEGREE (0 where not algebraic), DOMAIN_IS_BOX, DOMAIN_RADIUS,
                               DOMAIN_CENTER, DOMAIN_LOWER, DOMAIN_UPPER, BOUNDING_RADIUS, FEATURE_RADIUS (the last two
-                              fall back on DOMAIN_RADIUS); always there
+                              are DOMAIN_RADIUS if the surface does not state them); always defined
     surface_value             real surface_value(vec3 p)
     surface_gradient          vec3 surface_gradient(vec3 p)
     surface_hessian_product   vec3 surface_hessian_product(vec3 p, vec3 v)
-    surface_normal            vec3 surface_normal(vec3 p)                         unit, along the gradient
-    surface_distance          real surface_distance(vec3 p)                       where the surface states one
-    surface_distance_normal   vec3 surface_distance_normal(vec3 p)                unit, along the distance's gradient:
-                              on a torus P - C with C = (R x / rho, R y / rho, 0), toledo2007, equation 6; either
-                              normal is the zero vector where its gradient is zero or no number
+    surface_normal            vec3 surface_normal(vec3 p)                         the unit vector along f's gradient
+    surface_distance          real surface_distance(vec3 p)                       for surfaces that state a distance
+    surface_distance_normal   vec3 surface_distance_normal(vec3 p)                the unit vector along the distance's
+                              gradient; on a torus that of P - C with C = (R x / rho, R y / rho, 0), toledo2007,
+                              equation 6. Either normal is the zero vector if its gradient is zero or not finite
     surface_range             Interval surface_range(Interval x, Interval y, Interval z)
     surface_range_along       Interval surface_range_along(Ray ray, real t0, real t1)
     surface_coefficients_along  void surface_coefficients_along(Ray ray, OUT real c[SURFACE_DEGREE + 1])
-                              f(origin + t direction) = c[0] + c[1] t + …, exact expansion; degree 1 to 4
+                              f(origin + t direction) = c[0] + c[1] t + …, by exact expansion, for degrees 1 to 4
     surface_polynomial_along  Stretch surface_polynomial_along(Ray ray, real t0, real t1,
                                                                OUT real c[SURFACE_DEGREE + 1])
-                              f = c[0] + c[1] x + … with t = middle + reach x. To degree 4 the exact expansion in x = t;
-                              beyond, to degree 20, the compensated fit over [t0, t1] as x in [-1, 1] (szente, 2.1), of
-                              which POLYNOMIAL_EVALUATIONS says how often it evaluates f. Brings the library fit_samples
+                              f = c[0] + c[1] x + … with t = middle + reach x. To degree 4 it is the exact expansion
+                              with x = t. From degree 5 to 20 it is the compensated fit over [t0, t1], x in [-1, 1]
+                              (szente, 2.1); POLYNOMIAL_EVALUATIONS is how often that evaluates f. The library
+                              fit_samples comes with it
     surface_along             struct Along; Along surface_along(Ray ray)          the surface prepared for one ray
     surface_value_along       real surface_value_along(Along along, real t)
-    surface_dual_along        Dual surface_dual_along(Along along, real t)        value and derivative by t
+    surface_dual_along        Dual surface_dual_along(Along along, real t)        value, and derivative by t
 
-To degree 4 an Along holds the expansion's coefficients; beyond it, and where f is no polynomial, it holds the ray.
+An Along holds the expansion's coefficients to degree 4; beyond it, and if f is no polynomial, it holds the ray.
 """
 
 from __future__ import annotations
@@ -47,8 +48,8 @@ MAX_EXPANDED_DEGREE = 4
 MAX_FITTED_DEGREE = 20
 _ROOT = Path(__file__).parents[2]
 _LIB = Path(__file__).parent / "glsl" / "lib"
-_EXP_LOG = _LIB / "interval_exp_log.glsl"  # only where called: see its first lines
-_FIT_SAMPLES = _LIB / "fit_samples.glsl"  # after its tables
+_EXP_LOG = _LIB / "interval_exp_log.glsl"  # only in programs that call them: its first lines say why
+_FIT_SAMPLES = _LIB / "fit_samples.glsl"  # reads tables, and so comes after them
 
 _REQUIRES: dict[str, tuple[str, ...]] = {
     "constants": (),
@@ -72,12 +73,16 @@ _RAY = {f"{part}{axis}": f"ray.{name}.{axis}" for part, name in (("o", "origin")
 
 
 def expands(surface: Surface) -> bool:
-    """Whether the surface's coefficients along a ray are generated by exact expansion."""
+    """Return whether the surface's coefficients along a ray are generated by exact expansion."""
     return surface.degree is not None and 1 <= surface.degree <= MAX_EXPANDED_DEGREE
 
 
 def _closure(surface: Surface | None, needs: Iterable[str]) -> list[str]:
-    """The needed functions and what they require, in an order in which each finds its requirements."""
+    """Return the needed functions and those that they call, ordered so that each comes after what it calls.
+
+    Without a surface, the functions that only some surfaces call are left out. Raises FirsthitError for an unknown
+    name.
+    """
     wanted: set[str] = set()
 
     def want(name: str) -> None:
@@ -98,7 +103,10 @@ def _closure(surface: Surface | None, needs: Iterable[str]) -> list[str]:
 
 
 def libraries_for(needs: Iterable[str], surface: Surface | None = None) -> tuple[str, ...]:
-    """The kernel libraries that the generated functions need, beside `ray`; fewer where `surface` needs fewer."""
+    """Return the kernel libraries that the generated functions need beside `ray`.
+
+    Given the surface, those that only other surfaces need are left out. Raises FirsthitError for an unknown name.
+    """
     wanted = _closure(None, needs)
     interval = ("interval",) if "surface_range" in wanted else ()
     dual = ("dual",) if "surface_dual_along" in wanted else ()
@@ -107,7 +115,7 @@ def libraries_for(needs: Iterable[str], surface: Surface | None = None) -> tuple
 
 
 def unsupported(surface: Surface, precision: Precision, language: Language) -> str | None:
-    """Why the surface cannot be evaluated in this precision and language, or None."""
+    """Return why the surface cannot be evaluated in this precision and language, or None if it can."""
     used = functions_used(real_tape(tape_of(surface)))
     weak = [name for name in used if name != "sqrt"]
     if language == "glsl" and precision == "float64" and weak:
@@ -122,10 +130,12 @@ def unsupported(surface: Surface, precision: Precision, language: Language) -> s
 def surface_sections(
     surface: Surface, needs: Iterable[str], precision: Precision, language: Language, free: bool = False
 ) -> tuple[Section, ...]:
-    """The constants and the needed functions, one section each, in order of need. Where the surface is `free`, its
-    domain and parameters are no constants but what harness/kernels/glsl/raster/free.glsl names.
+    """Return the constants and the needed functions, one section each; a function comes after those that it calls.
 
-    Raises FirsthitError for an unknown name and for a function this surface does not have here.
+    If `free`, the surface's domain and parameters are no constants: instances that are drawn together differ in them,
+    and the text reads those of the instance by the names that glsl/raster/free.glsl defines.
+
+    Raises FirsthitError for an unknown name, and if the surface lacks a function in this precision and language.
     """
     wanted = _closure(surface, needs)
     if reason := unsupported(surface, precision, language):
@@ -145,6 +155,7 @@ def surface_sections(
 
 
 def _fit_tables(surface: Surface, precision: Precision, language: Language) -> list[Section]:
+    """Return the tables that fit_samples.glsl reads; raises FirsthitError if the surface has no degree from 1 to 20."""
     from harness.kernels.fitting import fit_tables
 
     if surface.degree is None or not 1 <= surface.degree <= MAX_FITTED_DEGREE:
@@ -161,11 +172,12 @@ def _degree_of(surface: Surface) -> str:
 
 
 def _function(head: str, lines: list[str], *last: str) -> str:
+    """Return a function's text: its head, and its statements indented."""
     return "\n".join([f"{head} {{", *(f"    {line}" for line in (*lines, *last)), "}"])
 
 
 class _Writer:
-    """One method per name of FUNCTIONS."""
+    """Writes a surface's functions: each method that is named in FUNCTIONS returns the text of that function."""
 
     def __init__(self, surface: Surface, precision: Precision, language: Language, free: bool) -> None:
         self.surface = surface
@@ -231,6 +243,7 @@ class _Writer:
         return _function("vec3 surface_hessian_product(vec3 p, vec3 v)", lines, f"return vec3({', '.join(values)});")
 
     def _distance(self, needed_by: str) -> Tape:
+        """Return the distance function that the surface states; raises FirsthitError if it states none."""
         if self.surface.distance is None:
             raise FirsthitError(f"{self.surface.name} states no distance function, which {needed_by} needs")
         return real_tape(parse(self.surface.distance, dict(self.surface.parameters), self.free))
@@ -242,7 +255,7 @@ class _Writer:
         used = sorted({op.args[0] for op in self.exact.ops if op.name == "var"} - self.parameters.keys())
         intervals = {name: f"make_interval({value}, {value})" for name, value in self.parameters.items()}
         head = "Interval surface_range(Interval x, Interval y, Interval z)"
-        reach = None if self.parameters else safe_reach(self.surface, self.precision)  # theirs are known when drawn
+        reach = None if self.parameters else safe_reach(self.surface, self.precision)  # instances' are not known yet
         variables = {axis: axis for axis in "xyz"} | intervals
         printer = IntervalPrinter(variables, self.precision, self.language, reach is not None)
         lines, (value,) = printer.body(self.exact)

@@ -1,16 +1,17 @@
-"""The prepass: beams over tiles of the image leave to each ray the depths between which the surface may lie.
+"""The prepass: casts beams over tiles of the image, which tell each ray between which depths it may meet the surface.
 
-It composes with every method that casts rays, in stage `compute`; the check casts its rays in the same spans.
+It works before every method that casts rays, in stage `compute`; the check casts its rays in the same spans of depth.
 
-The spans hold every root of every ray of their tile: tested on every surface. So a method that finds the first root of
-the interval it is given loses none. What an iteration finds depends on where it starts: Newton, bounded by λ, can step
-over a thin part of the surface from one start and not from another, with a prepass or without.
+A span holds every root of every ray of its tile, which is tested on every surface. A method that finds the first root
+of the interval it is given therefore loses none. A method that iterates may answer otherwise than without the prepass,
+since it starts elsewhere: Newton's method, with steps bounded by λ, can step over a thin part of the surface from one
+start and not from another.
 
-**Tried**, processor time of opencl:intel at 512 × 512, float32, as ms on both cores, of null / newton / eft_yuksel /
-lu_lipschitz, on barth_sextic: 0.8 / 6.2 / 17.0 / 18.2 without; tiles of 4 pixels 19 / 16 / 23 / 22; of 8 pixels
-6.0 / 6.7 / 14.1 / 12.9; of 16 pixels 1.6 / 4.2 / 12.7 / 12.2, kept. One bisection less or more changes little. On the
-torus and the decic it does not pay for newton, eft_yuksel and lu_lipschitz: 16-pixel tiles cost them 0.4 to 3 ms, since
-the torus is as cheap as the prepass and the decic's ranges exclude little.
+**Tried**, in ms of processor time on both cores of opencl:intel, at 512 × 512 in float32, of null / newton / eft_yuksel
+/ lu_lipschitz. On barth_sextic: 0.8 / 6.2 / 17.0 / 18.2 without; tiles of 4 pixels 19 / 16 / 23 / 22; of 8 pixels 6.0 /
+6.7 / 14.1 / 12.9; of 16 pixels 1.6 / 4.2 / 12.7 / 12.2, which are kept. One bisection less or more changes little. On
+the torus and the decic the prepass does not pay for newton, eft_yuksel and lu_lipschitz: with tiles of 16 pixels it
+costs them 0.4 to 3 ms, since the torus is as cheap as the prepass, and the decic's ranges exclude little.
 """
 
 from __future__ import annotations
@@ -19,12 +20,12 @@ from harness.contract import Precision, Program, Section, Surface
 from harness.kernels.assemble import KERNELS, Language, beam_sections, file_section
 
 TILE_BITS = 4  # a tile is 2^TILE_BITS pixels a side
-BISECTIONS = 1  # a tile's last piece in depth is the domain's depth / 2^(the tiles' level + BISECTIONS)
+BISECTIONS = 1  # pieces of depth of a tile are the domain's depth / 2^(the tiles' level + BISECTIONS)
 NEEDS = ("surface_range",)
 
 
 def parameters() -> Section:
-    """Define what the prepass and the rays that it narrows both have to know."""
+    """Define the constants that the prepass's program and the program of the narrowed rays share."""
     text = f"#define TILE_BITS {TILE_BITS}\n#define PREPASS_BISECTIONS {BISECTIONS}"
     return Section("generated: parameters of the prepass", text)
 
@@ -35,9 +36,9 @@ def tiles_per_side(size: int) -> int:
 
 
 def program(surface: Surface, precision: Precision, language: Language) -> Program:
-    """The program that casts the prepass's beams at `surface`; for quadtree_steps down to the tiles' level.
+    """Return the program that casts the prepass's beams at `surface`, to be run level by level down to the tiles.
 
-    Raises FirsthitError where the surface has no interval extension here.
+    Raises FirsthitError if the surface has no interval extension in this precision and language.
     """
     sections = beam_sections(surface, NEEDS, precision, language)
     sections += [

@@ -1,7 +1,7 @@
-"""Tapes as shader source: one statement per operation, in reals or in intervals.
+"""Prints tapes as shader source: one statement per operation, in reals or in intervals.
 
-Literals carry every digit: a real constant is the nearest number of its precision, an interval constant the two
-neighbours that hold it.
+Literals have every digit. A real constant is the nearest number of its precision; an interval constant has as its ends
+the nearest numbers below and above.
 """
 
 from __future__ import annotations
@@ -22,13 +22,13 @@ _TYPES: dict[Precision, type[np.floating]] = {"float32": np.float32, "float64": 
 
 
 def nearest(value: Fraction, precision: Precision) -> np.floating:
-    """The nearest number of a precision, ties to even. Raises FirsthitError past its range."""
+    """Return the nearest number of a precision, ties to even. Raises FirsthitError past the precision's range."""
     kind = _TYPES[precision]
     with np.errstate(over="ignore"):
         first = kind(value.numerator / value.denominator)
     if not np.isfinite(first):
         raise FirsthitError(f"the constant {float(value):.3g} is past the range of {precision}")
-    # Through float64 a float32 may be off by one: take the nearest of the three, the even one of a tie.
+    # a float32 is rounded twice, and may be a neighbour of the nearest: take the nearest of three, or the even one
     near = (first, np.nextafter(first, kind(math.inf)), np.nextafter(first, kind(-math.inf)))
     return min(
         (n for n in near if np.isfinite(n)),
@@ -37,7 +37,10 @@ def nearest(value: Fraction, precision: Precision) -> np.floating:
 
 
 def bounds(lower: Fraction, upper: Fraction, precision: Precision) -> tuple[np.floating, np.floating]:
-    """The largest number not above `lower` and the smallest not below `upper`."""
+    """Return the largest number of a precision not above `lower`, and the smallest not below `upper`.
+
+    Raises FirsthitError past the precision's range.
+    """
     kind = _TYPES[precision]
     lo, hi = nearest(lower, precision), nearest(upper, precision)
     lo = lo if Fraction(float(lo)) <= lower else np.nextafter(lo, kind(-math.inf))
@@ -46,7 +49,7 @@ def bounds(lower: Fraction, upper: Fraction, precision: Precision) -> tuple[np.f
 
 
 def number(value: np.floating, precision: Precision, language: Language) -> str:
-    """A finite number as a literal of the precision, shortest digits that read back as it."""
+    """Return a finite number as a literal of the precision, with the fewest digits that read back as that number."""
     text = np.format_float_scientific(value, unique=True, trim="0") if value else "0.0"
     if 1e-4 <= abs(value) < 1e9:
         text = np.format_float_positional(value, unique=True, trim="0")
@@ -55,9 +58,9 @@ def number(value: np.floating, precision: Precision, language: Language) -> str:
 
 
 def table(name: str, values: Sequence[float], precision: Precision, language: Language) -> str:
-    """A constant array of reals, every digit kept: `TABLE real NAME[n]`.
+    """Return the text of a constant array of reals, `TABLE real NAME[n]`, with every digit of its numbers.
 
-    Raises FirsthitError where one is past the range of the precision.
+    Raises FirsthitError if a number is past the range of the precision.
     """
     with np.errstate(over="ignore"):
         made = [_TYPES[precision](value) for value in values]
@@ -70,7 +73,7 @@ def table(name: str, values: Sequence[float], precision: Precision, language: La
 
 
 class RealPrinter:
-    """Statements `real NAME = …;` for a real tape; variables are named by `variables`."""
+    """Prints a real tape as statements `real NAME = …;`. `variables` gives the text of each of the tape's variables."""
 
     def __init__(self, variables: Mapping[str, str], precision: Precision, language: Language) -> None:
         self.variables = variables
@@ -81,7 +84,7 @@ class RealPrinter:
         return number(nearest(value, self.precision), self.precision, self.language)
 
     def body(self, tape: Tape) -> tuple[list[str], list[str]]:
-        """The statements, and the outputs as names or literals."""
+        """Return the statements, and the tape's outputs as names or literals."""
         names: list[str] = []
         lines: list[str] = []
         for op in tape.ops:
@@ -118,12 +121,15 @@ class RealPrinter:
         return f"{op.name}({', '.join(args)})"
 
 
-BOUNDED = frozenset({"add", "sub", "mul", "scale", "sqr", "powi"})  # have forms that do not look for overflow
+BOUNDED = frozenset({"add", "sub", "mul", "scale", "sqr", "powi"})  # operations with a form that ignores overflow
 
 
 class IntervalPrinter:
-    """Statements `Interval NAME = …;` for a tape as parsed, constants exact and powers whole; `bounded` where nothing
-    in it can overflow."""
+    """Prints a parsed tape, with exact constants and whole powers, as statements `Interval NAME = …;`.
+
+    `variables` gives the text of each of the tape's variables. If `bounded`, nothing in it can overflow, and operations
+    do not look for that.
+    """
 
     def __init__(
         self, variables: Mapping[str, str], precision: Precision, language: Language, bounded: bool = False
@@ -138,15 +144,15 @@ class IntervalPrinter:
         return lo, hi
 
     def _factor(self, lower: Fraction, upper: Fraction) -> str | None:
-        """The nearest number to a constant, and how many roundings it is off, as arguments; None for one so small that
-        it is off by more."""
+        """Return a constant as arguments of interval_scale: the nearest number, a place for the other factor, and 1
+        if the number is exact or 2 if it is rounded. None if the constant is so small that its error may be larger."""
         lo, hi = bounds(lower, upper, self.precision)
         if lo != hi and not abs(lo) > 2 * np.finfo(_TYPES[self.precision]).tiny:
             return None
         return f"{number(nearest(lower, self.precision), self.precision, self.language)}, {{}}, {1 + (lo != hi)}.0"
 
     def body(self, tape: Tape) -> tuple[list[str], list[str]]:
-        """The statements, and the outputs as names or expressions."""
+        """Return the statements, and the tape's outputs as names or expressions."""
         constants = {i: self._constant(*ends) for i, ends in enclosures(tape).items()}
         factors = {i: self._factor(*ends) for i, ends in enclosures(tape).items()}
         names: list[str] = []
@@ -175,7 +181,7 @@ class IntervalPrinter:
 
 
 def functions_used(tape: Tape) -> list[str]:
-    """The functions beyond arithmetic that a tape calls of its variables."""
+    """Return the functions beyond arithmetic that a tape calls of its variables, sorted by name."""
     constant = tape.constants()
     return sorted(
         {op.name for i, op in enumerate(tape.ops) if not constant[i] and op.name in UNARY and op.name not in LEAVES}

@@ -1,7 +1,7 @@
-"""How large a box a surface's interval extension can be given without a chance of overflow.
+"""Computes how large a box may be for a surface's interval extension to overflow nowhere.
 
-Balls over the whole box bound every operation on any part of it. Where that bound is far below the precision's largest
-number, operations need not look for overflow one by one: the box is looked at once.
+Ball arithmetic over the whole box bounds the result of every operation on any part of it. If all these bounds are far
+below the precision's largest number, generated code tests the box once in place of every operation.
 """
 
 from __future__ import annotations
@@ -14,13 +14,16 @@ from surfaces.numbers import Balls
 from surfaces.tape import LEAVES, Tape, walk
 
 SAFE = LEAVES | {"add", "sub", "mul", "sqr", "powi", "neg", "abs", "min", "max", "exp", "sin", "cos"}
-LARGEST: dict[Precision, int] = {"float32": 2**100, "float64": 2**1000}  # of 2^128 and 2^1024
-MARGIN = 2.0  # how much farther than the domain a box may reach
+LARGEST: dict[Precision, int] = {"float32": 2**100, "float64": 2**1000}  # overflow is at 2^128 and 2^1024
+MARGIN = 2.0  # how much farther out than the domain a box may reach
 
 
 def safe_reach(surface: Surface, precision: Precision) -> float | None:
-    """A power of two: boxes whose ends' absolute values, all axes' together, do not exceed it, the domain's among them,
-    overflow nowhere. None where that is not proved: a division, root, logarithm or tangent, or too large a value."""
+    """Return a power of two below which a box's size rules out overflow, where size is the sum of |end| over all ends.
+
+    The domain's own box is below it. Returns None if that is not proved: the formula has a division, root, logarithm or
+    tangent of its variables, or a value that may be too large.
+    """
     import flint
 
     tape = tape_of(surface)

@@ -1,63 +1,69 @@
-"""What floats make of f: bounds of its rounding errors over balls about the domain's centre.
+"""Bounds the rounding errors of evaluating f over balls about the domain's centre, and how they grow in coefficients.
 
-**Theory** Running error analysis (Higham 2002, section 3.3): the result of an operation is off by what its operands are
-off by, to first order, and by one unit roundoff of its own magnitude. A fused multiply-add errs by less. The bound at a
-point is exact to first order; over a ball it is the largest of POINTS points, times MARGIN for those between and for
-what is of second order.
+**Theory** Running error analysis (Higham 2002, section 3.3): to first order, the error of an operation's result is the
+propagated errors of its operands, plus one unit roundoff of the result's own magnitude. A fused multiply-add has a
+smaller error. The bound at a point is exact to first order. The bound over a ball is the largest at POINTS points,
+times MARGIN for the points between them and for terms of second order.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import lru_cache
-from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from harness.contract import Box, FirsthitError, Surface
+from harness.contract import Box, FirsthitError, Precision, Surface
 
 POINTS = 60_000
 MARGIN = 1.25
 
+Floats = NDArray[np.float64]
+Numbers = float | Floats  # one number, or one for each point
+Estimate = tuple[Numbers, Numbers]  # a value, and its error in unit roundoffs
+
 
 @dataclass(frozen=True, eq=False)
 class _Errors:
-    """The operations of a real tape on (value, error in unit roundoffs); `own` is each operation's own error."""
+    """Runs a real tape on pairs of a value and its error in unit roundoffs; `own` is the error of each operation."""
 
     own: float
 
-    def const(self, value: Any) -> Any:
+    def const(self, value: Fraction) -> Estimate:
         return float(value), self.own * abs(float(value))
 
-    def _rounded(self, value: Any, error: Any) -> Any:
+    def _rounded(self, value: Numbers, error: Numbers) -> Estimate:
         return value, error + self.own * np.abs(value)
 
-    def add(self, a: Any, b: Any) -> Any:
+    def add(self, a: Estimate, b: Estimate) -> Estimate:
         return self._rounded(a[0] + b[0], a[1] + b[1])
 
-    def sub(self, a: Any, b: Any) -> Any:
+    def sub(self, a: Estimate, b: Estimate) -> Estimate:
         return self._rounded(a[0] - b[0], a[1] + b[1])
 
-    def neg(self, a: Any) -> Any:
+    def neg(self, a: Estimate) -> Estimate:
         return -a[0], a[1]
 
-    def mul(self, a: Any, b: Any) -> Any:
+    def mul(self, a: Estimate, b: Estimate) -> Estimate:
         return self._rounded(a[0] * b[0], a[1] * np.abs(b[0]) + b[1] * np.abs(a[0]))
 
-    def sqr(self, a: Any) -> Any:
+    def sqr(self, a: Estimate) -> Estimate:
         return self.mul(a, a)
 
-    def div(self, a: Any, b: Any) -> Any:
+    def div(self, a: Estimate, b: Estimate) -> Estimate:
         value = a[0] / b[0]
         return self._rounded(value, (a[1] + np.abs(value) * b[1]) / np.abs(b[0]))
 
 
 @lru_cache(maxsize=128)
 def value_errors(surface: Surface, shells: int, coordinates: float) -> tuple[float, ...]:
-    """Bound |computed f − f| in unit roundoffs, for k = 1 … shells, at points of the domain within k/shells of its
-    radius of its centre, whose coordinates are off by `coordinates` unit roundoffs of that distance.
+    """Bound the error of a computed f in unit roundoffs over balls about the domain's centre, for a polynomial f.
 
-    Only for polynomials. Raises FirsthitError where there is no finite bound.
+    Bound number k = 1 … shells is for the points of the domain within k/shells of its radius from its centre. The
+    points' coordinates have errors of `coordinates` unit roundoffs of that distance. Raises FirsthitError if there is
+    no finite bound.
     """
     import surfaces
     from surfaces.lowering import real_tape
@@ -89,9 +95,12 @@ def value_errors(surface: Surface, shells: int, coordinates: float) -> tuple[flo
     return tuple(bounds)
 
 
-def sample_errors_grow(degree: int, precision: Any, depths: int) -> list[float]:
-    """Bound for d = 0 … depths what an error of the samples grows to in the Bernstein coefficients of a piece that
-    is 2^-d of the interval that the samples are of (nodes and inverse as in harness.kernels.fitting)."""
+def sample_errors_grow(degree: int, precision: Precision, depths: int) -> list[float]:
+    """Bound by what factor an error of the samples grows in the Bernstein coefficients of pieces of their interval.
+
+    Factor number d = 0 … depths is for pieces that are 2^-d of the interval. Nodes and inverse matrix are those of
+    harness.kernels.fitting.
+    """
     from harness.kernels.fitting import inverse
 
     matrix = np.array([[float(v) for v in row] for row in inverse(degree, "bernstein", precision)])
@@ -102,10 +111,12 @@ def sample_errors_grow(degree: int, precision: Any, depths: int) -> list[float]:
     return grown
 
 
-def slope_errors_grow(degree: int, precision: Any, depths: int) -> list[float]:
-    """Bound for d = 0 … depths what an error of the samples grows to in the derivative's Bernstein coefficients on
-    any piece that is 2^-d of the interval that the samples are of, which is the unit of length (nodes and inverse as in
-    harness.kernels.fitting)."""
+def slope_errors_grow(degree: int, precision: Precision, depths: int) -> list[float]:
+    """Bound by what factor an error of the samples grows in the derivative's Bernstein coefficients.
+
+    Factor number d = 0 … depths is for any piece that is 2^-d of the samples' interval, which is the unit of length.
+    Nodes and inverse matrix are those of harness.kernels.fitting.
+    """
     from harness.kernels.fitting import inverse
 
     rows = np.array([[float(v) for v in row] for row in inverse(degree, "bernstein", precision)])
@@ -119,8 +130,8 @@ def slope_errors_grow(degree: int, precision: Any, depths: int) -> list[float]:
     return [value * MARGIN for value in grown]
 
 
-def _restricted(rows: Any, starts: Any, widths: Any) -> Any:
-    """Restrict rows [m, …] of coefficients on [0, 1] to each [start, start + width]: [pieces, m, …]."""
+def _restricted(rows: Floats, starts: Floats, widths: Floats) -> Floats:
+    """Restrict Bernstein coefficients on [0, 1] to each [start, start + width]: float64[m, …] to [pieces, m, …]."""
     pieces = np.repeat(rows[None], len(starts), axis=0)
     at, share = starts[:, None, None], (widths / (1.0 - starts))[:, None, None]
     for r in range(1, len(rows)):
@@ -130,8 +141,8 @@ def _restricted(rows: Any, starts: Any, widths: Any) -> Any:
     return pieces
 
 
-def _halves(rows: Any) -> tuple[Any, Any]:
-    """De Casteljau's algorithm in the middle, on rows [degree + 1, …] of coefficients."""
+def _halves(rows: Floats) -> tuple[Floats, Floats]:
+    """Return the Bernstein coefficients of both halves, float64[degree + 1, …] each, by de Casteljau's algorithm."""
     left, right = [rows[0]], [rows[-1]]
     while len(rows) > 1:
         rows = 0.5 * (rows[:-1] + rows[1:])

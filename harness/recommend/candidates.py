@@ -7,6 +7,7 @@ import math
 import random
 
 from harness.contract import Variant, View
+from harness.experiment.kinds import of_method
 from harness.plugins import Catalog, Plugin
 
 GOLDEN_ANGLE = 180.0 * (3.0 - math.sqrt(5.0))
@@ -19,7 +20,7 @@ def variants(catalog: Catalog) -> tuple[Variant, ...]:
     error along a ray."""
     found: dict[tuple[str, tuple[tuple[str, float | int], ...]], Variant] = {}
     for _, plugin in sorted(catalog.plugins.items()):
-        if plugin.method.answers and plugin.method.casts == "rays":
+        if plugin.method.answers and not of_method(plugin.method).unlisted:
             for variant in _of(plugin):
                 found.setdefault((variant.method, variant.parameters), variant)
     return tuple(found.values())

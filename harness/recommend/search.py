@@ -9,7 +9,17 @@ from pathlib import Path
 from typing import Any, Literal
 
 from harness.accuracy.judge import NAMES
-from harness.contract import CellStatus, DeviceInfo, Precision, Surface, Variant, View
+from harness.contract import (
+    PRECISIONS,
+    CellStatus,
+    DeviceInfo,
+    FirsthitError,
+    Precision,
+    Surface,
+    Variant,
+    View,
+    digest,
+)
 from harness.devices.executor import LocalExecutor
 from harness.experiment import plan
 from harness.experiment.config import AccuracyChoice, BudgetChoice, Config, Experiment, MethodChoice
@@ -17,17 +27,24 @@ from harness.plugins import Catalog
 from harness.recommend.candidates import variants, views
 from harness.results.store import Row
 from harness.running import batch
+from harness.running.environment import probed
+from harness.running.trace import usable_device
 
 Quantile = Literal["max", "p999", "p99"]
+QUANTILES: tuple[Quantile, ...] = ("max", "p999", "p99")
 HEADROOM = 2.0  # of the bound on the largest error: rays that were not sampled may be worse than those that were
 CONTENDERS = 6  # timed on every view and checked on held-out ones
 HOPELESS = 2.0  # times the fastest in a first, short timing of a small picture: not timed further
+STEP_SECONDS = 60.0  # for one step of a candidate; then it falls
 SMALL = 128  # pixels per side of that picture, at most
 
 
 @dataclass(frozen=True)
 class Wish:
-    """What is asked for. `error`: the largest |t - t*| allowed, scene units; `fps`: frames per second, or 0."""
+    """What is asked for. `error`: the largest |t - t*| allowed, scene units; `fps`: frames per second, or 0.
+
+    Raises FirsthitError for a number that is out of range, and for a quantile or precision that there is not.
+    """
 
     surface: Surface
     error: float
@@ -40,6 +57,22 @@ class Wish:
     accuracy_size: int = 64
     seed: int = 1
     seconds: float = 1.0  # of timing for each contender and view
+
+    def __post_init__(self) -> None:
+        limits = (
+            ("error", self.error, 0.0, 1e30),
+            ("fps", self.fps, 0.0, 1e6),
+            ("size", self.size, 1, 16384),
+            ("views", self.tuning_views, 1, 1000),
+            ("rays", self.accuracy_size, 4, 4096),
+            ("seconds", self.seconds, 0.0, 1e5),
+        )
+        for name, value, low, high in limits:
+            if not low <= value <= high:
+                raise FirsthitError(f"{name} {value:g} is outside [{low:g}, {high:g}]")
+        for name, given, known in (("quantile", self.quantile, QUANTILES), ("precision", self.precision, PRECISIONS)):
+            if given is not None and given not in known:
+                raise FirsthitError(f"unknown {name} {given!r}; there are: {', '.join(known)}")
 
     @property
     def target(self) -> float:
@@ -67,14 +100,34 @@ class Contender:
 
 @dataclass
 class Recommendation:
-    """The fastest first; empty where nothing holds. `held_out`: judged rays on held-out views; `decided` and
-    `undecided` hits of the oracle's, on all views."""
+    """The variants within bounds on `device`, the fastest first, or none where nothing holds; and why the others fell.
 
+    `held_out` counts the rays that were judged on held-out views, `decided` and `undecided` the oracle's hits on all.
+    """
+
+    device: DeviceInfo
     contenders: list[Contender] = field(default_factory=list)
     fallen: list[Fallen] = field(default_factory=list)
     held_out: int = 0
     decided: int = 0
     undecided: int = 0
+
+
+def recommend(
+    wish: Wish, catalog: Catalog, device: str | None, runs: Path, tell: Callable[[str], None]
+) -> Recommendation:
+    """Search among all methods for the fastest variant that keeps the wish, on a device or the first usable one.
+
+    Rows go below `runs`, where a later search finds them again; `tell` is called with a line as the search goes on.
+    Raises FirsthitError where there is no such device.
+    """
+    folder = runs / f"recommend-{wish.surface.name}-{digest(wish.surface.identity)[:8]}"
+    executor = LocalExecutor(STEP_SECONDS)
+    try:
+        info, _ = probed(executor, usable_device(device), folder / "probes")
+        return Search(wish, catalog, info, executor, folder, tell).run()
+    finally:
+        executor.close()
 
 
 class Search:
@@ -96,7 +149,7 @@ class Search:
         self._tuning, self._held_out = sampled[: wish.tuning_views], sampled[wish.tuning_views :]
 
     def run(self) -> Recommendation:
-        found = Recommendation()
+        found = Recommendation(self._device)
         precisions: tuple[Precision, ...] = (self._wish.precision,) if self._wish.precision else ("float32", "float64")
         for precision in precisions:
             self._narrow(precision, found)

@@ -21,17 +21,18 @@ DECIDING = ("harness", "surfaces")
 NOT_DECIDING = {
     "harness/__init__.py": "holds the version's number, which a row does not depend on",
     "harness/running/batch.py": "chooses which cells are run, and leaves running them to the runner",
+    "harness/running/due.py": "chooses which cells are run, by what is stored",
     "harness/running/cards.py": "copies docstrings for the report",
     "harness/cli.py": "reads the command line",
     "harness/commands": "read options and print; what an option changes is in the config, and so in the identity",
-    "harness/accuracy/conformance": "checks methods and stores no row",
+    "harness/conformance": "checks methods and stores no row",
     "harness/console.py": "prints tables and progress",
     "harness/gate": "judges finished rows",
     "harness/recommend": "chooses among finished rows",
     "harness/studies": "are no cells; each has a key of its own, see harness/studies/__init__.py",
 }
-TRUTH = ("harness/contract.py", "harness/oracle", "surfaces")
-MESHES = ("harness/contract.py", "harness/scenes/meshes.py", "surfaces")
+TRUTH = ("harness/contract.py", "harness/limits.py", "harness/oracle", "surfaces")
+MESHES = ("harness/contract.py", "harness/limits.py", "harness/scenes/meshes.py", "surfaces")
 PACKAGES = ("numpy", "sympy", "python-flint")  # bindings are among a device's facts, a mesher among a picture's
 LIBRARIES = ("site-packages", "dist-packages")  # folders that hold other people's modules beside a plugin's
 

@@ -10,8 +10,9 @@ from harness.experiment.config import Experiment
 from harness.experiment.plan import Planned
 from harness.plugins import Catalog
 from harness.results.store import Row, Store
+from harness.running.due import due
 from harness.running.environment import describe
-from harness.running.runner import UNFINISHED, Runner
+from harness.running.runner import Runner
 
 
 def rows_of(
@@ -24,9 +25,7 @@ def rows_of(
 ) -> dict[str, Row]:
     """Each planned cell's row by its key; run now where `folder` has none, or one that did not finish."""
     store = Store(folder)
-    stored = {p.key: None if force else store.read(p.key) for p in planned}
-    kept = {key: row for key, row in stored.items() if row and row["status"] not in UNFINISHED}
-    todo = [p for p in planned if p.key not in kept]
-    progress = console.Progress(len(todo), 1.0 * len(todo))
-    rows = Runner(experiment.config, catalog, store, executor, describe(), progress).run(todo)
-    return kept | {row["key"]: row for row in rows}
+    found = due(planned, store, "everything" if force else "unfinished")
+    progress = console.Progress(len(found.todo), 1.0 * len(found.todo))
+    rows = Runner(experiment.config, catalog, store, executor, describe(), progress).run(found.todo)
+    return found.kept | {row["key"]: row for row in rows}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses
 import json
 import platform
@@ -11,10 +12,10 @@ from pathlib import Path
 from typing import Any
 
 from harness import __version__
-from harness.contract import DeviceInfo, digest
+from harness.contract import DeviceInfo, FirsthitError, digest
+from harness.devices import host
 from harness.devices.executor import CellError, LocalExecutor
-from harness.devices.probes import BELIEVABLE
-from harness.experiment import identity
+from harness.devices.probes import BELIEVABLE, Probes
 from harness.results import sources
 from harness.results.store import write_atomically
 
@@ -44,33 +45,47 @@ def describe() -> dict[str, Any]:
         "dirty": bool(_git("status", "--porcelain", "--untracked-files=no")),
         "python": platform.python_version(),
         "platform": platform.platform(),
-        "cpu": identity.processor(),
+        "cpu": host.processor(),
         "versions": versions,
     }
 
 
-def probed(executor: LocalExecutor, info: DeviceInfo, cache: Path | None = None) -> tuple[DeviceInfo, dict[str, Any]]:
+def probed(
+    executor: LocalExecutor, info: DeviceInfo, cache: Path | None = None, again: bool = False
+) -> tuple[DeviceInfo, dict[str, Any]]:
     """The device with the clock that its probes support, and what they found.
 
     With a `cache` folder the probes are kept there, for as long as the device, its driver, the processor and the
-    harness stay as they are.
+    harness stay as they are; where it cannot be written, nothing is kept. With `again` they run whatever is kept.
     """
     if info.problem:
         return info, {}
-    host = (identity.processor(), identity.cores(), identity.settings(), sources.methodology())
-    path = cache / f"{digest(dataclasses.asdict(info), *host)}.json" if cache else None
-    found: dict[str, Any]
-    try:
-        found = json.loads(path.read_text(encoding="utf-8")) if path else {}
-    except (OSError, ValueError):
-        found = {}
+    found, _ = kept_probes(info, cache) if cache and not again else ({}, 0.0)
     if not found:
         try:
             found = dataclasses.asdict(executor.probe(info.name))
         except CellError as error:
             return dataclasses.replace(info, problem=f"its probes failed: {error}"), {}
-        if path:
-            write_atomically(path, json.dumps(found).encode())
+        if cache:
+            with contextlib.suppress(FirsthitError):
+                write_atomically(_probes_file(info, cache), json.dumps(found).encode())
     ratio = found["clock_ratio"]
     believable = ratio is not None and BELIEVABLE[0] <= ratio <= BELIEVABLE[1]
     return dataclasses.replace(info, clock="device" if believable else "wall"), found
+
+
+def kept_probes(info: DeviceInfo, cache: Path) -> tuple[dict[str, Any], float]:
+    """What `probed` kept of a device, and when, in seconds since 1970; empty where that is not there or damaged."""
+    file = _probes_file(info, cache)
+    try:
+        found, since = json.loads(file.read_text(encoding="utf-8")), file.stat().st_mtime
+    except (OSError, ValueError):
+        return {}, 0.0
+    fields = {field.name for field in dataclasses.fields(Probes)}
+    return (found, since) if isinstance(found, dict) and found.keys() == fields else ({}, 0.0)
+
+
+def _probes_file(info: DeviceInfo, cache: Path) -> Path:
+    """Named by all that decides what probes find."""
+    machine = (host.processor(), host.cores(), host.settings(), sources.methodology())
+    return cache / f"{digest(dataclasses.asdict(info), *machine)}.json"

@@ -7,40 +7,28 @@ only cells that were not finished.
 from __future__ import annotations
 
 import itertools
-import math
 import time
 import uuid
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, replace
-from functools import partial
+from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
-from harness.accuracy import answers, check_frames, compilers, freeloops, judge
-from harness.accuracy import pixels as beams
-from harness.accuracy.pictures import headlight, pictures_of
-from harness.accuracy.rungs import judge_group
-from harness.contract import CellStatus, FirsthitError, Hits, Program
+from harness.contract import CellStatus, FirsthitError
 from harness.devices.executor import CellError, LocalExecutor
-from harness.devices.worker import Checked, Frame, Warmed
+from harness.devices.messages import Frame, Warmed
 from harness.experiment.config import Config
+from harness.experiment.kinds import Outcome
 from harness.experiment.plan import Planned, shuffled
-from harness.hardcases import groups as stability
-from harness.kernels.assemble import method_program, with_free_loops
-from harness.oracle import cached_first_hits
 from harness.plugins import Catalog
 from harness.results import timings
 from harness.results.store import Row, Store
 from harness.running.rows import Left, Samples, build_of, row_of, time_of
-from harness.scenes.camera import meets, pixel_footprint, rays_of, scene_radius
 
 MINIMUM_SAMPLES = 8
 LONGEST = 16  # times [budget] seconds: what the rounds that comparing a cell takes may take at most
 BYTES_PER_RAY = 24  # of a frame kept ready, at most: its answer on the device, and as it was read back
 MOST_BYTES = 3 * 2**30  # of all frames kept ready at once
-UNFINISHED = (CellStatus.FAILED, CellStatus.TIMEOUT, CellStatus.CRASHED)
+UNCHECKED = Outcome(0.0)
 
 
 @dataclass(eq=False)
@@ -50,13 +38,10 @@ class _Live:
     planned: Planned
     frame: Frame | None
     samples: Samples
-    compile_ms: float = 0.0
+    outcome: Outcome = UNCHECKED
     warmed: Warmed | None = None
     preparing: float = 0.0  # seconds of checking and building
     timing: float = 0.0  # seconds of timed repetitions
-    summary: dict[str, Any] | None = None
-    rungs: list[dict[str, Any]] | None = None
-    arrays: dict[str, NDArray[Any]] | None = None
 
 
 class Runner:
@@ -110,124 +95,16 @@ class Runner:
 
     def _prepare(self, state: _Live) -> str | None:
         """Check the cell and, if it is to be timed, warm its frame; a reason not to time it, if there is one."""
-        start = time.perf_counter()
+        planned, start = state.planned, time.perf_counter()
+        assert planned.casting
         try:
-            reason = self._check_family(state) if state.planned.cell.family else self._check(state)
-            if reason is None and state.frame and state.planned.is_timed:
-                state.warmed = self._executor.warm(state.planned.cell.device, state.planned.key, state.frame)
-            return reason
+            framed = state.frame is not None
+            state.outcome = planned.casting.check(self._executor, self._config.accuracy, self._store.truth, framed)
+            if state.outcome.reason is None and state.frame and planned.is_timed:
+                state.warmed = self._executor.warm(planned.cell.device, planned.key, state.frame)
+            return state.outcome.reason
         finally:
             state.preparing = time.perf_counter() - start
-
-    def _check(self, state: _Live) -> str | None:
-        """Cast the accuracy rays and hold them against the oracle; a reason not to time the cell, if there is one."""
-        cell, config = state.planned.cell, self._config.accuracy
-        if state.planned.draws:
-            seen = check_frames.check(self._executor, state.planned, config, self._store.truth)
-            state.summary, state.arrays, state.compile_ms = seen.summary, seen.pictures, seen.compile_ms
-            return seen.fault or self._unfit(state)
-        rays = rays_of(state.planned.camera, config.size)
-        truth = cached_first_hits(cell.surface, rays, self._store.truth)
-        casts_beams, checks = state.planned.casts != "rays", state.planned.checks
-        checked, hits = self._cast(state, rays, checks[0])
-        state.compile_ms = checked.compile_ms
-        verdicts = judge.judge(hits, truth, scene_radius(cell.surface), config.grazing_margin, cell.precision)
-        if casts_beams:
-            assert state.frame
-            pixels = beams.pixels_of(state.planned.camera, config.size, state.frame.size)
-            verdicts, beam_only = beams.set_apart(verdicts, hits, truth, pixels)
-        footprint = pixel_footprint(state.planned.camera, cell.size)
-        deviations = judge.deviations(cell.surface, rays, hits, truth, verdicts)
-        summary = judge.summarize(
-            cell.surface,
-            hits,
-            truth,
-            verdicts,
-            deviations,
-            precision=cell.precision,
-            footprint=footprint,
-            grazing_margin=config.grazing_margin,
-        )
-        inside = int(meets(cell.surface.domain, rays).sum())
-        state.summary = {"size": config.size, "domain_rays": inside} | summary
-        if checked.prepass_evaluations is not None:
-            state.summary["prepass_evaluations_mean"] = checked.prepass_evaluations
-        state.arrays = pictures_of(cell.surface, rays, hits, truth, verdicts, config.size)
-        if casts_beams:
-            assert checked.evaluations is not None and checked.levels is not None
-            mean, largest = checked.evaluations  # of the frame: large beams are shared by more pixels than are checked
-            counted = {"beam_only": int(beam_only.sum()), "evaluations_mean": mean, "evaluations_max": largest}
-            state.summary |= counted | {"lanes": checked.lanes}
-            state.arrays["level"] = checked.levels.reshape(config.size, config.size)
-        fault = freeloops.removed(checks, hits, lambda: self._cast(state, rays, with_free_loops(checks[0]))[0].hits)
-        if not fault and not casts_beams:
-            fault = self._compilers_fault(state, rays, hits)
-        if cell.samples_per_pixel > 1:
-            side = config.size * round(cell.samples_per_pixel**0.5)
-            samples = rays_of(state.planned.camera, side)
-            shade = headlight(cell.surface, samples, self._cast(state, samples, checks[0])[1])
-            state.arrays["samples"] = shade.reshape(side, side)
-        return fault or self._unfit(state)
-
-    def _cast(self, state: _Live, rays: NDArray[np.float32], program: Program) -> tuple[Checked, Hits]:
-        """What `program` answers for `rays`, float32[n², 6], a grid of the cell's view, and that as valid hits."""
-        cell, camera = state.planned.cell, state.planned.camera
-        casts_beams = state.planned.casts != "rays"
-        if not casts_beams and cell.prepass == "none":
-            checked = self._executor.check(cell.device, program, rays)
-            return checked, answers.validated(checked.hits, cell.surface.domain, rays, origin=cell.origin)
-        assert state.frame
-        pixels = beams.pixels_of(camera, math.isqrt(len(rays)), state.frame.size)
-        frame = replace(state.frame, program=program, rays=rays)
-        checked = self._executor.check_frame(cell.device, frame, pixels.index)
-        if casts_beams:
-            along = beams.along_rays(checked.hits, pixels)
-            return checked, answers.validated_beams(along, cell.surface.domain, rays, camera[3:6])
-        hits = answers.validated(checked.hits, cell.surface.domain, rays, counts=False, origin=cell.origin)
-        return checked, hits
-
-    def _compilers_fault(self, state: _Live, rays: NDArray[np.float32], hits: Hits) -> str | None:
-        cell, plugin = state.planned.cell, self._catalog.get(state.planned.cell.variant.method)
-        if not plugin.method.answers:
-            return None
-        program = partial(method_program, plugin.method, plugin.folder, cell.variant, cell.surface, cell.precision)
-        run = compilers.with_listed_rays(self._executor, rays)
-        second = compilers.SecondBuild(
-            cell.device, cell.precision, partial(program, entry="rays", origin=cell.origin), run
-        )
-        return compilers.doubts_about(cell.surface, rays, hits, second).fault
-
-    def _unfit(self, state: _Live) -> str | None:
-        """Why a checked cell has no accuracy, which it then loses, or is too wrong to be timed."""
-        assert state.summary is not None
-        if not self._catalog.get(state.planned.cell.variant.method).method.answers:
-            return None
-        found, config = state.summary, self._config.accuracy
-        share = judge.wrong_share(found)
-        undecided = judge.undecided_hits(found["truth_hits"], found["undecided"], config.undecided)
-        if undecided or share is None:
-            state.summary = state.arrays = None
-            return undecided or judge.nothing_judged(found["rays"])
-        if state.frame and not share <= config.max_wrong_share:
-            return f"wrong on {share:.1%} of the rays that are neither grazing nor drowned: not timed"
-        return None
-
-    def _check_family(self, state: _Live) -> str | None:
-        """Cast every rung's rays and judge each rung by itself."""
-        cell = state.planned.cell
-        assert cell.family
-        state.rungs = []
-        for group, program in zip(stability.groups(cell.family), state.planned.checks, strict=True):
-            truth = cached_first_hits(group.surface, group.rays, self._store.truth)
-            checked = self._executor.check(cell.device, program, group.rays)
-            hits = answers.validated(checked.hits, group.surface.domain, group.rays, origin=cell.origin)
-            state.compile_ms += checked.compile_ms
-            state.rungs += judge_group(group, hits, truth, cell.precision)
-        rays, undecided = (sum(rung[name] for rung in state.rungs) for name in ("rays", "undecided"))
-        reason = judge.undecided_hits(rays - undecided, undecided, self._config.accuracy.undecided, "rays")
-        if reason:
-            state.rungs = None
-        return reason
 
     def _time(self, live: dict[str, _Live]) -> list[Row]:
         """Interleaved rounds: each visits every unfinished cell once, in random order."""
@@ -271,7 +148,7 @@ class Runner:
         method = self._catalog.get(planned.cell.variant.method).method
         left = self._left(state, status) if state else None
         row: Row = dict(row_of(planned, method, status, reason, left, self._environment))
-        self._store.write(row, state.arrays if state else None)
+        self._store.write(row, state.outcome.pictures if state else None)
         self._report(planned.cell.slot, row)
         return row
 
@@ -280,8 +157,8 @@ class Runner:
         if state.warmed and status is CellStatus.OK:
             seed, interval = self._config.seed, self._config.budget.interval
             timed = time_of(state.samples, state.warmed.batch, self._session, seed=seed, interval=interval)
-        build = build_of(state.warmed, state.compile_ms)
-        return Left(build, state.preparing + state.timing, timed, state.summary, state.rungs)
+        build = build_of(state.warmed, state.outcome.compile_ms)
+        return Left(build, state.preparing + state.timing, timed, state.outcome.summary, state.outcome.rungs)
 
 
 def _fitting(group: list[Planned]) -> list[list[Planned]]:

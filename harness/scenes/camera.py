@@ -1,4 +1,7 @@
-"""Views → cameras → rays. Rays for accuracy are made here once, in float32, and listed to every device alike."""
+"""Turns views into cameras, and cameras into rays.
+
+The rays of an accuracy check are made here, once, in float32; every device is given the same list.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +14,7 @@ from harness.contract import Box, Domain, Surface, View
 
 
 def scene_radius(surface: Surface) -> float:
-    """The length that relative errors and default distances refer to, in scene units."""
+    """Return the length, in scene units, that relative errors and default distances refer to: a bounding radius."""
     return surface.bounding_radius or surface.domain.radius
 
 
@@ -21,9 +24,10 @@ def distance_of(view: View, surface: Surface) -> float:
 
 
 def camera_for(view: View, surface: Surface) -> NDArray[np.float32]:
-    """float32[12]: eye, forward (length 1), right and up (the image's half width and height at distance 1).
+    """Return a view's camera, float32[12]: eye, forward, right and up.
 
-    Up leans to the z axis; at the poles it is what it tends to along the view's azimuth, so that no view is singular.
+    Forward has length 1; right and up are half the image's width and height at the distance 1. Up is as near to the z
+    axis as it can be. Looking along the z axis, it is the limit along the view's azimuth, so that no view is singular.
     """
     azimuth, elevation = math.radians(view.azimuth), math.radians(view.elevation)
     half = math.radians(view.fov) / 2.0
@@ -37,7 +41,10 @@ def camera_for(view: View, surface: Surface) -> NDArray[np.float32]:
 
 
 def rays_of(camera: NDArray[np.float32], size: int) -> NDArray[np.float32]:
-    """float32[size * size, 6]: origins and directions of length 1, row by row from the picture's top left."""
+    """Return the rays through the middles of an image's pixels, row by row from the top left: float32[size * size, 6].
+
+    `camera` is float32[12]. A ray is its origin, the eye, and its direction, of length 1.
+    """
     eye, forward, right, up = camera.astype(np.float64).reshape(4, 3)
     at = (2.0 * np.arange(size) + 1.0 - size) / size
     directions = forward + at[None, :, None] * right - at[:, None, None] * up
@@ -49,12 +56,15 @@ def rays_of(camera: NDArray[np.float32], size: int) -> NDArray[np.float32]:
 
 
 def pixel_footprint(camera: NDArray[np.float32], size: int) -> float:
-    """A pixel's height at distance 1 from the eye."""
+    """Return a pixel's height at the distance 1 from the eye, for an image of size × size pixels."""
     return 2.0 * float(np.linalg.norm(camera[9:12].astype(np.float64))) / size
 
 
 def meets(domain: Domain, rays: NDArray[np.float32]) -> NDArray[np.bool_]:
-    """bool[n]: which rays float32[n, 6] run through the domain, to float64 rounding: to count, not to prove."""
+    """Return which rays float32[n, 6] run through the domain: bool[n].
+
+    It is computed in float64 without error bounds, and so is good for counting rays, not for proofs.
+    """
     origins, directions = np.split(rays.astype(np.float64), 2, axis=1)
     with np.errstate(divide="ignore", invalid="ignore"):
         if isinstance(domain, Box):

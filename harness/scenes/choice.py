@@ -1,4 +1,4 @@
-"""Scenes as a config states them: tables [scene.NAME]."""
+"""Makes scenes of what a config states in its tables [scene.NAME]."""
 
 from __future__ import annotations
 
@@ -6,45 +6,56 @@ import dataclasses
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import Annotated
 
 import numpy as np
 
-from harness.contract import FirsthitError, Surface, Variant, View
+from harness.contract import FirsthitError, Point, Surface, Variant, View
+from harness.limits import AZIMUTH, DISTANCE, ELEVATION, FIELD_OF_VIEW, SEED, SHARE, Distinct, Within
 from harness.scenes.generate import GENERATORS, generate
 from harness.scenes.model import COLOUR, Floats, Group, Scene
+
+Angle = Annotated[float, Within(-360.0, 360.0)]  # degrees
+Intensity = Annotated[float, SHARE]  # of a colour
 
 
 @dataclass(frozen=True)
 class PlacedChoice:
-    """One instance: world = at + scale · turn · local. `turn` is in degrees about x, then y, then z. `domain` cuts out
-    a part: a quarter torus is a torus in a box from 0. `method`, with its knobs, draws this one, whatever the
-    experiment compares: `polygon` or `contour` makes it a mesh."""
+    """One instance, as a config states it: world = at + scale · turn · local.
+
+    `turn` is in degrees about x, then y, then z. `domain` cuts out a part: a quarter torus is a torus in a box that
+    begins at 0. If `method` is given, it draws this instance with its knobs, whatever methods the experiment compares;
+    `polygon` and `contour` make it a mesh.
+    """
 
     surface: str
     parameters: dict[str, float] = field(default_factory=dict)
     domain: str = ""
-    at: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    turn: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    scale: float = 1.0
-    colour: tuple[float, float, float] = COLOUR
+    at: Point = (0.0, 0.0, 0.0)
+    turn: tuple[Angle, Angle, Angle] = (0.0, 0.0, 0.0)
+    scale: Annotated[float, Within(1e-9, 1e9, "a scale is positive, from {low:g} to {high:g}, not {value:g}")] = 1.0
+    colour: tuple[Intensity, Intensity, Intensity] = COLOUR
     method: str = ""
     knobs: dict[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
 class SceneChoice:
-    """Instances placed one by one, or made by `generate` (lattice, scattered, pipes, molecule), a scene for each of
-    `counts`; and one view."""
+    """A scene, as a config states it: instances, and one view.
+
+    Instances are `placed` one by one, or made by `generate` (lattice, scattered, pipes or molecule), which gives a
+    scene for each of `counts`.
+    """
 
     title: str = ""
     placed: list[PlacedChoice] = field(default_factory=list)
     generate: str = ""
-    counts: list[int] = field(default_factory=lambda: [100])
-    seed: int = 1
-    azimuth: float = 30.0
-    elevation: float = 30.0
-    fov: float = 30.0
-    distance: float | None = None
+    counts: Annotated[list[Annotated[int, Within(1, 10_000_000)]], Distinct()] = field(default_factory=lambda: [100])
+    seed: Annotated[int, SEED] = 1
+    azimuth: Annotated[float, AZIMUTH] = 30.0
+    elevation: Annotated[float, ELEVATION] = 30.0
+    fov: Annotated[float, FIELD_OF_VIEW] = 30.0
+    distance: Annotated[float, DISTANCE] | None = None
 
 
 def scenes_of(
@@ -53,7 +64,11 @@ def scenes_of(
     surface_of: Callable[[PlacedChoice], Surface],
     variant_of: Callable[[PlacedChoice], Variant],
 ) -> list[Scene]:
-    """The scenes that a table stands for; FirsthitError where it is none."""
+    """Return the scenes that a table describes.
+
+    `surface_of` and `variant_of` look up the surface and the variant of an instance. Raises FirsthitError if the table
+    has neither instances nor a generator, both, an unknown generator, or a scale that is not positive.
+    """
     view = View(name, choice.azimuth, choice.elevation, choice.fov, choice.distance)
     if bool(choice.placed) == bool(choice.generate):
         raise FirsthitError(f"scene {name!r} needs instances in `placed`, or a way to `generate` them, and not both")
@@ -63,8 +78,6 @@ def scenes_of(
         return [generate(choice.generate, count, choice.seed, view) for count in choice.counts]
     groups = []
     for one in choice.placed:
-        if not one.scale > 0.0:
-            raise FirsthitError(f"scene {name!r}: a scale is positive, not {one.scale:g}")
         groups.append(
             Group(
                 (surface_of(one),),
@@ -79,7 +92,8 @@ def scenes_of(
 
 
 def rotation(x: float, y: float, z: float) -> Floats:
-    """[3, 3], by x degrees about the x axis, then y about y, then z about z."""
+    """Return the rotation float64[3, 3] by x degrees about the x axis, then y about the y axis, then z about the z
+    axis."""
     made = np.eye(3)
     for axis, degrees in enumerate((x, y, z)):
         angle, (i, j) = math.radians(degrees), [(1, 2), (2, 0), (0, 1)][axis]
@@ -91,7 +105,11 @@ def rotation(x: float, y: float, z: float) -> Floats:
 
 
 def cut(surface: Surface, domain: str) -> Surface:
-    """The surface in another domain; its bounding sphere was about the old one's centre."""
+    """Return the surface in another domain, or as it is if `domain` is empty.
+
+    Its bounding radius is dropped, since it is about the old domain's centre. Raises FirsthitError for a domain that
+    cannot be read.
+    """
     import surfaces
 
     if not domain:

@@ -1,4 +1,4 @@
-"""Tessellations, made by pyvista and kept on disk. The only module that imports pyvista."""
+"""Tessellates surfaces with pyvista, and keeps the meshes on disk. No other module imports pyvista."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ from harness.contract import Box, FirsthitError, MeshRecipe, Surface, digest
 from harness.results.sources import MESHES, digest_of, packages
 from harness.results.store import savez_atomically
 
-FARTHEST = 5000  # samples of a surface that are held against its mesh
-PARAMETRIC = {  # formulas whose parametric form is known here
+FARTHEST = 5000  # how many samples of a surface are compared with its mesh
+PARAMETRIC = {  # the formulas whose parametric form is known here
     "(x^2 + y^2 + z^2 + R^2 - r^2)^2 - 4*R^2*(x^2 + y^2)": "torus",
     "x^2 + y^2 + z^2 - R^2": "sphere",
     "x^2 + y^2 - r^2": "cylinder",
@@ -29,34 +29,37 @@ PARAMETRIC = {  # formulas whose parametric form is known here
 
 @dataclass(frozen=True, eq=False)
 class Mesh:
-    """Triangles counterclockwise from outside; positions in the surface's own units."""
+    """Triangles, counterclockwise as seen from outside; positions are in the surface's own units."""
 
     vertices: NDArray[np.float32]  # [v, 6] position and unit normal
     triangles: NDArray[np.uint32]  # [f, 3]
-    closed: bool
+    closed: bool  # whether it has no boundary
 
 
 def missing() -> str | None:
-    """Why meshes cannot be made here, if they cannot."""
+    """Return why meshes cannot be made here, or None if they can."""
     if importlib.util.find_spec("pyvista") is None:
         return "a mesh needs the package pyvista: pip install 'firsthit[mesh]'"
     return None
 
 
 def mesher() -> str:
-    """The packages that tessellate."""
+    """Name the packages that tessellate, with their versions."""
     return f"pyvista {version('pyvista')}, vtk {version('vtk')}"
 
 
 def folder() -> Path:
-    """Where meshes are kept: $FIRSTHIT_CACHE, or the user's cache folder."""
+    """Return the folder of the stored meshes, below $FIRSTHIT_CACHE or the user's cache folder."""
     base = os.environ.get("FIRSTHIT_CACHE") or os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
     return Path(base) / "firsthit" / "meshes"
 
 
 @lru_cache(maxsize=16)
 def mesh(surface: Surface, recipe: MeshRecipe) -> Mesh:
-    """The surface tessellated by `recipe`; FirsthitError where it has no such form, or pyvista is not there."""
+    """Return the surface tessellated by `recipe`, from disk if it is stored there.
+
+    Raises FirsthitError if pyvista is missing, the surface has no such form, or the grid is too coarse to show it.
+    """
     if reason := missing():
         raise FirsthitError(reason)
     key = digest(surface.identity, recipe.kind, recipe.resolution, mesher(), packages(), digest_of(*MESHES))
@@ -69,21 +72,21 @@ def mesh(surface: Surface, recipe: MeshRecipe) -> Mesh:
 
 
 def _stored(path: Path) -> Mesh | None:
-    """None where there is none or the file is damaged."""
+    """Return a stored mesh; None if there is none, or if the file is damaged."""
     try:
         with np.load(path, allow_pickle=False) as arrays:
             return Mesh(arrays["vertices"], arrays["triangles"], bool(arrays["closed"]))
-    except Exception:  # whatever is wrong with it, it is made anew
+    except Exception:  # whatever is wrong with the file, the mesh is made again
         return None
 
 
 def triangles(surface: Surface, n: int) -> int:
-    """About how many a parametric mesh has, without making it."""
+    """Estimate how many triangles a parametric mesh has, without making it."""
     return {"torus": 2 * n * n, "sphere": n * n, "plane": 2}.get(PARAMETRIC.get(surface.formula, ""), 2 * n)
 
 
 def parametric_refusal(surface: Surface) -> str | None:
-    """Why a surface has no parametric mesh, if it has none."""
+    """Return why a surface has no parametric mesh, or None if it has one."""
     form = PARAMETRIC.get(surface.formula)
     if form is None:
         return f"only {', '.join(PARAMETRIC.values())} have a parametric form here; take the method contour"
@@ -93,38 +96,56 @@ def parametric_refusal(surface: Surface) -> str | None:
 
 
 def _parametric(surface: Surface, n: int) -> Mesh:
-    """`n` points around, and around the tube of a torus too; an arc of a torus has its share of them, rounded up."""
+    """Return the mesh of a surface's parametric form with `n` points around, and around the tube of a torus too.
+
+    An arc of a torus has its share of `n`, rounded up. Raises FirsthitError if the surface has no form known here.
+    """
     import pyvista
 
     if reason := parametric_refusal(surface):
         raise FirsthitError(f"{surface.name} has no parametric mesh: {reason}")
     values = {name: float(text) for name, text in surface.parameters}
-    box = surface.domain if isinstance(surface.domain, Box) else None
     form = PARAMETRIC[surface.formula]
-    if form == "torus":
-        assert box
-        shape: Any = _torus(values["R"], values["r"], box, n)
-    elif form == "sphere":
+    if form == "sphere":
         shape = pyvista.Sphere(radius=values["R"], theta_resolution=n, phi_resolution=max(3, n // 2 + 1))
-    else:
-        assert box
-        heights = np.array([box.lower[2], box.upper[2]])
-        if form == "plane":
-            shape = pyvista.Plane(i_size=1.0, j_size=1.0, i_resolution=1, j_resolution=1).triangulate()
-            lower, upper = np.array(box.lower), np.array(box.upper)
-            shape.points = (0.5 * (lower + upper) + shape.points * (upper - lower)) * [1.0, 1.0, 0.0]
-        else:
-            radii = np.array([values["r"]] * 2) if form == "cylinder" else values["a"] + values["b"] * heights
-            turn = np.linspace(0.0, 2.0 * np.pi, n + 1)
-            x, y = (radii[:, None] * part(turn) for part in (np.cos, np.sin))
-            grid = pyvista.StructuredGrid(x, y, np.broadcast_to(heights[:, None], x.shape).copy())
-            shape = grid.extract_surface(algorithm=None).clean(tolerance=1e-9).triangulate()
-    whole = form == "sphere" or (form == "torus" and box is not None and max(box.lower[:2]) < 0.0)
-    return _finished(surface, shape, closed=whole)
+        return _finished(surface, shape, closed=True)
+    box = surface.domain
+    assert isinstance(box, Box)
+    if form == "torus":
+        return _finished(surface, _torus(values["R"], values["r"], box, n), closed=max(box.lower[:2]) < 0.0)
+    if form == "plane":
+        return _finished(surface, _plane(box), closed=False)
+    heights = np.array([box.lower[2], box.upper[2]])
+    radii = np.array([values["r"]] * 2) if form == "cylinder" else values["a"] + values["b"] * heights
+    return _finished(surface, _mantle(radii, heights, n), closed=False)
+
+
+def _plane(box: Box) -> Any:
+    """Return the rectangle of the plane z = 0 in a box, as a pyvista shape of two triangles."""
+    import pyvista
+
+    shape = pyvista.Plane(i_size=1.0, j_size=1.0, i_resolution=1, j_resolution=1).triangulate()
+    lower, upper = np.array(box.lower), np.array(box.upper)
+    shape.points = (0.5 * (lower + upper) + shape.points * (upper - lower)) * [1.0, 1.0, 0.0]
+    return shape
+
+
+def _mantle(radii: NDArray[np.float64], heights: NDArray[np.float64], n: int) -> Any:
+    """Return the mantle of a cylinder or cone about the z axis, as a pyvista shape; both ends are float64[2]."""
+    import pyvista
+
+    turn = np.linspace(0.0, 2.0 * np.pi, n + 1)
+    x, y = (radii[:, None] * part(turn) for part in (np.cos, np.sin))
+    grid = pyvista.StructuredGrid(x, y, np.broadcast_to(heights[:, None], x.shape).copy())
+    return grid.extract_surface(algorithm=None).clean(tolerance=1e-9).triangulate()
 
 
 def _torus(ring: float, tube: float, box: Box, n: int) -> Any:
-    """The part of a torus in a box that is its own, or half or a quarter of it: x or x and y from 0."""
+    """Return the part of a torus in a box, as a pyvista shape.
+
+    The box is the torus's own, or that of a half or a quarter of it, whose x, or x and y, begin at 0. Raises
+    FirsthitError for any other box.
+    """
     import pyvista
     from vtkmodules.vtkCommonComputationalGeometry import vtkParametricTorus
 
@@ -148,7 +169,11 @@ def _torus(ring: float, tube: float, box: Box, n: int) -> Any:
 
 
 def _contour(surface: Surface, recipe: MeshRecipe) -> Mesh:
-    """f = 0 by flying edges on a grid of n cells along the longest side of the domain's box, clipped by a ball."""
+    """Return the mesh of f = 0 by flying edges on a grid, clipped by the domain if that is a ball.
+
+    The grid has recipe.resolution cells along the longest side of the domain's box. Raises FirsthitError if it is too
+    coarse to show anything.
+    """
     import pyvista
 
     import surfaces
@@ -173,7 +198,10 @@ def _contour(surface: Surface, recipe: MeshRecipe) -> Mesh:
 
 
 def _finished(surface: Surface, shape: Any, closed: bool) -> Mesh:
-    """With normals along f's gradient, which point out of f < 0, and triangles that agree with them."""
+    """Return a pyvista shape as a mesh, with normals along f's gradient, which point to where f > 0.
+
+    Triangles are turned to be counterclockwise as seen from there.
+    """
     import surfaces
 
     points = np.asarray(shape.points, np.float64)
@@ -189,11 +217,11 @@ def _finished(surface: Surface, shape: Any, closed: bool) -> Mesh:
 
 
 def geometric_error(surface: Surface, made: Mesh, pieces: int = 2) -> tuple[float, float]:
-    """(mesh to surface, surface to mesh), the largest distances over samples, scene units.
+    """Return the largest distances from mesh to surface and from surface to mesh over samples, in scene units.
 
-    Sampled are `pieces` + 1 points along each side of every triangle and those between. Distances to the surface are
-    its stated distance, or |f| / |grad f|. The surface's own samples are the FARTHEST of them, brought onto it along
-    its gradient.
+    The samples of the mesh are `pieces` + 1 points along each side of every triangle, and points between them. Their
+    distance to the surface is that of the surface's distance function, or |f| / |grad f| if it states none. The samples
+    of the surface are the FARTHEST of these points, moved onto the surface along the gradient.
     """
     import pyvista
 

@@ -1,10 +1,9 @@
-"""What a scene is made of. Instances that share a formula form a group, which is drawn by one call."""
+"""Defines scenes and their groups of instances. Instances that share a formula form a group, which one call draws."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,7 +18,8 @@ COLOUR = (0.36, 0.58, 0.82)
 class Group:
     """n instances of one formula: world = place + scale · turn · local.
 
-    `surfaces` is one for all instances or one for each; then they differ in parameters and domain alone.
+    `surfaces` holds one surface for all instances, or one for each; these differ in parameters and domain alone. Raises
+    FirsthitError if the shapes do not agree, the formulas differ, or a scale is not positive.
     """
 
     surfaces: tuple[Surface, ...]
@@ -27,7 +27,7 @@ class Group:
     turn: Floats  # [n, 3, 3], rotations, world from local
     scale: Floats  # [n]
     colours: Floats  # [n, 3], in [0, 1]
-    variant: Variant | None = None  # of its own, where it does not take the experiment's
+    variant: Variant | None = None  # what draws it; None: the variants that the experiment compares
 
     def __post_init__(self) -> None:
         n = len(self.place)
@@ -44,16 +44,24 @@ class Group:
 
     @cached_property
     def distinct(self) -> tuple[Surface, ...]:
+        """Return the group's surfaces, each once."""
         return tuple(dict.fromkeys(self.surfaces))
 
     @property
     def varies(self) -> bool:
-        """Whether instances differ in more than their place."""
+        """Return whether the instances differ in parameters or domain."""
         return len(self.distinct) > 1
+
+    @property
+    def differ_in(self) -> str:
+        """The names of the parameters that instances differ in, for people."""
+        bound = [dict(surface.parameters) for surface in self.distinct]
+        names = [name for name in bound[0] if len({parameters[name] for parameters in bound}) > 1]
+        return ", ".join(names) or "their domains"
 
     @cached_property
     def spheres(self) -> Floats:
-        """[n, 4]: centre and radius of each instance's bounding sphere, world units."""
+        """Return centre and radius of each instance's bounding sphere, in world units: float64[n, 4]."""
         centers = np.array([surface.domain.center for surface in self.surfaces])
         radii = np.array([bounding_radius(surface) for surface in self.surfaces])
         world = self.place + self.scale[:, None] * np.einsum(
@@ -62,8 +70,8 @@ class Group:
         return np.column_stack([world, self.scale * radii])
 
     @property
-    def identity(self) -> dict[str, Any]:
-        """What decides a picture of it: goes into cache keys."""
+    def identity(self) -> dict[str, object]:
+        """Return what decides a picture of the group, for cache keys."""
         arrays = [np.ascontiguousarray(a).tobytes().hex() for a in (self.place, self.turn, self.scale, self.colours)]
         own = [surface.identity for surface in self.surfaces]
         variant = None if self.variant is None else [self.variant.method, dict(self.variant.parameters)]
@@ -72,21 +80,22 @@ class Group:
 
 @dataclass(frozen=True, eq=False)
 class Scene:
-    """Groups of instances, seen by `view`."""
+    """Groups of instances, as `view` sees them."""
 
     name: str
     title: str
     groups: tuple[Group, ...]
     view: View
-    family: str  # scenes of one family differ in their count alone
+    family: str  # the same for scenes that differ in their count alone
 
     @property
     def instances(self) -> int:
+        """Count the instances of all groups."""
         return sum(map(len, self.groups))
 
     @cached_property
     def sphere(self) -> Floats:
-        """[4]: centre and radius of a sphere about all instances."""
+        """Return centre and radius of a sphere about all instances, in world units: float64[4]."""
         spheres = np.concatenate([group.spheres for group in self.groups])
         lower = (spheres[:, :3] - spheres[:, 3:]).min(axis=0)
         upper = (spheres[:, :3] + spheres[:, 3:]).max(axis=0)
@@ -95,12 +104,16 @@ class Scene:
         return np.array([*center, radius])
 
     @property
-    def identity(self) -> dict[str, Any]:
+    def identity(self) -> dict[str, object]:
+        """Return what decides a picture of the scene, for cache keys."""
         return {"groups": [group.identity for group in self.groups]}
 
     @cached_property
     def stand_in(self) -> Surface:
-        """What rows, cameras and errors take for the scene's surface: its name and size, the first group's formula."""
+        """Return a surface with the scene's name and size and the first group's formula.
+
+        Rows, cameras and errors, which speak of one surface, take it for the scene's.
+        """
         first, (x, y, z, radius) = self.groups[0].distinct[0], self.sphere
         degrees = [surface.degree for group in self.groups for surface in group.distinct]
         features = [
@@ -127,6 +140,6 @@ def bounding_radius(surface: Surface) -> float:
 
 
 def single(surface: Surface, view: View) -> Scene:
-    """One surface in its own coordinates: what every other stage draws."""
+    """Return the scene of one surface in its own coordinates, which is what all stages but raster draw."""
     group = Group((surface,), np.zeros((1, 3)), np.eye(3)[None], np.ones(1), np.array([COLOUR]))
     return Scene(surface.name, surface.title, (group,), view, surface.name)

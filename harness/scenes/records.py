@@ -7,11 +7,11 @@ from numpy.typing import NDArray
 
 from harness.contract import Box, FirsthitError, Proxy, Surface
 from harness.devices.frames import RECORD
-from harness.kernels.assemble import PROXY_SIDES
+from harness.kernels.raster import PROXY_SIDES
 from harness.scenes.model import Group, Scene, bounding_radius
 
 Floats = NDArray[np.float64]
-MOST_PARAMETERS = 4  # of a formula, that instances may differ in
+MOST_PARAMETERS = 4  # how many parameters a formula may have whose instances differ in them
 CLOSEST = 1e-4  # of the far plane's distance: the near plane is no closer to the eye
 
 

@@ -1,12 +1,14 @@
-"""Sets of views: named in a config by a line or two, drawn up here. How a method depends on the view is told by set."""
+"""Makes sets of views, which a config names in a line or two. Reports show by set how a method depends on the view."""
 
 from __future__ import annotations
 
 import math
 import random
 from dataclasses import dataclass, field
+from typing import Annotated
 
 from harness.contract import View
+from harness.limits import AZIMUTH, DISTANCE, FIELD_OF_VIEW, SEED, Within
 
 ANGLES, DIRECTIONS = "angles", "directions"  # the sets' names, which rows carry
 GOLDEN_TURN = 180.0 * (3.0 - math.sqrt(5.0))  # degrees between neighbours of a Fibonacci lattice
@@ -16,28 +18,30 @@ GOLDEN_TURN = 180.0 * (3.0 - math.sqrt(5.0))  # degrees between neighbours of a 
 class AngleChoice:
     """Projection angles as in toledo2007, Table 1: 0° looks down the z axis, 90° from the side (elevation 90° − angle).
 
-    Azimuth, field of view and distance are those of a View, once for all. From azimuth 0 the torus's box shows as many
-    pixels as the paper prints; from others, which turn it about its axis, more.
+    Azimuth, field of view and distance are as for a View, and the same for all angles. From azimuth 0 the torus's box
+    covers as many pixels as the paper prints. From other azimuths the box is seen turned, and covers more.
     """
 
-    values: list[float] = field(default_factory=lambda: [0.0, 18.0, 36.0, 54.0, 72.0, 90.0])
-    azimuth: float = 0.0
-    fov: float = 30.0
-    distance: float | None = None
+    values: list[Annotated[float, Within(0.0, 180.0)]] = field(
+        default_factory=lambda: [0.0, 18.0, 36.0, 54.0, 72.0, 90.0]
+    )
+    azimuth: Annotated[float, AZIMUTH] = 0.0
+    fov: Annotated[float, FIELD_OF_VIEW] = 30.0
+    distance: Annotated[float, DISTANCE] | None = None
 
 
 @dataclass(frozen=True)
 class DirectionChoice:
-    """`count` directions spread evenly over the sphere, turned as a whole by a random rotation that `seed` decides."""
+    """`count` directions spread evenly over the sphere, all turned by one random rotation, which `seed` decides."""
 
-    count: int = 24
-    seed: int = 1
-    fov: float = 30.0
-    distance: float | None = None
+    count: Annotated[int, Within(1, 10_000)] = 24
+    seed: Annotated[int, SEED] = 1
+    fov: Annotated[float, FIELD_OF_VIEW] = 30.0
+    distance: Annotated[float, DISTANCE] | None = None
 
 
 def by_angle(choice: AngleChoice) -> list[View]:
-    """A view for each angle, in their order."""
+    """Return a view for each angle, in their order."""
     return [
         View(f"angle {angle:g}", choice.azimuth, 90.0 - angle, choice.fov, choice.distance, set=ANGLES)
         for angle in choice.values
@@ -45,8 +49,11 @@ def by_angle(choice: AngleChoice) -> list[View]:
 
 
 def by_direction(choice: DirectionChoice) -> list[View]:
-    """A view from each direction of a turned Fibonacci lattice (Á. González, Measurement of areas on a sphere using
-    Fibonacci and latitude–longitude lattices, 2010); angles to 1/10,000 of a degree, so that configs can quote them."""
+    """Return a view from each direction of a turned Fibonacci lattice.
+
+    After Á. González, Measurement of areas on a sphere using Fibonacci and latitude–longitude lattices, 2010. Angles
+    are rounded to 1/10,000 of a degree, so that configs can quote them.
+    """
     turned = _rotation(choice.seed)
     views = []
     for i in range(choice.count):
@@ -61,7 +68,7 @@ def by_direction(choice: DirectionChoice) -> list[View]:
 
 
 def _rotation(seed: int) -> list[tuple[float, float, float]]:
-    """A rotation drawn uniformly, by a unit quaternion of four normal deviates; rows of its matrix."""
+    """Draw a rotation uniformly, by a unit quaternion of four normal deviates, and return its matrix's rows."""
     source = random.Random(f"directions {seed}")
     drawn = [source.gauss(0.0, 1.0) for _ in range(4)]
     length = math.hypot(*drawn)

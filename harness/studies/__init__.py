@@ -1,9 +1,9 @@
-"""Studies: computations on the host that a paper tabulates beside its pictures. No device, no rays.
+"""Runs studies: computations on the host that a paper tabulates beside its pictures. They need no device and no rays.
 
-A module here is one study: its docstring says what the paper states and what is computed, TITLE names it, and
+Each module here is one study. Its docstring says what the paper states and what is computed, TITLE names it, and
 `compute()` returns its rows. A config names studies in `studies = [...]`; `firsthit run` stores each as
-studies/<key>.json in the run folder. The key covers the module's text and what decides a cell's row, so that an edit
-runs it again.
+studies/<key>.json in the run folder. The key covers the module's text and what decides a cell's row, so that a study
+runs again after an edit.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ import importlib
 import json
 import time
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol, cast
 
 from harness.contract import digest
 from harness.results import sources
@@ -21,12 +21,22 @@ from harness.results.store import FORMAT, write_atomically
 NAMES = ("condition_numbers", "extrema_bounds", "form_ranges", "mesh_errors", "torus_along_rays")
 
 
-def _module(name: str) -> Any:
-    return importlib.import_module(f"harness.studies.{name}")
+class Study(Protocol):
+    """What a module of this folder holds."""
+
+    TITLE: str
+
+    def compute(self) -> list[dict[str, Any]]:
+        """Return the study's rows, which are JSON."""
+        ...
+
+
+def _module(name: str) -> Study:
+    return cast(Study, importlib.import_module(f"harness.studies.{name}"))
 
 
 def key(name: str) -> str:
-    """What decides a study's rows: its own text, the harness that it computes with, and the packages."""
+    """Return a hash of what decides a study's rows: its own text, the harness that it computes with, and packages."""
     from harness.scenes import meshes
 
     own = sources.hashes("harness/studies/__init__.py", f"harness/studies/{name}.py")
@@ -34,7 +44,7 @@ def key(name: str) -> str:
 
 
 def is_done(name: str, folder: Path) -> bool:
-    """Whether the run `folder` holds this study as it stands."""
+    """Return whether the run `folder` holds this study's rows as its text now makes them."""
     try:
         stored = json.loads(_path(name, folder).read_text(encoding="utf-8"))
     except (OSError, ValueError):
@@ -43,7 +53,7 @@ def is_done(name: str, folder: Path) -> bool:
 
 
 def run(name: str, folder: Path) -> dict[str, Any]:
-    """Compute a study and store it in the run `folder`; what was stored."""
+    """Compute a study, store it in the run `folder`, and return what was stored."""
     start = time.perf_counter()
     module = _module(name)
     document = {

@@ -1,9 +1,10 @@
-"""How far bounds of a random Bézier function's extrema are from the extrema (szente, section 3 and Table 2).
+"""Computes how far bounds of a random Bézier function's extrema are from the extrema (szente, section 3 and Table 2).
 
-The paper: "curves with random coefficients in [0, 1], averaging the statistics over 100 curves", errors "normalised by
-the magnitude of the extremum". That recipe does not give its figures: the LU bound is exact at degree 2, where the
-paper prints 28.54 %. So further readings are computed beside it. Extrema are the least and largest of SAMPLES values
-and of the parabola through the three around each, which is off by some 1e-6 of the function's range.
+The paper describes "curves with random coefficients in [0, 1], averaging the statistics over 100 curves" and errors
+"normalised by the magnitude of the extremum". That recipe does not give its figures: the LU bound is exact at degree 2,
+where the paper prints 28.54 %. Other readings are therefore computed as well. The extrema are the least and the largest
+of SAMPLES values, and of the parabolas through each three neighbours. Their error is about 1e-6 of the function's
+range.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,7 +34,7 @@ class Reading:
     words: str
     draw: Callable[[np.random.Generator, int], Curve]
     over: Literal["extremum", "range", "largest"] = "extremum"
-    slip: bool = False  # Equation 8 with exponent 1/n, as the authors' published code has it
+    slip: bool = False  # whether Equation 8 has the exponent 1/n, as in the authors' published code
     kind: Literal["both", "largest magnitude"] = "both"
 
 
@@ -59,9 +60,9 @@ READINGS = (
 )
 
 
-def compute() -> list[dict[str, Any]]:
-    """One row for each reading, bound and degree: reading, bound, degree, percent."""
-    rows = []
+def compute() -> list[dict[str, str | int | float]]:
+    """Return a row for each reading, bound and degree: reading, bound, degree, percent."""
+    rows: list[dict[str, str | int | float]] = []
     for reading in READINGS:
         rng = np.random.default_rng(SEED)
         for n in DEGREES:
@@ -74,6 +75,7 @@ def compute() -> list[dict[str, Any]]:
 
 
 def _errors(b: Curve, bound: str, reading: Reading) -> list[float]:
+    """Return the relative errors of a bound for one curve, of both extrema or of the largest magnitude."""
     low, high = extrema(b)
     least, most = (b.min(), b.max())
     if bound == "LU":
@@ -86,7 +88,7 @@ def _errors(b: Curve, bound: str, reading: Reading) -> list[float]:
 
 
 def extrema(b: Curve) -> tuple[float, float]:
-    """The least and largest value on [0, 1] of the function with Bernstein coefficients b."""
+    """Return the least and the largest value on [0, 1] of the function with Bernstein coefficients b[n + 1]."""
     values = _bernstein(len(b) - 1) @ b
     before, here, after = values[:-2], values[1:-1], values[2:]
     bend = before - 2.0 * here + after
@@ -98,13 +100,13 @@ def extrema(b: Curve) -> tuple[float, float]:
 
 @cache
 def _bernstein(n: int) -> NDArray[np.float64]:
-    """[SAMPLES, n + 1]: the basis functions at equal steps over [0, 1]."""
+    """Return the basis functions of degree n at equal steps over [0, 1]: float64[SAMPLES, n + 1]."""
     t = np.linspace(0.0, 1.0, SAMPLES)
     return np.stack([math.comb(n, j) * t**j * (1.0 - t) ** (n - j) for j in range(n + 1)], axis=1)
 
 
 def lu_least(b: Curve, slip: bool = False) -> float:
-    """The least value on [0, 1] of the lower LU function (Equations 5 and 8)."""
+    """Return the least value on [0, 1] of the lower LU function (Equations 5 and 8) of b[n + 1]."""
     n, m = len(b) - 1, b.min()
     left, right = b[0] - m, b[-1] - m
     if left <= 0.0 or right <= 0.0:

@@ -1,16 +1,15 @@
-"""How far the natural interval extension of each form of a surface overestimates f's range, by the size of boxes.
+"""Measures by how much the natural interval extension of each form of a surface overestimates f's range over boxes.
 
 beamcasting, section III.A: the natural extension replaces every operation of the expression by its interval
-counterpart, so that it depends on how the expression is written. Boxes are cubes with random centres in the domain's
-box, cut by it; all forms of a surface see the same boxes. The range is that of f at POINTS^3 points of each box, its
-corners among them, which is a little less than the true one on large boxes. Extensions are in float64 without outward
-rounding, which the widths here do not see.
+counterpart, and so depends on how the expression is written. Boxes are cubes with random centres in the domain's box,
+cut by it. All forms of a surface are evaluated over the same boxes. The range is that of f at POINTS^3 points of each
+box, the corners among them; on large boxes it is slightly less than the true one. Extensions are computed in float64
+without outward rounding, which is far smaller than the widths compared here.
 """
 
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,55 +26,57 @@ POINTS = 13
 SEED = 1
 
 Ends = NDArray[np.float64]
+Interval = tuple[Ends, Ends]  # lower and upper ends, float64[n] or one number each
+Row = dict[str, str | int | float | None]
 
 
 class Intervals(Arithmetic):
-    """Natural interval extensions: pairs (lower, upper) of float64 arrays of one shape; what papers' formulas need."""
+    """Runs a tape in intervals; it has the operations that the papers' formulas need."""
 
-    def const(self, value: Fraction) -> Any:
-        return float(value), float(value)
+    def const(self, value: Fraction) -> Interval:
+        return np.asarray(float(value)), np.asarray(float(value))
 
-    def e(self) -> Any:
-        return np.e, np.e
+    def e(self) -> Interval:
+        return np.asarray(np.e), np.asarray(np.e)
 
-    def sqrt(self, a: Any) -> Any:
+    def sqrt(self, a: Interval) -> Interval:
         return np.sqrt(a[0]), np.sqrt(a[1])
 
-    def exp(self, a: Any) -> Any:
+    def exp(self, a: Interval) -> Interval:
         return np.exp(a[0]), np.exp(a[1])
 
-    def add(self, a: Any, b: Any) -> Any:
+    def add(self, a: Interval, b: Interval) -> Interval:
         return a[0] + b[0], a[1] + b[1]
 
-    def sub(self, a: Any, b: Any) -> Any:
+    def sub(self, a: Interval, b: Interval) -> Interval:
         return a[0] - b[1], a[1] - b[0]
 
-    def neg(self, a: Any) -> Any:
+    def neg(self, a: Interval) -> Interval:
         return -a[1], -a[0]
 
-    def mul(self, a: Any, b: Any) -> Any:
+    def mul(self, a: Interval, b: Interval) -> Interval:
         products = [p * q for p in a for q in b]
         return np.minimum.reduce(products), np.maximum.reduce(products)
 
-    def sqr(self, a: Any) -> Any:
+    def sqr(self, a: Interval) -> Interval:
         return self.powi(a, 2)
 
-    def powi(self, a: Any, n: int) -> Any:
+    def powi(self, a: Interval, n: int) -> Interval:
         if n % 2:
             return a[0] ** n, a[1] ** n
         least = np.maximum(np.maximum(a[0], -a[1]), 0.0)
         return least**n, np.maximum(-a[0], a[1]) ** n
 
 
-def compute() -> list[dict[str, Any]]:
-    """Make one row for each form and size of box.
+def compute() -> list[Row]:
+    """Return a row for each form and size of box.
 
     Columns: surface, form, side (of a box, over the domain's radius), factor (the mean width of the extension over that
     of the range), empty (how many boxes hold no surface) and excluded (the share of these that the extension excludes).
     """
     import surfaces
 
-    rows = []
+    rows: list[Row] = []
     for base in BASES:
         forms = [surfaces.get(name) for name in (base, *surfaces.forms_of(base))]
         for halvings in HALVINGS:
@@ -99,7 +100,7 @@ def compute() -> list[dict[str, Any]]:
 
 
 def boxes(surface: Surface, halvings: int) -> tuple[Ends, Ends]:
-    """Draw lower and upper corners, float64[BOXES, 3], of cubes whose side is the domain's radius halved so often."""
+    """Draw lower and upper corners, float64[BOXES, 3], of cubes whose side is the domain's radius / 2^halvings."""
     domain = surface.domain
     if isinstance(domain, Box):
         first, last = np.array(domain.lower), np.array(domain.upper)

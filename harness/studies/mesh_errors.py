@@ -1,29 +1,28 @@
-"""How far a polygonal torus is from the torus (toledo2007, Table 1, last columns).
+"""Computes how far a polygonal torus is from the torus (toledo2007, Table 1, last columns).
 
-The paper prints 1 - cos(π/N) of R + r: the chord of the ring. The tube has a chord too; where both add, at facet
-centres near the outer equator, (R + 2 r) (1 - cos(π/N)) are left. Both are computed, and the mesh is measured, both
-ways.
+The paper prints 1 - cos(π/N) as a share of R + r, which is the error of a polygon along the ring. The polygon around
+the tube has an error too. At the centres of facets near the outer equator both add up to (R + 2 r) (1 - cos(π/N)). Both
+formulas are computed, and the mesh's distances are measured in both directions.
 """
 
 from __future__ import annotations
 
 import math
-from typing import Any
 
 TITLE = "Errors of polygonal tori"
 SIZES = (32, 64, 128, 256, 512)
 
 
-def compute() -> list[dict[str, Any]]:
-    """One row for each N: n, ring and both (the formulas), to_surface and to_mesh (measured), all over R + r; vertices,
-    triangles and bytes of the mesh. Without pyvista, no rows."""
+def compute() -> list[dict[str, int | float]]:
+    """Return a row for each N: n; ring and both, the formulas, and to_surface and to_mesh, measured, all over R + r;
+    and the mesh's vertices, triangles and bytes. Without pyvista there are no rows."""
     import surfaces
     from harness.contract import MeshRecipe
     from harness.scenes import meshes
 
     torus = surfaces.get("torus")
     ring, tube = (float(dict(torus.parameters)[name]) for name in ("R", "r"))
-    rows = []
+    rows: list[dict[str, int | float]] = []
     for n in SIZES if meshes.missing() is None else ():
         made = meshes.mesh(torus, MeshRecipe("parametric", n))
         to_surface, to_mesh = meshes.geometric_error(torus, made)

@@ -1,8 +1,9 @@
-"""The torus's quartic T along rays, and what toledo2007 says of it (section 4.2, equations 2 and 3, Figure 3).
+"""Computes the torus's quartic T along rays, and tests what toledo2007 says of it (section 4.2, equations 2 and 3).
 
-The paper prints T's coefficients, says that T has "at most two local maximum and at most one local minimum", and parts
-a ray at t_M = -(o·v), the mean of the roots of T'. Here: one ray for each shape of T that Figure 3 draws and for those
-next to them, and SAMPLED random rays on which all three are counted. Equation 2 is held against the catalog's formula.
+The paper prints T's coefficients, says that T has "at most two local maximum and at most one local minimum", and splits
+a ray at t_M = -(o·v), the mean of the roots of T'. Here, one ray is computed for each shape of T that Figure 3 draws
+and for some like them. On SAMPLED random rays all three statements are tested; equation 2 is compared with the
+catalog's formula.
 """
 
 from __future__ import annotations
@@ -17,13 +18,13 @@ TITLE = "The torus's quartic along rays"
 RING, TUBE = 0.7, 0.3
 SAMPLED = 20_000
 SEED = 1
-REAL = 1e-6  # a root of a polynomial with a smaller imaginary part is real, or two of them are one
+REAL = 1e-6  # a root with a smaller imaginary part is real; double roots are found to its square root
 
 Vector = NDArray[np.float64]
 
 
 def _touching() -> tuple[Vector, Vector]:
-    """The ray in the plane y = 0 that touches the tube's one circle and passes through the middle of the other."""
+    """Return the ray in the plane y = 0 that touches one of the tube's circles and passes the centre of the other."""
     slope = TUBE / math.sqrt(4.0 * RING**2 - TUBE**2)
     return np.array([RING, 0.0, 0.0]), np.array([1.0, 0.0, -slope])
 
@@ -53,7 +54,7 @@ def quartic(o: Vector, v: Vector) -> Vector:
 
 
 def compute() -> list[dict[str, Any]]:
-    """Make a row for each case, and a last one for the sampled rays.
+    """Return a row for each case, and a last row for the sampled rays.
 
     A case has case, coefficients, t_m, roots, extremes and bends (T'' = 0), t ascending. The sampled rays have rays,
     minima and maxima (the most of one ray), mean_error (the largest |t_M - mean of T''s roots|) and equation_error (the
@@ -77,13 +78,14 @@ def compute() -> list[dict[str, Any]]:
 
 
 def _real(coefficients: Vector) -> list[float]:
-    """The real roots, ascending, each once."""
+    """Return a polynomial's real roots, ascending, each once."""
     found = np.roots(coefficients)
     real = np.sort(found.real[np.abs(found.imag) < math.sqrt(REAL)])
     return [float(t) for i, t in enumerate(real) if i == 0 or t - real[i - 1] > math.sqrt(REAL)]
 
 
 def _sampled() -> dict[str, Any]:
+    """Return the row of the sampled rays."""
     import surfaces
 
     rng = np.random.default_rng(SEED)

@@ -1,6 +1,8 @@
-// The nearest of all roots of f in Bernstein form (Loop and Blinn 2006): over t, or over depth as perspective makes it.
+// Finds all roots of f in closed form, from f's Bernstein form, and answers the nearest (Loop and Blinn 2006). The
+// variable is t or, where SCREEN is not 0, depth after the perspective division.
 
-// t of a root s = u / (1 - u), or the infinite t of a root that is none of the interval's.
+// Returns the t of a root s = u / (1 - u), or infinity where the root lies outside the ray's interval `stay`. `ratio`
+// is that of the depths at the ends of `whole`, or 1 for distances. `reversed`: s is the root's reciprocal.
 real root_along(real s, bool reversed, real ratio, Span whole, Span stay) {
     if (!(s > -0.5)) return REAL_INFINITY;
     real ahead = reversed ? ratio : s * ratio;
@@ -19,14 +21,15 @@ Hit first_hit(Ray ray, real t0, real t1) {
     Span stay = make_span(t0, t1);
     Span whole = make_span(t0 - WIDENING * (t1 - t0), t1 + WIDENING * (t1 - t0));
     real ratio = 1.0;
-    real middle = inner_product(difference(DOMAIN_CENTER, ray.origin), ray.direction);  // wherever the ray begins
+    real middle = inner_product(difference(DOMAIN_CENTER, ray.origin), ray.direction);  // t nearest the domain's centre
     real eye = middle - EYE * DOMAIN_RADIUS;
     if (SCREEN == 1) {
         whole = make_span(eye + NEAR * DOMAIN_RADIUS, eye + FAR * DOMAIN_RADIUS);
         ratio = NEAR / FAR;
     }
     if (SCREEN == 2) ratio = (whole.lo - eye) / (whole.hi - eye);
-    // f as a polynomial in s: about whole.lo, then its length as the unit, then homogeneous in (u, 1 - u)
+    // f as a polynomial in s, in three steps: expand about whole.lo, scale by its length, make homogeneous in (u, 1 -
+    // u)
     real a[5];
     for (int i = 0; i < 5; i++) a[i] = 0.0;
     for (int i = 0; i <= SURFACE_DEGREE; i++) a[i] = c[i];

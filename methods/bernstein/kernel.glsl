@@ -1,10 +1,11 @@
-// The first root of f along the ray: the fit's Bernstein form, halved from the near end on, where signs of coefficients
-// count only outside their error bounds. f is taken as positive at the near end: `sign` makes it so.
+// Finds the first root of f along the ray: fits f in Bernstein form and halves it from the near end on. The sign of a
+// coefficient counts only if its magnitude exceeds its error bound. The factor `sign` makes f positive at the near end.
 #define N SURFACE_DEGREE
 #define SHELLS 16  // sizes of the tables VALUE_ERRORS and GROWTH
 #define DEPTHS 6
 
-// Of a piece's coefficients: the least, and the largest of those after the first that is not certainly positive.
+// The least coefficient of a piece, and the largest of those behind the first coefficient that is not certainly
+// positive.
 STRUCT(Signs) struct Signs { real least; real after; };
 
 Signs signs_of(IN real c[COEFFICIENTS], real error) {
@@ -24,8 +25,8 @@ real largest(IN real c[COEFFICIENTS]) {
     return size;
 }
 
-// De Casteljau's algorithm in the middle: `near` gets the near half's coefficients, `far` what it was and then the far
-// half's.
+// Halves a piece by de Casteljau's algorithm. `far` holds the piece's coefficients, and then those of its far half;
+// `near` receives those of its near half.
 void halve(INOUT real far[COEFFICIENTS], OUT real near[COEFFICIENTS]) {
     real share = 1.0;
     near[0] = far[0];
@@ -40,7 +41,8 @@ void halve(INOUT real far[COEFFICIENTS], OUT real near[COEFFICIENTS]) {
     }
 }
 
-// About where b has its least minimum inside (0, 1), from where its derivative's control polygon rises through zero.
+// Estimates where b has its least minimum inside (0, 1): there the control polygon of its derivative rises through
+// zero. Returns 0.5 where it does so nowhere.
 real lowest_place(IN real b[COEFFICIENTS]) {
     real place = 0.5;
     real lowest = REAL_INFINITY;
@@ -55,15 +57,16 @@ real lowest_place(IN real b[COEFFICIENTS]) {
     return place;
 }
 
-// Bounds of a piece's errors: what samples are off by; the fit's and the halvings' roundings. `most` is 1 where an open
-// run of coefficients may be taken for one change of sign, and -1 where not.
+// Error bounds of a piece: `off` of a sample, `noise` of the fit's own rounding, `unit` of one halving's rounding per
+// degree. `most` is 1 where coefficients within their bound may be part of a change of sign, and -1 where not.
 STRUCT(Errors) struct Errors { real off; real noise; real unit; real most; };
 
 real error_at(Errors errors, int depth) {
     return GROWTH[min(depth, DEPTHS)] * errors.off + errors.noise + real(N * (depth + 1)) * errors.unit;
 }
 
-// A piece of the fitted interval: the digits of `path` after its first lead to it from the whole; `pieces` are as long.
+// A piece of the fitted interval, one of `pieces` pieces of the same length. The binary digits of `path` after its
+// first lead to it from the whole: 0 for a near half, 1 for a far half. `empty`: no root. `single`: one root.
 STRUCT(Piece) struct Piece { int path; int pieces; bool empty; bool single; };
 
 Piece judged(Piece piece, IN real c[COEFFICIENTS], real error, real most) {
@@ -74,7 +77,7 @@ Piece judged(Piece piece, IN real c[COEFFICIENTS], real error, real most) {
     return result;
 }
 
-// Halves the piece, and the first half of it that may hold a root, until that is none or has one.
+// Halves the piece again and again, and keeps the first half that may hold a root, until it is empty or has one root.
 Piece descended(Piece start, INOUT real c[COEFFICIENTS], Errors errors) {
     real far[COEFFICIENTS];
     Piece piece = start;
@@ -97,21 +100,21 @@ Piece descended(Piece start, INOUT real c[COEFFICIENTS], Errors errors) {
 Hit first_hit(Ray ray, real t0, real t1) {
     Hit hit = no_hit(t1);
     real shortest = 64.0 * UNIT_ROUNDOFF * max(fabs(t0), fabs(t1));
-    vec3 from_center = difference(ray.origin, DOMAIN_CENTER);  // at t, squared: near + (drift + t) t
+    vec3 from_center = difference(ray.origin, DOMAIN_CENTER);  // its square at t: near + (drift + t) t
     real near = inner_product(from_center, from_center);
     real drift = 2.0 * inner_product(from_center, ray.direction);
     real s[COEFFICIENTS];
     real b[COEFFICIENTS];
     real c[COEFFICIENTS];
     real sign = 1.0;
-    real start = t0;  // [start, end]: what is fitted; before `start` there is no root
+    real start = t0;  // the fitted interval is [start, end]; there is no root before `start`
     real end = t1;
-    real base = t0;   // c belongs to t = base + size u for u in [0, 1]; there f is positive at u = a,
-    real size = 0.0;  // and negative at u = z, where the search ends by a hit
+    real base = t0;   // c is f on t = base + size u, u in [0, 1]; in the end f is positive at u = a
+    real size = 0.0;  // and negative at u = z, if there is a hit
     real a = 0.0;
     real z = 1.0;
     real fz = 0.0;
-    bool again = false;  // the piece was open before, and is fitted anew
+    bool again = false;  // whether an open piece is being fitted anew
     while (start < t1) {
         real reach = end - start;
         for (int i = 0; i <= N; i++) s[i] = surface_value(ray_point(ray, start + reach * NODES[i]));
@@ -121,7 +124,7 @@ Hit first_hit(Ray ray, real t0, real t1) {
         fit(s, true, N >= COMPENSATED, b);
         for (int j = 0; j <= N; j++) c[j] = b[j];
 
-        // what a sample may be off by, and the fit's and the halvings' own roundings
+        // error bounds: of a sample (off), of a halving (unit), of the fit (noise)
         real away = sqrt(near + max((drift + start) * start, (drift + end) * end));
         real off = TRUST * UNIT_ROUNDOFF * VALUE_ERRORS[min(int(away * (real(SHELLS) / DOMAIN_RADIUS)), SHELLS - 1)];
         real unit = TRUST * UNIT_ROUNDOFF * largest(b);
@@ -129,7 +132,7 @@ Hit first_hit(Ray ray, real t0, real t1) {
         for (int i = 0; i <= N; i++) weighted += COLUMNS[i] * fabs(s[i]);
         real noise = 2.0 * TRUST * UNIT_ROUNDOFF * (N >= COMPENSATED ? 2.0 * largest(b) : real(N / 2 + 6) * weighted);
 
-        real above = 0.0;  // of the first sample that is negative, the one before it
+        real above = 0.0;  // node of the sample before the first negative one
         real under = 1.0;
         real f_under = 0.0;
         for (int i = N; i > 0; i--) {
@@ -149,7 +152,7 @@ Hit first_hit(Ray ray, real t0, real t1) {
         piece.path = 1;
         piece.pieces = 1;
         piece = judged(piece, c, error_at(errors, 0), errors.most);
-        // as many changes in the coefficients as in the samples: each root is between two samples
+        // if coefficients and samples change sign equally often, each root lies between two samples
         real certain = error_at(errors, 0);
         int more = N <= COUNTED ? 0 : 1;
         if (N <= COUNTED) {
@@ -160,7 +163,7 @@ Hit first_hit(Ray ray, real t0, real t1) {
             }
         }
         bool counted = more == 0 && certain == error_at(errors, 0);
-        // what is all noise is decided by f itself, at the samples and where the fit has its minimum
+        // a piece that is all noise is decided by f itself, at the samples and at the fit's minimum
         bool settled = unit <= NOISE * TRUST * UNIT_ROUNDOFF * (GROWTH[DEPTHS] * off + noise);
         settled = settled || reach <= shortest || hit.evaluations > FITS * (N + 1);
         if (settled && !counted && f_under >= 0.0) {
@@ -179,7 +182,7 @@ Hit first_hit(Ray ray, real t0, real t1) {
         bool single = piece.single && !settled;
         real width = reach / real(piece.pieces);
         real x = start + width * real(piece.path - piece.pieces);
-        bool before = s[0] < 0.0;  // a root was passed before the piece
+        bool before = s[0] < 0.0;  // a root lies in front of `start`
         again = !before && !single && !empty && !settled;
         if (single && !before) {
             base = x;
@@ -205,7 +208,7 @@ Hit first_hit(Ray ray, real t0, real t1) {
     if (fz >= 0.0 && hit.evaluations >= MAX_EVALUATIONS) return exhausted(hit, base);
     if (fz >= 0.0) return hit;
 
-    // Newton's method within the bracket, with f's own value and the fit's slope
+    // Newton's method, kept within the bracket, with f's own value and the fit's slope
     for (int j = 0; j <= N; j++) c[j] = BINOMIALS[j] * c[j];
     real fa = sign * surface_value(ray_point(ray, base + size * a));
     hit.evaluations += 1;
@@ -218,7 +221,7 @@ Hit first_hit(Ray ray, real t0, real t1) {
         hit.evaluations += 1;
         bracket = newton_step(bracket, f, false);
     }
-    // a last step with the mean of f about there, in which its roundings cancel
+    // one last Newton step with the mean of f over points around t, in which rounding errors cancel
     real t = base + size * bracket.x;
     real sum = 0.0;
     for (int k = 1; k <= PAIRS; k++) {

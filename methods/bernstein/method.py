@@ -1,80 +1,134 @@
-"""First-root isolation in Bernstein form, trusted as far as its error bound reaches and no further.
+"""First-root isolation in Bernstein form, which trusts a sign only where it exceeds a bound of the rounding errors.
 
-**Source** firsthit's own. Its parts: the fit of szente, section 2.1; Descartes' rule of signs in the Bernstein basis
-and de Casteljau's algorithm (Lane, Riesenfeld 1981); running error analysis (Higham 2002, section 3.3); the path of a
-halving in one integer instead of a stack, as in beamcasting.
+The kernel fits f along the ray by a polynomial in Bernstein form, and halves the ray's interval in the domain from the
+near end on. It drops pieces whose coefficients prove that they hold no root. In the first piece with exactly one root,
+Newton's method with f's own values finds that root.
 
-**Theory** Along the ray f is a polynomial; on a piece of it f has at most as many roots as the piece's Bernstein
-coefficients have changes of sign, and as many but for an even number. A piece without a change has no root, and one
-with a single change has one. So the ray's stay is fitted and halved from the near end, depth first, without a stack:
-the path of a piece is one integer. Pieces without a change are left out, and the first one with a single change, whose
-far end f itself confirms, holds the first root. Where the fit's coefficients change sign as often as its samples,
-every root is between two of these, and nothing is halved.
+**Source** firsthit's own. It is made of these parts: the fit of szente, section 2.1; Descartes' rule of signs in the
+Bernstein basis and de Casteljau's algorithm (Lane, Riesenfeld 1981); running error analysis (Higham 2002, section 3.3);
+one integer that holds the path of a halving, in place of a stack, as in beamcasting, section III.E.
 
-A sign counts only outside an error bound, TRUST of the worst case of: what f's own roundings may be in the samples
-(harness/kernels/rounding.py), times what a piece's size makes of them (GROWTH: it falls from the inverse's norm to
-Lebesgue's constant); the fit's roundings, from the samples that they come from; and those of each halving.
-Coefficients inside the bound leave a piece open. After TRUSTED halvings, what is open or has several changes is
-sampled and fitted anew, so that errors are those of its own surroundings, not of the far ends of the ray, where f is a
-thousand times larger. What is noise even then, or the shortest piece, or beyond the FITS-th fit, f's signs decide: at
-the samples, and where the fit has its minimum.
+**Theory** Along the ray f is a polynomial. On a piece of the ray the number of its roots is at most the number of sign
+changes in the piece's Bernstein coefficients, and differs from it by an even number. So a piece without a change has no
+root, and a piece with one change has exactly one. The fit on the ray's interval is halved from the near end, depth
+first. No stack is needed, since one integer holds the path to a piece. Pieces without a change are dropped. The first
+piece with one change holds the first root, once f itself confirms the sign at its far end. If the coefficients of a fit
+change sign as often as its samples do, each root lies between two samples, and nothing is halved (COUNTED).
 
-What a root is off by is mostly what f's value there is off by, and that is another thing one float further on. So the
-last of Newton's steps takes the mean of f over PAIRS pairs of points about the root, a few roundoffs apart: the median
-error falls to two thirds, with 16 pairs to half.
+The sign of a coefficient counts only if its magnitude exceeds an error bound. The bound is the share TRUST of the worst
+case of the sum of three errors:
+- f's rounding errors in the samples (bounded by harness/kernels/rounding.py), times the factor GROWTH by which a
+  piece's coefficients amplify them. With the length of the piece GROWTH falls from the norm of the fit's inverse matrix
+  to Lebesgue's constant.
+- The rounding errors of the fit, computed from its samples.
+- The rounding errors of each halving.
 
-**What is promised** Hits are where f's computed value changes its sign, so there are false ones on drowned rays alone,
-whose |f| falls under what its roundings may be. A hit is not asked to leave that bound: on such rays as many hits are
-real, and would be lost.
-Where another answer is 2^-11 domain radii away and the first root's condition times roundoff is below 2^-8, no
-crossing is missed, no later root taken, and the error is below the tolerance and what rounding must add; tests hold
-random rays over the catalog against that, a million where asked, and ten million were. A touch is a miss, or a hit at
-the touch where rounding makes f cross: f does not change its sign there. What else can be lost lies inside the error
-bound: pairs of roots between which f does not leave its own noise. On the families of hard rays no other float32 method
-holds out longer. In float64 the default TOLERANCE ends Newton's steps too soon among roots that lie close together, and
-six families break it a rung or two before others; with 2^-30 it is right on all 14,727 rays that float64 can decide.
+A piece stays open as long as signs that decide about it are not certain. After TRUSTED halvings, a piece that is open
+or has several changes of sign is sampled and fitted anew. The errors are then those of the piece's own surroundings,
+not those of the far ends of the ray, where f is a thousand times larger. In three cases the signs of f decide instead,
+at the samples and where the fit has its minimum: where all coefficients of a new fit are below NOISE error bounds,
+where the piece is the shortest allowed, and after FITS fits.
 
-**Changes against the plan** What lies behind a piece without a root is not brought back from kept coefficients but
-fitted anew: its errors are smaller, and on a vector of rays it is cheaper, see Speed. Compensated products begin at
-degree 17 only, see there.
+The error of a refined root is mostly the error of the computed values of f near it, divided by f's slope. That error
+changes from each floating-point number t to the next like noise, so a mean over several points reduces it. The last
+Newton step therefore uses the mean of f over PAIRS pairs of points on both sides of the root, a few unit roundoffs
+apart. This reduces the median error to two thirds with 2 pairs (the default), and to half with 16 pairs.
 
-Evaluations counted are those of f.
+**What is promised** A hit is a place where the computed value of f changes its sign. So false hits occur on drowned
+rays only, on which |f| falls below the bound of its own rounding errors. The method does not require |f| to leave that
+bound: on such rays as many hits are real as false, and the real ones would be lost.
 
-**Speed** `firsthit run configs/front.toml`, float32, on calyx, Barth sextic, Endraß octic, Barth decic and 16-ball, no
-wrong ray, at 1024x1024 on two cores, in ms: on opencl:intel 8.1, 11.5, 22.8, 26.8 and 30.5, eft_yuksel 8.3, 17.3, 33.7,
-50.9 and 97.7: 1.8 times in the mean, and behind beams 2.5. On opengl:llvmpipe 40, 33, 48, 59 and 116, eft_yuksel 93,
-144, 253, 447 and 960: 5.6 times, and behind beams 6.7. The 99.9th percentile of the error is no larger behind beams
-(6.5e-6 of the radius against 7.3e-6 on the octic); without, it is 7.9e-6 there and smaller elsewhere. Where both have
-beams: 1.8 and 5.2 times. What keeps it from more on opencl:intel is a vector of rays that waits for the one that is
-fitted most often: sampling, fitting and the last steps take a quarter (decic) to over a half (calyx) of the time, so
-that isolation at no cost at all would make it 5.8 times in the mean.
-On the front of speed and largest error it is there on all twelve surfaces of degree 5 and more, on both devices and at
-both sizes; of those of lower degree not on the horn torus (analytic, newton) nor, at 512x512, on the spindle torus
-(newton).
-- Refinement, tried on all: Illinois ended early where f has two scales (errors to 3e-4); ITP never did, but the
-  slowest of 16 rays took 18 evaluations; bracketed Newton steps with f's value and the fit's slope take 5: kept.
-- The mean of f: two pairs cost 1 to 10 %, 16 pairs up to 20 %, since all rays of a vector take them alike.
-- Right siblings from kept coefficients: 16-ball 34, decic 21, octic 17 ms of processor time at 512x512; fitted anew 18,
-  17, 15: kept. Intel's compiler runs both sides of a branch that rays do not share, so that the rare restriction was
-  paid for at each step.
-- New fits instead of halving, from the first crossing of the control polygon on: 0.1 to 0.8 times as fast, since only
-  halving brings GROWTH down. Deciding convex pieces by f at their minimum: fewer fits, each dearer, 0.6 to 0.9 times.
-- States in one variable, bits of coefficients in an integer, a loop for everything: not vectorised, ten times slower.
-- Compensated products: below degree 12 they gain nothing, undone by the samples' own errors. From 12 to 16 plain ones
-  take 0.7 to 0.96 times as long on five surfaces and 1.35 on the sixth, on opengl:llvmpipe 0.7. Compensated only where
-  a piece is fitted anew (szente's future work): 1.2 times as long on the 16-ball. Degree 20 takes seven times as long
-  as 18 on opencl:intel, whose compiler unrolls the halving no more.
-- TRUST 1/64: f's own errors reach 1/25 to 1/12 of their worst case at single points, and sums of them less. 1/8 gives
-  the same answers in 1.05 to 1.8 times the time. The fit's roundings count double: else 18 of two million rays of the
-  decic took a later root. Going on halving after TRUSTED where nothing is open: fewer evaluations, and slower.
-- NOISE 4 against 1: 0.9 times as long on the octic, and 16 of two million of its rays no longer run out of fits.
-- f at the fit's minimum, beside the samples, where all is noise: without it, close pairs of roots are lost at ten
-  times the distance (clustered roots, nodes, double lines). Up to 10 % slower.
-- f's sign at the far end of an open piece, instead of a new fit: loses pairs of roots by the hundred.
-- Blocks of 4 by 4 pixels for the 16 rays of a vector: 0.87 to 0.97 times as long here from degree 5 on, but 1.26 for
-  newton on the torus: the harness keeps rows.
-- A prepass that hands each tile of 16 by 16 pixels the very depths of its hits, at no cost: 1.1 to 1.9 times, so that
-  affine arithmetic in the beams (beamcasting's future work) could gain no more than that, and was not tried.
+The promise is about rays with two properties: any other answer is at least 2^-11 domain radii away (Truth.margin), and
+the first root's condition number times the unit roundoff is at most 2^-8. On these rays no crossing is missed, no later
+root is taken, and the error is below the tolerance plus what rounding must add. Tests check this on random rays over
+the catalog, on a million where asked; ten million have been checked.
+
+A touch is answered as a miss, since f does not change its sign there, or as a hit at the touch where rounding makes f
+cross. Other roots can be lost only inside the error bound: pairs of roots between which |f| stays below its own noise.
+
+On the families of hard rays (configs/stability.toml: rays that become harder from rung to rung) no other float32 method
+holds out longer. In float64 the default TOLERANCE stops Newton's steps too early among roots that lie close together,
+and six families break the method one or two rungs before others break. With TOLERANCE = 2^-30 it is right on all 14,727
+rays that float64 can decide.
+
+**Changes against the paper** There is no paper of the whole. Against the parts it is made of:
+- When a piece without a root has been passed, the coefficients of what lies behind it are not restored from
+  coefficients that de Casteljau's algorithm left, but fitted anew. Their errors are smaller, and a vector of rays needs
+  less time.
+- szente's products are compensated at every degree. Here they are from degree 17 on only (COMPENSATED).
+
+**Evaluations counted** Evaluations of f.
+
+**Speed** Time of a frame in ms: `firsthit run configs/front.toml`, float32, 1024x1024, on two cores. No ray is wrong.
+
+    device           method      calyx  Barth sextic  Endraß octic  Barth decic  16-ball
+    ---------------  ----------  -----  ------------  ------------  -----------  -------
+    opencl:intel     bernstein   8.1    11.5          22.8          26.8         30.5
+    opencl:intel     eft_yuksel  8.3    17.3          33.7          50.9         97.7
+    opengl:llvmpipe  bernstein   40     33            48            59           116
+    opengl:llvmpipe  eft_yuksel  93     144           253           447          960
+
+How many times as fast as eft_yuksel in the mean of the five: 1.8 on opencl:intel and 5.6 on opengl:llvmpipe; with a
+prepass of beams before bernstein alone 2.5 and 6.7; with beams before both 1.8 and 5.2. Behind beams the 99.9th
+percentile of its error is no larger than eft_yuksel's on any of the five (on the octic 6.5e-6 of the radius against
+7.3e-6). Without beams it is 7.9e-6 on the octic, and smaller than eft_yuksel's elsewhere.
+
+On opencl:intel the rays that run together as lanes of one vector wait for the one among them that is fitted most often.
+Sampling, fitting and the last steps take from a quarter (decic) to over a half (calyx) of the time. So if isolation
+cost nothing, the factor over eft_yuksel would be 5.8 in the mean.
+
+The method is on the front of speed and largest error (no other method is better in both) on all twelve surfaces of
+degree 5 and more, on both devices and at both sizes. Of the surfaces of lower degree it is on the front of all but the
+horn torus (analytic and newton are there) and, at 512x512, the spindle torus (newton is there).
+
+**What was tried** Times over those of the default, float32, unless a row says otherwise. Above 1 is slower.
+
+    what was tried                                          measured                                            kept
+    ------------------------------------------------------  --------------------------------------------------  ----
+    refinement by bracketed Newton steps with f's value     takes 5 evaluations                                 yes
+      and the fit's slope (this and the next two rows: on
+      all surfaces)
+    refinement by Illinois' method                          ends too early where f has two scales: errors up    no
+                                                            to 3e-4
+    refinement by ITP                                       never ends too early; the slowest of 16 rays takes  no
+                                                            18 evaluations
+    the mean of f over pairs of points                      2 pairs cost 1 to 10 %, 16 pairs up to 20 %, since  yes
+                                                            all rays of a vector take them together
+    coefficients of the far half kept, and restored after   processor time at 512x512: 34 ms (16-ball), 21 ms   no
+      the near half, in place of a new fit                  (decic) and 17 ms (octic), against
+                                                            18, 17 and 15 ms with new fits. Intel's compiler
+                                                            runs both sides of a branch on which rays differ,
+                                                            so each step pays for a rare restoring
+    new fits in place of halving, from the first crossing   0.1 to 0.8 times as fast: only halving brings       no
+      of the control polygon on                             GROWTH down
+    convex pieces decided by f at their minimum             0.6 to 0.9 times as fast: fewer fits, each dearer   no
+    states in one variable, bits of coefficients in an      not vectorised, ten times slower                    no
+      integer, one loop for everything
+    compensated products below degree 12                    gain nothing: the samples' own errors undo them     no
+    plain products from degree 12 to 16, over compensated   0.7 to 0.96 times the time on five surfaces, 1.35   yes
+                                                            on the sixth; 0.7 on opengl:llvmpipe
+    compensated products only where a piece is fitted anew  1.2 times the time on the 16-ball                   no
+      (szente's future work)
+    degree 20                                               seven times the time of degree 18 on opencl:intel,  -
+                                                            whose compiler no longer unrolls the halving
+    TRUST = 1/64                                            at single points f's own errors reach 1/25 to 1/12  yes
+                                                            of their worst case; sums of them reach less
+    TRUST = 1/8                                             the same answers in 1.05 to 1.8 times the time      no
+    the fit's rounding errors counted double                counted once, 18 of two million rays of the decic   yes
+                                                            took a later root
+    halving beyond TRUSTED where nothing is open            fewer evaluations, and slower                       no
+    NOISE = 4, over NOISE = 1                               0.9 times the time on the octic; 16 of two million  yes
+                                                            of its rays no longer run out of fits
+    f at the fit's minimum, beside the samples, where all   without it, close pairs of roots are lost at ten    yes
+      is noise                                              times the distance (clustered roots, nodes, double
+                                                            lines); up to 10 % slower
+    f's sign at the far end of an open piece, in place of   loses pairs of roots by the hundred                 no
+      a new fit
+    the 16 rays of a vector from 4 by 4 pixels              0.87 to 0.97 times the time from degree 5 on, but   no
+                                                            1.26 for newton on the torus
+    an ideal prepass: each tile of 16 by 16 pixels is       1.1 to 1.9 times as fast. So affine arithmetic in   no
+      given the exact depths of its hits at no cost         the beams (beamcasting's future work) could gain
+                                                            no more, and was not tried
 """
 
 from collections.abc import Mapping
@@ -83,9 +137,9 @@ from math import comb
 from harness.contract import Method, Parameter, Precision, Surface
 
 MAX_DEGREE = 20
-SHELLS = 16  # balls with a bound of f's roundings of their own
-DEPTHS = 6  # halvings whose growth of errors is tabulated; it falls no further
-COORDINATES = 6.0  # unit roundoffs of a point's distance from the centre by which its coordinates may be off
+SHELLS = 16  # balls about the domain's centre, each with its own bound of f's rounding errors
+DEPTHS = 6  # halvings for which the tables say how errors grow; further ones change nothing
+COORDINATES = 6.0  # error of a point's coordinates, in unit roundoffs of its distance from the centre
 
 
 def _tables(surface: Surface, _knobs: Mapping[str, float | int], precision: Precision) -> dict[str, list[float]]:
@@ -119,7 +173,7 @@ METHOD = Method(
         Parameter(
             "TOLERANCE",
             2.0**-18,
-            "last step of the refinement, over the ray's length in the domain",
+            "last Newton step of the refinement, over the ray's length in the domain",
             finer="down",
             sweep=(2.0**-8, 2.0**-12, 2.0**-22),
             per="2.0 * DOMAIN_RADIUS",
@@ -127,18 +181,34 @@ METHOD = Method(
         Parameter(
             "PAIRS",
             2,
-            "pairs of samples beside the root, over which the last step takes f's mean; 0: none",
+            "pairs of samples around the root, over which the last Newton step takes the mean of f; 0: no such step",
             sweep=(0, 16),
         ),
-        Parameter("APART", 4.0, "distance of these samples, unit roundoffs of the ray's length in the domain"),
-        Parameter("COUNTED", 5, "degree up to which changes of sign of coefficients and samples are compared"),
-        Parameter("COMPENSATED", 17, "degree from which on the fit is compensated; below, plain products and sums"),
-        Parameter("TRUST", 0.015625, "share of the worst case up to which errors are reckoned with"),
-        Parameter("TRUSTED", 4, "halvings after which an open piece is fitted anew"),
-        Parameter("NOISE", 4.0, "a fitted piece under this many errors is decided by f's signs at the samples"),
-        Parameter("WIDENING", 8.0, "how much longer the piece after one that was fitted anew is"),
-        Parameter("FITS", 64, "fits of one ray after which f's signs at the samples decide what is open"),
-        Parameter("MAX_EVALUATIONS", 4096, "evaluations spent on one ray"),
+        Parameter(
+            "APART",
+            4.0,
+            "distance between neighbouring samples of PAIRS, in unit roundoffs of the ray's length in the domain",
+        ),
+        Parameter(
+            "COUNTED",
+            5,
+            "highest degree at which sign changes of coefficients and of samples are compared, to save the halving",
+        ),
+        Parameter(
+            "COMPENSATED",
+            17,
+            "lowest degree at which the fit uses compensated products and sums; below it uses plain ones",
+        ),
+        Parameter("TRUST", 0.015625, "share of the worst case of the rounding errors that counts as their bound"),
+        Parameter("TRUSTED", 4, "halvings of a fitted piece before what is still open is fitted anew"),
+        Parameter(
+            "NOISE",
+            4.0,
+            "a fitted piece whose coefficients are below this many error bounds is decided by the signs of f's samples",
+        ),
+        Parameter("WIDENING", 8.0, "length of the next piece to be fitted, over the length of the piece just decided"),
+        Parameter("FITS", 64, "fits on one ray after which the signs of f's samples decide what is open"),
+        Parameter("MAX_EVALUATIONS", 4096, "evaluations of f on one ray, after which the ray is exhausted"),
     ),
     claims=frozenset({"no_false_hit"}),
     accepts=_accepts,

@@ -1,13 +1,14 @@
-// Derivative bisection (toledo2007, 4.2) of pieces of [t0, t1], the nearest first.
+// Searches pieces of [t0, t1] by derivative bisection (toledo2007, section 4.2), the nearest piece first.
 
-// A root in [a, b], the first one where f changes sign once, or has one extreme towards 0; after the answer's evaluations.
+// Returns a root in [a, b] as a hit, else `hit` itself, with the evaluations added. The root is the first one in [a, b]
+// if f changes sign once there, or has one extreme that points towards 0.
 Hit derivative_bisection(Hit hit, Along along, real a, real b) {
     Dual fa = surface_dual_along(along, a);
     Dual fb = surface_dual_along(along, b);
     hit.evaluations += 2;
     real side = fa.value < 0.0 ? -1.0 : 1.0;
     bool crossed = side * fb.value <= 0.0;
-    // of a piece of our own split the slopes at its ends tell whether f turns in it; at t_M's they tell nothing
+    // with SPLIT 1 the slopes at a piece's ends tell whether f turns in it; with a split at t_M they tell nothing
     bool turns = SPLIT == 1 ? side * fa.derivative < 0.0 && side * fb.derivative > 0.0 : a < b;
     if (!(a <= b) || !(crossed || turns)) return hit;
     for (int i = 0; i < ITERATIONS; i++) {

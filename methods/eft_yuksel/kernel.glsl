@@ -1,9 +1,9 @@
-// The first root of f along the ray, between the critical points of its fit (szente, section 2). The fit's variable x
-// runs over [-1, 1], or over [0, 1] in the Bernstein basis; t = start + reach x.
+// Finds the first root of f along the ray between the critical points of its fit (szente, section 2). The fit's
+// variable x runs over [-1, 1], or over [0, 1] in the Bernstein basis; t = start + reach x.
 #define N SURFACE_DEGREE
 #define BERNSTEIN (BASIS == 1)
 
-// The coefficients of c's (N - degree)th derivative, up to one factor.
+// Computes the coefficients q of the (N - degree)th derivative of c, which has this degree, up to a common factor.
 void derivative(IN real c[COEFFICIENTS], int degree, OUT real q[COEFFICIENTS]) {
     if (BERNSTEIN) {
         for (int j = 0; j <= N; j++) q[j] = c[j];

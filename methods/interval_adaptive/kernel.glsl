@@ -1,16 +1,17 @@
-// Subdivide on a cell of the image's quadtree: BeamCast on its beam from where the parent's search stopped; what is not
-// empty is handed to its four quarters. BeamCast stops at pieces half as deep at each further level (ε / 2).
-// `path` is the way taken from the beam that is halved, 1: a 0 or a 1 for each half in depth chosen. What is handed
-// down is, with DESCENT 1, the parent's path, and the whole beam is halved; with DESCENT 0 the depth w where the
-// parent's piece begins, in DEPTH_STEPS, and [w, far] is halved anew.
-#define DEPTH_STEPS 8388608.0  // 2^23: float32 holds each; 1 is the whole beam's beginning
+// Subdivide on a cell of the image's quadtree (beamcasting, section III.C): runs BeamCast on the cell's beam from where
+// the parent's search stopped. A cell that is not empty is handed to its four quarters. BeamCast stops at pieces that
+// are half as deep at each further level (ε / 2). `path` is the way from the halved beam, which is 1, to a piece: a
+// further binary digit for each halving in depth, 0 for the near half and 1 for the far half. With DESCENT 1 a cell
+// hands down its path, and the whole beam is halved. With DESCENT 0 it hands down the depth w at which its piece
+// begins, in steps of 1 / DEPTH_STEPS of the whole depth, and [w, far] is halved anew.
+#define DEPTH_STEPS 8388608.0  // 2^23, so that float32 holds each step; step 1 is where the whole beam begins
 
 void cast_cell(Work work, Cell cell) {
     Beam beam = cell_beam(work, cell);
     Hit hit = no_hit(beam.far);
     int deepest = cell.level + BISECTIONS;
     real whole = beam.far - beam.near;
-    real epsilon = 1.4140625 * whole / real(1 << deepest);  // near the square root of 2: see method.py
+    real epsilon = 1.4140625 * whole / real(1 << deepest);  // just below the square root of 2, see method.py
     int depth = cell.path == 1 || DESCENT == 0 ? 0 : deepest - 1;
     int path = DESCENT == 0 ? 1 : cell.path;
     if (DESCENT == 0) beam.near = beam.near + whole * (real(cell.path - 1) / DEPTH_STEPS);

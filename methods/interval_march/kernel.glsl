@@ -1,4 +1,5 @@
-// First piece [t, t + width] in [t0, t1] that f's interval extension cannot keep from zero; bisection, nearest first.
+// Finds the first piece [t, t + width] in [t0, t1] over which f's interval extension contains 0 and that is short
+// enough, by bisection, nearest half first (beamcasting, section III).
 Hit first_hit(Ray ray, real t0, real t1) {
     Hit hit = no_hit(t1);
     real smallest = TOLERANCE * DOMAIN_RADIUS;

@@ -1,5 +1,6 @@
-// BeamCast on a pixel's beam: the first piece in depth that f's range over its box cannot keep from zero.
-// Bisection, nearest half first. `path` is the way taken from the whole beam, 1: a 0 or a 1 for each half chosen.
+// BeamCast on a pixel's beam (beamcasting, section III.B): finds the first piece in depth over whose box f's range
+// contains 0, by bisection, nearest half first. `path` is the way from the whole beam, which is 1, to a piece: a
+// further binary digit for each halving, 0 for the near half and 1 for the far half.
 void cast_cell(Work work, Cell cell) {
     Beam beam = cell_beam(work, cell);
     Hit hit = no_hit(beam.far);

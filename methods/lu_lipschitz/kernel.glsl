@@ -1,9 +1,11 @@
-// Steps of |f| over a bound of how steeply f nears zero, along the ray as x in [0, 1]; szente, section 3.
+// Marches along the ray, as x in [0, 1], by steps of |f| over a bound of the slope with which f falls towards zero
+// (szente, section 3).
 #define N SURFACE_DEGREE
 #define SHELLS 16  // sizes of the tables VALUE_ERRORS and SLOPE_GROWTH
 #define DEPTHS 6
 
-// Coefficients on [x, x + width] of the polynomial with coefficients d on [0, 1]: de Casteljau's algorithm, twice.
+// Computes the coefficients e on [x, x + width] of the polynomial that has the coefficients d on [0, 1], by two runs of
+// de Casteljau's algorithm.
 void restrict_to(real x, real width, IN real d[COEFFICIENTS], int degree, OUT real e[COEFFICIENTS]) {
     for (int j = 0; j <= degree; j++) e[j] = d[j];
     for (int r = 1; r <= degree; r++) {
@@ -12,7 +14,7 @@ void restrict_to(real x, real width, IN real d[COEFFICIENTS], int degree, OUT re
     real share = width / (1.0 - x);
     for (int r = 1; r <= degree; r++) {
         for (int j = degree; j >= r; j--) {
-            real before = e[j - 1];  // named once: reading e[j - 1] twice here is miscompiled by Mesa 22.3
+            real before = e[j - 1];  // read only once: Mesa 22.3 miscompiles this line with two reads of e[j - 1]
             e[j] = before + share * (e[j] - before);
         }
     }
@@ -29,15 +31,16 @@ LowerCurve bound_of_negative(IN real b[COEFFICIENTS], int degree) {
     return bound_of(negative, degree);
 }
 
-// A bound of the polynomial's least value: on [0, 1], or (LOCAL 2) on [a, b], where a curve whose lowest point lies
-// outside is lowest at the nearer end. Where TRUST is 0 the curve's own roundings do not count.
+// Returns a lower bound of the polynomial on [0, 1] or, with LOCAL 2, on [a, b]: a curve whose lowest point lies
+// outside [a, b] is lowest at the nearer end of it. The curve's own rounding errors count unless TRUST is 0.
 real least_value(LowerCurve curve, real a, real b, int degree) {
     real lowest_at = LOCAL == 2 ? clamp(curve.lowest_at, a, b) : curve.lowest_at;
     return curve_value(curve, lowest_at, degree) - (TRUST > 0.0 ? curve_error(curve, degree) : real(0));
 }
 
-// A bound of how steeply a polynomial falls there, or (SIDES 2) falls or rises. The curves are nowhere above its
-// derivative, of this degree, and the derivative's negative.
+// Returns an upper bound of the slope with which f falls on the same interval or, with SIDES 2, falls or rises.
+// `falling` is nowhere above f's derivative, `rising` nowhere above the derivative's negative. `degree` is the
+// derivative's.
 real steepest_slope(LowerCurve falling, LowerCurve rising, real a, real b, int degree) {
     real slope = -least_value(falling, a, b, degree);
     return SIDES == 2 ? max(slope, -least_value(rising, a, b, degree)) : slope;
@@ -49,21 +52,22 @@ real largest(IN real b[COEFFICIENTS], int degree) {
     return size;
 }
 
-// What a value of f is off by where the distance from the domain's centre, squared, is no more than `away`: TRUST of the
-// worst case of its own roundings and those of the point it is taken at.
+// Bounds the error of a computed value of f at a squared distance of at most `away` from the domain's centre: TRUST of
+// the worst case of the rounding errors of f and of the point's coordinates.
 real value_error(real away) {
     int shell = min(int(sqrt(max(away, real(0))) * (real(SHELLS) / DOMAIN_RADIUS)), SHELLS - 1);
     return TRUST * UNIT_ROUNDOFF * VALUE_ERRORS[shell];
 }
 
-// What the fit's coefficients are off by where samples are off by `off` and no coefficient is larger.
+// Bounds the error of the fit's coefficients, which are at most `size`, where samples are off by at most `off`.
 real coefficient_error(real off, real size) {
     if (TRUST == 0.0) return 0.0;
     return GROWTH[0] * off + 6.0 * UNIT_ROUNDOFF * size;
 }
 
-// The same of the derivative's coefficients, none larger than `slope`, on a piece at most `window` of the ray's stay:
-// differences of what the fit rounds, and two roundings of each of restrict_to's steps.
+// Bounds the error of the derivative's coefficients, which are at most `slope`, on a piece of at most `window` of the
+// ray's interval. It holds the differences of the fit's rounding errors, and two roundings for each step of
+// restrict_to.
 real slope_error(real off, real size, real slope, real window) {
     if (TRUST == 0.0) return 0.0;
     real growth = SLOPE_GROWTH[0];
@@ -85,7 +89,7 @@ Hit first_hit(Ray ray, real t0, real t1) {
     if (MATRIX == 1) { fit(s, true, true, b); } else { fit_whole(s, true, b); }
     real sign = s[0] < 0.0 ? real(-1) : real(1);
     for (int j = 0; j <= N; j++) b[j] = sign * b[j];
-    vec3 from_center = difference(ray.origin, DOMAIN_CENTER);  // at t, squared: near + (drift + t) t
+    vec3 from_center = difference(ray.origin, DOMAIN_CENTER);  // its square at t: near + (drift + t) t
     real near = inner_product(from_center, from_center);
     real drift = 2.0 * inner_product(from_center, ray.direction);
     real off = value_error(near + max((drift + t0) * t0, (drift + t1) * t1));

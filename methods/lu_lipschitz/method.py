@@ -1,57 +1,91 @@
-"""Lipschitz tracing along the ray, by LU or control-point bounds of the fitted derivative.
+"""Lipschitz tracing along the ray by LU or control-point bounds of the fitted derivative.
 
-**Source** szente, section 3 (equations 2 and 5 to 8) and Table 5; fit as in section 2.1, in the Bernstein basis.
+The kernel fits f along the ray by a polynomial in Bernstein form, and bounds the slope of f from the coefficients of
+its derivative. It then marches from the near end. A step is |f| over that bound, so it cannot pass a root. When f has
+changed its sign, one secant step gives the hit.
 
-**Theory** Where f nears zero no faster than L, it has no root within |f| / L: a step that long misses none. L is the
-bound of the derivative's fitted polynomial, from its control points (BOUND = 0) or from the LU function, which is
-nowhere above the polynomial and whose least value is known in closed form (BOUND = 1). Where the same bound keeps f
-itself from zero, the ray is a miss at once (CULL = 1). A root is passed at last by the shortest step, TOLERANCE, and
-one secant step ends the search; two roots closer than that can be missed.
+**Source** szente, section 3 (equations 2 and 5 to 8) and Table 5; the fit of section 2.1, in the Bernstein basis.
+
+**Theory** Where f falls towards 0 by no more than L per unit of length, it has no root within |f| / L, so a step of
+this length passes none. Let f be positive at the ray's start (otherwise -f is used). Then -L is a lower bound of the
+derivative of the fitted polynomial. There are two such bounds: the least control point (equation 2, BOUND = 0), and the
+minimum of the lower LU function (equation 5, BOUND = 1). The latter is nowhere above the polynomial, and its minimum is
+known in closed form (equation 8). Where the same kind of bound keeps f itself away from 0 on the whole ray, the ray is
+a miss at once (CULL = 1). The shortest step is TOLERANCE. Such a step passes the root at last, so two roots that are
+closer to each other than TOLERANCE can be missed.
 
 **Changes against the paper**
-- LOCAL: printed, one bound for the whole ray (0). Section 3 ends with the remark that a curve whose extremum is not in
-  [a, b] has it at an end, which the paper leaves for later: LOCAL = 2 is that, on the interval of the next step. Ours
-  (1) bounds the coefficients that de Casteljau's algorithm restricts to that interval, since with LOCAL = 2 interior
-  control points still stem from the whole one. The interval is twice the last step, so that steps near a root become
-  Newton's.
-- The exponent of Equation 8's root is 1/(n - 1), and where an end is the least control point the extremum is there
-  (the published code takes 1/n, which is not a bound).
-- CULL: LU bounds cull in the paper. Whether its control points do is not said; in the setting "control point" they do
-  not.
-- SIDES: until its first root f keeps its sign, so only the slope towards zero counts; the paper takes the magnitude.
-- MATRIX: as eft_yuksel's.
-- TRUST: bounds are moved by what their coefficients may be off by (printed, 0: by nothing): f's own roundings in the
-  samples (harness/kernels/rounding.py, as bernstein has them), times what the fit makes of them on a piece as long as
-  the window (GROWTH, SLOPE_GROWTH), and the roundings of the fit and of de Casteljau's algorithm. Of f's own roundings
-  TRUST of the worst case is reckoned with: 1/16, where the largest seen on random rays is 1/26 of it.
-  tests/test_error_bounds.py holds the stated bounds against exact coefficients. The steps' own f is taken as computed,
-  so a pair of roots between which f does not leave its roundings can be passed.
-- The paper gives neither a shortest step nor how a hit is told. Here a change of sign is one, never a small |f|, so
-  that near misses do not become hits, and a secant step ends the search. Its code takes 1e-5, and steps that are 1.6
-  times as long as the bound allows; the paper prints no such factor.
-- Accepts degree 1 to 20; the paper stops at 6, where its steps run out.
+- LOCAL: the paper uses one bound for the whole ray (LOCAL = 0). Its section 3 ends with the remark that a curve whose
+  extremum lies outside [a, b] has it at an end of [a, b] on that interval; the paper leaves this for later. LOCAL = 2
+  does it, on the window of the next step. LOCAL = 1 (default) is ours: de Casteljau's algorithm restricts the
+  coefficients to that window, and these are bounded. (With LOCAL = 2 the interior control points still belong to the
+  whole ray.) The window is twice as long as the last step, so that steps near a root become Newton's.
+- The root in equation 8 has the exponent 1/(n - 1), as printed, and where the least control point is at an end the
+  extremum is there. The authors' published code takes 1/n, which gives no bound.
+- CULL: the paper culls rays by LU bounds. It does not say whether control points cull too; in the setting "control
+  point" they do not.
+- SIDES: until its first root f keeps its sign, so only the slope towards 0 counts (SIDES = 1). The paper takes the
+  larger magnitude of both slopes.
+- MATRIX: as in eft_yuksel.
+- TRUST: the bounds are moved by what their coefficients may be off by; as printed (TRUST = 0) by nothing. This has two
+  parts. The first is f's rounding errors in the samples (harness/kernels/rounding.py, as in bernstein), times what the
+  fit makes of them on a piece as long as the window (GROWTH, SLOPE_GROWTH). The second is the rounding errors of the
+  fit and of de Casteljau's algorithm. Of f's rounding errors TRUST of the worst case is counted: 1/16, where the
+  largest seen on random rays is 1/26 of it. tests/test_error_bounds.py checks the stated bounds against exact
+  coefficients. The value of f at each step is taken as computed, so a pair of roots between which |f| stays below its
+  own rounding errors can be passed.
+- The paper gives no shortest step and does not say what counts as a hit. Here a change of sign does, never a small |f|,
+  so that near misses do not become hits. A secant step then ends the search. The authors' code takes the tolerance
+  1e-5, and steps that are 1.6 times as long as the bound allows; the paper prints no such factor.
+- Degrees 1 to 20 are accepted. The paper stops at 6, where its steps run out.
 
-Evaluations counted are those of f.
+**Evaluations counted** Evaluations of f.
 
-**What true bounds cost** (float32, 30°/35°, against 8 n roundoffs of the largest coefficient, which the rounding of the
-samples exceeds on most rays of high degree.) Evaluations a ray at 96x96: torus 5.88 (5.87), Barth sextic 10.96 (10.95),
-Endraß octic 18.7 (15.3), 16-ball 24.8 (22.0); with TRUST = 1 the octic takes 600. Time on opencl:intel, both in one run
-by turns: torus 1.0, octic 1.4, 16-ball 1.3; on opengl:llvmpipe the octic 1.7, the 16-ball 1.4. In float64 nothing
-changes.
+**What true bounds cost** TRUST = 1/16 is compared with a plain allowance of 8 n unit roundoffs of the largest
+coefficient, where n is the degree. The allowance is no bound: on most rays of high degree the samples' rounding errors
+exceed it. float32, azimuth 30° and elevation 35°. Evaluations a ray are at 96x96. Times are those with TRUST over those
+with the allowance, both measured in one run by turns. With TRUST = 1 the octic takes 600 evaluations a ray. In float64
+nothing changes.
 
-**Speed** Processor time on opencl:intel, float32, 256 x 256, szente's four surfaces of Table 5 (sphere, flirt, calyx,
-Barth sextic) in the domains of configs/szente-table5.toml. As printed, LU bounds over control points: 1.05 in the mean
-(1.24, 1.00, 0.97, 1.00; the paper: 1.37), all of it from culling the sphere's misses, and 0.99 without culling. Over
-ray_march, step by step 33 (the paper: 7), in blocks 6.0 (13.7, 3.9, 5.1, 1.5). What each change of ours makes of the
-printed time: SIDES 0.85 (1.00, 0.74, 0.87, 0.78), LOCAL = 1 0.36 (0.58, 0.30, 0.43, 0.14), MATRIX 0.99, TRUST 1.00; all
-of them 0.29. LOCAL = 2, the paper's remark, takes fewer evaluations everywhere (6.6, 42, 52 and 181 a ray instead of
-17, 60, 60 and 201) but two curves' powers at each: 0.47 on the sphere, and 1.24, 1.58, 1.74. Control points with LOCAL
-= 1 and culling are faster still, since in a small window the closed form costs more than its bound gains; BOUND = 1
-stays the default, as this is the LU method. Kept: Equation 8's root by Halley's iteration that ends when it has
-converged; the language's `pow` takes 1.2 times as long in all with LOCAL = 1, and as long as printed. Rejected:
-starting where the LU function of f reaches zero (Newton's method on a convex curve: 1.2 on the sphere, within 5 %
-elsewhere, for 20 more lines); windows of 1.5, 3 or 4 times the last step (as many evaluations); bisections after the
-change of sign (4 of 12 evaluations, no better error).
+    surface        evaluations, TRUST  evaluations, allowance  time, opencl:intel  time, opengl:llvmpipe
+    -------------  ------------------  ----------------------  ------------------  ---------------------
+    torus          5.88                5.87                    1.0                 -
+    Barth sextic   10.96               10.95                   -                   -
+    Endraß octic   18.7                15.3                    1.4                 1.7
+    16-ball        24.8                22.0                    1.3                 1.4
+
+**Speed** Processor time on opencl:intel, float32, 256x256, on the four surfaces of szente's Table 5 in the domains of
+configs/szente-table5.toml. As printed, LU bounds are 1.05 times as fast as control points in the mean (the paper:
+1.37). All of this is from culling the sphere's misses: without culling it is 0.99. The printed setting is 33 times as
+fast as ray_march step by step (the paper: 7), and 6.0 times as fast as ray_march in blocks. LOCAL = 2 takes fewer
+evaluations than the printed setting on all four surfaces, but computes the powers of two curves for each of them.
+
+    ratio                                          mean  sphere  flirt  calyx  Barth sextic
+    ---------------------------------------------  ----  ------  -----  -----  ------------
+    speed of LU bounds over control points         1.05  1.24    1.00   0.97   1.00
+    speed over ray_march in blocks                 6.0   13.7    3.9    5.1    1.5
+    time with SIDES = 1, over printed              0.85  1.00    0.74   0.87   0.78
+    time with LOCAL = 1, over printed              0.36  0.58    0.30   0.43   0.14
+    time with MATRIX = 1, over printed             0.99  -       -      -      -
+    time with TRUST = 1/16, over printed           1.00  -       -      -      -
+    time with all four of these, over printed      0.29  -       -      -      -
+    time with LOCAL = 2, over printed              -     0.47    1.24   1.58   1.74
+    evaluations a ray, printed                     -     17      60     60     201
+    evaluations a ray with LOCAL = 2               -     6.6     42     52     181
+
+**What was tried** Processor time on opencl:intel, float32, 256x256, on the four surfaces of szente's Table 5.
+
+    what was tried                                          measured                                            kept
+    ------------------------------------------------------  --------------------------------------------------  ----
+    control points, with LOCAL = 1 and culling              faster still: in a small window the closed form     no
+                                                            costs more than its bound gains. LU bounds stay
+                                                            the default, as this is the LU method
+    equation 8's root by Halley's iteration that ends when  pow takes 1.2 times as long in all with LOCAL = 1;  yes
+      it has converged, over the language's pow             in the printed setting it takes as long
+    starting where the LU function of f reaches 0, by       1.2 on the sphere, within 5 % elsewhere, for 20     no
+      Newton's method on a convex curve                     more lines
+    windows of 1.5, 3 or 4 times the last step              as many evaluations                                 no
+    bisections after the change of sign                     4 of 12 evaluations, no better error                no
 """
 
 from collections.abc import Mapping
@@ -60,9 +94,9 @@ from harness.contract import Method, Parameter, Precision, Surface
 
 MAX_DEGREE = 20
 PRINTED = {"SIDES": 2, "LOCAL": 0, "TRUST": 0.0, "MATRIX": 0}
-SHELLS = 16  # balls with a bound of f's roundings of their own
-DEPTHS = 6  # halvings whose growth of errors is tabulated; it falls no further
-COORDINATES = 6.0  # unit roundoffs of a point's distance from the centre by which its coordinates may be off
+SHELLS = 16  # balls about the domain's centre, each with its own bound of f's rounding errors
+DEPTHS = 6  # halvings for which the tables say how errors grow; further ones change nothing
+COORDINATES = 6.0  # error of a point's coordinates, in unit roundoffs of its distance from the centre
 
 
 def _tables(surface: Surface, _knobs: Mapping[str, float | int], precision: Precision) -> dict[str, list[float]]:
@@ -92,13 +126,16 @@ METHOD = Method(
     needs=("surface_value",),
     libraries=("interval", "dual", "fit", "polynomial", "lu", "fit_samples", "fit_whole"),
     parameters=(
-        Parameter("BOUND", 1, "1: LU bounds, 0: control points"),
-        Parameter("SIDES", 1, "1: the slope towards zero counts, 2: the larger of both slopes' magnitudes", printed=2),
-        Parameter("CULL", 1, "1: rays whose f is bounded away from zero end at once"),
+        Parameter("BOUND", 1, "what bounds the slope and f; 1: the LU function; 0: control points"),
+        Parameter(
+            "SIDES", 1, "slope that bounds a step; 1: the one towards zero; 2: the larger magnitude of both", printed=2
+        ),
+        Parameter("CULL", 1, "1: a ray on which the bound keeps f away from zero is a miss at once; 0: it is marched"),
         Parameter(
             "LOCAL",
             1,
-            "0: one bound for the whole ray, 1: of the coefficients on the next window, 2: of the ray's curve on it",
+            "what a step is bounded by; 0: one bound for the whole ray; 1: coefficients restricted to the "
+            "next window; 2: the whole ray's curve on the next window",
             printed=0,
         ),
         Parameter(
@@ -112,11 +149,17 @@ METHOD = Method(
         Parameter(
             "TRUST",
             0.0625,
-            "share of the worst case of f's roundings that is reckoned with; 0: no roundings are, the fit's neither",
+            "share of the worst case of f's rounding errors by which bounds are moved; 0: neither these "
+            "nor the fit's count",
             printed=0.0,
         ),
-        Parameter("MATRIX", 1, "the fit's inverse matrix, 1: in symmetric halves, 0: whole", printed=0),
-        Parameter("MAX_EVALUATIONS", 10000, "evaluations spent on one ray"),
+        Parameter(
+            "MATRIX",
+            1,
+            "how the fit multiplies by its inverse matrix; 1: in two symmetric halves; 0: by the whole matrix",
+            printed=0,
+        ),
+        Parameter("MAX_EVALUATIONS", 10000, "evaluations of f on one ray, after which the ray is exhausted"),
     ),
     settings={
         "LU bound": PRINTED | {"BOUND": 1, "CULL": 1},

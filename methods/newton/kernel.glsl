@@ -1,4 +1,5 @@
-// Newton-Raphson on f along the ray from the bounding sphere's near side; no step longer than λ (toledo2007, 4.4).
+// Takes Newton steps on f along the ray, none longer than λ, from the near side of the bounding sphere (toledo2007,
+// section 4.4).
 Hit first_hit(Ray ray, real t0, real t1) {
     Hit hit = no_hit(t1);
     real t = t0;
@@ -27,7 +28,8 @@ Hit first_hit(Ray ray, real t0, real t1) {
         if (t > end) return missed(hit);
         if (fabs(step) < last) {
             if (FORWARD == 1) return hit_at(hit, t);
-            return t < t0 - last ? exhausted(hit, t0) : hit_at(hit, max(t, t0));  // signed steps may end before the start
+            // signed steps may end in front of the ray's start
+            return t < t0 - last ? exhausted(hit, t0) : hit_at(hit, max(t, t0));
         }
         if (hit.evaluations == MAX_EVALUATIONS) return exhausted(hit, t);
         f = surface_dual_along(along, t);

@@ -1,9 +1,9 @@
-"""Answers "miss" at once.
+"""Answers "miss" at once, and so measures what the harness itself costs.
 
-**Source** none: the harness's own floor.
+**Source** none: it is the harness's own floor.
 
-**Theory** What this costs is what every method pays before it starts: making the ray, moving its origin, clipping it
-against the domain and writing the answer. A method's time is to be read against it.
+**Theory** Its time is what every method pays before it starts: making the ray, moving its origin, clipping it against
+the domain and writing the answer. Compare a method's time with this one.
 
 **Changes against the paper** none.
 """

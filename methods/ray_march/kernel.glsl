@@ -1,8 +1,9 @@
-// Equidistant steps until f changes sign, then bisection of that step (szente's baseline).
+// f as it is marched: its expansion along the ray, or f itself at the ray's point.
 real marched_value(Ray ray, Along along, real t) {
     return EXPAND == 1 ? surface_value_along(along, t) : surface_value(ray_point(ray, t));
 }
 
+// Takes equidistant steps until f changes sign, then halves that step (szente's baseline).
 Hit first_hit(Ray ray, real t0, real t1) {
     Hit hit = no_hit(t1);
     Along along = surface_along(ray);
@@ -13,7 +14,7 @@ Hit first_hit(Ray ray, real t0, real t1) {
     real fb = fa;
     bool below = fa < 0.0;
     hit.evaluations = 1;
-    // whole blocks without a change; their evaluations do not wait for one another
+    // pass whole blocks without a change of sign; the evaluations of a block do not wait for each other
     int k = 0;
     bool same = fa != 0.0;
     while (BLOCK > 1 && same && t0 + step * real(k + BLOCK) < t1) {

@@ -1,5 +1,6 @@
-// Steps as long as the distance to the surface, until it is nearly 0 (toledo2007, 4.3). With RAYS 2 the march jumps to
-// t_M as soon as the distance grows, with AHEAD never back, and then ends where the distance has fallen and grows again.
+// Takes steps as long as the distance to the surface, until that distance is nearly 0 (toledo2007, section 4.3). With
+// RAYS 2 the march jumps to t_M as soon as the distance grows. With AHEAD 1 it never jumps back, and the second march
+// ends where the distance grows after it fell.
 Hit first_hit(Ray ray, real t0, real t1) {
     Hit hit = no_hit(t1);
     real near_enough = EPSILON * FEATURE_RADIUS;
@@ -30,7 +31,7 @@ Hit first_hit(Ray ray, real t0, real t1) {
             if (searching) t = next;
         }
     }
-    // one start, or from inside: back from the second start, on from the first
+    // with one start, or when inside the surface: go back from the second start, or on from the first
     real way = second ? -1.0 : 1.0;
     if (RAYS == 2) {
         if (searching) return exhausted(hit, t);

@@ -1,35 +1,56 @@
 """Sphere tracing by the surface's own distance, with one start or two.
 
+The kernel marches along the ray by the distance to the surface until that distance is below EPSILON. With RAYS = 2 the
+march goes on from a second start, the ray's point nearest the domain's centre, as soon as the distance has grown.
+
 **Source** toledo2007, section 4.3 (Sphere Tracing and 2-rays S. Tracing of Table 1), after Hart 1996.
 
-**Theory** No surface is nearer to a point than its distance, so a step of that length never passes a root. Near a
-tangency distances are small for long, and steps with them. On the torus a second start helps: along a line the
-distance to the core circle takes every value at most four times (equation 2 has four roots for every r), so it has at
-most two minima. Once the distance grows, the first minimum is behind, and the march goes on from t_M = -(o·v) towards
-the other one; once it grows there after it fell, both are behind and there is no root.
+**Theory** No point of the surface is nearer than the distance, so a step of that length passes no root. Near a tangency
+the distances are small over a long part of the ray, and so are the steps. On the torus a second start helps. Along a
+line the distance to the core circle takes every value at most four times (equation 2 has four roots for every r), so it
+has at most two minima. When the distance grows, the first minimum is passed, and the march goes on from t_M = -(o·v)
+towards the other one. When it grows there after it fell, both minima are passed, and there is no root.
 
 **Changes against the paper**
-- Two starts, AHEAD = 1: a first march that has passed t_M goes on where it is, and the second march ends once its
-  distance has fallen and grows again, since no third minimum is left. AHEAD = 0 starts at t_M whatever was passed, and
-  ends where the first march ends, as printed: at the domain's exit, or as exhausted after MAX_EVALUATIONS. A second
-  start inside the torus turns back to the root behind it, as the signed distance does.
-- A start inside the surface marches by the distance's absolute value, and has no second start.
-- Any surface that states a distance is accepted. Two starts are proved for the torus and the sphere only, where no
-  third minimum can be. Surfaces without a distance: see sphere_tracing_lipschitz.
-- The paper's rays begin at the box, where its tables are run here, ours at their point nearest the domain's centre (the
-  axis `origins`). It matters least here: distances do not cancel. Of 24,576 rays of Table 1's views (opencl:pocl,
-  float32) the printed settings get the same 10 grazing ones wrong from the nearest point, the box and the eye.
-- No claim that grazing roots are never missed: in float32 a distance that falls by less than its rounding is seen to
-  grow, and within 1e-5 of tangency 38 of 384 rays of the family `grazing` end there (none in float64).
+- AHEAD = 1 (default), two starts: a first march that has already passed t_M goes on where it is. The second march ends
+  when its distance grows after it fell, since no third minimum exists. AHEAD = 0 is as printed: the second march starts
+  at t_M whatever was passed, and ends where the first march ends, at the domain's exit, or as exhausted after
+  MAX_EVALUATIONS. A second start inside the torus turns back to the root behind it, as the signed distance does.
+- A start inside the surface marches by the absolute value of the distance, and has no second start.
+- Any surface that states a distance is accepted. Two starts are proved for the torus and the sphere only, on which no
+  third minimum can exist. For surfaces without a distance see sphere_tracing_lipschitz.
+- Rays begin at their point nearest the domain's centre (`origins` of a config). The paper's rays begin at the box, and
+  configs for its tables do the same. This matters less here than for other methods, since distances do not cancel: of
+  24,576 rays of Table 1's views (opencl:pocl, float32) the printed settings get the same 10 grazing ones wrong from the
+  nearest point, the box and the eye.
+- It is not claimed that grazing roots are never missed. In float32 a distance that falls by less than its rounding
+  error seems to grow. Within 1e-5 of tangency this loses 38 of 384 rays of the family `grazing` (none in float64).
 
-**Speed** opencl:intel, float32, torus at 1024 x 1024, 30°/35°, processor time. Table 1's factor of 3.7 between two
-starts and one is not met: 0.9 at both thresholds. A second start saves the way out of a near tangency but not the way
-into it: evaluations fall from 5.5 to 5.1 for each ray, from 7.9 to 7.0 for the slowest of 16 neighbours, which decides
-here, from 24 to 18 for the slowest of 32 x 32 pixels, from 344 to 250 for the slowest of all. So no bookkeeping however
-cheap brings a factor of 2 on 16 lanes. Kept: a loop that ends in one place, the march from inside in a loop of its own
-(1.09 to 1.14 times faster than one loop with its state, one start and two alike). Rejected: one loop for all (0.95).
-The printed second march (AHEAD = 0) takes 3.3 evaluations a ray at Table 1's 0° and ours 2.8, 2.7 and 2.5 at 54°; it
-takes 0.96 to 1.02 times our time on opencl:pocl, 1.1 to 1.2 times on opencl:intel, with the same hits.
+**Evaluations counted** Evaluations of the distance.
+
+**Speed** Table 1's factor of 3.7 between two starts and one does not come out: it is 0.9 at both thresholds.
+opencl:intel, float32, torus at 1024x1024, azimuth 30° and elevation 35°, processor time. A second start saves the way
+out of a near tangency, but not the way into it. On 16 lanes the slowest of 16 neighbours decides, so no saving in
+bookkeeping can bring a factor of 2.
+
+    evaluations                           one start  two starts
+    ------------------------------------  ---------  ----------
+    of a ray, mean                        5.5        5.1
+    of the slowest of 16 neighbours       7.9        7.0
+    of the slowest of 32 by 32 pixels     24         18
+    of the slowest of all                 344        250
+
+**What was tried** Processor time on opencl:intel, float32, torus at 1024x1024, azimuth 30° and elevation 35°; in the
+last two rows Table 1's views.
+
+    what was tried                                          measured                                            kept
+    ------------------------------------------------------  --------------------------------------------------  ----
+    a loop that ends in one place, and a loop of its own    1.09 to 1.14 times faster than one loop with its    yes
+      for the march from inside                             state, for one start and two alike
+    one loop for all                                        0.95                                                no
+    AHEAD = 1, over AHEAD = 0: evaluations a ray            2.8 against 3.3 at 0°; 2.5 against 2.7 at 54°       yes
+    AHEAD = 0, over AHEAD = 1: time, with the same hits     0.96 to 1.02 on opencl:pocl, 1.1 to 1.2 on          no
+                                                            opencl:intel
 """
 
 from harness.contract import Method, Parameter, Surface
@@ -47,15 +68,25 @@ METHOD = Method(
         Parameter(
             "EPSILON",
             0.00003,
-            "distance that counts as a hit, over the surface's feature radius",
+            "distance from the surface that counts as a hit, over the surface's feature radius",
             finer="down",
             sweep=(0.01, 0.001, 0.000003),
             per="FEATURE_RADIUS",
             printed=0.001,
         ),
-        Parameter("RAYS", 2, "starts on a ray: 1 where it enters the domain, 2 also the point nearest its centre"),
-        Parameter("AHEAD", 1, "1: the second march never goes back and ends at its minimum; 0: as printed", printed=0),
-        Parameter("MAX_EVALUATIONS", 2000, "evaluations of the distance spent on one ray"),
+        Parameter(
+            "RAYS",
+            2,
+            "starts on a ray; 1: where it enters the domain; 2: also at its point nearest the domain's centre",
+        ),
+        Parameter(
+            "AHEAD",
+            1,
+            "second march; 1: never goes back, and ends behind its minimum; 0: starts at t_M and ends as "
+            "the first does",
+            printed=0,
+        ),
+        Parameter("MAX_EVALUATIONS", 2000, "evaluations of the distance on one ray, after which the ray is exhausted"),
     ),
     claims=frozenset({"conservative_bound", "finds_touch"}),
     settings={

@@ -1,10 +1,12 @@
-// Steps of |f| over a bound of |grad f| in the shell at hand and the next one, until the secant ends within reach.
+// Takes steps of |f| over a bound of |grad f| in the ball that ends with the next shell, until a secant step is short
+// enough or f changes sign (Hart 1996).
 Hit first_hit(Ray ray, real t0, real t1) {
     Hit hit = no_hit(t1);
     vec3 o = difference(ray.origin, DOMAIN_CENTER);
     real origin_away = inner_product(o, o);
     real advance = 2.0 * inner_product(o, ray.direction);
-    // From a far origin the sum of `away` cancels; what that may be off by keeps it from falling below 0, and off the table.
+    // From a far origin the terms of `away` cancel. A bound of their rounding error is added, so that `away` stays
+    // above 0 and `shell` within the table.
     origin_away += 16.0 * UNIT_ROUNDOFF * advance * advance;
     real thickness = DOMAIN_RADIUS / real(SHELLS);
     real squared_thickness = thickness * thickness;
@@ -28,7 +30,7 @@ Hit first_hit(Ray ray, real t0, real t1) {
             if ((f < 0.0) != (before < 0.0) || (to_root > 0.0 && to_root < least)) return hit_at(hit, t + to_root);
         }
         before = f;
-        // a step is at most as long as a shell is thick, so the shell changes by one at most
+        // no step is longer than a shell is thick, so `shell` changes by at most one
         if (SHELLS > 1) {
             real away = origin_away + t * (advance + t);
             if (away < real(shell * shell) * squared_thickness) shell -= 1;

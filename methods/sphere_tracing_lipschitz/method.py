@@ -1,24 +1,39 @@
 """Sphere tracing by |f| over a certified Lipschitz bound, for surfaces that state no distance.
 
-**Source** toledo2007, section 4.3, takes distances as given; Hart 1996 (the paper's reference 13) divides f by a
+The kernel marches along the ray. A step is |f| divided by a bound of the gradient's length, which the host proves
+beforehand, once for each of SHELLS concentric shells of the domain. The march ends where a secant step would be shorter
+than EPSILON, or where f changes sign.
+
+**Source** toledo2007, section 4.3, takes distances as given. Hart 1996 (the paper's reference 13) divides f by a
 Lipschitz bound where there is none.
 
-**Theory** Where |grad f| <= L, f needs at least |f| / L to fall to 0, so a step of this length passes no root. L is
-proved: |grad f| is bounded in ball arithmetic over boxes that cover the domain, and boxes are split until the bound is
-close to a gradient that occurs. The domain is cut in SHELLS concentric shells; a step from one of them is no longer
-than a shell is thick, and its L holds for the whole ball that ends with the next shell (a ball is convex).
+**Theory** Where |grad f| <= L, f needs a length of at least |f| / L to fall to 0, so a step of this length passes no
+root. L is proved: |grad f| is bounded in ball arithmetic over boxes that cover the domain, and boxes are split until
+the bound is close to a gradient that occurs. The domain is cut into SHELLS concentric shells. A step is never longer
+than a shell is thick, so a step from one shell ends in the next one at the latest. Therefore the L used there is that
+of the whole ball that ends with the next shell (a ball is convex, so it holds the step).
 
 **Changes against the paper**
-- |f| / L is far under the distance where |grad f| is far under L, and a threshold on it would end far from the root.
-  The march ends where the secant through the last two values is 0 within EPSILON, or where f changes sign.
-- No step is under EPSILON, so that the march ends in rounded arithmetic; roots closer than that can be passed.
-- SHELLS: Hart divides by one bound. Here each shell has one of its own; SHELLS = 1 is one for the whole domain.
-- One start: what the second one is for, two minima of a distance, is known of the torus only.
+- Where |grad f| is far below L, |f| / L is far below the distance, and a threshold on it would end far from the root.
+  So the march ends where the secant through the last two values reaches 0 within EPSILON, or where f changes sign.
+- No step is shorter than EPSILON, so that the march ends in rounded arithmetic. Roots that are closer to each other
+  than that can be passed.
+- SHELLS: Hart divides by one bound. Here each shell has its own; SHELLS = 1 is one bound for the whole domain.
+- There is one start. A second one is for the two minima of a distance, which are known of the torus only.
 
-**Speed** (opencl:intel, float32, torus and Barth sextic at 512x512, interleaved.) Kept: 16 shells instead of one
-bound, 2.5 times fewer evaluations; 64 instead of 16, 1.2 to 1.5 times faster again; squared distances and reciprocals
-instead of a root and a division in each step, 1.2 times. EPSILON = 2^-14 instead of 2^-18 is 1.4 to 1.6 times faster
-at the same error, since the secant ends the march; 2^-15 is kept for the sake of close pairs of roots.
+**Evaluations counted** Evaluations of f.
+
+**What was tried** opencl:intel, float32, torus and Barth sextic at 512x512, interleaved.
+
+    what was tried                                          measured                                            kept
+    ------------------------------------------------------  --------------------------------------------------  ----
+    16 shells, over one bound                               2.5 times fewer evaluations                         yes
+    64 shells, over 16                                      1.2 to 1.5 times faster                             yes
+    squared distances and reciprocals, over a root and a    1.2 times faster                                    yes
+      division in each step
+    EPSILON = 2^-14, over 2^-18                             1.4 to 1.6 times faster at the same error, since    no
+                                                            the secant ends the march. 2^-15 is the default,
+                                                            for the sake of close pairs of roots
 """
 
 import math
@@ -28,16 +43,16 @@ from itertools import product
 
 from harness.contract import Box, FirsthitError, Method, Parameter, Precision, Surface
 
-SLACK = 1.0 + 2.0**-16  # covers what float32 rounds: a direction's length, |p|, the clip, the table itself
+SLACK = 1.0 + 2.0**-16  # covers the float32 rounding of a direction's length, of |p|, of the clip and of the table
 CLOSE = 1.05  # boxes are split until their bound is within this factor of a gradient that occurs
-MAX_BOXES = 6000  # split and bounded at most; the answer is as certain with fewer, only less tight
+MAX_BOXES = 6000  # limit of boxes that are bounded; with fewer the bounds are as certain, but less tight
 
 
 @lru_cache(maxsize=128)
 def ball_bounds(surface: Surface, shells: int) -> tuple[float, ...]:
-    """For k = 1 … shells, at least the largest |grad f| in the domain within k/shells of its radius of its centre.
+    """Return for k = 1 … shells an upper bound of |grad f| in the domain within k/shells of its radius of its centre.
 
-    Raises FirsthitError where none is finite.
+    Raises FirsthitError where a bound is not finite.
     """
     import flint
     import numpy as np
@@ -57,7 +72,7 @@ def ball_bounds(surface: Surface, shells: int) -> tuple[float, ...]:
         return math.sqrt(float(size.upper())) * SLACK if size.is_finite() else math.inf
 
     def ball(middle: Sequence[float], half: Sequence[float]) -> int:
-        """The smallest ball that the box reaches into, of shells; shells where it is outside them all."""
+        """Return the number of the smallest ball that the box reaches into; `shells` where it reaches into none."""
         away = (max(abs(m - c) - h, 0.0) for m, c, h in zip(middle, center, half, strict=True))
         return int(shells * math.hypot(*away) / radius)
 
@@ -93,7 +108,7 @@ def ball_bounds(surface: Surface, shells: int) -> tuple[float, ...]:
 
 
 def tables(surface: Surface, knobs: Mapping[str, float | int], _: Precision) -> Mapping[str, Sequence[float]]:
-    """REACH[k] times |f| is a step that passes no root from shell k."""
+    """Return REACH: from shell k a step of REACH[k] times |f| passes no root."""
     bounds = ball_bounds(surface, int(knobs["SHELLS"]))
     return {"REACH": [1.0 / bound for bound in (*bounds[1:], bounds[-1])]}
 
@@ -106,13 +121,18 @@ METHOD = Method(
         Parameter(
             "EPSILON",
             2.0**-15,
-            "shortest step, and the secant's reach that counts as a hit, over the domain's radius",
+            "shortest step, and longest secant step that counts as a hit, over the domain's radius",
             finer="down",
             sweep=(2.0**-10, 2.0**-12, 2.0**-18),
             per="DOMAIN_RADIUS",
         ),
-        Parameter("SHELLS", 64, "shells with a bound of their own; 1: one bound for the whole domain", printed=1),
-        Parameter("MAX_EVALUATIONS", 20000, "evaluations of f spent on one ray"),
+        Parameter(
+            "SHELLS",
+            64,
+            "concentric shells of the domain that have a bound each; 1: one bound for the whole domain",
+            printed=1,
+        ),
+        Parameter("MAX_EVALUATIONS", 20000, "evaluations of f on one ray, after which the ray is exhausted"),
     ),
     claims=frozenset({"conservative_bound"}),
     tables=tables,

@@ -1,15 +1,18 @@
-// Halve [t0, t1] towards the first root, counting roots by the changes of sign along Sturm's chain (toledo2007, 3).
-// Row k of the chain is a polynomial in x of degree SURFACE_DEGREE - k at most, lowest power first; t = middle + reach x.
+// Halves [t0, t1] towards the first root. Roots are counted by the changes of sign along Sturm's chain (toledo2007,
+// section 3). Row k of the chain is a polynomial in x of degree at most SURFACE_DEGREE - k, lowest power first;
+// t = middle + reach x.
 #define ROW (SURFACE_DEGREE + 1)
 #define CHAIN (ROW * (ROW + 1) / 2)
 
-// Rows one behind the other, without their zeros: on square rows llvmpipe compiles four times as long (degree 16: 17 s).
+// Returns where row k begins. Rows lie one behind the other without the zeros of missing powers: with rows of equal
+// length llvmpipe compiles four times as long (17 s at degree 16).
 int row_start(int k) {
     return k * (2 * ROW - k + 1) / 2;
 }
 
-// As printed, for degrees to 4: every division of one row by the next leaves one degree less. Says whether each leading
-// coefficient that was divided by has more than its SHARE of its row for |x| <= reach: else the rest is but roundings.
+// Computes the chain as printed, for degrees to 4: each division of one row by the next leaves one degree less. Returns
+// whether each leading coefficient that was divided by has more than the share SHARE of its row for |x| <= reach;
+// otherwise the remainder is nothing but rounding errors.
 bool sturm_chain(IN real c[ROW], real reach, OUT real chain[CHAIN]) {
     for (int i = 0; i < CHAIN; i++) chain[i] = 0.0;
     for (int i = 0; i <= SURFACE_DEGREE; i++) chain[i] = c[i];
@@ -19,10 +22,10 @@ bool sturm_chain(IN real c[ROW], real reach, OUT real chain[CHAIN]) {
     for (int k = 2; k <= SURFACE_DEGREE; k++) {
         int f = row_start(k - 2);
         int g = row_start(k - 1);
-        int n = SURFACE_DEGREE - k + 1;  // degree of g, one less than of f
+        int n = SURFACE_DEGREE - k + 1;  // degree of g; that of f is n + 1
         int rest = row_start(k);
         real lead = chain[g + n];
-        real below = 0.0;  // what the row's other coefficients come to, over reach^(n - 1)
+        real below = 0.0;  // bound of the row's other terms for |x| <= reach, over reach^(n - 1)
         for (int i = 0; i < n; i++) below = below * inverse + fabs(chain[g + i]);
         led = led && fabs(lead) * reach > SHARE * below;
         real slope = chain[f + n + 1] / lead;
@@ -35,8 +38,8 @@ bool sturm_chain(IN real c[ROW], real reach, OUT real chain[CHAIN]) {
     return led;
 }
 
-// Beyond degree 4: in two parts for each coefficient, every row over its largest coefficient, and a leading coefficient
-// that is nothing but rounding taken for 0, as is a row of such.
+// Computes the chain beyond degree 4. Each coefficient has two parts, and each row is divided by its largest
+// coefficient. A leading coefficient that is nothing but rounding counts as 0, and so does a row of such coefficients.
 void scaled_chain(IN real c[ROW], OUT real chain[CHAIN]) {
     Pair f[ROW];
     Pair g[ROW];
@@ -49,7 +52,7 @@ void scaled_chain(IN real c[ROW], OUT real chain[CHAIN]) {
     int q = SURFACE_DEGREE;
     int k = 0;
     while (q >= 0) {
-        // g over its largest coefficient, and its degree; f = g at first, then g the derivative
+        // divide g by its largest coefficient, find its degree; in the first turn then f = g, and g its derivative
         real size = 0.0;
         for (int i = 0; i <= q; i++) size = max(size, fabs(g[i].hi));
         if (size > (k > 0 ? LEAST * UNIT_ROUNDOFF * UNIT_ROUNDOFF : real(0))) {
@@ -74,8 +77,8 @@ void scaled_chain(IN real c[ROW], OUT real chain[CHAIN]) {
     }
 }
 
-// The same to degree 4, a step at each turn, on rows whose highest power stands first: a compiler that runs code for rays
-// that do not need it too then runs one step, and knows every index.
+// Computes the same chain to degree 4, one step in each turn of the loop, on rows whose highest power stands first. A
+// compiler runs this code for all rays of a vector if one needs it; so a turn is short, and every index is known to it.
 void careful_chain(IN real c[ROW], OUT real chain[CHAIN]) {
     Pair f[ROW];
     Pair g[ROW];
@@ -86,7 +89,7 @@ void careful_chain(IN real c[ROW], OUT real chain[CHAIN]) {
     }
     int p = -1;  // degrees of f and g
     int q = SURFACE_DEGREE;
-    int k = 0;   // g's row
+    int k = 0;   // row of g in the chain
     bool fresh = true;
     while (q >= 0) {
         if (fresh) {
@@ -97,7 +100,7 @@ void careful_chain(IN real c[ROW], OUT real chain[CHAIN]) {
             } else if (fabs(g[0].hi) > LEAST * UNIT_ROUNDOFF * size) {
                 fresh = false;
                 for (int i = 0; i < ROW; i++) g[i] = pair_scaled(g[i], 1.0 / size);
-                // lowest power first in the chain
+                // reverse the row, since the chain has the lowest power first
                 real row[ROW];
                 for (int i = 0; i < ROW; i++) row[i] = g[i].hi;
                 for (int d = SURFACE_DEGREE; d > 0; d--) {
@@ -151,8 +154,8 @@ real row_value(IN real chain[CHAIN], int k, real x) {
     return value;
 }
 
-// Changes of sign along the chain, in which zeros do not count, and whether f itself is negative. Where f is zero, its sign
-// is the one that f' says it has next.
+// Counts the changes of sign along the chain at x, without zeros, and says whether f itself is negative there. Where f
+// is zero, it has the sign that f has just behind x by f'.
 STRUCT(Count) struct Count { int changes; bool negative; };
 
 Count sign_changes(IN real chain[CHAIN], real x) {

@@ -1,4 +1,4 @@
-// The first root of f's exact expansion along the ray, between its critical points (Yuksel 2022).
+// Finds the first root of f's exact expansion along the ray, between its critical points (Yuksel 2022).
 #define N SURFACE_DEGREE
 
 Hit first_hit(Ray ray, real t0, real t1) {

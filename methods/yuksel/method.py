@@ -1,23 +1,32 @@
-"""Yuksel's root finding on the exact expansion of f along the ray.
+"""Yuksel's root finding on the exact expansion of f along the ray, for degrees 1 to 4.
+
+The kernel expands f along the ray as a polynomial. The roots of its derivative cut the ray into pieces on which the
+polynomial is monotone. In the first piece at whose ends it differs in sign, Newton's method finds the root.
 
 **Source** C. Yuksel, High-performance polynomial root finding for graphics, 2022, as szente, section 2.2, uses it.
 
-**Theory** As in eft_yuksel: the first root lies between two critical points where the ends differ in sign, and critical
-points are found alike from the quadratic derivative up, by formula. Here the coefficients are expanded from the
-formula, so nothing is fitted, and everything after that is done on the expansion alone. It cancels where roots are many
-or clustered; eft_yuksel's refinement on f itself is for such rays.
+**Theory** As in eft_yuksel: the first root lies between two critical points at which the polynomial differs in sign,
+and the critical points are found in the same way, from the derivative of degree 2 up, whose roots have a formula. Here
+the coefficients are expanded from the formula of f, so nothing is fitted, and all later steps use this expansion alone.
+It cancels where roots are many or clustered; for such rays see the refinement on f itself in eft_yuksel.
 
 **Changes against the paper**
-- Degree 4 at most, where exact coefficients are generated. Nothing is fitted, and the last steps are Newton's, on the
-  expansion: what szente changes in Yuksel's method is in eft_yuksel.
-- szente prints no tolerance for it: TOLERANCE and ISOLATION are ours.
-- START: Newton's method starts where a cubic that is level at both ends would put it; as printed, in the middle.
+- Degree 4 at most, since exact coefficients are generated to this degree. Nothing is fitted, and the last steps are
+  Newton's, on the expansion. What szente changes in Yuksel's method is in eft_yuksel.
+- szente prints no tolerance for it. TOLERANCE and ISOLATION are ours.
+- START: Newton's method starts where a cubic that is level at both ends of a piece has its root; as printed, in the
+  middle.
 
-Evaluations counted are those of the expanded f, at ends of pieces and in the last refinement; none of its derivatives.
+**Evaluations counted** Evaluations of the expanded f at the ends of pieces and in the last refinement; none of its
+derivatives.
 
-**Speed** See eft_yuksel: both share the library `polynomial`. Processor time on opencl:intel, float32, 512 x 512,
-torus, flirt, Kummer quartic, Cayley cubic: the quadratic derivative by formula, instead of Newton's method from the
-linear one up, saves 7, 12, 10 and 28 %. eft_yuksel takes 1.3 to 1.8 times as long there.
+**What was tried** Processor time on opencl:intel, float32, 512x512, on torus, flirt, Kummer quartic and Cayley cubic.
+eft_yuksel takes 1.3 to 1.8 times as long there. See its page too: both share the library `polynomial`.
+
+    what was tried                                                  measured                            kept
+    --------------------------------------------------------------  ----------------------------------  ----
+    the quadratic derivative's roots by formula, over Newton's      saves 7, 12, 10 and 28 %            yes
+      method from the linear derivative up
 """
 
 from collections.abc import Mapping
@@ -56,8 +65,16 @@ METHOD = Method(
             sweep=(2.0**-8, 2.0**-12, 2.0**-22),
             per="2.0 * DOMAIN_RADIUS",
         ),
-        Parameter("ISOLATION", 2.0**-10, "last Newton step of the derivatives' roots, likewise"),
-        Parameter("START", 1, "Newton's first x: 1: by a cubic that is level at both ends, 0: the middle", printed=0),
+        Parameter(
+            "ISOLATION", 2.0**-10, "last Newton step of the roots of derivatives, over the ray's length in the domain"
+        ),
+        Parameter(
+            "START",
+            1,
+            "where Newton's method starts in a piece; 1: at the root of a cubic that is level at both "
+            "ends; 0: in the middle",
+            printed=0,
+        ),
     ),
     settings={"Yuksel": {"START": 0}},
     claims=frozenset({"no_false_hit"}),

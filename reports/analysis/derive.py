@@ -10,8 +10,7 @@ from collections.abc import Mapping, Sequence
 
 import pandas as pd
 
-from harness.contract import FROM_ORIGIN, CellStatus
-from harness.experiment.config import BASELINE
+from harness.contract import BASELINE, FROM_ORIGIN, CellStatus
 from harness.results.schema import KINDS, SCHEMA
 from reports.analysis import rounds
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Mapping
 from typing import Any
 
@@ -21,6 +22,7 @@ from reports.material import Material
 
 ORDER = 70
 TEXT_LIMIT = 1500  # characters of a paragraph or point
+LONG_CELL = 24  # characters of a table's cell that may be broken
 
 
 def sections(material: Material) -> list[Section]:
@@ -36,9 +38,12 @@ def sections(material: Material) -> list[Section]:
 
 def _card(name: str, told: Mapping[str, Any], rows: pd.DataFrame, judged: list[Any]) -> list[Block]:
     knobs = ", ".join(_knob(knob) for knob in told.get("parameters", []))
+    tables = told.get("tables", [])
+    said = {part: text for part, text in told.get("doc", {}).items() if not _is_caption(part, text, tables)}
     body = [
+        *([("what it does", told["summary"])] if told.get("summary") else []),
         ("source", told.get("source")),
-        *((part.lower(), _points(text)) for part, text in told.get("doc", {}).items()),
+        *((part.lower(), _points(text)) for part, text in said.items()),
         ("knobs, with defaults", knobs or "none"),
         ("claims", _claims(name, told.get("claims", []), _default(told, rows))),
     ]
@@ -51,7 +56,25 @@ def _card(name: str, told: Mapping[str, Any], rows: pd.DataFrame, judged: list[A
                 )
             )
     title = f"{name}: {told.get('title', '')}"
-    return [Table((Column(""), Column("", stretch=1)), body, title)]
+    own = [_table(name, table, told["doc"].get(table["part"], "")) for table in tables]
+    return [Table((Column(""), Column("", stretch=1)), body, title), *own]
+
+
+def _is_caption(part: str, text: str, tables: list[Mapping[str, Any]]) -> bool:
+    """Whether a part's text is one paragraph and the part has a table, whose caption it then is."""
+    return "\n" not in text and any(table["part"] == part for table in tables)
+
+
+def _table(name: str, told: Mapping[str, Any], text: str) -> Table:
+    """A table of the method's page. Columns of long text share the width by the length of what they hold."""
+    cells = list(zip(told["header"], *told["rows"], strict=True))
+    longest = [max(map(len, column)) for column in cells]
+    columns = tuple(
+        Column(column[0], stretch=length if length > LONG_CELL else 0)
+        for column, length in zip(cells, longest, strict=True)
+    )
+    caption = text if _is_caption(told["part"], text, [told]) else ""
+    return Table(columns, [tuple(row) for row in told["rows"]], f"{name}: {told['part'].lower()}.", caption)
 
 
 def _knob(knob: Mapping[str, Any]) -> str:
@@ -60,10 +83,8 @@ def _knob(knob: Mapping[str, Any]) -> str:
 
 
 def _points(text: str) -> str:
-    """A text whose list, if it has one, keeps its lines."""
-    first, *points = f"\n{text}".split("\n- ")
-    lines = [wording.excerpt(first, TEXT_LIMIT), *(f"• {wording.excerpt(point, TEXT_LIMIT)}" for point in points)]
-    return "\n".join(filter(None, lines))
+    """A text of paragraphs and points, a line each; a point begins with "- "."""
+    return "\n".join(wording.excerpt(re.sub("^- ", "• ", line), TEXT_LIMIT) for line in text.split("\n"))
 
 
 def _key(names: list[str]) -> Figure:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import difflib
 import gc
 import json
 from collections.abc import Iterator, Mapping
@@ -13,8 +12,7 @@ from typing import Any
 
 import pandas as pd
 
-from harness.contract import CellStatus, FirsthitError
-from harness.experiment.config import BASELINE
+from harness.contract import BASELINE, CellStatus, FirsthitError, suggestion
 from harness.results.schema import FAMILY, RUNG, SCHEMA, flatten
 from reports.reading import export
 
@@ -99,9 +97,7 @@ def over(frame: pd.DataFrame, baseline: str | None) -> pd.DataFrame:
     answering = frame[frame["answers"].astype(bool)]
     known = list(dict.fromkeys([*answering["method"], *answering["variant"]]))
     if baseline not in known:
-        near = difflib.get_close_matches(baseline, known, 1)
-        hint = f"did you mean {near[0]!r}?" if near else f"known: {', '.join(known)}"
-        raise FirsthitError(f"--baseline: unknown {baseline!r}; {hint}")
+        raise FirsthitError(f"--baseline: unknown {baseline!r}; {suggestion(baseline, known)}")
     return frame.assign(baseline=baseline)
 
 

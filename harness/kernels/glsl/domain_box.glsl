@@ -1,6 +1,7 @@
-// The span a ray spends in the box, widened by more than its roundings: a surface that touches a wall is not cut off.
+// Returns the part of `span` in which one coordinate o + t d lies between lower and upper. The result is widened by
+// more than its rounding errors, so that a surface that touches a wall of the box is not cut off.
 Span slab(Span span, real o, real d, real lower, real upper) {
-    // along the wall a ray stays in the slab for ever, or never is in it
+    // a ray parallel to the walls is between them everywhere or nowhere; with the least slope the ends are far away
     real least = UNIT_ROUNDOFF * UNIT_ROUNDOFF;
     real inverse = 1.0 / (fabs(d) < least ? least : d);
     real middle = (0.5 * (lower + upper) - o) * inverse;
@@ -9,6 +10,7 @@ Span slab(Span span, real o, real d, real lower, real upper) {
     return make_span(max(span.lo, middle - half_length), min(span.hi, middle + half_length));
 }
 
+// Returns the span of t in which a ray is in the domain, widened as above.
 Span domain_span(Ray ray) {
     vec3 lower = DOMAIN_LOWER;
     vec3 upper = DOMAIN_UPPER;

@@ -1,5 +1,5 @@
-// The span a ray spends in the ball, widened by more than its roundings, those of a far origin included: a surface that
-// touches the sphere is not cut off.
+// Returns the span of t in which a ray is in the domain, a ball. It is widened by more than its rounding errors,
+// those of a far origin included, so that a surface that touches the sphere is not cut off.
 Span domain_span(Ray ray) {
     vec3 o = difference(ray.origin, DOMAIN_CENTER);
     real squared_length = inner_product(ray.direction, ray.direction);

@@ -1,5 +1,6 @@
 typedef float real;
-// Four components wide, the last 0: Intel's compiler hands vectors of three wrongly to functions that it does not inline.
+// vec3 has four components, the last 0: Intel's compiler passes vectors of three wrongly to functions it does not
+// inline.
 typedef float4 vec3;
 #define real(x) ((float)(x))
 #define vec3(x, y, z) ((float4)(x, y, z, 0.0f))

@@ -1,6 +1,7 @@
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
 typedef double real;
-// Four components wide, the last 0: Intel's compiler hands vectors of three wrongly to functions that it does not inline.
+// vec3 has four components, the last 0: Intel's compiler passes vectors of three wrongly to functions it does not
+// inline.
 typedef double4 vec3;
 #define real(x) ((double)(x))
 #define vec3(x, y, z) ((double4)(x, y, z, 0.0))

@@ -1,5 +1,6 @@
-// For programs whose answers are checked: each turn of each loop has an effect, so that no compiler may remove the loop,
-// whether it ends or not. Nothing is stored, and no answer depends on it. `else` keeps `if (a) for (…) b; else c` right.
+// For programs whose answers are checked: gives each turn of each loop an effect, so that no compiler may remove a
+// loop, whether the loop ends or not. The effect stores nothing, and no answer depends on it. The `else` in the macro
+// of `for` keeps the meaning of `if (a) for (…) b; else c`.
 bool loop_is_kept() {
     memoryBarrierAtomicCounter();
     return true;

@@ -1,4 +1,4 @@
-// The common shading subset, as OpenCL C. Array parameters are marked IN, OUT or INOUT; all else goes by value.
+// Defines the common shading subset in OpenCL C. Array parameters are marked IN, OUT or INOUT; all others go by value.
 #pragma OPENCL FP_CONTRACT OFF
 #define int(x) ((int)(x))
 #define IN const

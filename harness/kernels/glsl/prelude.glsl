@@ -1,5 +1,5 @@
 #version 430
-// The common shading subset, as GLSL. Array parameters are marked IN, OUT or INOUT; all else goes by value.
+// Defines the common shading subset in GLSL. Array parameters are marked IN, OUT or INOUT; all others go by value.
 #define fabs abs
 #define IN const in
 #define OUT out

@@ -1,26 +1,27 @@
-// A beam: every ray of a rectangle of the image. Its points are eye + s (forward + x right + y up), x and y in
-// intervals, for depths s in [near, far], which span the domain. It is closed, and wider by BEAM_SLACK than the
-// rectangle: float32 rays through it, made here or on the host, are in it, rounding included.
+// A beam holds every ray through a rectangle of the image. Its points are eye + s (forward + x right + y up), where x
+// and y lie in the rectangle's intervals and the depth s in [near, far], which spans the domain. The beam is closed and
+// BEAM_SLACK wider than the rectangle, so that it holds all float32 rays through the rectangle, made here or on the
+// host, with their rounding errors.
 STRUCT(Camera) struct Camera {
     vec3 forward; vec3 right; vec3 up;    // as the host gives them
-    Interval ex; Interval ey; Interval ez;  // eye, widened by what rounding does to a point of a beam
-    Interval fx; Interval fy; Interval fz;  // forward, widened by BEAM_SLACK
+    Interval ex; Interval ey; Interval ez;  // the eye, widened by the rounding errors of a beam's points
+    Interval fx; Interval fy; Interval fz;  // forward, widened by BEAM_SLACK of each coordinate's terms
     real near; real far;
 };
 STRUCT(Beam) struct Beam {
     Interval ex; Interval ey; Interval ez;
-    Interval dx; Interval dy; Interval dz;  // direction: a point is e + s d
+    Interval dx; Interval dy; Interval dz;  // the direction: a point is e + s d
     real near; real far;
 };
 STRUCT(Box) struct Box { Interval x; Interval y; Interval z; };
 
-#define BEAM_SLACK 9.5367431640625e-7  // 2^-20 of each coordinate's terms: sixteen roundings in float32
+#define BEAM_SLACK 9.5367431640625e-7  // 2^-20 of each coordinate's terms, which is sixteen float32 roundings
 
 Interval widened(real a, real slack) {
     return make_interval(a - slack, a + slack);
 }
 
-// The camera with the depths that the domain spans, a little more than they are.
+// Makes a camera whose depths [near, far] span slightly more than the domain.
 Camera make_camera(vec3 eye, vec3 forward, vec3 right, vec3 up) {
     vec3 size = difference(DOMAIN_UPPER, DOMAIN_LOWER);
     real across = fabs(forward.x) * size.x + fabs(forward.y) * size.y + fabs(forward.z) * size.z;
@@ -45,13 +46,13 @@ Camera make_camera(vec3 eye, vec3 forward, vec3 right, vec3 up) {
     return camera;
 }
 
-// f + [x0, x1] r + [y0, y1] u: one coordinate of a beam's direction.
+// Returns f + [x0, x1] r + [y0, y1] u, which is one coordinate of a beam's direction.
 Interval beam_direction(Interval f, real r, real u, real x0, real x1, real y0, real y1) {
     return make_interval(f.lo + min(x0 * r, x1 * r) + min(y0 * u, y1 * u),
                          f.hi + max(x0 * r, x1 * r) + max(y0 * u, y1 * u));
 }
 
-// The beam of the pixels from column i0 up to i1 and row j0 up to j1 of a size by size image, row 0 at the top.
+// Returns the beam of columns i0 to i1 - 1 and rows j0 to j1 - 1 of an image of size by size pixels; row 0 is the top.
 Beam camera_beam(Camera camera, int i0, int j0, int i1, int j1, int size) {
     real step = 2.0 / real(size);
     real x0 = real(i0) * step - 1.0;
@@ -70,12 +71,13 @@ Beam camera_beam(Camera camera, int i0, int j0, int i1, int j1, int size) {
     return beam;
 }
 
-// e + [s0, s1] d, cut by [lower, upper]; its rounding is in e.
+// Returns the part of e + [s0, s1] d in [lower, upper]; e is already widened by the rounding errors made here.
 Interval beam_coordinate(Interval e, Interval d, real s0, real s1, real lower, real upper) {
     return make_interval(max(e.lo + min(d.lo * s0, d.lo * s1), lower), min(e.hi + max(d.hi * s0, d.hi * s1), upper));
 }
 
-// The box that holds the beam's points of depths [s0, s1], s0 >= 0, in the domain; lo > hi where there are none.
+// Returns a box that holds the beam's points of depths [s0, s1], s0 >= 0, in the domain; lo > hi on an axis if there
+// are none.
 Box beam_box(Beam beam, real s0, real s1) {
     vec3 lower = DOMAIN_LOWER;
     vec3 upper = DOMAIN_UPPER;
@@ -86,12 +88,12 @@ Box beam_box(Beam beam, real s0, real s1) {
     return box;
 }
 
-// Distance of a coordinate from an interval.
+// Returns the distance of a coordinate from an interval, 0 inside it.
 real gap(Interval a, real c) {
     return max(max(a.lo - c, c - a.hi), real(0));
 }
 
-// Whether no point of the box is in the domain.
+// Returns whether no point of the box is in the domain.
 bool outside_domain(Box box) {
     if (box.x.lo > box.x.hi || box.y.lo > box.y.hi || box.z.lo > box.z.hi) return true;
     vec3 center = DOMAIN_CENTER;
@@ -102,13 +104,14 @@ bool outside_domain(Box box) {
            && x * x + y * y + z * z > DOMAIN_RADIUS * DOMAIN_RADIUS * (1.0 + 16.0 * UNIT_ROUNDOFF);
 }
 
-// f's range over the box.
+// Returns an interval that holds f's values over the box.
 Interval box_range(Box box) {
     return surface_range(box.x, box.y, box.z);
 }
 
-// The depth at which piece `path` of the tree of halves begins: 1 is [near, far], 2 p and 2 p + 1 are the halves of
-// p, each `width` deep. Products by powers of two are exact, so that neighbours share their ends bit for bit.
+// Returns the depth at which piece `path` of the binary tree of depths begins, whose pieces are `width` deep on its
+// level. Piece 1 is [near, far]; pieces 2 p and 2 p + 1 are the halves of piece p. Products by powers of two are
+// exact, so that neighbouring pieces share their ends bit for bit.
 real path_depth(Beam beam, int path, real width) {
     return beam.near + (real(path) * width - (beam.far - beam.near));
 }

@@ -1,11 +1,11 @@
 #define ALL_IN_ROWS (-2)
 
-// Cells of the quadtree over the image: cell (x, y) of `level` is 2^(last - level) pixels wide, 1 at level `last`.
-// `path` and `evaluations` are what its parent handed down: see path_depth, and its share of the evaluations spent, or
-// NO_ANSWER where they are no count.
+// A cell of the quadtree over the image. Cell (x, y) of `level` is 2^(last - level) pixels wide, so one pixel at
+// `last`. Its parent handed down `path`, the piece of depth to begin with (see path_depth), and `evaluations`, the
+// cell's share of the evaluations spent so far; NO_ANSWER if these are no count.
 STRUCT(Cell) struct Cell { int x; int y; int level; int path; int evaluations; };
 
-// Bits 0, 2, 4, … of v, packed.
+// Returns bits 0, 2, 4, … of v, packed.
 int even_bits(int v) {
     int a = v & 0x55555555;
     a = (a | (a >> 1)) & 0x33333333;
@@ -14,8 +14,8 @@ int even_bits(int v) {
     return (a | (a >> 8)) & 0x0000ffff;
 }
 
-// Cell `item` of a level whose cells are all looked at, in Z order: neighbouring work items have neighbouring cells.
-// Where `source` says ALL_IN_ROWS, row by row.
+// Returns cell number `item` of a level all of whose cells are searched. Cells are numbered in Z order, so that
+// neighbouring work items have neighbouring cells; if `source` is ALL_IN_ROWS, row by row.
 Cell level_cell(Work work, int item) {
     bool in_rows = work.source == ALL_IN_ROWS;
     Cell cell;
@@ -27,14 +27,14 @@ Cell level_cell(Work work, int item) {
     return cell;
 }
 
-// How many cells of `level` are in the image: so many the level may queue.
+// Returns how many cells of `level` are in the image, which is the most that the level can queue.
 int most_queued(Work work, int level) {
     int across = (work.size + (1 << (work.last - level)) - 1) >> (work.last - level);
     return across * across;
 }
 
-// Quarter `item` % 4 of the queue's cell `item` / 4. The quarters share what their parent has cost. The queue is filled
-// from its front, and from its end by what shall come after all that.
+// Returns quarter `item` % 4 of the queue's cell `item` / 4. The four quarters share the evaluations of their parent.
+// The queue is filled from both ends: cells from its end come after all those from its front.
 Cell queued_cell(Work work, int item) {
     int parent = item >> 2;
     if (parent >= work.front) parent = most_queued(work, work.level - 1) - 1 - (parent - work.front);
@@ -51,7 +51,7 @@ Cell queued_cell(Work work, int item) {
     return cell;
 }
 
-// What the cell has cost with its parent's share; NO_ANSWER where either, or their sum, is no count.
+// Returns the evaluations of a cell and its share of its parents'; NO_ANSWER if either, or their sum, is no count.
 int spent(Cell cell, Hit hit) {
     if (!is_answer(MISS, cell.evaluations) || !is_answer(MISS, hit.evaluations)) return NO_ANSWER;
     int evaluations = cell.evaluations + hit.evaluations;
@@ -70,7 +70,8 @@ Beam cell_beam(Work work, Cell cell) {
     return camera_beam(work.camera, i0, j0, min(i0 + side, work.size), min(j0 + side, work.size), work.size);
 }
 
-// Hands the cell to the next level: its quarters begin at `path`; `later`: after those of all cells that are not later.
+// Queues the cell for the next level, where its quarters begin at piece `path`. The quarters of cells queued with
+// `later` come after those of all others.
 void queue_cell(Work work, Cell cell, int path, Hit hit, bool later) {
     int slot = queue_slot(work, later ? work.level + 16 : work.level);
     if (later) slot = most_queued(work, work.level) - 1 - slot;
@@ -84,14 +85,14 @@ void queue_quarters(Work work, Cell cell, int path, Hit hit) {
     queue_cell(work, cell, path, hit, false);
 }
 
-// Evaluations, level and status in one word; NO_ANSWER where they are none.
+// Packs evaluations, level and status into one word; NO_ANSWER if they are no valid answer.
 int answer_word(int evaluations, Cell cell, int status) {
     return is_answer(status, evaluations) ? ((evaluations * 32) + cell.level) * 4 + status : NO_ANSWER;
 }
 
-// The cell's pixels get the answer, each its share of the evaluations, and the level of the cell. A hit is of one pixel,
-// and its t a depth: what is stored is its distance along the ray through the middle of the pixel. Where the driver has
-// ended the cell's loops for it, the cell is exhausted.
+// Writes the cell's answer to all its pixels: status, level, and to each pixel its share of the evaluations. Only a
+// cell of one pixel can be a hit; its t is a depth, and the distance along the ray through the pixel's middle is
+// stored. If the driver has ended the cell's loops early, the cell is exhausted.
 void paint(Work work, Cell cell, Hit hit) {
     int evaluations = spent(cell, hit);
     int status = loops_were_ended(work) ? EXHAUSTED : hit.status;
@@ -113,7 +114,7 @@ void paint(Work work, Cell cell, Hit hit) {
     int pixels = (i1 - i0) * (j1 - j0);
     if (evaluations < 0) status = NO_ANSWER;
     int share = evaluations / pixels;
-    int extra = evaluations - share * pixels;  // pixels that take one more, so that all shares add up
+    int extra = evaluations - share * pixels;  // so many pixels take one more, so that all shares add up
     for (int j = j0; j < j1; j++) {
         for (int i = i0; i < i1; i++) {
             answer_pixel(work, j * work.size + i, 0.0, answer_word(share + (extra > 0 ? 1 : 0), cell, status));

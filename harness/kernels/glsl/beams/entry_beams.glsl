@@ -1,5 +1,5 @@
-// Level -1 empties the queues; any other runs cast_cell on its cells, strided over the nx work items.
-// Without a `source` in the queue, every cell of the level is looked at.
+// At level -1, empties the queues. At any other level, runs cast_cell on the level's cells, strided over the nx work
+// items: on those queued at `source`, or on every cell of the level if `source` is negative.
 void main() {
     int id = int(gl_GlobalInvocationID.x);
     if (level < 0) {

@@ -1,10 +1,12 @@
-// Beams as a prepass: the quadtree of interval_adaptive, stopped at tiles of 2^TILE_BITS pixels a side. What it hands to
-// a tile's rays are the depths between which the surface may lie, with the last piece's width to spare: two reals for
-// each tile in `t`, the first the larger where there is nothing. `answer` holds the evaluations spent on it.
+// Beams as a prepass. This is the quadtree search of the method interval_adaptive, stopped at tiles of 2^TILE_BITS
+// pixels a side. For each tile it writes two depths s0 and s1 to `t`, between which the rays of the tile meet the
+// surface if they meet it at all; both are moved outwards by the width of the last piece searched. If the tile's beam
+// misses the surface, s0 > s1. `answer` holds the evaluations spent on the tile.
 STRUCT(Search) struct Search { int path; int evaluations; real s0; real s1; };
 
-// BeamCast from `path` on, `depth` halvings deep, down to `deepest`; from the far end in a mirrored tree of depths where
-// `mirrored`. path 0: nothing is there.
+// Searches the beam for the first piece of depth in which the surface may lie: BeamCast of the beamcasting paper,
+// from piece `path`, which is `depth` halvings deep, down to `deepest` halvings. If `mirrored`, searches from the far
+// end towards the near end. The result's path is 0 if every piece is empty; else [s0, s1] is the piece found.
 Search search_beam(Beam beam, int path, int depth, int deepest, bool mirrored) {
     Search search;
     search.path = path;
@@ -41,7 +43,7 @@ Search search_beam(Beam beam, int path, int depth, int deepest, bool mirrored) {
     return search;
 }
 
-// The tiles of a cell get the depths [s0, s1], each its share of the evaluations.
+// Writes the depths s0 and s1 to all tiles of a cell, and to each tile its share of the evaluations.
 void hand_to_tiles(Work work, Cell cell, real s0, real s1, int evaluations) {
     int side = 1 << max(work.last - TILE_BITS - work.level, 0);
     int tiles = (work.size + (1 << TILE_BITS) - 1) >> TILE_BITS;

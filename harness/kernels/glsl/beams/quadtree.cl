@@ -1,5 +1,5 @@
-// The quadtree over the image as OpenCL: one cell for each work item, the next level's cells queued on the device.
-#define trailing_zeros(v) popcount(((v) & -(v)) - 1)  // of a positive whole number
+// The quadtree over the image in OpenCL C: work items search cells, and queue the next level's cells on the device.
+#define trailing_zeros(v) popcount(((v) & -(v)) - 1)  // v must be positive
 typedef struct Work {
     __global real *t; __global int *answer; __global int *queue; __global int *counts;
     Camera camera; int size; int level; int last; int source; int target; int front;

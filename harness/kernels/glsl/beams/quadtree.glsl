@@ -1,5 +1,5 @@
-// The quadtree over the image as GLSL: one cell for each work item, the next level's cells queued on the device.
-#define trailing_zeros(v) findLSB(v)  // of a positive whole number
+// The quadtree over the image in GLSL: work items search cells, and queue the next level's cells on the device.
+#define trailing_zeros(v) findLSB(v)  // v must be positive
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Input0 { float c[]; };
 layout(std430, binding = 1) writeonly buffer Output0 { real t[]; };

@@ -1,10 +1,13 @@
-// Real roots of monic polynomials to degree 4 in closed form; NO_ROOT stands where there is none.
-// One root of a cubic is Cardano's, or Viète's where three are real; the others are deflated by it as in W. Kahan, To Solve
-// a Real Cubic Equation, 1986. Square roots are the only functions called: float64 GLSL has neither cube roots nor
-// cosines, and Mesa's arc cosine is off by 1e-4. So cos(acos(c) / 3) is a polynomial in one square root, and a cube root is
-// six of them and two of Halley's steps. What both are off by, under 1e-5, CORRECTIONS of Newton's steps take away.
-// The quartic is Descartes' product of two quadratics, each coefficient by the formula that does not cancel, after
-// A. Orellana and C. De Michele, Algorithm 1010, ACM TOMS 46 (2020).
+// Real roots of monic polynomials of degree 2 to 4 in closed form; NO_ROOT stands for a root that does not exist.
+//
+// Cubics: one root is computed by Cardano's formula, or by Viète's if three are real. The cubic is then divided by
+// it, as in W. Kahan, To Solve a Real Cubic Equation, 1986, and the others are roots of the quotient. The only
+// functions called are square roots, since float64 GLSL has neither cube roots nor cosines, and Mesa's arc cosine is
+// wrong by 1e-4. cos(acos(c) / 3) is computed as a polynomial in one square root, a cube root by six square roots and
+// two of Halley's steps. Both are wrong by less than 1e-5; CORRECTIONS of Newton's steps remove that.
+//
+// Quartics: they are factored into two quadratics after Descartes. Each coefficient is computed by the formula that
+// does not cancel, after A. Orellana and C. De Michele, Algorithm 1010, ACM TOMS 46 (2020).
 STRUCT(Roots) struct Roots { real a; real b; real c; real d; };
 
 #define NO_ROOT (-REAL_INFINITY)
@@ -20,7 +23,7 @@ Roots no_roots() {
     return roots;
 }
 
-// Of x^2 + 2 b x + c, in a and b.
+// Returns the roots of x^2 + 2 b x + c as a and b.
 Roots quadratic_roots(real b, real c) {
     Roots roots = no_roots();
     Pair square = two_prod(b, b);
@@ -38,7 +41,8 @@ real halley_cube_root(real y, real x) {
     return y * ((cube + 2.0 * x) / (2.0 * cube + x));
 }
 
-// The cube root of x >= 0, to 1e-5 of it for x from 1e-30 to 1e30: 1/4 + 1/16 + 1/64 + ... = 1/3, then Halley's steps.
+// Returns the cube root of x >= 0 with a relative error under 1e-5 for x from 1e-30 to 1e30. The start is x to the
+// power 1/4 + 1/16 + 1/64, near 1/3; two of Halley's steps follow.
 real cube_root(real x) {
     real fourth = sqrt(sqrt(x));
     real sixteenth = sqrt(sqrt(fourth));
@@ -46,7 +50,8 @@ real cube_root(real x) {
     return x == 0.0 ? real(0) : halley_cube_root(halley_cube_root(y, x), x);
 }
 
-// cos(acos(c) / 3) for c in [-1, 1], to 1e-7: cos(2/3 acos(w)) with w = sqrt((1 + c) / 2) has no singularity in [0, 1].
+// Returns cos(acos(c) / 3) for c in [-1, 1] to 1e-7. It equals cos(2/3 acos(w)) with w = sqrt((1 + c) / 2), which has
+// no singularity for w in [0, 1].
 real third_angle_cosine(real c) {
     real w = sqrt(0.5 + 0.5 * c);
     real tail = -0.03031306341290474 +
@@ -54,10 +59,10 @@ real third_angle_cosine(real c) {
     return 0.5 + w * (0.5773472189903259 + w * (-0.11104323714971542 + w * (0.05286910757422447 + w * tail)));
 }
 
-// A root x of x^3 + b x^2 + c x + d, the farthest from the inflection; `largest`: the largest where three are real, and
-// then the caller knows that there are three where the value at the inflection is positive.
+// Returns the root of x^3 + b x^2 + c x + d that is farthest from the inflection; with `largest`, the largest root. For
+// `largest`, three roots must be real whenever the cubic's value at the inflection is positive.
 real cubic_root(real b, real c, real d, bool largest) {
-    // y^3 - 3 p y + 2 q with x = middle + y has three real roots where q^2 <= p^3: sizes are compared without those powers
+    // with x = middle + y the cubic is y^3 - 3 p y + 2 q, and three roots are real if q^2 <= p^3, tested without powers
     real middle = -A_THIRD * b;
     real p = middle * middle - A_THIRD * c;
     real q = 0.5 * (((middle + b) * middle + c) * middle + d);
@@ -87,7 +92,7 @@ real cubic_root(real b, real c, real d, bool largest) {
 
 Roots cubic_roots(real b, real c, real d) {
     real x = cubic_root(b, c, d, false);
-    // deflated from the end that loses less (Kahan)
+    // the quotient is computed from the end that loses fewer digits (Kahan)
     real q1 = x + b;
     real q0 = q1 * x + c;
     if (fabs(x * x * x) > fabs(d) && x != 0.0) {
@@ -99,9 +104,9 @@ Roots cubic_roots(real b, real c, real d) {
     return roots;
 }
 
-// Of x^4 + p x^2 + q x + r = (x^2 + a x + m - h) (x^2 - a x + m + h).
+// Returns the roots of x^4 + p x^2 + q x + r, which is (x^2 + a x + m - h) (x^2 - a x + m + h).
 Roots depressed_quartic_roots(real p, real q, real r) {
-    // a^2 is any root >= 0 of the resolvent; where p > 0 and its inflection is under 0, the farthest may be negative
+    // a^2 is any root >= 0 of the resolvent; if p > 0 its inflection is negative, and so may be the farthest root
     real c = p * p - 4.0 * r;
     real square = max(cubic_root(2.0 * p, c, -q * q, p > 0.0), real(0));
     real m = 0.5 * (p + square);

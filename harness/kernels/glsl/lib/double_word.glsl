@@ -1,6 +1,8 @@
-// Arithmetic on sums of two numbers, to about twice the working precision: Dekker 1971; M. Joldes, J.-M. Muller,
-// V. Popescu, Tight and rigorous error bounds for basic building blocks of double-word arithmetic, 2017 (algorithms 6, 9,
-// 12 and 17, with products by splitting).
+// Arithmetic on numbers that are sums of two, to about twice the working precision. After Dekker 1971; M. Joldes,
+// J.-M. Muller, V. Popescu, Tight and rigorous error bounds for basic building blocks of double-word arithmetic, 2017
+// (algorithms 6, 9, 12 and 17, with products by splitting).
+
+// Returns a + b exactly, if |a| >= |b|.
 Pair quick_two_sum(real a, real b) {
     PRECISE real s = a + b;
     PRECISE real c = s - a;

@@ -1,5 +1,6 @@
-// Error-free transforms: each pair sums exactly to the exact result (barring over- and underflow).
-// Dekker 1971; Knuth 1969; Ogita, Rump, Oishi 2005. two_prod splits, since fma does not fuse on every device.
+// Error-free transforms: hi is the rounded result, and hi + lo is the exact one if nothing over- or underflows.
+// Dekker 1971; Knuth 1969; Ogita, Rump, Oishi 2005. two_prod splits its factors, since fma does not fuse on every
+// device.
 STRUCT(Pair) struct Pair { real hi; real lo; };
 
 Pair make_pair(real hi, real lo) {

@@ -1,6 +1,6 @@
-// Compensated sums of products for fitting (szente, section 2.1; Ogita, Rump, Oishi 2005, Dot2): matrix entries and
-// samples come in two parts, and every product and sum keeps its error.
-STRUCT(Factor) struct Factor { real hi; real lo; real head; real tail; };  // value hi + lo; hi = head + tail, exactly
+// Compensated sums of products for fitting (szente, section 2.1; Ogita, Rump, Oishi 2005, Dot2). Matrix entries and
+// samples are given in two parts, and every product and sum keeps its rounding error.
+STRUCT(Factor) struct Factor { real hi; real lo; real head; real tail; };  // value hi + lo; hi is head + tail exactly
 
 Factor make_factor(Pair value) {
     Pair parts = split(value.hi);
@@ -12,7 +12,7 @@ Factor make_factor(Pair value) {
     return factor;
 }
 
-// sum + (hi + lo) b, to about twice the working precision.
+// Returns sum + (hi + lo) b to about twice the working precision.
 Pair plus_product(Pair sum, real hi, real lo, Factor b) {
     Pair a = split(hi);
     PRECISE real p = hi * b.hi;

@@ -1,5 +1,6 @@
-// A polynomial's coefficients from its values at Chebyshev's nodes (szente, section 2.1): rows of the inverse matrix for
-// sums and differences of opposite samples. Reads the tables of harness.kernels.fitting, so it stands after them.
+// Computes a polynomial's coefficients from its values at Chebyshev's nodes (szente, section 2.1). Rows of the inverse
+// matrix are multiplied with the sums and the differences of opposite samples. Reads the tables that
+// harness.kernels.fitting makes, and so comes after them in a program.
 #define FIT_EVENS (SURFACE_DEGREE / 2 + 1)
 #define FIT_ODDS ((SURFACE_DEGREE + 1) / 2)
 
@@ -27,7 +28,8 @@ Pair odd_row(IN Factor differences[FIT_ODDS], int row, bool compensated) {
     return sum;
 }
 
-// s: values at NODES. c: of the monomials in x, or of the Bernstein basis, as the tables are.
+// Turns the values s at NODES into coefficients c, in the basis that the tables are for: monomials in x, or the
+// Bernstein basis if `bernstein`. Unless `compensated`, sums and products are rounded as usual.
 void fit(IN real s[COEFFICIENTS], bool bernstein, bool compensated, OUT real c[COEFFICIENTS]) {
     Factor sums[FIT_EVENS];
     Factor differences[FIT_ODDS];

@@ -1,5 +1,6 @@
-// A polynomial's coefficients from its values s at NODES by the whole inverse matrix, row by row, as szente, section 2.1,
-// prints it: one product for each entry. Reads tables of harness.kernels.fitting, so it stands after them.
+// Computes a polynomial's coefficients from its values s at NODES by the whole inverse matrix, with one product for
+// each entry, as szente prints it in section 2.1. Reads the tables that harness.kernels.fitting makes, and so comes
+// after them in a program.
 void fit_whole(IN real s[COEFFICIENTS], bool compensated, OUT real c[COEFFICIENTS]) {
     Factor samples[SURFACE_DEGREE + 1];
     for (int i = 0; i <= SURFACE_DEGREE; i++) samples[i] = make_factor(make_pair(s[i], 0.0));

@@ -1,11 +1,11 @@
-// What a method answers for one ray: where, what, and how many evaluations of f it spent.
+// What a method answers for one ray: t, a status, and how many evaluations of f it spent.
 STRUCT(Hit) struct Hit { real t; int status; int evaluations; };
 
 #define MISS 0
 #define HIT 1
 #define EXHAUSTED 2
-#define MOST_EVALUATIONS 16777215  // of one ray, 2^24 - 1: more is no count
-#define NO_ANSWER (-1)  // the word in place of an answer that cannot be one
+#define MOST_EVALUATIONS 16777215  // of one ray, 2^24 - 1: a larger count is invalid
+#define NO_ANSWER (-1)  // the word that stands for an invalid answer
 
 Hit no_hit(real t) {
     Hit hit;
@@ -26,12 +26,12 @@ Hit missed(Hit hit) {
     return hit;
 }
 
-// Whether the status is one of MISS to EXHAUSTED and the count lies in 0 to MOST_EVALUATIONS.
+// Returns whether the status is MISS, HIT or EXHAUSTED and the count is from 0 to MOST_EVALUATIONS.
 bool is_answer(int status, int evaluations) {
     return ((status & -4) | (evaluations & ~MOST_EVALUATIONS)) == 0 && status <= EXHAUSTED;
 }
 
-// Gave up inside its budget at t; never a miss.
+// Answers that the method gave up at t, with its budget spent; this is never counted as a miss.
 Hit exhausted(Hit hit, real t) {
     hit.t = t;
     hit.status = EXHAUSTED;

@@ -1,15 +1,19 @@
-// Intervals that hold every exact result, without directed rounding. Every interval is finite or the whole line.
+// Interval arithmetic without directed rounding: every result holds all exact results. Every interval is finite or the
+// whole line.
 //
-// A rounded result r of one operation is within u |r| of the exact one (u = UNIT_ROUNDOFF), or within the smallest
-// normal number where it underflows. Subtracting 2 u |r| lowers r by at least one unit in its last place, however that
-// subtraction rounds, and whether or not fma fuses; REAL_TINY, four times the smallest normal number, beyond it covers
-// underflow and flushed denormals. What overflows or is no number becomes the whole line, save in the operations called
-// bounded: they are for surfaces and boxes on which nothing overflows (harness/kernels/reach.py).
-// Division and sqrt are widened by what the GLSL 4.3 and OpenCL 1.2 (full profile) specifications allow them, whichever
-// is more; sin and cos, which GLSL leaves unspecified, are computed here; exp and log are in interval_exp_log.
+// The rounded result r of one operation is within u |r| of the exact one (u = UNIT_ROUNDOFF), or within the smallest
+// normal number if it underflows. Subtracting 2 u |r| lowers r by at least one unit in its last place, however that
+// subtraction rounds, and whether or not fma fuses. Subtracting REAL_TINY, four times the smallest normal number, as
+// well covers underflow and flushed denormals. An interval that overflows or is not a number becomes the whole line,
+// except in the operations called bounded: these are for surfaces and boxes on which nothing overflows, see
+// harness/kernels/reach.py.
+//
+// Division and sqrt are widened by the error that the GLSL 4.3 or the OpenCL 1.2 (full profile) specification allows,
+// whichever is larger. sin and cos, whose errors GLSL does not specify, are computed here; exp and log are in
+// interval_exp_log.
 STRUCT(Interval) struct Interval { real lo; real hi; };
 
-#define INTERVAL_LARGEST_DIVISOR 4.253529586511731e37  // 2^125: a quotient by more is specified less well
+#define INTERVAL_LARGEST_DIVISOR 4.253529586511731e37  // 2^125: the specifications allow larger errors beyond it
 
 Interval make_interval(real lo, real hi) {
     Interval a;
@@ -18,7 +22,7 @@ Interval make_interval(real lo, real hi) {
     return a;
 }
 
-// [lo, hi], or the whole line where an end is not finite. PRECISE: else Mesa takes it that nothing here is NaN.
+// Returns [lo, hi], or the whole line if an end is not finite. Without PRECISE, Mesa assumes that nothing here is NaN.
 Interval finite_or_whole(real lo, real hi) {
     PRECISE real width = fabs(hi - lo);
     bool finite = width < REAL_INFINITY;
@@ -29,7 +33,8 @@ Interval whole_line() {
     return make_interval(-REAL_INFINITY, REAL_INFINITY);
 }
 
-// Holds the exact values whose computed ones are lo and hi, each within k u of its size; finite where they are.
+// Returns an interval that holds the exact values of the computed lo and hi, which are each wrong by at most k u times
+// their size. It is finite if lo and hi are.
 Interval widened_by_rounding(real lo, real hi, real k) {
     real relative = 2.0 * k * UNIT_ROUNDOFF;
     return make_interval(fma(fabs(lo), -relative, lo) - REAL_TINY, fma(fabs(hi), relative, hi) + REAL_TINY);
@@ -75,7 +80,7 @@ Interval interval_mul(Interval a, Interval b) {
     return checked(bounded_mul(a, b));
 }
 
-// c a, for a number c that is exact (k 1) or rounded to nearest (k 2).
+// Returns c a for a number c; k is 1 if c is exact, 2 if it is rounded to nearest.
 Interval bounded_scale(real c, Interval a, real k) {
     bool turned = c < 0.0;
     return widened_by_rounding(c * (turned ? a.hi : a.lo), c * (turned ? a.lo : a.hi), k);
@@ -85,7 +90,7 @@ Interval interval_scale(real c, Interval a, real k) {
     return checked(bounded_scale(c, a, k));
 }
 
-// o + [t0, t1] d, for numbers o and d: one coordinate of a piece of a ray.
+// Returns o + [t0, t1] d for numbers o and d, which is one coordinate of a piece of a ray.
 Interval bounded_affine(real o, real d, real t0, real t1) {
     real p = t0 * d;
     real q = t1 * d;
@@ -93,12 +98,12 @@ Interval bounded_affine(real o, real d, real t0, real t1) {
     return widened_by_rounding((o + min(p, q)) - product_error, (o + max(p, q)) + product_error, 1.0);
 }
 
-// The least absolute value in a.
+// Returns the least absolute value in a.
 real interval_mignitude(Interval a) {
     return max(max(a.lo, -a.hi), real(0));
 }
 
-// The greatest absolute value in a.
+// Returns the greatest absolute value in a.
 real interval_magnitude(Interval a) {
     return max(-a.lo, a.hi);
 }
@@ -121,8 +126,9 @@ bool is_odd(int n) {
     return n - 2 * (n / 2) == 1;
 }
 
-// a^n by squaring, n >= 1; within (n - 1) u. Without a loop to n = 31: Mesa ends all of a shader's loops, inner ones too,
-// once they have turned 65535 times together, and a marching method takes thousands of powers.
+// Returns a^n by squaring, n >= 1, with a relative error within (n - 1) u. Up to n = 31 it has no loop: Mesa ends all
+// loops of a shader, inner ones too, once they have turned 65,535 times together, and a marching method takes
+// thousands of powers.
 real whole_power(real a, int n) {
     real power = is_odd(n) ? a : real(1);
     real square = a * a;
@@ -149,7 +155,7 @@ Interval interval_powi(Interval a, int n) {
     return checked(bounded_powi(a, n));
 }
 
-// GLSL allows 2.5 ulp. The whole line where b reaches zero.
+// Returns the whole line if b holds 0 or is too large. GLSL allows 2.5 ulp, OpenCL as much.
 Interval interval_div(Interval a, Interval b) {
     if (interval_mignitude(b) > 0.0 && interval_magnitude(b) < INTERVAL_LARGEST_DIVISOR) {
         real p = a.lo / b.lo;
@@ -169,15 +175,17 @@ Interval interval_max(Interval a, Interval b) {
     return finite_or_whole(max(a.lo, b.lo), max(a.hi, b.hi));
 }
 
-// GLSL: 1 / inversesqrt(a), 2 + 2.5 ulp; OpenCL: 3 ulp. Of the part of a that is not negative; TINY: a flushed denormal.
+// Returns the roots of the part of a that is not negative; the whole line if there is none. GLSL allows sqrt as
+// 1 / inversesqrt(a), 2 + 2.5 ulp; OpenCL 3 ulp. REAL_TINY is added for denormals, which may be flushed to 0.
 Interval interval_sqrt(Interval a) {
     if (a.hi >= 0.0) return outward(sqrt(max(a.lo, real(0))), sqrt(a.hi + REAL_TINY), 12.0);
     return whole_line();
 }
 
-// sin(x - m pi) for |x| <= 4096 and |m| <= 1304.5, a multiple of a half, so near x / pi that |x - m pi| < 1.6.
-// pi in parts of 12, 12, 12 and 24 bits: m times the first three is exact, and so is the first difference; the others
-// err by u |x - m pi| each, the truncated series by 2e-18, its sum by at most 8 u. Within 16 u, absolute.
+// Returns sin(x - m pi) with an absolute error within 16 u, for |x| <= 4096 and a multiple m of a half with |m| <=
+// 1304.5 and |x - m pi| < 1.6. pi is taken in parts of 12, 12, 12 and 24 bits. m times the first three is exact, and
+// so is the first difference; the other differences are wrong by u |x - m pi| each, the truncated series by 2e-18,
+// and its sum by at most 8 u.
 real reduced_sin(real x, real m) {
     PRECISE real r1 = x - m * 3.140625;
     PRECISE real r2 = r1 - m * 9.67502593994140625e-4;
@@ -189,10 +197,10 @@ real reduced_sin(real x, real m) {
     return r * sum;
 }
 
-#define PER_HALF_TURN 0.31830987334251404  // 1 / pi, rounded: only decides which multiple of pi is near
+#define PER_HALF_TURN 0.31830987334251404  // 1 / pi, rounded: it only decides which multiple of pi is near
 #define PER_TURN 0.15915493667125702
 
-// sin(x) for offset 0, cos(x) for offset 1/2: within 32 u, absolute, for |x| <= 4096.
+// Returns sin(x) for offset 0, cos(x) for offset 1/2, with an absolute error within 32 u for |x| <= 4096.
 real bounded_wave(real x, real offset) {
     real n = floor(x * PER_HALF_TURN + (0.5 - offset));
     real s = reduced_sin(x, n + offset);
@@ -200,7 +208,8 @@ real bounded_wave(real x, real offset) {
     return even == (offset == 0.0) ? s : -s;
 }
 
-// sin or cos over a: its ends, and 1 or -1 where a peak or a dip is in a or within 2^-12 of a turn of it.
+// Returns the range of sin (offset 0) or cos (offset 1/2) over a: from the values at its ends, and 1 or -1 if a
+// maximum or a minimum is in a or within 2^-12 of a turn of it.
 Interval interval_wave(Interval a, real offset) {
     if (a.lo > -4096.0 && a.hi < 4096.0) {
         real error = 32.0 * UNIT_ROUNDOFF;

@@ -1,11 +1,13 @@
-// A polynomial's lower bound on [0, 1] from its Bernstein coefficients b (szente, section 3): with m the least of them,
+// Lower bounds of a polynomial on [0, 1] from its Bernstein coefficients b (szente, section 3). With m the least of
+// them,
 //
 //     l(x) = m + (b[0] - m) (1 - x)^n + (b[n] - m) x^n
 //
-// is nowhere above it (Equation 5), and least at a point in closed form (Equation 8). Upper bounds are those of -b.
+// is nowhere above the polynomial (Equation 5), and its least value is at a point in closed form (Equation 8). Upper
+// bounds are the negatives of the lower bounds of -b.
 STRUCT(LowerCurve) struct LowerCurve { real least; real first; real last; real lowest_at; };  // m, b[0] - m, b[n] - m
 
-// a^(1/k) for a in [0, 1]: square roots into its neighbourhood, then Halley's iteration, which cubes the error.
+// Returns a^(1/k) for a in [0, 1]: square roots come near it, then Halley's iteration cubes the error with each step.
 real kth_root(real a, int k) {
     real y = a;
     for (int power = 1; 10 * power < 7 * k; power = 2 * power) y = sqrt(y);
@@ -19,7 +21,7 @@ real kth_root(real a, int k) {
     return y;
 }
 
-// Equation 8 needs both ends above m; where one is not, the curve is least at that end, and equal to m.
+// Returns the curve l. Equation 8 needs both ends above m; if one is equal to m, the curve is least there.
 LowerCurve lu_curve(IN real b[COEFFICIENTS], int degree) {
     LowerCurve curve;
     curve.least = b[0];
@@ -34,7 +36,7 @@ LowerCurve lu_curve(IN real b[COEFFICIENTS], int degree) {
     return curve;
 }
 
-// The control points' own bound (Equation 2): a curve that is m everywhere.
+// Returns the bound by the control points alone (Equation 2): a curve that is m everywhere.
 LowerCurve control_point_curve(IN real b[COEFFICIENTS], int degree) {
     LowerCurve curve;
     curve.least = b[0];
@@ -49,12 +51,12 @@ real curve_value(LowerCurve curve, real x, int degree) {
     return curve.least + (curve.first * whole_power(1.0 - x, degree) + curve.last * whole_power(x, degree));
 }
 
-// What lowers a value of the curve by more than its rounding errors.
+// Returns a bound of the rounding errors of curve_value, which `lower_bound` subtracts.
 real curve_error(LowerCurve curve, int degree) {
     return real(2 * degree + 16) * UNIT_ROUNDOFF * (fabs(curve.least) + curve.first + curve.last);
 }
 
-// The curve's least value, lowered by more than its rounding errors.
+// Returns the curve's least value, lowered by more than its rounding errors.
 real lower_bound(LowerCurve curve, int degree) {
     return curve_value(curve, curve.lowest_at, degree) - curve_error(curve, degree);
 }

@@ -1,7 +1,8 @@
-// Polynomials and their real roots, in the monomial basis (the sum of q[j] x^j) or the Bernstein basis (the sum of
-// q[j] x^j (1 - x)^(degree - j): the binomials are part of q). Yuksel 2022, High-performance polynomial root finding.
-#define COEFFICIENTS 21  // every array's size, for degrees to 20: a library comes before any surface's degree
-#define MOST_STEPS 64    // of one bracketed Newton iteration; halving alone would end sooner
+// Polynomials and their real roots, after Yuksel 2022, High-performance polynomial root finding. The basis is
+// monomial, with the sum of q[j] x^j, or Bernstein, with the sum of q[j] x^j (1 - x)^(degree - j), where q[j]
+// includes the binomial.
+#define COEFFICIENTS 21  // the size of every array, for degrees to 20: the surface's degree is not known here
+#define MOST_STEPS 64    // of one bracketed Newton iteration; halving alone would need fewer
 #define THIRD 0.3333333432674407958984375
 
 Dual polynomial_dual(IN real q[COEFFICIENTS], int degree, bool bernstein, real x) {
@@ -26,14 +27,14 @@ Dual polynomial_dual(IN real q[COEFFICIENTS], int degree, bool bernstein, real x
     return make_dual(value, slope);
 }
 
-// The root of a linear q, or the end of [lo, hi] nearest to it.
+// Returns the root of a linear q, moved to the nearer end of [lo, hi] if it is outside; hi if q has none.
 real linear_root(IN real q[COEFFICIENTS], bool bernstein, real lo, real hi) {
     real slope = bernstein ? q[1] - q[0] : q[1];
     return slope == 0.0 ? hi : clamp(-q[0] / slope, lo, hi);
 }
 
-// x[1] and x[2] are the roots of a quadratic q in [x[0], x[3]], ascending, a root outside moved to the nearer end; where
-// there is none both are x[3]. By the form of the formula that does not cancel.
+// Sets x[1] and x[2] to the roots of a quadratic q in ascending order. A root outside [x[0], x[3]] is moved to the
+// nearer end; if there is none, both are x[3]. The formula's form is the one that does not cancel.
 void quadratic_roots(INOUT real x[COEFFICIENTS], IN real q[COEFFICIENTS], bool bernstein) {
     real a = bernstein ? q[0] - q[1] + q[2] : q[2];
     real b = bernstein ? q[1] - 2.0 * q[0] : q[1];
@@ -47,7 +48,7 @@ void quadratic_roots(INOUT real x[COEFFICIENTS], IN real q[COEFFICIENTS], bool b
     x[2] = max(first, second);
 }
 
-// What is left of an interval with a change of sign, the x to look at next, and how far that is from the last one.
+// An interval [a, b] in which the function changes its sign, the x to look at next, and its distance from the last x.
 STRUCT(Bracket) struct Bracket { real a; real b; real x; real step; };
 
 Bracket bracket_from(real a, real b, real way) {
@@ -59,14 +60,16 @@ Bracket bracket_from(real a, real b, real way) {
     return bracket;
 }
 
-// [a, b], with the function's values there, `from` and `to`. The first x is where Newton's step from the middle leads
-// on the cubic that is level at both ends, as q is between two critical points.
+// Returns the bracket [a, b]; `from` and `to` are the function's values at its ends. Its first x is the result of one
+// Newton step from the middle on the cubic that has these values, and slope 0 at both ends, as q has between two
+// critical points.
 Bracket make_bracket(real a, real b, real from, real to) {
     return bracket_from(a, b, 0.5 + THIRD * ((from + to) / (from - to)));
 }
 
-// The same for piece k of `degree` pieces: on the first and the last, which end at a critical point on one side only,
-// the first x is the root of the parabola that is level there; beyond degree 4 a parabola is no better than the cubic.
+// Returns the same for piece k of `degree` pieces. The first and the last piece have a critical point at one end
+// only, so that to degree 4 their first x is the root of the parabola with slope 0 there. Beyond degree 4 a parabola
+// is no better than the cubic.
 Bracket make_end_bracket(real a, real b, real from, real to, int k, int degree) {
     real share = from / (from - to);
     if (degree <= 4 && k == 1) return bracket_from(a, b, 1.0 - sqrt(1.0 - share));
@@ -74,7 +77,8 @@ Bracket make_end_bracket(real a, real b, real from, real to, int k, int degree) 
     return make_bracket(a, b, from, to);
 }
 
-// Newton's step from bracket.x, where the function is f; one that would leave the bracket is replaced by halving it.
+// Takes a Newton step from bracket.x, where the function's value and derivative are f. A step that would leave the
+// bracket is replaced by halving it.
 Bracket newton_step(Bracket bracket, Dual f, bool rising) {
     Bracket next = bracket;
     if ((f.value < 0.0) == rising) { next.a = bracket.x; } else { next.b = bracket.x; }
@@ -84,9 +88,10 @@ Bracket newton_step(Bracket bracket, Dual f, bool rising) {
     return next;
 }
 
-// One level of Yuksel's method. In: x[0] to x[degree], the ends of pieces on which q is monotone. Out: x[1] to
-// x[degree] are the pieces' roots, or a piece's far end where it has none, and x[degree + 1] is the last end: the ends
-// of pieces on which q's antiderivatives are monotone. Newton's method starts by the cubic, or (`middle`) in the middle.
+// Takes one level of Yuksel's method. On entry x[0] to x[degree] are the ends of pieces on which q is monotone. On
+// return x[1] to x[degree] are the pieces' roots, or a piece's far end if it has none, and x[degree + 1] is the last
+// end: these are the ends of pieces on which an antiderivative of q is monotone. Newton's method starts from the
+// cubic of make_bracket, or with `middle` from a piece's middle.
 void split_at_roots(INOUT real x[COEFFICIENTS], IN real q[COEFFICIENTS], int degree, bool bernstein, real tolerance,
                     bool middle) {
     real a = x[0];

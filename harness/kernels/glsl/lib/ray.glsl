@@ -1,4 +1,4 @@
-// A ray p(t) = origin + t direction, and a span [lo, hi] of t: empty where lo > hi.
+// A ray p(t) = origin + t direction, and a span [lo, hi] of t, which is empty if lo > hi.
 STRUCT(Ray) struct Ray { vec3 origin; vec3 direction; };
 STRUCT(Span) struct Span { real lo; real hi; };
 
@@ -16,8 +16,8 @@ Span make_span(real lo, real hi) {
     return span;
 }
 
-// Vectors are calculated with by components: `dot` and operators on vec3 keep Intel's compiler from giving each lane a
-// ray of its own, and cost twice the time.
+// Vectors are added and multiplied by components, here and in kernels: with `dot` and the operators on vec3, Intel's
+// compiler does not give each lane a ray of its own, and a program takes twice the time.
 real inner_product(vec3 a, vec3 b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
@@ -26,7 +26,7 @@ vec3 difference(vec3 a, vec3 b) {
     return vec3(a.x - b.x, a.y - b.y, a.z - b.z);
 }
 
-// p + t d
+// Returns p + t d.
 vec3 moved(vec3 p, real t, vec3 d) {
     return vec3(p.x + t * d.x, p.y + t * d.y, p.z + t * d.z);
 }
@@ -35,7 +35,7 @@ vec3 ray_point(Ray ray, real t) {
     return moved(ray.origin, t, ray.direction);
 }
 
-// A variable x for t = middle + reach x.
+// A variable x in place of t, with t = middle + reach x.
 STRUCT(Stretch) struct Stretch { real middle; real reach; };
 
 Stretch make_stretch(real middle, real reach) {
@@ -45,7 +45,7 @@ Stretch make_stretch(real middle, real reach) {
     return stretch;
 }
 
-// v over its length; the zero vector where v is zero or no number.
+// Returns v divided by its length; the zero vector if v is zero or not finite.
 vec3 unit_vector(vec3 v) {
     PRECISE real size = fabs(v.x) + fabs(v.y) + fabs(v.z);
     if (!(size > 0.0 && size < REAL_INFINITY)) return vec3(0.0, 0.0, 0.0);
@@ -53,7 +53,7 @@ vec3 unit_vector(vec3 v) {
     return w / sqrt(dot(w, w));
 }
 
-// o + t d, rounded about once.
+// Returns o + t d with about one rounding.
 real advanced(real o, real t, real d) {
     Pair product = two_prod(t, d);
     Pair sum = two_sum(o, product.hi);
@@ -62,7 +62,8 @@ real advanced(real o, real t, real d) {
     return result;
 }
 
-// The same ray with its origin moved by t: methods then work with small parameters however far the camera is.
+// Returns the same ray with its origin moved by t, so that methods work with small parameters however far the camera
+// is.
 Ray advanced_ray(Ray ray, real t) {
     return make_ray(vec3(advanced(ray.origin.x, t, ray.direction.x),
                          advanced(ray.origin.y, t, ray.direction.y),

@@ -1,4 +1,4 @@
-// map_item over rows: INPUTS reals in, OUTPUTS reals out. For probes and for tests of the libraries.
+// Runs map_item on one row per work item: INPUTS reals in, OUTPUTS reals out. For probes and tests of the libraries.
 __kernel void map(__global const real *x, __global real *y, int nx, int ny) {
     int i = get_global_id(0);
     if (i >= nx) return;

@@ -1,4 +1,4 @@
-// map_item over rows: INPUTS reals in, OUTPUTS reals out. For probes and for tests of the libraries.
+// Runs map_item on one row per work item: INPUTS reals in, OUTPUTS reals out. For probes and tests of the libraries.
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Input0 { real x[]; };
 layout(std430, binding = 1) writeonly buffer Output0 { real y[]; };

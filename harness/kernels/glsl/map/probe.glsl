@@ -1,4 +1,4 @@
-// What a device's arithmetic does: for a, b the errors of two_sum and two_prod as the device computes them.
+// Shows a device's arithmetic: two_sum and two_prod of two numbers, the error of a product by fma, and a quotient.
 #define INPUTS 2
 #define OUTPUTS 6
 void map_item(IN real x[INPUTS], OUT real y[OUTPUTS]) {

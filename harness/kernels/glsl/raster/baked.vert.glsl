@@ -1,2 +1,2 @@
-// Every instance is of one surface, whose numbers are constants of the program.
+// All instances have the same surface, whose numbers are constants of the program: nothing is passed to the fragments.
 void pass_on(Instance at) {}

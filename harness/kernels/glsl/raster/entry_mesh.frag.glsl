@@ -1,4 +1,4 @@
-// One fragment of a triangle, shaded by the normal that the mesh's vertices give it.
+// Shades one fragment of a triangle by the normal that is interpolated between the mesh's vertices.
 flat in vec3 instance_colour;
 in vec3 offset;
 in vec3 normal;

@@ -1,4 +1,4 @@
-// A vertex of a mesh, stretched along its axes, in an instance's place.
+// Stretches a vertex of the mesh along the axes and moves it to its instance's place.
 in vec3 vertex_position;
 in vec3 vertex_normal;
 flat out int instance;

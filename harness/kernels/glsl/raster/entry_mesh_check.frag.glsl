@@ -1,4 +1,4 @@
-// As entry_mesh, and where the triangle is along the ray through the pixel's middle.
+// As entry_mesh, and reports where the ray through the pixel's middle meets the triangle.
 flat in int instance;
 flat in vec3 instance_colour;
 in vec3 offset;

@@ -1,4 +1,5 @@
-// One fragment of a proxy: the instance's first hit, shaded, with its depth; discarded without one.
+// Casts the ray of one fragment of a proxy at its instance. Shades the first hit and writes its depth; discards the
+// fragment if there is none.
 layout(depth_greater) out float gl_FragDepth;
 layout(location = 0) out vec4 picture;
 void main() {

@@ -1,4 +1,4 @@
-// A corner of an instance's proxy, and what its fragments need of the instance.
+// Places one corner of an instance's proxy, and passes on what its fragments need of the instance.
 flat out int instance;
 flat out vec3 instance_eye;
 flat out vec3 instance_row_x;

@@ -1,4 +1,4 @@
-// As entry_raster, and what it answered.
+// As entry_raster, and reports what the method answered.
 layout(depth_greater) out float gl_FragDepth;
 layout(location = 0) out vec4 picture;
 void main() {

@@ -1,4 +1,5 @@
-// The numbers of an instance that differ from the others' in parameters or domain; surface sections read them by name.
+// Names the numbers of the fragment's instance where instances differ in parameters or domain. The generated
+// functions of the surface read them by these names, which are constants elsewhere.
 flat in vec4 instance_lower;
 flat in vec4 instance_upper;
 flat in vec4 instance_parameters;

@@ -1,4 +1,4 @@
-// The instances differ in parameters or domain: these go to the fragments as numbers.
+// The instances differ in parameters or domain: passes those of each instance on to its fragments.
 flat out vec4 instance_lower;
 flat out vec4 instance_upper;
 flat out vec4 instance_parameters;

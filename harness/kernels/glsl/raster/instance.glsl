@@ -1,5 +1,5 @@
-// One instance of a surface or mesh. The rows map world to local coordinates; local lengths times `scale` are the
-// world's. 32 floats, as harness.scenes.records.pack makes them.
+// One instance of a surface or mesh: 32 floats, as harness.scenes.records.pack makes them. The rows map world
+// coordinates to local ones; a local length times `scale` is the length in the world.
 struct Instance {
     vec4 row_x;
     vec4 row_y;
@@ -17,13 +17,14 @@ vec3 local_point(Instance at, vec3 world) {
     return vec3(dot(at.row_x, point), dot(at.row_y, point), dot(at.row_z, point));
 }
 
-// A local vector in world coordinates: the rows are those of a rotation over the scale, so its inverse is the transpose.
+// Turns a local vector into world coordinates. The rows are a rotation's divided by the scale, so that their transpose
+// times the squared scale is the inverse.
 vec3 world_vector(Instance at, vec3 local) {
     float square = at.lower_scale.w * at.lower_scale.w;
     return square * (local.x * at.row_x.xyz + local.y * at.row_y.xyz + local.z * at.row_z.xyz);
 }
 
-// The place in the picture of what stands at `offset` from the eye, in world coordinates.
+// Returns the place in the picture, in clip coordinates, of the point at `offset` from the eye, in world coordinates.
 vec4 clip_position(vec3 offset) {
     float s = dot(offset, forward);
     float z = window_depth(s);

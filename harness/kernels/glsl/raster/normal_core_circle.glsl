@@ -1,5 +1,5 @@
-// The torus's normal where p lies on it: from the nearest point of its core circle, over r (toledo2007, equation 6, with
-// that point written out).
+// Returns the torus's normal at a point p on it: the vector from the nearest point of the core circle to p, divided
+// by r (toledo2007, equation 6, with that point written out).
 vec3 core_circle_normal(vec3 p) {
     real from_axis = sqrt(p.x * p.x + p.y * p.y);
     real inverse = 1.0 / TUBE_RADIUS;

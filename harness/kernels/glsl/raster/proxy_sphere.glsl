@@ -1,4 +1,5 @@
-// A polygon of PROXY_SIDES sides about the ball's outline, seen from the eye, in the plane that touches its near side.
+// Returns corner k of a polygon of PROXY_SIDES sides that covers the ball as seen from the eye. The polygon lies in the
+// plane that touches the ball at its point nearest to the eye.
 vec3 proxy_corner(int k, vec3 lower, vec3 upper, float radius, vec3 local_eye) {
     vec3 center = 0.5 * (lower + upper);
     vec3 to_eye = local_eye - center;

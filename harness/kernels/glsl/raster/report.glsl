@@ -1,7 +1,6 @@
-// What the check reads of each pixel, row 0 at the bottom. Of all: the ray in world coordinates. Of every fragment, drawn
-// or not: how many there were, the evaluations they spent, and how many of them hit, gave up or gave no answer. Of the
-// one that is seen:
-// the local ray, t in two parts, and who it belongs to.
+// Writes what the check reads of each pixel; row 0 is at the bottom. Every pixel gives its ray in world coordinates.
+// All its fragments together, drawn or not, give how many they are, the evaluations they spent, and how many of them
+// hit, gave up or gave no answer. The fragment that is seen gives its local ray, t in two parts, and its instance.
 layout(location = 1) out vec4 seen_origin;
 layout(location = 2) out vec4 seen_direction;
 layout(location = 3) out vec4 seen_by;

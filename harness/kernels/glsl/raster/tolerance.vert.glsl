@@ -1,4 +1,5 @@
-// PIXELS footprints of a pixel at the distance of the domain's middle, in local lengths.
+// Sets the tolerance to PIXELS times the height that a pixel shows at the distance of the domain's middle, in local
+// units.
 flat out float instance_tolerance;
 void set_tolerance(Instance at, vec3 local_eye) {
     vec3 middle = 0.5 * (at.lower_scale.xyz + at.upper_bounding.xyz);

@@ -1,5 +1,6 @@
-// What every shader of a frame knows of its camera: eye, forward, right, up as camera_ray takes them, the two numbers
-// that turn a depth s along `forward` into the depth buffer's a + b / s; and how many pixels a side has.
+// What every shader of a frame knows of its camera: eye, forward, right and up, as camera_ray takes them;
+// `depth_map`, the a and b of the depth buffer's value a + b / s at depth s along `forward`; and `size`, the pixels
+// of a side.
 uniform vec3 eye;
 uniform vec3 forward;
 uniform vec3 right;

@@ -1,4 +1,4 @@
-// The ray through the middle of sample (i, j) of an nx by ny image, row 0 at the top.
+// Returns the ray through the middle of sample (i, j) of an image of nx by ny samples; row 0 is the top.
 Ray camera_ray(vec3 eye, vec3 forward, vec3 right, vec3 up, int i, int j, int nx, int ny) {
     real x = (real(2 * i + 1) - real(nx)) / real(nx);
     real y = (real(ny) - real(2 * j + 1)) / real(ny);

@@ -1,7 +1,8 @@
-// The harness's part of every ray: move its origin by own_shift, clip, call the method.
+// What the harness does with every ray: it moves the origin by own_shift, clips the ray, and calls the method. The
+// hit's t is along the moved ray; along the ray as given it is shift + hit.t.
 STRUCT(Cast) struct Cast { real shift; Hit hit; };
 
-// The first hit with lower <= t <= upper.
+// Returns the first hit with lower <= t <= upper, t along the ray as given.
 Cast cast_ray_between(Ray ray, real lower, real upper) {
     Cast result;
     result.shift = own_shift(ray);
@@ -21,7 +22,7 @@ Cast cast_ray(Ray ray) {
     return cast_ray_between(ray, 0.0, REAL_INFINITY);
 }
 
-// Evaluations and status in one word; NO_ANSWER where they are none.
+// Packs evaluations and status into one word; NO_ANSWER if they are no valid answer.
 int packed_answer(Hit hit) {
     return is_answer(hit.status, hit.evaluations) ? hit.evaluations * 4 + hit.status : NO_ANSWER;
 }

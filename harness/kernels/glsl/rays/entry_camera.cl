@@ -1,4 +1,5 @@
-// One work item per sample of a camera's image; the camera is eye, forward, right, up: 12 float32.
+// Casts the ray of one sample of a camera's image per work item. `c` is the camera: eye, forward, right, up, 12
+// float32.
 __kernel void camera(__global const float *c, __global real *t, __global int *answer, int nx, int ny) {
     int i = get_global_id(0);
     int j = get_global_id(1);

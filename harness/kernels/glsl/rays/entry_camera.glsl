@@ -1,4 +1,5 @@
-// One work item per sample of a camera's image; the camera is eye, forward, right, up: 12 float32.
+// Casts the ray of one sample of a camera's image per work item. `c` is the camera: eye, forward, right, up, 12
+// float32.
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Input0 { float c[]; };
 layout(std430, binding = 1) writeonly buffer Output0 { real t[]; };

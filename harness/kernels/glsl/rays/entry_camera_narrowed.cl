@@ -1,4 +1,4 @@
-// One work item per sample of a camera's image, its ray narrowed to the depths in its tile's span.
+// As entry_camera, but each ray is narrowed to the depths of its tile's span, which the prepass has written to `spans`.
 __kernel void camera(__global const float *c, __global real *t, __global int *answer, __global const real *spans,
                      int nx, int ny) {
     int i = get_global_id(0);

@@ -1,4 +1,4 @@
-// One work item per sample of a camera's image, its ray narrowed to the depths in its tile's span.
+// As entry_camera, but each ray is narrowed to the depths of its tile's span, which the prepass has written to `spans`.
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Input0 { float c[]; };
 layout(std430, binding = 1) writeonly buffer Output0 { real t[]; };

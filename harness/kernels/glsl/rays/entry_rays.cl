@@ -1,4 +1,5 @@
-// One work item per listed ray (origin, direction: 6 float32). t leaves in two parts, so that it keeps its last bits.
+// Casts one listed ray per work item: origin and direction, 6 float32. t is written in two parts whose sum is taken
+// on the host, so that it keeps its last bits.
 __kernel void rays(__global const float *ray_data, __global real *t, __global int *answer, int nx, int ny) {
     int i = get_global_id(0);
     if (i >= nx) return;

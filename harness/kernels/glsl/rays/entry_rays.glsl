@@ -1,4 +1,5 @@
-// One work item per listed ray (origin, direction: 6 float32). t leaves in two parts, so that it keeps its last bits.
+// Casts one listed ray per work item: origin and direction, 6 float32. t is written in two parts whose sum is taken
+// on the host, so that it keeps its last bits.
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Input0 { float ray_data[]; };
 layout(std430, binding = 1) writeonly buffer Output0 { real t[]; };

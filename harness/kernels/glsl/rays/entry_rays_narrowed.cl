@@ -1,4 +1,4 @@
-// One work item per listed ray of a camera, as entry_rays, narrowed to the depths in the span of its tile.
+// As entry_rays, for listed rays of a camera, each narrowed to the depths of the span of its tile, `tiles[i]`.
 __kernel void rays(__global const float *c, __global real *t, __global int *answer, __global const real *spans,
                    __global const float *ray_data, __global const int *tiles, int nx, int ny) {
     int i = get_global_id(0);

@@ -1,4 +1,4 @@
-// One work item per listed ray of a camera, as entry_rays, narrowed to the depths in the span of its tile.
+// As entry_rays, for listed rays of a camera, each narrowed to the depths of the span of its tile, `tiles[i]`.
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Input0 { float c[]; };
 layout(std430, binding = 1) writeonly buffer Output0 { real t[]; };

@@ -1,5 +1,6 @@
-// The first hit of a listed ray with t >= T_MIN. A ray that starts on the surface hits it there, whichever way it goes and
-// whatever the method: on the surface is where f is zero in this program's own arithmetic, at a point of the domain.
+// Returns the first hit of a listed ray with t >= T_MIN. A ray that starts on the surface hits it there, in whatever
+// direction it goes and whatever the method. It starts on the surface if its start is in the domain and f there is
+// exactly 0 in this program's own arithmetic.
 Cast cast_listed_ray(Ray ray) {
     Ray start = advanced_ray(ray, T_MIN);
     Span stay = domain_span(start);

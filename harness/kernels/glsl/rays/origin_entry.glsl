@@ -1,4 +1,4 @@
-// A method's ray begins where it enters the domain, or at the eye within it: its t runs from about 0.
+// The method sees its ray begin where the ray enters the domain, or at the eye if that is inside; t begins near 0.
 real own_shift(Ray ray) {
     return max(domain_span(ray).lo, real(0));
 }

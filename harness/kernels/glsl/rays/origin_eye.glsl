@@ -1,4 +1,4 @@
-// A method's ray begins at the eye, as it is given: its t has the roundings of the eye's distance.
+// The method sees its ray begin at the eye, as given; a far eye makes t, and so its rounding errors, large.
 real own_shift(Ray ray) {
     return 0.0;
 }

@@ -1,4 +1,4 @@
-// A method's ray begins at its point nearest the domain's centre: its t is small however far the eye is.
+// The method sees its ray begin at the point nearest to the domain's centre; t is small however far the eye is.
 real own_shift(Ray ray) {
     return inner_product(difference(DOMAIN_CENTER, ray.origin), ray.direction);
 }

@@ -7,8 +7,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from harness.accuracy.conformance.cases import Bench, Case, Finding
 from harness.accuracy.judge import FAR, Wrong
+from harness.conformance.cases import Bench, Case, Finding
 from harness.contract import UNIT_ROUNDOFF, Parameter
 from harness.plugins import Plugin
 

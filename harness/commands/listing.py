@@ -1,4 +1,4 @@
-"""devices, list: what is there."""
+"""list: what there is to choose from."""
 
 from __future__ import annotations
 
@@ -6,63 +6,16 @@ import argparse
 import tomllib
 
 from harness import console
-from harness.contract import CLAIMS, DeviceInfo
-from harness.devices.executor import START_SECONDS, LocalExecutor, discover_devices
+from harness.commands import Add
+from harness.contract import CLAIMS
+from harness.experiment import shipped
 from harness.plugins import find_methods
-from harness.running.environment import ROOT, probed
 
 
-def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
-    text = "the devices of this machine and what their arithmetic and clocks are worth"
-    parser = commands.add_parser("devices", help=text, description=text, epilog="example: firsthit devices")
-    parser.set_defaults(run=_devices)
-
-    text = "what there is to choose from"
-    parser = commands.add_parser("list", help=text, description=text, epilog="example: firsthit list surfaces")
+def add_parsers(add: Add) -> None:
+    parser = add("list", "firsthit list surfaces")
     parser.add_argument("what", choices=["methods", "surfaces", "configs", "devices"])
     parser.set_defaults(run=_list)
-
-
-def _share(value: float | None) -> str:
-    return "-" if value is None else f"{value:.2%}".replace(".00%", "%")
-
-
-def _device_row(executor: LocalExecutor, info: DeviceInfo) -> tuple[str, ...]:
-    info, probes = probed(executor, info)
-    units = "-" if info.compute_units is None else str(info.compute_units)
-    head = (info.name, info.title, info.driver, units, "yes" if info.float64 else "no")
-    if not probes:
-        return (*head, *["-"] * 7)
-    shares = ("two_sum", "two_prod_fma", "two_prod_split", "round_to_nearest", "division")
-    return (*head, info.clock, *(_share(probes[key]) for key in shares), f"{probes['peak_gflops']:.3g}")
-
-
-def _devices(_options: argparse.Namespace) -> int:
-    found = discover_devices()
-    executor = LocalExecutor(START_SECONDS)
-    try:
-        rows = [_device_row(executor, info) for info in found]
-    finally:
-        executor.close()
-    header = (
-        "name",
-        "title",
-        "driver",
-        "units",
-        "float64",
-        "clock",
-        "two_sum",
-        "two_prod fma",
-        "two_prod split",
-        "nearest",
-        "division",
-        "GFLOP/s",
-    )
-    print(console.table(header, rows))
-    for info in found:
-        if info.problem:
-            print(f"{info.name}: {info.problem}")
-    return 0 if any(not info.problem for info in found) else 3
 
 
 def _list(options: argparse.Namespace) -> int:
@@ -108,12 +61,13 @@ def _surfaces(_options: argparse.Namespace) -> str:
 
 
 def _configs(_options: argparse.Namespace) -> str:
-    rows = []
-    for path in sorted((ROOT / "configs").glob("*.toml")):
-        rows.append((path.relative_to(ROOT).as_posix(), tomllib.loads(path.read_text(encoding="utf-8"))["title"]))
+    paths = [shipped.located(name) for name in shipped.names()]
+    rows = [(path.stem, tomllib.loads(path.read_text(encoding="utf-8"))["title"]) for path in paths]
     return console.table(("config", "title"), rows)
 
 
 def _device_names(_options: argparse.Namespace) -> str:
-    rows = [(info.name, info.title, info.problem or "usable") for info in discover_devices()]
+    from harness.devices.discovery import known_devices
+
+    rows = [(info.name, info.title, info.problem or "usable") for info in known_devices().devices]
     return console.table(("name", "title", "state"), rows)

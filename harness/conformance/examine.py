@@ -5,38 +5,24 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
-from harness.accuracy.conformance.cases import (
+from harness.conformance.cases import (
     OUTSIDE,
     Bench,
     Case,
     Finding,
     not_checked,
+    refusal,
     touch_cases,
     view_case,
     views_case,
 )
-from harness.accuracy.conformance.checks import CLAIM_CHECKS, agreement, answers, decided, finds_touch, same_bits
-from harness.accuracy.conformance.knobs import settings_of, swept
+from harness.conformance.checks import CLAIM_CHECKS, agreement, answers, decided, finds_touch, same_bits
+from harness.conformance.knobs import settings_of, swept
 from harness.contract import PRECISIONS, FirsthitError, Precision, Surface
 from harness.plugins import Plugin
 
 SWEPT = ("torus", "barth_sextic", "sphere", "plane_squared")  # a knob is swept on the first that its method accepts
 Located = tuple[str, Iterator[Finding]]  # what is checked there, and its findings, made as they are asked for
-
-
-def refusal(plugin: Plugin, surface: Surface, precision: Precision, bench: Bench) -> str | None:
-    """Why the method is not to be checked here, or None."""
-    from harness.kernels.functions import unsupported
-
-    if precision not in plugin.method.precisions:
-        return f"the method has no {precision} form"
-    if precision == "float64" and not bench.float64:
-        return "the device has no float64"
-    if plugin.method.casts == "mesh":
-        return "it draws triangles, and listed rays meet none"
-    if plugin.method.casts != "rays":
-        return "it casts the beams of a camera's pixels, and listed rays have none"
-    return plugin.method.accepts(surface) or unsupported(surface, precision, bench.language)
 
 
 def examine(bench: Bench, plugin: Plugin, case: Case, precision: Precision, setting: str = "") -> Iterator[Finding]:
@@ -104,7 +90,7 @@ def own_settings(plugin: Plugin) -> list[str]:
 
 def _on_dense(bench: Bench, plugin: Plugin, _: Sequence[Surface]) -> Iterator[Located]:
     """Dense random polynomials of every degree that the method accepts."""
-    from harness.accuracy.conformance import dense
+    from harness.conformance import dense
 
     for where, case, precision in dense.cases(bench, plugin):
         yield where, examine(bench, plugin, case, precision)

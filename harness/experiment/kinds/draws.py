@@ -13,12 +13,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from harness.contract import FirsthitError, MeshRecipe, Normal, Origin, Program, Proxy, Variant
+from harness.contract import MeshRecipe, Method, Normal, Origin, Program, Proxy, Variant
 from harness.devices.frames import Batch
-from harness.kernels.assemble import mesh_program, raster_program
-from harness.plugins import Catalog, Plugin
+from harness.experiment.kinds.methods import of_method
+from harness.experiment.kinds.model import Drawing
+from harness.plugins import Catalog
 from harness.scenes.model import Group, Scene
-from harness.scenes.records import MOST_PARAMETERS, corners, pack
+from harness.scenes.records import corners, pack
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,36 +52,38 @@ def draws(
     origin: Origin = "nearest",
     normal: Normal = "distance",
 ) -> tuple[Draw, ...]:
-    """A draw for each group; FirsthitError where its method cannot draw it. `pixels`, `origin` and `normal` as for
-    raster_program; a group with a variant of its own keeps that one's tolerance. Triangles have no origin."""
-    return tuple(
-        _draw(group, group.variant or variant, proxy, catalog, 0.0 if group.variant else pixels, origin, normal)
-        for group in scene.groups
-    )
+    """Make a draw call for each group of a scene.
+
+    `pixels`, `origin` and `normal` are as for raster_program; a group with a variant of its own keeps that one's
+    tolerance. Triangles have no origin. Raises FirsthitError where a group's method cannot draw it.
+    """
+    drawn = []
+    for group in scene.groups:
+        chosen = group.variant or variant
+        plugin = catalog.get(chosen.method)
+        drawing = Drawing(group, chosen, proxy, 0.0 if group.variant else pixels, origin, normal)
+        timed, check = of_method(plugin.method).draw_programs(plugin, drawing)
+        drawn.append(Draw(group, proxy, _recipe(group, chosen, plugin.method), timed, check))
+    return tuple(drawn)
+
+
+def _recipe(group: Group, variant: Variant, method: Method) -> MeshRecipe | None:
+    return method.mesh(group.distinct[0], dict(variant.parameters)) if method.mesh else None
 
 
 def refusal(scene: Scene, variant: Variant, catalog: Catalog) -> str | None:
-    """Why the methods of a scene cannot draw its surfaces, if they cannot."""
+    """Say why the methods of a scene cannot draw its surfaces, if they cannot."""
     for group in scene.groups:
         chosen = group.variant or variant
         method = catalog.get(chosen.method).method
-        if method.casts not in ("rays", "mesh"):
-            return f"{chosen} casts the beams of a camera's pixels, and a fragment has one ray"
+        kind = of_method(method)
+        if kind.undrawn:
+            return f"{chosen} {kind.undrawn}"
         for surface in group.distinct:
             if reason := method.accepts(surface):
                 return f"{chosen} refuses the surface {surface.name}: {reason}"
-        if method.casts == "mesh":
-            from harness.scenes import meshes
-
-            if reason := meshes.missing():
-                return reason
-            if group.varies:
-                return f"{chosen} has one mesh for a group, and the group's surfaces differ in {_differ(group)}"
-        elif group.varies and method.tables:
-            knobs = dict(chosen.parameters)
-            first = method.tables(group.distinct[0], knobs, "float32")
-            if any(method.tables(surface, knobs, "float32") != first for surface in group.distinct):
-                return f"{chosen} has tables of its surface, and the group's surfaces differ in {_differ(group)}"
+        if reason := kind.draw_refusal(method, chosen, group):
+            return reason
     return None
 
 
@@ -90,40 +93,12 @@ def too_many(scene: Scene, variant: Variant, catalog: Catalog, most: int) -> str
     count = 0
     for group in scene.groups:
         chosen = group.variant or variant
-        method = catalog.get(chosen.method).method
-        recipe = method.mesh(group.distinct[0], dict(chosen.parameters)) if method.mesh else None
+        recipe = _recipe(group, chosen, catalog.get(chosen.method).method)
         if recipe and recipe.kind == "parametric":
             from harness.scenes import meshes
 
             count += len(group) * meshes.triangles(group.distinct[0], recipe.resolution)
     return f"{count / 1e6:,.0f} million triangles a frame, over [budget] triangles" if count > most else None
-
-
-def _differ(group: Group) -> str:
-    names = [name for name in dict(group.distinct[0].parameters) if _several(group, name)]
-    return ", ".join(names) or "their domains"
-
-
-def _several(group: Group, name: str) -> bool:
-    return len({dict(surface.parameters)[name] for surface in group.distinct}) > 1
-
-
-def _draw(
-    group: Group, variant: Variant, proxy: Proxy, catalog: Catalog, pixels: float, origin: Origin, normal: Normal
-) -> Draw:
-    plugin: Plugin = catalog.get(variant.method)
-    method, surface = plugin.method, group.distinct[0]
-    if method.casts == "mesh":
-        assert method.mesh
-        recipe = method.mesh(surface, dict(variant.parameters))
-        return Draw(group, proxy, recipe, mesh_program(plugin.folder, False), mesh_program(plugin.folder, True))
-    if group.varies and len(surface.parameters) > MOST_PARAMETERS:
-        raise FirsthitError(f"instances of {surface.name} cannot differ: it has over {MOST_PARAMETERS} parameters")
-    timed, check = (
-        raster_program(method, plugin.folder, variant, surface, proxy, reports, group.varies, pixels, origin, normal)
-        for reports in (False, True)
-    )
-    return Draw(group, proxy, None, timed, check)
 
 
 def identity(scene: Scene, proxy: Proxy, drawn: tuple[Draw, ...]) -> Mapping[str, object]:

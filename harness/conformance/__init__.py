@@ -17,7 +17,7 @@ some rays (toledo2007's Newton gives up on up to 0.61 of the Barth sextic's). Fr
 up on any share. What a method's page calls weak without naming it a setting is not checked.
 """
 
-from harness.accuracy.conformance.cases import (
+from harness.conformance.cases import (
     GRAZING,
     TYPICAL,
     VIEWS,
@@ -26,11 +26,12 @@ from harness.accuracy.conformance.cases import (
     Finding,
     joined,
     not_checked,
+    refusal,
     touch_cases,
     view_case,
     views_case,
 )
-from harness.accuracy.conformance.checks import (
+from harness.conformance.checks import (
     MOST_UNDECIDED,
     agreement,
     answers,
@@ -43,15 +44,14 @@ from harness.accuracy.conformance.checks import (
     rounding_adds,
     same_bits,
 )
-from harness.accuracy.conformance.examine import (
+from harness.conformance.examine import (
     EXAMINATIONS,
     examine,
     examine_knobs,
     examine_touches,
-    refusal,
     rotation,
 )
-from harness.accuracy.conformance.knobs import settings_of, swept
+from harness.conformance.knobs import settings_of, swept
 
 __all__ = [
     "EXAMINATIONS",

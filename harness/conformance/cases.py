@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from harness.accuracy.answers import validated
 from harness.accuracy.judge import Verdicts, judge, judged
 from harness.contract import Box, Hits, Precision, Program, Surface, Truth, TruthStatus, View
+from harness.experiment.kinds import of_method
 from harness.kernels.assemble import Language, method_program
 from harness.oracle import first_hits
 from harness.plugins import Plugin
@@ -169,3 +170,16 @@ def touch_cases() -> tuple[Case, ...]:
         touches = truth.status == TruthStatus.TOUCH
         cases.append(Case(surface, rays[touches], some(truth, touches)))
     return tuple(cases)
+
+
+def refusal(plugin: Plugin, surface: Surface, precision: Precision, bench: Bench) -> str | None:
+    """Why the method is not to be checked here, or None."""
+    from harness.kernels.functions import unsupported
+
+    if precision not in plugin.method.precisions:
+        return f"the method has no {precision} form"
+    if precision == "float64" and not bench.float64:
+        return "the device has no float64"
+    if reason := of_method(plugin.method).unlisted:
+        return reason
+    return plugin.method.accepts(surface) or unsupported(surface, precision, bench.language)

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from harness.accuracy.answers import validated
-from harness.accuracy.conformance.cases import INSIDE, TYPICAL, Case, Finding, not_checked
 from harness.accuracy.judge import FAR, NAMES, Wrong
+from harness.conformance.cases import INSIDE, TYPICAL, Case, Finding, not_checked
 from harness.contract import CLAIMS, UNIT_ROUNDOFF, Hits, Precision, RayStatus, TruthStatus
 from harness.oracle.noise import root_shift
 from harness.plugins import Plugin

@@ -14,8 +14,7 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
-from harness.accuracy import conformance
-from harness.accuracy.conformance import Bench, Case
+from harness.conformance.cases import Bench, Case, refusal
 from harness.contract import PRECISIONS, Precision, Surface
 from harness.oracle import first_hits
 from harness.plugins import Plugin
@@ -86,5 +85,5 @@ def cases(bench: Bench, plugin: Plugin, count: int = COUNT) -> Iterator[tuple[st
     for degree in DEGREES:
         surface = surface_of(degree, seed_of(degree))
         for precision in PRECISIONS:
-            if conformance.refusal(plugin, surface, precision, bench) is None:
+            if refusal(plugin, surface, precision, bench) is None:
                 yield f"dense degree {degree} {precision}", case_of(degree, seed_of(degree), count), precision

@@ -1,0 +1,99 @@
+"""What a cell's checked programs answered, held against the oracle: one way for all kinds of casting.
+
+A kind says what was cast (`Cast`): the rays, the hits that it read, and what only it knows of them. All else is the
+same for every kind: truth, verdicts, the figures of the row, its pictures, and whether it may be timed.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from harness.accuracy import judge
+from harness.accuracy.judge import Deviations, Verdicts
+from harness.accuracy.pictures import pictures_of
+from harness.contract import Hits, Precision, Surface, Truth
+from harness.oracle import cached_first_hits
+from harness.scenes.camera import meets, scene_radius
+
+
+@dataclass(frozen=True, eq=False)
+class Certified:
+    """Holds the oracle's answers for the rays of a cast; a kind that asks it for more derives from this class."""
+
+    truth: Truth
+
+
+@dataclass(frozen=True, eq=False)
+class Cast:
+    """Holds the answers for the rays of a square grid, one after the other, row by row from the top left.
+
+    A kind whose answers say more than hits derives from this class.
+    """
+
+    surface: Surface  # that all lengths are told for
+    rays: NDArray[np.float32]  # [n, 6]
+    hits: Hits  # [n], along the rays, validated
+    compile_ms: float
+    facts: dict[str, Any]  # leaves of the row's accuracy that only this kind has
+    pictures: dict[str, NDArray[Any]]  # arrays of the row that only this kind has
+
+    def certified(self, folder: Path, margin: float) -> Certified:
+        """Certify the first hits of the rays; `folder` keeps the oracle's answers.
+
+        What a ray passes by within `margin`, in scene units, is certified too where there are several surfaces.
+        """
+        return Certified(cached_first_hits(self.surface, self.rays, folder))
+
+    def judged(self, verdicts: Verdicts, certified: Certified) -> tuple[Verdicts, dict[str, int]]:
+        """Correct verdicts by what only this kind knows, and return what was counted on the way."""
+        return verdicts, {}
+
+    def deviations(self, truth: Truth, verdicts: Verdicts) -> Deviations:
+        """Compute normal and residual errors of the right hits."""
+        return judge.deviations(self.surface, self.rays, self.hits, truth, verdicts)
+
+
+def figures(
+    cast: Cast, truth_folder: Path, grazing_margin: float, precision: Precision, footprint: float
+) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
+    """Return the figures of a row's accuracy, and its pictures; `footprint` is a pixel's height at distance 1."""
+    surface, size = cast.surface, round(len(cast.rays) ** 0.5)
+    radius = scene_radius(surface)
+    certified = cast.certified(truth_folder, grazing_margin * radius)
+    truth = certified.truth
+    verdicts = judge.judge(cast.hits, truth, radius, grazing_margin, precision)
+    verdicts, corrected = cast.judged(verdicts, certified)
+    summary = judge.summarize(
+        surface,
+        cast.hits,
+        truth,
+        verdicts,
+        cast.deviations(truth, verdicts),
+        precision=precision,
+        footprint=footprint,
+        grazing_margin=grazing_margin,
+    )
+    inside = int(meets(surface.domain, cast.rays).sum())
+    pictures = pictures_of(surface, cast.rays, cast.hits, truth, verdicts, size)
+    return {"size": size, "domain_rays": inside} | summary | corrected | cast.facts, pictures | cast.pictures
+
+
+def unjudged(summary: dict[str, Any], undecided: float) -> str | None:
+    """Say why a summary tells no accuracy, if it does not; `undecided` is the share of hits that may be so."""
+    reason = judge.undecided_hits(summary["truth_hits"], summary["undecided"], undecided)
+    if reason or judge.wrong_share(summary) is None:
+        return reason or judge.nothing_judged(summary["rays"])
+    return None
+
+
+def too_wrong(summary: dict[str, Any], most: float) -> str | None:
+    """Say why a cell is too wrong to be timed, if more than the share `most` of its judged rays is wrong."""
+    share = judge.wrong_share(summary)
+    if share is not None and not share <= most:
+        return f"wrong on {share:.1%} of the rays that are neither grazing nor drowned: not timed"
+    return None

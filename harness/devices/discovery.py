@@ -1,0 +1,69 @@
+"""Which devices this machine has."""
+
+from __future__ import annotations
+
+import importlib.util
+from collections.abc import Iterable
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+
+from harness.contract import DeviceInfo
+from harness.devices import kept
+from harness.devices.executor import START_SECONDS, CellError, LocalExecutor
+from harness.devices.interface import INSTALL
+
+
+@dataclass(frozen=True)
+class Known:
+    """Devices, and since when the oldest kept answer among them holds, in seconds since 1970; None: all are new."""
+
+    devices: list[DeviceInfo]
+    since: float | None
+
+
+def discover_devices(wanted: Iterable[str] = ("all",)) -> list[DeviceInfo]:
+    """Look for every device of every installed backend, and keep the answers for `known_devices`.
+
+    The backends are looked at side by side in processes of their own: a driver that crashes costs itself. Where
+    `wanted` names devices, as a config does, only the backends that it names are looked at.
+    """
+    named = {name.partition(":")[0] for name in wanted}
+    backends = _installed()
+    return _look([name for name in backends if name in named] if named <= set(INSTALL) else backends)
+
+
+def known_devices(again: bool = False) -> Known:
+    """Every device, from kept answers where these still hold: for telling of devices, never for making rows.
+
+    With `again` all are looked for. Kept answers tell nothing of a device that was taken out since, where nothing that
+    `kept` sees has changed.
+    """
+    backends = _installed()
+    held = {name: answer for name in backends if not again and (answer := kept.recall(name))}
+    looked = _look([name for name in backends if name not in held])
+    of_held = [info for answer in held.values() for info in answer.devices]
+    devices = sorted([*of_held, *looked], key=lambda info: backends.index(info.name.partition(":")[0]))
+    return Known(devices, min((answer.since for answer in held.values()), default=None))
+
+
+def _installed() -> list[str]:
+    return [backend for backend, package in INSTALL.items() if importlib.util.find_spec(package)]
+
+
+def _look(backends: list[str]) -> list[DeviceInfo]:
+    with ThreadPoolExecutor() as pool:
+        return [info for found in pool.map(_find, backends) for info in found]
+
+
+def _find(backend: str) -> list[DeviceInfo]:
+    executor, ran = LocalExecutor(START_SECONDS), None
+    try:
+        found = executor.find(backend)
+        ran = executor.running_files(backend)
+    except CellError as error:
+        problem = f"looking for it: {error}"
+        found = [DeviceInfo(f"{backend}:none", "none", "none", "none", None, False, "wall", (), problem)]
+    finally:
+        executor.close()
+    kept.keep(backend, found, ran)
+    return found

@@ -1,0 +1,94 @@
+"""The process of a worker: `python -m harness.devices.serving DEVICE HANDLE`, which only the executor starts.
+
+It is started as a module and not by multiprocessing, which would run the caller's script once more in each worker: a
+script without a main guard, or a notebook, would then start workers of its own or fail.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import ctypes
+import os
+import signal
+import subprocess
+import sys
+from multiprocessing import Pipe
+from multiprocessing.connection import Connection
+
+from harness.contract import FirsthitError
+
+
+def start(device: str) -> tuple[subprocess.Popen[bytes], Connection]:
+    """Start the worker that holds `device`; its process and this end of the connection to it.
+
+    The worker looks for modules where this process does (`sys.path`), so that it runs the same harness. It shares
+    standard output and error with this process, where drivers write what they like, and reads no input. Raises
+    FirsthitError where no process can be started.
+    """
+    ours, theirs = Pipe()
+    handle = theirs.fileno()
+    command = [sys.executable, "-P", "-m", "harness.devices.serving", device, str(handle)]
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)}
+    try:
+        if sys.platform == "win32":
+            os.set_handle_inheritable(handle, True)
+            process = subprocess.Popen(command, env=environment, stdin=subprocess.DEVNULL, close_fds=False)
+        else:
+            process = subprocess.Popen(command, env=environment, stdin=subprocess.DEVNULL, pass_fds=[handle])
+    except OSError as error:
+        ours.close()
+        raise FirsthitError(f"cannot start {sys.executable} as the worker of {device}: {error}", exit_code=3) from None
+    finally:
+        theirs.close()
+    return process, ours
+
+
+def _die_with_parent() -> None:
+    if sys.platform == "linux":
+        pr_set_pdeathsig = 1
+        with contextlib.suppress(OSError):
+            ctypes.CDLL(None).prctl(pr_set_pdeathsig, signal.SIGKILL)
+
+
+def serve(connection: Connection, device: str) -> None:
+    """Answer (operation, arguments) with ("ok", result) or ("failed", reason) until the connection closes."""
+    from harness.devices.interface import BuildError
+    from harness.devices.worker import Worker
+
+    worker = Worker(device)
+    while True:
+        try:
+            operation, arguments = connection.recv()
+        except (EOFError, ConnectionError):  # reset, where the runner went without reading the last answer
+            return
+        try:
+            answer = ("ok", getattr(worker, operation)(*arguments))
+        except (BuildError, FirsthitError) as error:
+            answer = ("failed", str(error))
+        except Exception as error:  # a binding may raise anything; it costs this one cell
+            answer = ("failed", f"{type(error).__name__}: {error}")
+        try:
+            connection.send(answer)
+        except ConnectionError:
+            return
+
+
+def main(device: str, handle: str) -> None:
+    """Serve the connection whose end this process was given as `handle`, then end at once.
+
+    Drivers may take long to unload, and some crash at it; by then nothing is left to be answered.
+    """
+    _die_with_parent()
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the runner decides when to stop
+    if sys.platform == "win32":
+        from multiprocessing.connection import PipeConnection
+
+        serve(PipeConnection(int(handle)), device)
+    else:
+        serve(Connection(int(handle)), device)
+    sys.stdout.flush()
+    os._exit(0)
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

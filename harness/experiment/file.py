@@ -1,0 +1,59 @@
+"""A config file: its text, its TOML, and on which line something stands."""
+
+from __future__ import annotations
+
+import contextlib
+import tomllib
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from harness.contract import FirsthitError
+
+Where = tuple[str | int, ...]  # keys and places that lead to a value: ("view", 1, "fov")
+
+
+@dataclass(frozen=True)
+class ConfigFile:
+    path: Path
+    text: str
+    table: dict[str, Any]  # as tomllib reads it
+
+    def error(self, where: Where, message: str) -> FirsthitError:
+        """Make the error that says `message` of what stands at `where`, with file and line."""
+        return FirsthitError(f"{self.path}:{self._line(where)}: {message}")
+
+    def _line(self, where: Where) -> int:
+        """Find the line that sets `where` or, where nothing does, its nearest ancestor; 1 where that is the whole file.
+
+        tomllib keeps no positions, so the shortest beginning of the file that sets it is looked for.
+        """
+        lines = self.text.splitlines()
+        for depth in range(len(where), 0, -1):
+            for count in range(1, len(lines) + 1):
+                with contextlib.suppress(ValueError):
+                    if _has(tomllib.loads("\n".join(lines[:count])), where[:depth]):
+                        return count
+        return 1
+
+
+def read(path: Path) -> ConfigFile:
+    """Read a file. Raises FirsthitError where it cannot be read or is not TOML."""
+    try:
+        text = path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        reason = error.strerror if isinstance(error, OSError) else "it is not UTF-8 text"
+        raise FirsthitError(f"cannot read {path}: {reason}; see `firsthit list configs`") from None
+    try:
+        return ConfigFile(path, text, tomllib.loads(text))
+    except ValueError as error:  # a TOMLDecodeError, or of a number of more digits than Python reads
+        raise FirsthitError(f"{path}: not valid TOML: {error}") from None
+
+
+def _has(table: Any, where: Where) -> bool:
+    try:
+        for part in where:
+            table = table[part]
+    except (KeyError, IndexError, TypeError):
+        return False
+    return True

@@ -1,0 +1,115 @@
+"""Beams: one for each pixel, or a quadtree of them over the image. A beam's answer is held against a ray inside it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from harness.accuracy.answers import validated_beams
+from harness.accuracy.check import Cast, Certified
+from harness.accuracy.judge import Verdicts
+from harness.accuracy.pixels import Pixels, along_rays, pixels_of, set_apart
+from harness.contract import Hits, Program, Stage, Surface
+from harness.devices.beams import BeamAnswer, BeamCheck, BeamFrame
+from harness.devices.executor import LocalExecutor
+from harness.devices.messages import Check, Checked, Frame
+from harness.devices.quadtree import layout_of
+from harness.experiment.kinds.model import Asked, Casting, Kind, MethodKind, Shot, ViewCasting
+from harness.kernels.assemble import with_free_loops
+from harness.scenes.camera import rays_of
+
+
+@dataclass(frozen=True)
+class BeamMethods(MethodKind):
+    """Methods whose kernel answers a cell of the image: `void cast_cell(Work, Cell)`."""
+
+    quadtree: bool
+
+    what = "beams"
+    entries = ("beams",)
+    unlisted = "it casts the beams of a camera's pixels, and listed rays have none"
+    undrawn = "casts the beams of a camera's pixels, and a fragment has one ray"
+
+    def stage_refusal(self, stage: Stage) -> str | None:
+        if stage == "rays":
+            return "the method casts the beams of a camera's pixels, and listed rays have none"
+        return None
+
+    def shot_refusal(self, camera: NDArray[np.float32] | None) -> str | None:
+        return None if camera is not None else "casts the beams of a camera's pixels, and listed rays have none"
+
+    def shot(self, program: Program, shot: Shot, index: NDArray[np.intp]) -> Check[BeamAnswer]:
+        assert shot.camera is not None
+        size, layout = math.isqrt(len(shot.rays)), layout_of(shot.knobs)
+        return BeamCheck(BeamFrame(program, shot.camera, size, self.quadtree, layout), index.astype(np.int32))
+
+    def shot_hits(self, answer: BeamAnswer) -> Hits:
+        return answer.hits
+
+    def validated(self, hits: Hits, surface: Surface, shot: Shot) -> Hits:
+        assert shot.camera is not None
+        return validated_beams(hits, surface.domain, shot.rays, shot.camera[3:6])
+
+
+@dataclass(frozen=True, eq=False)
+class BeamCast(Cast):
+    """Holds the answers of the beams that hold the grid's rays, brought to the rays."""
+
+    pixels: Pixels
+
+    def judged(self, verdicts: Verdicts, certified: Certified) -> tuple[Verdicts, dict[str, int]]:
+        verdicts, beam_only = set_apart(verdicts, self.hits, certified.truth, self.pixels)
+        return verdicts, {"beam_only": int(beam_only.sum())}
+
+
+class BeamCasting(ViewCasting):
+    """The beams of a camera's image, or a quadtree of them."""
+
+    def __init__(self, asked: Asked, check: Program, timed: Program, quadtree: bool) -> None:
+        super().__init__(asked, (check,), timed)
+        self.quadtree = quadtree
+
+    def _frame(self, program: Program) -> BeamFrame:
+        layout = layout_of(dict(self.cell.variant.parameters))
+        return BeamFrame(program, self.camera, self.samples, self.quadtree, layout)
+
+    def frame(self) -> Frame | None:
+        assert self.timed
+        return self._frame(self.timed)
+
+    def cast(self, executor: LocalExecutor, size: int, free_loops: bool = False) -> Cast:
+        surface, rays = self.cell.surface, rays_of(self.camera, size)
+        program = with_free_loops(self.checks[0]) if free_loops else self.checks[0]
+        pixels = pixels_of(self.camera, size, self.samples)
+        checked: Checked[BeamAnswer] = executor.check(self.cell.device, BeamCheck(self._frame(program), pixels.index))
+        answer = checked.answer
+        hits = beam_hits(answer.hits, pixels, surface, rays, self.camera)
+        mean, largest = answer.evaluations  # of the frame: large beams are shared by more pixels than are checked
+        facts = {"evaluations_mean": mean, "evaluations_max": largest, "lanes": answer.lanes}
+        pictures = {"level": answer.levels.reshape(size, size)}
+        return BeamCast(surface, rays, hits, checked.compile_ms, facts, pictures, pixels)
+
+    def with_programs(self, checked: Program | None, timed: Program) -> ViewCasting:
+        return BeamCasting(self.asked, checked or timed, timed, self.quadtree)
+
+
+def beam_hits(
+    hits: Hits, pixels: Pixels, surface: Surface, rays: NDArray[np.float32], camera: NDArray[np.float32]
+) -> Hits:
+    """Bring the answers of beams to the rays float32[n, 6] that they hold, and mark those INVALID that can be none."""
+    return validated_beams(along_rays(hits, pixels), surface.domain, rays, camera[3:6])
+
+
+@dataclass(frozen=True)
+class Beams(Kind):
+    """Beams of stage compute."""
+
+    quadtree: bool
+    checked_on_frame = True
+
+    def casting(self, asked: Asked) -> Casting:
+        check = asked.program(asked.cell.surface, "beams")
+        return BeamCasting(asked, check, with_free_loops(check), self.quadtree)

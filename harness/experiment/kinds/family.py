@@ -1,0 +1,68 @@
+"""Families of hard rays: listed rays, checked rung by rung, and never timed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from harness.accuracy.answers import validated
+from harness.accuracy.judge import undecided_hits
+from harness.accuracy.rungs import judge_group
+from harness.contract import Program, Surface
+from harness.devices.executor import LocalExecutor
+from harness.devices.messages import Frame, ListedCheck
+from harness.experiment.cells import Cell
+from harness.experiment.config import AccuracyChoice, Config
+from harness.experiment.kinds.model import Asked, Casting, Kind, Outcome
+from harness.experiment.kinds.narrowed import REFUSAL as NO_PREPASS
+from harness.hardcases import groups
+from harness.oracle import cached_first_hits
+
+
+class FamilyCasting(Casting):
+    """The listed rays of a family, by one program for each of its surfaces."""
+
+    def __init__(self, asked: Asked, checks: tuple[Program, ...]) -> None:
+        super().__init__(asked, checks, None)
+
+    def frame(self) -> Frame | None:
+        return None
+
+    def check(self, executor: LocalExecutor, choice: AccuracyChoice, folder: Path, framed: bool) -> Outcome:
+        cell, compile_ms, rungs = self.cell, 0.0, list[dict[str, Any]]()
+        assert cell.family
+        for group, program in zip(groups.groups(cell.family), self.checks, strict=True):
+            truth = cached_first_hits(group.surface, group.rays, folder)
+            checked = executor.check(cell.device, ListedCheck(program, group.rays))
+            hits = validated(checked.answer, group.surface.domain, group.rays, origin=cell.origin)
+            compile_ms += checked.compile_ms
+            rungs += judge_group(group, hits, truth, cell.precision)
+        rays, undecided = (sum(rung[name] for rung in rungs) for name in ("rays", "undecided"))
+        reason = undecided_hits(rays - undecided, undecided, choice.undecided, "rays")
+        return Outcome(compile_ms, reason, rungs=None if reason else rungs)
+
+
+class Family(Kind):
+    """Listed rays of a family."""
+
+    is_timed = False
+    listed = "families"
+
+    def surfaces(self, cell: Cell) -> Sequence[Surface]:
+        assert cell.family
+        return [group.surface for group in groups.groups(cell.family)]
+
+    def unable(self, asked: Asked) -> str | None:
+        return None if asked.cell.prepass == "none" else NO_PREPASS
+
+    def facts(self, cell: Cell) -> dict[str, Any]:
+        return {"camera": None, "proxy": None, "normal": None, "pixel_tolerance": None}
+
+    def question(self, cell: Cell, config: Config, timed: bool) -> dict[str, Any]:
+        assert cell.family
+        return {"family": groups.identity(cell.family)}
+
+    def casting(self, asked: Asked) -> Casting:
+        checks = tuple(asked.program(surface, "rays") for surface in self.surfaces(asked.cell))
+        return FamilyCasting(asked, checks)

@@ -1,0 +1,58 @@
+"""Meshes: a surface tessellated beforehand, whose triangles are rasterised in place of rays."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from harness.contract import Hits, Method, Program, Stage, Surface, Variant
+from harness.devices.messages import Check
+from harness.experiment.kinds.model import Asked, Casting, Drawing, Kind, MethodKind, Shot
+from harness.kernels.raster import mesh_program
+from harness.plugins import Plugin
+from harness.scenes import meshes
+from harness.scenes.model import Group
+
+
+class MeshMethods(MethodKind):
+    """Methods whose kernel shades a triangle: `vec3 mesh_normal(vec3)`."""
+
+    what = "triangles"
+    unlisted = "it draws triangles, and listed rays meet none"
+
+    def stage_refusal(self, stage: Stage) -> str | None:
+        return "the method draws triangles, in stage raster"
+
+    def draw_refusal(self, method: Method, variant: Variant, group: Group) -> str | None:
+        if reason := meshes.missing():
+            return reason
+        if group.varies:
+            return f"{variant} has one mesh for a group, and the group's surfaces differ in {group.differ_in}"
+        return None
+
+    def draw_programs(self, plugin: Plugin, drawing: Drawing) -> tuple[Program, Program]:
+        return mesh_program(plugin.folder, False), mesh_program(plugin.folder, True)
+
+    def compiled_drawing(self, plugin: Plugin, surface: Surface) -> Program | None:
+        return mesh_program(plugin.folder, True)
+
+    def shot_refusal(self, camera: NDArray[np.float32] | None) -> str | None:
+        return 'draws triangles, in stage raster: name it in a config with stages = ["raster"]'
+
+    def shot(self, program: Program, shot: Shot, index: NDArray[np.intp]) -> Check[Any]:
+        raise NotImplementedError("a mesh casts no shot: ask shot_refusal first")
+
+    def shot_hits(self, answer: Any) -> Hits:
+        raise NotImplementedError("a mesh casts no shot: ask shot_refusal first")
+
+    def validated(self, hits: Hits, surface: Surface, shot: Shot) -> Hits:
+        raise NotImplementedError("a mesh casts no shot: ask shot_refusal first")
+
+
+class Mesh(Kind):
+    """Triangles outside stage raster, where nothing draws them: MeshMethods.stage_refusal refuses every such cell."""
+
+    def casting(self, asked: Asked) -> Casting:
+        raise NotImplementedError("a mesh is drawn by stage raster: ask refusal first")

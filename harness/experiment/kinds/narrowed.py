@@ -1,0 +1,71 @@
+"""Rays behind a prepass: beams over tiles of the image narrow each ray before its method is called."""
+
+from __future__ import annotations
+
+from harness.accuracy.answers import validated
+from harness.accuracy.check import Cast
+from harness.accuracy.compilers import SecondBuild
+from harness.accuracy.pixels import pixels_of
+from harness.contract import Program
+from harness.devices.executor import LocalExecutor
+from harness.devices.messages import Frame
+from harness.devices.narrowed import NarrowedCheck, NarrowedFrame
+from harness.experiment.kinds.model import Asked, Casting, Kind, ViewCasting
+from harness.experiment.kinds.rays import listed_again
+from harness.kernels import prepass
+from harness.kernels.assemble import with_free_loops
+from harness.scenes.camera import rays_of
+
+REFUSAL = "a prepass narrows the rays of a camera's pixels, in the stage compute"
+
+
+class NarrowedCasting(ViewCasting):
+    """Rays of a camera's image, narrowed by the prepass `before`."""
+
+    not_raced = "rays behind a prepass are not raced"
+
+    def __init__(self, asked: Asked, check: Program, timed: Program, before: Program) -> None:
+        super().__init__(asked, (check,), timed)
+        self.before = before
+
+    @property
+    def others(self) -> tuple[Program, ...]:
+        return (self.before,)
+
+    def _frame(self) -> NarrowedFrame:
+        assert self.timed
+        return NarrowedFrame(self.before, self.timed, self.camera, self.samples)
+
+    def frame(self) -> Frame | None:
+        return self._frame()
+
+    def cast(self, executor: LocalExecutor, size: int, free_loops: bool = False) -> Cast:
+        surface, rays = self.cell.surface, rays_of(self.camera, size)
+        program = with_free_loops(self.checks[0]) if free_loops else self.checks[0]
+        pixels = pixels_of(self.camera, size, self.samples)
+        checked = executor.check(self.cell.device, NarrowedCheck(self._frame(), program, rays, pixels.index))
+        hits = validated(checked.answer.hits, surface.domain, rays, counts=False, origin=self.cell.origin)
+        facts = {"prepass_evaluations_mean": checked.answer.prepass_evaluations}
+        return Cast(surface, rays, hits, checked.compile_ms, facts, {})
+
+    def second_build(self, executor: LocalExecutor, cast: Cast) -> SecondBuild | None:
+        return listed_again(self.asked, executor, cast)
+
+    def with_programs(self, checked: Program | None, timed: Program) -> ViewCasting:
+        raise NotImplementedError(self.not_raced)
+
+
+class Narrowed(Kind):
+    """Rays of stage compute behind a prepass."""
+
+    checked_on_frame = True
+
+    def unable(self, asked: Asked) -> str | None:
+        return None if asked.method.casts == "rays" and asked.cell.stage == "compute" else REFUSAL
+
+    def casting(self, asked: Asked) -> Casting:
+        cell = asked.cell
+        check, timed = (
+            asked.program(cell.surface, entry, narrowed=prepass.parameters()) for entry in ("rays", "camera")
+        )
+        return NarrowedCasting(asked, check, timed, prepass.program(cell.surface, cell.precision, asked.language))

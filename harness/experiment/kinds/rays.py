@@ -1,0 +1,135 @@
+"""Rays: each is cast by itself, from a camera's image or from a list."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from harness.accuracy.answers import validated
+from harness.accuracy.check import Cast
+from harness.accuracy.compilers import SecondBuild, with_listed_rays
+from harness.contract import FirsthitError, Hits, Method, Origin, Program, Surface, Variant
+from harness.devices.executor import LocalExecutor
+from harness.devices.messages import CameraFrame, Check, Frame, ListedCheck, ListedFrame
+from harness.experiment.config import Experiment
+from harness.experiment.kinds.model import Asked, Casting, Drawing, Kind, MethodKind, Rastering, Shot, ViewCasting
+from harness.kernels.assemble import with_free_loops
+from harness.kernels.raster import raster_program
+from harness.plugins import Plugin
+from harness.scenes.camera import rays_of
+from harness.scenes.model import Group
+from harness.scenes.records import MOST_PARAMETERS
+
+
+class RayMethods(MethodKind):
+    """Methods whose kernel answers one ray: `Hit first_hit(Ray, real t0, real t1)`."""
+
+    what = "rays"
+    entries = ("rays", "camera")
+
+    def origin_refusal(self, method: Method, origin: Origin) -> str | None:
+        return None
+
+    def origins(self, experiment: Experiment) -> tuple[Origin, ...]:
+        return experiment.origins
+
+    def told_origin(self, origin: Origin) -> Origin | None:
+        return origin
+
+    def rasterings(self, method: Method, experiment: Experiment) -> list[Rastering]:
+        tolerances = experiment.config.tolerances if any(knob.per for knob in method.parameters) else [0.0]
+        normals = experiment.normals if method.answers else ("distance",)
+        return [(proxy, pixels, normal) for proxy in experiment.proxies for pixels in tolerances for normal in normals]
+
+    def draw_refusal(self, method: Method, variant: Variant, group: Group) -> str | None:
+        if not (group.varies and method.tables):
+            return None
+        knobs = dict(variant.parameters)
+        first = method.tables(group.distinct[0], knobs, "float32")
+        if all(method.tables(surface, knobs, "float32") == first for surface in group.distinct):
+            return None
+        return f"{variant} has tables of its surface, and the group's surfaces differ in {group.differ_in}"
+
+    def draw_programs(self, plugin: Plugin, drawing: Drawing) -> tuple[Program, Program]:
+        group, surface = drawing.group, drawing.group.distinct[0]
+        if group.varies and len(surface.parameters) > MOST_PARAMETERS:
+            raise FirsthitError(f"instances of {surface.name} cannot differ: it has over {MOST_PARAMETERS} parameters")
+        timed, check = (
+            raster_program(
+                plugin.method,
+                plugin.folder,
+                drawing.variant,
+                surface,
+                drawing.proxy,
+                reports,
+                group.varies,
+                drawing.pixels,
+                drawing.origin,
+                drawing.normal,
+            )
+            for reports in (False, True)
+        )
+        return timed, check
+
+    def compiled_drawing(self, plugin: Plugin, surface: Surface) -> Program | None:
+        return raster_program(plugin.method, plugin.folder, plugin.variant({}), surface, "box", True)
+
+    def shot(self, program: Program, shot: Shot, index: NDArray[np.intp]) -> Check[Hits]:
+        return ListedCheck(program, shot.rays[index])
+
+    def shot_hits(self, answer: Hits) -> Hits:
+        return answer
+
+    def validated(self, hits: Hits, surface: Surface, shot: Shot) -> Hits:
+        return validated(hits, surface.domain, shot.rays, shot.t_min, origin=shot.origin)
+
+
+class RayCasting(ViewCasting):
+    """Rays of a camera's image, or the same rays listed."""
+
+    def __init__(self, asked: Asked, check: Program, timed: Program) -> None:
+        super().__init__(asked, (check,), timed)
+
+    def frame(self) -> Frame | None:
+        assert self.timed
+        if self.cell.stage == "rays":
+            return ListedFrame(self.timed, rays_of(self.camera, self.samples))
+        return CameraFrame(self.timed, self.camera, self.samples)
+
+    def cast(self, executor: LocalExecutor, size: int, free_loops: bool = False) -> Cast:
+        surface, rays = self.cell.surface, rays_of(self.camera, size)
+        program = with_free_loops(self.checks[0]) if free_loops else self.checks[0]
+        checked = executor.check(self.cell.device, ListedCheck(program, rays))
+        hits = validated(checked.answer, surface.domain, rays, origin=self.cell.origin)
+        return Cast(surface, rays, hits, checked.compile_ms, {}, {})
+
+    def second_build(self, executor: LocalExecutor, cast: Cast) -> SecondBuild | None:
+        return listed_again(self.asked, executor, cast)
+
+    def with_programs(self, checked: Program | None, timed: Program) -> ViewCasting:
+        assert checked  # a revision that casts rays has a program of listed ones
+        return OtherRays(self.asked, checked, timed)
+
+
+class OtherRays(RayCasting):
+    """Rays by another revision's programs: its kernel is not at hand to be built in a second way."""
+
+    def second_build(self, executor: LocalExecutor, cast: Cast) -> SecondBuild | None:
+        return None
+
+
+def listed_again(asked: Asked, executor: LocalExecutor, cast: Cast) -> SecondBuild:
+    """Return how the cell's kernel casts the rays of `cast` when it is built in a second way."""
+    cell = asked.cell
+    run = with_listed_rays(executor, cast.rays)
+    return SecondBuild(cell.device, cell.precision, lambda language: asked.program(cell.surface, "rays", language), run)
+
+
+class Rays(Kind):
+    """Rays from a camera's image in stage compute, or listed in stage rays."""
+
+    def casting(self, asked: Asked) -> Casting:
+        surface = asked.cell.surface
+        check = asked.program(surface, "rays")
+        timed = asked.program(surface, "camera") if asked.cell.stage == "compute" else with_free_loops(check)
+        return RayCasting(asked, check, timed)

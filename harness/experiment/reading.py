@@ -1,0 +1,127 @@
+"""TOML → the dataclasses of a config, each field held against its limits; every mistake is answered with its line."""
+
+from __future__ import annotations
+
+import dataclasses
+import types
+import typing
+from pathlib import Path
+from typing import Any
+
+from harness.experiment import file
+from harness.experiment.config import Config, Experiment
+from harness.experiment.file import ConfigFile, Where
+from harness.experiment.resolving import resolve
+from harness.limits import Limit, is_finite
+from harness.plugins import Catalog
+from surfaces.words import suggestion
+
+WORDS = {float: "a number", int: "a whole number", str: "a text in quotes", bool: "true or false"}
+
+
+def load(path: Path, catalog: Catalog) -> Experiment:
+    """Read a config and resolve its names. Raises FirsthitError with file and line for anything wrong in it."""
+    read = file.read(path)
+    config: Config = _table(Config, read.table, (), read)
+    return resolve(config, read, catalog)
+
+
+def _value(kind: Any, value: Any, where: Where, source: ConfigFile) -> Any:
+    """Return `value` as `kind` states it.
+
+    A kind is a dataclass, str, float, int, bool, a Literal of words, a list, tuple or dict of kinds, a union of one
+    with None, or any of these Annotated with limits. Raises FirsthitError for a value of another kind or past its
+    limits.
+    """
+    origin = typing.get_origin(kind)
+    if origin is typing.Annotated:
+        return _limited(typing.get_args(kind), value, where, source)
+    if origin in (types.UnionType, typing.Union):
+        return _value(next(k for k in typing.get_args(kind) if k is not type(None)), value, where, source)
+    if origin is typing.Literal:
+        return _word(typing.get_args(kind), value, where, source)
+    if origin is list:
+        return _list(typing.get_args(kind)[0], value, where, source)
+    if origin is tuple:
+        return _tuple(typing.get_args(kind), value, where, source)
+    if origin is dict:
+        return _names(typing.get_args(kind)[1], value, where, source)
+    if isinstance(kind, type) and dataclasses.is_dataclass(kind):
+        return _table(kind, value, where, source)
+    return _scalar(kind, value, where, source)
+
+
+def _limited(stated: tuple[Any, ...], value: Any, where: Where, source: ConfigFile) -> Any:
+    """Read the value of an Annotated kind. A single value is told by its whole path, a collection by its own name."""
+    kind, limits = stated[0], typing.cast(tuple[Limit, ...], stated[1:])
+    read = _value(kind, value, where, source)
+    name = _path(where) if isinstance(read, int | float | str) else str(where[-1])
+    for limit in limits:
+        if problem := limit.broken(read):
+            raise source.error(where, f"{name}: {problem}")
+    return read
+
+
+def _word(known: tuple[str, ...], value: Any, where: Where, source: ConfigFile) -> str:
+    """Read one of the `known` words. An unknown one in a list is told by the list's name."""
+    word: str = _scalar(str, value, where, source)
+    if word not in known:
+        place = where[:-1] if isinstance(where[-1], int) else where
+        raise source.error(place, f"{place[-1]}: unknown {word!r}; {suggestion(word, known)}")
+    return word
+
+
+def _list(kind: Any, value: Any, where: Where, source: ConfigFile) -> list[Any]:
+    """Read a list. One item may stand without brackets."""
+    items = value if isinstance(value, list) else [value]
+    if not items:
+        raise source.error(where, f"{_path(where)} is empty; give at least one")
+    return [_value(kind, item, (*where, i), source) for i, item in enumerate(items)]
+
+
+def _tuple(kinds: tuple[Any, ...], value: Any, where: Where, source: ConfigFile) -> tuple[Any, ...]:
+    if not isinstance(value, list) or len(value) != len(kinds):
+        raise source.error(where, f"{_path(where)} needs {len(kinds)} numbers, not {value!r}")
+    return tuple(
+        _value(kind, item, (*where, i), source) for i, (kind, item) in enumerate(zip(kinds, value, strict=True))
+    )
+
+
+def _names(kind: Any, value: Any, where: Where, source: ConfigFile) -> dict[str, Any]:
+    """Read a table whose keys are names of the writer's choice."""
+    if not isinstance(value, dict):
+        raise source.error(where, f"{_path(where)} is a table of names, not {value!r}")
+    return {key: _value(kind, item, (*where, key), source) for key, item in value.items()}
+
+
+def _table(kind: type[Any], value: Any, where: Where, source: ConfigFile) -> Any:
+    """Read a table as the dataclass `kind`, whose fields are its keys."""
+    if not isinstance(value, dict):
+        raise source.error(where, f"{_path(where)} is a table, not {value!r}")
+    hints = typing.get_type_hints(kind, include_extras=True)
+    place = _path(where) or "the top level"
+    for key in value:
+        if key not in hints:
+            raise source.error((*where, key), f"unknown key {key!r} in {place}; {suggestion(key, hints)}")
+    for spec in dataclasses.fields(kind):
+        required = spec.default is dataclasses.MISSING and spec.default_factory is dataclasses.MISSING
+        if required and spec.name not in value:
+            raise source.error(where, f"{place} lacks {spec.name!r}")
+    return kind(**{key: _value(hints[key], item, (*where, key), source) for key, item in value.items()})
+
+
+def _scalar(kind: type, value: Any, where: Where, source: ConfigFile) -> Any:
+    """Read a text, a switch or a finite number. Parameters keep whole numbers as they are written."""
+    whole = isinstance(value, int) and not isinstance(value, bool)
+    number = isinstance(value, float) or (kind is float and whole)
+    if number and not is_finite(value):
+        raise source.error(where, f"{_path(where)} is a finite number, not {value!r}")
+    if kind is float and whole:
+        return value if "parameters" in where else float(value)
+    if not isinstance(value, kind) or isinstance(value, bool) != (kind is bool):
+        raise source.error(where, f"{_path(where)} is {WORDS[kind]}, not {value!r}")
+    return value
+
+
+def _path(where: Where) -> str:
+    return ".".join(map(str, where))

@@ -1,0 +1,163 @@
+"""A config's names → what they stand for: methods, surfaces, scenes, views."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+
+from harness.contract import FirsthitError, Stage, Surface, Variant, View
+from harness.experiment.config import Config, Experiment, MethodChoice, SurfaceChoice
+from harness.experiment.file import ConfigFile, Where
+from harness.limits import Distinct, Known
+from harness.plugins import Catalog
+from harness.scenes.choice import cut, scenes_of
+from harness.scenes.model import Scene
+from harness.scenes.views import by_angle, by_direction
+
+
+def resolve(config: Config, file: ConfigFile, catalog: Catalog) -> Experiment:
+    """Resolve every name that a config holds. Raises FirsthitError with file and line for one that is not there."""
+    if config.include:
+        return _collection(config, file)
+    config = _with_all_families(_with_all_views(config, file))
+    _check_that_something_is_asked(config, file)
+    variants, own_stages = _variants(config, file, catalog)
+    _check_baseline(config, file, catalog, variants)
+    return Experiment(
+        file.path.stem,
+        file.path,
+        file.text,
+        config,
+        tuple(variants),
+        tuple(_surfaces(config, file)),
+        tuple(config.precisions),
+        tuple(config.stages),
+        prepasses=tuple(config.prepass),
+        origins=tuple(config.origins),
+        proxies=tuple(config.proxies),
+        normals=tuple(config.normals),
+        scenes=tuple(_scenes(config, file, catalog)),
+        own_stages=own_stages,
+    )
+
+
+def _collection(config: Config, file: ConfigFile) -> Experiment:
+    """Make the experiment of a config that includes others, whose paths are relative to its own folder."""
+    if more := [key for key in file.table if key not in ("title", "include")]:
+        message = f"{more[0]} cannot stand beside include; put it into one of the configs included"
+        raise file.error((more[0],), message)
+    paths = [file.path.parent / name for name in config.include]
+    for i, included in enumerate(paths):
+        if not included.is_file():
+            raise file.error(("include", i), f"include: there is no config {included}")
+    return Experiment(file.path.stem, file.path, file.text, config, (), (), (), (), tuple(paths))
+
+
+def _with_all_views(config: Config, file: ConfigFile) -> Config:
+    """Add the views of `angles` and `directions`. Raises FirsthitError where two views have one name."""
+    views = [*config.view]
+    views += by_angle(config.angles) if config.angles else []
+    views += by_direction(config.directions) if config.directions else []
+    if problem := Distinct().broken([view.name for view in views]):
+        raise file.error(("view",), f"view: {problem}")
+    return dataclasses.replace(config, view=views or [View("default")])
+
+
+def _with_all_families(config: Config) -> Config:
+    from harness import hardcases
+
+    return dataclasses.replace(config, families=list(hardcases.names())) if config.families == ["all"] else config
+
+
+def _check_that_something_is_asked(config: Config, file: ConfigFile) -> None:
+    if not (config.surfaces or config.scene or config.families or config.studies):
+        message = "name surfaces to draw, or scenes, or families of hard rays, or studies, or some of each"
+        raise file.error((), message)
+    if (config.surfaces or config.scene or config.families) and not config.method:
+        raise file.error((), "the top level lacks 'method'")
+
+
+def _variants(
+    config: Config, file: ConfigFile, catalog: Catalog
+) -> tuple[list[Variant], dict[Variant, tuple[Stage, ...]]]:
+    """Bind every method's knobs: all variants, and the stages of those that have their own."""
+    variants: list[Variant] = []
+    own_stages: dict[Variant, tuple[Stage, ...]] = {}
+    for i, choice in enumerate(config.method):
+        try:
+            chosen = _variants_of(choice, catalog)
+        except FirsthitError as error:
+            raise file.error(("method", i, "name"), str(error)) from None
+        variants += chosen
+        if choice.stages:
+            own_stages |= dict.fromkeys(chosen, tuple(choice.stages))
+    bound = [(variant.method, variant.parameters) for variant in variants]
+    if twice := [variant for variant, key in zip(variants, bound, strict=True) if bound.count(key) > 1]:
+        raise file.error(("method",), f"{twice[0]} is named twice")
+    return variants, own_stages
+
+
+def _variants_of(choice: MethodChoice, catalog: Catalog) -> list[Variant]:
+    """Bind one method's knobs: its settings, its deviations, and every combination of the values given."""
+    plugin = catalog.get(choice.name)
+    variants = [plugin.setting(name) for name in choice.settings]
+    variants += plugin.deviations() if choice.deviations else []
+    if choice.parameters or not variants:
+        variants += [plugin.variant(point) for point in _grid(choice.parameters)]
+    return variants
+
+
+def _grid(parameters: Mapping[str, list[float]]) -> list[dict[str, float]]:
+    """Return every combination of the knobs' values; one without any where no knob is given."""
+    grid: list[dict[str, float]] = [{}]
+    for name, values in parameters.items():
+        grid = [{**point, name: value} for point in grid for value in values]
+    return grid
+
+
+def _check_baseline(config: Config, file: ConfigFile, catalog: Catalog, variants: list[Variant]) -> None:
+    """Raise FirsthitError where the config names a baseline that is no method or variant of its own that answers."""
+    answering = [variant for variant in variants if catalog.get(variant.method).method.answers]
+    known = dict.fromkeys([*(variant.method for variant in answering), *map(str, answering)])
+    problem = Known(lambda: known).broken([config.baseline])
+    if "baseline" in file.table and problem:
+        raise file.error(("baseline",), f"baseline: {problem}")
+
+
+def _surfaces(config: Config, file: ConfigFile) -> list[Surface]:
+    import surfaces
+
+    chosen: list[Surface] = []
+    for name in surfaces.names() if config.surfaces == ["all"] else config.surfaces:
+        try:
+            chosen.append(_surface(name, {}, config))
+        except FirsthitError as error:
+            where: Where = ("surface", name, "formula") if name in config.surface else ("surfaces",)
+            raise file.error(where, str(error)) from None
+    return chosen
+
+
+def _surface(name: str, parameters: Mapping[str, float], config: Config) -> Surface:
+    """Return a surface of the config's own, or of the catalog, with `parameters` bound."""
+    import surfaces
+
+    stated = config.surface.get(name, SurfaceChoice())
+    given = {key: repr(value) for key, value in {**stated.parameters, **parameters}.items()}
+    if not stated.formula:
+        return cut(surfaces.get(name, **given), stated.domain)
+    return surfaces.from_formula(stated.formula, stated.domain or "sphere:1.5", name=name, parameters=given)
+
+
+def _scenes(config: Config, file: ConfigFile, catalog: Catalog) -> list[Scene]:
+    scenes: list[Scene] = []
+    for name, choice in config.scene.items():
+        try:
+            scenes += scenes_of(
+                name,
+                choice,
+                lambda placed: cut(_surface(placed.surface, placed.parameters, config), placed.domain),
+                lambda placed: catalog.get(placed.method).variant(placed.knobs),
+            )
+        except FirsthitError as error:
+            raise file.error(("scene", name), str(error)) from None
+    return scenes

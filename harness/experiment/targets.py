@@ -1,0 +1,41 @@
+"""Which devices an experiment runs on, and which of its cells a device cannot run."""
+
+from __future__ import annotations
+
+from harness.contract import DeviceInfo
+from harness.devices.interface import RASTERISES
+from harness.experiment.config import Experiment
+
+
+def choose_devices(
+    wanted: list[str], found: list[DeviceInfo], rasterises: bool = False
+) -> dict[str, DeviceInfo | None]:
+    """Return the devices to run on by name; None for a named one that is not here.
+
+    `any` is the first that works, and rasterises if it must. `all` leaves out a broken double of a working device (one
+    driver installed twice).
+    """
+    by_name = {info.name: info for info in found}
+    chosen: dict[str, DeviceInfo | None] = {}
+    working = {info.name.split("-")[0] for info in found if not info.problem}
+    for name in wanted:
+        if name == "all":
+            chosen |= {i.name: i for i in found if not i.problem or i.name.split("-")[0] not in working}
+        elif name == "any":
+            chosen |= dict(
+                [(info.name, info) for info in found if not info.problem and (able(info) or not rasterises)][:1]
+            )
+        else:
+            chosen[name] = by_name.get(name)
+    return chosen
+
+
+def able(info: DeviceInfo) -> bool:
+    """Tell whether a device rasterises."""
+    return info.name.partition(":")[0] in RASTERISES
+
+
+def devices_of(experiment: Experiment, found: list[DeviceInfo]) -> dict[str, DeviceInfo | None]:
+    """Return the devices that a config's cells run on; where all of them are rasterised, `any` is one that can."""
+    drawn_only = not experiment.config.families and (not experiment.surfaces or set(experiment.stages) == {"raster"})
+    return choose_devices(experiment.config.devices, found, drawn_only)

@@ -1,0 +1,94 @@
+"""What a field may hold, stated on the field itself: `size: Annotated[int, Within(1, 4096)] = 128`.
+
+A limit's `broken` says what is wrong with a value, or None where nothing is. harness.experiment.reading holds every
+field of a config against its limits, and adds the field's name, the file and the line.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+from surfaces.words import suggestion
+
+
+class Limit(Protocol):
+    def broken(self, value: Any) -> str | None:
+        """Say why a field cannot hold `value`; None where it can."""
+
+
+@dataclass(frozen=True)
+class Within:
+    """A number from `low` to `high`, both included. `words` tell a reader so; they may name value, low and high."""
+
+    low: float
+    high: float
+    words: str = "{value} is outside [{low:g}, {high:g}]"
+
+    def broken(self, value: float) -> str | None:
+        if self.low <= value <= self.high:
+            return None
+        return self.words.format(value=value, low=self.low, high=self.high)
+
+
+@dataclass(frozen=True)
+class OneOf:
+    """One of a few values, or a list of such."""
+
+    values: tuple[str | int, ...]
+    words: str = "{value!r} is not one of {values}"
+
+    def broken(self, value: Any) -> str | None:
+        for one in value if isinstance(value, list) else [value]:
+            if one not in self.values:
+                return self.words.format(value=one, values=", ".join(map(str, self.values)))
+        return None
+
+
+@dataclass(frozen=True)
+class Known:
+    """Names that are known, in a list or as the keys of a table. `names` is called when a config is read.
+
+    With `or_all`, the list may be ["all"] instead.
+    """
+
+    names: Callable[[], Iterable[str]]
+    or_all: bool = False
+
+    def broken(self, value: Iterable[str]) -> str | None:
+        if self.or_all and value == ["all"]:
+            return None
+        known = list(self.names())
+        unknown = next((name for name in value if name not in known), None)
+        return None if unknown is None else f"unknown {unknown!r}; {suggestion(unknown, known)}"
+
+
+@dataclass(frozen=True)
+class Distinct:
+    """A list that holds nothing twice. `names` gives what must differ, where it is not the items themselves."""
+
+    names: Callable[[Any], Sequence[Any]] = list
+
+    def broken(self, value: Any) -> str | None:
+        names = self.names(value)
+        twice = next((name for name in names if names.count(name) > 1), None)
+        return None if twice is None else f"{twice!r} is named twice"
+
+
+def is_finite(value: float) -> bool:
+    """Say whether a number is one that a float can hold, of whole numbers too."""
+    try:
+        return math.isfinite(value)
+    except OverflowError:  # a whole number of more than 308 digits
+        return False
+
+
+AZIMUTH = Within(-360.0, 360.0)  # degrees
+ELEVATION = Within(-90.0, 90.0)  # degrees
+FIELD_OF_VIEW = Within(1e-3, 179.0)  # degrees
+DISTANCE = Within(1e-6, 1e9)  # scene units
+POSITION = Within(-1e9, 1e9)  # scene units
+SEED = Within(0, 2**63 - 1)
+SHARE = Within(0.0, 1.0)

@@ -1,0 +1,3 @@
+"""The facts of a device that a config may name in [gate] same."""
+
+FACTS = ("title", "driver", "compiler", "processor")

@@ -1,0 +1,203 @@
+"""Runs a config into a folder: what `firsthit run` and firsthit.run share. It prints nothing; a Watcher hears of it."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Iterable, Mapping, Sequence
+from contextlib import AbstractContextManager, nullcontext
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+from harness import studies
+from harness.contract import CellStatus, DeviceInfo, FirsthitError
+from harness.devices.discovery import discover_devices
+from harness.devices.executor import LocalExecutor
+from harness.experiment import plan, reading, targets
+from harness.experiment.config import Experiment
+from harness.experiment.plan import Planned
+from harness.experiment.shipped import located
+from harness.hardcases import groups
+from harness.plugins import Catalog, find_methods
+from harness.results.store import Row, Store
+from harness.running.cards import card
+from harness.running.due import UNFINISHED, Again, due, estimate_seconds
+from harness.running.environment import describe, probed
+from harness.running.runner import Runner
+
+
+@dataclass(frozen=True, eq=False)
+class Loaded:
+    """A config, and all that is needed to plan and run it here."""
+
+    whole: Experiment
+    parts: tuple[Experiment, ...]  # the config itself, or those that it includes
+    catalog: Catalog
+    devices: list[DeviceInfo]  # of the backends that the config names
+
+
+@dataclass(frozen=True, eq=False)
+class Run:
+    """What a run left behind: the folder that reports read, and the row of every cell that its config names."""
+
+    folder: Path
+    rows: tuple[Row, ...]  # of the cells that were run now, in the order in which they ended
+    reused: tuple[Row, ...] = ()  # of the cells that were already finished
+
+    @property
+    def counts(self) -> dict[CellStatus, int]:
+        """How many rows have each status; all statuses are there."""
+        rows = (*self.rows, *self.reused)
+        return {status: sum(row["status"] == status for row in rows) for status in CellStatus}
+
+    @property
+    def unfinished(self) -> int:
+        """How many cells failed, timed out or crashed."""
+        return sum(self.counts[status] for status in UNFINISHED)
+
+
+class Watcher:
+    """Hears what a run does. Here nothing is done about it; a caller overrides what it wants to hear."""
+
+    def doing(self, what: str) -> AbstractContextManager[None]:
+        """Hear what goes on while a block runs that takes its time."""
+        del what
+        return nullcontext()
+
+    def told(self, line: str) -> None:
+        """Hear what was done beside running cells."""
+
+    def warned(self, line: str) -> None:
+        """Hear what the caller should know before the results are used."""
+
+    def starts(self, cells: int, seconds: float) -> None:
+        """Hear how many cells will be run, and an estimate of how long that takes."""
+
+    def cell(self, slot: str, row: Row | None) -> None:
+        """Hear which cell is worked on, or with a `row` that it has ended so."""
+
+    def ended(self, part: Run) -> None:
+        """Hear that a config, or one of those that it includes, is done."""
+
+
+def load(
+    name: str | Path, plugins: Path | None = None, devices: Sequence[str] = (), watcher: Watcher | None = None
+) -> Loaded:
+    """Read a config, given by path or by the name of one that firsthit ships, and look for the devices it names.
+
+    `plugins` is a folder of further methods; `devices` take the place of those that the config names. Raises
+    FirsthitError where there is no such config, something in it is wrong, or it includes configs that include others.
+    """
+    catalog = find_methods(plugins)
+    whole = reading.load(located(name), catalog)
+    parts = [reading.load(path, catalog) for path in whole.included] or [whole]
+    if nested := [part.path for part in parts if part.included and part is not whole]:
+        raise FirsthitError(
+            f"{nested[0]} includes configs itself, so {whole.path} cannot include it; name them instead"
+        )
+    if devices:
+        chosen = list(devices)
+        parts = [dataclasses.replace(p, config=dataclasses.replace(p.config, devices=chosen)) for p in parts]
+    named = {device for part in parts for device in part.config.devices}
+    with (watcher or Watcher()).doing(f"{whole.path}: looking for devices"):
+        found = discover_devices(named)
+    return Loaded(whole, tuple(parts), catalog, found)
+
+
+def run(
+    loaded: Loaded,
+    runs: Path,
+    command: str,
+    *,
+    force: bool = False,
+    retry_failed: bool = False,
+    watcher: Watcher | None = None,
+) -> Run:
+    """Run every cell that has no row yet and store its row below `runs`, in a folder of the config's name.
+
+    `command` is what a reader of the results may type to get them again. `force` runs finished cells again,
+    `retry_failed` those that failed, timed out or crashed. A cell that fails is a row; FirsthitError is raised only
+    where no cell can be run or a result cannot be written.
+    """
+    hears = watcher or Watcher()
+    folder = runs / loaded.whole.name
+    if loaded.whole.included:
+        told = _described(loaded.whole, command, describe())
+        parts = [part.name for part in loaded.parts]
+        Store(folder).write_plan(told | {"include": parts, "devices": [], "cells": []})
+    again: Again = "everything" if force else "unfinished" if retry_failed else "nothing"
+    ended = []
+    for part in loaded.parts:
+        ended.append(_run_part(part, loaded, runs, command, again, hears))
+        hears.ended(ended[-1])
+    rows, reused = (row for one in ended for row in one.rows), (row for one in ended for row in one.reused)
+    return Run(folder, tuple(rows), tuple(reused))
+
+
+def _described(experiment: Experiment, command: str, environment: Mapping[str, Any]) -> dict[str, Any]:
+    """What every plan.json says first."""
+    return {
+        "name": experiment.name,
+        "title": experiment.config.title,
+        "config": str(experiment.path),
+        "config_text": experiment.text,
+        "baseline": experiment.config.baseline,
+        "command": command,
+        "created": datetime.now(UTC).isoformat(timespec="seconds"),
+        "environment": environment,
+    }
+
+
+def _run_part(part: Experiment, loaded: Loaded, runs: Path, command: str, again: Again, hears: Watcher) -> Run:
+    store, environment = Store(runs / part.name), describe()
+    executor = LocalExecutor(part.config.budget.timeout)
+    try:
+        chosen = targets.devices_of(part, loaded.devices) if part.variants else {}
+        with hears.doing(_announced(part, loaded.catalog, chosen)):
+            tried = [probed(executor, info, store.folder / "probes") for info in chosen.values() if info]
+            planned = plan.plan(part, loaded.catalog, [info for info, _ in tried]) if part.variants else []
+        store.write_plan(
+            _described(part, command, environment)
+            | {"devices": [dataclasses.asdict(i) | {"versions": dict(i.versions), "probes": p} for i, p in tried]}
+            | _named(part, planned, loaded.catalog)
+        )
+        _run_studies(part.config.studies, store.folder, again == "everything", hears)
+        found = due(planned, store, again)
+        for message in store.unreadable.values():
+            hears.warned(f"{message}; running that cell again")
+        hears.starts(len(found.todo), estimate_seconds(found.todo, store, part.config.budget.seconds))
+        rows = Runner(part.config, loaded.catalog, store, executor, environment, hears.cell).run(found.todo)
+    finally:
+        executor.close()
+    return Run(store.folder, tuple(rows), tuple(found.kept.values()))
+
+
+def _announced(part: Experiment, catalog: Catalog, chosen: Mapping[str, DeviceInfo | None]) -> str:
+    """Say what will be run where, before anything slow is done for it."""
+    here = [info for info in chosen.values() if info]
+    cells = len(plan.grid(part, catalog, here)) if part.variants else 0
+    where = f" on {', '.join(info.name for info in here)}" if here else ""
+    return f"{part.path}: {cells} cells{where}; measuring what these are worth, and planning"
+
+
+def _named(part: Experiment, planned: Sequence[Planned], catalog: Catalog) -> dict[str, Any]:
+    """What a plan.json names: cells, families of hard rays, methods and studies."""
+    return {
+        "cells": [{"slot": p.cell.slot, "key": p.key} for p in planned if p.kind.listed == "cells"],
+        "families": [{"slot": p.cell.slot, "key": p.key} for p in planned if p.kind.listed == "families"],
+        "family_facts": {name: groups.facts(name) for name in part.config.families},
+        "methods": {v.method: card(catalog.get(v.method)) for v in part.variants},
+        "studies": [{"study": name, "key": studies.key(name)} for name in part.config.studies],
+    }
+
+
+def _run_studies(names: Iterable[str], folder: Path, force: bool, hears: Watcher) -> None:
+    from harness.console import duration
+
+    for name in names:
+        if force or not studies.is_done(name, folder):
+            done = studies.run(name, folder)
+            hears.told(f"study {name}: {len(done['rows'])} rows, {duration(done['seconds'])}")
+        else:
+            hears.told(f"study {name}: reused")

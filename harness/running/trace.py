@@ -1,0 +1,164 @@
+"""Casts rays by one method on one device, for people who want to see its answers: nothing is timed or stored."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from harness.accuracy import compilers
+from harness.contract import (
+    ORIGINS,
+    PRECISIONS,
+    CellStatus,
+    DeviceInfo,
+    FirsthitError,
+    Hits,
+    Origin,
+    Precision,
+    Program,
+    Surface,
+    Variant,
+)
+from harness.devices.discovery import discover_devices
+from harness.devices.executor import CellError, LocalExecutor
+from harness.devices.interface import LANGUAGES, device_named, no_device
+from harness.experiment.kinds import of_method
+from harness.experiment.kinds.model import Shot
+from harness.kernels.assemble import Language, method_program
+from harness.oracle import checked_t_min
+from harness.plugins import Plugin
+from surfaces.words import suggestion
+
+UNIT_LENGTH = 1e-5  # what the length of a ray's direction may differ from 1
+
+Tell = Callable[[str], None]
+
+
+def ignore(_line: str) -> None:
+    """Take a line and do nothing with it: for callers that want to hear nothing."""
+
+
+@dataclass(frozen=True)
+class Caster:
+    """A method with its knobs turned, and where it casts.
+
+    Raises FirsthitError for a device, precision or origin whose name means nothing. `timeout` is in seconds and for one
+    step, such as compiling or casting all rays.
+    """
+
+    plugin: Plugin
+    variant: Variant
+    device: str
+    precision: Precision = "float32"
+    origin: Origin = "nearest"
+    timeout: float = 60.0
+
+    def __post_init__(self) -> None:
+        if self.device.partition(":")[0] not in LANGUAGES:
+            raise no_device(self.device, (info.name for info in discover_devices()))
+        given: list[tuple[str, str, tuple[str, ...]]] = [
+            ("precision", self.precision, PRECISIONS),
+            ("origin", self.origin, ORIGINS),
+        ]
+        for name, value, known in given:
+            if value not in known:
+                raise FirsthitError(f"unknown {name} {value!r}; {suggestion(value, known)}")
+
+    @property
+    def language(self) -> Language:
+        """The language that the device's compiler takes."""
+        return LANGUAGES[self.device.partition(":")[0]]
+
+
+def usable_device(name: str | None = None) -> DeviceInfo:
+    """Find the device of that name, or the first one that works where `name` is None; raises FirsthitError if none."""
+    found = discover_devices()
+    if name:
+        return device_named(name, found)
+    usable = [info for info in found if not info.problem]
+    if not usable:
+        raise FirsthitError("no usable device; `firsthit devices` says why", exit_code=3)
+    return usable[0]
+
+
+def checked_rays(rays: object, what: str = "rays") -> NDArray[np.float32]:
+    """Return `rays` if they are float32[n, 6] with n > 0: origins, and directions of length 1, all finite.
+
+    Raises FirsthitError otherwise. Its text starts with `what` and names the first bad row.
+    """
+    if not isinstance(rays, np.ndarray) or rays.ndim != 2 or rays.shape[1] != 6:
+        shape = getattr(rays, "shape", f"of type {type(rays).__name__}")
+        raise FirsthitError(f"{what}: the array must be [n, 6], origin and direction of each ray; it is {shape}")
+    if rays.dtype != np.float32:
+        raise FirsthitError(f"{what}: they are {rays.dtype}; make them float32, since that is what devices are given")
+    if not len(rays):
+        raise FirsthitError(f"{what}: there are no rays in it")
+    bad = ~np.isfinite(rays).all(axis=1)
+    if bad.any():
+        raise FirsthitError(f"{what}: row {int(bad.argmax())} (counted from 0) is not finite")
+    lengths = np.linalg.norm(rays[:, 3:].astype(np.float64), axis=1)
+    bad = np.abs(lengths - 1.0) > UNIT_LENGTH
+    if bad.any():
+        row = int(bad.argmax())
+        raise FirsthitError(f"{what}: row {row} (counted from 0) has a direction of length {lengths[row]:.6g}, not 1")
+    return rays
+
+
+def cast(
+    caster: Caster,
+    surface: Surface,
+    rays: NDArray[np.float32],
+    camera: NDArray[np.float32] | None = None,
+    t_min: float = 0.0,
+    tell: Tell = ignore,
+) -> Hits:
+    """Cast rays float32[n, 6] from the distance `t_min` on, in a process that holds the device.
+
+    A method that casts beams needs the camera, float32[12], whose square image the rays are, row by row; it answers for
+    the rays' pixels. Answers that cannot be any are INVALID. `tell` is called with a sentence where f, evaluated here,
+    contradicts some answers.
+
+    Raises FirsthitError where the method refuses the surface, and with exit code 3 where the kernel fails, hangs,
+    crashes or gives other answers when it is run again, or where the device's compiler is found at fault
+    (harness/accuracy/compilers.py).
+    """
+    from harness.kernels.functions import unsupported
+
+    t_min = checked_t_min(t_min)
+    method = caster.plugin.method
+    if reason := method.accepts(surface) or unsupported(surface, caster.precision, caster.language):
+        raise FirsthitError(f"{caster.variant} cannot draw {surface.name} here: {reason}")
+    kind = of_method(method)
+    if reason := kind.shot_refusal(camera):
+        raise FirsthitError(f"{caster.variant} {reason}")
+    shot = Shot(rays, camera, dict(caster.variant.parameters), t_min, caster.origin)
+    where = f"{caster.variant} on {caster.device}"
+    executor = LocalExecutor(caster.timeout)
+
+    def program(language: Language) -> Program:
+        stated = method, caster.plugin.folder, caster.variant, surface, caster.precision, language, kind.entries[0]
+        return method_program(*stated, t_min=t_min, origin=caster.origin)
+
+    def launch(device: str, program: Program, index: NDArray[np.intp]) -> Hits:
+        return kind.shot_hits(executor.check(device, kind.shot(program, shot, index)).answer)
+
+    try:
+        hits = launch(caster.device, program(caster.language), np.arange(len(rays)))
+        hits = kind.validated(hits, surface, shot)
+        if not method.answers:
+            return hits
+        second = compilers.SecondBuild(caster.device, caster.precision, program, launch)
+        doubts = compilers.doubts_about(surface, rays, hits, second, t_min)
+    except CellError as error:
+        what = {CellStatus.TIMEOUT: "timed out", CellStatus.CRASHED: "crashed"}.get(error.status, "failed")
+        raise FirsthitError(f"{where} {what}: {error}", exit_code=3) from None
+    finally:
+        executor.close()
+    if doubts.fault:
+        raise FirsthitError(f"{where}: {doubts.fault}", exit_code=3)
+    if doubts.note:
+        tell(f"{caster.variant} on {surface.name}: {doubts.note}")
+    return hits
