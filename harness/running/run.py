@@ -167,8 +167,7 @@ def _run_part(part: Experiment, loaded: Loaded, runs: Path, command: str, again:
         for message in store.unreadable.values():
             hears.warned(f"{message}; running that cell again")
         hears.starts(len(found.todo), estimate_seconds(found.todo, store, part.config.budget.seconds))
-        about = {"commit": environment["commit"], "dirty": environment["dirty"]}
-        rows = Runner(part.config, loaded.catalog, store, executor, about, hears.cell).run(found.todo)
+        rows = Runner(part.config, loaded.catalog, store, executor, environment, hears.cell).run(found.todo)
     finally:
         executor.close()
     return Run(store.folder, tuple(rows), tuple(found.kept.values()))

@@ -22,17 +22,21 @@ OVERTAKES = 700  # tori
 MANY = 16_000
 LOD = "toledo-lod.toml"
 DETAIL = 0.1  # footprints of a pixel that an error may grow to, and is not seen
+_PICTURE = ["device", "view", "size", "samples_per_pixel", "precision"]
 INTERACTIVE_MS = 20.0  # 50 frames per second
 
 
 def tori(evidence: Evidence) -> pd.DataFrame:
-    """The timed rows of Figure 6's techniques and ours on lattices, with `technique`, on the first device that has
-    them."""
+    """Select the timed rows of Figure 6's techniques and ours on lattices, with `technique`.
+
+    Of the first device that has them, and of the first picture where a run draws each lattice in several.
+    """
     rows = pd.concat([evidence.rows(pick).assign(technique=pick.words) for pick in (*PICKS, OURS)])
     rows = rows[(rows["scene"] == "lattice") & ~(rows["pixel_tolerance"] > 0.0)].dropna(subset=["median_ms"])
     if not (rows["method"] == "polygon").any():  # lattices of another experiment
         return rows.iloc[:0]
-    return rows[rows["device"] == rows["device"].iloc[0]] if len(rows) else rows
+    rows = rows[(rows[_PICTURE] == rows[_PICTURE].iloc[0]).all(axis=1)] if len(rows) else rows
+    return rows.drop_duplicates(["technique", "instances"])
 
 
 def curve(rows: pd.DataFrame, pick: Pick) -> pd.Series:
