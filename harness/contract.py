@@ -154,7 +154,7 @@ class Method:
 
     @property
     def printed(self) -> dict[str, float | int]:
-        """Returns the values that the method's source prints, by knob, for knobs whose default is another."""
+        """Return the values that the method's source prints, by knob, for knobs whose default is another."""
         return {p.name: p.printed for p in self.parameters if p.printed is not None}
 
 
@@ -211,7 +211,7 @@ class Section:
 
 
 def source(sections: Sequence[Section]) -> str:
-    """Returns the text of the sections in order, each under a line that names its origin."""
+    """Return the text of the sections in order, each under a line that names its origin."""
     return "".join(f"// ==== {s.origin} ====\n{s.text.rstrip()}\n" for s in sections)
 
 
@@ -242,7 +242,7 @@ class Program:
         return digest(self.language, self.precision, self.entry, *texts, *([] if self.optimised else ["unoptimised"]))
 
     def locate(self, line: int) -> tuple[str, int]:
-        """Returns the origin of the section that holds line `line` of `text` (from 1), and the line's number in it."""
+        """Return the origin of the section that holds line `line` of `text` (from 1), and the line's number in it."""
         first = 1
         for section in self.sections:
             count = len(section.text.rstrip().split("\n")) + 1
@@ -286,7 +286,7 @@ class Hits:
 
     @property
     def spent(self) -> tuple[float | None, int]:
-        """Returns mean and maximum of the evaluations over rays whose status is not INVALID; None and 0 without any."""
+        """Return mean and maximum of the evaluations over rays whose status is not INVALID; None and 0 without any."""
         spent = self.evaluations[self.status != RayStatus.INVALID]
         return (float(spent.mean()), int(spent.max())) if len(spent) else (None, 0)
 
@@ -320,6 +320,6 @@ FROM_ORIGIN: Mapping[Origin, str] = {"nearest": "", "entry": " from the entry", 
 
 
 def digest(*parts: Any) -> str:
-    """Returns a stable hash of JSON-able parts: 16 hexadecimal digits."""
+    """Return a stable hash of JSON-able parts: 16 hexadecimal digits."""
     text = json.dumps(parts, sort_keys=True, separators=(",", ":"), ensure_ascii=False)
     return hashlib.sha256(text.encode()).hexdigest()[:16]

@@ -44,7 +44,7 @@ class Cell:
 
     @property
     def caster(self) -> str:
-        """Returns the variant's label, with each of prepass, tolerance, proxy, origin and normal that is not the
+        """Return the variant's label, with each of prepass, tolerance, proxy, origin and normal that is not the
         default."""
         loose = f" to {self.tolerance:g} pixels" if self.tolerance else ""
         proxy = "" if self.proxy == "box" else f" in a {self.proxy}"
@@ -53,19 +53,19 @@ class Cell:
 
     @property
     def slot(self) -> str:
-        """Returns the cell's place in the grid, for people to read."""
+        """Return the cell's place in the grid, for people to read."""
         sampling = f"{self.size}x{self.size}x{self.samples_per_pixel}"
         where = f"{self.surface.name} {self.view.name} {sampling}"
         return f"{self.caster} {where} {self.precision} {self.stage} {self.device}"
 
     @property
     def comparison(self) -> str:
-        """Returns what cells share that are compared with each other: all but variant, device and precision."""
+        """Return what cells share that are compared with each other: all but variant, device and precision."""
         return f"{self.surface.name} {self.view.name} {self.size}x{self.size}x{self.samples_per_pixel} {self.stage}"
 
     @property
     def together(self) -> str:
-        """Returns what cells share that are timed in one interleaved run: those of a comparison, of all views of a set,
+        """Return what cells share that are timed in one interleaved run: those of a comparison, of all views of a set,
         and of all forms of a surface."""
         views = self.view.name if self.view.set is None else self.view.set
         return f"{self.surface.base} {views} {self.size}x{self.size}x{self.samples_per_pixel} {self.stage}"
