@@ -178,7 +178,7 @@ def _announced(part: Experiment, catalog: Catalog, chosen: Mapping[str, DeviceIn
     here = [info for info in chosen.values() if info]
     cells = len(plan.grid(part, catalog, here)) if part.variants else 0
     where = f" on {', '.join(info.name for info in here)}" if here else ""
-    return f"{part.path}: {cells} cells{where}; measuring what these are worth, and planning"
+    return f"{part.path}: {cells} cells{where}; preparing devices and cells"
 
 
 def _named(part: Experiment, planned: Sequence[Planned], catalog: Catalog) -> dict[str, Any]:
