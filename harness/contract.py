@@ -37,6 +37,7 @@ NORMALS: tuple[Normal, ...] = ("distance", "gradient", "core_circle")
 PRECISIONS: tuple[Precision, ...] = ("float32", "float64")
 UNIT_ROUNDOFF: dict[Precision, float] = {"float32": 2.0**-24, "float64": 2.0**-53}
 STAGES: tuple[Stage, ...] = ("compute", "rays", "raster")
+BASELINE = "ray_march"  # the method that speed-ups are over where a config names nothing else
 
 
 class RayStatus(IntEnum):

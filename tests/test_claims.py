@@ -13,10 +13,10 @@ from harness.contract import digest
 from harness.plugins import find_methods
 from reports import claims, content, published
 from reports.analysis import derive
-from reports.claims import Claim, Outcome, picks
+from reports.claims import Claim, Outcome, figures, picks
 from reports.claims.evidence import Evidence, Pick
 from reports.parts import checklist
-from reports.parts.papers import pictures, szente
+from reports.parts.papers import szente_tables
 from reports.reading import load
 from reports.reading.arrays import Shelf
 from tests.synthetic_run import cell, printed, reported, retime, tiny_run
@@ -355,10 +355,10 @@ def test_the_checklist_and_the_tables_stand_in_the_report(tmp_path: Path) -> Non
 def test_figures_of_the_papers_name_configs_and_surfaces_that_exist() -> None:
     import surfaces
 
-    for figure in pictures.FIGURES:
+    for figure in figures.FIGURES:
         assert (ROOT / "configs" / figure.config).is_file()
         assert set(figure.surfaces) <= set(surfaces.names())
-    for name in szente._NAMES:
+    for name in szente_tables._NAMES:
         assert name in surfaces.names()
     assert checklist.ORDER < 100
     assert published.table("szente_table4_runtime").number("speedup", surface="16-Ball") == 3.3

@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from harness.contract import (
+    BASELINE,
     NORMALS,
     ORIGINS,
     PRECISIONS,
@@ -36,8 +37,6 @@ from harness.plugins import Catalog
 from harness.scenes.choice import SceneChoice, cut, scenes_of
 from harness.scenes.model import Scene
 from harness.scenes.views import AngleChoice, DirectionChoice, by_angle, by_direction
-
-BASELINE = "ray_march"  # what speed-ups are over where a config names nothing else
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""The share of lanes that the work items of a frame of beams leave idle where they run in step, read from rows."""
+"""Compute how many lanes wait when the work items of a frame of beams run in step, from what rows store of them."""
 
 from __future__ import annotations
 
@@ -7,17 +7,21 @@ from typing import Any
 
 from reports import wording
 
-WIDTHS = (8, 16, 32)
+WIDTHS = (8, 16, 32)  # lanes of a group, as rows store them
 WARP = 32  # lanes
 
 
 def levels_of(row: Any) -> list[dict[str, Any]]:
-    """Read each level's numbers: level, items, evaluations, idle by width; [] where the row has no lanes."""
+    """Return what the row stores of each level of the search; [] where it stores nothing.
+
+    A level has its number (`level`), its work items (`items`), the evaluations of them all (`evaluations`), and for
+    each of WIDTHS, as text, the idle share of groups so wide (`idle`).
+    """
     return [] if wording.absent(row.lanes) else list(json.loads(row.lanes) or [])
 
 
 def idle_share(row: Any, width: int) -> float | None:
-    """Compute the idle share of all levels together in groups of `width` lanes; None where the row has no lanes."""
+    """Return the idle share of all levels together in groups of `width` lanes; None where the row stores none."""
     levels = levels_of(row)
     spent = sum(level["evaluations"] for level in levels)
     taken = sum(level["evaluations"] / (1.0 - level["idle"][str(width)]) for level in levels)

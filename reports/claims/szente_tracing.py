@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from reports import wording
-from reports.analysis import counts
+from reports.analysis import count_tests
 from reports.claims import picks
 from reports.claims.evidence import Evidence
 from reports.claims.model import (
@@ -24,8 +24,8 @@ from reports.claims.model import (
 
 PAPER = "szente"
 TABLE_5 = "szente-table5.toml"
-SOME = 0.001  # a larger share of rays, where a test says so, is “some rays”
-PAYS = 1.02  # culled over not culled, to call it a gain
+SOME = 0.001  # a share of rays that is larger by a test is called “some rays”
+PAYS = 1.02  # the least ratio of times without and with culling that is called a gain
 
 
 def _details_skipped(evidence: Evidence) -> Verdict | None:
@@ -37,7 +37,7 @@ def _details_skipped(evidence: Evidence) -> Verdict | None:
     )
     told = f"{count(clear)} roots skipped away from silhouettes, {count(grazing)} at them and {count(drowned)} where f "
     told += f"drowns in its rounding, of {rays(rows)}"
-    # none seen says nothing of finer details; and at a silhouette rounding alone may skip a root
+    # that no root was skipped says nothing of finer details; at a silhouette rounding alone may skip a root
     return verdict(True if clear else None, told)
 
 
@@ -79,7 +79,7 @@ def _out_of_steps(evidence: Evidence) -> Verdict | None:
         spent, of = (
             counted(rows.iloc[[i]], *names) for names in (("exhausted", "grazing_exhausted"), ("accuracy_rays",))
         )
-        held.append(None if spent is None or not of else counts.share_exceeds(spent, of, SOME))
+        held.append(None if spent is None or not of else count_tests.share_exceeds(spent, of, SOME))
     return verdict(both(*held), f"share of rays that run out of steps: {told}")
 
 

@@ -1,25 +1,22 @@
-"""Beams: what a hit of theirs means, where a quadtree throws boxes away (beamcasting, Fig. 1), and the prepass."""
+"""Beams: how their hits compare with rays, at which level a quadtree eliminates boxes, and what the prepass saves."""
 
 from __future__ import annotations
 
 import math
-from typing import Any
 
-import matplotlib
-import numpy as np
 import pandas as pd
-from matplotlib.colors import to_rgb
-from numpy.typing import NDArray
 
-from harness.contract import CellStatus, RayStatus
+from harness.contract import CellStatus
 from reports import wording
-from reports.analysis import derive, rounds
-from reports.content import Block, Column, Gallery, Panel, Picture, Section, Table, Text
-from reports.drawing import images, style, tables
-from reports.reading.arrays import Arrays, Shelf
+from reports.analysis import derive, rounds, surface_names
+from reports.analysis.scene_names import scene_names
+from reports.content import Block, Column, Gallery, Section, Table, Text
+from reports.drawing import levels
+from reports.material import Material
+from reports.reading.arrays import Shelf
 
+ORDER = 28
 MOST_PANELS = 12
-MAP = "plasma"
 MEANING = (
     "A beam's hit says that f's interval extension cannot keep the surface out of a piece of the pixel's whole beam. "
     "It is held against a ray in that beam. Beam only: the beam hits where the ray passes the surface by, no further "
@@ -27,15 +24,16 @@ MEANING = (
     "roots, the price of overestimating boxes. Misses would refute the method. Evaluations are of the interval "
     "extension, large beams shared among their pixels."
 )
-LEVELS = (
-    "The level at which a box was eliminated, as beamcasting's Fig. 1 shows for the Octdong: dark, large boxes thrown "
-    "away early; bright, at the pixels' own level; white, the surface. Look for wide bright borders: there boxes hold "
-    "no surface and their ranges cannot tell."
-)
 
 
-def sections(shelf: Shelf, frame: pd.DataFrame) -> list[Section]:
-    """One section where any finished row casts beams."""
+def sections(material: Material) -> list[Section]:
+    """Make up to two sections: of methods that cast beams, and of the prepass; [] where the run has neither."""
+    frame = surface_names.printed_alone(material.frame)
+    return [*_casters(material.shelf, frame), *_prepass(frame)]
+
+
+def _casters(shelf: Shelf, frame: pd.DataFrame) -> list[Section]:
+    """Make one section where any finished row casts beams."""
     rows = frame[(frame["status"] == CellStatus.OK) & frame["casts"].isin(["beams", "quadtree"])]
     if rows.empty:
         return []
@@ -46,7 +44,8 @@ def sections(shelf: Shelf, frame: pd.DataFrame) -> list[Section]:
 
 
 def _table(rows: pd.DataFrame) -> Table:
-    named = tables.places(rows)
+    """Make a line for each row: how many of its hits are hits of rays, and how many are not."""
+    named = scene_names(rows)
     bad = "invalid" in derive.kinds(rows)
     body = []
     for row in rows.itertuples():
@@ -77,43 +76,20 @@ def _table(rows: pd.DataFrame) -> Table:
     )
 
 
-def level_map(level: NDArray[np.uint8], hit: NDArray[np.bool_]) -> NDArray[np.float64]:
-    """float64[h, w, 3] in 0…1: dark to bright by the level of the box that was eliminated; white where one is hit."""
-    last = max(int(level.max()), 1)
-    first = int(level.min())
-    image = matplotlib.colormaps[MAP](0.05 + 0.85 * (level - first) / max(last - first, 1))[..., :3]
-    image[hit] = to_rgb(style.PAPER)
-    return np.asarray(image)
-
-
 def _gallery(shelf: Shelf, rows: pd.DataFrame) -> Gallery | None:
-    """The largest picture of every surface."""
+    """Show the levels of the largest picture of every surface; None where no row stores levels."""
     largest = rows.sort_values(["size", "samples_per_pixel"], ascending=False, kind="stable")
     kept = rows.loc[sorted(largest.drop_duplicates("surface").index)].head(MOST_PANELS)
     panels = []
     for row in kept.itertuples():
         arrays = shelf.get(row)
         if arrays is not None and arrays.level is not None and arrays.status is not None:
-            panels.append(level_panel(row, arrays))
-    return Gallery(tuple(panels), LEVELS) if panels else None
+            panels.append(levels.panel(row, arrays))
+    return Gallery(tuple(panels), levels.EXPLANATION) if panels else None
 
 
-def level_panel(row: Any, arrays: Arrays, prefix: str = "") -> Panel:
-    """The levels of a row whose arrays have them; `prefix` sets its picture apart from others of the row."""
-    assert arrays.level is not None and arrays.status is not None
-    level, hit = arrays.level, arrays.status == RayStatus.HIT
-    name = f"{row.surface_title}, {tables.picture_size(row)}"
-    picture = Picture(f"{prefix}{row.key}-level", images.png(level_map(level, hit)), f"Levels of elimination of {name}")
-    last = int(level.max())
-    early = float(np.mean(~hit & (level < last)))
-    late = float(np.mean(~hit & (level == last)))
-    share = f"{wording.share(early)} eliminated early, {wording.share(late)} at the last"
-    note = f"levels {int(level.min())} to {last}: {share}"
-    return Panel(name, (picture,), note)
-
-
-def prepass_sections(frame: pd.DataFrame) -> list[Section]:
-    """One section where a variant was timed with and without the prepass in one comparison."""
+def _prepass(frame: pd.DataFrame) -> list[Section]:
+    """Make one section where a variant was timed with and without the prepass in one comparison."""
     rows = derive.contenders(frame)
     rows = rows.assign(right=derive.all_right(rows))
     plain, behind = rows[rows["prepass"] != "beams"], rows[rows["prepass"] == "beams"]
@@ -123,7 +99,7 @@ def prepass_sections(frame: pd.DataFrame) -> list[Section]:
         return []
     slower = [math.nan if one is None else one.median for one in rounds.ratios(both, "_behind")]
     both = both.assign(faster=[1.0 / ratio for ratio in slower])
-    named = tables.places(both)
+    named = scene_names(both)
     body = [
         (
             named[str(row.comparison)],

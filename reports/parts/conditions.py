@@ -1,4 +1,4 @@
-"""Error against condition: whether a method is only as bad as the problem, or unstable."""
+"""Error against condition: whether a method's errors are those of the problem, or larger because it is unstable."""
 
 from __future__ import annotations
 
@@ -9,7 +9,6 @@ from typing import Any
 
 import matplotlib
 import numpy as np
-import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure as Drawing
 from matplotlib.lines import Line2D
@@ -18,16 +17,18 @@ from numpy.typing import NDArray
 
 from harness.contract import UNIT_ROUNDOFF
 from reports import wording
-from reports.analysis import derive
+from reports.analysis import shown, surface_names
 from reports.content import Block, Figure, Section, Text
 from reports.drawing import style
 from reports.drawing.canvas import LINE, NARROW, RC, ErrorAxis, Key, line_of, series, svg
 from reports.drawing.style import Mark
+from reports.material import Material
 from reports.reading.arrays import Shelf
 
-BINS = 12  # of equal width in the logarithm of the condition, over the range that a surface has
-VARIANTS = 4  # of one method that are drawn
-DODGE = 0.6  # of a bin's width, over which its marks are spread so that all are seen
+ORDER = 40
+BINS = 12  # of equal width in the logarithm of the condition, over the range of one surface's conditions
+VARIANTS = 4  # the most that are drawn of one method
+DODGE = 0.6  # the share of a bin's width over which its marks are spread, so that all are seen
 _ROUNDOFF: Mapping[str, float] = {str(name): unit for name, unit in UNIT_ROUNDOFF.items()}
 EXPLANATION = (
     "The error |t − t*| over the radius of each ray that hits the right root, against the condition number of its "
@@ -49,31 +50,33 @@ class Cloud:
     variant: str
     precision: str
     condition: NDArray[np.float64]  # [n]
-    error: NDArray[np.float64]  # [n] over the radius
+    error: NDArray[np.float64]  # [n], over the domain's radius
 
     @property
     def excess(self) -> float:
-        """The largest error over what the problem allows."""
+        """The largest ratio of an error to the error that the problem allows there."""
         return float((self.error / allowed(self.condition, self.precision)).max())
 
 
 def allowed(condition: NDArray[np.float64], precision: str) -> NDArray[np.float64]:
-    """The error, over the domain's radius, of a root that is known as well as the problem allows."""
+    """Return the error, over the domain's radius, that the problem allows at each condition [n], as float64[n]."""
     return np.maximum(condition, 1.0) * _ROUNDOFF[precision]
 
 
-def sections(shelf: Shelf, frame: pd.DataFrame, marks: Mapping[str, Mark]) -> list[Section]:
-    """A figure for each surface with known conditions; no section where there is none."""
+def sections(material: Material) -> list[Section]:
+    """Make a section with a figure for each surface whose conditions are known; [] where none are."""
+    frame = surface_names.printed_alone(material.frame)
     figures: list[Block] = []
     for _, rows in frame.groupby("surface", sort=False):
-        shown = derive.drawn(rows, VARIANTS)
-        clouds = [cloud for row in shown.itertuples() if (cloud := _cloud(shelf, row)) is not None]
+        drawn = shown.of_surface(rows, VARIANTS)
+        clouds = [cloud for row in drawn.itertuples() if (cloud := _cloud(material.shelf, row)) is not None]
         if clouds:
-            figures.append(_figure(f"condition-{len(figures)}", clouds, marks, shown.iloc[0]))
+            figures.append(_figure(f"condition-{len(figures)}", clouds, material.marks, drawn.iloc[0]))
     return [Section("Error against condition", (Text(EXPLANATION), *figures))] if figures else []
 
 
 def _cloud(shelf: Shelf, row: Any) -> Cloud | None:
+    """Read the cloud of one row; None where its conditions or its radius are not known."""
     arrays = shelf.get(row)
     if arrays is None or arrays.condition is None:
         return None
@@ -122,7 +125,7 @@ def _figure(name: str, clouds: list[Cloud], marks: Mapping[str, Mark], row: Any)
 
 
 def _spread(cloud: Cloud, edges: NDArray[np.float64]) -> tuple[NDArray[Any], NDArray[np.float64], NDArray[np.float64]]:
-    """The bins that hold rays: their numbers, and the largest and the median error in each."""
+    """Return the indices of the bins that hold rays, and the largest and the median error in each, [bins] each."""
     bins = np.clip(np.searchsorted(edges, np.log10(cloud.condition), side="right") - 1, 0, len(edges) - 2)
     order = np.lexsort((cloud.error, bins))
     errors = cloud.error[order]
@@ -130,7 +133,7 @@ def _spread(cloud: Cloud, edges: NDArray[np.float64]) -> tuple[NDArray[Any], NDA
     return filled, errors[first + count - 1], errors[first + count // 2]
 
 
-def _draw(axes: Axes, cloud: Cloud, edges: Any, shift: float, axis: ErrorAxis, mark: Mark) -> None:
+def _draw(axes: Axes, cloud: Cloud, edges: NDArray[np.float64], shift: float, axis: ErrorAxis, mark: Mark) -> None:
     filled, largest, median = _spread(cloud, edges)
     x = (edges[filled] + edges[filled + 1]) / 2 + shift
     top, middle = axis.position(largest), axis.position(median)
@@ -153,7 +156,10 @@ def _dress(axes: Axes, edges: NDArray[np.float64], axis: ErrorAxis, precision: s
 
 
 def _caption(clouds: list[Cloud], radius: str) -> str:
-    """Who is furthest above the line in each precision, and who least: all whose printed figure is the same."""
+    """Name in each precision the variants furthest above the line and those least above it.
+
+    Variants whose printed figure is the same are named together.
+    """
     told = []
     for precision in sorted({cloud.precision for cloud in clouds}):
         own = [cloud for cloud in clouds if cloud.precision == precision]

@@ -10,22 +10,27 @@ import pandas as pd
 from harness.contract import CellStatus
 from reports import wording
 from reports.analysis import derive, rounds
+from reports.analysis.scene_names import scene_names
 from reports.content import Column, Section, Table
 from reports.drawing import tables
+from reports.material import Material
+
+ORDER = 30
 
 _KERNEL = ["comparison", "variant", "precision"]
 
 
-def sections(frame: pd.DataFrame) -> list[Section]:
-    """One section where at least two devices timed the same variant on the same scene; else none."""
-    timed = frame[frame["status"] == CellStatus.OK].dropna(subset=["median_ms"])
+def sections(material: Material) -> list[Section]:
+    """Make the section; [] unless two devices or more timed the same variant on the same scene."""
+    timed = material.listed[material.listed["status"] == CellStatus.OK].dropna(subset=["median_ms"])
     table = _table(timed) if timed["device"].nunique() > 1 else None
     return [Section("The same kernel on every device", (table,), wide=True)] if table else []
 
 
 def _table(timed: pd.DataFrame) -> Table | None:
+    """Make a line for each scene, precision and variant that several devices timed; None without any."""
     devices = list(dict.fromkeys(timed["device"]))
-    named = tables.places(timed)
+    named = scene_names(timed)
     body: list[tuple[Any, ...]] = []
     timed = timed.assign(comparable=derive.all_right(timed) | ~timed["answers"].astype(bool))
     kept = [*_KERNEL, "device", "median_ms", *rounds.COLUMNS, "overhead_share", "comparable"]
@@ -46,7 +51,6 @@ def _table(timed: pd.DataFrame) -> Table | None:
         body.append((named[str(scene)], precision, variant, *cells))
     if not body:
         return None
-    cut = f" The first {len(body):,} of {groups.ngroups:,}; results.csv has all." if groups.ngroups > len(body) else ""
     columns = [Column("surface"), Column("precision"), Column("variant", stretch=1)]
     for device in devices:
         columns += [
@@ -63,6 +67,6 @@ def _table(timed: pd.DataFrame) -> Table | None:
         "always counts. Each device is timed by the clock that is believed there. Overhead is what the harness's "
         "submitting and waiting adds to the kernel's own time, as a share of that time; – where the device has no "
         "clock of its own that is believed. Look for a device whose lead changes from variant to variant: its compiler "
-        f"makes more, or less, of one of them.{cut}",
+        f"makes more, or less, of one of them.{wording.first_of(len(body), groups.ngroups)}",
         group=2,
     )

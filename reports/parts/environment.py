@@ -1,4 +1,4 @@
-"""Tables of what a run was made on: its devices as their probes found them, the machine and its software."""
+"""Devices, machine, software and config of a run."""
 
 from __future__ import annotations
 
@@ -6,12 +6,22 @@ from collections.abc import Mapping
 from typing import Any
 
 from reports import wording
-from reports.content import Column, Table
+from reports.content import Code, Column, Section, Table
+from reports.material import Material
 from reports.reading.load import Plan
 
+ORDER = 80
 
-def devices(plan: Plan) -> Table:
-    """List the devices of the run, each with what its probes found; columns without any value are left out."""
+
+def sections(material: Material) -> list[Section]:
+    """Make the section, which every report has."""
+    plan = material.run.plan
+    tabled = (devices_table(plan), _environment(plan))
+    return [Section("Devices, environment, config", (*tabled, Code(plan.config_text, "toml")), wide=True)]
+
+
+def devices_table(plan: Plan) -> Table:
+    """Make a line for each device with what its probes found; columns without any value are left out."""
     body: list[tuple[Any, ...]] = []
     for device in plan.devices:
         versions = ", ".join(f"{name} {version}" for name, version in _pairs(device.get("versions")))
@@ -47,11 +57,12 @@ def devices(plan: Plan) -> Table:
 
 
 def _two_digits(value: Any) -> str:
+    """Write two significant digits without an exponent."""
     return wording.NONE if wording.absent(value) else f"{float(f'{value:.1e}'):,g}"
 
 
-def environment(plan: Plan) -> Table:
-    """List the machine and the software that the run was made with, a line each."""
+def _environment(plan: Plan) -> Table:
+    """Make a line for each fact about the machine and the software that the run was made with."""
     told = {name: value for name, value in plan.environment.items() if name != "versions"}
     if told.pop("dirty", False):
         told["commit"] = f"{told.get('commit')} with uncommitted changes"
@@ -61,7 +72,7 @@ def environment(plan: Plan) -> Table:
 
 
 def _pairs(versions: Any) -> list[tuple[str, str]]:
-    """Return versions as pairs, whether stored as an object or as a list of pairs."""
+    """Return versions as pairs of name and version; runs store them as an object or as a list of pairs."""
     if isinstance(versions, Mapping):
         return [(str(name), str(version)) for name, version in versions.items()]
     return [(str(pair[0]), str(pair[1])) for pair in versions or [] if isinstance(pair, list) and len(pair) == 2]

@@ -1,4 +1,4 @@
-"""Families of hard rays: the tables and pages that say where each method breaks."""
+"""Families of hard rays: where each method breaks."""
 
 from __future__ import annotations
 
@@ -11,9 +11,10 @@ from reports import wording
 from reports.analysis import breaks, derive
 from reports.content import Block, Column, Section, Table, Text
 from reports.drawing import ladders, tables
-from reports.drawing.style import Mark
+from reports.material import Material
 from reports.reading.load import Facts
 
+ORDER = 45
 NOTHING_DECIDED = "nothing decided"
 EXPLANATION = (
     "A family is a ladder of rays that get harder as one parameter changes. Each ray has a certified answer; here, "
@@ -30,8 +31,9 @@ EXPLANATION = (
 )
 
 
-def sections(rungs: pd.DataFrame, facts: Mapping[str, Facts], marks: Mapping[str, Mark]) -> list[Section]:
-    """Show the rungs of `breaks.derive`: a table for each precision, why each family is hard, and its ladders drawn."""
+def sections(material: Material) -> list[Section]:
+    """Make a section of tables and one of drawings, a ladder for each family; [] where the run has no family."""
+    rungs, facts = material.rungs, material.run.plan.facts
     if rungs.empty:
         return []
     devices = breaks.by_device(rungs)
@@ -41,9 +43,11 @@ def sections(rungs: pd.DataFrame, facts: Mapping[str, Facts], marks: Mapping[str
     for device, rows in devices.items():
         for precision, verdicts in breaks.verdicts(rows).groupby("precision"):
             blocks.append(table(verdicts, facts, f"{precision} on {device}."))
-    blocks.append(families({name: told for name, told in facts.items() if name in set(rungs["family"])}))
+    blocks.append(_why_hard({name: told for name, told in facts.items() if name in set(rungs["family"])}))
     drawn = [
-        ladders.figure({d: rows[rows["family"] == family] for d, rows in devices.items()}, facts[str(family)], marks)
+        ladders.figure(
+            {d: rows[rows["family"] == family] for d, rows in devices.items()}, facts[str(family)], material.marks
+        )
         for family in rungs["family"].unique()
     ]
     key = Text(
@@ -58,6 +62,7 @@ def sections(rungs: pd.DataFrame, facts: Mapping[str, Facts], marks: Mapping[str
 
 
 def _agreement(rungs: pd.DataFrame, devices: Mapping[str, pd.DataFrame]) -> str:
+    """Say whether the devices agree; `devices` is what breaks.by_device returns."""
     named = wording.listed(sorted(set(rungs["device"])))
     if breaks.ALL_DEVICES in devices:
         return f"All devices agree on every count of every rung they ran: {named}. Errors are the worst of any."
@@ -65,21 +70,21 @@ def _agreement(rungs: pd.DataFrame, devices: Mapping[str, pd.DataFrame]) -> str:
 
 
 def table(verdicts: pd.DataFrame, facts: Mapping[str, Facts], title: str) -> Table:
-    """Family × variant, of the verdicts of one device and precision."""
+    """Make a line for each family and variant, from the verdicts of one device and precision."""
     kinds = derive.kinds(verdicts)
     body = []
     for row in verdicts.itertuples():
         right = (row.share_right, *(getattr(row, kind) for kind in kinds))
         known = (row.decided, *(right if row.decided else (None,) * len(right)), row.worst_ratio)
         body.append(
-            (facts[row.family].title, row.variant, outcome(row), *known, row.undecidable, row.undecidable_right)
+            (facts[row.family].title, row.variant, _outcome(row), *known, row.undecidable, row.undecidable_right)
         )
     decided, undecidable = "decided rays", "undecidable rays"
     return Table(
         (
             Column("family"),
             Column("variant", stretch=1),
-            Column("breaks at", _outcome, numeric=True),
+            Column("breaks at", _written, numeric=True),
             Column("rays", wording.count, numeric=True, over=decided),
             Column("right", wording.portion, numeric=True, over=decided),
             *(Column(tables.WRONG[kind], wording.count, numeric=True, over=decided) for kind in kinds),
@@ -95,18 +100,19 @@ def table(verdicts: pd.DataFrame, facts: Mapping[str, Facts], title: str) -> Tab
     )
 
 
-def outcome(verdict: Any) -> str | float:
-    """The parameter that breaks a variant, or in words that none does or that nothing can be said."""
+def _outcome(verdict: Any) -> str | float:
+    """Return the parameter that breaks a variant, "holds" where none does, or NOTHING_DECIDED."""
     if not verdict.decided:
         return NOTHING_DECIDED
     return "holds" if wording.absent(verdict.breaks_at) else float(verdict.breaks_at)
 
 
-def _outcome(value: str | float) -> str:
+def _written(value: str | float) -> str:
     return value if isinstance(value, str) else wording.level(value)
 
 
-def families(facts: Mapping[str, Facts]) -> Table:
+def _why_hard(facts: Mapping[str, Facts]) -> Table:
+    """Make a line for each family: why it is hard, and what its parameter is."""
     body = [(told.title, told.why, told.parameter, told.harder, told.source) for told in facts.values()]
     return Table(
         (
@@ -121,8 +127,8 @@ def families(facts: Mapping[str, Facts]) -> Table:
     )
 
 
-def summary(rungs: pd.DataFrame, facts: Mapping[str, Facts]) -> Table:
-    """One line for each variant and precision: how many families it holds, and what breaks it."""
+def summary_table(rungs: pd.DataFrame, facts: Mapping[str, Facts]) -> Table:
+    """Make a line for each variant and precision: how many families it holds, and what breaks it."""
     devices = breaks.by_device(rungs)
     body: list[tuple[Any, ...]] = []
     for device, rows in devices.items():
@@ -160,7 +166,7 @@ def summary(rungs: pd.DataFrame, facts: Mapping[str, Facts]) -> Table:
 
 
 def verdict(rungs: pd.DataFrame) -> str:
-    """One sentence for who reads no further: who holds most families in each precision, on every device."""
+    """Say in one sentence which variants hold most families in each precision, on every device."""
     rows = pd.concat([breaks.verdicts(own) for own in breaks.by_device(rungs).values()])
     rows = rows[rows["decided"] > 0].assign(held=lambda judged: judged["breaks_at"].isna())
     if rows.empty:

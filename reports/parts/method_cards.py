@@ -12,7 +12,7 @@ from matplotlib.figure import Figure as Drawing
 
 from harness.contract import CLAIMS
 from reports import wording
-from reports.claims import Outcome
+from reports.claims import Claim, Outcome, Verdict
 from reports.claims.model import where
 from reports.content import Block, Column, Figure, Section, Table
 from reports.drawing import style
@@ -24,7 +24,7 @@ TEXT_LIMIT = 1500  # characters of a paragraph or point
 
 
 def sections(material: Material) -> list[Section]:
-    """None where the run does not say what its methods are (runs of before it did)."""
+    """Make the section; [] where the run, made by an older version, does not store its methods' cards."""
     told = material.run.plan.methods
     if not told:
         return []
@@ -34,7 +34,8 @@ def sections(material: Material) -> list[Section]:
     return [Section("Methods", tuple(blocks))]
 
 
-def _card(name: str, told: Mapping[str, Any], rows: pd.DataFrame, judged: list[Any]) -> list[Block]:
+def _card(name: str, told: Mapping[str, Any], rows: pd.DataFrame, judged: list[tuple[Claim, Verdict]]) -> list[Block]:
+    """Make the card of one method: `told` is what its plan stores of it, `rows` are its rows of this run."""
     knobs = ", ".join(_knob(knob) for knob in told.get("parameters", []))
     body = [
         ("source", told.get("source")),
@@ -55,18 +56,20 @@ def _card(name: str, told: Mapping[str, Any], rows: pd.DataFrame, judged: list[A
 
 
 def _knob(knob: Mapping[str, Any]) -> str:
+    """Write a knob: its name, default and meaning, and its value as printed if that is another."""
     printed = "" if knob.get("printed") is None else f"; as printed {knob['printed']:g}"
     return f"{knob['name']} = {knob['default']:g} ({knob['meaning']}{printed})"
 
 
 def _points(text: str) -> str:
-    """A text whose list, if it has one, keeps its lines."""
+    """Fold a text to paragraphs, one for each point of its list."""
     first, *points = f"\n{text}".split("\n- ")
     lines = [wording.excerpt(first, TEXT_LIMIT), *(f"• {wording.excerpt(point, TEXT_LIMIT)}" for point in points)]
     return "\n".join(filter(None, lines))
 
 
 def _key(names: list[str]) -> Figure:
+    """Draw the mark of each method."""
     marks = style.marks(names)
     key = Key([line_of(marks[name]) for name in names], names, NARROW)
     with matplotlib.rc_context(RC):
@@ -78,37 +81,39 @@ def _key(names: list[str]) -> Figure:
 
 
 def _default(told: Mapping[str, Any], rows: pd.DataFrame) -> pd.DataFrame:
-    """The rows with every knob at its default, and rays from the nearest point: what a method's claims are about."""
+    """Select the rows that a method's claims are about: every knob at its default, rays from the nearest point."""
     rows = rows[rows["origin"].fillna("nearest") == "nearest"]
     defaults = {knob["name"]: knob["default"] for knob in told.get("parameters", [])}
     bound = rows["parameters"].map(lambda text: json.loads(text) if isinstance(text, str) else {})
     return rows[bound.map(lambda knobs: defaults | knobs == defaults).astype(bool)]
 
 
-_BROKEN_BY = {  # the counts that contradict a claim (harness.contract.CLAIMS); only the first are of every class
+_BROKEN_BY = {  # the counts that contradict a claim; only the first is about grazing and drowned rays too
     "no_missed_root": [f"{kind}{name}" for name in ("misses", "invalid") for kind in ("", "grazing_", "drowned_")],
     "conservative_bound": ["misses", "invalid"],
     "no_false_hit": ["false_hits", "invalid"],
 }
-_PASSED = {  # where roots that were passed are counted, among other wrong ones
+_PASSED = {  # the counts that hold later roots, which contradict a claim, among other wrong roots, which do not
     "no_missed_root": [f"{kind}wrong_root" for kind in ("", "grazing_", "drowned_")],
     "conservative_bound": ["wrong_root"],
 }
 
 
 def _claims(method: str, stated: list[str], rows: pd.DataFrame) -> str:
-    """What the method itself claims, with all that a claim excepts, and whether this run's counts speak against it."""
+    """Write each claim of a method, and whether this run's counts contradict it."""
     if not stated:
         return "none"
     lines = []
     for name in sorted(stated):
-        meaning = f": {CLAIMS[name]}" if name in CLAIMS else ""  # an older run may know another
+        meaning = (
+            f": {CLAIMS[name]}" if name in CLAIMS else ""
+        )  # an older run may state a claim that is no longer known
         lines.append(f"• {name.replace('_', ' ')}{meaning}. {_held(method, name, rows)}")
     return "\n".join(lines)
 
 
 def _held(method: str, name: str, rows: pd.DataFrame) -> str:
-    """What the counts of `rows` say of one claim."""
+    """Say whether the counts of `rows` contradict one claim."""
     columns = _BROKEN_BY.get(name)
     known = rows[rows["accuracy_rays"].notna()] if columns else rows.head(0)
     if known.empty or not columns:

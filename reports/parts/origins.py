@@ -1,4 +1,4 @@
-"""What it is worth to a method that its rays begin near the surface: wrong rays, error and time by where they begin."""
+"""Where rays begin: wrong rays, errors and times of the same method with rays from several origins."""
 
 from __future__ import annotations
 
@@ -10,13 +10,15 @@ import pandas as pd
 
 from harness.contract import ORIGINS, CellStatus
 from reports import wording
-from reports.analysis import breaks, counts, derive
-from reports.claims.evidence import over
+from reports.analysis import breaks, count_tests, derive, rounds
+from reports.analysis.scene_names import scene_names
 from reports.content import Block, Column, Section, Table, Text
 from reports.drawing import tables
+from reports.material import Material
 from reports.reading.load import Facts
 
-CHEAP = 1.05  # a shift that multiplies a frame's time by at most this, in the mean, is called cheap
+ORDER = 23
+CHEAP = 1.05  # a shift that multiplies a frame's time by at most this is called cheap
 _OF = ["device", "precision", "caster"]
 _ERROR = "relative_error_max"
 _CAPTION = (
@@ -41,49 +43,52 @@ def paired(frame: pd.DataFrame) -> pd.DataFrame:
 
 
 def _costs(rows: pd.DataFrame) -> pd.Series:
-    """Each row's time over that of the same rays from the eye, in the rounds that timed both; NaN without those, or
-    where one of them answers a ray away from silhouettes wrongly."""
+    """Return each row's time over that of the same rays from the eye, in the rounds that timed both.
+
+    NaN without common rounds, or where one of the two answers a ray away from silhouettes wrongly.
+    """
     keys = [*derive.GROUP, "caster"]
     rows = rows[derive.all_right(rows) | ~rows["answers"].astype(bool)]
     eye = rows[rows["origin"] == "eye"]
     found = pd.Series(np.nan, rows.index)
     for _, own in rows[rows["origin"] != "eye"].groupby("origin", sort=False):
-        ratios = over(own, eye, keys).set_index(keys)["ratio"]
+        ratios = rounds.over(own, eye, keys).set_index(keys)["ratio"]
         found.update(own.join(ratios, on=keys)["ratio"])
     return found
 
 
-def sections(frame: pd.DataFrame, rungs: pd.DataFrame, facts: Mapping[str, Facts]) -> list[Section]:
-    """Make one section where rays of one variant began at several origins."""
-    rows = paired(frame)
+def sections(material: Material) -> list[Section]:
+    """Make the section; [] unless rays of one variant began at several origins."""
+    rows = paired(material.frame)
     blocks: list[Block] = []
     if len(rows):
         blocks += [Text(told, strong=True) for told in conclusions(rows)]
-        blocks += [table(rows), scenes(rows)]
-    hard = hard_rays(rungs, facts)
+        blocks += [by_variant(rows), by_scene(rows)]
+    hard = families_held(material.rungs, material.run.plan.facts)
     blocks += [Text(_held(hard), strong=True), hard] if hard else []
     return [Section("What the shift is worth", tuple(blocks), wide=True)] if blocks else []
 
 
 def _mean(ratios: pd.Series) -> float:
-    """The geometric mean; NaN of none."""
+    """Return the geometric mean of the ratios that are not NaN; NaN of none."""
     known = ratios.dropna().astype("float64")
     return float(np.exp(np.log(known).mean())) if len(known) else float("nan")
 
 
 def _present(rows: pd.DataFrame) -> list[str]:
+    """Return the origins that rows have, in the order of ORIGINS."""
     return [origin for origin in ORIGINS if (rows["origin"] == origin).any()]
 
 
 def _from_all(rows: pd.DataFrame, origins: Sequence[str]) -> pd.DataFrame:
-    """The rows of variants and scenes that have one from each of `origins`, so that sums over scenes compare."""
+    """Select the rows of variants and scenes that have one from each of `origins`, so that sums over scenes compare."""
     there = rows["origin"].where(rows["origin"].isin(list(origins)))
     found = there.groupby([rows[name] for name in (*derive.GROUP, "caster")]).transform("nunique")
     return rows[found == len(origins)]
 
 
 def _wrong(rows: pd.DataFrame) -> int:
-    """Wrong rays of every class."""
+    """Count the wrong rays, silhouettes included."""
     return int(rows[["wrong_rays", "silhouette_wrong_rays"]].sum().sum())
 
 
@@ -106,13 +111,13 @@ def conclusions(rows: pd.DataFrame) -> list[str]:
         f"{_wrong(after):,} of {int(after['accuracy_rays'].sum()):,}{_by_view(before, after)}. Fewer beyond chance: "
         f"{gained}. More beyond chance: {harmed}. The largest error from the eye is {wording.factor(errors.median())} "
         "that from the nearest point, in the median of all scenes and variants, and "
-        f"{wording.short(errors.max())}× at most. {counts.RULE}."
+        f"{wording.short(errors.max())}× at most. {count_tests.RULE}."
     )
     return [first, _price(cost, bool(better), bool(worse))]
 
 
 def _price(cost: float, gains: bool, harms: bool) -> str:
-    """Whether what the shift gains is worth the factor `cost` of a frame's time; NaN where that is not known."""
+    """Say whether what the shift gains is worth the factor `cost` of a frame's time, NaN where that is not known."""
     if np.isnan(cost):
         return (
             "No variant answers every ray away from silhouettes rightly from both origins: what that costs is not told."
@@ -129,7 +134,7 @@ def _price(cost: float, gains: bool, harms: bool) -> str:
 
 
 def _by_view(before: pd.DataFrame, after: pd.DataFrame) -> str:
-    """Say the counts of `conclusions` view by view, where there are several."""
+    """Write the wrong rays before and after view by view; "" where there is one view."""
     views = list(dict.fromkeys(before["view"]))
     told = [
         f"{_wrong(before[before['view'] == view]):,} to {_wrong(after[after['view'] == view]):,} in {view}"
@@ -141,7 +146,10 @@ def _by_view(before: pd.DataFrame, after: pd.DataFrame) -> str:
 def _changed(
     before: pd.DataFrame, after: pd.DataFrame
 ) -> tuple[list[tuple[str, int, int]], list[tuple[str, int, int]]]:
-    """The variants with fewer wrong rays after than before, and those with more, by a test; most first."""
+    """Return the variants with fewer wrong rays after than before, and those with more, by a test.
+
+    Each has its name and its wrong rays before and after; the largest changes are first.
+    """
     names = list(dict.fromkeys(after["caster"]))
     better: list[tuple[str, int, int]] = []
     worse: list[tuple[str, int, int]] = []
@@ -149,9 +157,9 @@ def _changed(
         one, other = (rows[rows["caster"] == name] for rows in (before, after))
         was, now = _wrong(one), _wrong(other)
         rays = int(one["accuracy_rays"].sum()), int(other["accuracy_rays"].sum())
-        if counts.exceeds(was, rays[0], now, rays[1], tries=2 * len(names)):
+        if count_tests.exceeds(was, rays[0], now, rays[1], tries=2 * len(names)):
             better.append((name, was, now))
-        if counts.exceeds(now, rays[1], was, rays[0], tries=2 * len(names)):
+        if count_tests.exceeds(now, rays[1], was, rays[0], tries=2 * len(names)):
             worse.append((name, was, now))
     for found in (better, worse):
         found.sort(key=lambda one: -abs(one[1] - one[2]))
@@ -159,14 +167,14 @@ def _changed(
 
 
 def _errors(before: pd.DataFrame, after: pd.DataFrame) -> pd.Series:
-    """The largest error before over that after, scene by scene."""
+    """Return the largest error before over that after, for each scene and variant."""
     keys = [*derive.GROUP, "caster"]
     both = before.merge(after[[*keys, _ERROR]], on=keys, suffixes=("", "_after"))
     return (both[_ERROR] / both[f"{_ERROR}_after"].where(both[f"{_ERROR}_after"] > 0)).astype("float64").dropna()
 
 
 def _line(own: pd.DataFrame, origins: Sequence[str]) -> tuple[Any, ...]:
-    """Counts summed, errors at their largest, times in the geometric mean: over the scenes of one variant."""
+    """Return one variant's figures over its scenes: counts summed, largest errors, geometric means of times."""
     by = {origin: own[own["origin"] == origin] for origin in origins}
     answers = bool(own["answers"].iloc[0])
     clear, silhouettes, errors = (
@@ -181,17 +189,18 @@ def _line(own: pd.DataFrame, origins: Sequence[str]) -> tuple[Any, ...]:
 
 
 def _columns(origins: Sequence[str]) -> tuple[Column, ...]:
+    """Return the columns of what `_line` returns."""
     figures = (
         ("wrong rays", wording.count),
         ("wrong at silhouettes", wording.count),
         ("largest error", wording.error),
     )
-    told = [Column(origin, show, numeric=True, over=over_) for over_, show in figures for origin in origins]
+    told = [Column(origin, show, numeric=True, over=heading) for heading, show in figures for origin in origins]
     times = [Column(o, wording.hundredths, numeric=True, over="time over the eye's") for o in origins if o != "eye"]
     return (*told, *times)
 
 
-def table(rows: pd.DataFrame) -> Table:
+def by_variant(rows: pd.DataFrame) -> Table:
     """Make a line for each variant, over its scenes that have a row from every origin that the run has."""
     origins = _present(rows)
     rows = _from_all(rows, origins)
@@ -209,9 +218,9 @@ def table(rows: pd.DataFrame) -> Table:
     return Table((*head, *_columns(origins)), body, "What the shift is worth to each method.", _CAPTION, len(several))
 
 
-def scenes(rows: pd.DataFrame) -> Table:
+def by_scene(rows: pd.DataFrame) -> Table:
     """Make a line for each variant and scene."""
-    origins, named = _present(rows), tables.places(rows)
+    origins, named = _present(rows), scene_names(rows)
     several = [name for name in ("device", "precision") if rows[name].nunique() > 1]
     body = [
         (named[str(comparison)], *(own[name].iloc[0] for name in several), caster, *_line(own, origins))
@@ -223,9 +232,12 @@ def scenes(rows: pd.DataFrame) -> Table:
     )
 
 
-def hard_rays(rungs: pd.DataFrame, facts: Mapping[str, Facts]) -> Table | None:
-    """Count the families of hard rays that each variant holds from each origin, and name those that it holds from the
-    eye or the nearest point alone; None unless some variant's rays began at both."""
+def families_held(rungs: pd.DataFrame, facts: Mapping[str, Facts]) -> Table | None:
+    """Count the families of hard rays that each variant holds from each origin.
+
+    Names those that it holds from the eye alone and from the nearest point alone. None unless some variant's rays
+    began at both.
+    """
     rungs = rungs[rungs["origin"].notna()] if len(rungs) else rungs
     if rungs.empty or rungs["origin"].nunique() < 2:
         return None
@@ -258,7 +270,7 @@ def hard_rays(rungs: pd.DataFrame, facts: Mapping[str, Facts]) -> Table | None:
 
 
 def _held(of: Table) -> str:
-    """Say in two sentences what the shift does to families of hard rays, from the table of `hard_rays`."""
+    """Say in two sentences what the shift does to families of hard rays, from the table of `families_held`."""
     place = {column.title: k for k, column in enumerate(of.columns)}
     held = [(row[place["nearest"]], row[place["eye"]], row) for row in of.rows]
     alike = [f"{row[place['variant']]} in {row[place['precision']]}" for near, eye, row in held if near == eye]

@@ -1,4 +1,4 @@
-"""Each variant's time over the fastest right one's, round by round of one interleaved run."""
+"""Variants compared round by round: each one's time over that of the fastest variant with every ray right."""
 
 from __future__ import annotations
 
@@ -10,17 +10,21 @@ import pandas as pd
 from harness.results.timings import Ratio
 from reports import wording
 from reports.analysis import derive, rounds, ties
+from reports.analysis.scene_names import scene_title
 from reports.content import Block, Column, Section, Table, Text
 from reports.drawing import tables
+from reports.material import Material
 
+ORDER = 32
 _NEEDED = [
     *("comparison", "device", "precision", "key", "method", "variant", "wrong_rays", *ties.COLUMNS),
     *("surface_title", "view", "size", "samples_per_pixel", "stage"),
 ]
 
 
-def sections(frame: pd.DataFrame) -> list[Section]:
-    """One section where at least two variants of one comparison were timed in the same rounds; else none."""
+def sections(material: Material) -> list[Section]:
+    """Make the section; [] unless two variants or more of one comparison were timed in the same rounds."""
+    frame = material.listed
     rows = tables.worth_printing(derive.contenders(frame))[_NEEDED]
     by_scene = {scene: group for scene, group in rows.groupby("comparison", sort=False)}
     scenes = [by_scene[scene] for scene in dict.fromkeys(frame["comparison"]) if scene in by_scene]  # the plan's order
@@ -42,6 +46,7 @@ def sections(frame: pd.DataFrame) -> list[Section]:
 
 
 def _table(rows: pd.DataFrame) -> Table | None:
+    """Make the table of one scene; None where nothing was timed beside the fastest right variant."""
     body = []
     for (device, precision), group in rows.groupby(["device", "precision"], sort=True):
         right = group[derive.all_right(group)]
@@ -68,9 +73,10 @@ def _table(rows: pd.DataFrame) -> Table | None:
         Column("common\nrounds", wording.count, numeric=True),
         Column("verdict", stretch=1),
     )
-    return Table(columns, body, tables.scene(rows), group=3)
+    return Table(columns, body, scene_title(rows), group=3)
 
 
 def _figures(ratio: Ratio) -> tuple[Any, ...]:
+    """Return the median, the interval's two ends, the chance and the number of common rounds."""
     interval = (ratio.lower, ratio.upper) if ratio.proved else (None, None)
     return (ratio.median, *interval, ratio.chance, ratio.pairs)

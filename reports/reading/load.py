@@ -13,8 +13,7 @@ from typing import Any
 
 import pandas as pd
 
-from harness.contract import CellStatus, FirsthitError
-from harness.experiment.config import BASELINE
+from harness.contract import BASELINE, CellStatus, FirsthitError
 from harness.results.schema import FAMILY, RUNG, SCHEMA, flatten
 from reports.reading import export
 
