@@ -18,7 +18,7 @@ from reports.analysis import derive, rounds
 from reports.content import Block, Code, Column, Document, Section, Table, Text
 from reports.drawing import tables
 from reports.reading import load
-from reports.reading.load import Plan, Run
+from reports.reading.run import Plan, Run
 from reports.rendering import document, html
 
 WORST = 10  # changes that the first page lists

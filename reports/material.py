@@ -15,7 +15,7 @@ from reports.claims.evidence import Evidence
 from reports.drawing import images, style
 from reports.drawing.style import Mark
 from reports.reading.arrays import Shelf
-from reports.reading.load import Run
+from reports.reading.run import Run
 
 
 @dataclass(frozen=True, eq=False)

@@ -15,7 +15,7 @@ from reports.drawing import style
 from reports.material import Material
 from reports.reading import export, load
 from reports.reading.arrays import Shelf
-from reports.reading.load import Run
+from reports.reading.run import Run
 from reports.rendering import document, html
 
 

@@ -25,6 +25,7 @@ def at_most_by_chance(count: int, of: int, share: float) -> float:
 
 
 def _tail(count: int, of: int, share: float) -> float:
+    """Return the chance of at least `count` successes in `of` trials, by the sum of the binomial distribution."""
     if count <= 0:
         return 1.0
     k = np.arange(of, dtype=np.float64)

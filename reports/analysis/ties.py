@@ -66,6 +66,7 @@ def tied(rows: pd.DataFrame, first: Any) -> list[str]:
 
 
 def _best(rows: list[Any]) -> Any:
+    """Do what `best` does, for rows as named tuples."""
     first = rows[0]
     for row in rows[1:]:
         paired = ratio(row, first)  # whatever the medians: they may be of other rounds
@@ -75,6 +76,7 @@ def _best(rows: list[Any]) -> Any:
 
 
 def _tied(rows: list[Any], first: Any) -> list[str]:
+    """Do what `tied` does, for rows as named tuples."""
     fastest_of: dict[str, Any] = {}
     for row in rows:
         if row.method != first.method:

@@ -15,7 +15,7 @@ from harness.contract import ORIGINS, CellStatus, Origin
 from reports.analysis import derive, rounds
 from reports.reading.arrays import Arrays, Shelf
 
-STOOD: Mapping[str, Origin] = {
+RAYS_BEGIN: Mapping[str, Origin] = {
     # Where the rays of a paper begin, by the first word of its configs' names.
     # toledo2007, sections 3, 4.3 and 4.4: "from where the ray-casting starts" is the bounding box; t = 0 is where the
     # ray enters it, λ where it leaves.
@@ -55,7 +55,7 @@ class Evidence:
     studies: Mapping[str, list[dict[str, Any]]]  # rows by study
     shelf: Shelf
     apart: set[tuple[str, str]] = field(default_factory=set)  # the keys of pairs of rows that `ratios` left out
-    config: str = ""  # the config whose claims are judged; its first word names the paper, as in STOOD
+    config: str = ""  # the config whose claims are judged; its first word names the paper, as in RAYS_BEGIN
 
     @cached_property
     def finished(self) -> pd.DataFrame:
@@ -81,11 +81,11 @@ class Evidence:
 
     @property
     def _stated(self) -> Origin:
-        return STOOD.get(run_of(self.config).partition("-")[0], "nearest")
+        return RAYS_BEGIN.get(run_of(self.config).partition("-")[0], "nearest")
 
     @property
     def note(self) -> str:
-        """Says where rays begin, if not as in the paper; else ""."""
+        """Where rays begin, in words, if not as in the paper; else ""."""
         if self.origin == self._stated:
             return ""
         return f"of rays that begin at {_WORDS[self.origin]}, where the paper's begin at {_WORDS[self._stated]}"
@@ -150,7 +150,7 @@ def run_of(config: str) -> str:
     return Path(config).stem
 
 
-def _has(parameters: Any, knobs: Mapping[str, float]) -> bool:
+def _has(parameters: str | None, knobs: Mapping[str, float]) -> bool:
     """Tell whether a row's parameters, as JSON, have these values."""
     bound = json.loads(parameters) if isinstance(parameters, str) else {}
     return all(bound.get(name) == value for name, value in knobs.items())

@@ -14,13 +14,13 @@ from reports.claims.model import (
     both,
     count,
     counted,
-    each_mean,
     known,
     lost,
     quantities,
     rays,
     verdict,
 )
+from reports.claims.szente_fit import over_marching
 
 PAPER = "szente"
 TABLE_5 = "szente-table5.toml"
@@ -83,18 +83,6 @@ def _out_of_steps(evidence: Evidence) -> Verdict | None:
     return verdict(both(*held), f"share of rays that run out of steps: {told}")
 
 
-def _lu_over_marching(evidence: Evidence) -> Verdict | None:
-    step_by_step = evidence.ratios(picks.MARCH, picks.LU, picks.TABLE_5)
-    if step_by_step.empty:
-        return None
-    in_blocks = evidence.ratios(picks.MARCH_OURS, picks.LU, picks.TABLE_5)
-    best = evidence.ratios(picks.MARCH_OURS, picks.LU_OURS, picks.TABLE_5)
-    figure = f"over marching step by step {quantities(step_by_step['ratio'])}"
-    figure += f"; over our march in blocks {quantities(in_blocks['ratio'])}" if len(in_blocks) else ""
-    figure += f"; both at our best {quantities(best['ratio'])}" if len(best) else ""
-    return verdict(each_mean([step_by_step, in_blocks], 4.8), f"{figure}; the paper's text: 4.8× and 7×")
-
-
 def _lu_over_control(evidence: Evidence) -> Verdict | None:
     ratios = evidence.ratios(picks.CONTROL, picks.LU, picks.TABLE_5)
     if ratios.empty:
@@ -146,7 +134,7 @@ CLAIMS = (
         "LU tracing is 4.8 times as fast as ray marching.",
         "Time of ray marching over that of LU as printed, mean of four surfaces, by two marches: step by step as "
         "printed, and ours in blocks. Both take 10,000 steps across the domain",
-        _lu_over_marching,
+        over_marching(picks.LU, picks.LU_OURS, picks.TABLE_5, 4.8, "the paper's text: 4.8× and 7×"),
         _LU,
         TABLE_5,
     ),

@@ -54,6 +54,7 @@ def gallery(shelf: Shelf, rows: pd.DataFrame, caption: str, name: str, scale: tu
 def _gallery(
     cells: list[tuple[Any, Arrays]], scale: tuple[int, int], caption: str, name: str = "", titled: bool = False
 ) -> Gallery:
+    """Make a gallery with a panel for each row."""
     panels = tuple(_panel(row, arrays, scale, name, titled) for row, arrays in cells)
     return Gallery(panels, caption, plots.error_legend(*scale))
 

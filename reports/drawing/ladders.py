@@ -16,7 +16,7 @@ from reports.content import Figure
 from reports.drawing import style
 from reports.drawing.canvas import LINE, NARROW, RC, Key, line_of, series, svg
 from reports.drawing.style import Mark
-from reports.reading.load import Facts
+from reports.reading.run import Facts
 
 DODGE = 0.5  # the share of the step between rungs over which marks of one rung are spread, so that all are seen
 
@@ -54,6 +54,7 @@ def figure(devices: Mapping[str, pd.DataFrame], facts: Facts, marks: Mapping[str
 
 
 def _draw(axes: Axes, rows: pd.DataFrame, variants: list[str], marks: Mapping[str, Mark]) -> None:
+    """Draw the ladder of one device and precision."""
     if rows.empty:
         axes.text(0.5, 0.5, "no result", transform=axes.transAxes, ha="center", va="center", color=style.FAINT)
     rungs = rows.drop_duplicates("level").sort_values("level")

@@ -167,6 +167,7 @@ def over_directions(of: ViewSet, scales: Scales, name: str) -> list[Figure]:
 
 
 def _maps(of: ViewSet, variants: Mapping[str, pd.DataFrame], scales: Scales, name: str) -> Figure:
+    """Draw the maps of at most ACROSS × DOWN variants."""
     ratios = {variant: _over_mean(rows) for variant, rows in variants.items()}
     lines = -(-len(variants) // ACROSS)
     line, below, above = 1.12, 0.5, 0.05
@@ -245,10 +246,12 @@ def _map(
 
 
 def _told_times(rows: pd.DataFrame, ratio: NDArray[np.float64]) -> str:
+    """Write the mean time per ray, and the range of times over it."""
     return f"mean {wording.number(1e3 * rows['us_per_ray'].mean())} ns, {ratio.min():.2f} to {ratio.max():.2f}"
 
 
 def _told_errors(rows: pd.DataFrame, wrong: NDArray[np.float64]) -> str:
+    """Write the range of largest errors, and the number of wrong rays."""
     if not rows["answers"].iloc[0]:
         return "finds nothing"
     error = rows["error_max"].astype("float64")

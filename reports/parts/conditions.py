@@ -89,6 +89,7 @@ def _cloud(shelf: Shelf, row: Any) -> Cloud | None:
 
 
 def _figure(name: str, clouds: list[Cloud], marks: Mapping[str, Mark], row: Any) -> Figure:
+    """Draw the clouds of one surface, a panel for each precision; `row` is one of its rows."""
     radius = "scene's" if wording.absent(row["domain_radius"]) else "domain's"
     variants = [variant for variant in marks if any(cloud.variant == variant for cloud in clouds)]
     precisions = sorted({cloud.precision for cloud in clouds})
@@ -134,6 +135,7 @@ def _spread(cloud: Cloud, edges: NDArray[np.float64]) -> tuple[NDArray[Any], NDA
 
 
 def _draw(axes: Axes, cloud: Cloud, edges: NDArray[np.float64], shift: float, axis: ErrorAxis, mark: Mark) -> None:
+    """Draw one cloud, its marks moved by `shift` from the middle of their bin."""
     filled, largest, median = _spread(cloud, edges)
     x = (edges[filled] + edges[filled + 1]) / 2 + shift
     top, middle = axis.position(largest), axis.position(median)
@@ -143,6 +145,7 @@ def _draw(axes: Axes, cloud: Cloud, edges: NDArray[np.float64], shift: float, ax
 
 
 def _dress(axes: Axes, edges: NDArray[np.float64], axis: ErrorAxis, precision: str) -> None:
+    """Set the axes of one panel, and draw the line of what the problem allows."""
     axis.dress(axes, "y")
     low, high = float(edges[0]), float(edges[-1])
     axes.set_xlim(low - 0.03 * (high - low), high + 0.03 * (high - low))

@@ -8,7 +8,7 @@ from typing import Any
 from reports import wording
 from reports.content import Code, Column, Section, Table
 from reports.material import Material
-from reports.reading.load import Plan
+from reports.reading.run import Plan
 
 ORDER = 80
 

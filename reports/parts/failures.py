@@ -13,7 +13,7 @@ from reports.analysis.scene_names import scene_names
 from reports.content import Column, Section, Table, Text
 from reports.drawing import tables
 from reports.material import Material
-from reports.reading.load import Facts, Unreadable
+from reports.reading.run import Facts, Unreadable
 
 ORDER = 90
 REASON_LIMIT = 500  # characters of a reason; a compiler's full log is in the cell's file

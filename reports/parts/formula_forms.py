@@ -136,6 +136,7 @@ def _figure(ranges: pd.DataFrame, titles: dict[str, str]) -> Figure:
 
 
 def _panel(axes: Axes, own: pd.DataFrame, looks: Mapping[str, tuple[str, str, Any]]) -> None:
+    """Draw the overestimation of one surface's forms; `looks` has the style of each form."""
     for form, line in own.groupby(own["form"].map(form_of), sort=False):
         color, marker, dashes = looks[str(form)]
         axes.plot(line["side"], line["factor"], color=color, marker=marker, ls=dashes, label=form, **LINE)

@@ -251,6 +251,7 @@ def _figure(
     marks: Mapping[str, Mark],
     name: str,
 ) -> Figure:
+    """Draw the curves of these places, a panel for each."""
     variants = [variant for variant in marks if any(curve.variant == variant for curve in found)]
     columns = min(ACROSS, len(places))
     lines = -(-len(places) // columns)

@@ -12,7 +12,7 @@ from reports.analysis import breaks, derive
 from reports.content import Block, Column, Section, Table, Text
 from reports.drawing import ladders, tables
 from reports.material import Material
-from reports.reading.load import Facts
+from reports.reading.run import Facts
 
 ORDER = 45
 NOTHING_DECIDED = "nothing decided"

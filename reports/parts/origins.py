@@ -15,7 +15,7 @@ from reports.analysis.scene_names import scene_names
 from reports.content import Block, Column, Section, Table, Text
 from reports.drawing import tables
 from reports.material import Material
-from reports.reading.load import Facts
+from reports.reading.run import Facts
 
 ORDER = 23
 CHEAP = 1.05  # a shift that multiplies a frame's time by at most this is called cheap

@@ -11,7 +11,7 @@ import pandas as pd
 from reports import wording
 from reports.content import Code, Section, Text
 from reports.material import Material
-from reports.reading.load import Plan
+from reports.reading.run import Plan
 
 ORDER = 95
 

@@ -56,6 +56,7 @@ def _section(section: Section, folder: Path) -> dict[str, Any]:
 
 
 def _block(block: Block, folder: Path) -> dict[str, Any]:
+    """Return a block as the template reads it; its pictures go into `folder`."""
     match block:
         case Text():
             return {"kind": "text", "text": block.text, "strong": block.strong}

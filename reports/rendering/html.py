@@ -55,6 +55,7 @@ def page(document: Document, marks: Mapping[str, Mark]) -> str:
 
 
 def _e(text: str) -> str:
+    """Escape a text for HTML."""
     return html.escape(text, quote=True)
 
 
@@ -64,6 +65,7 @@ def _section(section: Section, number: int) -> str:
 
 
 def _block(block: Block, name: str) -> str:
+    """Write a block as HTML; `name` begins the ids within it."""
     match block:
         case Text():
             told = _e(block.text)
@@ -79,6 +81,7 @@ def _block(block: Block, name: str) -> str:
 
 
 def _caption(title: str, caption: str) -> str:
+    """Write title and caption of a figure; "" without either."""
     return f"<strong>{_e(title)}</strong> {_e(caption)}" if title or caption else ""
 
 
@@ -103,6 +106,7 @@ def _table(table: Table) -> str:
 
 
 def _cells(columns: Sequence[Column], row: tuple[Any, ...]) -> str:
+    """Write the cells of one row, each with its value if that is a number."""
     cells = []
     for column, value in zip(columns, row, strict=True):
         number = not isinstance(value, str | bool) and not pd.isna(value)

@@ -57,6 +57,7 @@ def _panels(material: Material, config: str) -> list[Panel]:
 
 
 def _panel(row: Any, arrays: Arrays) -> Panel:
+    """Show one row's picture, with its fragments of boxes."""
     tori = 1 if pd.isna(row.instances) else int(row.instances)
     title = row.view.replace("angle ", "tilted by ") + "°" if tori == 1 else f"{tori:,} tori"
     told = f"{wording.count(row.fragments)} fragments, {wording.share(row.fragments_discarded / row.fragments)} wasted"

@@ -49,6 +49,7 @@ def _worth(piece: Piece, evidence: Evidence) -> tuple[Any, ...] | None:
 
 
 def _pieces(worth: list[tuple[Any, ...]]) -> Table:
+    """Make the table of what each piece is worth."""
     return Table(
         (
             Column("piece", stretch=2),
