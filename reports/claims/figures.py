@@ -25,20 +25,6 @@ class Figure:
     judged: bool = True  # whether its section ends with the config's verdicts, which else end another section
 
 
-_ANY_BEAM = (
-    "sphere",
-    "dingdong_beamcasting",
-    "klein",
-    "mitchell",
-    "octdong",
-    "steiner",
-    "tangle",
-    "teardrop",
-    "barth_sextic",
-    "heart",
-    "chmutov",
-    "blinn_blob",
-)
 FIGURES = (
     Figure(
         "toledo2007, Figure 2",
@@ -106,7 +92,7 @@ FIGURES = (
         "The twelve surfaces by adaptive beams as printed, with 1 and with 4 samples per pixel. Look at silhouettes: "
         "4 samples smooth their steps, and narrower beams touch less of what their centre rays pass by.",
         "beamcasting-tables.toml",
-        _ANY_BEAM,
+        tuple(picks.BEAM_SURFACES),
         (picks.ADAPTIVE,),
         judged=False,
     ),

@@ -94,6 +94,20 @@ TORUS = ("torus",)
 CUBICS = ("cayley", "clebsch", "ding_dong", "monkey_saddle", "whitney_umbrella", "cartan_umbrella")
 TABLE_4 = ("sphere", "torus", "calyx", "barth_sextic", "endrass_octic", "barth_decic", "sixteen_ball")
 TABLE_5 = ("sphere", "flirt", "calyx", "barth_sextic")
+BEAM_SURFACES = {  # of beamcasting's tables, with the names that it gives them
+    "sphere": "Sphere",
+    "dingdong_beamcasting": "Dingdong",
+    "klein": "Klein",
+    "mitchell": "Mitchell",
+    "octdong": "Octdong",
+    "steiner": "Steiner",
+    "tangle": "Tangle",
+    "teardrop": "Teardrop",
+    "barth_sextic": "Barth",
+    "heart": "Heart",
+    "chmutov": "Chmutov",
+    "blinn_blob": "Blob",
+}
 HIGH_DEGREE = ("endrass_octic", "barth_decic", "sixteen_ball")
 
 POLYGONS = tuple(

@@ -20,9 +20,8 @@ from reports.claims.model import (
     rays,
     verdict,
 )
-from reports.claims.szente_fit import over_marching
+from reports.claims.szente_fit import PAPER, over_marching
 
-PAPER = "szente"
 TABLE_5 = "szente-table5.toml"
 SOME = 0.001  # a share of rays that is larger by a test is called “some rays”
 PAYS = 1.02  # the least ratio of times without and with culling that is called a gain

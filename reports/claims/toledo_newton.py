@@ -29,9 +29,8 @@ from reports.claims.model import (
     quantities,
     verdict,
 )
+from reports.claims.toledo import PAPER, VIEWS
 
-PAPER = "toledo2007"
-VIEWS = "toledo-fig4.toml"
 FORWARDS = "steps forwards"
 MORE_STEPS = 1.0  # one step that doubles the digits of 0.001 r gives more digits than 0.00003 r has
 

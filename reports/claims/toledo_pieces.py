@@ -23,14 +23,13 @@ from reports.claims.model import (
     quantities,
     verdict,
 )
+from reports.claims.toledo import PAPER, VIEWS
 
-PAPER = "toledo2007"
 CUBICS = "toledo-cubics.toml"
 PROXIES = "toledo-proxies.toml"
 NORMALS = "toledo-normals.toml"
 FIGURE_3 = "toledo-fig3.toml"
 EXACT = 1e-9  # a relative error in float64 that is called none
-VIEWS = "toledo-fig4.toml"
 SEARCHED = (*picks.CUBICS, *picks.TORUS)
 
 

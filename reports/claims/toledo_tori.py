@@ -24,8 +24,8 @@ from reports.claims.model import (
     quantities,
     verdict,
 )
+from reports.claims.toledo import PAPER
 
-PAPER = "toledo2007"
 CONFIG = "toledo-fig6.toml"
 TABLE_1 = "toledo-table1.toml"
 PICKS = (picks.NEWTON_3, picks.NEWTON_5, *picks.POLYGONS[:3])

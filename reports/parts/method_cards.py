@@ -100,14 +100,15 @@ _PASSED = {  # the counts that hold later roots, which contradict a claim, among
 
 
 def _claims(method: str, stated: list[str], rows: pd.DataFrame) -> str:
-    """Write each claim of a method, and whether this run's counts contradict it."""
+    """Write each claim of a method, and whether this run's counts contradict it.
+
+    An older run may state a claim that is no longer known, which has no meaning beside it.
+    """
     if not stated:
         return "none"
     lines = []
     for name in sorted(stated):
-        meaning = (
-            f": {CLAIMS[name]}" if name in CLAIMS else ""
-        )  # an older run may state a claim that is no longer known
+        meaning = f": {CLAIMS[name]}" if name in CLAIMS else ""
         lines.append(f"• {name.replace('_', ' ')}{meaning}. {_held(method, name, rows)}")
     return "\n".join(lines)
 

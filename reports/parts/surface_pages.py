@@ -116,14 +116,15 @@ def flags(row: Any) -> str:
 
 
 def results_table(rows: pd.DataFrame) -> Table:
-    """Make a line for each finished row of one comparison, fastest first for each device and precision."""
+    """Make a line for each finished row of one comparison, fastest first for each device and precision.
+
+    The column ± has the longer side of the median's interval over the median, as harness.results.timings measures it.
+    """
     rows = rows.sort_values(["device", "precision", "median_ms"], kind="stable")
     kinds = derive.kinds(rows)
     body = []
     for row in rows.itertuples():
-        reach = max(
-            row.upper_ms - row.median_ms, row.median_ms - row.lower_ms
-        )  # as harness.results.timings measures it
+        reach = max(row.upper_ms - row.median_ms, row.median_ms - row.lower_ms)
         spread = reach / row.median_ms if row.median_ms else None
         speed = (row.median_ms, spread, row.mrays_per_s, row.frames_per_s, row.speedup)
         errors = (row.error_max, row.error_p99, *(getattr(row, kind) for kind in kinds))

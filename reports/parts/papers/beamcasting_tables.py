@@ -17,20 +17,6 @@ from reports.drawing import levels
 from reports.material import Material
 
 ORDER = 40
-_NAMES = {
-    "sphere": "Sphere",
-    "dingdong_beamcasting": "Dingdong",
-    "klein": "Klein",
-    "mitchell": "Mitchell",
-    "octdong": "Octdong",
-    "steiner": "Steiner",
-    "tangle": "Tangle",
-    "teardrop": "Teardrop",
-    "barth_sextic": "Barth",
-    "heart": "Heart",
-    "chmutov": "Chmutov",
-    "blinn_blob": "Blob",
-}
 
 
 def sections(material: Material) -> list[Section]:
@@ -53,16 +39,24 @@ _TOLD = (
 def _tables(material: Material) -> list[Section]:
     """Hold the speeds of both methods against the paper's."""
     evidence = material.evidence.of("beamcasting-tables.toml")
-    ratios = evidence.ratios(picks.UNIFORM, picks.ADAPTIVE, _NAMES)
+    ratios = evidence.ratios(picks.UNIFORM, picks.ADAPTIVE, picks.BEAM_SURFACES)
     if ratios.empty:
         return []
     ratios = derive.on_first_device(ratios)
-    best = evidence.ratios(picks.UNIFORM, picks.ADAPTIVE_OURS, _NAMES).set_index(derive.GROUP)["ratio"].to_dict()
+    best = (
+        evidence.ratios(picks.UNIFORM, picks.ADAPTIVE_OURS, picks.BEAM_SURFACES)
+        .set_index(derive.GROUP)["ratio"]
+        .to_dict()
+    )
     spent = evidence.rows(picks.UNIFORM).set_index(derive.GROUP)["evaluations_mean"].to_dict()
     paper = published.table("beamcasting_tables_fps")
     body: list[tuple[Any, ...]] = []
     for row in ratios.sort_values(["size", "samples_per_pixel"], kind="stable").itertuples():
-        where = {"surface": _NAMES[row.surface], "image_size": row.size, "samples_per_pixel": row.samples_per_pixel}
+        where = {
+            "surface": picks.BEAM_SURFACES[row.surface],
+            "image_size": row.size,
+            "samples_per_pixel": row.samples_per_pixel,
+        }
         theirs = [paper.number(c, **where) for c in ("uniform_fps", "adaptive_fps", "adaptive_over_uniform")]
         told = (row.size, row.samples_per_pixel, row.surface_title, 1e3 / row.slow_ms, theirs[0])
         last = None if theirs[2] is None else row.ratio / theirs[2]
@@ -152,14 +146,17 @@ def _divergence(material: Material) -> list[Section]:
     """Tell how many lanes wait: of whole frames by setting, and level by level on the surface of Figure 1."""
     config = "beamcasting-divergence.toml"
     evidence = material.evidence.of(config)
-    rows = [(pick, row) for pick in _SETTINGS for row in evidence.rows(pick, _NAMES).itertuples()]
+    rows = [(pick, row) for pick in _SETTINGS for row in evidence.rows(pick, picks.BEAM_SURFACES).itertuples()]
     rows = [(pick, row) for pick, row in rows if row.run == run_of(config) and idle_lanes.levels_of(row)]
     if not rows:
         return []
     rows = [(pick, row) for pick, row in rows if row.device == rows[0][1].device]
-    order = list(_NAMES)
+    order = list(picks.BEAM_SURFACES)
     rows.sort(key=lambda one: order.index(one[1].surface))
-    body = [(_NAMES[row.surface], pick.words, row.evaluations_mean, *_shares(row), row.median_ms) for pick, row in rows]
+    body = [
+        (picks.BEAM_SURFACES[row.surface], pick.words, row.evaluations_mean, *_shares(row), row.median_ms)
+        for pick, row in rows
+    ]
     shares = [
         Column(str(width), wording.share, numeric=True, over="idle of so many lanes") for width in idle_lanes.WIDTHS
     ]
