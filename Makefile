@@ -16,6 +16,7 @@ test: $(READY)
 	$(BIN)/python -m pytest -q -n auto
 
 bench: $(READY)
+	$(BIN)/python -m tests.benchmarks.startup
 	$(BIN)/python -m pytest -q tests/benchmarks --benchmark-enable --benchmark-only --benchmark-autosave
 
 gate: $(READY)

@@ -11,7 +11,6 @@ from pathlib import Path
 
 from harness import __version__
 from harness.commands import GROUPS, adder
-from harness.contract import FirsthitError
 
 INTERRUPTED = 3
 
@@ -39,6 +38,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command; its exit code. A user's mistake is one line on stderr, never a traceback."""
     arguments = sys.argv[1:] if arguments is None else arguments
     options = build_parser(arguments).parse_args(arguments)
+    from harness.contract import FirsthitError  # imports numpy, which help and usage do without
+
     try:
         code: int = options.run(options)
         sys.stdout.flush()

@@ -1,4 +1,4 @@
-"""Defines the words that all other parts use: what a method, a cell, a program, an answer and the truth are.
+"""Define the words that all other parts use: what a method, a view, a program, an answer and the truth are.
 
 It imports nothing of ours but harness.limits, and surfaces.model and surfaces.words, whose names can be imported from
 here too. Lengths are in scene units (a surface's own coordinates), times in seconds unless a name ends in `_ms`. `t` is
@@ -27,7 +27,6 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from harness.scenes.model import Scene
 
 Precision = Literal["float32", "float64"]
 Stage = Literal["compute", "rays", "raster"]
@@ -155,7 +154,7 @@ class Method:
 
     @property
     def printed(self) -> dict[str, float | int]:
-        """Returns the values that the method's source prints, by knob, for knobs whose default is another."""
+        """Return the values that the method's source prints, by knob, for knobs whose default is another."""
         return {p.name: p.printed for p in self.parameters if p.printed is not None}
 
 
@@ -212,7 +211,7 @@ class Section:
 
 
 def source(sections: Sequence[Section]) -> str:
-    """Returns the text of the sections in order, each under a line that names its origin."""
+    """Return the text of the sections in order, each under a line that names its origin."""
     return "".join(f"// ==== {s.origin} ====\n{s.text.rstrip()}\n" for s in sections)
 
 
@@ -243,7 +242,7 @@ class Program:
         return digest(self.language, self.precision, self.entry, *texts, *([] if self.optimised else ["unoptimised"]))
 
     def locate(self, line: int) -> tuple[str, int]:
-        """Returns the origin of the section that holds line `line` of `text` (from 1), and the line's number in it."""
+        """Return the origin of the section that holds line `line` of `text` (from 1), and the line's number in it."""
         first = 1
         for section in self.sections:
             count = len(section.text.rstrip().split("\n")) + 1
@@ -287,7 +286,7 @@ class Hits:
 
     @property
     def spent(self) -> tuple[float | None, int]:
-        """Returns mean and maximum of the evaluations over rays whose status is not INVALID; None and 0 without any."""
+        """Return mean and maximum of the evaluations over rays whose status is not INVALID; None and 0 without any."""
         spent = self.evaluations[self.status != RayStatus.INVALID]
         return (float(spent.mean()), int(spent.max())) if len(spent) else (None, 0)
 
@@ -320,74 +319,7 @@ class Truth:
 FROM_ORIGIN: Mapping[Origin, str] = {"nearest": "", "entry": " from the entry", "eye": " from the eye"}
 
 
-@dataclass(frozen=True)
-class Cell:
-    """One point of the experiment grid: a view, or a family of hard rays, which is checked but not timed.
-
-    size: pixels per side
-    family: of harness.hardcases; the rays of its rungs then replace surface and view
-    prepass: "beams": beams of tiles narrow the rays to where they cannot exclude the surface
-    proxy: of stage raster: the geometry whose fragments cast rays
-    tolerance: of stage raster: pixel footprints that a method's own tolerance may grow to; 0: it does not grow
-    scene: several instances; `surface` then stands for them. None: one instance of `surface`
-    origin: where a method sees its ray begin: at the point nearest the domain's centre, where the ray enters the
-        domain, or at the eye. An answer's t is along the ray as given in any case
-    normal: of stage raster: what hits are shaded by, see assemble.raster_program
-    """
-
-    variant: Variant
-    surface: Surface
-    view: View
-    size: int
-    samples_per_pixel: int
-    precision: Precision
-    stage: Stage
-    device: str
-    family: str | None = None
-    prepass: Prepass = "none"
-    proxy: Proxy = "box"
-    tolerance: float = 0.0
-    scene: Scene | None = None
-    origin: Origin = "nearest"
-    normal: Normal = "distance"
-
-    @property
-    def caster(self) -> str:
-        """Returns the variant's label, with each of prepass, tolerance, proxy, origin and normal that is not the
-        default."""
-        behind = "" if self.prepass == "none" else f"+{self.prepass}"
-        loose = f" to {self.tolerance:g} pixels" if self.tolerance else ""
-        proxy = "" if self.proxy == "box" else f" in a {self.proxy}"
-        shaded = "" if self.normal == "distance" else f" shaded by {self.normal}"
-        return f"{self.variant}{behind}{loose}{proxy}{FROM_ORIGIN[self.origin]}{shaded}"
-
-    @property
-    def slot(self) -> str:
-        """Returns the cell's place in the grid, for people to read."""
-        if self.family:
-            return f"{self.caster} family {self.family} {self.precision} {self.device}"
-        sampling = f"{self.size}x{self.size}x{self.samples_per_pixel}"
-        where = f"{self.surface.name} {self.view.name} {sampling}"
-        return f"{self.caster} {where} {self.precision} {self.stage} {self.device}"
-
-    @property
-    def comparison(self) -> str:
-        """Returns what cells share that are compared with each other: all but variant, device and precision."""
-        if self.family:
-            return f"family {self.family}"
-        return f"{self.surface.name} {self.view.name} {self.size}x{self.size}x{self.samples_per_pixel} {self.stage}"
-
-    @property
-    def together(self) -> str:
-        """Returns what cells share that are timed in one interleaved run: those of a comparison, of all views of a set,
-        and of all forms of a surface."""
-        if self.family:
-            return self.comparison
-        views = self.view.name if self.view.set is None else self.view.set
-        return f"{self.surface.base} {views} {self.size}x{self.size}x{self.samples_per_pixel} {self.stage}"
-
-
 def digest(*parts: Any) -> str:
-    """Returns a stable hash of JSON-able parts: 16 hexadecimal digits."""
+    """Return a stable hash of JSON-able parts: 16 hexadecimal digits."""
     text = json.dumps(parts, sort_keys=True, separators=(",", ":"), ensure_ascii=False)
     return hashlib.sha256(text.encode()).hexdigest()[:16]

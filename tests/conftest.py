@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from harness.contract import DeviceInfo
+from harness.devices import kept
 from harness.devices.executor import LocalExecutor
 from harness.devices.interface import Device, find_devices, open_device
 
@@ -26,8 +27,10 @@ def usable_devices() -> tuple[DeviceInfo, ...]:
 @pytest.fixture(scope="module")
 def devices_found_once() -> Iterator[None]:
     """Commands run in this process find its devices at once, instead of in a process of their own each time: that takes
-    longer than what most tests are about, and tests that run commands in processes of their own do it still."""
+    longer than what most tests are about, and tests that run commands in processes of their own do it still. What the
+    user's cache folder holds of devices is left alone."""
     with pytest.MonkeyPatch.context() as patched:
+        patched.setattr(kept, "_place", lambda: None)
         patched.setattr(LocalExecutor, "find", lambda _, backend: _found(backend))
         yield
 

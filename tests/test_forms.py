@@ -7,7 +7,8 @@ import pytest
 import sympy
 
 import surfaces
-from harness.contract import Cell, FirsthitError, Surface, TruthStatus, Variant, View
+from harness.contract import FirsthitError, Surface, TruthStatus, Variant, View
+from harness.experiment.cells import Cell
 from harness.oracle import first_hits
 from harness.scenes.camera import camera_for, rays_of
 from harness.studies import form_ranges

@@ -16,10 +16,12 @@ import pytest
 
 import surfaces
 from harness import hardcases
-from harness.accuracy.rungs import first_break, judge_rung, knowable_margin, share_right
+from harness.accuracy.rungs import judge_rung, knowable_margin, share_right
 from harness.contract import FirsthitError, Hits, RayStatus, Truth, TruthStatus
 from harness.hardcases import Rung
 from harness.oracle import first_hits
+
+from .ladders import first_break
 
 Exact = tuple[Fraction, ...]
 PRECISION = 60  # decimal digits

@@ -6,6 +6,7 @@ import ast
 import json
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -48,6 +49,14 @@ def _files(module: str) -> list[str]:
     return found
 
 
+def _executed(node: ast.AST) -> Iterator[ast.AST]:
+    """Yield the node and all below it, without what stands under `if TYPE_CHECKING:`, which no run imports."""
+    yield node
+    typed = isinstance(node, ast.If) and isinstance(node.test, ast.Name) and node.test.id == "TYPE_CHECKING"
+    for child in node.orelse if typed else ast.iter_child_nodes(node):
+        yield from _executed(child)
+
+
 def reached(*modules: str) -> set[str]:
     """Files of ours that these modules import, at their tops or inside functions, and what those import."""
     found: set[str] = set()
@@ -57,7 +66,7 @@ def reached(*modules: str) -> set[str]:
         if file in found:
             continue
         found.add(file)
-        for node in ast.walk(ast.parse((ROOT / file).read_text(encoding="utf-8"))):
+        for node in _executed(ast.parse((ROOT / file).read_text(encoding="utf-8"))):
             if isinstance(node, ast.Import):
                 waiting += [f for name in node.names for f in _files(name.name)]
             elif isinstance(node, ast.ImportFrom):

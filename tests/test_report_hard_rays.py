@@ -11,7 +11,6 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from harness.accuracy.rungs import first_break
 from harness.contract import CLAIMS
 from harness.plugins import find_methods
 from harness.running.cards import card
@@ -20,6 +19,8 @@ from reports.analysis import breaks
 from reports.reading import load
 from tests import synthetic_run
 from tests.synthetic_run import family_cell, printed, reported, stability_run, tiny_run
+
+from .ladders import first_break
 
 
 @pytest.fixture(scope="module")

@@ -16,8 +16,8 @@ ladders are built along a distance, and `undecidable` says where that distance e
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
-from typing import Any, Literal, TypeVar
+from collections.abc import Mapping
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -88,17 +88,3 @@ def _part(whole: PerRay, part: slice) -> PerRay:
 def share_right(verdict: Mapping[str, Any]) -> float | None:
     """Return the share of decided rays answered rightly; None where there are none, so that nothing can be said."""
     return verdict["right"] / verdict["decided"] if verdict["decided"] else None
-
-
-def first_break(
-    verdicts: Sequence[Mapping[str, Any]], harder: Literal["smaller", "larger"], share: float = 0.99
-) -> float | None:
-    """The first parameter, going harder, at which less than `share` of the decided rays are right; None: none.
-
-    Rungs without decided rays neither break a method nor clear it.
-    """
-    for verdict in sorted(verdicts, key=lambda v: float(v["parameter"]), reverse=harder == "smaller"):
-        right = share_right(verdict)
-        if right is not None and right < share:
-            return float(verdict["parameter"])
-    return None

@@ -10,7 +10,6 @@ from dataclasses import dataclass
 from typing import Any
 
 from harness.contract import (
-    Cell,
     DeviceInfo,
     FirsthitError,
     Origin,
@@ -26,6 +25,7 @@ from harness.devices.interface import no_device
 from harness.devices.messages import Frame
 from harness.experiment import identity as identities
 from harness.experiment import kinds
+from harness.experiment.cells import Cell, FamilyCell
 from harness.experiment.config import Config, Experiment
 from harness.experiment.kinds import Asked, Casting
 from harness.experiment.kinds.model import NOT_RASTERED, Rastering
@@ -179,7 +179,7 @@ def _scenes(experiment: Experiment, catalog: Catalog, casters: list[_Caster]) ->
 def _families(experiment: Experiment, casters: list[_Caster]) -> Iterator[Cell]:
     for family, caster in itertools.product(experiment.config.families, casters):
         surface = groups.groups(family)[0].surface
-        yield _cell(caster, Cell(caster.variant, surface, View("none"), 0, 1, "float32", "rays", "", family))
+        yield _cell(caster, FamilyCell(caster.variant, surface, View("none"), 0, 1, "float32", "rays", "", family))
 
 
 def _cell(caster: _Caster, cell: Cell, raster: Rastering = NOT_RASTERED) -> Cell:

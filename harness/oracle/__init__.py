@@ -1,23 +1,24 @@
-"""Certified first hits of rays with implicit surfaces: intervals proved to hold the first root, or proof of a miss.
+"""Certifies first hits of rays with implicit surfaces: proves that an interval holds the first root, or that none
+exists.
 
-`first_hits` sends all rays through a float64 fast path that accepts only what a rigorous error bound certifies
-(`fast`), then the rest one by one through ball arithmetic of rising precision and exact arithmetic (`slow` for
-polynomials, `transcendental` for everything else). What neither can prove is UNDECIDED.
+`first_hits` sends all rays through a fast path in float64, which accepts only what a rigorous error bound certifies
+(`fast`). The rest go one by one through ball arithmetic of rising precision and exact arithmetic: `slow` for
+polynomials, `transcendental` and `piecewise` for everything else. What none of them can prove is UNDECIDED. The proofs
+share nothing with the code that generates kernels, so that an error there cannot hide here.
 
-- The ray o + t·d is taken with float32 numbers as the exact rationals they are; d is not renormalised.
-- A touch is a root of even multiplicity. Where f vanishes all along the ray, the answer is a TOUCH at the clip
-  interval's first t.
-- The first hit is the smallest t with f = 0 in the closed interval [max(t_min, t_enter), t_exit] that the ray spends in
-  the domain; t_min is 0 unless given. A start on the surface is a hit at t_min, whether the ray leaves, enters or
-  grazes, unless t_min excludes it: a root before t_min is none, be it by one float. Where t_min lies behind the domain,
-  the ray misses.
-- A polynomial whose coefficients are rational or in one field Q(√d) is always decided (touches and roots exactly at
-  clip ends included) up to the 4096 bits at which telling two numbers apart is given up.
-- So is, but for rare rays, what is made of polynomials by quotients, square roots, abs, min and max, such as a distance
-  function (`piecewise`): a hit may lie at a kink, or where a square root's argument is 0. Given up are rays on which f
-  is made of more than 12 different square roots at one place, or that 1536 bits do not decide. Where f keeps its sign
-  across a hit, or is 0 all along behind it, or has no value on one side, the hit is a TOUCH.
-- With other constants (π, e) or functions, crossings and misses are decided, and touches where f is written with a
+- The float32 numbers of a ray o + t·d are taken as exact rationals; d is not normalised again.
+- A touch is a root of even multiplicity. If f vanishes all along the ray, the answer is a TOUCH at the first t of the
+  clip interval, the part of the ray in the domain.
+- The first hit is the smallest t with f = 0 in the closed clip interval [max(t_min, t_enter), t_exit]; t_min is 0
+  unless given. A start on the surface is a hit at t_min, whether the ray leaves, enters or grazes. A root before t_min
+  does not count, even if it is only one float before. If t_min lies behind the domain, the ray misses.
+- A polynomial whose coefficients are rational or in one field Q(√d) is always decided, touches and roots exactly at
+  clip ends included, unless 4096 bits do not tell two numbers apart.
+- A function made of polynomials by quotients, square roots, abs, min and max, such as a distance function, is decided
+  on all but rare rays (`piecewise`). A hit may lie at a kink, or where a square root's argument is 0. A ray stays
+  undecided if f is made of more than 12 different square roots at one place, or if 1536 bits do not decide it. The hit
+  is a TOUCH if f keeps its sign across it, is 0 all along behind it, or has no value on one side.
+- With other constants (π, e) or functions, crossings and misses are decided, and touches if f is written with a
   repeated factor or as an absolute value.
 - `following`, `condition`, `margin` and `contrast` are estimates in plain float64 (`classify`).
 """
@@ -35,10 +36,10 @@ __all__ = ["cached_first_hits", "first_hits"]
 
 
 def first_hits(surface: Surface, rays: NDArray[np.float32], t_min: float = 0.0) -> Truth:
-    """Certified first hits for `rays`: float32[n, 6], origin and direction in scene units, at `t_min` or beyond.
+    """Return the certified first hits at or after `t_min` of rays float32[n, 6]: origins and directions, scene units.
 
-    A FirsthitError for rays of another shape or type, with NaN or infinity, or without a direction, and for a `t_min`
-    that is negative or not finite.
+    Raises FirsthitError for rays of another shape or type, with NaN or infinity, or with the direction 0, and for a
+    `t_min` that is negative or not finite.
     """
     from harness.oracle.classify import classify
 
@@ -53,7 +54,11 @@ def first_hits(surface: Surface, rays: NDArray[np.float32], t_min: float = 0.0) 
 
 
 def cached_first_hits(surface: Surface, rays: NDArray[np.float32], folder: Path, t_min: float = 0.0) -> Truth:
-    """`first_hits`, kept in `folder` by content, the oracle's own files among it; a damaged file is replaced."""
+    """Return `first_hits`, from a file in `folder` if it is stored there.
+
+    The file's name covers the surface, the rays, t_min and the oracle's own files. A damaged file is replaced. Raises
+    FirsthitError as `first_hits`.
+    """
     from harness.oracle import cache
 
     check_rays(rays)
@@ -67,7 +72,7 @@ def cached_first_hits(surface: Surface, rays: NDArray[np.float32], folder: Path,
 
 
 def check_rays(rays: NDArray[np.float32]) -> None:
-    """A FirsthitError naming the first row that is not a ray."""
+    """Raise FirsthitError, which names the first row that is not a ray."""
     if not isinstance(rays, np.ndarray) or rays.dtype != np.float32 or rays.ndim != 2 or rays.shape[1] != 6:
         found = f"{rays.dtype}{list(rays.shape)}" if isinstance(rays, np.ndarray) else type(rays).__name__
         raise FirsthitError(f"rays must be a float32[n, 6] array of origins and directions, not {found}")
@@ -81,7 +86,7 @@ def check_rays(rays: NDArray[np.float32]) -> None:
 
 
 def checked_t_min(t_min: float) -> float:
-    """`t_min` as a float64, −0 as 0; a FirsthitError where it is no finite number, or negative."""
+    """Return `t_min` as a float64, −0 as 0. Raises FirsthitError if it is negative or no finite number."""
     if isinstance(t_min, bool) or not isinstance(t_min, int | float | np.integer | np.floating):
         raise FirsthitError(
             f"t_min must be a number, not {type(t_min).__name__}; give a distance along the ray, 0 or more"
@@ -115,13 +120,13 @@ class _Solver:
         self.noise = Noise(surface)
         smooth = SmoothSolver(expr, surface.domain)
         self.slow: list[AlgebraicSolver | SmoothSolver] = [smooth]
-        if program.is_polynomial:  # in several fields Q(√d), what balls leave open is for the other one
+        if program.is_polynomial:  # coefficients in several fields Q(√d): the other one decides more
             self.slow = [AlgebraicSolver(program, surface.domain), *([smooth] if smooth.exact else [])]
 
     def certify(
         self, rays: NDArray[np.float64], t_min: float
     ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.uint8]]:
-        """lower, upper and status of `rays`: float64[n, 6] holding float32 values."""
+        """Return lower, upper and status of rays float64[n, 6] that hold float32 values."""
         fast = self.fast.first_hits(rays, t_min)
         for row in np.flatnonzero(~fast.decided):
             for solver in self.slow:
@@ -136,6 +141,7 @@ _SOLVERS: dict[str, _Solver] = {}
 
 
 def _solver(surface: Surface) -> _Solver:
+    """Return the surface's solver, which is built once."""
     key = digest(surface.identity)
     if key not in _SOLVERS:
         _SOLVERS[key] = _Solver(surface)

@@ -1,13 +1,13 @@
-"""Vectorised float64 ball arithmetic: a midpoint and a radius, both arrays, that provably hold the exact value.
+"""Ball arithmetic on float64 arrays: a midpoint and a radius that provably hold the exact value.
 
 **Theory.** Rounding to nearest gives fl(a∘b) = (a∘b)(1 + e) + n with |e| <= u = 2^-53 and |n| <= 2^-1074 for + − × ÷ √
-(IEEE 754; n = 0 for + and −). A radius is a sum and product of at most eight non-negative floats, so it is computed at
-most a factor (1 − u)^8 too small: multiplying by GROW = 1 + 2^-48 and adding TINY repairs that. The midpoint's own
-rounding is charged at 2^-52 of the computed midpoint, twice its bound. Overflow gives NaN or infinite radii, which no
-comparison accepts.
+(IEEE 754; n = 0 for + and −). A radius is computed from at most eight sums and products of non-negative floats, so that
+it is too small by at most the factor (1 − u)^8; multiplying it by GROW = 1 + 2^-48 and adding TINY repairs that. For
+the rounding of the midpoint 2^-52 of it are added to the radius, twice the bound. Overflow gives radii that are NaN or
+infinite, which no comparison accepts.
 
-Elementary functions are numpy's, charged at ELEMENTARY = 2^-46 of the result: numpy's own tests hold them to 4 units
-in the last place (2^-50); this is the one place where the oracle trusts a library beyond IEEE 754.
+Elementary functions are numpy's, with an error of ELEMENTARY = 2^-46 of the result; numpy's own tests allow 4 units in
+the last place (2^-50). Nowhere else does the oracle trust a library beyond IEEE 754.
 """
 
 from __future__ import annotations
@@ -27,7 +27,10 @@ ELEMENTARY = 2.0**-46
 
 
 class Balls:
-    """Arrays of balls; every operation's result holds the exact result for all members of its operands."""
+    """Balls, as arrays of midpoints and radii or as one number each.
+
+    The result of every operation holds the exact results for all members of its operands.
+    """
 
     __slots__ = ("mid", "rad")
 
@@ -52,7 +55,7 @@ class Balls:
         return Balls(mid, (spread + UNIT * np.abs(mid)) * GROW + TINY)
 
     def __truediv__(self, other: Balls) -> Balls:
-        """Infinite radius where the divisor may be 0: |a/b − ma/mb| <= (ra + |ma/mb| rb) / (|mb| − rb)."""
+        """Return the quotient, by |a/b − ma/mb| <= (ra + |ma/mb| rb) / (|mb| − rb); its radius is NaN if b may be 0."""
         mid = self.mid / other.mid
         room = np.abs(other.mid) * (1.0 - 2.0**-50) - other.rad
         spread = (self.rad + np.abs(mid) * other.rad * GROW) / np.where(room > 0.0, room, np.nan)
@@ -60,36 +63,39 @@ class Balls:
 
     @property
     def lower(self) -> Any:
+        """Return floats that are not above any member."""
         return (self.mid - self.rad) - (np.abs(self.mid) + self.rad) * UNIT
 
     @property
     def upper(self) -> Any:
+        """Return floats that are not below any member."""
         return (self.mid + self.rad) + (np.abs(self.mid) + self.rad) * UNIT
 
     @property
     def sign(self) -> NDArray[np.int8]:
-        """+1 or −1 where the whole ball has that sign, else 0."""
+        """Return +1 or −1 where the whole ball has that sign, else 0."""
         return np.asarray(self.mid > self.rad).astype(np.int8) - np.asarray(self.mid < -self.rad).astype(np.int8)
 
     @property
     def excludes_zero(self) -> NDArray[np.bool_]:
+        """Return where the ball does not hold 0."""
         return np.asarray(np.abs(self.mid) > self.rad)
 
 
 def hull(lower: Any, upper: Any) -> Balls:
-    """The smallest ball found around [lower, upper]."""
+    """Return a ball that holds [lower, upper]."""
     mid = 0.5 * (lower + upper)
     return Balls(mid, (np.maximum(upper - mid, mid - lower) + UNIT * np.abs(mid)) * GROW + TINY)
 
 
 def sqrt(a: Balls) -> Balls:
-    """Enclose the square roots of the members that have one; NaN where `a` has none."""
+    """Enclose the square roots of the members that are not negative; NaN where all are negative."""
     lower, upper = np.sqrt(np.maximum(a.lower, 0.0)), np.sqrt(a.upper)
     return hull(lower * (1.0 - UNIT), upper * (1.0 + UNIT))
 
 
 def length(*parts: Balls) -> Balls:
-    """The square root of the sum of squares."""
+    """Enclose the square root of the sum of the squares."""
     total = parts[0] * parts[0]
     for part in parts[1:]:
         total = total + part * part
@@ -108,7 +114,7 @@ def log(a: Balls) -> Balls:
 
 
 def _bounded(mid: Any, rad: Any) -> Balls:
-    """A value of sin or cos: slope at most 1; |result| at most 1."""
+    """Return a value of sin or cos, whose slope and size are at most 1."""
     return Balls(mid, np.minimum((rad + ELEMENTARY * np.abs(mid)) * GROW + TINY, 2.0))
 
 
@@ -129,7 +135,7 @@ def absolute(a: Balls) -> Balls:
 
 
 def minimum(a: Balls, b: Balls) -> Balls:
-    """|min(a, b) − min(ma, mb)| <= max(ra, rb)."""
+    """Enclose the lesser of two numbers, by |min(a, b) − min(ma, mb)| <= max(ra, rb)."""
     return Balls(np.minimum(a.mid, b.mid), _radius_of_one(b - a, a, b))
 
 
@@ -138,13 +144,13 @@ def maximum(a: Balls, b: Balls) -> Balls:
 
 
 def _radius_of_one(ahead: Balls, a: Balls, b: Balls) -> Any:
-    """The radius of `a` where `ahead` > 0, that of `b` where it is < 0, else the larger one."""
+    """Return the radius of `a` where `ahead` > 0, that of `b` where `ahead` < 0, else the larger one."""
     larger = np.maximum(a.rad, b.rad)
     return np.where(ahead.mid > ahead.rad, a.rad, np.where(ahead.mid < -ahead.rad, b.rad, larger))
 
 
 def pick(sign: Balls, a: Balls, b: Balls) -> Balls:
-    """`a` where `sign` is 1, `b` where it is −1, else what holds both."""
+    """Return `a` where `sign` is 1, `b` where it is −1, else a ball that holds both."""
     open_ = sign.rad > 0.0
     both = hull(np.minimum(a.lower, b.lower), np.maximum(a.upper, b.upper))
     first = sign.mid > 0.0
@@ -155,7 +161,7 @@ def pick(sign: Balls, a: Balls, b: Balls) -> Balls:
 
 
 def share(part: Balls, whole: Balls) -> Balls:
-    """part / whole, of which |part| <= whole is known: never beyond [−1, 1]."""
+    """Enclose part / whole where |part| <= whole is known, so that the result never leaves [−1, 1]."""
     quotient = part / whole
     lower, upper = np.fmax(quotient.lower, -1.0), np.fmin(quotient.upper, 1.0)
     lower, upper = np.where(lower <= upper, lower, -1.0), np.where(lower <= upper, upper, 1.0)
@@ -164,7 +170,7 @@ def share(part: Balls, whole: Balls) -> Balls:
 
 
 def sign_range(a: Balls) -> Balls:
-    """The generalised derivative of abs: ±1, or [−1, 1] where the sign is open."""
+    """Return the generalised derivative of abs: ±1, or [−1, 1] where the sign is not known."""
     sign = a.sign
     return Balls(sign.astype(np.float64), np.where(sign == 0, 1.0, 0.0))
 

@@ -1,10 +1,11 @@
-"""Real roots of a polynomial on [0, 1] by Bernstein subdivision in exact integers.
+"""Isolates real roots of a polynomial on [0, 1] by Bernstein subdivision in exact integers.
 
 **Theory.** A polynomial has at most as many roots in (u, v), counted with multiplicity, as its Bernstein coefficients
-on [u, v] have sign changes, and the two differ by an even number (Descartes' rule in Bernstein form; Lane and
-Riesenfeld 1981). So none proves no root and one proves one simple root. Coefficients are integers known up to ±`error`:
-a coefficient has a sign only if it is larger than that. De Casteljau's algorithm with weights a / 2^k is exact once its
-results are scaled by 2^(k·degree), and averaging never enlarges the error.
+on [u, v] have sign changes, and the two numbers differ by an even number (Descartes' rule in Bernstein form; Lane and
+Riesenfeld 1981). So no sign change proves that there is no root, and one proves that there is one simple root.
+Coefficients are integers with an error of at most ±`error`; a coefficient has a sign only if it is larger than that. De
+Casteljau's algorithm with weights a / 2^k is exact once its results are scaled by 2^(k·degree), and averaging never
+enlarges the error.
 """
 
 from __future__ import annotations
@@ -15,33 +16,35 @@ from functools import cache
 from itertools import pairwise
 from math import comb, lcm
 
-SPLITS = ((1, 1), (5, 3), (11, 4), (19, 5), (45, 6))  # a, k: the split point is at a / 2^k
+SPLITS = ((1, 1), (5, 3), (11, 4), (19, 5), (45, 6))  # a and k of the split points a / 2^k that are tried
 
 
 class Undecidable(Exception):
-    """The coefficients are not known well enough (or at all) to decide; more precision may help."""
+    """Says that numbers are not known well enough to decide; more precision may help."""
 
 
 @dataclass(frozen=True)
 class Bracket:
-    """The open interval (lower, upper) / 2^exponent with exactly one root, a simple one; neither end is a root."""
+    """The open interval (lower, upper) / 2^exponent, which holds one simple root and no other; no end is a root."""
 
     lower: int
     upper: int
     exponent: int
-    rising: bool  # the polynomial is negative at the lower end, positive at the upper
+    rising: bool  # whether the polynomial is negative at the lower end and positive at the upper one
 
 
 @cache
 def _weights(degree: int) -> tuple[int, tuple[int, ...]]:
+    """Return the least common multiple of the binomials C(degree, j), and it divided by each of them."""
     scale = lcm(*(comb(degree, j) for j in range(degree + 1)))
     return scale, tuple(scale // comb(degree, j) for j in range(degree + 1))
 
 
 def to_bernstein(power: Sequence[int], error: int = 0) -> tuple[list[int], int]:
-    """Bernstein coefficients on [0, 1], times a common factor, and their error.
+    """Return Bernstein coefficients on [0, 1], times a common factor, and a bound of their errors.
 
-    `error` bounds the summed errors of the power coefficients. b_i = Σ_j C(i, j) p_j / C(n, j): sums of differences.
+    `power` holds the coefficients of the powers, the lowest first, and `error` bounds the sum of their errors. The
+    result is b_i = Σ_j C(i, j) p_j / C(n, j), computed by repeated sums.
     """
     scale, weights = _weights(len(power) - 1)
     row = [p * w for p, w in zip(power, weights, strict=True)]
@@ -54,7 +57,7 @@ def to_bernstein(power: Sequence[int], error: int = 0) -> tuple[list[int], int]:
 
 
 def split(b: Sequence[int], a: int, k: int) -> tuple[list[int], list[int]]:
-    """Coefficients left and right of a / 2^k, both times 2^(k·degree)."""
+    """Return the coefficients left and right of a / 2^k, both times 2^(k·degree)."""
     degree = len(b) - 1
     c = (1 << k) - a
     row = list(b)
@@ -69,7 +72,10 @@ def split(b: Sequence[int], a: int, k: int) -> tuple[list[int], list[int]]:
 
 
 def _one_change(b: Sequence[int], error: int) -> bool:
-    """Whether every polynomial within `error` has exactly one sign change: signs run +…0…− or −…0…+."""
+    """Return whether the coefficients have exactly one sign change, whatever their errors up to `error`.
+
+    Then the signs are +…0…− or −…0…+, where 0 is any that is not known.
+    """
     rising = b[0] < 0
     last = 1
     for value in b:
@@ -83,10 +89,10 @@ def _one_change(b: Sequence[int], error: int) -> bool:
 
 
 def brackets(b: list[int], error: int, depth: int) -> Iterator[Bracket]:
-    """Every root in [0, 1] in rising order, each in its bracket, found as far as the caller asks.
+    """Yield a bracket for each root in [0, 1], in rising order; roots are searched only as far as the caller asks.
 
-    Raises Undecidable where a sign at an end of [0, 1] or at every split point tried is not known, or when intervals
-    fall under 2^-depth.
+    Raises Undecidable if the sign at an end of [0, 1] or at every split point tried is not known, or if intervals
+    become smaller than 2^-depth.
     """
     if abs(b[0]) <= error or abs(b[-1]) <= error:
         raise Undecidable("the polynomial may vanish at an end")

@@ -1,10 +1,11 @@
-"""Bernstein coefficients of polynomials along many rays in float64, with rigorous error bounds, and their first roots.
+"""Isolates first roots of polynomials along many rays by Bernstein coefficients in float64, with rigorous error bounds.
 
-**Theory.** f is evaluated in ball arithmetic at degree + 1 dyadic nodes of the clip interval; the coefficients are
-M·f with M the exact inverse of the Bernstein collocation matrix, rounded once. A dot product of length m in any order,
-fused or not, errs by at most γ_m Σ|M_ij f_j| (Higham 2002, §3.1), and M's rounding adds u of the same sum; both are
-charged together as (m + 4)·2^-52. Halving by de Casteljau averages: each of its `degree` levels errs by at most u times
-the largest coefficient. Signs of coefficients beyond the error bound then prove what they prove in `bernstein`.
+**Theory.** f is evaluated in ball arithmetic at degree + 1 dyadic nodes of the clip interval. The coefficients are M·f,
+where M is the exact inverse of the Bernstein collocation matrix, rounded once. A dot product of length m, in any order,
+fused or not, has an error of at most γ_m Σ|M_ij f_j| (Higham 2002, §3.1); the rounding of M adds u of the same sum.
+(m + 4)·2^-52 of the sum covers both. De Casteljau's halving only averages, so that each of its `degree` levels has an
+error of at most u times the largest coefficient. The signs of coefficients larger than their error bound then prove
+what they prove in `bernstein`.
 """
 
 from __future__ import annotations
@@ -25,7 +26,7 @@ NODE_BITS = 20
 
 @cache
 def _collocation(degree: int) -> tuple[Floats, Floats]:
-    """Dyadic nodes in [0, 1] near the Chebyshev-Lobatto points, and the inverse collocation matrix, rounded."""
+    """Return dyadic nodes in [0, 1] near the Chebyshev-Lobatto points, and the rounded inverse collocation matrix."""
     from flint import fmpq, fmpq_mat
 
     count = degree + 1
@@ -36,20 +37,20 @@ def _collocation(degree: int) -> tuple[Floats, Floats]:
         count, count, [comb(degree, i) * s**i * (1 - s) ** (degree - i) for s in nodes for i in range(count)]
     )
     inverse = matrix.inv()
-    # numerator / denominator of Python ints rounds correctly
+    # dividing Python ints rounds correctly
     entries = [[int(inverse[i, j].p) / int(inverse[i, j].q) for j in range(count)] for i in range(count)]
     return np.array(whole) / 2**NODE_BITS, np.array(entries)
 
 
 class BernsteinIsolator:
-    """First roots of a polynomial along rays."""
+    """Isolates the first roots of a polynomial along rays."""
 
     def __init__(self, f: Enclosure) -> None:
         self.f = f
         self.nodes, self.matrix = _collocation(max(f.program.degree, 1))
 
     def __call__(self, rays: Floats, lower: Floats, upper: Floats) -> Segments:
-        """The first segment of each ray between t = `lower` and `upper`, float64[n], finite."""
+        """Return the first segment of each ray between t = `lower` and `upper`, both float64[n] and finite."""
         count = len(rays)
         coefficients, error = self.coefficients(rays, lower, upper)
         whole = Pieces(np.arange(count), np.zeros(count), np.ones(count), (coefficients, error))
@@ -61,7 +62,8 @@ class BernsteinIsolator:
         return Segments(t_lower, t_upper, in_s.rising, in_s.found, in_s.empty)
 
     def coefficients(self, rays: Floats, lower: Floats, upper: Floats) -> tuple[Floats, Floats]:
-        """float64[n, degree + 1] on [lower, upper], and a bound float64[n] of each one's error."""
+        """Return coefficients on [lower, upper], float64[n, degree + 1], and a bound of each ray's errors,
+        float64[n]."""
         span = Balls(upper[:, None]) - Balls(lower[:, None])
         nodes = Balls(self.nodes)
         inputs = [
@@ -77,6 +79,7 @@ class BernsteinIsolator:
 
 
 def _judge(pieces: Pieces) -> Verdict:
+    """Return what the signs of the coefficients prove."""
     b, error = pieces.data
     positive, negative = b > error[:, None], b < -error[:, None]
     signs = positive.view(np.int8) - negative.view(np.int8)
@@ -89,6 +92,7 @@ def _judge(pieces: Pieces) -> Verdict:
 
 
 def _halve(pieces: Pieces) -> Pieces:
+    """Return both halves of all pieces, with their coefficients."""
     b, error = pieces.data
     degree = b.shape[1] - 1
     left, right = np.empty_like(b), np.empty_like(b)

@@ -1,63 +1,69 @@
-"""Ranges of f and its slope on pieces of rays, for each side of the first kink that a piece leaves open.
+"""Computes ranges of f and its slope on pieces of rays separately for both sides of a kink.
 
-**Theory.** Where the sign of one kink's argument u is open on a piece, f is one function where u >= 0 and another where
-u <= 0. Almost everywhere its slope is that of one of the two, so a range that holds both slopes and not 0 proves f
-monotone (f is absolutely continuous where its ranges are finite). Taken apart, the two are much narrower than the
-slopes of all kinks mixed: in √(max(u, 0)²) + min(u, 0) every kink is of the same u, and the slope is u' on either side.
+**Theory.** A kink is a place where the argument u of an abs, min or max changes its sign. If that sign is not known on
+a piece, f is one function where u >= 0 and another where u <= 0. Almost everywhere its slope is that of one of the two.
+So if a range holds both slopes and not 0, f is monotone (f is absolutely continuous where its ranges are finite). Two
+separate ranges are much narrower than one range of the slopes of all kinks mixed. In √(max(u, 0)²) + min(u, 0), for
+example, every kink has the same u, and the slope is u' on either side.
 """
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
+from numpy.typing import NDArray
 
 from harness.oracle import balls64
 from harness.oracle.balls64 import Balls
 from harness.oracle.dual import Dual, dual_functions
 from harness.oracle.program import Functions
+from harness.oracle.segments import Mask
+
+Signs = NDArray[np.signedinteger]  # 1, 0 or −1
 
 
-def _is_zero(a: Dual) -> Any:
-    return (np.asarray(a.value.mid) == 0.0) & (np.asarray(a.value.rad) == 0.0)
+def _is_zero(a: Dual) -> Mask:
+    """Return where a value is exactly 0."""
+    return np.asarray((np.asarray(a.value.mid) == 0.0) & (np.asarray(a.value.rad) == 0.0))
 
 
-def _where(first: Any, a: Balls, b: Balls) -> Balls:
+def _where(first: Mask, a: Balls, b: Balls) -> Balls:
+    """Return `a` where `first` holds, else `b`."""
     return Balls(np.where(first, a.mid, b.mid), np.where(first, a.rad, b.rad))
 
 
-def _signs(side: Any) -> Balls:
+def _signs(side: Signs) -> Balls:
+    """Return signs as balls: 1, −1, or [−1, 1] where a sign is 0."""
     return Balls(np.asarray(side, np.float64), np.where(side == 0, 1.0, 0.0))
 
 
 class Branch:
-    """The functions of one run over a program; each piece's first open kink is taken to lie on `side` (1 or −1)."""
+    """The functions of one run of a program in which each piece's first open kink lies on `side`, 1 or −1."""
 
     def __init__(self, side: int, shape: tuple[int, ...]) -> None:
         self.side = side
         self.free = np.ones(shape, dtype=bool)  # pieces that have met no open kink yet
-        self.known: dict[
-            int, Any
-        ] = {}  # by the identity of a run's results: 1 where one is >= 0, −1 where <= 0, else 0
+        # by the identity of a run's results: 1 where a result is >= 0, −1 where it is <= 0, else 0
+        self.known: dict[int, Signs] = {}
 
     def functions(self) -> Functions:
+        """Return the elementary functions of this run."""
         smooth = dual_functions(balls64.FUNCTIONS)
         return {**smooth, "abs": self.absolute, "min": self.minimum, "max": self.maximum, "length": self.length}
 
-    def of(self, a: Dual) -> Any:
-        """What is known of the sign of `a`."""
+    def of(self, a: Dual) -> Signs:
+        """Return what is known of the sign of `a`."""
         sign = np.broadcast_to(a.value.sign, self.free.shape)
         return np.where(sign != 0, sign, self.known[id(a)]) if id(a) in self.known else sign
 
-    def settled(self, side: Any) -> Any:
-        """`side`, and this run's own in pieces whose first open kink this is."""
+    def settled(self, side: Signs) -> Signs:
+        """Return `side`, replaced by this run's own side in pieces whose first open kink this is."""
         side = np.broadcast_to(side, self.free.shape)
         first = (side == 0) & self.free
         self.free &= ~first
         return np.where(first, self.side, side)
 
-    def settle(self, a: Dual) -> Any:
-        """The sign of `a`, chosen if need be and remembered."""
+    def settle(self, a: Dual) -> Signs:
+        """Return the sign of `a`, which is chosen if it is not known, and remembered."""
         self.known[id(a)] = self.settled(self.of(a))
         return self.known[id(a)]
 
@@ -74,7 +80,7 @@ class Branch:
         return self.extreme(a, b, -1)
 
     def extreme(self, a: Dual, b: Dual, order: int) -> Dual:
-        """The minimum (`order` 1) or maximum (−1)."""
+        """Return the minimum if `order` is 1, the maximum if it is −1."""
         if _is_zero(b).all():
             ahead = -order * self.settle(a)
         elif _is_zero(a).all():
@@ -88,7 +94,7 @@ class Branch:
         return result
 
     def length(self, *parts: Dual) -> Dual:
-        """√(u² + v² + …), which is |u| where everything else is 0."""
+        """Return √(u² + v² + …), which is |u| where everything else is 0."""
         whole: Dual = _LENGTH(*parts)
         value, slope = whole.value, whole.slope
         zero = [np.broadcast_to(_is_zero(p), self.free.shape) for p in parts]

@@ -1,4 +1,4 @@
-"""Truth on disk, named by the content it answers for."""
+"""Stores truth on disk, in files named by the rays and the surface that they answer for."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ from harness.results.writing import replacing
 
 
 def truth_path(folder: Path, surface: Surface, rays: NDArray[np.float32], t_min: float = 0.0) -> Path:
-    """Where the answers for exactly these rays from `t_min` on and this surface belong.
+    """Return the file of the answers for exactly this surface, these rays and `t_min`.
 
-    The key holds the oracle's own files and the packages that it computes with: an edit there makes truth anew. Files
-    of older keys are never read again.
+    Its name covers the oracle's own files and the packages that it computes with, so that truth is computed again after
+    an edit there. Files of older names are never read again.
     """
     decides = [_oracle(), surface.identity, rays.shape, t_min]
     key = hashlib.sha256(json.dumps(decides, sort_keys=True).encode())
@@ -32,24 +32,24 @@ def truth_path(folder: Path, surface: Surface, rays: NDArray[np.float32], t_min:
 
 @cache
 def _oracle() -> list[object]:
-    """What decides all answers: the files of sources.TRUTH, and the versions of the packages they compute with."""
+    """Return what decides all answers: a hash of the files of sources.TRUTH, and the versions of packages."""
     return [digest_of(*TRUTH), packages()]
 
 
 def load(path: Path, count: int) -> Truth | None:
-    """The stored answers for `count` rays; None where there are none or the file is damaged."""
+    """Return the stored answers for `count` rays; None if there are none, or if the file is damaged."""
     try:
         with np.load(path, allow_pickle=False) as stored:
-            arrays: dict[str, Any] = {f.name: stored[f.name] for f in fields(Truth)}
+            arrays: dict[str, NDArray[Any]] = {f.name: stored[f.name] for f in fields(Truth)}
     except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile):
         return None
     return Truth(**arrays) if all(a.shape == (count,) for a in arrays.values()) else None
 
 
 def store(path: Path, truth: Truth) -> None:
-    """Write answers whole or not at all, also when several processes write the same ones.
+    """Write answers to a file, whole or not at all, also if several processes write the same answers.
 
-    Raises FirsthitError where they cannot be written.
+    Raises FirsthitError if they cannot be written.
     """
     with replacing(path) as temporary, temporary.open("wb") as file:
         np.savez(file, **{f.name: getattr(truth, f.name) for f in fields(Truth)})

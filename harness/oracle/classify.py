@@ -1,22 +1,23 @@
-"""Estimates that sort rays into classes: the next root, the first root's condition, and the margin to another answer.
+"""Estimates what sorts rays into classes: the next root, the first root's condition, and how near another answer is.
 
-Plain float64 on samples along the ray, nothing proved; none of it decides whether a method's answer is right.
+It is computed in plain float64 from samples along the ray. Nothing is proved, and nothing here decides whether a
+method's answer is right.
 
-**Theory.** Where the first root t1 is known, the samples are of g = f / (t - t1)^m, m its multiplicity (2 for a touch),
-with g(t1) = f'(t1): a next root or a near touch close to t1, which f's samples would step over, is an ordinary sign
-change or least |g| of these. This is deflation without dividing polynomials, and `_root` steps by Maehly's formula.
-Everything is as good as f' and f are in float64: a next root t2 to about condition · 2^-53 radii.
+**Theory.** If the first root t1 is known, not f is sampled but g = f / (t - t1)^m, where m is the root's multiplicity
+(2 for a touch) and g(t1) = f'(t1). A next root or a near touch close to t1, which samples of f would step over, is an
+ordinary sign change or minimum of |g|. This is deflation without dividing polynomials; `_root` steps by Maehly's
+formula. Results are as accurate as f and f' are in float64: a next root t2 to about condition · 2^-53 radii.
 
-Another answer is near where |f| is small at one of a few places: near touches before the first root, the ends of the
-stay, and the bottom of the first root's dip. Over |grad f| there, |f| is the margin: how far the surface is. Over what
-kernels may be off in f's value there (harness.oracle.noise) it is the contrast: the unit roundoff at which f's sign
-begins to be in doubt. Far from the surface the margin is large, and yet, where f is flat, the contrast may be none.
+Another answer is near if |f| is small at one of a few places: near touches before the first root, the ends of the clip
+interval, and the bottom of the first root's dip. |f| / |grad f| there is the margin, the distance of the surface. |f|
+over the rounding errors that kernels may make in f's value there (harness.oracle.noise) is the contrast, the unit
+roundoff from which on f's sign is in doubt. Far from the surface the margin is large; but if f is flat, the contrast
+may be small even there.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,35 +28,20 @@ from harness.oracle.clip import clip_many, nearest, recentred
 from harness.oracle.enclosure import Enclosure
 from harness.oracle.floats import FloatFunction, majorant
 from harness.oracle.noise import Noise, NoiseAlong
+from harness.oracle.sampling import interpolation, least_of_cubic, lobatto
 
 BLOCK = 1024  # rays at a time, so that the arrays stay in the cache
 MOST_STEPS = 40  # of a bracketed search; it halves at least every second time
 LAST_STEP = 2.0**-38  # of Newton's method, in domain radii: its error is about this one squared over a gap
-SETTLED = 0.1  # an extremum is settled when |g| can fall by no more than this share
+SETTLED = 0.1  # an extremum is found when |g| can fall by no more than this share
 UNIT = 2.0**-53
 CERTIFIED = 2.0**-42  # bound of the first root's error, in domain radii
-BLUNT = 2.0**40  # condition of a first root above which f'(t1) is taken for rounding errors
+BLUNT = 2.0**40  # the condition of a first root above which f'(t1) is only rounding errors
 DROWNED = 2.0**-40  # interpolated values below this share of the largest are not believed
-FAINT_STEP = 3  # every so many samples are looked at for where |f| is faint: minima of |f| are looked at one by one
-BOUNDS = 4  # pieces of the stay, at whose ends f's rounding errors are bounded for a first look
+FAINT_STEP = 3  # every so many samples are searched for a small |f|; its minima are searched one by one
+BOUNDS = 4  # pieces of the clip interval, at whose ends f's rounding errors are bounded for a first estimate
 Estimates = tuple[Floats, Floats, Floats, Floats]  # following, condition, margin, contrast, each [n]
 Indices = NDArray[np.intp]
-
-
-@cache
-def lobatto(degree: int) -> Floats:
-    """Chebyshev's extrema in [0, 1], degree + 1 of them."""
-    return np.asarray(0.5 - 0.5 * np.cos(np.pi * np.arange(degree + 1) / degree))
-
-
-@cache
-def interpolation(degree: int, finer: int) -> Floats:
-    """Values of a polynomial at lobatto(degree * finer) from those at lobatto(degree), by its Chebyshev series."""
-    weight = np.where(np.arange(degree + 1) % degree == 0, 0.5, 1.0) if degree > 1 else np.full(2, 0.5)
-    order = np.arange(degree + 1)
-    at_nodes = np.cos(np.pi / degree * np.outer(order, order)) * np.outer(weight, weight) * 2.0 / degree
-    at_samples = np.cos(np.pi / (degree * finer) * np.outer(np.arange(degree * finer + 1), order))
-    return np.asarray(at_samples @ at_nodes)
 
 
 def classify(
@@ -68,10 +54,11 @@ def classify(
     status: NDArray[np.uint8],
     t_min: float = 0.0,
 ) -> Estimates:
-    """`rays`: float64[n, 6]; `first`: the first root's t, float64[n], NaN without a hit; see contract.Truth.
+    """Return following, condition, margin and contrast of rays, float64[n] each; see contract.Truth.
 
-    `enclosure` is of f or of a function with the same roots: it tells two close roots from rounding errors. `noise` is
-    of f as kernels evaluate it.
+    `rays` is float64[n, 6], `first` the first root's t, float64[n] with NaN where there is no hit, and `status` the
+    TruthStatus, uint8[n]. `enclosure` encloses f, or a function with the same roots; it tells two close roots from
+    rounding errors. `noise` bounds the rounding errors of f as kernels evaluate it.
     """
     if not len(rays):
         return np.empty(0), np.empty(0), np.empty(0), np.empty(0)
@@ -87,18 +74,18 @@ def classify(
 
 @dataclass(frozen=True)
 class _Extrema:
-    """Where |g| is locally least on rays `rows`; all arrays [k]."""
+    """Local minima of |g| on the rays `rows`; all arrays are [k]."""
 
     rows: Indices
-    lower: Floats  # t in front of it, with g of the sign `side`
+    lower: Floats  # t before the minimum, where g has the sign `side`
     t: Floats
     side: Floats
-    width: Floats  # how far from `t` the two complex roots are that make it
-    crossed: NDArray[np.bool_]  # g's sign at `t` is the other, and beyond rounding errors
+    width: Floats  # the distance from `t` to the two complex roots that cause the minimum
+    crossed: NDArray[np.bool_]  # whether g has the other sign at `t`, and not by rounding errors
 
 
 class _Block:
-    """Rays with their origins moved near the domain, f and g sampled along them."""
+    """Some rays, with their origins moved near the domain, and the samples of f and g along them."""
 
     def __init__(
         self,
@@ -134,6 +121,7 @@ class _Block:
         self._sample()
 
     def estimates(self) -> Estimates:
+        """Return following, condition, margin and contrast of the block's rays."""
         found = self._least()
         following = self._parted(self._following(found))
         everyone, n = np.arange(len(self.hit)), len(self.hit)
@@ -151,7 +139,7 @@ class _Block:
         rows, t = np.concatenate((rows, faint)), np.concatenate((t, at))
         np.fmin.at(contrast, rows, np.abs(self.f.values(self.rays[rows], t)) / noise.bound(rows, t))
         room = np.minimum(self._inside(self.first), (self.first + self.shift - self.t_min) * self.length)
-        room = np.minimum(room, 0.5 * (following - self.first) * self.length)  # nothing between two roots is deeper
+        room = np.minimum(room, 0.5 * (following - self.first) * self.length)  # a dip between two roots is no deeper
         margin = np.where(self.hit, np.minimum(margin, np.maximum(room, 0.0)), margin)
         margin = np.where(self.missed, self._gap(), margin)
         contrast = np.where(self.missed, np.inf, contrast)
@@ -164,8 +152,11 @@ class _Block:
         )
 
     def _parted(self, following: Floats) -> Floats:
-        """The next roots, where f has the sign behind a crossing that it has before it: then another root lies between,
-        and where none was found it is nearer to the first than its blur."""
+        """Return `following`, with roots added that are too close to the first root to be found.
+
+        If f has the same sign before and behind a crossing, another root lies there. If none was found, it is within
+        the blur of the first root.
+        """
         rows = np.flatnonzero(self.order == 1.0)
         column = self.column[rows]
         before, behind = (np.sign(self.values[rows, column + step]) for step in (-1, 1))
@@ -175,9 +166,10 @@ class _Block:
         return following
 
     def _faintest(self, noise: NoiseAlong) -> tuple[Indices, Floats]:
-        """Rays, and t of the sample before the first root at which |f| is least beside its rounding errors.
+        """Return rays and, for each, t of the sample before the first root where |f| is least over its rounding errors.
 
-        Samples at which |f| is over half of what the first root's slope makes it belong to that root.
+        Samples are left out that belong to the first root itself, where |f| is more than half of what the slope at that
+        root gives. A ray without other samples is not among the result.
         """
         some = slice(None, None, FAINT_STEP)
         t, g, size = self.t[:, some], np.abs(self.g[:, some]), np.abs(self.values[:, some])
@@ -196,7 +188,7 @@ class _Block:
         return faint, t[faint, column[faint]]
 
     def _sample(self) -> None:
-        """t, f and g at Chebyshev's points of the clip interval, one of them moved to t1."""
+        """Sample f and g at Chebyshev's points of the clip interval, of which the nearest to t1 is moved to t1."""
         last = self.f.samples - 1
         self.t = self.enter[:, None] + (self.leave - self.enter)[:, None] * lobatto(last)
         self.values = self._interpolated() if self.f.interpolates else self.f.values(self.rays, self.t).copy()
@@ -210,7 +202,7 @@ class _Block:
         gap = self.t - self.first[:, None]
         gap[touch] *= gap[touch]
         self.g = np.divide(self.values, gap, out=self.values.copy(), where=self.hit[:, None])
-        # nearer to t1 than rounding errors move roots, g is what it is at t1; that is unknown where f' is only noise
+        # as near as rounding errors move roots, g is g(t1), which is not known if f' is only rounding errors
         sharp = (self.order == 1.0) & (self.condition < BLUNT)
         spacing = 2.0 * np.spacing(np.abs(self.first + self.shift))
         blur = (4.0 * UNIT * self.condition + CERTIFIED) * self.domain.radius / self.length + spacing
@@ -223,10 +215,13 @@ class _Block:
         positive = self.g > 0.0
         self.differ = positive[:, 1:] != positive[:, :-1]
         change = self.differ & (np.arange(last) >= np.where(self.hit, self.column, last)[:, None])
-        self.change = np.where(change.any(axis=1), change.argmax(axis=1), last)  # column before g's, behind t1
+        self.change = np.where(change.any(axis=1), change.argmax(axis=1), last)  # the column before g's change
 
     def _interpolated(self) -> Floats:
-        """f at the samples, a polynomial from degree + 1 of them; what drowns in its rounding errors, one by one."""
+        """Return a polynomial's values at all samples, interpolated from degree + 1 of them.
+
+        Values that are lost in the rounding errors of interpolation are evaluated one by one.
+        """
         every = (self.f.samples - 1) // self.f.program.degree
         known = self.f.values(self.rays, self.t[:, ::every])
         values = known @ interpolation(self.f.program.degree, every).T
@@ -235,7 +230,7 @@ class _Block:
         return np.asarray(values)
 
     def _least(self) -> _Extrema:
-        """The extrema at which |g| is locally least, up to the sampled change of sign behind t1."""
+        """Return the local minima of |g|, up to the first sampled change of sign behind t1."""
         size = np.abs(self.g)
         rises = size[:, 1:] > size[:, :-1]
         least = np.arange(size.shape[1]) <= self.change[:, None]
@@ -243,7 +238,7 @@ class _Block:
         least[:, :-1] &= rises | self.differ
         rows, columns = np.nonzero(least)
         slope = self._deflated(rows, self.t[rows, columns])[1] * np.sign(self.g[rows, columns])
-        at_first = self.hit[rows] & (columns == self.column[rows])  # where the slope is not known: both sides
+        at_first = self.hit[rows] & (columns == self.column[rows])  # its slope is not known: search both sides
         ahead, behind = (slope <= 0.0) | at_first, (slope > 0.0) | at_first
         rows = np.concatenate((rows[ahead], rows[behind]))
         left = np.concatenate((columns[ahead], columns[behind] - 1))
@@ -255,13 +250,16 @@ class _Block:
         return self._settled(rows, left, slopes, is_left)
 
     def _settled(self, rows: Indices, left: Indices, known: Floats, is_left: NDArray[np.bool_]) -> _Extrema:
-        """The least |g| between samples `left` and `left` + 1 by cubics; `known` is |g|' at the one that `is_left`."""
+        """Return the minima of |g| between the samples `left` and `left` + 1, searched by cubics.
+
+        `known` is the slope of |g| at the left sample where `is_left`, else at the right one.
+        """
         side = np.sign(self.g[rows, left])
         lower, upper = self.t[rows, left], self.t[rows, left + 1]
         low, high = np.abs(self.g[rows, left]), np.abs(self.g[rows, left + 1])
         other = self._deflated(rows, np.where(is_left, upper, lower))[1] * side
         falls, climbs = np.where(is_left, known, other), np.where(is_left, other, known)
-        # the slope at t1 itself is that of a parabola, with the sign that makes a bracket
+        # the slope at t1 itself is taken from a parabola, with the sign that makes a bracket
         secant = 2.0 * (high - low) / (upper - lower)
         at_first = self.first[rows]
         falls = np.where(lower == at_first, -np.abs(secant - climbs), falls)
@@ -273,28 +271,18 @@ class _Block:
             if not len(k):
                 break
             a, b, fall, climb = lower[k], upper[k], falls[k], climbs[k]
-            width = b - a
-            bend = fall + climb - 3.0 * (high[k] - low[k]) / width
-            root = np.sqrt(bend * bend - fall * climb)
-            guess = b - width * (climb + root - bend) / (climb - fall + 2.0 * root)
+            guess = least_of_cubic(a, b, low[k], high[k], fall, climb)
             guess = np.where((guess > a) & (guess < b) & ~stuck[k], guess, 0.5 * (a + b))
             g, slope = self._deflated(rows[k], guess)
             g, slope = g * side[k], slope * side[k]
             better = g < depth[k]
             t[k[better]], depth[k[better]] = guess[better], g[better]
             front = (slope < 0.0) & (g > 0.0)
-            lower[k], low[k], falls[k] = (
-                np.where(front, guess, a),
-                np.where(front, g, low[k]),
-                np.where(front, slope, fall),
-            )
-            upper[k], high[k], climbs[k] = (
-                np.where(front, b, guess),
-                np.where(front, high[k], g),
-                np.where(front, climb, slope),
-            )
+            lower[k], upper[k] = np.where(front, guess, a), np.where(front, b, guess)
+            low[k], high[k] = np.where(front, g, low[k]), np.where(front, high[k], g)
+            falls[k], climbs[k] = np.where(front, slope, fall), np.where(front, climb, slope)
             left_over = upper[k] - lower[k]
-            stuck[k] = left_over > 0.5 * width
+            stuck[k] = left_over > 0.5 * (b - a)
             go_on = (g > 0.0) & (np.abs(slope) * left_over > SETTLED * g) & (left_over > UNIT * np.abs(guess))
             k = k[go_on]
         crossed = depth < 0.0
@@ -303,11 +291,12 @@ class _Block:
         return _Extrema(rows, lower, t, side, np.sqrt(2.0 * np.maximum(depth, 0.0) / bend), crossed)
 
     def _proved(self, rows: Indices, t: Floats) -> NDArray[np.bool_]:
-        """Whether f is not 0, for what float64 balls can tell."""
+        """Return where float64 balls prove that f is not 0."""
         return np.asarray(self.enclosure.along(self.given[rows], t + self.shift[rows]).sign != 0)
 
     def _following(self, found: _Extrema) -> Floats:
-        """The first change of g's sign behind the first root, sampled or settled; inf where there is none."""
+        """Return the first change of g's sign behind the first root, sampled or at a minimum; inf where there is
+        none."""
         last = self.t.shape[1] - 1
         everyone = np.arange(len(self.hit))
         end = np.minimum(self.change + 1, last)
@@ -324,7 +313,7 @@ class _Block:
         return following
 
     def _root(self, rows: Indices, lower: Floats, upper: Floats, side: Floats) -> Floats:
-        """The root of g in each bracket, at whose upper end g has the sign `side`: Newton, halving as it must."""
+        """Return the root of g in each bracket, by safeguarded Newton; at the upper end g has the sign `side`."""
         t = 0.5 * (lower + upper)
         enough = LAST_STEP * self.domain.radius / self.length[rows]
         moved = upper - lower
@@ -363,7 +352,7 @@ class _Block:
         return np.where(sampled, self.t[everyone, column], middle)
 
     def _inside(self, t: Floats) -> Floats:
-        """Distance of o + t·d to the domain's boundary; negative outside."""
+        """Return the distances of o + t·d from the domain's boundary, negative outside; `t` is float64[n]."""
         points = self.rays[:, :3] + t[:, None] * self.rays[:, 3:]
         if isinstance(self.domain, Box):
             lower, upper = np.asarray(self.domain.lower), np.asarray(self.domain.upper)
@@ -372,7 +361,10 @@ class _Block:
         return np.asarray(self.domain.radius - np.sqrt((offset**2).sum(axis=1)))
 
     def _gap(self) -> Floats:
-        """For rays that miss the domain: how far it is from them, or the surface from there if that is more."""
+        """Return the margins of rays that miss the domain: their distance from it.
+
+        If the surface is farther from the ray's nearest point, that distance is taken.
+        """
         t = np.maximum(0.0, self.t_min - self.shift)  # recentred: 0 is nearest to the centre
         surface = np.abs(self.f.values(self.rays, t)) / self.f.steepness(self.rays, t)
         return np.asarray(np.fmax(np.maximum(-self._inside(t), 0.0), surface))

@@ -1,4 +1,5 @@
-"""Where a ray runs inside a surface's domain: exactly for one ray, and enclosed in float64 for many at once."""
+"""Computes the clip interval, the part of a ray in a surface's domain: exactly for one ray, enclosed for many at
+once."""
 
 from __future__ import annotations
 
@@ -6,6 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from harness.contract import Box, Domain, Sphere
 from harness.oracle import balls64
@@ -17,14 +19,14 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class End:
-    """One end of a clip interval, exact: a rational t, or the root (−b + side·√(b² − a·c)) / a of a t² + 2 b t + c."""
+    """One exact end of a clip interval: a rational t, or the root (−b + side·√(b² − a·c)) / a of a t² + 2 b t + c."""
 
     value: Any = None  # fmpq, or None
     quadratic: tuple[Any, Any, Any] = (None, None, None)
     side: int = 0
 
     def ball(self) -> Any:
-        """At the current precision."""
+        """Return the end as a ball (flint.arb) at the current precision."""
         from flint import arb
 
         if self.value is not None:
@@ -33,7 +35,7 @@ class End:
         return (self.side * arb(b * b - a * c).sqrt() - b) / a
 
     def is_root_of(self, p: Any) -> bool:
-        """Whether the square-free rational polynomial `p` vanishes here, exactly."""
+        """Return whether `p`, a square-free fmpq_poly, vanishes exactly at this end."""
         from flint import fmpq_poly
 
         if self.value is not None:
@@ -47,7 +49,8 @@ class End:
 
 
 def clip_exactly(domain: Domain, ray: Sequence[Any], t_min: float = 0.0) -> tuple[End, End] | None:
-    """The closed interval of t >= `t_min` that a ray (six fmpq) spends in the closed domain; None where it is empty."""
+    """Return the closed interval of t >= `t_min` in which a ray, six fmpq, is in the closed domain; None if it is
+    empty."""
     from harness.oracle.reals import rational
 
     if isinstance(domain, Box):
@@ -58,6 +61,7 @@ def clip_exactly(domain: Domain, ray: Sequence[Any], t_min: float = 0.0) -> tupl
 
 
 def _clip_by_box(lower: Sequence[Any], upper: Sequence[Any], ray: Sequence[Any], t_min: Any) -> tuple[End, End] | None:
+    """Clip by a box; all numbers are fmpq."""
     enter, leave = t_min, None
     for low, high, o, d in zip(lower, upper, ray[:3], ray[3:], strict=True):
         if not d:
@@ -72,13 +76,14 @@ def _clip_by_box(lower: Sequence[Any], upper: Sequence[Any], ray: Sequence[Any],
 
 
 def _clip_by_sphere(center: Sequence[Any], radius: Any, ray: Sequence[Any], t_min: Any) -> tuple[End, End] | None:
+    """Clip by a ball; all numbers are fmpq."""
     offset = [o - c for o, c in zip(ray[:3], center, strict=True)]
     direction = ray[3:]
     a = sum(d * d for d in direction)
     b = sum(o * d for o, d in zip(offset, direction, strict=True))
     c = sum(o * o for o in offset) - radius * radius
-    slope, height = a * t_min + b, (a * t_min + 2 * b) * t_min + c  # of the same parabola, seen from t_min
-    if b * b < a * c or (slope > 0 and height > 0):  # passes by, or lies before t_min
+    slope, height = a * t_min + b, (a * t_min + 2 * b) * t_min + c  # the parabola's slope and value at t_min
+    if b * b < a * c or (slope > 0 and height > 0):  # the ray misses the ball, or has left it before t_min
         return None
     inside = height <= 0 or slope >= 0  # t_enter <= t_min
     enter = End(t_min) if inside else End(quadratic=(a, b, c), side=-1)
@@ -87,13 +92,13 @@ def _clip_by_sphere(center: Sequence[Any], radius: Any, ray: Sequence[Any], t_mi
 
 @dataclass(frozen=True)
 class Clip:
-    """Enclosures of the clip ends of n rays: outer and inner floats around each, all float64[n].
+    """Enclosures of the clip intervals of n rays; all arrays are [n].
 
-    `missed` is proved. Elsewhere enter_lower <= t_enter <= enter_upper and so on if the clip interval is not empty;
-    enter_upper is inf where nothing better is known.
+    Where `missed`, it is proved that the interval is empty. Elsewhere, if it is not empty, enter_lower <= t_enter <=
+    enter_upper and leave_lower <= t_leave <= leave_upper; ends of which nothing is known are infinite.
     """
 
-    missed: Any  # bool[n]
+    missed: NDArray[np.bool_]
     enter_lower: Floats
     enter_upper: Floats
     leave_lower: Floats
@@ -101,7 +106,7 @@ class Clip:
 
 
 def clip_many(domain: Domain, rays: Floats, t_min: float = 0.0) -> Clip:
-    """Enclose the clip ends of t >= `t_min`; `rays`: float64[n, 6] holding float32 values."""
+    """Enclose the clip intervals at t >= `t_min` of rays float64[n, 6] that hold float32 values."""
     with np.errstate(all="ignore"):
         low, high, missed = _slabs(domain, rays) if isinstance(domain, Box) else _chords(domain, rays)
         unknown = ~(np.isfinite(low.mid) & np.isfinite(high.mid) & np.isfinite(low.rad) & np.isfinite(high.rad))
@@ -115,7 +120,8 @@ def clip_many(domain: Domain, rays: Floats, t_min: float = 0.0) -> Clip:
         )
 
 
-def _slabs(domain: Box, rays: Floats) -> tuple[Balls, Balls, Any]:
+def _slabs(domain: Box, rays: Floats) -> tuple[Balls, Balls, NDArray[np.bool_]]:
+    """Return both ends of the clip intervals by a box, and which rays are proved to miss it."""
     origins, directions = rays[:, :3], rays[:, 3:]
     lower, upper = np.asarray(domain.lower), np.asarray(domain.upper)
     parallel = directions == 0.0
@@ -123,15 +129,18 @@ def _slabs(domain: Box, rays: Floats) -> tuple[Balls, Balls, Any]:
     d = Balls(np.where(parallel, 1.0, directions))
     to_lower, to_upper = ((Balls(side) - Balls(origins)) / d for side in (lower, upper))
     near, far = balls64.minimum(to_lower, to_upper), balls64.maximum(to_lower, to_upper)
-    # the largest of several numbers lies between the largest lower and the largest upper bound; an axis the ray does
-    # not move along bounds nothing
+    # the largest of several numbers lies between their largest lower and largest upper bounds; an axis along which the
+    # ray does not move bounds nothing
     enter = balls64.hull(*(np.where(parallel, -np.inf, bound).max(axis=1) for bound in (near.lower, near.upper)))
     leave = balls64.hull(*(np.where(parallel, np.inf, bound).min(axis=1) for bound in (far.lower, far.upper)))
     return enter, leave, outside.any(axis=1)
 
 
-def _chords(domain: Sphere, rays: Floats) -> tuple[Balls, Balls, Any]:
-    """Clip from the point nearest the centre, so that a distant origin costs no digits."""
+def _chords(domain: Sphere, rays: Floats) -> tuple[Balls, Balls, NDArray[np.bool_]]:
+    """Return both ends of the clip intervals by a ball, and which rays are proved to miss it.
+
+    They are computed from the point nearest to the centre, so that a distant origin costs no digits.
+    """
     middle = nearest(np.asarray(domain.center), rays)
     offset = [point - Balls(c) for point, c in zip(points_at(rays, middle), domain.center, strict=True)]
     direction = [Balls(rays[:, k]) for k in (3, 4, 5)]
@@ -147,16 +156,22 @@ def _chords(domain: Sphere, rays: Floats) -> tuple[Balls, Balls, Any]:
 
 
 def nearest(center: Floats, rays: Floats) -> Floats:
-    """t of about the point nearest `center`: float64[n]; only a good place to start from, its error does not matter."""
+    """Return t of the point of each ray nearest to `center`, float64[n].
+
+    Its error is not bounded: it is only a good place to start from.
+    """
     d = rays[:, 3:]
     return np.asarray(((center - rays[:, :3]) * d).sum(axis=1) / (d * d).sum(axis=1))
 
 
 def points_at(rays: Floats, t: Floats) -> list[Balls]:
-    """o + t·d for float64 t, as three balls of relative radius about 2^-51 wherever o is.
+    """Return o + t·d as balls of the three coordinates, with relative radii of about 2^-51 wherever o is.
 
-    **Theory.** With t = h + l (Veltkamp split, 26 bits each) and d a float32, h·d and l·d are exact in float64; two_sum
-    (Knuth) makes o + h·d exact as s + e; so only the sum s + (e + l·d) rounds; TINY covers products that underflow.
+    `rays` is float64[n, 6] with float32 values, `t` float64[n] or [n, k]. Raises TypeError if `t` is no array.
+
+    **Theory.** With t = h + l (Veltkamp's split, 26 bits each) and d a float32, h·d and l·d are exact in float64.
+    Knuth's two_sum makes o + h·d exact as s + e. So only the sum s + (e + l·d) is rounded. TINY covers products that
+    underflow.
     """
     if not isinstance(t, np.ndarray):
         raise TypeError("t must be an array")
@@ -177,5 +192,5 @@ def points_at(rays: Floats, t: Floats) -> list[Balls]:
 
 
 def recentred(rays: Floats, t: Floats) -> Floats:
-    """The rays with their origins moved by `t`, float64[n, 6], rounded."""
+    """Return rays float64[n, 6] with their origins moved by `t`, float64[n], and rounded."""
     return np.column_stack([*(p.mid for p in points_at(rays, t)), rays[:, 3:]])

@@ -1,4 +1,4 @@
-"""Values with their derivative along the ray, over any number system: balls of arb, balls of float64, plain floats."""
+"""Values with their derivative along a ray, over any number system: balls of arb or of float64, and plain floats."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from harness.oracle.program import Functions
 
 
 class Dual:
-    """A value and its derivative; where the number system holds ranges, both hold over the whole range."""
+    """A value and its derivative. In a number system of ranges, both are ranges over the whole range of t."""
 
     __slots__ = ("slope", "value")
 
@@ -36,12 +36,18 @@ class Dual:
 
 
 def dual_functions(base: Mapping[str, Callable[..., Any]]) -> Functions:
-    """The elementary functions on duals from those of the number system `base`.
+    """Return the elementary functions on duals, made of those of the number system `base`.
 
-    `base` also has `half`, and `sign`: +1, −1, or a range that holds [−1, 1] where the sign is open (the generalised
-    derivative of abs). It may have `pick`: of a sign and two numbers the first where the sign is +1, the second where
-    it is −1, else what holds both; `ratio`: a slope over a root, 0 where the slope is known to be 0; and `share`: u
-    over a length that is not less than |u|, so never beyond [−1, 1].
+    Beside the elementary functions `base` has
+
+    - `half`;
+    - `sign`, the generalised derivative of abs: +1, −1, or a range that holds [−1, 1] if the sign is not known.
+
+    It may have
+
+    - `pick` of a sign and two numbers: the first if the sign is +1, the second if it is −1, else what holds both;
+    - `ratio` of a slope and a root: 0 if the slope is known to be 0;
+    - `share` of u and a length that is not less than |u|: the quotient, which never leaves [−1, 1].
     """
 
     def mixed(sign: Any, a: Any, b: Any) -> Any:

@@ -1,4 +1,4 @@
-"""f along rays, enclosed in float64 balls."""
+"""Encloses f along rays in float64 balls."""
 
 from __future__ import annotations
 
@@ -26,23 +26,23 @@ class Enclosure:
         self.duals = [Dual(c, Balls(0.0)) for c in self.constants]
 
     def of(self, points: Sequence[Balls]) -> Balls:
-        """f at points (x, y, z)."""
+        """Enclose f at points x, y, z."""
         f: Balls = self.program.run(points, self.constants, balls64.FUNCTIONS)
         return f
 
     def along(self, rays: Floats, t: Floats) -> Balls:
-        """f at o + t·d; `rays` float64[n, 6] holding float32 values, `t` float64[n]."""
+        """Enclose f at o + t·d of rays float64[n, 6] that hold float32 values, for `t` float64[n]."""
         return self.of(points_at(rays, t))
 
     def slopes(self, inputs: Sequence[Dual], functions: Functions = DUAL_FUNCTIONS) -> Dual:
-        """f and its derivative, both as balls of the inputs' shape."""
+        """Enclose f and its derivative, both as balls of the inputs' shape."""
         f: Dual = self.program.run(inputs, self.duals, functions)
         shape = np.shape(inputs[0].value.mid)
         return Dual(*(Balls(np.broadcast_to(b.mid, shape), np.broadcast_to(b.rad, shape)) for b in (f.value, f.slope)))
 
 
 def _ball(constant: Any) -> Balls:
-    """A constant, known as a ball of arb, as a float64 ball around it; zero is exact."""
+    """Return a float64 ball that holds a constant, which is given as a flint.arb; zero stays exact."""
     if constant == 0:
         return Balls(0.0)
     mid = float(constant.mid())

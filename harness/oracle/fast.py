@@ -1,15 +1,16 @@
-"""First hits of many rays at once in float64, each accepted only under a rigorous error bound; the rest are left.
+"""Finds first hits of many rays at once in float64, and accepts only those that a rigorous error bound certifies.
 
-**Theory.** Along the outer clip interval [a, b] (float64 enclosures of the exact one) a ray is first cut into segments
-of which each is proved free of roots or proved to hold exactly one, simple and with opposite proved signs at its ends
-(`isolate`: Bernstein coefficients for polynomials, ranges of f and f' for everything else). The first such segment,
-with nothing undecided before it, holds the first root of [a, b]. A few safeguarded Newton steps narrow it down in plain
-float64; nothing is believed of them: f is evaluated in ball arithmetic on both sides of the guess, and opposite proved
-signs inside the segment are the certificate. A ray is left to the slow path where any of that fails, or where the root
+**Theory.** A ray is cut into segments along the outer clip interval [a, b], whose ends enclose the exact ones. Each
+segment is proved to have no root, or to have exactly one, a simple one with opposite proved signs at the segment's ends
+(`isolate`: by Bernstein coefficients for polynomials, by ranges of f and f' for everything else). The first segment
+with a root, if nothing before it is undecided, holds the first root of [a, b]. A few safeguarded Newton steps in plain
+float64 guess that root. The guess is not trusted: f is evaluated in ball arithmetic on both sides of it, and opposite
+proved signs inside the segment are the certificate. A ray is left to the slow path if any of that fails, or if the root
 is not proved to lie inside the exact clip interval.
 
-Where f is written as a product with repeated factors, such as a plane squared, all this is done for its radical, each
-factor taken once: touches of f are crossings of that, and the factor that changes sign tells the multiplicity.
+If f is written as a product with repeated factors, such as a plane squared, all this is done for its radical, in which
+each factor is taken once. Touches of f are crossings of the radical; the factor that changes its sign tells the
+multiplicity.
 """
 
 from __future__ import annotations
@@ -34,13 +35,13 @@ if TYPE_CHECKING:
     import sympy
 
 BLOCK = 2048  # rays at a time, so that the arrays stay in the cache
-MOST_DEGREE = 32  # beyond it the collocation's condition number eats float64
-WIDTHS = (2.0**-44, 2.0**-42, 2.0**-41)  # widths of certified intervals tried, in domain radii
+MOST_DEGREE = 32  # beyond it the collocation matrix is too ill-conditioned for float64
+WIDTHS = (2.0**-44, 2.0**-42, 2.0**-41)  # the widths of certified intervals that are tried, in domain radii
 
 
 @dataclass(frozen=True)
 class FastAnswers:
-    """`decided` rows are certified; all arrays [n]."""
+    """Answers for n rays; those that are `decided` are certified."""
 
     decided: NDArray[np.bool_]
     status: NDArray[np.uint8]
@@ -49,7 +50,7 @@ class FastAnswers:
 
 
 class FastSolver:
-    """First hits by float64 ball arithmetic on all rays at once."""
+    """Finds first hits by float64 ball arithmetic on all rays at once."""
 
     def __init__(self, expr: sympy.Expr, domain: Domain) -> None:
         self.domain = domain
@@ -64,7 +65,7 @@ class FastSolver:
         self.isolate = (BernsteinIsolator if small else RangeIsolator)(self.f)
 
     def first_hits(self, rays: Floats, t_min: float) -> FastAnswers:
-        """`rays`: float64[n, 6] holding float32 values."""
+        """Return the answers for rays float64[n, 6] that hold float32 values."""
         blocks = [self._block(rays[k : k + BLOCK], t_min) for k in range(0, max(len(rays), 1), BLOCK)]
         return FastAnswers(*(np.concatenate([getattr(b, f) for b in blocks]) for f in FastAnswers.__annotations__))
 
@@ -88,7 +89,7 @@ class FastSolver:
         return FastAnswers(decided, status, lower, upper)
 
     def _narrow(self, rays: Floats, segments: Segments) -> tuple[Floats, Floats]:
-        """Certified [lower, upper] around each segment's root; NaN where the signs could not be proved."""
+        """Return certified [lower, upper] around each segment's root; NaN where the signs could not be proved."""
         guess = self._guess(rays, segments)
         length = np.sqrt((rays[:, 3:] ** 2).sum(axis=1))
         direction = np.where(segments.rising, 1, -1)
@@ -105,10 +106,10 @@ class FastSolver:
         return lower, upper
 
     def _parity(self, rays: Floats, lower: Floats, upper: Floats) -> tuple[Mask, Mask]:
-        """Whether the root's multiplicity in f itself is odd, and whether that is proved.
+        """Return where the root's multiplicity in f itself is odd, and where that is proved.
 
-        The interval holds one root of the radical, so no factor has another one there: those that vanish change sign,
-        and f does so if their multiplicities add up to an odd number.
+        The interval holds one root of the radical, so that no factor has a second root there. The factors that vanish
+        change their sign, and f changes its sign if their multiplicities add up to an odd number.
         """
         odd = np.full(len(rays), not self.factors)
         proved = np.isfinite(lower)
@@ -119,7 +120,10 @@ class FastSolver:
         return odd, proved
 
     def _guess(self, rays: Floats, segments: Segments) -> Floats:
-        """The segment's root in plain float64, counted from its lower end so that a distant origin costs no digits."""
+        """Return each segment's root in plain float64.
+
+        It is computed from the segment's lower end, so that a distant origin costs no digits.
+        """
         near = recentred(rays, segments.lower)
         length = segments.upper - segments.lower
         return segments.lower + self.floats.root_between(near, np.zeros_like(length), length, segments.rising)

@@ -1,10 +1,12 @@
-"""f along rays in plain float64: fast, rounded, and used only for guesses and estimates."""
+"""Evaluates f along rays in plain float64: fast and with unknown errors, and so only for guesses and estimates."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from harness.oracle.balls64 import Floats
 from harness.oracle.dual import Dual, dual_functions
@@ -12,7 +14,7 @@ from harness.oracle.program import Functions, Program
 
 
 def _ratio(slope: Any, root: Any) -> Any:
-    """The slope over the root of what is constant is 0, even where the root is."""
+    """Return slope / root, which is 0 if the slope is, even where the root is 0 too."""
     return np.where(slope == 0.0, 0.0, slope / root)
 
 
@@ -27,28 +29,28 @@ DUAL_FUNCTIONS = dual_functions(FUNCTIONS)
 
 
 class FloatFunction:
-    """f at points o + t·d; arrays broadcast, so t may be [n] or [n, k]."""
+    """f at points o + t·d of rays float64[n, 6], for t float64[n] or [n, k]."""
 
     def __init__(self, program: Program, constants: list[float]) -> None:
         self.program = program
         self.constants = [np.float64(c) for c in constants]
-        # polynomials are known everywhere from degree + 1 samples, as long as rounding errors are not blown up
+        # degree + 1 samples give a polynomial everywhere, as long as rounding errors do not grow too much
         self.interpolates = program.is_polynomial and 0 < program.degree <= MOST_DEGREE
         self.samples = 12 * program.degree + 1 if self.interpolates else 129
         self.duals = [Dual(c, np.float64(0.0)) for c in self.constants]
 
     def values(self, rays: Floats, t: Floats) -> Floats:
-        """f, float64 of t's shape."""
+        """Return f in t's shape."""
         value = self.program.run(self.points(rays, t), self.constants, FUNCTIONS)
         return np.asarray(np.broadcast_to(value, t.shape))
 
     def along(self, rays: Floats, t: Floats) -> Dual:
-        """f and df/dt, each of t's shape."""
+        """Return f and df/dt, each in t's shape."""
         points = self.points(rays, t)
         return self._dual([Dual(p, _like(rays[:, 3 + k], t)) for k, p in enumerate(points)], t)
 
     def steepness(self, rays: Floats, t: Floats) -> Floats:
-        """|grad f|, of t's shape."""
+        """Return |grad f| in t's shape."""
         points = self.points(rays, t)
         squares = [
             self._dual([Dual(p, np.float64(k == axis)) for k, p in enumerate(points)], t).slope ** 2
@@ -56,8 +58,8 @@ class FloatFunction:
         ]
         return np.asarray(np.sqrt(sum(squares)))
 
-    def root_between(self, rays: Floats, lower: Floats, upper: Floats, rising: Any) -> Floats:
-        """A root in [lower, upper], across which f changes sign upwards where `rising`: Newton, halving as it must."""
+    def root_between(self, rays: Floats, lower: Floats, upper: Floats, rising: NDArray[np.bool_]) -> Floats:
+        """Return roots in [lower, upper], float64[n], by safeguarded Newton; f grows through a root where `rising`."""
         t = 0.5 * (lower + upper)
         for _ in range(NEWTON_STEPS):
             f = self.along(rays, t)
@@ -73,15 +75,17 @@ class FloatFunction:
 
     @staticmethod
     def points(rays: Floats, t: Floats) -> list[Floats]:
+        """Return x, y and z of o + t·d, each in t's shape."""
         return [_like(rays[:, k], t) + t * _like(rays[:, 3 + k], t) for k in range(3)]
 
 
-def _like(column: Floats, t: Floats) -> Any:
+def _like(column: Floats, t: Floats) -> Floats:
+    """Return a column [n] so that it broadcasts to t's shape."""
     return column if t.ndim == 1 else column[:, None]
 
 
 class _Sized:
-    """A value and the sum of its terms' magnitudes: what rounding errors of relative size 1 would change it by."""
+    """A value and the sum of its terms' magnitudes, which is how far relative errors of 1 would move it."""
 
     __slots__ = ("size", "value")
 
@@ -106,8 +110,8 @@ class _Sized:
         return _Sized(value, (self.size + np.abs(value) * other.size) / np.abs(other.value))
 
 
-def _sized(name: str) -> Any:
-    """An elementary function of sized values: the argument's terms through the slope, and the result's own."""
+def _sized(name: str) -> Callable[..., _Sized]:
+    """Return an elementary function of sized values: the argument's terms times the slope, plus the result itself."""
 
     def call(*args: _Sized) -> _Sized:
         value = FUNCTIONS[name](*(a.value for a in args))
@@ -123,7 +127,7 @@ SIZED_FUNCTIONS = {name: _sized(name) for name in FUNCTIONS}
 
 
 def majorant(f: FloatFunction, rays: Floats, t: Floats) -> Floats:
-    """Sum of |terms of f| at o + t·d, of t's shape."""
+    """Return the sum of |terms of f| at o + t·d, in t's shape."""
     inputs = [_Sized(p, np.abs(p)) for p in f.points(rays, t)]
     result: _Sized = f.program.run(inputs, [_Sized(c, np.abs(c)) for c in f.constants], SIZED_FUNCTIONS)
     return np.asarray(np.broadcast_to(result.size, t.shape))

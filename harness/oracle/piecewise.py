@@ -1,9 +1,10 @@
-"""First hits decided exactly on short pieces of a ray: for what is made of polynomials, quotients, roots and kinks.
+"""Decides first hits exactly on short pieces of a ray, for f made of polynomials, quotients, square roots and kinks.
 
-**Theory.** A piece is cut into cells at every number where a kink's argument, a root's argument or f may be 0: roots of
-rational polynomials (`tower`). Inside a cell every kink is on one side, f is one element of a tower and has one sign or
-is 0 all over. What is left are the ends of cells: f is 0 there if it changes sign or is 0 beside it, and otherwise one
-exact question at one algebraic number. Kinks that balls decide on the whole cell are cut nowhere, so a cell meets few.
+**Theory.** A piece is cut into cells at every number where the argument of a kink or of a square root, or f itself, may
+be 0; these are roots of rational polynomials (`tower`). Inside a cell every kink is on one side, f is one element of a
+tower, and f has one sign or is 0 all over. There remain the ends of cells. f is 0 at an end if it changes its sign
+there or is 0 beside it; otherwise one exact question at one algebraic number decides. Kinks whose sign balls prove on
+the whole cell need no cut, so that few cuts are made.
 """
 
 from __future__ import annotations
@@ -30,13 +31,13 @@ if TYPE_CHECKING:
     import sympy
 
 EXACT = POLYNOMIAL | {"div", "sqrt", "abs", "min", "max"}
-FIRST_PRECISION = 128  # bits of the balls that decide most kinks
+FIRST_PRECISION = 128  # bits of the balls, which decide most kinks
 MOST_CELLS = 200
 ONE = constant(1)
 
 
 class _Cut(Exception):
-    """The cell holds `roots` of something that must not vanish inside a cell."""
+    """Says that something that must not vanish inside a cell has `roots` there."""
 
     def __init__(self, roots: list[Point]) -> None:
         super().__init__()
@@ -44,17 +45,18 @@ class _Cut(Exception):
 
 
 class _Undefined(Undecidable):
-    """f has no value in the cell."""
+    """Says that f has no value in the cell."""
 
 
 def exact_program(expr: sympy.Expr) -> Program | None:
-    """The program of `expr` that `PiecewiseSolver` runs; None where it holds other functions or constants."""
+    """Return the program of `expr` for `PiecewiseSolver`; None if it has other functions or constants."""
     program = compile_expression(expr, fold=False)
     known = all(i.name in EXACT for i in program.instructions) and all(map(_is_exact, program.constants))
     return program if known else None
 
 
 def _is_exact(leaf: sympy.Expr) -> bool:
+    """Return whether a constant is a rational or the golden ratio."""
     import sympy
 
     return bool(leaf.is_Rational or leaf == sympy.GoldenRatio)
@@ -62,7 +64,7 @@ def _is_exact(leaf: sympy.Expr) -> bool:
 
 @dataclass
 class _Cell:
-    """An open interval between two points; `sign` of f inside, None where f has no value."""
+    """An open interval between two points, with f and its `sign` inside; None if f has no value there."""
 
     first: Point
     last: Point
@@ -72,7 +74,7 @@ class _Cell:
 
 
 class PiecewiseSolver:
-    """Pieces of one ray, given as six fmpq."""
+    """Decides first hits on pieces of one ray, which is given as six fmpq."""
 
     def __init__(self, program: Program, ray: Sequence[Any], ends: tuple[End, End], t_min: float) -> None:
         self.program = program
@@ -81,11 +83,10 @@ class PiecewiseSolver:
         self.enter, self.leave = (end_point(end) for end in ends)
 
     def first_hit(self, lower: Any, upper: Any, width: float) -> FirstHit | None:
-        """The first root in the clip interval and in [lower, upper], as far as it has one; None without.
+        """Return the first root in the clip interval and in [lower, upper], two fmpq; None if there is none.
 
-        `lower` and `upper` are fmpq; no root lies in the clip interval before `lower`, and none beyond `upper` is asked
-        for, though one that is near may be found. `width` is that of the certified interval, in units of t. Raises
-        Undecidable.
+        No root may lie in the clip interval before `lower`. A root shortly behind `upper` may be found too. `width` is
+        the width of the certified interval, in units of t. Raises Undecidable if a question is not decided.
         """
         room = (upper - lower) / 7
         cells = self.cells(rational_point(lower - room), rational_point(upper + room))
@@ -103,12 +104,14 @@ class PiecewiseSolver:
         return None
 
     def hit(self, status: TruthStatus, t: Point, width: float) -> FirstHit:
+        """Return a hit at t in a certified interval of at most this width."""
         t.refine(fmpq(*width.as_integer_ratio()))
         with precision(FIRST_PRECISION):
             return certified_hit(status, t.ball(), self.t_min)
 
     @staticmethod
     def vanishes_between(cell: _Cell, following: _Cell) -> bool:
+        """Return whether f is 0 at the point between two neighbouring cells."""
         if cell.sign is None and following.sign is None:
             return False
         if cell.sign is None or following.sign is None:
@@ -117,7 +120,7 @@ class PiecewiseSolver:
         return cell.sign * following.sign <= 0 or cell.tower.vanishes_at(cell.f, cell.last)
 
     def cells(self, first: Point, last: Point) -> list[_Cell]:
-        """Cells from `first` to `last`; those that lie outside the clip interval may be without a value of f."""
+        """Return the cells from `first` to `last`. Outside the clip interval, f may have no value in a cell."""
         inside = [p for p in (self.enter, self.leave) if p.compare(first) > 0 and p.compare(last) < 0]
         if len(inside) == 2 and not inside[0].compare(inside[1]):
             inside.pop()
@@ -140,7 +143,7 @@ class PiecewiseSolver:
         raise Undecidable("too many cells")
 
     def cell(self, first: Point, last: Point) -> _Cell:
-        """Raises _Cut where it must be cut first."""
+        """Return one cell. Raises _Cut if it must be cut, and _Undefined if f has no value in it."""
         run = _Run(self.program, self.ray, first, last)
         f = run.numerator(run.result())
         return _Cell(first, last, run.tower, f, run.sign(f))
@@ -151,7 +154,7 @@ ZERO: Quotient = ({}, ONE)
 
 
 class _Run:
-    """The program on one cell, in quotients of a tower's elements."""
+    """Runs the program on one cell, in quotients of a tower's elements."""
 
     def __init__(self, program: Program, ray: Sequence[Any], first: Point, last: Point) -> None:
         self.program = program
@@ -163,7 +166,7 @@ class _Run:
             self.balls = program.results(points, [reals.leaf(c) for c in program.constants], reals.FUNCTIONS)
 
     def result(self) -> Quotient:
-        """f on the cell."""
+        """Return f on the cell."""
         needed = self.needed()
         values: dict[int, Quotient] = {}
         for k, i in enumerate(self.program.instructions):
@@ -172,7 +175,8 @@ class _Run:
         return values[len(self.program.instructions) - 1]
 
     def needed(self) -> set[int]:
-        """The instructions that f is made of here: not those of a minimum's or maximum's other side."""
+        """Return the instructions that f needs on this cell, without those of the other side of a minimum or
+        maximum."""
         needed = {len(self.program.instructions) - 1}
         for k in range(len(self.program.instructions) - 1, -1, -1):
             i = self.program.instructions[k]
@@ -182,7 +186,7 @@ class _Run:
         return needed
 
     def side(self, i: Instruction) -> int | None:
-        """Which argument a minimum or maximum is all over the cell, as far as balls tell."""
+        """Return which argument a minimum or maximum is all over the cell, or None if balls do not tell."""
         if i.name not in ("min", "max"):
             return None
         with precision(FIRST_PRECISION):
@@ -190,6 +194,7 @@ class _Run:
         return None if gap.contains(0) else int((gap > 0) == (i.name == "min"))
 
     def value(self, i: Instruction, a: list[Quotient]) -> Quotient:
+        """Return an instruction's result from those of its arguments."""
         mul = self.tower.mul
         match i.name:
             case "input":
@@ -224,22 +229,24 @@ class _Run:
         return add(mul(a[0], b[1]), mul(b[0], a[1])), mul(a[1], b[1])
 
     def leaf(self, expr: sympy.Expr) -> Element:
+        """Return a rational or the golden ratio as an element."""
         if expr.is_Rational:
             return constant(fmpq(int(expr.p), int(expr.q)))
         root = self.tower.radical(constant(5))  # the golden ratio
         return add(constant(fmpq(1, 2)), self.tower.mul(constant(fmpq(1, 2)), root))
 
     def numerator(self, a: Quotient) -> Element:
-        """An element of the sign of `a`."""
+        """Return an element that has the sign of `a`."""
         return a[0] if a[1] == ONE else self.tower.mul(a[0], a[1])
 
     def kink(self, a: Quotient, ball: Any) -> int:
-        """The sign of `a` on the cell: 0 where it is 0 all over; cuts the cell where it changes."""
+        """Return the sign of `a` on the cell, 0 if it is 0 all over. Raises _Cut if it changes."""
         if not ball.contains(0):
             return 1 if ball > 0 else -1
         return self.sign(self.numerator(a))
 
     def sign(self, x: Element) -> int:
+        """Return the sign of an element on the cell, 0 if it is 0 all over. Raises _Cut if it changes."""
         p = self.tower.zeros(x)
         if p is None:
             return 0
@@ -249,6 +256,7 @@ class _Run:
         return self.tower.sign(x)
 
     def sqrt(self, a: Quotient, ball: Any) -> Quotient:
+        """Return √a. Raises _Undefined if `a` is negative or its divisor is 0 on the cell, _Cut if a sign changes."""
         sign = self.kink(a, ball)
         if sign < 0:
             raise _Undefined("a root of what is negative")
@@ -263,7 +271,7 @@ class _Run:
         return self.root(self.numerator(a)), below
 
     def root(self, square: Element) -> Element:
-        """√square, of which squared factors are taken out if it is a polynomial."""
+        """Return √square; if it is a polynomial, squared factors are taken out of the root."""
         if max(square) > 0:
             return self.tower.radical(square)
         p = square[0]
@@ -278,7 +286,7 @@ class _Run:
 
 
 def _constant_root(p: Any) -> Element | None:
-    """√p where that is rational."""
+    """Return √p if p is the square of a rational, else None."""
     if p.degree() > 0:
         return None
     try:

@@ -1,4 +1,4 @@
-"""Real algebraic numbers: rationals, and roots of rational polynomials in brackets. Everything here is exact."""
+"""Exact real algebraic numbers: rationals, and roots of rational polynomials, each in a bracket."""
 
 from __future__ import annotations
 
@@ -10,18 +10,20 @@ from flint import arb, fmpq, fmpq_poly
 from harness.oracle.bernstein import Undecidable, brackets, to_bernstein
 from harness.oracle.clip import End
 
-DEPTH = 4096  # bits at which telling two numbers apart is given up
+DEPTH = 4096  # bits after which two numbers that are not told apart are given up
 
 
 def polynomial(*coefficients: Any) -> Any:
+    """Return the fmpq_poly of these coefficients, the lowest first."""
     return fmpq_poly(list(coefficients))
 
 
 @dataclass(eq=False)
 class Point:
-    """A number in [lower, upper]: lower itself where they are equal, else the one root of `p` between them.
+    """A number in [lower, upper], which is lower itself if both are equal, else the only root of `p` between them.
 
-    `p` is square-free and of opposite signs at the two ends. Refining narrows the bracket in place.
+    `p` is a square-free fmpq_poly with opposite signs at the two ends, which are fmpq. Refining narrows the bracket of
+    this very object.
     """
 
     p: Any
@@ -30,15 +32,18 @@ class Point:
 
     @property
     def is_rational(self) -> bool:
+        """Return whether the number is known to be rational."""
         return bool(self.lower == self.upper)
 
     def is_root_of(self, p: Any) -> bool:
+        """Return whether the polynomial `p` vanishes at the number."""
         if self.is_rational:
             return not p(self.lower)
         common = self.p.gcd(p)
         return bool(common.degree() > 0 and common(self.lower) * common(self.upper) < 0)
 
     def halve(self) -> None:
+        """Halve the bracket."""
         middle = (self.lower + self.upper) / 2
         value = self.p(middle)
         if not value:
@@ -49,16 +54,16 @@ class Point:
             self.lower = middle
 
     def refine(self, width: Any) -> None:
-        """Down to a bracket of at most this `width`, an fmpq."""
+        """Halve the bracket until it has at most this `width`, an fmpq."""
         while self.upper - self.lower > width:
             self.halve()
 
     def ball(self) -> Any:
-        """What is known of the number, as a ball at the current precision."""
+        """Return the bracket as a ball (flint.arb) at the current precision."""
         return arb(self.lower).union(arb(self.upper))
 
     def compare(self, other: Point) -> int:
-        """−1, 0 or 1: less, equal or greater."""
+        """Return −1, 0 or 1: less, equal or greater. Raises Undecidable if DEPTH bits do not tell."""
         common = self.p.gcd(other.p)
         both = common.degree() > 0 and self.is_root_of(common) and other.is_root_of(common)
         for _ in range(DEPTH):
@@ -69,7 +74,7 @@ class Point:
             if self.is_rational and other.is_rational:
                 return 0
             wider, narrower = (self, other) if self.upper - self.lower > other.upper - other.lower else (other, self)
-            # both are roots of `common`, of which a bracket holds one at most: one inside the other's bracket is it
+            # if both are roots of `common`, a bracket holds only one of its roots: a number inside the other's is that
             if both and wider.lower <= narrower.lower and narrower.upper <= wider.upper:
                 return 0
             (narrower if both and not narrower.is_rational else wider).halve()
@@ -77,11 +82,12 @@ class Point:
 
 
 def rational_point(value: Any) -> Point:
+    """Return an fmpq as a point."""
     return Point(polynomial(-value, 1), value, value)
 
 
 def end_point(end: End) -> Point:
-    """An end of a clip interval."""
+    """Return an end of a clip interval as a point."""
     if end.value is not None:
         return rational_point(end.value)
     a, b, c = end.quadratic
@@ -96,7 +102,7 @@ def end_point(end: End) -> Point:
 
 
 def roots_between(p: Any, first: Point, last: Point) -> list[Point]:
-    """The distinct roots of the polynomial `p`, not 0, strictly between two points, in rising order."""
+    """Return the distinct roots of a polynomial `p`, which is not 0, strictly between two points, in rising order."""
     if p.degree() <= 0:
         return []
     p = p / p.gcd(p.derivative())
@@ -118,7 +124,7 @@ def roots_between(p: Any, first: Point, last: Point) -> list[Point]:
 
 
 def between(first: Point, last: Point) -> Any:
-    """A rational strictly between two different points, the first of which is the lesser."""
+    """Return a rational strictly between two different points, of which the first is the lesser."""
     while not first.upper < last.lower:
         wider = first if first.upper - first.lower > last.upper - last.lower else last
         wider.halve()

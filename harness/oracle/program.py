@@ -1,7 +1,7 @@
-"""A surface's expression as a straight-line program that runs in any number system with Python operators.
+"""Compiles a surface's expression to a straight-line program that runs in any number system with Python operators.
 
-The oracle compiles the exact sympy expression itself and shares nothing with the lowering that prints kernels, so that
-a slip there cannot hide here. Constants stay symbolic until a number system converts them.
+The oracle compiles the exact sympy expression itself. It shares nothing with the lowering that prints kernels, so that
+an error there cannot hide here. Constants stay symbolic until a number system converts them.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ FUNCTIONS = {"exp": "exp", "log": "log", "sin": "sin", "cos": "cos", "tan": "tan
 
 @dataclass(frozen=True)
 class Instruction:
-    """`name` applied to the results numbered `args`; `input` and `constant` carry an `index` instead."""
+    """The operation `name` on the results numbered `args`; an `input` or `constant` has an `index` instead."""
 
     name: str
     args: tuple[int, ...] = ()
@@ -31,18 +31,19 @@ class Instruction:
 
 @dataclass(frozen=True)
 class Program:
-    """Instructions in order; the last one's result is f."""
+    """Instructions in order, of which the last one's result is f."""
 
     instructions: tuple[Instruction, ...]
     constants: tuple[sympy.Expr, ...]
 
     @property
     def is_polynomial(self) -> bool:
+        """Return whether the program uses sums and products only."""
         return all(i.name in POLYNOMIAL for i in self.instructions)
 
     @property
     def degree(self) -> int:
-        """An upper bound of f's total degree, from its structure alone; only for polynomials."""
+        """Return an upper bound of a polynomial's total degree, from its structure alone."""
         degrees: list[int] = []
         for i in self.instructions:
             of = [degrees[a] for a in i.args]
@@ -58,11 +59,11 @@ class Program:
         return degrees[-1]
 
     def run(self, inputs: Sequence[Any], constants: Sequence[Any], functions: Functions) -> Any:
-        """f at `inputs` (x, y, z) in their own number system, `constants` already converted to it."""
+        """Return f at `inputs`, x, y and z, in their number system; `constants` are already converted to it."""
         return self.results(inputs, constants, functions)[-1]
 
     def results(self, inputs: Sequence[Any], constants: Sequence[Any], functions: Functions) -> list[Any]:
-        """What each instruction gives; the last result is f."""
+        """Return the result of each instruction, of which the last is f."""
         results: list[Any] = []
         for i in self.instructions:
             a = [results[k] for k in i.args]
@@ -88,14 +89,14 @@ class Program:
 
 
 class _Compiler:
-    """Post-order walk over a sympy tree; equal subtrees are computed once."""
+    """Compiles a sympy tree in post-order; equal subtrees are computed once."""
 
     def __init__(self, fold: bool, lengths: bool) -> None:
-        self.fold = fold  # keep constant subtrees whole
-        self.lengths = lengths  # the square root of a sum of squares is one instruction
+        self.fold = fold  # whether a constant subtree becomes one constant
+        self.lengths = lengths  # whether the square root of a sum of squares becomes one instruction
         self.instructions: list[Instruction] = []
         self.constants: list[sympy.Expr] = []
-        self.seen: dict[Any, int] = {}
+        self.seen: dict[Instruction | sympy.Expr, int] = {}
 
     def emit(self, name: str, *args: int, index: int = 0) -> int:
         instruction = Instruction(name, args, index)
@@ -190,7 +191,7 @@ class _Compiler:
         return self.emit("exp", self.emit("mul", self.compile(exponent), logarithm))
 
     def power_of(self, value: int, exponent: int) -> int:
-        """By squaring: exact where numbers are exact, and numpy's own powers are slow."""
+        """Emit a whole power by squaring, which is exact in exact numbers; numpy's own powers are slow."""
         if exponent == 1:
             return value
         half = self.power_of(value, exponent // 2)
@@ -199,7 +200,7 @@ class _Compiler:
 
 
 def _roots_of_squares(expr: sympy.Expr) -> list[sympy.Expr] | None:
-    """[u, v, …] where `expr` is written as u² + v² + …, a positive constant being one of the squares; else None."""
+    """Return [u, v, …] if `expr` is written as u² + v² + …, else None; a positive constant counts as a square."""
     import sympy
 
     roots = []
@@ -218,23 +219,24 @@ def _roots_of_squares(expr: sympy.Expr) -> list[sympy.Expr] | None:
 
 
 def compile_expression(expr: sympy.Expr, fold: bool = True, lengths: bool = False) -> Program:
-    """The program of `expr` in symbols named x, y, z; `fold` keeps constant subtrees as one constant each.
+    """Return the program of `expr` in symbols named x, y, z.
 
-    With `lengths`, √(u² + v² + …) is one instruction `length` of u, v, …, of which number systems of ranges know more
-    than of a root: its slope stays bounded. A FirsthitError where `expr` uses a function the oracle does not know.
+    If `fold`, a constant subtree becomes one constant. If `lengths`, √(u² + v² + …) becomes one instruction `length` of
+    u, v, …; number systems of ranges know that its slope is bounded, which that of a root is not. Raises FirsthitError
+    if `expr` uses a function that the oracle does not know.
     """
     compiler = _Compiler(fold, lengths)
     last = compiler.compile(expr)
-    if last != len(compiler.instructions) - 1:  # a result met earlier, such as f = -(-x)
+    if last != len(compiler.instructions) - 1:  # the result was met earlier, as in f = -(-x)
         raise AssertionError("the last instruction must be the result")
     return Program(tuple(compiler.instructions), tuple(compiler.constants))
 
 
 def repeated_factors(expr: sympy.Expr) -> tuple[sympy.Expr, list[tuple[sympy.Expr, int]]]:
-    """The radical of `expr` as it is written, and its factors with their multiplicities if one is repeated.
+    """Return the radical of `expr` as it is written, and its factors with their multiplicities.
 
-    (x − 1)^2·y gives (x − 1)·y and [(x − 1, 2), (y, 1)]; an expression without repeated factors gives itself and [].
-    |u| has the roots of u, and like u² it never changes sign: it counts as u twice.
+    (x − 1)^2·y gives (x − 1)·y and [(x − 1, 2), (y, 1)]. An expression without repeated factors gives itself and [].
+    |u| counts as u twice, since it has the roots of u and, like u², never changes its sign.
     """
     import sympy
 
@@ -256,7 +258,7 @@ def repeated_factors(expr: sympy.Expr) -> tuple[sympy.Expr, list[tuple[sympy.Exp
 
 
 def convert_constants(program: Program, leaf: Callable[[sympy.Expr], Any], functions: Functions) -> list[Any]:
-    """The program's constants in another number system that knows its leaves (rationals, pi, e, golden ratio)."""
+    """Return the program's constants in a number system whose `leaf` converts rationals, pi, e and the golden ratio."""
 
     def convert(constant: sympy.Expr) -> Any:
         inner = compile_expression(constant, fold=False)

@@ -1,15 +1,14 @@
-"""First roots along many rays from ranges of f and of its slope in float64 balls: for what is not a polynomial.
+"""Isolates first roots along many rays by ranges of f and its slope in float64 balls, if f is no polynomial.
 
-**Theory.** A piece has no root where the range of f excludes 0, directly or by the mean value form
-f(m) + f'(piece)·(piece − m); it has exactly one, a crossing, where the range of f' excludes 0 and f has opposite proved
-signs at the ends. Where f is not defined the ranges are NaN, which proves nothing.
+**Theory.** A piece has no root if the range of f excludes 0, directly or by the mean value form
+f(m) + f'(piece)·(piece − m). It has exactly one root, a crossing, if the range of f' excludes 0 and f has opposite
+proved signs at the ends. Where f is not defined the ranges are NaN, which proves nothing.
 """
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
+from numpy.typing import NDArray
 
 from harness.oracle import balls64
 from harness.oracle.balls64 import GROW, TINY, Balls, Floats
@@ -23,21 +22,22 @@ DEPTH = 36
 
 
 class RangeIsolator:
-    """First roots of a function along rays."""
+    """Isolates the first roots of a function along rays."""
 
     def __init__(self, f: Enclosure) -> None:
         self.f = f
         self.kinks = any(i.name in ("abs", "min", "max", "length") for i in f.program.instructions)
 
     def __call__(self, rays: Floats, lower: Floats, upper: Floats) -> Segments:
-        """The first segment of each ray between t = `lower` and `upper`, float64[n], finite."""
+        """Return the first segment of each ray between t = `lower` and `upper`, both float64[n] and finite."""
         whole = Pieces(np.arange(len(rays)), lower, upper)
         return first_segments(len(rays), whole, lambda pieces: self._judge(rays, pieces), _halve, DEPTH)
 
     def _judge(self, rays: Floats, pieces: Pieces) -> Verdict:
+        """Return what ranges of f and its slope prove."""
         rays = rays[pieces.ray]
         middle = 0.5 * (pieces.lower + pieces.upper)
-        # at least the distance from `middle`, wherever rounding put it, to the farther end
+        # at least the distance from the rounded `middle` to the farther end
         half = np.maximum(middle - pieces.lower, pieces.upper - middle) * GROW
         centers = points_at(rays, middle)
         inputs = [
@@ -58,9 +58,14 @@ class RangeIsolator:
         return Verdict(empty, single, rising, (middle <= pieces.lower) | (middle >= pieces.upper))
 
     def _narrowed(self, whole: Dual, inputs: list[Dual]) -> Balls:
-        """The slope of f on pieces, from both sides of a kink where all kinks mixed do not tell its sign."""
+        """Return the slopes of f on pieces.
+
+        Where all kinks together leave the slope's sign open, the two sides of a kink are enclosed separately.
+        """
         slope: Balls = whole.slope
-        open_ = np.flatnonzero(~whole.value.excludes_zero & ~slope.excludes_zero) if self.kinks else np.empty(0)
+        open_ = (
+            np.flatnonzero(~whole.value.excludes_zero & ~slope.excludes_zero) if self.kinks else np.empty(0, np.intp)
+        )
         if not len(open_):
             return slope
         some = [Dual(_rows(i.value, open_), _rows(i.slope, open_)) for i in inputs]
@@ -72,12 +77,13 @@ class RangeIsolator:
         return Balls(mid, rad)
 
 
-def _rows(balls: Balls, rows: Any) -> Balls:
+def _rows(balls: Balls, rows: NDArray[np.intp]) -> Balls:
+    """Return some rows of balls, whose radius may be one number for all."""
     return Balls(balls.mid[rows], balls.rad[rows] if np.ndim(balls.rad) else balls.rad)
 
 
 def _halve(pieces: Pieces) -> Pieces:
-    """A little off the middle, where roots of tidy formulas on tidy rays would lie."""
+    """Cut all pieces in two, slightly off the middle, since roots of simple formulas often lie exactly there."""
     middle = pieces.lower + 0.4917 * (pieces.upper - pieces.lower)
     return Pieces(
         np.concatenate((pieces.ray, pieces.ray)),

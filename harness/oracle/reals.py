@@ -1,4 +1,4 @@
-"""Real numbers as python-flint balls: conversions and elementary functions at the current precision."""
+"""Real numbers as balls of python-flint: conversions, and elementary functions at the current precision."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 @contextmanager
 def precision(bits: int) -> Iterator[None]:
-    """All ball operations inside round at `bits`."""
+    """Set the precision of ball operations, in bits, inside a with statement."""
     before = ctx.prec
     ctx.prec = bits
     try:
@@ -28,12 +28,12 @@ def precision(bits: int) -> Iterator[None]:
 
 
 def rational(value: float) -> Any:
-    """A finite float as the exact fmpq it is."""
+    """Return a finite float exactly, as an fmpq."""
     return fmpq(*value.as_integer_ratio())
 
 
 def leaf(expr: sympy.Expr) -> Any:
-    """A sympy number without arguments as a ball."""
+    """Return a sympy number without arguments as a ball. Raises FirsthitError if it is not known."""
     import sympy
 
     if expr.is_Rational:
@@ -48,12 +48,12 @@ def leaf(expr: sympy.Expr) -> Any:
 
 
 def root(ball: Any) -> Any:
-    """Enclose the square roots of the members that have one; NaN where `ball` has none."""
+    """Enclose the square roots of the members that are not negative; NaN if all are negative."""
     return arb.sqrt(ball.nonnegative_part() if ball.contains(0) else ball)
 
 
 def length(*parts: Any) -> Any:
-    """The square root of the sum of squares."""
+    """Enclose the square root of the sum of the squares."""
     return root(sum(part * part for part in parts))
 
 
@@ -64,7 +64,7 @@ FUNCTIONS: Functions = {
 
 
 def float_below(ball: Any) -> float:
-    """A float64 proved not above any member of `ball`."""
+    """Return a float64 that is proved to be above no member of `ball`."""
     value = float(ball.lower())
     while not arb(value) <= ball:
         value = math.nextafter(value, -math.inf)
@@ -72,7 +72,7 @@ def float_below(ball: Any) -> float:
 
 
 def float_above(ball: Any) -> float:
-    """A float64 proved not below any member of `ball`."""
+    """Return a float64 that is proved to be below no member of `ball`."""
     value = float(ball.upper())
     while not arb(value) >= ball:
         value = math.nextafter(value, math.inf)

@@ -1,4 +1,4 @@
-"""Cutting many rays at once into pieces without a root and pieces with exactly one."""
+"""Cuts many rays at once into pieces that are proved to hold no root or exactly one."""
 
 from __future__ import annotations
 
@@ -11,18 +11,18 @@ from numpy.typing import NDArray
 from harness.oracle.balls64 import Floats
 
 Mask = NDArray[np.bool_]
-MOST_PIECES = 64  # of one ray at one level; a ray that needs more is left undecided
+MOST_PIECES = 64  # of one ray on one level of halving; a ray that needs more stays undecided
 
 
 @dataclass(frozen=True)
 class Segments:
-    """Per ray the first segment proved to hold exactly one root, a crossing; all arrays [n]."""
+    """For each ray the first segment that is proved to hold exactly one root, a crossing; all arrays are [n]."""
 
-    lower: Floats  # any value inside the segment's own lower end; NaN where not found
+    lower: Floats  # inside the segment, at or behind its lower end; NaN where not found
     upper: Floats
-    rising: Mask  # f < 0 at the lower end, > 0 at the upper
-    found: Mask  # proved: one root in (lower, upper), none before
-    empty: Mask  # proved: no root at all
+    rising: Mask  # f < 0 at the lower end, f > 0 at the upper end
+    found: Mask  # it is proved that there is one root in (lower, upper), and none before
+    empty: Mask  # it is proved that there is no root at all
 
     def take(self, mask: Mask) -> Segments:
         return Segments(self.lower[mask], self.upper[mask], self.rising[mask], self.found[mask], self.empty[mask])
@@ -30,7 +30,8 @@ class Segments:
 
 @dataclass(frozen=True)
 class Pieces:
-    """Intervals [lower, upper] of rays numbered `ray`, with what the isolator keeps about each; all [p, ...]."""
+    """p intervals [lower, upper] of rays numbered `ray`, with data of the isolator about each; all arrays are [p,
+    ...]."""
 
     ray: NDArray[np.intp]
     lower: Floats
@@ -43,21 +44,21 @@ class Pieces:
 
 @dataclass(frozen=True)
 class Verdict:
-    """What is proved about pieces [p]; where all are false, cutting on may help."""
+    """What is proved about p pieces; all arrays are [p]. Where all are false, cutting the piece may help."""
 
-    empty: Mask  # no root in the closed piece
-    single: Mask  # exactly one root, strictly inside, with opposite signs of f at the ends
-    rising: Mask
-    hopeless: Mask  # cutting on cannot help
+    empty: Mask  # there is no root in the closed piece
+    single: Mask  # there is exactly one root, strictly inside, with opposite signs of f at the ends
+    rising: Mask  # f grows through the root of a single piece
+    hopeless: Mask  # cutting the piece cannot help
 
 
 def first_segments(
     count: int, pieces: Pieces, judge: Callable[[Pieces], Verdict], halve: Callable[[Pieces], Pieces], depth: int
 ) -> Segments:
-    """Judge and halve the pieces of `count` rays level by level, at most `depth` times.
+    """Judge and halve the pieces of `count` rays level by level, at most `depth` times, and return the first segments.
 
-    Pieces behind a segment already found are dropped. A ray with an unresolved piece before its first found segment,
-    or anywhere when none is found, is neither `found` nor `empty`.
+    Pieces behind a segment already found are dropped. A ray with an undecided piece before its first segment, or
+    anywhere if no segment is found, is neither `found` nor `empty`.
     """
     lower, upper = np.full(count, np.inf), np.full(count, np.nan)
     unresolved = np.full(count, np.inf)

@@ -1,4 +1,5 @@
-"""The first hit of one ray with an algebraic surface: balls first, then exact arithmetic, then balls to 4096 bits."""
+"""Finds the first hit of one ray with an algebraic surface: by balls of 128 bits, then exactly if that is possible,
+else by balls of up to 4096 bits."""
 
 from __future__ import annotations
 
@@ -19,13 +20,13 @@ from harness.oracle.reals import float_above, float_below, precision, rational
 if TYPE_CHECKING:
     from harness.oracle.surd import Split, Surd
 
-FIRST_PRECISION = 128  # bits; where this does not decide, exact arithmetic does, if it applies
-PRECISIONS = (FIRST_PRECISION, 512, 2048, 4096)  # of balls without it, and to tell exact roots from irrational ends
+FIRST_PRECISION = 128  # bits; what this does not decide is decided by exact arithmetic, if that applies
+PRECISIONS = (FIRST_PRECISION, 512, 2048, 4096)  # of balls if it does not apply, and to compare roots with clip ends
 
 
 @dataclass(frozen=True)
 class FirstHit:
-    """lower <= t* <= upper, or NaN without a hit; `status` as in the contract."""
+    """An answer for one ray: lower <= t* <= upper, or NaN if there is no hit; `status` is as in the contract."""
 
     status: TruthStatus
     lower: float = nan
@@ -33,7 +34,7 @@ class FirstHit:
 
 
 def certified_hit(status: TruthStatus, t: Any, t_min: float) -> FirstHit:
-    """A hit at a t inside the ball `t`, which is never before `t_min`."""
+    """Return a hit somewhere in the ball `t`; the hit is known not to be before `t_min`."""
     return FirstHit(status, max(float_below(t), t_min), float_above(t))
 
 
@@ -43,7 +44,7 @@ UNDECIDED = FirstHit(TruthStatus.UNDECIDED)
 
 @dataclass
 class AlgebraicSolver:
-    """First hits of single rays with one polynomial surface; constants are converted once per precision."""
+    """Finds first hits of single rays with one polynomial surface. Constants are converted once for each precision."""
 
     program: Program
     domain: Domain
@@ -57,7 +58,7 @@ class AlgebraicSolver:
             self.surds = None
 
     def first_hit(self, ray: Sequence[float], t_min: float = 0.0) -> FirstHit:
-        """`ray`: six floats, like `t_min` taken as the exact rationals they are."""
+        """Return the first hit of a ray, six floats. They and `t_min` are taken as exact rationals."""
         exact_ray = [rational(v) for v in ray]
         ends = clip_exactly(self.domain, exact_ray, t_min)
         if ends is None:
@@ -76,7 +77,7 @@ class AlgebraicSolver:
             return UNDECIDED
 
     def _by_balls(self, ray: Sequence[float], ends: tuple[End, End], reach: float, bits: int, t_min: float) -> FirstHit:
-        """Raises Undecidable; `reach` is the domain's radius in units of t."""
+        """Return the first hit by balls of `bits`; `reach` is the domain's radius in units of t. Raises Undecidable."""
         if bits not in self.constants:
             self.constants[bits] = convert_constants(self.program, reals.leaf, reals.FUNCTIONS)
             self.constants[bits] = [arb_poly([c]) for c in self.constants[bits]]
@@ -96,7 +97,11 @@ class AlgebraicSolver:
         return MISS
 
     def _exactly(self, ray: Sequence[Any], ends: tuple[End, End], reach: float, t_min: float) -> FirstHit:
-        """No rounding but in comparing roots with irrational clip ends, which are told apart or proved equal."""
+        """Return the first hit by exact arithmetic.
+
+        Balls are used only to compare roots with irrational clip ends, which are told apart or proved equal. Raises
+        Undecidable if 4096 bits do not tell.
+        """
         inputs = [surd.Surd(fmpq_poly([o, d])) for o, d in zip(ray[:3], ray[3:], strict=True)]
         assert self.surds is not None
         p = self.program.run(inputs, self.surds, {})
@@ -110,7 +115,7 @@ class AlgebraicSolver:
         scaled = parts.carrier(fmpq_poly([rational(start), rational(width)]))
         if scaled.degree() <= 0:
             return MISS
-        while not scaled[0] or not sum(scaled.coeffs()):  # a root at an end of the frame: a wider frame
+        while not scaled[0] or not sum(scaled.coeffs()):  # a root is at an end of the frame: take a wider one
             start, width = start - width, 3.015625 * width
             scaled = parts.carrier(fmpq_poly([rational(start), rational(width)]))
         whole = [int(c) for c in scaled.numer().coeffs()]
@@ -128,7 +133,7 @@ class AlgebraicSolver:
 
 
 def _frame(enter: Any, leave: Any, reach: float) -> tuple[float, float]:
-    """Floats start, width so that [start, start + width] holds the clip interval well inside."""
+    """Return floats start and width such that [start, start + width] holds the clip interval well inside."""
     lower, upper = float(enter.lower()), float(leave.upper())
     room = (upper - lower) * 0.0137 + reach * 2.0**-30 + max(abs(lower), abs(upper)) * 2.0**-48
     start = lower - room
@@ -136,10 +141,13 @@ def _frame(enter: Any, leave: Any, reach: float) -> tuple[float, float]:
 
 
 def _integers(p: Any, bits: int) -> tuple[list[int], int]:
-    """Bernstein coefficients of an arb_poly as integers with their error, in a common unit."""
+    """Return the Bernstein coefficients of an arb_poly as integers, and a bound of their errors, in a common unit.
+
+    Raises Undecidable if the polynomial may be zero.
+    """
     parts = [(c.mid().man_exp(), c.rad().man_exp()) for c in p.coeffs()]
     top = max((int(e) + int(m).bit_length() for (m, e), _ in parts if m), default=0)
-    unit = top - bits - 8  # the exponent of the integers' unit
+    unit = top - bits - 8  # the exponent of the unit
     whole, error = [], 0
     for (mantissa, exponent), (radius, radius_exponent) in parts:
         shift = int(exponent) - unit
@@ -154,32 +162,33 @@ def _integers(p: Any, bits: int) -> tuple[list[int], int]:
 
 
 class _Line:
-    """A polynomial in s where t = start + width·s, and its roots as balls of t."""
+    """A polynomial in s, where t = start + width·s, whose roots are returned as balls of t."""
 
     def __init__(self, p: Any, start: float, width: float, reach: float, exact: Any = None) -> None:
         self.p = p
-        self.exact = exact  # the fmpq_poly that `p` rounds, where there is one
+        self.exact = exact  # the fmpq_poly of which `p` is the rounded one, or None
         self.slope = p.derivative()
         self.start = start
         self.width = width
         self.reach = reach  # the domain's radius in units of t
 
     def at_precision(self) -> _Line:
-        """The same line with its exact polynomial rounded at the current precision."""
+        """Return the same line with its exact polynomial rounded at the current precision."""
         return _Line(arb_poly(self.exact), self.start, self.width, self.reach, self.exact)
 
     def ends(self, bracket: Bracket) -> tuple[Any, Any]:
-        """The bracket's ends as balls of t."""
+        """Return the bracket's ends as balls of t."""
         return self.t(arb((bracket.lower, -bracket.exponent))), self.t(arb((bracket.upper, -bracket.exponent)))
 
     def t(self, s: Any) -> Any:
+        """Return the t of a ball s."""
         return arb(self.start) + arb(self.width) * s
 
     def refine(self, bracket: Bracket, bits: int) -> Any:
-        """The bracket's root as a ball of t, narrower than the domain's radius · 2^-(bits·7/16).
+        """Return the bracket's root as a ball of t, narrower than the domain's radius · 2^-(bits·7/16).
 
-        Interval Newton, and bisection where the slope may vanish: both only cut away what holds no root. Raises
-        Undecidable where the polynomial is not known well enough for that.
+        It takes interval Newton steps, and bisects where the slope may vanish; both cut away only what holds no root.
+        Raises Undecidable if the polynomial is not known well enough.
         """
         target = ldexp(self.reach, -(bits * 7 // 16)) / self.width
         lower, upper = arb((bracket.lower, -bracket.exponent)), arb((bracket.upper, -bracket.exponent))  # exact
@@ -198,7 +207,7 @@ class _Line:
                 if 4 * (tighter[1] - tighter[0]) < 3 * gap:
                     lower, upper = tighter
                     continue
-            if value.contains(0):  # perhaps the root itself
+            if value.contains(0):  # the middle may be the root itself
                 middle = (lower + gap * fmpq(3, 8)).mid()
                 value = self.p(middle)
             if value.contains(0) or not (lower < middle and middle < upper):
@@ -210,7 +219,10 @@ class _Line:
 
 
 def _multiplicity(line: _Line, bracket: Bracket, parts: Split) -> int:
-    """How often the bracket's root of the carrier is a root of p; 0 where it belongs to p's conjugate alone."""
+    """Return the multiplicity in p of the carrier's root in a bracket; 0 if it is a root of p's conjugate only.
+
+    Raises Undecidable if no precision tells.
+    """
     lower, upper = (
         rational(line.start) + rational(line.width) * fmpq(e, 1 << bracket.exponent)
         for e in (bracket.lower, bracket.upper)
@@ -226,7 +238,10 @@ def _multiplicity(line: _Line, bracket: Bracket, parts: Split) -> int:
 
 
 def _belongs_to_conjugate(line: _Line, bracket: Bracket, q: Surd) -> bool:
-    """A root of q·q̄ is a root of exactly one of them: raise the precision until the other one is not zero there."""
+    """Return whether a root of q·q̄ is one of q̄. It is a root of exactly one of the two.
+
+    The precision is raised until the other one is proved not to vanish there. Raises Undecidable if none tells.
+    """
     for bits in PRECISIONS:
         with precision(bits):
             try:
@@ -241,7 +256,10 @@ def _belongs_to_conjugate(line: _Line, bracket: Bracket, q: Surd) -> bool:
 
 
 def _place(line: _Line, bracket: Bracket, carrier: Any, ends: tuple[End, End]) -> tuple[int, Any]:
-    """−1, 0 or +1: before, in or after the closed clip interval; and the root as a ball of t."""
+    """Return where the root in a bracket lies, and the root as a ball of t.
+
+    −1, 0 and +1 stand for before, in and after the closed clip interval. Raises Undecidable if no precision tells.
+    """
     at_end = [end.is_root_of(carrier) for end in ends]
     for bits in PRECISIONS:
         with precision(bits):
@@ -251,7 +269,7 @@ def _place(line: _Line, bracket: Bracket, carrier: Any, ends: tuple[End, End]) -
                 continue
             enter, leave = (end.ball() for end in ends)
             lower, upper = line.ends(bracket)
-            # the bracket holds one root of the carrier: an end of the clip interval that is a root in it is that root
+            # the bracket holds one root of the carrier: a clip end in it that is a root of the carrier is that root
             if any(root and lower < e and e < upper for root, e in zip(at_end, (enter, leave), strict=True)):
                 return 0, t
             if t < enter:

@@ -1,7 +1,7 @@
-"""Polynomials in t over Q(√d), exact: a + b·√d with a, b in Q[t] and d a square-free integer (0 for plain rationals).
+"""Exact polynomials in t over Q(√d): a + b·√d with a, b in Q[t] and d a square-free integer (0 for plain rationals).
 
-Enough for every surface whose coefficients are rational or lie in one quadratic field: Barth's golden ratio,
-Endraß's √2. Other constants raise NotExact, and the oracle stays with balls.
+They serve every surface whose coefficients are rational or lie in one quadratic field, such as Barth's with the golden
+ratio or Endraß's with √2. Other constants raise NotExact; the oracle then uses balls.
 """
 
 from __future__ import annotations
@@ -20,11 +20,11 @@ ZERO = fmpq_poly(0)
 
 
 class NotExact(Exception):
-    """A constant outside one quadratic field."""
+    """Says that a number does not lie in one quadratic field."""
 
 
 class Surd:
-    """a + b·√d."""
+    """A polynomial a + b·√d; `a` and `b` are fmpq_poly."""
 
     __slots__ = ("a", "b", "d")
 
@@ -34,6 +34,7 @@ class Surd:
         self.d = d
 
     def field(self, other: Surd) -> int:
+        """Return d of the field that holds both. Raises NotExact if there is none."""
         if self.d and other.d and self.d != other.d:
             raise NotExact(f"√{self.d} beside √{other.d}")
         return self.d or other.d
@@ -54,7 +55,7 @@ class Surd:
         return Surd(self.a * other.a + d * self.b * other.b, self.a * other.b + self.b * other.a, d)
 
     def __truediv__(self, other: Surd) -> Surd:
-        """Only by constants."""
+        """Divide by a constant. Raises NotExact for a divisor that is none."""
         if other.a.degree() > 0 or other.b.degree() > 0:
             raise NotExact("division by a polynomial")
         norm = (other.a * other.a - other.d * other.b * other.b)[0]
@@ -74,7 +75,7 @@ class Surd:
 
 
 def leaf(expr: sympy.Expr) -> Surd:
-    """A rational or the golden ratio; anything else raises NotExact."""
+    """Return a rational or the golden ratio as a surd. Raises NotExact for anything else."""
     import sympy
 
     if expr.is_Rational:
@@ -85,7 +86,7 @@ def leaf(expr: sympy.Expr) -> Surd:
 
 
 def sqrt(value: Surd) -> Surd:
-    """√ of a non-negative rational constant."""
+    """Return the square root of a non-negative rational constant. Raises NotExact for anything else."""
     if value.d or value.a.degree() > 0 or value.a[0] < 0:
         raise NotExact("nested root")
     number = value.a[0]
@@ -109,9 +110,9 @@ FUNCTIONS: Functions = {
 
 @dataclass(frozen=True)
 class Split:
-    """An exact polynomial p = g·q (g rational, q coprime to its conjugate), as real roots see it.
+    """An exact polynomial p = g·q, g rational and q coprime to its conjugate, in the form in which roots are isolated.
 
-    `carrier` is square-free over Q and vanishes at every root of p (and perhaps at roots of the conjugate of q).
+    `carrier` is square-free over Q. It vanishes at every root of p, and perhaps at roots of the conjugate of q.
     """
 
     carrier: Any  # fmpq_poly
@@ -121,8 +122,10 @@ class Split:
 
 
 def split(p: Surd) -> Split:
-    """**Theory.** With p = a + b√d and g = gcd(a, b), q = p/g has coprime a/g, b/g, so q and its conjugate share no
-    root; the norm q·q̄ is rational and has each root of q with q's own multiplicity. p must not be zero.
+    """Return the split of a polynomial p, which must not be zero.
+
+    **Theory.** With p = a + b√d and g = gcd(a, b), q = p/g has coprime a/g and b/g, so that q and its conjugate share
+    no root. The norm q·q̄ is rational and has each root of q with the multiplicity that it has in q.
     """
     g = p.a.gcd(p.b)
     q = Surd(p.a / g, p.b / g, p.d)
@@ -134,6 +137,7 @@ def split(p: Surd) -> Split:
 
 
 def _square_free_factors(p: Any) -> tuple[tuple[Any, int], ...]:
+    """Return the square-free factors of an fmpq_poly with their multiplicities."""
     if p.degree() <= 0:
         return ()
     _, factors = p.numer().factor_squarefree()

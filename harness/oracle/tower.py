@@ -1,12 +1,12 @@
-"""Functions of t built from rational polynomials by square roots, exact: sums of polynomials times products of roots.
+"""Exact functions of t built from rational polynomials by square roots: sums of polynomials times products of roots.
 
-**Theory.** A tower is a list of radicals r_k = √g_k, each g_k written with rational polynomials in t and earlier ones.
-An element is e = a + b·r_k with the last radical it holds taken out; e times its conjugate a − b·r_k is a² − b²·g_k,
-free of r_k, and so on down to a rational polynomial that vanishes wherever e does. On a cell, an open interval of t on
-which every g_k is positive, elements are analytic functions without divisors of zero: if a² − b²·g_k vanishes
-identically, so does e or its conjugate; and if a does not, exactly one of them, and a value other than 0 tells which.
-The same argument at one number t, where elements are real numbers, decides whether e is 0 there. Constants such as √2
-are radicals too.
+**Theory.** A tower is a list of radicals r_k = √g_k, where g_k is written in rational polynomials of t and earlier
+radicals. An element can be written as e = a + b·r_k, where r_k is the last radical that it holds. e times its conjugate
+a − b·r_k is a² − b²·g_k, which does not hold r_k. Repeated, this leads to a rational polynomial that vanishes wherever
+e does. A cell is an open interval of t on which every g_k is positive. There elements are analytic functions, and a
+product is identically 0 only if a factor is. So if a² − b²·g_k vanishes identically, e or its conjugate does; if a does
+not, only one of the two does, and a value other than 0 tells which. The same argument at a single number t, where
+elements are real numbers, decides whether e is 0 there. Constants such as √2 are radicals too.
 """
 
 from __future__ import annotations
@@ -19,17 +19,19 @@ from harness.oracle.bernstein import Undecidable
 from harness.oracle.points import Point, between
 from harness.oracle.reals import precision, root
 
-Element = dict[int, Any]  # fmpq_poly by the set of radicals, a bit mask, that it is multiplied by; none of them 0
+Element = dict[int, Any]  # by bit masks, which are sets of radicals: the fmpq_poly, not 0, that their product has
 PRECISIONS = (96, 384, 1536)
-MOST_RADICALS = 12  # of one function; beyond, its polynomials grow out of hand
-SAMPLES = 8  # points of a cell tried where a function is nearly 0
+MOST_RADICALS = 12  # of one function; with more, its polynomials become too large
+SAMPLES = 8  # points of a cell that are tried if a function is nearly 0
 
 
 def constant(value: Any) -> Element:
+    """Return a rational as an element."""
     return {0: fmpq_poly([value])} if value else {}
 
 
 def add(x: Element, y: Element) -> Element:
+    """Return the sum."""
     result = dict(x)
     for mask, p in y.items():
         total = result[mask] + p if mask in result else p
@@ -41,11 +43,12 @@ def add(x: Element, y: Element) -> Element:
 
 
 def neg(x: Element) -> Element:
+    """Return the opposite."""
     return {mask: -p for mask, p in x.items()}
 
 
 def parted(x: Element) -> tuple[Element, Element, int]:
-    """a, b and k of x = a + b·r_k; x must hold a radical."""
+    """Return a, b and k of x = a + b·r_k; x must hold a radical."""
     k = max(x).bit_length() - 1
     return (
         {mask: p for mask, p in x.items() if not mask >> k & 1},
@@ -55,7 +58,7 @@ def parted(x: Element) -> tuple[Element, Element, int]:
 
 
 class Tower:
-    """Radicals on one cell, and the exact questions about elements there."""
+    """The radicals on one cell, and exact answers about elements there."""
 
     def __init__(self, first: Point, last: Point) -> None:
         self.first = first
@@ -64,6 +67,7 @@ class Tower:
         self.sample = between(first, last)
 
     def mul(self, x: Element, y: Element) -> Element:
+        """Return the product."""
         result: Element = {}
         for m, p in x.items():
             for n, q in y.items():
@@ -75,7 +79,7 @@ class Tower:
         return result
 
     def radical(self, square: Element) -> Element:
-        """√square, positive on the cell."""
+        """Return √square, where `square` is positive on the cell. Raises Undecidable beyond MOST_RADICALS."""
         if square not in self.squares:
             if len(self.squares) == MOST_RADICALS:
                 raise Undecidable("too many roots")
@@ -83,16 +87,17 @@ class Tower:
         return {1 << self.squares.index(square): fmpq_poly([1])}
 
     def norm(self, x: Element) -> Element:
-        """x times its conjugate: without x's last radical."""
+        """Return x times its conjugate, which does not hold x's last radical."""
         a, b, k = parted(x)
         return add(self.mul(a, a), neg(self.mul(self.mul(b, b), self.squares[k])))
 
     def conjugate(self, x: Element) -> Element:
+        """Return a − b·r_k of x = a + b·r_k."""
         a, b, k = parted(x)
         return add(a, neg({mask | 1 << k: p for mask, p in b.items()}))
 
     def ball(self, x: Element, t: Any) -> Any:
-        """x at the ball `t`, in the closed cell, at the current precision."""
+        """Return x at the ball `t` in the closed cell, as a ball at the current precision."""
         radicals = {0: arb(1)}
         for k, square in enumerate(self.squares):
             if x and max(x) >> k:
@@ -100,7 +105,7 @@ class Tower:
         return _sum(x, radicals, t)
 
     def zeros(self, x: Element) -> Any:
-        """A rational polynomial, not 0, that vanishes wherever x does on the cell; None where x is 0 all over it."""
+        """Return a fmpq_poly, not 0, that vanishes wherever x does on the cell; None if x is 0 all over the cell."""
         if not x:
             return None
         if max(x) == 0:
@@ -112,10 +117,13 @@ class Tower:
         of_a = self.zeros(a)
         if of_a is None or not self._is_not_conjugate(x):
             return None
-        return of_a  # the conjugate is 0 all over: x = 2a
+        return of_a  # the conjugate is 0 all over, so that x = 2a
 
     def _is_not_conjugate(self, x: Element) -> bool:
-        """Tell whether x's conjugate is 0 all over the cell, where exactly one of the two is."""
+        """Return whether it is x's conjugate that is 0 all over the cell, and not x; exactly one of them must be.
+
+        Raises Undecidable if neither is proved to have another value.
+        """
         other = self.conjugate(x)
         for k in range(SAMPLES):
             at = self.sample + (self.last.lower - self.sample) * fmpq(k, SAMPLES + 1)
@@ -128,7 +136,7 @@ class Tower:
         raise Undecidable("a function was not told from its conjugate")
 
     def sign(self, x: Element) -> int:
-        """Return the sign of x, which has no root in the cell."""
+        """Return the sign of x, which must have no root in the cell. Raises Undecidable if no precision tells."""
         for bits in PRECISIONS:
             with precision(bits):
                 value = self.ball(x, arb(self.sample))
@@ -137,7 +145,7 @@ class Tower:
         raise Undecidable("a sign was not found")
 
     def vanishes_at(self, x: Element, t: Point) -> bool:
-        """Whether x is 0 at a point of the closed cell."""
+        """Return whether x is 0 at a point of the closed cell. Raises Undecidable if no precision tells."""
         if not x:
             return True
         if max(x) == 0:
@@ -151,7 +159,7 @@ class Tower:
             return False
         if self.vanishes_at(a, t):
             return True
-        other = self.conjugate(x)  # not x's opposite, since a is not 0: one of the two is 0
+        other = self.conjugate(x)  # a is not 0, so that exactly one of x and its conjugate is 0
         for bits in PRECISIONS:
             if not self._may_vanish(x, t, bits):
                 return False
@@ -160,12 +168,14 @@ class Tower:
         raise Undecidable("a number was not told from its conjugate")
 
     def _may_vanish(self, x: Element, t: Point, bits: int) -> bool:
+        """Return whether balls of `bits` leave open that x is 0 at a point."""
         t.refine(fmpq(1, 1 << (bits // 2)))
         with precision(bits):
             return bool(self.ball(x, t.ball()).contains(0))
 
 
 def _sum(x: Element, radicals: dict[int, Any], t: Any) -> Any:
+    """Return x at the ball `t`, given the radicals' values there."""
     total = arb(0)
     for mask, p in x.items():
         term = arb_poly(p)(t)

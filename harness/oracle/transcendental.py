@@ -1,9 +1,9 @@
-"""The first hit of one ray with a surface that is not a polynomial: ranges in ball arithmetic, then exact arithmetic.
+"""Finds the first hit of one ray with a surface that is no polynomial: by ranges in ball arithmetic, then exactly.
 
-Crossings and misses are proved as in `range64`, with rising precision. Touches, hits at kinks and where a square root's
-argument is 0, and hits exactly at a clip end are decided by `piecewise`, on the short pieces that ranges leave open, if
-f is made of polynomials, quotients, square roots, abs, min and max; with other functions, or pi and e, such rays stay
-undecided.
+Crossings and misses are proved as in `range64`, with rising precision. Touches, hits at kinks or where a square root's
+argument is 0, and hits exactly at a clip end are decided by `piecewise` on the short pieces that ranges leave open, if
+f is made of polynomials, quotients, square roots, abs, min and max. With other functions, or with pi or e, such rays
+stay undecided.
 """
 
 from __future__ import annotations
@@ -29,14 +29,14 @@ if TYPE_CHECKING:
     import sympy
 
 PRECISIONS = (80, 256)
-OPEN = 2.0**-28  # width of pieces, in domain radii, that exact arithmetic decides if ranges have not
-MOST_PIECES = 3000  # looked at for one ray and precision
-NARROW = 2.0**-50  # width of certified intervals, in domain radii
+OPEN = 2.0**-28  # the width, in domain radii, below which pieces that ranges leave open are decided exactly
+MOST_PIECES = 3000  # that are tried for one ray and precision
+NARROW = 2.0**-50  # the width of certified intervals, in domain radii
 
 
 @dataclass
 class SmoothSolver:
-    """First hits of single rays with the surface `expr` = 0."""
+    """Finds first hits of single rays with the surface `expr` = 0."""
 
     expr: sympy.Expr
     domain: Domain
@@ -47,7 +47,7 @@ class SmoothSolver:
         self.constants: dict[int, list[Any]] = {}
 
     def first_hit(self, ray: Sequence[float], t_min: float = 0.0) -> FirstHit:
-        """`ray`: six floats, like `t_min` taken as the exact rationals they are."""
+        """Return the first hit of a ray, six floats. They and `t_min` are taken as exact rationals."""
         exact_ray = [rational(v) for v in ray]
         ends = clip_exactly(self.domain, exact_ray, t_min)
         if ends is None:
@@ -68,7 +68,7 @@ class SmoothSolver:
 
 
 class _Search:
-    """One ray at one precision; `scale` is the domain's radius in units of t."""
+    """The search on one ray at one precision; `scale` is the domain's radius in units of t."""
 
     def __init__(
         self, program: Program, constants: list[Any], ray: Sequence[float], scale: float, t_min: float
@@ -81,17 +81,20 @@ class _Search:
         self.t_min = t_min
 
     def value(self, t: Any) -> Any:
+        """Enclose f at the ball `t`."""
         return self.program.run([o + d * t for o, d in self.axes], self.constants, reals.FUNCTIONS)
 
     def range(self, t: Any) -> Dual:
+        """Enclose f and its slope over the ball `t`."""
         inputs = [Dual(o + d * t, d) for o, d in self.axes]
         result: Dual = self.program.run(inputs, self.duals, DUAL_FUNCTIONS)
         return result
 
     def first_hit(self, ends: tuple[End, End], floor: float, exact: PiecewiseSolver | None) -> FirstHit:
-        """Pieces from front to back; one that stays open below the width `floor` is left to `exact`.
+        """Return the first hit, from pieces tried from front to back.
 
-        Raises Undecidable without it.
+        A piece narrower than `floor` that stays open is left to `exact`. Raises Undecidable if that is None, and if
+        there are too many pieces.
         """
         enter, leave = (end.ball() for end in ends)
         room = self.scale * 2.0**-20 + abs(float(leave)) * 2.0**-40
@@ -105,7 +108,7 @@ class _Search:
             try:
                 root = self.single_root(lower, upper)
                 narrow = root is not None or upper - lower < floor
-            except Undecidable:  # there is a root, not known narrowly enough at this precision
+            except Undecidable:  # it has a root, which this precision does not narrow enough
                 root, narrow = None, True
             if not narrow:
                 middle = (lower + (upper - lower) * 0.484375).mid()
@@ -123,11 +126,13 @@ class _Search:
         raise Undecidable("too many pieces")
 
     def decide(self, exact: PiecewiseSolver | None, lower: Any, upper: Any) -> FirstHit | None:
+        """Return the first hit in a piece by exact arithmetic, None if there is none. Raises Undecidable."""
         if exact is None:
             raise Undecidable("a piece stays open, or a root may lie at an end")
         return exact.first_hit(lower.fmpq(), upper.fmpq(), self.scale * NARROW)
 
     def is_empty(self, lower: Any, upper: Any) -> bool:
+        """Return whether a piece is proved to hold no root."""
         whole = lower.union(upper)
         f = self.range(whole)
         if not f.value.contains(0):
@@ -136,7 +141,10 @@ class _Search:
         return not (self.value(middle) + f.slope * (whole - middle)).contains(0)
 
     def single_root(self, lower: Any, upper: Any) -> Any:
-        """The root as a ball of t, or None where the piece is not proved to hold exactly one with opposite signs."""
+        """Return the root of a piece as a ball of t; None if it is not proved to hold exactly one with opposite signs.
+
+        Raises Undecidable if the root is not narrowed to NARROW.
+        """
         if self.range(lower.union(upper)).slope.contains(0):
             return None
         first, last = self.value(lower), self.value(upper)
@@ -173,7 +181,7 @@ def _ratio(slope: Any, root: Any) -> Any:
 
 
 def _share(part: Any, whole: Any) -> Any:
-    """part / whole, of which |part| <= whole is known."""
+    """Enclose part / whole where |part| <= whole is known."""
     share = part / whole
     return share if abs(share) <= 1 else arb(0, 1)
 

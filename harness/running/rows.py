@@ -7,14 +7,14 @@ from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from typing import Any
 
-from harness.contract import CellStatus, Method, Surface, View
+from harness.contract import CellStatus, Method, Surface
 from harness.devices.interface import Timing
 from harness.devices.messages import Warmed
+from harness.experiment.kinds import of_method
 from harness.experiment.plan import Planned
 from harness.kernels.costs import operations_per_evaluation
 from harness.results import timings
 from harness.results.store import Row
-from harness.scenes.camera import distance_of
 
 
 @dataclass(eq=False)
@@ -64,7 +64,7 @@ def row_of(
     environment: Mapping[str, Any],
 ) -> Row:
     """Build the row of a cell that ended now; `left` is None for one that was skipped or not tried."""
-    cell = planned.cell
+    cell, own = planned.cell, planned.kind.facts(planned.cell)
     programs = ((planned.timed,) if planned.timed else ()) + planned.checks
     return {
         "key": planned.key,
@@ -79,7 +79,7 @@ def row_of(
         "degree": cell.surface.degree,
         "view": cell.view.name,
         "view_set": cell.view.set,
-        "camera": None if cell.family else _pose(cell.view, cell.surface),
+        "camera": own["camera"],
         "size": cell.size,
         "samples_per_pixel": cell.samples_per_pixel,
         "precision": cell.precision,
@@ -88,10 +88,10 @@ def row_of(
         "answers": method.answers,
         "casts": method.casts,
         "prepass": cell.prepass,
-        "origin": cell.origin if method.casts == "rays" else None,
-        "proxy": cell.proxy if cell.stage == "raster" else None,
-        "normal": cell.normal if cell.stage == "raster" else None,
-        "pixel_tolerance": cell.tolerance if cell.stage == "raster" else None,
+        "origin": of_method(method).told_origin(cell.origin),
+        "proxy": own["proxy"],
+        "normal": own["normal"],
+        "pixel_tolerance": own["pixel_tolerance"],
         "scene": cell.scene.family if cell.scene else None,
         "instances": cell.scene.instances if cell.scene else None,
         "status": status.value,
@@ -145,12 +145,6 @@ def build_of(warmed: Warmed | None, checked_ms: float) -> dict[str, Any]:
         "readback_ms": warmed.readback_ms if warmed else None,
         "bytes": warmed.bytes if warmed else None,
     }
-
-
-def _pose(view: View, surface: Surface) -> dict[str, float]:
-    """Degrees, and the distance from the target in scene units, also where the view leaves it to the surface."""
-    distance = distance_of(view, surface)
-    return {"azimuth": view.azimuth, "elevation": view.elevation, "fov": view.fov, "distance": distance}
 
 
 def _operations(surface: Surface) -> dict[str, int]:

@@ -23,16 +23,16 @@ case of the sum of three errors:
 - The rounding errors of the fit, computed from its samples.
 - The rounding errors of each halving.
 
-A piece stays open while the bound leaves the sign of a coefficient that decides in doubt. After TRUSTED halvings, a
-piece that is open or has several changes of sign is sampled and fitted anew. The errors are then those of the piece's
-own surroundings, not those of the far ends of the ray, where f is a thousand times larger. Where the new fit is noise
-too (NOISE), where the piece is the shortest allowed, or after FITS fits, the signs of f decide: at the samples, and
-where the fit has its minimum.
+A piece stays open as long as signs that decide about it are not certain. After TRUSTED halvings, a piece that is open
+or has several changes of sign is sampled and fitted anew. The errors are then those of the piece's own surroundings,
+not those of the far ends of the ray, where f is a thousand times larger. In three cases the signs of f decide instead,
+at the samples and where the fit has its minimum: where all coefficients of a new fit are below NOISE error bounds,
+where the piece is the shortest allowed, and after FITS fits.
 
-The error of a refined root is mostly the error of the computed values of f near it, divided by f's slope. That error is
-another one at each neighbouring float, so a mean over several points reduces it. The last Newton step therefore uses
-the mean of f over PAIRS pairs of points on both sides of the root, a few unit roundoffs apart. This reduces the median
-error to two thirds with 2 pairs (the default), and to half with 16 pairs.
+The error of a refined root is mostly the error of the computed values of f near it, divided by f's slope. That error
+changes from each floating-point number t to the next like noise, so a mean over several points reduces it. The last
+Newton step therefore uses the mean of f over PAIRS pairs of points on both sides of the root, a few unit roundoffs
+apart. This reduces the median error to two thirds with 2 pairs (the default), and to half with 16 pairs.
 
 **What is promised** A hit is a place where the computed value of f changes its sign. So false hits occur on drowned
 rays only, on which |f| falls below the bound of its own rounding errors. The method does not require |f| to leave that
@@ -46,9 +46,10 @@ the catalog, on a million where asked; ten million have been checked.
 A touch is answered as a miss, since f does not change its sign there, or as a hit at the touch where rounding makes f
 cross. Other roots can be lost only inside the error bound: pairs of roots between which |f| stays below its own noise.
 
-On the families of hard rays no other float32 method holds out longer. In float64 the default TOLERANCE stops Newton's
-steps too early among roots that lie close together, and six families break the method one or two rungs before others.
-With TOLERANCE = 2^-30 it is right on all 14,727 rays that float64 can decide.
+On the families of hard rays (configs/stability.toml: rays that become harder from rung to rung) no other float32 method
+holds out longer. In float64 the default TOLERANCE stops Newton's steps too early among roots that lie close together,
+and six families break the method one or two rungs before others break. With TOLERANCE = 2^-30 it is right on all 14,727
+rays that float64 can decide.
 
 **Changes against the paper** There is no paper of the whole. Against the parts it is made of:
 - When a piece without a root has been passed, the coefficients of what lies behind it are not restored from
@@ -72,13 +73,13 @@ prepass of beams before bernstein alone 2.5 and 6.7; with beams before both 1.8 
 percentile of its error is no larger than eft_yuksel's on any of the five (on the octic 6.5e-6 of the radius against
 7.3e-6). Without beams it is 7.9e-6 on the octic, and smaller than eft_yuksel's elsewhere.
 
-On opencl:intel the rays of a vector wait for the one among them that is fitted most often. Sampling, fitting and the
-last steps take from a quarter (decic) to over a half (calyx) of the time. So if isolation cost nothing, the factor over
-eft_yuksel would be 5.8 in the mean.
+On opencl:intel the rays that run together as lanes of one vector wait for the one among them that is fitted most often.
+Sampling, fitting and the last steps take from a quarter (decic) to over a half (calyx) of the time. So if isolation
+cost nothing, the factor over eft_yuksel would be 5.8 in the mean.
 
-The method is on the front of speed and largest error on all twelve surfaces of degree 5 and more, on both devices and
-at both sizes. Of the surfaces of lower degree it is on the front of all but the horn torus (analytic and newton are
-there) and, at 512x512, the spindle torus (newton is there).
+The method is on the front of speed and largest error (no other method is better in both) on all twelve surfaces of
+degree 5 and more, on both devices and at both sizes. Of the surfaces of lower degree it is on the front of all but the
+horn torus (analytic and newton are there) and, at 512x512, the spindle torus (newton is there).
 
 **What was tried** Times over those of the default, float32, unless a row says otherwise. Above 1 is slower.
 

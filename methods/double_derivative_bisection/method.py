@@ -56,7 +56,7 @@ PIECES = 16  # parts of a side of a cube's face, in each direction
 
 @lru_cache(maxsize=128)
 def leads_positively(surface: Surface) -> bool:
-    """Returns whether f's terms of degree 4 are proved positive in every direction d, so that f(o + t d) has a > 0."""
+    """Return whether f's terms of degree 4 are proved positive in every direction d, so that f(o + t d) has a > 0."""
     import flint
 
     from surfaces import tape_of

@@ -19,14 +19,15 @@ wide beam has wide boxes, which cannot bound f well however short they are in de
   for bit, except for pieces that rounding tells apart.
 - DESCENT = 0 (setting "Adaptive") is the paper's descent. Each quarter halves [w, far] anew, down to pieces less than ε
   deep, where w is the nearest depth of its parent's piece. w is kept in steps of 2^-23 of the depth T, rounded towards
-  the eye. The paper prints no ε. With ours, ε = T √2 / 2^(level + BISECTIONS), pieces are 0.7 to 1.4 times as deep as
-  interval_uniform's. Evaluations of interval_uniform over this method's at 256x256 are 1.26 on the sphere and 1.72 on
-  the tangle. With the largest and the smallest ε that leave interval_uniform's pieces as they are, they are 1.38 and
-  1.22 on the sphere, and 1.89 and 1.58 on the tangle.
+  the eye. The paper prints no ε. With ours, ε = T √2 / 2^(level + BISECTIONS), where the whole image is level 0, pieces
+  are 0.7 to 1.4 times as deep as interval_uniform's. Evaluations of interval_uniform over this method's at 256x256 are
+  1.26 on the sphere and 1.72 on the tangle. With the largest and the smallest ε that leave interval_uniform's pieces as
+  they are, they are 1.38 and 1.22 on the sphere, and 1.89 and 1.58 on the tangle.
 - FIRST_LEVEL: the paper starts at the level that "fills the GPU". Here that is the first level with 1,024 cells for
   each compute unit of a GPU, or with one work group for each unit of a processor. FIRST_LEVEL sets another.
 - GROUPED: the paper groups threads by the places of their beams, and does not say how. Here the first level's cells lie
-  in Z order (row by row with GROUPED = 0), and the four quarters of a cell lie side by side.
+  in Z order, which keeps neighbours together (row by row with GROUPED = 0), and the four quarters of a cell lie side by
+  side.
 - REMAP: remapping threads by the position of beams relative to the surface is the paper's future work. Ours puts the
   quarters of cells with a long search behind all others.
 - The queue holds the cells that were not empty, as three integers each. Work items of the next level take their
@@ -61,8 +62,8 @@ sphere's, the second the tangle's.
                                                             level decides
     evaluations of interval_uniform over this method's,     1.30, 1.29, 1.23 / 2.00, 1.94, 1.68                 -
       at first levels 4, 7 and 8, as printed
-    the same with DESCENT = 1; a first level just above     3.36, 3.05, 2.24 / 2.45, 2.33, 1.92                 -
-      the pixels' keeps most of the gain
+    the same with DESCENT = 1                               3.36, 3.05, 2.24 / 2.45, 2.33, 1.92: a first level  -
+                                                            just above the pixels' keeps most of the gain
     REMAP = 16, as printed                                  0.98 to 1.04 times as fast on sphere, octdong,      no
                                                             steiner and tangle; of 32 lanes 23 to 42 % are
                                                             idle, not 27 to 44 %
@@ -87,7 +88,7 @@ METHOD = Method(
         Parameter(
             "BISECTIONS",
             1,
-            "a level's last piece is the domain's depth / 2^(level + BISECTIONS) deep; level 0 is the whole image",
+            "depth of a level's last piece: the domain's depth / 2^(level + BISECTIONS); level 0 is the whole image",
         ),
         Parameter(
             "DESCENT",

@@ -79,7 +79,8 @@ METHOD = Method(
         Parameter(
             "BISECTIONS",
             1,
-            "the last piece is the domain's depth / 2^(n + BISECTIONS) deep; 2^n pixels hold the image's side",
+            "depth of the last piece: the domain's depth / 2^(n + BISECTIONS), for an image of at most "
+            "2^n pixels a side",
         ),
         Parameter("GROUPED", 1, "order of pixels over work items; 1: Z order; 0: row by row"),
     ),

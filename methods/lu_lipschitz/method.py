@@ -7,11 +7,12 @@ changed its sign, one secant step gives the hit.
 **Source** szente, section 3 (equations 2 and 5 to 8) and Table 5; the fit of section 2.1, in the Bernstein basis.
 
 **Theory** Where f falls towards 0 by no more than L per unit of length, it has no root within |f| / L, so a step of
-this length passes none. L is a bound of the derivative of the fitted polynomial. Two bounds exist. With BOUND = 0 it is
-the least control point (equation 2). With BOUND = 1 it is the minimum of the LU function (equation 5): this curve is
-nowhere above the polynomial, and its minimum has a closed form (equation 8). Where the same kind of bound keeps f
-itself away from 0 on the whole ray, the ray is a miss at once (CULL = 1). The shortest step is TOLERANCE. Such a step
-passes the root at last, so two roots that are closer to each other than TOLERANCE can be missed.
+this length passes none. Let f be positive at the ray's start (otherwise -f is used). Then -L is a lower bound of the
+derivative of the fitted polynomial. There are two such bounds: the least control point (equation 2, BOUND = 0), and the
+minimum of the lower LU function (equation 5, BOUND = 1). The latter is nowhere above the polynomial, and its minimum is
+known in closed form (equation 8). Where the same kind of bound keeps f itself away from 0 on the whole ray, the ray is
+a miss at once (CULL = 1). The shortest step is TOLERANCE. Such a step passes the root at last, so two roots that are
+closer to each other than TOLERANCE can be missed.
 
 **Changes against the paper**
 - LOCAL: the paper uses one bound for the whole ray (LOCAL = 0). Its section 3 ends with the remark that a curve whose
@@ -40,22 +41,23 @@ passes the root at last, so two roots that are closer to each other than TOLERAN
 
 **Evaluations counted** Evaluations of f.
 
-**What true bounds cost** TRUST = 1/16 against an allowance of 8 n unit roundoffs of the largest coefficient, where n is
-the degree. On most rays of high degree the samples' rounding errors exceed that allowance, so it is no bound. float32,
-azimuth 30° and elevation 35°. Evaluations a ray are at 96x96; times are ratios, both measured in one run by turns. With
-TRUST = 1 the octic takes 600 evaluations a ray. In float64 nothing changes.
+**What true bounds cost** TRUST = 1/16 is compared with a plain allowance of 8 n unit roundoffs of the largest
+coefficient, where n is the degree. The allowance is no bound: on most rays of high degree the samples' rounding errors
+exceed it. float32, azimuth 30° and elevation 35°. Evaluations a ray are at 96x96. Times are those with TRUST over those
+with the allowance, both measured in one run by turns. With TRUST = 1 the octic takes 600 evaluations a ray. In float64
+nothing changes.
 
-    surface        evaluations a ray  with the allowance  time, opencl:intel  time, opengl:llvmpipe
-    -------------  -----------------  ------------------  ------------------  ---------------------
-    torus          5.88               5.87                1.0                 -
-    Barth sextic   10.96              10.95               -                   -
-    Endraß octic   18.7               15.3                1.4                 1.7
-    16-ball        24.8               22.0                1.3                 1.4
+    surface        evaluations, TRUST  evaluations, allowance  time, opencl:intel  time, opengl:llvmpipe
+    -------------  ------------------  ----------------------  ------------------  ---------------------
+    torus          5.88                5.87                    1.0                 -
+    Barth sextic   10.96               10.95                   -                   -
+    Endraß octic   18.7                15.3                    1.4                 1.7
+    16-ball        24.8                22.0                    1.3                 1.4
 
 **Speed** Processor time on opencl:intel, float32, 256x256, on the four surfaces of szente's Table 5 in the domains of
 configs/szente-table5.toml. As printed, LU bounds are 1.05 times as fast as control points in the mean (the paper:
-1.37). All of this is from culling the sphere's misses: without culling it is 0.99. Against ray_march the printed
-setting is 33 times as fast step by step (the paper: 7), and 6.0 times as fast in blocks. LOCAL = 2 takes fewer
+1.37). All of this is from culling the sphere's misses: without culling it is 0.99. The printed setting is 33 times as
+fast as ray_march step by step (the paper: 7), and 6.0 times as fast as ray_march in blocks. LOCAL = 2 takes fewer
 evaluations than the printed setting on all four surfaces, but computes the powers of two curves for each of them.
 
     ratio                                          mean  sphere  flirt  calyx  Barth sextic
@@ -78,8 +80,8 @@ evaluations than the printed setting on all four surfaces, but computes the powe
     control points, with LOCAL = 1 and culling              faster still: in a small window the closed form     no
                                                             costs more than its bound gains. LU bounds stay
                                                             the default, as this is the LU method
-    equation 8's root by Halley's iteration that ends when  the language's pow takes 1.2 times as long in all   yes
-      it has converged, over pow                            with LOCAL = 1, and as long as printed
+    equation 8's root by Halley's iteration that ends when  pow takes 1.2 times as long in all with LOCAL = 1;  yes
+      it has converged, over the language's pow             in the printed setting it takes as long
     starting where the LU function of f reaches 0, by       1.2 on the sphere, within 5 % elsewhere, for 20     no
       Newton's method on a convex curve                     more lines
     windows of 1.5, 3 or 4 times the last step              as many evaluations                                 no

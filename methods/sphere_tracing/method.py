@@ -80,7 +80,11 @@ METHOD = Method(
             "starts on a ray; 1: where it enters the domain; 2: also at its point nearest the domain's centre",
         ),
         Parameter(
-            "AHEAD", 1, "1: the second march never goes back, and ends behind its minimum; 0: as printed", printed=0
+            "AHEAD",
+            1,
+            "second march; 1: never goes back, and ends behind its minimum; 0: starts at t_M and ends as "
+            "the first does",
+            printed=0,
         ),
         Parameter("MAX_EVALUATIONS", 2000, "evaluations of the distance on one ray, after which the ray is exhausted"),
     ),

@@ -50,7 +50,7 @@ MAX_BOXES = 6000  # limit of boxes that are bounded; with fewer the bounds are a
 
 @lru_cache(maxsize=128)
 def ball_bounds(surface: Surface, shells: int) -> tuple[float, ...]:
-    """Returns for k = 1 … shells an upper bound of |grad f| in the domain, within k/shells of its radius of its centre.
+    """Return for k = 1 … shells an upper bound of |grad f| in the domain within k/shells of its radius of its centre.
 
     Raises FirsthitError where a bound is not finite.
     """
@@ -72,7 +72,7 @@ def ball_bounds(surface: Surface, shells: int) -> tuple[float, ...]:
         return math.sqrt(float(size.upper())) * SLACK if size.is_finite() else math.inf
 
     def ball(middle: Sequence[float], half: Sequence[float]) -> int:
-        """Returns the number of the smallest ball that the box reaches into; `shells` where it reaches into none."""
+        """Return the number of the smallest ball that the box reaches into; `shells` where it reaches into none."""
         away = (max(abs(m - c) - h, 0.0) for m, c, h in zip(middle, center, half, strict=True))
         return int(shells * math.hypot(*away) / radius)
 
@@ -108,7 +108,7 @@ def ball_bounds(surface: Surface, shells: int) -> tuple[float, ...]:
 
 
 def tables(surface: Surface, knobs: Mapping[str, float | int], _: Precision) -> Mapping[str, Sequence[float]]:
-    """Returns REACH: from shell k a step of REACH[k] times |f| passes no root."""
+    """Return REACH: from shell k a step of REACH[k] times |f| passes no root."""
     bounds = ball_bounds(surface, int(knobs["SHELLS"]))
     return {"REACH": [1.0 / bound for bound in (*bounds[1:], bounds[-1])]}
 

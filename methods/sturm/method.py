@@ -32,7 +32,7 @@ ends before the search.
   of the handle of Whitney's umbrella (configs/toledo-fig2-zoom.toml, view "zoomed closely"; opencl:intel) 45, 1,375 and
   2,804 are wrong from the three.
 - A chain with a member that is not finite decides nothing. Neither does a chain that counts more roots before the near
-  end than before the far end. Both rays end as exhausted.
+  end than before the far end. Such a ray ends as exhausted.
 - Degrees 1 and 2, and 5 to 16, are an extension of ours. Beyond degree 4 the coefficients are fitted (szente, section
   2.1) over the ray's interval, mapped to x in [-1, 1]. Each row of the chain is divided by its largest coefficient, so
   that none overflows. Coefficients are kept in two parts (double-word arithmetic), since each division loses digits,

@@ -7,7 +7,8 @@ harness/devices/messages.py. `of_cell` is the only place that chooses.
 
 from __future__ import annotations
 
-from harness.contract import Casts, Cell, Method, Stage
+from harness.contract import Casts, Method, Stage
+from harness.experiment.cells import Cell
 from harness.experiment.config import Experiment
 from harness.experiment.kinds.beams import Beams
 from harness.experiment.kinds.family import Family

@@ -9,9 +9,10 @@ from typing import Any
 from harness.accuracy.answers import validated
 from harness.accuracy.judge import undecided_hits
 from harness.accuracy.rungs import judge_group
-from harness.contract import Cell, Program, Surface
+from harness.contract import Program, Surface
 from harness.devices.executor import LocalExecutor
 from harness.devices.messages import Frame, ListedCheck
+from harness.experiment.cells import Cell
 from harness.experiment.config import AccuracyChoice, Config
 from harness.experiment.kinds.model import Asked, Casting, Kind, Outcome
 from harness.experiment.kinds.narrowed import REFUSAL as NO_PREPASS

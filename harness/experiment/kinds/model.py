@@ -20,10 +20,11 @@ from numpy.typing import NDArray
 from harness.accuracy import check, freeloops
 from harness.accuracy.compilers import SecondBuild, doubts_about
 from harness.accuracy.pictures import headlight
-from harness.contract import Cell, DeviceInfo, Hits, Method, Normal, Origin, Program, Proxy, Stage, Surface, Variant
+from harness.contract import DeviceInfo, Hits, Method, Normal, Origin, Program, Proxy, Stage, Surface, Variant
 from harness.devices.executor import LocalExecutor
 from harness.devices.interface import LANGUAGES
 from harness.devices.messages import Check, Frame
+from harness.experiment.cells import Cell
 from harness.experiment.config import AccuracyChoice, Config, Experiment
 from harness.kernels.assemble import Language, method_program
 from harness.kernels.functions import unsupported
