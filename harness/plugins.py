@@ -34,23 +34,25 @@ class Plugin:
         number where the knob's are whole.
         """
         defaults = {parameter.name: parameter.default for parameter in self.method.parameters}
-        for name, value in given.items():
+        for name in given:
             if name not in defaults:
-                raise FirsthitError(
-                    f"method {self.method.name!r} has no parameter {name!r}; {suggestion(name, sorted(defaults))}"
-                )
-            if not is_finite(value):
-                raise FirsthitError(f"{self.method.name}: {name} is a finite number, not {str(value)[:40]}")
-            if isinstance(defaults[name], int) and value != int(value):
-                raise FirsthitError(f"{self.method.name}: {name} is a whole number, not {value}")
-        kind = {name: type(default) for name, default in defaults.items()}
-        bound = {name: kind[name](value) for name, value in (defaults | dict(given)).items()}
+                hint = suggestion(name, sorted(defaults))
+                raise FirsthitError(f"method {self.method.name!r} has no parameter {name!r}; {hint}")
+        bound = {name: self._bound(name, given.get(name, default), default) for name, default in defaults.items()}
         turned = ",".join(f"{name}={bound[name]:g}" for name in sorted(given))
         label = f"{self.method.name}[{turned}]" if turned else self.method.name
         return Variant(self.method.name, tuple(sorted(bound.items())), label)
 
+    def _bound(self, name: str, value: float, default: float) -> float | int:
+        """Return a knob's value as a number of its default's kind. Raises FirsthitError if it is none."""
+        if not is_finite(value):
+            raise FirsthitError(f"{self.method.name}: {name} is a finite number, not {str(value)[:40]}")
+        if isinstance(default, int) and value != int(value):
+            raise FirsthitError(f"{self.method.name}: {name} is a whole number, not {value}")
+        return type(default)(value)
+
     def setting(self, name: str) -> Variant:
-        """One of the papers' own settings, or AS_PRINTED: every knob that we changed at its source's value.
+        """Bind one of the papers' own settings, or AS_PRINTED: every knob that we changed at its source's value.
 
         Raises FirsthitError for one that the method does not state.
         """
@@ -64,7 +66,7 @@ class Plugin:
         return dataclasses.replace(self.variant(self.method.settings[name]), label=name)
 
     def deviations(self) -> list[Variant]:
-        """The default, the default with each knob that we changed at its source's value, and all of them together."""
+        """Bind the default, then each knob that we changed at its source's value, alone and all together."""
         printed = self.method.printed
         alone = [self.variant({name: value}) for name, value in printed.items()]
         return [self.variant({}), *alone, *([self.setting(AS_PRINTED)] if len(printed) > 1 else [])]
@@ -72,12 +74,13 @@ class Plugin:
 
 @dataclass(frozen=True)
 class Catalog:
-    """The methods found, and why folders that look like one are not."""
+    """The methods that were found, and for each folder that looks like one and cannot be loaded, the reason."""
 
     plugins: dict[str, Plugin] = field(default_factory=dict)
     broken: dict[str, str] = field(default_factory=dict)
 
     def get(self, name: str) -> Plugin:
+        """Return the method of that name. Raises FirsthitError if there is none or it cannot be loaded."""
         if name in self.plugins:
             return self.plugins[name]
         if name in self.broken:
@@ -87,7 +90,7 @@ class Catalog:
 
 
 def _load(folder: Path) -> Method:
-    """The METHOD that `folder`/method.py states. Raises FirsthitError with the reason where it does not."""
+    """Import the METHOD that `folder`/method.py states. Raises FirsthitError, with the reason, if it states none."""
     path = folder / "method.py"
     if not (folder / "kernel.glsl").exists():
         raise FirsthitError(f"{folder} has a method.py but no kernel.glsl")
@@ -127,9 +130,9 @@ def _entry_point_folders() -> list[Path]:
 
 
 def find_methods(extra: Path | None = None) -> Catalog:
-    """Every method of the project, of installed packages (entry point group `firsthit.methods`) and of `extra`.
+    """Find every method of the project, of installed packages (entry point group `firsthit.methods`) and of `extra`.
 
-    Raises FirsthitError where `extra` is not a folder or two folders claim one name.
+    Raises FirsthitError if `extra` is not a folder or two folders claim one name.
     """
     if extra is not None and not extra.is_dir():
         raise FirsthitError(f"--plugins {extra}: no such folder")

@@ -33,7 +33,7 @@ class Store:
         return self.folder / "cells" / f"{key}.json"
 
     def read(self, key: str) -> Row | None:
-        """The row of `key`; None where there is none or its file is damaged (then `unreadable` says why)."""
+        """Return the row of `key`; None if there is none or its file is damaged (then `unreadable` says why)."""
         try:
             row = json.loads(self._cell(key).read_text(encoding="utf-8"))
         except FileNotFoundError:
@@ -55,10 +55,11 @@ class Store:
         write_atomically(self._cell(row["key"]), text.encode())
 
     def rows(self) -> Iterator[Row]:
-        """Every readable row, current or stale."""
+        """Yield every row that can be read, current or stale."""
         for path in sorted((self.folder / "cells").glob("*.json")):
             if row := self.read(path.stem):
                 yield row
 
     def write_plan(self, plan: dict[str, Any]) -> None:
+        """Store what the run sets out to do. Raises FirsthitError if it cannot be written."""
         write_atomically(self.folder / "plan.json", json.dumps({"format": FORMAT, **plan}, indent=1).encode())
