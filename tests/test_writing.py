@@ -4,7 +4,9 @@ import ast
 import signal
 import subprocess
 import sys
+from functools import partial
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -136,8 +138,6 @@ def test_a_row_is_stored_after_its_arrays_and_not_without_them(tmp_path):
 
 
 def test_probes_which_a_run_does_without(tmp_path):
-    from types import SimpleNamespace
-
     from harness.devices.probes import Probes
     from harness.running.environment import probed
 
@@ -154,7 +154,7 @@ def test_probes_which_a_run_does_without(tmp_path):
 
 
 def test_what_commands_write(tmp_path):
-    """oracle stands for trace, which writes as it does; pictures and the gate's files are written by what is called."""
+    """Here oracle stands for trace, which writes as it does; what needs a device is called behind the casting."""
     image = pytest.importorskip("PIL.Image")
     from harness.commands import gating
     from harness.commands.pictures import save
@@ -169,7 +169,11 @@ def test_what_commands_write(tmp_path):
         assert main(options) == 3
     assert [(file, file.read_text()) for file in truth.parent.iterdir()] == [(truth, "old")]
     kept(picture, lambda: save(image.new("RGB", (2, 2)), picture))
-    assert gating.write_atomically is write_atomically
+    checked = SimpleNamespace(experiment=SimpleNamespace(name="quick"))
+    for kind in ("junit", "markdown"):
+        told = SimpleNamespace(junit=None, markdown=None, github=False)
+        setattr(told, kind, tmp_path / kind / "gate.txt")
+        kept(getattr(told, kind), partial(gating._tell, told, checked, [], tmp_path / "baseline.toml", 0))
 
 
 def test_a_report_is_replaced_as_a_whole(tmp_path):
