@@ -34,20 +34,22 @@ class Plugin:
         number where the knob's are whole.
         """
         defaults = {parameter.name: parameter.default for parameter in self.method.parameters}
-        for name, value in given.items():
+        for name in given:
             if name not in defaults:
-                raise FirsthitError(
-                    f"method {self.method.name!r} has no parameter {name!r}; {suggestion(name, sorted(defaults))}"
-                )
-            if not is_finite(value):
-                raise FirsthitError(f"{self.method.name}: {name} is a finite number, not {str(value)[:40]}")
-            if isinstance(defaults[name], int) and value != int(value):
-                raise FirsthitError(f"{self.method.name}: {name} is a whole number, not {value}")
-        kind = {name: type(default) for name, default in defaults.items()}
-        bound = {name: kind[name](value) for name, value in (defaults | dict(given)).items()}
+                hint = suggestion(name, sorted(defaults))
+                raise FirsthitError(f"method {self.method.name!r} has no parameter {name!r}; {hint}")
+        bound = {name: self._bound(name, given.get(name, default), default) for name, default in defaults.items()}
         turned = ",".join(f"{name}={bound[name]:g}" for name in sorted(given))
         label = f"{self.method.name}[{turned}]" if turned else self.method.name
         return Variant(self.method.name, tuple(sorted(bound.items())), label)
+
+    def _bound(self, name: str, value: float, default: float) -> float | int:
+        """Return a knob's value as a number of its default's kind. Raises FirsthitError if it is none."""
+        if not is_finite(value):
+            raise FirsthitError(f"{self.method.name}: {name} is a finite number, not {str(value)[:40]}")
+        if isinstance(default, int) and value != int(value):
+            raise FirsthitError(f"{self.method.name}: {name} is a whole number, not {value}")
+        return type(default)(value)
 
     def setting(self, name: str) -> Variant:
         """Return the variant of one of the papers' own settings, or of AS_PRINTED.

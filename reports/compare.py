@@ -6,13 +6,13 @@ run must have only one device.
 
 from __future__ import annotations
 
-import tempfile
 from pathlib import Path
 from typing import Any
 
 import pandas as pd
 
 from harness.contract import CellStatus, FirsthitError
+from harness.results.writing import replacing_together
 from reports import wording
 from reports.analysis import derive, rounds
 from reports.content import Block, Code, Column, Document, Section, Table, Text
@@ -33,15 +33,9 @@ def build(a: Path, b: Path) -> Path:
     """
     content = report(load.load(a), load.load(b))
     stem = name_of(a, b)
-    try:
-        with tempfile.TemporaryDirectory(prefix=".report-", dir=a) as name:
-            made = Path(name)
-            document.write_pdf(content, made / "pdf", made / f"{stem}.pdf", "")
-            html.write_html(content, {}, made / f"{stem}.html")
-            for ending in ("html", "pdf"):
-                (made / f"{stem}.{ending}").replace(a / f"{stem}.{ending}")
-    except OSError as error:
-        raise FirsthitError(f"cannot write the report into {a}: {error.strerror or error}", exit_code=3) from error
+    with replacing_together(a, "the report") as made:
+        document.write_pdf(content, made / "pdf", made / f"{stem}.pdf", "")
+        html.write_html(content, {}, made / f"{stem}.html")
     return a / f"{stem}.pdf"
 
 

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import tempfile
 from pathlib import Path
 
 import pandas as pd
 
-from harness.contract import FirsthitError
+from harness.results.writing import replacing_together
 from reports import parts, summary
 from reports.analysis import breaks, derive
 from reports.content import Document
@@ -33,22 +32,14 @@ def build(run: Path, baseline: str | None = None) -> Path:
     frame = derive.derive(load.over(loaded.frame, baseline), loaded.plan.peaks)
     rungs = breaks.derive(loaded.families, loaded.rungs)
     content = report(loaded, frame, rungs)
-    try:
-        with tempfile.TemporaryDirectory(prefix=".report-", dir=run) as name:
-            made = Path(name)
-            document.write_pdf(content, made / "pdf", made / "report.pdf", loaded.plan.created)
-            html.write_html(content, style.marks([*frame["method"], *loaded.families["method"]]), made / "report.html")
-            export.write(frame, made / "results.csv", made / "results.parquet")
-            files = ["results.csv", "results.parquet", "report.html", "report.pdf"]
-            if not rungs.empty:
-                rungs.to_csv(made / "stability.csv", index=False)
-                files.insert(0, "stability.csv")
-            else:
-                (run / "stability.csv").unlink(missing_ok=True)  # an earlier plan may have left one
-            for file in files:
-                (made / file).replace(run / file)
-    except OSError as error:
-        raise FirsthitError(f"cannot write the report into {run}: {error.strerror or error}", exit_code=3) from error
+    with replacing_together(run, "the report") as made:
+        document.write_pdf(content, made / "pdf", made / "report.pdf", loaded.plan.created)
+        html.write_html(content, style.marks([*frame["method"], *loaded.families["method"]]), made / "report.html")
+        export.write(frame, made / "results.csv", made / "results.parquet")
+        if not rungs.empty:
+            rungs.to_csv(made / "stability.csv", index=False)
+    if rungs.empty:
+        (run / "stability.csv").unlink(missing_ok=True)  # of an earlier plan
     return run / "report.pdf"
 
 

@@ -18,7 +18,7 @@ from harness.conformance import Bench, Finding
 from harness.contract import CellStatus, DeviceInfo, FirsthitError, Hits, Program, Surface
 from harness.devices.discovery import discover_devices
 from harness.devices.executor import CellError, LocalExecutor
-from harness.devices.interface import LANGUAGES, device_named
+from harness.devices.interface import LANGUAGES, device_named, working
 from harness.devices.messages import ListedCheck
 from harness.experiment.kinds import of_method
 from harness.plugins import Plugin, find_methods
@@ -74,12 +74,7 @@ def _conform(options: argparse.Namespace) -> int:
 
 def _devices(names: list[str] | None) -> list[DeviceInfo]:
     found = discover_devices()
-    if names:
-        return [device_named(name, found) for name in names]
-    usable = [info for info in found if not info.problem]
-    if not usable:
-        raise FirsthitError("no usable device; `firsthit devices` says why", exit_code=3)
-    return usable
+    return [device_named(name, found) for name in names] if names else working(found)
 
 
 def _bench(executor: LocalExecutor, device: str, float64: bool) -> Bench:

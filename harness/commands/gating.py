@@ -25,7 +25,8 @@ from harness.gate.judge import Judged, Tolerance, Verdict, exit_code, judge, ran
 from harness.gate.revision import programs_at
 from harness.plugins import Catalog, find_methods
 from harness.results.figures import SPEED
-from harness.results.store import Row, write_atomically
+from harness.results.store import Row
+from harness.results.writing import write_atomically
 from harness.running import batch
 from harness.running.due import UNFINISHED
 from harness.running.environment import describe, probed

@@ -11,7 +11,7 @@ from harness.commands import Add
 from harness.contract import PRECISIONS, FirsthitError, Program
 from harness.devices.discovery import discover_devices
 from harness.devices.executor import START_SECONDS, CellError, LocalExecutor
-from harness.devices.interface import LANGUAGES
+from harness.devices.interface import LANGUAGES, working
 from harness.experiment.kinds import of_method
 from harness.experiment.targets import able
 from harness.kernels.assemble import method_program
@@ -37,9 +37,7 @@ def _compile(options: argparse.Namespace) -> int:
     plugins = [catalog.get(name) for name in options.method or sorted(catalog.plugins)]
     chosen = [surfaces.get(name) for name in options.surface or (() if options.formula else TYPICAL)]
     chosen += [surfaces.from_formula(options.formula, options.domain)] if options.formula else []
-    usable = [info for info in discover_devices() if not info.problem]
-    if not usable:
-        raise FirsthitError("no usable device; `firsthit devices` says why", exit_code=3)
+    usable = working(discover_devices())
     executor = LocalExecutor(START_SECONDS)
     built: dict[str, list[tuple[float, str]]] = {info.name: [] for info in usable}
     failed = [f"{name}: {reason}" for name, reason in catalog.broken.items() if not options.method]

@@ -10,7 +10,7 @@ import numpy as np
 from harness.accuracy.answers import invalid
 from harness.accuracy.scene_truth import hits_of
 from harness.commands import Add
-from harness.commands.options import add_origin, given_variant, writable
+from harness.commands.options import add_origin, given_variant, writable_png
 from harness.commands.pictures import need_pillow, save
 from harness.contract import PROXIES, FirsthitError
 from harness.devices.discovery import discover_devices
@@ -59,7 +59,7 @@ def _scene(options: argparse.Namespace) -> int:
 
     if not 1 <= options.size <= 8192:
         raise FirsthitError(f"--size {options.size}: an image has 1 to 8192 pixels per side")
-    output, catalog = writable(options.output), find_methods(options.plugins)
+    output, catalog = writable_png(options.output), find_methods(options.plugins)
     path = located(options.config)
     scene = _chosen(reading.load(path, catalog).scenes, options.name, path)
     variant = given_variant(options, catalog)

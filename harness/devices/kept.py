@@ -28,7 +28,7 @@ from typing import Any
 from harness.contract import DeviceInfo, FirsthitError, digest
 from harness.devices import host
 from harness.results import sources
-from harness.results.store import write_atomically
+from harness.results.writing import write_atomically
 
 PACKAGES = (
     *("pyopencl", "moderngl", "glcontext", "numpy"),

@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import Any
 
 from harness.contract import FirsthitError, digest
-from harness.results.store import write_atomically
+from harness.results.writing import write_atomically
 
 FORMAT = 1
 Entry = dict[str, Any]  # status, scene, program, and the figures

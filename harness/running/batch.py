@@ -1,4 +1,4 @@
-"""Runs what a plan names and is not stored yet, for commands that need rows and not a run folder to look at."""
+"""Runs the cells of a plan that have no row yet, for commands that need rows and not a run folder to look at."""
 
 from __future__ import annotations
 
@@ -23,7 +23,10 @@ def rows_of(
     executor: LocalExecutor,
     force: bool = False,
 ) -> dict[str, Row]:
-    """Each planned cell's row by its key; run now where `folder` has none, or one that did not finish."""
+    """Return each planned cell's row by its key.
+
+    Cells run now if `folder` has no row of theirs or one that did not finish; with `force` all of them run.
+    """
     store = Store(folder)
     found = due(planned, store, "everything" if force else "unfinished")
     progress = console.Progress(len(found.todo), 1.0 * len(found.todo))

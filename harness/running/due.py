@@ -17,14 +17,14 @@ PREPARING = 0.3  # seconds to build and check a cell: the mean of 4,392 of confi
 
 @dataclass(frozen=True, eq=False)
 class Due:
-    """A plan's cells, parted."""
+    """A plan's cells: those that must run, and the rows of the others."""
 
     todo: list[Planned]  # in the plan's order
     kept: dict[str, Row]  # the other cells' rows by their keys, in the plan's order
 
 
 def due(planned: Sequence[Planned], store: Store, again: Again = "nothing") -> Due:
-    """Part the cells that must run from those whose stored row stands.
+    """Tell the cells that must run from those whose stored row stands.
 
     A damaged row is none; `store.unreadable` then says why.
     """

@@ -16,7 +16,8 @@ from typing import Any, Protocol, cast
 
 from harness.contract import digest
 from harness.results import sources
-from harness.results.store import FORMAT, write_atomically
+from harness.results.store import FORMAT
+from harness.results.writing import write_atomically
 
 NAMES = ("condition_numbers", "extrema_bounds", "form_ranges", "mesh_errors", "torus_along_rays")
 
