@@ -11,19 +11,42 @@ from pathlib import Path
 
 from harness.contract import CellStatus
 from harness.devices.executor import CellError, LocalExecutor
+from harness.experiment import plan
 from harness.experiment.config import Experiment
 from harness.experiment.kinds.model import ViewCasting
 from harness.experiment.plan import Planned, shuffled
+from harness.gate.checked import Checked
 from harness.gate.entries import slot_of
 from harness.gate.judge import Change, Judged, Tolerance, Verdict
-from harness.gate.revision import Former
+from harness.gate.revision import Former, programs_at
 from harness.results import timings
 from harness.results.figures import SPEED
 from harness.results.timings import Ratio
+from harness.running.environment import probed
 
 MINIMUM_ROUNDS = 10
 WHEN = {"now": "now", "then": "at the other revision"}
 Sides = Mapping[str, ViewCasting]
+
+
+def speeds(checked: Checked, revision: str, config: Path, plugins: Path | None) -> list[Judged]:
+    """Judge each timed cell's speed against its program at another git revision.
+
+    Times are by the clock that the device's probes support. `config` and `plugins` are the files that `checked` is of.
+    Raises FirsthitError where there is no such revision or its code cannot plan the config.
+    """
+    experiment = checked.experiment
+    here = {p.cell.device: p.device for p in checked.planned if p.device}
+    own = experiment.config.gate.figures.get(SPEED.name)
+    tolerance = Tolerance("lower", own.absolute, own.relative) if own else Tolerance("lower", 0.0, SPEED.relative)
+    former = programs_at(revision, config, plugins, list(here))
+    executor = LocalExecutor(experiment.config.budget.timeout)
+    try:
+        infos = [probed(executor, info, checked.folder / "probes")[0] for info in here.values()]
+        answering = [p for p in plan.plan(experiment, checked.catalog, infos) if p.skip is None]
+        return compare(answering, former, experiment, tolerance, executor, checked.folder / "truth")
+    finally:
+        executor.close()
 
 
 def compare(
