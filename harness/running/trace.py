@@ -22,9 +22,9 @@ from harness.contract import (
     Surface,
     Variant,
 )
-from harness.devices.discovery import discover_devices
+from harness.devices.discovery import discover_devices, usable_devices
 from harness.devices.executor import CellError, LocalExecutor
-from harness.devices.interface import LANGUAGES, device_named, no_device
+from harness.devices.interface import LANGUAGES, no_device
 from harness.experiment.kinds import of_method
 from harness.experiment.kinds.model import Shot
 from harness.kernels.assemble import Language, method_program
@@ -75,13 +75,7 @@ class Caster:
 
 def usable_device(name: str | None = None) -> DeviceInfo:
     """Find the device of that name, or the first one that works where `name` is None; raises FirsthitError if none."""
-    found = discover_devices()
-    if name:
-        return device_named(name, found)
-    usable = [info for info in found if not info.problem]
-    if not usable:
-        raise FirsthitError("no usable device; `firsthit devices` says why", exit_code=3)
-    return usable[0]
+    return usable_devices([name] if name else [])[0]
 
 
 def checked_rays(rays: object, what: str = "rays") -> NDArray[np.float32]:
