@@ -1,4 +1,4 @@
-"""Speed against another revision: both programs' frames in interleaved rounds of one run on one device."""
+"""Compare speed with another revision: both programs draw frames in interleaved rounds of one run on one device."""
 
 from __future__ import annotations
 
@@ -57,7 +57,11 @@ def compare(
     executor: LocalExecutor,
     truth: Path,
 ) -> list[Judged]:
-    """A verdict for each timed cell that answers rightly enough at both revisions; the ratio is now over then."""
+    """Judge each timed cell by the ratio of its frame's time now over that of its program in `former`, by slot.
+
+    A cell is incomparable where its answers at either revision fail the check against the oracle, whose certified
+    answers are kept in the folder `truth`. A failure while running is a verdict too, so that nothing is raised for it.
+    """
     return [_judged(p, former.get(p.cell.slot), experiment, tolerance, executor, truth) for p in planned if p.timed]
 
 
@@ -94,7 +98,11 @@ def _judged(
 
 
 def verdict_of(base: Judged, ratio: Ratio | None, tolerance: Tolerance) -> Judged:
-    """Regressed only where the whole interval of the ratio is above what is allowed."""
+    """Return `base` with the verdict that a ratio of times, now over then, allows.
+
+    It is regressed only where the whole interval of the ratio is above what the tolerance allows, and improved only
+    where the whole interval is below 1 by as much. A ratio of too few rounds, or that is no number, is incomparable.
+    """
     if ratio is None or not ratio.proved:
         rounds = ratio.pairs if ratio else 0
         reason = f"{rounds} rounds prove nothing; raise [budget] seconds"
@@ -112,7 +120,7 @@ def verdict_of(base: Judged, ratio: Ratio | None, tolerance: Tolerance) -> Judge
 
 
 def _wrong(sides: Sides, experiment: Experiment, executor: LocalExecutor, truth: Path) -> str | None:
-    """Say why the two are not timed, if they are not: nothing is before its hits are held against the oracle."""
+    """Say why the two programs must not be timed, or return None where both answer as the oracle does."""
     for side, casting in sides.items():
         if reason := casting.check(executor, experiment.config.accuracy, truth, framed=True).reason:
             return f"{reason} ({WHEN[side]})"
@@ -122,7 +130,11 @@ def _wrong(sides: Sides, experiment: Experiment, executor: LocalExecutor, truth:
 def _race(
     planned: Planned, sides: Sides, experiment: Experiment, tolerance: Tolerance, executor: LocalExecutor
 ) -> Ratio | None:
-    """Rounds that time both programs once, in random order, until the interval is narrow or the budget is spent."""
+    """Time both programs once in each round, in random order, and return the ratio of their times, now over then.
+
+    Rounds go on until the ratio's interval is narrow or the budget is spent. Raises CellError where a frame fails or
+    the device's clock tells no time.
+    """
     budget = experiment.config.budget
     assert planned.device
     frames = {side: frame for side, casting in sides.items() if (frame := casting.frame())}
@@ -135,7 +147,7 @@ def _race(
         for side in shuffled(list(sides), experiment.config.seed, round_number):
             timing = executor.sample(device, keys[side], frames[side], batch)
             told = timing.device_ms if planned.device.clock == "device" else timing.wall_ms
-            if not told or not math.isfinite(told):  # another clock's time would be no pair to the others
+            if not told or not math.isfinite(told):  # a time by the other clock could not be paired with these
                 raise CellError(CellStatus.FAILED, f"the {planned.device.clock}'s clock told {told} for a frame")
             times[side].append(told)
         rounds = range(round_number + 1)
