@@ -1,4 +1,4 @@
-"""What a cell left behind → the row that is stored of it."""
+"""Build the row that is stored of a cell from what the cell left behind."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from harness.results.store import Row
 
 @dataclass(eq=False)
 class Samples:
-    """The timed repetitions of one cell, in the order in which they were taken; times in ms for one frame."""
+    """Holds the timed repetitions of one cell in the order in which they were taken; times are in ms for one frame."""
 
     clock: str  # the device's clock that is to be believed: "device" or "wall"
     wall_ms: list[float] = field(default_factory=list)
@@ -35,18 +35,18 @@ class Samples:
 
     @property
     def by_device(self) -> bool:
-        """Whether times are by the device's own clock: where that is believed and told every sample's."""
+        """Tell whether times are by the device's own clock: it is believed, and gave a time for every sample."""
         return self.clock == "device" and len(self.device_ms) == len(self.wall_ms)
 
     @property
     def times(self) -> list[float]:
-        """The times that count, in ms, by the clock that `by_device` names."""
+        """Return the times that count, in ms, by the clock that `by_device` names."""
         return self.device_ms if self.by_device else self.wall_ms
 
 
 @dataclass(frozen=True, eq=False)
 class Left:
-    """What a cell that was tried left behind, parts of its row; None for what it did not come to."""
+    """Holds the parts of a row that a cell which was tried left behind; None for a part that it did not get to."""
 
     build: dict[str, Any]
     seconds: float  # of checking, building and timing
@@ -112,7 +112,7 @@ def row_of(
 
 
 def time_of(samples: Samples, batch: int, session: str, *, seed: int, interval: float) -> dict[str, Any]:
-    """Sum up timed repetitions of `batch` frames each, taken in the interleaved `session`.
+    """Summarise timed repetitions of `batch` frames each, which were taken in the interleaved `session`.
 
     `seed` is the bootstrap's; `interval` is the share of the median within which its interval is to lie. Raises
     ValueError for no samples.
@@ -138,7 +138,10 @@ def time_of(samples: Samples, batch: int, session: str, *, seed: int, interval: 
 
 
 def build_of(warmed: Warmed | None, checked_ms: float) -> dict[str, Any]:
-    """Say what building took: of the frame where one was `warmed`, else of the checked programs, `checked_ms` alone."""
+    """Return the times in ms of building the frame where one was `warmed`, and its bytes.
+
+    Without a frame only `checked_ms` is known, the time of building the checked programs.
+    """
     return {
         "compile_ms": warmed.compile_ms if warmed else checked_ms,
         "upload_ms": warmed.upload_ms if warmed else None,
@@ -148,6 +151,7 @@ def build_of(warmed: Warmed | None, checked_ms: float) -> dict[str, Any]:
 
 
 def _operations(surface: Surface) -> dict[str, int]:
+    """Count the operations of a surface's formula, by kind."""
     import surfaces
 
     return dict(surfaces.operations(surface))

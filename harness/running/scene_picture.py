@@ -30,7 +30,7 @@ class ScenePicture:
     drawn: float  # the share of the samples that show an instance
     fragments: int  # fragments that ran
     hits: int  # those of them that were not discarded
-    invalid: int  # samples whose answer cannot be any
+    invalid: int  # samples whose answer is impossible (harness.accuracy.answers)
 
 
 def draw_scene(
