@@ -1,4 +1,4 @@
-"""Runs the cells of a plan that have no row yet, for commands that need rows and not a run folder to look at."""
+"""Run what a plan names and is not stored yet, for commands that need rows and no run folder that people look at."""
 
 from __future__ import annotations
 
@@ -25,7 +25,8 @@ def rows_of(
 ) -> dict[str, Row]:
     """Return each planned cell's row by its key.
 
-    Cells run now if `folder` has no row of theirs or one that did not finish; with `force` all of them run.
+    A cell is run now where `folder` has no row of it, where its row says that it did not finish and, with `force`, in
+    any case. Raises FirsthitError where a row cannot be stored.
     """
     store = Store(folder)
     found = due(planned, store, "everything" if force else "unfinished")

@@ -1,4 +1,4 @@
-"""What a cell left behind → the row that is stored of it."""
+"""Build the row that is stored of a cell from what the cell left behind."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from harness.results.row import Accuracy, Build, CellRow, Rung, Time
 
 @dataclass(eq=False)
 class Samples:
-    """The timed repetitions of one cell, in the order in which they were taken; times in ms for one frame."""
+    """Holds the timed repetitions of one cell in the order in which they were taken; times are in ms for one frame."""
 
     clock: str  # the device's clock that is to be believed: "device" or "wall"
     wall_ms: list[float] = field(default_factory=list)
@@ -35,18 +35,18 @@ class Samples:
 
     @property
     def by_device(self) -> bool:
-        """Whether times are by the device's own clock: where that is believed and told every sample's."""
+        """Tell whether times are by the device's own clock: it is believed, and gave a time for every sample."""
         return self.clock == "device" and len(self.device_ms) == len(self.wall_ms)
 
     @property
     def times(self) -> list[float]:
-        """The times that count, in ms, by the clock that `by_device` names."""
+        """Return the times that count, in ms, by the clock that `by_device` names."""
         return self.device_ms if self.by_device else self.wall_ms
 
 
 @dataclass(frozen=True, eq=False)
 class Left:
-    """What a cell that was tried left behind, parts of its row; None for what it did not come to."""
+    """Holds the parts of a row that a cell which was tried left behind; None for a part that it did not get to."""
 
     build: Build
     seconds: float  # of checking, building and timing
@@ -160,6 +160,7 @@ def build_of(warmed: Warmed | None, checked_ms: float) -> Build:
 
 
 def _operations(surface: Surface) -> dict[str, int]:
+    """Count the operations of a surface's formula, by kind."""
     import surfaces
 
     return dict(surfaces.operations(surface))
