@@ -7,8 +7,8 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from harness.accuracy.judge import NAMES, Wrong
 from harness.contract import FirsthitError
+from harness.results.row import KINDS
 from harness.results.store import Row
 
 Better = Literal["lower", "higher"]
@@ -57,7 +57,7 @@ BROKEN_BY = {  # the counts that contradict a claim; only the first is of grazin
 
 def _within(kind: str) -> Callable[[dict[str, Any]], Value]:
     """Wrong answers in the class of `kind` rays; None in rows from before the class was."""
-    names = [f"{kind}_{name}" for wrong, name in NAMES.items() if wrong is not Wrong.INVALID]
+    names = [f"{kind}_{name}" for name in KINDS if name != "invalid"]
     return lambda found: sum(found[name] for name in names) if names[0] in found else None
 
 

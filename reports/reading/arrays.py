@@ -12,7 +12,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from reports.reading.load import Unreadable, problem
+from reports.reading.load import problem
+from reports.reading.run import Unreadable
 
 
 @dataclass(frozen=True, eq=False)
