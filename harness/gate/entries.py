@@ -1,4 +1,4 @@
-"""Rows just run → what the baseline keeps of them."""
+"""Makes the entries of a baseline from rows that were just run."""
 
 from __future__ import annotations
 
@@ -32,11 +32,12 @@ _NOT_SCENE = {
 
 
 def slot_of(planned: Planned) -> str:
-    """The cell's place in the grid without its device: what a row is gated by, whatever becomes of its program."""
+    """Return the cell's place in the grid without its device: what its row is gated by, whatever its program is."""
     return planned.cell.slot.removesuffix(f" {planned.cell.device}")
 
 
 def facts_of(info: DeviceInfo) -> dict[str, Any]:
+    """Return what a baseline keeps of a device: its names, driver, compiler and versions, and the processor's name."""
     facts = dataclasses.asdict(info)
     told = {name: facts[name] for name in ("name", "title", "driver", "compiler")}
     return told | {"versions": dict(info.versions), "processor": processor()}
@@ -45,7 +46,11 @@ def facts_of(info: DeviceInfo) -> dict[str, Any]:
 def baseline_of(
     planned: Iterable[Planned], rows: dict[str, Row], catalog: Catalog, config: str, same: list[str]
 ) -> Baseline:
-    """The rows of every device that is here."""
+    """Make a baseline of the rows of every device that is here.
+
+    `rows` are by key. `same` names the device facts that must be equal for figures to be compared. Raises
+    FirsthitError for a figure that is no finite number.
+    """
     made = Baseline(config)
     for p in planned:
         if p.device is None:
@@ -58,6 +63,7 @@ def baseline_of(
 
 
 def _entry(planned: Planned, row: Row, catalog: Catalog) -> Entry:
+    """Make one row's entry: how it ended, a hash of what was asked, its program, and its figures."""
     scene = {name: value for name, value in planned.identity.items() if name not in _NOT_SCENE}
     if "accuracy" in scene:  # how much may be undecided decides whether there are figures, and none of them
         scene["accuracy"] = {name: value for name, value in scene["accuracy"].items() if name != "undecided"}

@@ -1,4 +1,4 @@
-"""Results as files below runs/<config>/, written whole or not at all and named by what decides them.
+"""Keeps results as files below runs/<config>/, written whole or not at all, and named by what decides them.
 
 plan.json            the experiment as last run: which cells it names, on which devices
 cells/<key>.json     one row
@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from harness.contract import FirsthitError
 
 FORMAT = 1
-Row = dict[str, Any]
+Row = dict[str, Any]  # as it was read, of this or an older version; harness/results/row.py declares what is in it
 
 
 def write_atomically(path: Path, content: bytes) -> None:
@@ -43,7 +43,7 @@ def write_atomically(path: Path, content: bytes) -> None:
 
 
 def savez_atomically(path: Path, **arrays: NDArray[Any]) -> None:
-    """Write arrays as one compressed .npz, whole or not at all."""
+    """Write arrays as one compressed .npz, whole or not at all. Raises FirsthitError where it cannot be written."""
     import io
 
     buffer = io.BytesIO()
@@ -52,7 +52,7 @@ def savez_atomically(path: Path, **arrays: NDArray[Any]) -> None:
 
 
 class Store:
-    """One experiment's folder. Only one process writes to it."""
+    """Holds one experiment's folder, to which only one process writes."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
@@ -63,7 +63,7 @@ class Store:
         return self.folder / "cells" / f"{key}.json"
 
     def read(self, key: str) -> Row | None:
-        """The row of `key`; None where there is none or its file is damaged (then `unreadable` says why)."""
+        """Return the row of `key`; None where there is none, or where its file is damaged and `unreadable` says why."""
         try:
             row = json.loads(self._cell(key).read_text(encoding="utf-8"))
         except FileNotFoundError:
@@ -77,7 +77,10 @@ class Store:
         return row
 
     def write(self, row: Row, arrays: dict[str, NDArray[Any]] | None = None) -> None:
-        """Store a finished row, its arrays first, so that a row never names arrays that are not there."""
+        """Store a finished row, its arrays first, so that a row never names arrays that are not there.
+
+        Raises FirsthitError where a file cannot be written.
+        """
         if arrays is not None:
             row = row | {"arrays": f"arrays/{row['key']}.npz"}
             savez_atomically(self.folder / row["arrays"], **arrays)
@@ -85,10 +88,11 @@ class Store:
         write_atomically(self._cell(row["key"]), text.encode())
 
     def rows(self) -> Iterator[Row]:
-        """Every readable row, current or stale."""
+        """Yield every readable row, current or stale, in the order of their keys."""
         for path in sorted((self.folder / "cells").glob("*.json")):
             if row := self.read(path.stem):
                 yield row
 
     def write_plan(self, plan: dict[str, Any]) -> None:
+        """Store what an experiment set out to do. Raises FirsthitError where it cannot be written."""
         write_atomically(self.folder / "plan.json", json.dumps({"format": FORMAT, **plan}, indent=1).encode())
