@@ -32,6 +32,7 @@ class Study(Protocol):
 
 
 def _module(name: str) -> Study:
+    """Import a study."""
     return cast(Study, importlib.import_module(f"harness.studies.{name}"))
 
 
@@ -69,4 +70,5 @@ def run(name: str, folder: Path) -> dict[str, Any]:
 
 
 def _path(name: str, folder: Path) -> Path:
+    """Return the file of a study in a run folder."""
     return folder / "studies" / f"{key(name)}.json"
