@@ -136,7 +136,7 @@ def test_every_leaf_has_a_meaning_and_no_two_share_a_column():
 def test_the_kinds_of_wrong_answers_are_leaves_in_each_class():
     assert tuple(NAMES.values()) == KINDS
     assert {f"{kind}{name}" for kind in ("", "grazing_", "drowned_") for name in KINDS} <= set(Accuracy.__annotations__)
-    assert set(KINDS) <= set(row.Rung.__annotations__)
+    assert set(KINDS) <= set(row.RungVerdict.__annotations__)
 
 
 def test_a_report_reads_every_row_and_leaf(run, rows):

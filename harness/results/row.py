@@ -161,7 +161,7 @@ class Accuracy(TypedDict):
     ]
 
 
-class Rung(TypedDict):
+class RungVerdict(TypedDict):
     """One step of a family of hard rays; rays = decided + undecidable + undecided."""
 
     parameter: Annotated[float, Leaf("the family's parameter, which makes the rays harder", always=True)]
@@ -180,7 +180,7 @@ class Rung(TypedDict):
     worst_ratio: Annotated[float | None, "the largest |t − t*| over what the problem allows, of right hits"]
 
 
-class Program(TypedDict):
+class NamedProgram(TypedDict):
     hash: Annotated[
         str,
         Leaf("names the text of the timed program, or of the checked one where none is timed", column="program_hash"),
@@ -232,13 +232,13 @@ class CellRow(TypedDict):
     accuracy: Annotated[Accuracy | None, "the checked rays; null where there is nothing to judge, and of a family"]
     family: Annotated[str | None, Leaf("the family of hard rays; null of a view", column=None)]
     rungs: Annotated[
-        list[Rung] | None,
+        list[RungVerdict] | None,
         Leaf("of a family, its rungs going harder; null of a view and where there is no result", column=None),
     ]
     arrays: Annotated[str | None, "the file with the answers ray by ray, below the run's folder"]
     operations: Annotated[dict[str, int] | None, "operations of one evaluation of f, by name"]
     evaluation_operations: Annotated[int | None, "operations of one evaluation of what the method evaluates"]
-    program: Annotated[Program | None, "null where there is none, since the cell was skipped"]
+    program: Annotated[NamedProgram | None, "null where there is none, since the cell was skipped"]
     environment: Annotated[Environment, "when and from what the row was made"]
     seconds: Annotated[float, Leaf("spent on checking, building and timing, s", column=None)]
     identity: Annotated[dict[str, Any], "all that decides the row, which its key is the hash of"]

@@ -18,7 +18,7 @@ from functools import cached_property
 from typing import Any, Literal, NotRequired
 
 from harness.results.row import KINDS as KINDS
-from harness.results.row import SAME_NAME, Leaf, Part, Rung, StoredRow
+from harness.results.row import SAME_NAME, Leaf, Part, RungVerdict, StoredRow
 
 Kind = Literal["text", "real", "whole", "flag", "json", "reals"]
 
@@ -131,7 +131,7 @@ FAMILY: tuple[Field, ...] = (RUN, *map(_leaf, _OF_FAMILY.split()))
 RUNG: tuple[Field, ...] = (
     _leaf("key"),
     Field("level", "whole", ("level",), "the place of the rung, 0, 1, … going harder", required=True),
-    *fields_of(Rung),
+    *fields_of(RungVerdict),
 )
 
 

@@ -1,4 +1,4 @@
-"""Results as files below runs/<config>/, named by what decides them.
+"""Keeps results as files below runs/<config>/, written whole or not at all, and named by what decides them.
 
 plan.json            the experiment as last run: which cells it names, on which devices
 cells/<key>.json     one row
@@ -18,11 +18,11 @@ from numpy.typing import NDArray
 from harness.results.writing import savez_atomically, write_atomically
 
 FORMAT = 1
-Row = dict[str, Any]
+Row = dict[str, Any]  # as it was read, of this or an older version; harness/results/row.py declares what is in it
 
 
 class Store:
-    """One experiment's folder. Only one process writes to it."""
+    """Holds one experiment's folder, to which only one process writes."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
@@ -47,7 +47,10 @@ class Store:
         return row
 
     def write(self, row: Row, arrays: dict[str, NDArray[Any]] | None = None) -> None:
-        """Store a finished row, its arrays first, so that a row never names arrays that are not there."""
+        """Store a finished row, its arrays first, so that a row never names arrays that are not there.
+
+        Raises FirsthitError where a file cannot be written.
+        """
         if arrays is not None:
             row = row | {"arrays": f"arrays/{row['key']}.npz"}
             savez_atomically(self.folder / row["arrays"], **arrays)

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
-from typing import Any, cast
+from typing import Any
 
 from harness.contract import CellStatus, Method, Surface
 from harness.devices.interface import Timing
@@ -14,7 +14,7 @@ from harness.experiment.kinds import of_method
 from harness.experiment.plan import Planned
 from harness.kernels.costs import operations_per_evaluation
 from harness.results import timings
-from harness.results.row import Accuracy, Build, CellRow, Rung, Time
+from harness.results.row import Accuracy, Build, CellRow, RungVerdict, Time
 
 
 @dataclass(eq=False)
@@ -51,8 +51,8 @@ class Left:
     build: Build
     seconds: float  # of checking, building and timing
     time: Time | None = None
-    accuracy: Mapping[str, Any] | None = None  # Accuracy, as the kinds of casting put it together
-    rungs: Sequence[Mapping[str, Any]] | None = None  # Rung each
+    accuracy: Accuracy | None = None
+    rungs: list[RungVerdict] | None = None
 
 
 def row_of(
@@ -101,9 +101,9 @@ def row_of(
         "reason": reason,
         "time": left.time if left else None,
         "build": left.build if left else None,
-        "accuracy": cast("Accuracy | None", left.accuracy) if left else None,
+        "accuracy": left.accuracy if left else None,
         "family": cell.family,
-        "rungs": cast("list[Rung] | None", left.rungs) if left else None,
+        "rungs": left.rungs if left else None,
         "arrays": None,
         "operations": _operations(cell.surface) if left else None,
         "evaluation_operations": operations_per_evaluation(cell.surface, method.needs) if left else None,
