@@ -27,7 +27,11 @@ RAYS = np.array([[0, 0, 5, 0, 0, -1]], np.float32)
 # what may write without the writer of harness.results, and why that is right
 EXEMPT = {
     "harness/commands/pictures.py": {"save"},  # into memory
-    "harness/devices/opencl.py": {"mkdtemp", "write_text", "copy"},  # a list of drivers, gone when the process ends
+    "harness/devices/opencl.py": {
+        "TemporaryDirectory",
+        "write_text",
+        "copy",
+    },  # a list of drivers, gone when it is read
     "harness/gate/revision.py": {"TemporaryDirectory"},  # another revision's files, gone when they are read
     "harness/oracle/cache.py": {"open", "savez"},  # into the writer's temporary file
     "harness/results/writing.py": {"mkstemp", "TemporaryDirectory", "open", "write_bytes", "savez_compressed"},
