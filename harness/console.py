@@ -23,6 +23,14 @@ def duration(seconds: float) -> str:
     return f"{hours}:{minutes:02}:{rest:02}" if hours else f"{minutes}:{rest:02}"
 
 
+def outcome(row: Row) -> str:
+    """Say how a cell ended: its median time and what is to be known of it, or its status and the reason."""
+    if not row["time"]:
+        return f"{row['status']}: {row['reason']}" if row["reason"] else str(row["status"])
+    warnings = [text.partition(":")[0] for text in row["time"]["warnings"]]
+    return ", ".join([f"{row['time']['median_ms']:.3g} ms", *warnings])
+
+
 class Progress:
     """Cells done, the current one, the time left: one live line on a terminal, a line per finished cell elsewhere."""
 
@@ -40,10 +48,7 @@ class Progress:
                 self._write(f"\r\x1b[K{self._head(elapsed)} {slot}"[:200])
             return
         self._done += 1
-        ended = f"{row['status']}: {row['reason']}" if row["reason"] else row["status"]
-        outcome = f"{row['time']['median_ms']:.3g} ms" if row["time"] else ended
-        warnings = [text.partition(":")[0] for text in row["time"]["warnings"]] if row["time"] else []
-        line = f"{self._head(elapsed)} {slot}: {', '.join([outcome, *warnings])}"
+        line = f"{self._head(elapsed)} {slot}: {outcome(row)}"
         self._write(f"\r\x1b[K{line}\n" if self._live else f"{line}\n")
 
     def _head(self, elapsed: float) -> str:

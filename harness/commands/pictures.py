@@ -14,7 +14,7 @@ from harness.accuracy.answers import invalid
 from harness.commands.options import add_method, add_surface, caster_of, surface_of, tell, writable
 from harness.contract import FirsthitError, RayStatus, View
 from harness.results.store import write_atomically
-from harness.running.picture import need_size, picture
+from harness.running.picture import picture
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -52,9 +52,6 @@ def _view(options: argparse.Namespace) -> View:
         azimuth, elevation = (float(part) for part in options.view.split(","))
     except ValueError:
         raise FirsthitError(f"--view {options.view!r}: write azimuth,elevation in degrees, as in 30,30") from None
-    need_size(options.size, "--size")
-    if not (0.0 < options.fov < 180.0):
-        raise FirsthitError(f"--fov {options.fov:g}: the angle lies between 0 and 180 degrees")
     return View("shown", azimuth=azimuth, elevation=elevation, fov=options.fov)
 
 
