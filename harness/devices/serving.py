@@ -27,7 +27,8 @@ def start(device: str) -> tuple[subprocess.Popen[bytes], Connection]:
     """
     ours, theirs = Pipe()
     handle = theirs.fileno()
-    command = [sys.executable, "-P", "-m", "harness.devices.serving", device, str(handle)]
+    options = ["-P", *(["-S"] if sys.flags.no_site else [])]  # -P: no module is taken from the current folder
+    command = [sys.executable, *options, "-m", "harness.devices.serving", device, str(handle)]
     environment = os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)}
     try:
         if sys.platform == "win32":
