@@ -1,4 +1,4 @@
-"""plan, run, why, report: what one does with a config and its results."""
+"""The commands plan, run, why and report, for a config and its results."""
 
 from __future__ import annotations
 

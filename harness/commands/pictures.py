@@ -1,4 +1,4 @@
-"""show, sheet: what surfaces look like."""
+"""The commands show and sheet: they draw surfaces."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ def _view(options: argparse.Namespace) -> View:
 
 
 def need_pillow() -> None:
-    """Raise where the one package that pictures need is missing, before any work is done."""
+    """Raise FirsthitError where the one package that picture files need is missing, before any work is done."""
     import importlib.util
 
     if not importlib.util.find_spec("PIL"):

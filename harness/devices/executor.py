@@ -1,4 +1,4 @@
-"""Where cells run. Here: one local worker process per device, restarted when it dies or hangs.
+"""Runs the steps of cells: here in one worker process for each device, restarted after it died or was killed.
 
 The runner needs no more of an executor than these methods, so that another one may send cells elsewhere.
 """
@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from harness.contract import CellStatus, DeviceInfo, Program
 from harness.devices import serving
 from harness.devices.interface import INSTALL, Timing
+from harness.devices.probes import Probes
 from harness.devices.worker import Checked, Frame, Rasterised, Warmed
 
 START_SECONDS = 60.0  # for a worker to start and a driver to load
@@ -27,7 +28,7 @@ STOP_SECONDS = 0.5  # for a worker to end by itself once its connection is close
 
 
 class CellError(Exception):
-    """A step of one cell went wrong: `status` is failed, timeout or crashed."""
+    """Says that a step of one cell went wrong; its `status` is failed, timeout or crashed."""
 
     def __init__(self, status: CellStatus, reason: str) -> None:
         super().__init__(reason)
@@ -41,8 +42,11 @@ class _Process:
 
 
 def discover_devices(wanted: Iterable[str] = ("all",)) -> list[DeviceInfo]:
-    """Every device of every installed backend, side by side in processes of their own: a driver that crashes costs
-    itself. Where `wanted` names devices, as a config does, only of the backends that it names."""
+    """Find every device of every installed backend, each backend in a process of its own.
+
+    A driver that crashes costs its own devices only: then one stands for them whose `problem` says so. Where `wanted`
+    names devices, as a config does, only the backends that it names are asked.
+    """
     named = {name.partition(":")[0] for name in wanted}
     backends = [backend for backend, package in INSTALL.items() if importlib.util.find_spec(package)]
     if named <= set(INSTALL):
@@ -63,7 +67,11 @@ def _find(backend: str) -> list[DeviceInfo]:
 
 
 class LocalExecutor:
-    """Workers on this machine. One step runs at a time, since software devices share the processor's cores."""
+    """Runs steps in workers on this machine, one at a time, since software devices share the processor's cores.
+
+    A step that takes longer than `timeout` seconds costs its worker. All methods but `close` raise CellError where the
+    step fails, takes too long, or ends its worker; the next step on that device starts another one.
+    """
 
     def __init__(self, timeout: float) -> None:
         self._timeout = timeout
@@ -71,29 +79,32 @@ class LocalExecutor:
         self._warm: dict[str, str] = {}  # frame key → device whose worker holds it
 
     def find(self, backend: str) -> list[DeviceInfo]:
+        """Find the devices of a backend, "opencl" or "opengl"."""
         found: list[DeviceInfo] = self._call(backend, "find")
         return found
 
-    def probe(self, device: str) -> Any:
-        return self._call(device, "probe")
+    def probe(self, device: str) -> Probes:
+        """Measure what the device's arithmetic and clock are worth."""
+        probes: Probes = self._call(device, "probe")
+        return probes
 
     def build(self, device: str, program: Program) -> float:
-        """Compile, and no more; the milliseconds that it took."""
+        """Compile a program, and no more; return the milliseconds that it took."""
         compile_ms: float = self._call(device, "build", program)
         return compile_ms
 
     def check(self, device: str, program: Program, rays: NDArray[np.float32]) -> Checked:
-        """Build a listed-rays program and cast rays float32[n, 6], twice: it fails where the answers differ."""
+        """Build a listed-rays program and cast rays float32[n, 6] twice; fail where the answers differ."""
         checked: Checked = self._call(device, "check", program, rays)
         return checked
 
     def check_frame(self, device: str, frame: Frame, pixels: NDArray[np.int32]) -> Checked:
-        """Build a frame of beams and run it twice; its answers for `pixels`, int32[n]. It fails where they differ."""
+        """Build a frame of beams and run it twice; its answers for `pixels`, int32[n]. Fail where they differ."""
         checked: Checked = self._call(device, "check_frame", frame, pixels)
         return checked
 
     def rasterise(self, device: str, frame: Frame, twice: bool) -> Rasterised:
-        """Draw a frame of reporting programs; `twice`: fail where two pictures of it differ."""
+        """Draw a frame of reporting programs, where asked `twice`; fail where the two pictures differ."""
         drawn: Rasterised = self._call(device, "rasterise", frame, twice)
         return drawn
 
@@ -104,17 +115,19 @@ class LocalExecutor:
         return warmed
 
     def sample(self, device: str, key: str, frame: Frame, batch: int) -> Timing:
-        """One timed repetition; the frame is warmed again first where its worker has been restarted since."""
+        """Run one timed repetition, after warming the frame again where its worker has been restarted since."""
         if key not in self._warm:
             self.warm(device, key, frame)
         timing: Timing = self._call(device, "sample", key, batch)
         return timing
 
     def release(self, device: str, key: str) -> None:
+        """Give up a frame that `warm` keeps ready."""
         if self._warm.pop(key, None):
             self._call(device, "release", key)
 
     def close(self) -> None:
+        """End all workers."""
         for device in list(self._processes):
             self._stop(device)
 
@@ -124,7 +137,7 @@ class LocalExecutor:
         return self._processes[device]
 
     def _stop(self, device: str) -> int:
-        """End the worker, if need be by force; its exit code, or minus the number of the signal that ended it."""
+        """End a worker, if need be by force; return its exit code, or minus the number of the signal that ended it."""
         stopped = self._processes.pop(device)
         self._warm = {key: holder for key, holder in self._warm.items() if holder != device}
         stopped.connection.close()
