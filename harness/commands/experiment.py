@@ -21,11 +21,11 @@ def add_parsers(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -
         parser = commands.add_parser(name, help=help_text, description=help_text, epilog=f"example: {example}")
         return parser
 
-    parser = add("plan", "print a config's cells and how long they will take", "firsthit plan configs/quick.toml")
+    parser = add("plan", "print a config's cells and how long they will take", "firsthit plan quick")
     _add_config(parser)
     parser.set_defaults(run=_plan)
 
-    parser = add("run", "run a config; finished cells are reused", "firsthit run configs/quick.toml --retry failed")
+    parser = add("run", "run a config; finished cells are reused", "firsthit run quick --retry failed")
     _add_config(parser)
     parser.add_argument("--force", action="store_true", help="run every cell again")
     parser.add_argument("--retry", choices=["failed"], help="run failed, timed out and crashed cells again")
