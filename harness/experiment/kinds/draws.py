@@ -15,7 +15,7 @@ from dataclasses import dataclass
 
 from harness.contract import MeshRecipe, Method, Normal, Origin, Program, Proxy, Variant
 from harness.devices.frames import Batch
-from harness.experiment.kinds.methods import of_method
+from harness.experiment.kinds.casts import of_method
 from harness.experiment.kinds.model import Drawing
 from harness.plugins import Catalog
 from harness.scenes.model import Group, Scene

@@ -20,7 +20,9 @@ class MeshMethods(MethodKind):
     """Methods whose kernel shades a triangle: `vec3 mesh_normal(vec3)`."""
 
     what = "triangles"
+    entries = ()
     unlisted = "it draws triangles, and listed rays meet none"
+    undrawn = None
 
     def stage_refusal(self, stage: Stage) -> str | None:
         return "the method draws triangles, in stage raster"

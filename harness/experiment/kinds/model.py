@@ -26,13 +26,12 @@ from harness.devices.interface import LANGUAGES
 from harness.devices.messages import Check, Frame
 from harness.experiment.cells import Cell
 from harness.experiment.config import AccuracyChoice, Config, Experiment
-from harness.kernels.assemble import Language, method_program
+from harness.kernels.assemble import Entry, Language, method_program
 from harness.kernels.functions import unsupported
 from harness.plugins import Catalog, Plugin
 from harness.scenes.camera import camera_for, distance_of, pixel_footprint, rays_of
 from harness.scenes.model import Group
 
-Entry = Literal["rays", "camera", "beams"]
 Rastering = tuple[Proxy, float, Normal]  # proxy, tolerance in pixels, normal: what only stage raster asks
 NOT_RASTERED: Rastering = ("box", 0.0, "distance")
 
@@ -78,11 +77,27 @@ class Outcome:
 
 
 class MethodKind(ABC):
-    """What follows from what a method's kernel casts."""
+    """State what follows from what a method's kernel casts. The four properties are class attributes of a kind."""
 
-    entries: tuple[Entry, ...] = ()  # of the programs that `firsthit compile` builds
-    unlisted: str | None = None  # why listed rays cannot be cast, where they cannot
-    undrawn: str | None = None  # why stage raster cannot draw with it, where it cannot
+    @property
+    @abstractmethod
+    def what(self) -> str:
+        """Name what the method casts, in the plural: rays, beams, triangles."""
+
+    @property
+    @abstractmethod
+    def entries(self) -> tuple[Entry, ...]:
+        """List the entries of the method's programs: those that `firsthit compile` builds. The first is a shot's."""
+
+    @property
+    @abstractmethod
+    def unlisted(self) -> str | None:
+        """Say why listed rays cannot be cast: a sentence about "it". None if they can."""
+
+    @property
+    @abstractmethod
+    def undrawn(self) -> str | None:
+        """Say why stage raster cannot draw by the method: what follows its name in a sentence. None if it can."""
 
     def stage_refusal(self, stage: Stage) -> str | None:
         """Say why the method cannot cast in a stage other than raster, if it cannot."""
@@ -93,11 +108,6 @@ class MethodKind(ABC):
         if origin == "nearest":
             return None
         return f"an origin is chosen for rays, and the method {method.name} casts {self.what}"
-
-    @property
-    @abstractmethod
-    def what(self) -> str:
-        """What the method casts, in the plural: rays, beams, triangles."""
 
     def origins(self, experiment: Experiment) -> tuple[Origin, ...]:
         """List the origins that make a difference to the method; what has none is cast once."""

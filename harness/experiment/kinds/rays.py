@@ -26,6 +26,8 @@ class RayMethods(MethodKind):
 
     what = "rays"
     entries = ("rays", "camera")
+    unlisted = None
+    undrawn = None
 
     def origin_refusal(self, method: Method, origin: Origin) -> str | None:
         return None
