@@ -1,6 +1,7 @@
-"""Where cells run. Here: one local worker process per device, restarted when it dies or hangs.
+"""Run steps of cells on devices: here, in one local worker process for each device.
 
-The runner needs no more of an executor than these methods, so that another one may send cells elsewhere.
+A worker that dies or hangs is ended, and started again for the next step. The runner needs no more of an executor than
+the methods of LocalExecutor, so that another executor may send cells elsewhere.
 """
 
 from __future__ import annotations
@@ -10,19 +11,22 @@ import subprocess
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from harness.contract import CellStatus, DeviceInfo, Program
 from harness.devices import serving
 from harness.devices.interface import Timing
 from harness.devices.messages import Answer, Check, Checked, Frame, Warmed
 
+if TYPE_CHECKING:
+    from harness.devices.probes import Probes
+
 START_SECONDS = 60.0  # for a worker to start and a driver to load
 STOP_SECONDS = 0.5  # for a worker to end by itself once its connection is closed
 
 
 class CellError(Exception):
-    """A step of one cell went wrong: `status` is failed, timeout or crashed."""
+    """Report that a step of one cell went wrong; `status` is failed, timeout or crashed."""
 
     def __init__(self, status: CellStatus, reason: str) -> None:
         super().__init__(reason)
@@ -36,7 +40,11 @@ class _Process:
 
 
 class LocalExecutor:
-    """Workers on this machine. One step runs at a time, since software devices share the processor's cores."""
+    """Run steps in worker processes on this machine.
+
+    One step runs at a time, since software devices share the processor's cores. A step may take `timeout` seconds; in a
+    new worker it has START_SECONDS more. A step raises CellError if it fails, takes too long, or ends its worker.
+    """
 
     def __init__(self, timeout: float) -> None:
         self._timeout = timeout
@@ -44,13 +52,14 @@ class LocalExecutor:
         self._warm: dict[str, str] = {}  # frame key → device whose worker holds it
 
     def find(self, backend: str) -> list[DeviceInfo]:
+        """Find every device of a backend, in the worker that is named after it."""
         found: list[DeviceInfo] = self._call(backend, "find")
         return found
 
     def running_files(self, device: str) -> list[Path] | None:
-        """The files whose code the worker of `device` has loaded: Python, bindings, drivers and their compilers.
+        """Return the files whose code the worker of `device` has loaded: Python, bindings, drivers and their compilers.
 
-        None where the worker is gone or the system does not tell them; Linux does.
+        Returns None if the worker is gone, or if the system does not say; Linux does.
         """
         if device not in self._processes:
             return None
@@ -61,37 +70,44 @@ class LocalExecutor:
         mapped = (line.split(maxsplit=5) for line in text.splitlines())  # addresses, rights, offset, device, node, path
         return sorted({Path(fields[5]) for fields in mapped if len(fields) == 6 and "x" in fields[1]})
 
-    def probe(self, device: str) -> Any:
-        return self._call(device, "probe")
+    def probe(self, device: str) -> Probes:
+        """Probe a device's arithmetic and clock, as harness.devices.probes does."""
+        probes: Probes = self._call(device, "probe")
+        return probes
 
     def build(self, device: str, program: Program) -> float:
-        """Compile, and no more; the milliseconds that it took."""
+        """Compile a program, do nothing else, and return the milliseconds that it took."""
         compile_ms: float = self._call(device, "build", program)
         return compile_ms
 
     def check(self, device: str, check: Check[Answer]) -> Checked[Answer]:
-        """Build a check's programs and run it; CellError where that fails, or two runs answer differently."""
+        """Build a check's programs and run it. Raises CellError if that fails, or if two runs answer differently."""
         checked: Checked[Answer] = self._call(device, "check", check)
         return checked
 
     def warm(self, device: str, key: str, frame: Frame) -> Warmed:
-        """Build a frame and keep it ready for `sample`."""
+        """Build a frame and keep it under `key`, ready for `sample`."""
         warmed: Warmed = self._call(device, "warm", key, frame)
         self._warm[key] = device
         return warmed
 
     def sample(self, device: str, key: str, frame: Frame, batch: int) -> Timing:
-        """One timed repetition; the frame is warmed again first where its worker has been restarted since."""
+        """Time one repetition: `batch` runs of the frame that is kept under `key`.
+
+        If its worker has been restarted since, the frame is warmed again first.
+        """
         if key not in self._warm:
             self.warm(device, key, frame)
         timing: Timing = self._call(device, "sample", key, batch)
         return timing
 
     def release(self, device: str, key: str) -> None:
+        """Free what the frame under `key` holds on its device; does nothing if no frame is kept there."""
         if self._warm.pop(key, None):
             self._call(device, "release", key)
 
     def close(self) -> None:
+        """End all workers."""
         for device in list(self._processes):
             self._stop(device)
 
@@ -101,7 +117,10 @@ class LocalExecutor:
         return self._processes[device]
 
     def _stop(self, device: str) -> int:
-        """End the worker, if need be by force; its exit code, or minus the number of the signal that ended it."""
+        """End a worker, by force if it does not end within STOP_SECONDS.
+
+        Returns its exit code, or minus the number of the signal that ended it.
+        """
         stopped = self._processes.pop(device)
         self._warm = {key: holder for key, holder in self._warm.items() if holder != device}
         stopped.connection.close()

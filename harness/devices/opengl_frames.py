@@ -1,4 +1,4 @@
-"""Frames of triangles through moderngl: colour and depth, and, where the programs report, what they answered."""
+"""Draw frames of triangles through moderngl: colour and depth and, if their programs report, what they answered."""
 
 from __future__ import annotations
 
@@ -12,12 +12,14 @@ from numpy.typing import NDArray
 from harness.devices.frames import Batch, Picture, RasterLaunch
 from harness.devices.interface import Array, Timing
 
-GL_DEPTH_CLAMP = 0x864F  # proxies may reach in front of the near plane; what they hold does not
+GL_DEPTH_CLAMP = 0x864F  # a proxy may reach in front of the near plane, though the surface in it does not
 
 
 class OpenGLRasterLaunch(RasterLaunch):
-    """Batches drawn in order into one target with a depth buffer; `built` has a program for each, and with `fill` they
-    report."""
+    """Draw batches in order into one target with a depth buffer.
+
+    `built` holds a program for each batch; with `fill` these programs report.
+    """
 
     def __init__(
         self,
@@ -113,7 +115,7 @@ class OpenGLRasterLaunch(RasterLaunch):
                 program[name] = value
 
     def read(self) -> list[Array]:
-        """The picture, uint8[size, size, 4], row 0 at the top."""
+        """Read the picture, uint8[size, size, 4], row 0 at the top."""
         return [self._flipped(np.frombuffer(self._colour.read(), np.uint8), 4)]
 
     def _flipped(self, values: Array, width: int) -> Array:
@@ -121,7 +123,7 @@ class OpenGLRasterLaunch(RasterLaunch):
         return np.ascontiguousarray(rows)
 
     def picture(self) -> Picture:
-        """Read back what a frame with reporting programs showed; it must have been run once."""
+        """Read what a frame with reporting programs answered; it must have been run once."""
         assert self._rays is not None and self._counts is not None
         count = self._size**2
         (colours,) = self.read()
