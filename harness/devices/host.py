@@ -36,6 +36,6 @@ def cores() -> int | None:
 
 
 def settings() -> dict[str, str]:
-    """Return the variables by which a user changes drivers and compilers, without those that the harness sets itself."""
+    """Return the variables by which a user changes drivers and compilers, without those that the harness sets."""
     chosen = {name: value for name, value in os.environ.items() if name.startswith(SETTINGS)}
     return {name: value for name, value in sorted(chosen.items()) if OURS.get(name) != value}

@@ -123,10 +123,10 @@ def _peak(device: Device) -> _Peak:
 
 
 def peak_section(chains: int, fused: bool) -> Section:
-    """Return a map item of `chains` independent chains of multiply-adds, PEAK_OPERATIONS operations or a few more in
-    all.
+    """Return a map item of `chains` independent chains of multiply-adds.
 
-    Each chain has a variable of its own name, since compilers keep an array of them in memory.
+    It has PEAK_OPERATIONS operations, or a few more. Each chain has a variable of its own name, since compilers keep an
+    array of them in memory.
     """
     names = [f"a{k}" for k in range(chains)]
     step = "{0} = fma({0}, scale, shift);" if fused else "{0} = {0} * scale + shift;"

@@ -62,7 +62,7 @@ def first_level(info: DeviceInfo, last: int) -> int:
 
 
 def most_queued(size: int, level: int, last: int) -> int:
-    """Count the cells of `level` in a size × size image whose pixels are level `last`: the room in the level's queue."""
+    """Count the cells of `level` in a size × size image whose pixels are level `last`: the most that it can queue."""
     return int((-(-size // 2 ** (last - level))) ** 2)
 
 

@@ -1,4 +1,4 @@
-"""TOML → the dataclasses of a config, each field held against its limits; every mistake is answered with its line."""
+"""Read a config's TOML into dataclasses, hold each field to its limits, and answer every mistake with its line."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The configs that come with firsthit: they are found by name, wherever firsthit is installed."""
+"""Find the configs that come with firsthit by their names, wherever firsthit is installed."""
 
 from __future__ import annotations
 

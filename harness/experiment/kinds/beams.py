@@ -1,4 +1,8 @@
-"""Beams: one for each pixel, or a quadtree of them over the image. A beam's answer is held against a ray inside it."""
+"""Cast beams: one for each pixel, or a quadtree of them over the image.
+
+The check casts the whole frame. Each ray of the accuracy grid lies in the beam of a pixel, and that beam's answer,
+brought to the ray, is held against the oracle (harness.accuracy.pixels).
+"""
 
 from __future__ import annotations
 
@@ -24,7 +28,7 @@ from harness.scenes.camera import rays_of
 
 @dataclass(frozen=True)
 class BeamMethods(MethodKind):
-    """Methods whose kernel answers a cell of the image: `void cast_cell(Work, Cell)`."""
+    """State what follows for methods whose kernel answers a cell of the image: `void cast_cell(Work, Cell)`."""
 
     quadtree: bool
 
@@ -56,7 +60,10 @@ class BeamMethods(MethodKind):
 
 @dataclass(frozen=True, eq=False)
 class BeamCast(Cast):
-    """Holds the answers of the beams that hold the grid's rays, brought to the rays."""
+    """Hold the answers of the beams that hold the grid's rays, brought to the rays.
+
+    pixels: which pixel's beam holds each ray
+    """
 
     pixels: Pixels
 
@@ -66,7 +73,7 @@ class BeamCast(Cast):
 
 
 class BeamCasting(ViewCasting):
-    """The beams of a camera's image, or a quadtree of them."""
+    """Cast the beams of a camera's image, or a quadtree of them."""
 
     def __init__(self, asked: Asked, check: Program, timed: Program, quadtree: bool) -> None:
         super().__init__(asked, (check,), timed)
@@ -99,13 +106,16 @@ class BeamCasting(ViewCasting):
 def beam_hits(
     hits: Hits, pixels: Pixels, surface: Surface, rays: NDArray[np.float32], camera: NDArray[np.float32]
 ) -> Hits:
-    """Bring the answers of beams to the rays float32[n, 6] that they hold, and mark those INVALID that can be none."""
+    """Bring the answers of beams to the rays float32[n, 6] that they hold, and mark those INVALID that can be none.
+
+    `camera` is float32[12].
+    """
     return validated_beams(along_rays(hits, pixels), surface.domain, rays, camera[3:6])
 
 
 @dataclass(frozen=True)
 class Beams(Kind):
-    """Beams of stage compute."""
+    """Make castings of beams, in stage compute."""
 
     quadtree: bool
     checked_on_frame = True

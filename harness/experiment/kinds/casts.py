@@ -1,4 +1,4 @@
-"""The table of all ways to cast: the words of `Method.casts`, each with its kind of method and its kind of cell.
+"""List all ways to cast: the words of `Method.casts`, each with its kind of method and its kind of cell.
 
 A new way to cast is a line here.
 """

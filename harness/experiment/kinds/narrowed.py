@@ -1,4 +1,7 @@
-"""Rays behind a prepass: beams over tiles of the image narrow each ray before its method is called."""
+"""Cast rays behind a prepass, whose beams over tiles of the image narrow each ray before its method is called.
+
+The check lists rays, and narrows them by the prepass of the frame that is timed.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +23,7 @@ REFUSAL = "a prepass narrows the rays of a camera's pixels, in the stage compute
 
 
 class NarrowedCasting(ViewCasting):
-    """Rays of a camera's image, narrowed by the prepass `before`."""
+    """Cast rays of a camera's image, narrowed by the prepass's program `before`."""
 
     not_raced = "rays behind a prepass are not raced"
 
@@ -56,7 +59,7 @@ class NarrowedCasting(ViewCasting):
 
 
 class Narrowed(Kind):
-    """Rays of stage compute behind a prepass."""
+    """Make castings of rays behind a prepass, in stage compute."""
 
     checked_on_frame = True
 
