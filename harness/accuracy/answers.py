@@ -54,7 +54,7 @@ def reachable(
     if origin == "nearest":
         return _within(domain, rays, t, t_min, SLACK * _size(domain))
     away = np.linalg.norm(rays[:, :3].astype(np.float64) - domain.center, axis=1)
-    doubled = np.exp2(np.ceil(np.log2(np.maximum(away, domain.radius))))  # rounded up: few distances stand for all
+    doubled = np.exp2(np.ceil(np.log2(np.maximum(away, domain.radius))))  # up to a power of 2, so that few differ
     possible = np.zeros(len(rays), np.bool_)
     for distance in np.unique(doubled):
         mine = doubled == distance

@@ -42,11 +42,11 @@ from harness.oracle.clip import clip_many
 from harness.scenes.camera import scene_radius
 
 SAMPLE = 512  # rays
-STEPS = 64  # of a ray's stay in the domain
+STEPS = 64  # of the part of a ray that is in the domain
 DOUBTFUL = 0.02  # share of the sample
 OUTWEIGHS = 4.0
-NEAR_ZERO = 0.05  # of f's largest size within FAR scene radii: as small as it is about a touch
-NOISE = 1e-6  # of f's largest size along the ray: smaller values have no sign
+NEAR_ZERO = 0.05  # of f's largest magnitude within FAR scene radii: near a touch f is as small
+NOISE = 1e-6  # of f's largest magnitude along the ray: the sign of smaller values is not used
 
 Floats = NDArray[np.float64]
 Mask = NDArray[np.bool_]

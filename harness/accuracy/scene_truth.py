@@ -19,7 +19,7 @@ from harness.scenes.records import pack
 
 CHUNK = 2**22  # pairs of ray and instance that are looked at together
 SLACK = 1e-5  # of a bounding sphere's radius, for rounding
-DEPTH_SHARE = 1e-6  # of the depth: what the depth buffer may not tell apart
+DEPTH_SHARE = 1e-6  # of the depth: nearer to each other, the depth buffer may confuse two instances
 
 
 @dataclass(frozen=True, eq=False)
@@ -146,7 +146,7 @@ def _local(records: NDArray[np.float32], rays: NDArray[np.float64]) -> NDArray[n
 def _certified(surface: Surface, parts: list[_Part], folder: Path) -> tuple[_Part, Truth]:
     """Return all pairs of a surface as one part, and the certified first hits of the rays that were cast."""
     whole = _Part(*(np.concatenate([getattr(part, name) for part in parts]) for name in _Part.__dataclass_fields__))
-    truth = cached_first_hits(surface, whole.local, folder)  # the same for all methods
+    truth = cached_first_hits(surface, whole.local, folder)  # kept once for all methods
     other = (whole.cast != whole.local).any(axis=1)
     if other.any():
         own = cached_first_hits(surface, whole.cast[other], folder)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from harness.contract import Hits, Program
 from harness.devices import lanes
-from harness.devices.interface import Array, Device, Launch
+from harness.devices.interface import Array, Built, Device, Launch
 from harness.devices.messages import FirstRun, Frame, HitsCheck
 from harness.devices.quadtree import BY_DEVICE, Layout, beam_hits_from, last_level, launch_beams, start_of
 
@@ -35,7 +35,7 @@ class BeamFrame(Frame):
     def programs(self) -> tuple[Program, ...]:
         return (self.program,)
 
-    def launch(self, device: Device, built: Sequence[Any]) -> Launch:
+    def launch(self, device: Device, built: Sequence[Built]) -> Launch:
         return launch_beams(device, self.program, built[0], self.camera, self.size, self.quadtree, self.layout)
 
 
@@ -66,7 +66,7 @@ class BeamCheck(HitsCheck[BeamAnswer]):
     def programs(self) -> tuple[Program, ...]:
         return self.frame.programs
 
-    def launch(self, device: Device, built: Sequence[Any]) -> Launch:
+    def launch(self, device: Device, built: Sequence[Built]) -> Launch:
         frame = self.frame
         stated = frame.program, built[0], frame.camera, frame.size, frame.quadtree, frame.layout
         return launch_beams(device, *stated, blank=True, queues=True)

@@ -8,13 +8,12 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from harness.contract import FirsthitError, Hits, Program, RayStatus
-from harness.devices.interface import Device, Launch, same_values
+from harness.devices.interface import Built, Device, Launch, same_values
 from harness.devices.messages import Check, Frame, need_steady
 
 RECORD = 32  # float32 of an instance, see harness/kernels/glsl/raster/instance.glsl
@@ -100,11 +99,11 @@ class Rasteriser(ABC):
     def launch_raster(
         self,
         batches: Sequence[Batch],
-        built: Sequence[Any],
+        built: Sequence[Built],
         camera: NDArray[np.float32],
         depth_map: tuple[float, float],
         size: int,
-        fill: Any = None,
+        fill: Built | None = None,
     ) -> RasterLaunch:
         """Upload batches, to be drawn by their built programs into an image of size × size pixels.
 
@@ -139,10 +138,10 @@ class RasterFrame(Frame):
     def programs(self) -> tuple[Program, ...]:
         return tuple(batch.program for batch in self.batches)
 
-    def launch(self, device: Device, built: Sequence[Any]) -> Launch:
+    def launch(self, device: Device, built: Sequence[Built]) -> Launch:
         return self.drawn(device, built, None)
 
-    def drawn(self, device: Device, built: Sequence[Any], fill: Any) -> RasterLaunch:
+    def drawn(self, device: Device, built: Sequence[Built], fill: Built | None) -> RasterLaunch:
         """Upload the frame; `fill` is as in Rasteriser.launch_raster.
 
         Raises FirsthitError if the device draws no triangles.
@@ -170,7 +169,7 @@ class RasterCheck(Check[Picture]):
     def programs(self) -> tuple[Program, ...]:
         return (*self.frame.programs, self.fill)
 
-    def run(self, device: Device, built: Sequence[Any]) -> Picture:
+    def run(self, device: Device, built: Sequence[Built]) -> Picture:
         pictures: list[Picture] = []
         for _ in range(1 + self.twice):
             launch = self.frame.drawn(device, built[:-1], built[-1])

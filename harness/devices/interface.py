@@ -20,9 +20,10 @@ from harness.contract import DeviceInfo, FirsthitError, Hits, Program, RayStatus
 from harness.kernels.assemble import Language
 
 Array = NDArray[Any]
+Built = Any  # a program as a backend has built it, for launches of the same device only
 INSTALL = {"opencl": "pyopencl", "opengl": "moderngl"}
 LANGUAGES: dict[str, Language] = {"opengl": "glsl", "opencl": "cl"}
-# A GPU's compute unit with 65,536 registers holds 1,024 work items of 64 each, which beams and ranges may well need
+# Work items that fill a GPU's compute unit: it has 65,536 registers, and beams and ranges may need 64 of them each
 GPU_RESIDENT = 1024
 RASTERISES = ("opengl",)  # backends whose devices draw triangles
 
@@ -51,7 +52,7 @@ class Step:
     names).
     """
 
-    built: Any
+    built: Built
     buffers: tuple[int, ...]
     grid: tuple[int, int]
     numbers: Mapping[str, int] = field(default_factory=dict)
@@ -101,11 +102,8 @@ class Device(ABC):
     language: Language
 
     @abstractmethod
-    def build(self, program: Program) -> Any:
-        """Compile a program. What is returned is of use for this device's launches only.
-
-        Raises BuildError if the driver's compiler refuses the program.
-        """
+    def build(self, program: Program) -> Built:
+        """Compile a program, for launches of this device only. Raises BuildError if the driver's compiler refuses."""
 
     @abstractmethod
     def launch_steps(
@@ -117,7 +115,7 @@ class Device(ABC):
         """
 
     def launch(
-        self, built: Any, inputs: Sequence[Array], outputs: Sequence[tuple[int, type]], grid: tuple[int, int]
+        self, built: Built, inputs: Sequence[Array], outputs: Sequence[tuple[int, type]], grid: tuple[int, int]
     ) -> Launch:
         """Upload `inputs`, reserve `outputs`, and make ready to run one work item for each point of `grid`.
 
@@ -133,14 +131,14 @@ def real_type(program: Program) -> type:
     return np.float32 if program.precision == "float32" else np.float64
 
 
-def launch_rays(device: Device, program: Program, built: Any, rays: NDArray[np.float32]) -> Launch:
+def launch_rays(device: Device, program: Program, built: Built, rays: NDArray[np.float32]) -> Launch:
     """Launch a program over listed rays float32[n, 6], origins and directions, which are used as they are given."""
     count = len(rays)
     outputs = [(2 * count, real_type(program)), (count, np.int32)]
     return device.launch(built, [np.ascontiguousarray(rays, np.float32)], outputs, (count, 1))
 
 
-def launch_camera(device: Device, program: Program, built: Any, camera: NDArray[np.float32], size: int) -> Launch:
+def launch_camera(device: Device, program: Program, built: Built, camera: NDArray[np.float32], size: int) -> Launch:
     """Launch a program over the rays of a camera's image of size × size samples.
 
     `camera` is float32[12]: eye, forward, right, up.

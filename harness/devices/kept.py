@@ -35,7 +35,7 @@ PACKAGES = (
     *("pyopencl", "moderngl", "glcontext", "numpy"),
     *("pocl-binary-distribution", "intel-opencl-rt", "intel-cmplr-lib-rt"),
 )
-LOADERS = (  # beginnings of the environment variables by which drivers are found, beside host.SETTINGS
+LOADERS = (  # how names of the variables begin by which drivers are found, beside those in host.SETTINGS
     *("OCL_", "OPENCL_", "LD_", "EGL_", "__EGL_", "__GLX_", "LIBGL_", "GALLIUM_", "RUSTICL_", "DRI_", "VK_"),
     *("NVIDIA_", "ROCR_", "HIP_", "HSA_", "GPU_", "AMD_", "ZE_", "SYCL_", "NEO", "DISPLAY", "WAYLAND_"),
 )
@@ -69,7 +69,7 @@ def keep(backend: str, devices: Sequence[DeviceInfo], ran: Iterable[Path] | None
             file.unlink(missing_ok=True)
     elif ran is not None:
         with contextlib.suppress(FirsthitError, OSError, ValueError):
-            states = {str(path): state for path in ran if (state := _state(path))}  # a compiler's own may be gone
+            states = {str(path): state for path in ran if (state := _state(path))}  # a compiler's files may be gone
             found = [dataclasses.asdict(info) for info in devices]
             record = {"surroundings": _surroundings(), "files": states, "devices": found}
             write_atomically(file, json.dumps(record | {"digest": digest(record)}).encode())
@@ -133,7 +133,7 @@ def _surroundings() -> str:
     return digest(sources.methodology(), python, settings, machine, usable, _lists())
 
 
-def _lists() -> list[Any]:
+def _lists() -> list[tuple[str, list[int] | None]]:
     """Return the state of the lists by which loaders find drivers, and of the drivers named there by a whole path."""
     named = [Path(os.environ[name]) for name in ("OCL_ICD_VENDORS", "OPENCL_VENDOR_PATH") if os.environ.get(name)]
     wheel = Path(sys.prefix) / "lib" / "libintelocl.so"  # which harness/devices/opencl.py lists by itself

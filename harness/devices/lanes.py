@@ -1,10 +1,9 @@
 """Compute how many lanes of beams are idle.
 
 Work items that run in step wait for the one of their group that evaluates f most often. A group is the lanes of a
-processor's vector, or a GPU's warp: work items with neighbouring numbers. A group of `width` lanes takes as long as its
-largest number of evaluations, in all `width` lanes; the part of them that is not spent on evaluations is idle. The
-result is a lower bound. It does not see turns of the search that only test the domain, nor evaluations that lanes make
-at different turns.
+processor's vector, or a GPU's warp: work items with neighbouring numbers. Each lane of a group takes the time of the
+group's largest number of evaluations, and is idle for what its own number is smaller. The result is a lower bound. It
+does not see turns of the search that only test the domain, nor evaluations that lanes make at different turns.
 """
 
 from __future__ import annotations
@@ -17,9 +16,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from harness.contract import Hits, RayStatus
+from harness.devices.interface import Array
 from harness.devices.quadtree import LEVELS, PARENT, most_queued
 
-WIDTHS = (8, 16, 32)  # float32 in AVX2, in AVX-512; a warp
+WIDTHS = (8, 16, 32)  # lanes of float32 in AVX2 and in AVX-512, and of a GPU's warp
 
 Whole = NDArray[np.int64]
 
@@ -37,7 +37,9 @@ class Tree:
     grouped: bool = True
 
 
-def of_frame(tree: Tree, hits: Hits, levels: NDArray[np.uint8], outputs: Sequence[Any]) -> list[dict[str, Any]] | None:
+def of_frame(
+    tree: Tree, hits: Hits, levels: NDArray[np.uint8], outputs: Sequence[Array]
+) -> list[dict[str, Any]] | None:
     """Sum up what a frame's work items spend, level by level, from all outputs of its launch.
 
     `hits` and `levels` are of all pixels. Returns what `summary` does; None if an answer is INVALID.
@@ -73,7 +75,7 @@ def summary(spent: Mapping[int, Whole]) -> list[dict[str, Any]]:
 
 
 def spent_by_items(
-    tree: Tree, evaluations: NDArray[Any], levels: NDArray[np.uint8], queue: NDArray[Any], counts: NDArray[Any]
+    tree: Tree, evaluations: NDArray[np.int32], levels: NDArray[np.uint8], queue: Array, counts: Array
 ) -> dict[int, Whole]:
     """Return the evaluations int[n] of each level's work items, in the items' order, by level.
 

@@ -10,13 +10,13 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Generic, TypeVar
+from typing import Generic, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from harness.contract import DeviceInfo, FirsthitError, Hits, Program
-from harness.devices.interface import Array, Device, Launch, hits_from, launch_camera, launch_rays, same_values
+from harness.devices.interface import Array, Built, Device, Launch, hits_from, launch_camera, launch_rays, same_values
 
 Answer = TypeVar("Answer")
 
@@ -52,7 +52,7 @@ class Frame(ABC):
         """Return the programs that `launch` needs, in the order in which it takes them built."""
 
     @abstractmethod
-    def launch(self, device: Device, built: Sequence[Any]) -> Launch:
+    def launch(self, device: Device, built: Sequence[Built]) -> Launch:
         """Upload the frame, ready to run; `built` holds `programs`, built.
 
         Raises FirsthitError if the device cannot cast it.
@@ -71,7 +71,7 @@ class Check(ABC, Generic[Answer]):
         """Return the programs that `run` needs, in the order in which it takes them built."""
 
     @abstractmethod
-    def run(self, device: Device, built: Sequence[Any]) -> Answer:
+    def run(self, device: Device, built: Sequence[Built]) -> Answer:
         """Run the programs and return their answer. `built` holds `programs`, built.
 
         Raises FirsthitError if the answers of two runs differ, or if the device cannot cast.
@@ -91,7 +91,7 @@ class HitsCheck(Check[Answer]):
     """State a check whose outputs hold a hit for each ray or pixel."""
 
     @abstractmethod
-    def launch(self, device: Device, built: Sequence[Any]) -> Launch:
+    def launch(self, device: Device, built: Sequence[Built]) -> Launch:
         """Upload what is cast, ready to run. `built` holds `programs`, built."""
 
     @abstractmethod
@@ -102,7 +102,7 @@ class HitsCheck(Check[Answer]):
     def answer(self, first: FirstRun) -> Answer:
         """Make the answer from the first run."""
 
-    def run(self, device: Device, built: Sequence[Any]) -> Answer:
+    def run(self, device: Device, built: Sequence[Built]) -> Answer:
         launch = self.launch(device, built)
         outputs, again = [_outputs(launch) for _ in range(2)]
         launch.release()
@@ -140,7 +140,7 @@ class CameraFrame(Frame):
     def programs(self) -> tuple[Program, ...]:
         return (self.program,)
 
-    def launch(self, device: Device, built: Sequence[Any]) -> Launch:
+    def launch(self, device: Device, built: Sequence[Built]) -> Launch:
         return launch_camera(device, self.program, built[0], self.camera, self.size)
 
 
@@ -155,7 +155,7 @@ class ListedFrame(Frame):
     def programs(self) -> tuple[Program, ...]:
         return (self.program,)
 
-    def launch(self, device: Device, built: Sequence[Any]) -> Launch:
+    def launch(self, device: Device, built: Sequence[Built]) -> Launch:
         return launch_rays(device, self.program, built[0], self.rays)
 
 
@@ -170,7 +170,7 @@ class ListedCheck(HitsCheck[Hits]):
     def programs(self) -> tuple[Program, ...]:
         return (self.program,)
 
-    def launch(self, device: Device, built: Sequence[Any]) -> Launch:
+    def launch(self, device: Device, built: Sequence[Built]) -> Launch:
         return launch_rays(device, self.program, built[0], self.rays)
 
     def hits(self, outputs: Sequence[Array]) -> Hits:

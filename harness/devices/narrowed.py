@@ -7,13 +7,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from harness.contract import Hits, Program
-from harness.devices.interface import Array, Device, Launch, Reserved, Step, hits_from, real_type
+from harness.devices.interface import Array, Built, Device, Launch, Reserved, Step, hits_from, real_type
 from harness.devices.messages import FirstRun, Frame, HitsCheck
 from harness.devices.quadtree import LEVELS, first_level, last_level, quadtree_steps
 from harness.kernels import prepass
@@ -38,7 +37,7 @@ class NarrowedFrame(Frame):
     def programs(self) -> tuple[Program, ...]:
         return self.before, self.program
 
-    def launch(self, device: Device, built: Sequence[Any]) -> Launch:
+    def launch(self, device: Device, built: Sequence[Built]) -> Launch:
         before, rays = built
         return launch_narrowed_camera(device, (self.before, self.program), (before, rays), self.camera, self.size)
 
@@ -72,7 +71,7 @@ class NarrowedCheck(HitsCheck[NarrowedAnswer]):
     def programs(self) -> tuple[Program, ...]:
         return self.frame.before, self.program
 
-    def launch(self, device: Device, built: Sequence[Any]) -> Launch:
+    def launch(self, device: Device, built: Sequence[Built]) -> Launch:
         before, rays = built
         camera, size = self.frame.camera, self.frame.size
         return launch_narrowed_rays(device, self.programs, (before, rays), camera, size, self.rays, self.pixels)
@@ -84,7 +83,7 @@ class NarrowedCheck(HitsCheck[NarrowedAnswer]):
         return NarrowedAnswer(first.hits, float(first.outputs[2].sum()) / self.frame.size**2)
 
 
-def _prepass(device: Device, program: Program, built: Any, size: int) -> tuple[list[Step], list[Array | Reserved]]:
+def _prepass(device: Device, program: Program, built: Built, size: int) -> tuple[list[Step], list[Array | Reserved]]:
     """Return the prepass's steps over a size × size image, and its buffers behind the camera.
 
     The buffers hold the tiles' spans of depth, the evaluations that tiles spent, the queue, and its counts.
@@ -100,7 +99,7 @@ def _prepass(device: Device, program: Program, built: Any, size: int) -> tuple[l
 def launch_narrowed_camera(
     device: Device,
     programs: tuple[Program, ...],
-    built: tuple[Any, Any],
+    built: tuple[Built, Built],
     camera: NDArray[np.float32],
     size: int,
 ) -> Launch:
@@ -117,7 +116,7 @@ def launch_narrowed_camera(
 def launch_narrowed_rays(
     device: Device,
     programs: tuple[Program, ...],
-    built: tuple[Any, Any],
+    built: tuple[Built, Built],
     camera: NDArray[np.float32],
     size: int,
     rays: NDArray[np.float32],

@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 
 from harness.contract import DeviceInfo, Program
-from harness.devices.interface import GPU_RESIDENT, Array, BuildError, Device, Launch, Reserved, Step, Timing
+from harness.devices.interface import GPU_RESIDENT, Array, BuildError, Built, Device, Launch, Reserved, Step, Timing
 from harness.kernels.assemble import explain_log
 
 SHORT = {"intel": "intel", "portable": "pocl", "nvidia": "nvidia", "amd": "amd", "rusticl": "rusticl", "apple": "apple"}
@@ -161,7 +161,7 @@ class OpenCLDevice(Device):
         self._options = {**OPTIONS, "float32": [*OPTIONS["float32"], *([ROUNDED_DIVISION] if rounds else [])]}
         self._queue = cl.CommandQueue(self._context, properties=cl.command_queue_properties.PROFILING_ENABLE)
 
-    def build(self, program: Program) -> Any:
+    def build(self, program: Program) -> Built:
         cl = _binding()
         source = cl.Program(self._context, program.text)
         options = [*self._options[program.precision], *([] if program.optimised else UNOPTIMISED)]

@@ -18,7 +18,7 @@ import numpy as np
 
 from harness.contract import DeviceInfo, FirsthitError, Program, source
 from harness.devices.frames import Batch, Rasteriser, RasterLaunch
-from harness.devices.interface import GPU_RESIDENT, Array, BuildError, Device, Launch, Reserved, Step, Timing
+from harness.devices.interface import GPU_RESIDENT, Array, BuildError, Built, Device, Launch, Reserved, Step, Timing
 from harness.devices.opengl_frames import OpenGLRasterLaunch
 from harness.kernels.assemble import explain_log
 
@@ -124,7 +124,7 @@ class OpenGLDevice(Device, Rasteriser):
         self._context = _context()
         self.most_groups = _most_groups(self._context)  # of one launch
 
-    def build(self, program: Program) -> Any:
+    def build(self, program: Program) -> Built:
         import moderngl
 
         if not program.optimised:
@@ -142,11 +142,11 @@ class OpenGLDevice(Device, Rasteriser):
     def launch_raster(
         self,
         batches: Sequence[Batch],
-        built: Sequence[Any],
+        built: Sequence[Built],
         camera: Array,
         depth_map: tuple[float, float],
         size: int,
-        fill: Any = None,
+        fill: Built | None = None,
     ) -> RasterLaunch:
         return OpenGLRasterLaunch(self._context, batches, built, camera, depth_map, size, fill)
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from harness.devices.frames import Batch, Picture, RasterLaunch
-from harness.devices.interface import Array, Timing
+from harness.devices.interface import Array, Built, Timing
 
 GL_DEPTH_CLAMP = 0x864F  # a proxy may reach in front of the near plane, though the surface in it does not
 
@@ -25,11 +25,11 @@ class OpenGLRasterLaunch(RasterLaunch):
         self,
         context: Any,
         batches: Sequence[Batch],
-        built: Sequence[Any],
+        built: Sequence[Built],
         camera: NDArray[np.float32],
         depth_map: tuple[float, float],
         size: int,
-        fill: Any = None,
+        fill: Built | None = None,
     ) -> None:
         self._context, self._size, reports = context, size, fill is not None
         start = time.perf_counter()
@@ -66,7 +66,7 @@ class OpenGLRasterLaunch(RasterLaunch):
         self.bytes += values.nbytes
         return self._keep(self._context.buffer(np.ascontiguousarray(values).tobytes()))
 
-    def _call(self, batch: Batch, program: Any) -> tuple[Any, Any, Any, int, bool]:
+    def _call(self, batch: Batch, program: Built) -> tuple[Built, Any, Any, int, bool]:
         instances, triangles = self._buffer(batch.instances), self._buffer(batch.triangles)
         content = []
         if batch.vertices is not None:
@@ -109,7 +109,7 @@ class OpenGLRasterLaunch(RasterLaunch):
             array.render(moderngl.TRIANGLES, instances=count)
         context.disable_direct(GL_DEPTH_CLAMP)
 
-    def _set(self, program: Any, batch: int) -> None:
+    def _set(self, program: Built, batch: int) -> None:
         for name, value in {**self._uniforms, "batch": batch}.items():
             if name in program:
                 program[name] = value

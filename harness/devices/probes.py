@@ -15,7 +15,7 @@ from harness.devices.interface import Device, map_rows, real_type
 from harness.kernels.assemble import KERNELS, file_section, map_program
 
 CASES = 65536
-PEAK_ITEMS = 1024  # at first: more until a launch takes PEAK_MS, since a GPU is not filled by so few
+PEAK_ITEMS = 1024  # of the first launch; their number grows until a launch takes PEAK_MS, since a GPU needs more
 MOST_ITEMS = 1 << 20
 PEAK_MS = 5.0
 PEAK_TRIES = 12  # launches of each of the PEAK_FINALISTS best shapes, since other programs may slow any of them down
@@ -34,7 +34,7 @@ PEAK_SHAPES = (
     (64, False),
     (96, True),
 )
-BELIEVABLE = (0.5, 1.05)  # a device's clock is trusted if its time of a launch of some ms is so much of the host's time
+BELIEVABLE = (0.5, 1.05)  # least and most that a trusted device clock tells of a launch of some ms, over the host's
 
 
 @dataclass(frozen=True)

@@ -8,20 +8,21 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from harness.contract import DeviceInfo, Hits, Program
-from harness.devices.interface import Array, Device, Launch, Reserved, Step, real_type, unpacked
+from harness.devices.interface import Array, Built, Device, Launch, Reserved, Step, real_type, unpacked
 
 UNITS = 64  # compute units of a device that does not say how many it has
 CELLS_PER_UNIT = 64  # how many fill a unit that does not say what it holds: one work group
 ITEMS_PER_UNIT = 2048  # work items that a queue is strided over, at most
 MOST_ITEMS = 2**21  # work items of any level: OpenGL promises 65535 groups
-LEVELS = 32  # counts: of the cells queued by each of 16 levels, then of those that each puts after its others
-PARENT = 3  # whole numbers in the queue for each cell
+LEVELS = (
+    32  # counters: for each of 16 levels the cells that it queues, then for each those that it puts after the others
+)
+PARENT = 3  # int32 in the queue for each cell
 ALL, ALL_IN_ROWS = -1, -2  # instead of a place in the queue: every cell of the level, in Z order or row by row
 
 
@@ -67,7 +68,7 @@ def most_queued(size: int, level: int, last: int) -> int:
 
 
 def quadtree_steps(
-    device: Device, built: Any, size: int, first: int, last: int, stop: int, grouped: bool = True
+    device: Device, built: Built, size: int, first: int, last: int, stop: int, grouped: bool = True
 ) -> tuple[list[Step], int]:
     """Return the steps of levels `first` to `stop` of a quadtree, and the count of int32 that its queue takes.
 
@@ -91,7 +92,7 @@ def quadtree_steps(
 def launch_beams(
     device: Device,
     program: Program,
-    built: Any,
+    built: Built,
     camera: NDArray[np.float32],
     size: int,
     quadtree: bool,

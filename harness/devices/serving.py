@@ -59,13 +59,13 @@ def serve(connection: Connection, device: str) -> None:
     while True:
         try:
             operation, arguments = connection.recv()
-        except (EOFError, ConnectionError):  # reset, where the runner went without reading the last answer
+        except (EOFError, ConnectionError):  # a reset: the runner ended without reading the last answer
             return
         try:
             answer = ("ok", getattr(worker, operation)(*arguments))
         except (BuildError, FirsthitError) as error:
             answer = ("failed", str(error))
-        except Exception as error:  # a binding may raise anything; it costs this one cell
+        except Exception as error:  # a binding may raise anything; only this cell fails
             answer = ("failed", f"{type(error).__name__}: {error}")
         try:
             connection.send(answer)

@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from harness.contract import Program
-from harness.devices.interface import Array, Device, Launch, Reserved, Step, real_type
+from harness.devices.interface import Array, Built, Device, Launch, Reserved, Step, real_type
 from harness.devices.quadtree import LEVELS, PARENT
 
 AWAY = (0.0, 0.0, 1024.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0)  # a camera: eye, forward, right, up
 
 
-def trial_launch(device: Device, program: Program, built: Any) -> Launch:
+def trial_launch(device: Device, program: Program, built: Built) -> Launch:
     """Upload one ray, pixel or cell that meets no surface, for the program of any method.
 
     Raises NotImplementedError for a program whose entry is not known here: its buffers are not known either.

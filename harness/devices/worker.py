@@ -10,10 +10,10 @@ import time
 from collections import OrderedDict
 from collections.abc import Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from harness.contract import DeviceInfo, Program
-from harness.devices.interface import Device, Launch, Timing, find_devices, open_device
+from harness.devices.interface import Built, Device, Launch, Timing, find_devices, open_device
 from harness.devices.messages import Answer, Check, Checked, Frame, Warmed
 from harness.devices.trial import trial_launch
 
@@ -35,7 +35,7 @@ class Worker:
     def __init__(self, name: str) -> None:
         self._name = name
         self._frames: dict[str, Launch] = {}
-        self._built: OrderedDict[str, tuple[Any, float]] = OrderedDict()  # by hash; the first is the longest unused
+        self._built: OrderedDict[str, tuple[Built, float]] = OrderedDict()  # by hash; the first was used longest ago
 
     @cached_property
     def _device(self) -> Device:
@@ -55,7 +55,7 @@ class Worker:
         """Compile a program; return the milliseconds that it took, with what the driver leaves to the first launch."""
         return self._build(program)[1]
 
-    def _build(self, program: Program) -> tuple[Any, float]:
+    def _build(self, program: Program) -> tuple[Built, float]:
         """Return the built program, and the milliseconds that compiling took, now or when this worker first did it."""
         if program.hash not in self._built:
             start = time.perf_counter()
@@ -71,7 +71,7 @@ class Worker:
         self._built.move_to_end(program.hash)
         return self._built[program.hash]
 
-    def _build_all(self, programs: Sequence[Program]) -> tuple[list[Any], float]:
+    def _build_all(self, programs: Sequence[Program]) -> tuple[list[Built], float]:
         """Build programs; return all of them, and the milliseconds that compiling took, each program counted once."""
         built = [self._build(program) for program in programs]
         taken = {program.hash: compile_ms for program, (_, compile_ms) in zip(programs, built, strict=True)}

@@ -94,7 +94,7 @@ class BeamCasting(ViewCasting):
         checked: Checked[BeamAnswer] = executor.check(self.cell.device, BeamCheck(self._frame(program), pixels.index))
         answer = checked.answer
         hits = beam_hits(answer.hits, pixels, surface, rays, self.camera)
-        mean, largest = answer.evaluations  # of the frame: large beams are shared by more pixels than are checked
+        mean, largest = answer.evaluations  # over all pixels, since large beams are shared by unchecked ones
         facts = {"evaluations_mean": mean, "evaluations_max": largest, "lanes": answer.lanes}
         pictures = {"level": answer.levels.reshape(size, size)}
         return BeamCast(surface, rays, hits, checked.compile_ms, facts, pictures, pixels)

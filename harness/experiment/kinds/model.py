@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 from harness.accuracy import check, freeloops
 from harness.accuracy.compilers import SecondBuild, doubts_about
 from harness.accuracy.pictures import headlight
-from harness.contract import DeviceInfo, Hits, Method, Normal, Origin, Program, Proxy, Stage, Surface, Variant
+from harness.contract import DeviceInfo, Hits, Method, Normal, Origin, Program, Proxy, Section, Stage, Surface, Variant
 from harness.devices.executor import LocalExecutor
 from harness.devices.interface import LANGUAGES
 from harness.devices.messages import Check, Frame
@@ -35,7 +35,7 @@ from harness.plugins import Catalog, Plugin
 from harness.scenes.camera import camera_for, distance_of, pixel_footprint, rays_of
 from harness.scenes.model import Group
 
-Rastering = tuple[Proxy, float, Normal]  # proxy, tolerance in pixels, normal: what only stage raster asks
+Rastering = tuple[Proxy, float, Normal]  # proxy, tolerance in pixels, normal: of stage raster only
 NOT_RASTERED: Rastering = ("box", 0.0, "distance")
 
 
@@ -66,15 +66,16 @@ class Asked:
     def language(self) -> Language:
         return LANGUAGES[self.cell.device.partition(":")[0]]
 
-    def program(self, surface: Surface, entry: Entry, language: Language | None = None, **more: Any) -> Program:
+    def program(
+        self, surface: Surface, entry: Entry, language: Language | None = None, narrowed: Section | None = None
+    ) -> Program:
         """Make a program of the cell's variant at `surface`, as harness.kernels.assemble.method_program does.
 
-        `language` is the device's if none is given; `more` are further arguments of method_program. Raises
-        FirsthitError as it does.
+        `language` is the device's if none is given. Raises FirsthitError as method_program does.
         """
         cell, plugin = self.cell, self.plugin
         stated = plugin.method, plugin.folder, cell.variant, surface, cell.precision, language or self.language
-        return method_program(*stated, entry, origin=cell.origin, **more)
+        return method_program(*stated, entry, narrowed, origin=cell.origin)
 
 
 @dataclass(frozen=True, eq=False)
