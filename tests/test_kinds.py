@@ -3,6 +3,7 @@
 import dataclasses
 from typing import get_args
 
+import numpy as np
 import pytest
 
 import surfaces
@@ -59,3 +60,12 @@ def test_a_kind_of_methods_that_leaves_something_out_cannot_be_made(left_out):
     del stated[left_out]
     with pytest.raises(TypeError, match=left_out):
         type("Tiles", (MethodKind,), stated)()
+
+
+def test_a_kind_that_cannot_be_listed_refuses_listed_rays_and_rays_of_no_camera():
+    beams, rays = WAYS["quadtree"].methods, WAYS["rays"].methods
+    assert beams.unlisted == "casts the beams of a camera's pixels, and listed rays have none"
+    assert beams.stage_refusal("rays") == f"the method {beams.unlisted}" and beams.stage_refusal("compute") is None
+    assert beams.shot_refusal(None) == beams.unlisted and beams.shot_refusal(np.zeros(12, np.float32)) is None
+    assert rays.stage_refusal("rays") is None and rays.shot_refusal(None) is None
+    assert WAYS["mesh"].methods.stage_refusal("compute") == "the method draws triangles, in stage raster"

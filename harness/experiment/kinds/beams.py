@@ -16,7 +16,7 @@ from harness.accuracy.answers import validated_beams
 from harness.accuracy.check import Cast, Certified
 from harness.accuracy.judge import Verdicts
 from harness.accuracy.pixels import Pixels, along_rays, pixels_of, set_apart
-from harness.contract import Hits, Program, Stage, Surface
+from harness.contract import Hits, Program, Surface
 from harness.devices.beams import BeamAnswer, BeamCheck, BeamFrame
 from harness.devices.executor import LocalExecutor
 from harness.devices.messages import Check, Checked, Frame
@@ -34,16 +34,8 @@ class BeamMethods(MethodKind):
 
     what = "beams"
     entries = ("beams",)
-    unlisted = "it casts the beams of a camera's pixels, and listed rays have none"
+    unlisted = "casts the beams of a camera's pixels, and listed rays have none"
     undrawn = "casts the beams of a camera's pixels, and a fragment has one ray"
-
-    def stage_refusal(self, stage: Stage) -> str | None:
-        if stage == "rays":
-            return "the method casts the beams of a camera's pixels, and listed rays have none"
-        return None
-
-    def shot_refusal(self, camera: NDArray[np.float32] | None) -> str | None:
-        return None if camera is not None else "casts the beams of a camera's pixels, and listed rays have none"
 
     def shot(self, program: Program, shot: Shot, index: NDArray[np.intp]) -> Check[BeamAnswer]:
         assert shot.camera is not None
@@ -89,9 +81,8 @@ class BeamCasting(ViewCasting):
 
     def cast(self, executor: LocalExecutor, size: int, free_loops: bool = False) -> Cast:
         surface, rays = self.cell.surface, rays_of(self.camera, size)
-        program = with_free_loops(self.checks[0]) if free_loops else self.checks[0]
-        pixels = pixels_of(self.camera, size, self.samples)
-        checked: Checked[BeamAnswer] = executor.check(self.cell.device, BeamCheck(self._frame(program), pixels.index))
+        pixels, frame = pixels_of(self.camera, size, self.samples), self._frame(self.check_program(free_loops))
+        checked: Checked[BeamAnswer] = executor.check(self.cell.device, BeamCheck(frame, pixels.index))
         answer = checked.answer
         hits = beam_hits(answer.hits, pixels, surface, rays, self.camera)
         mean, largest = answer.evaluations  # over all pixels, since large beams are shared by unchecked ones

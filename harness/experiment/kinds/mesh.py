@@ -24,7 +24,7 @@ class MeshMethods(MethodKind):
 
     what = "triangles"
     entries = ()
-    unlisted = "it draws triangles, and listed rays meet none"
+    unlisted = "draws triangles, and listed rays meet none"
     undrawn = None
 
     def stage_refusal(self, stage: Stage) -> str | None:

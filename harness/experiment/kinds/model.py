@@ -29,7 +29,7 @@ from harness.devices.interface import LANGUAGES
 from harness.devices.messages import Check, Frame
 from harness.experiment.cells import Cell
 from harness.experiment.config import AccuracyChoice, Config, Experiment
-from harness.kernels.assemble import Entry, Language, method_program
+from harness.kernels.assemble import Entry, Language, method_program, with_free_loops
 from harness.kernels.functions import unsupported
 from harness.plugins import Catalog, Plugin
 from harness.scenes.camera import camera_for, distance_of, pixel_footprint, rays_of
@@ -115,7 +115,7 @@ class MethodKind(ABC):
     @property
     @abstractmethod
     def unlisted(self) -> str | None:
-        """Say why listed rays cannot be cast, in a sentence whose subject is "it"; None if they can."""
+        """Say why listed rays cannot be cast, in what follows the method's name in a sentence; None if they can."""
 
     @property
     @abstractmethod
@@ -124,7 +124,7 @@ class MethodKind(ABC):
 
     def stage_refusal(self, stage: Stage) -> str | None:
         """Say why the method cannot cast in a stage other than raster; None if it can."""
-        return None
+        return f"the method {self.unlisted}" if stage == "rays" and self.unlisted else None
 
     def origin_refusal(self, method: Method, origin: Origin) -> str | None:
         """Say why the method cannot begin its rays at `origin`; None if it can."""
@@ -167,7 +167,7 @@ class MethodKind(ABC):
 
         `camera`, float32[12], is the image's; None if the rays are of no camera.
         """
-        return None
+        return self.unlisted if camera is None else None
 
     @abstractmethod
     def shot(self, program: Program, shot: Shot, index: NDArray[np.intp]) -> Check[Any]:
@@ -333,6 +333,10 @@ class ViewCasting(Casting):
         """Count the frame's samples per side."""
         side: float = self.cell.samples_per_pixel**0.5
         return self.cell.size * round(side)
+
+    def check_program(self, free_loops: bool) -> Program:
+        """Return the program that is checked, of a casting with one; with `free_loops` as it is timed (see `cast`)."""
+        return with_free_loops(self.checks[0]) if free_loops else self.checks[0]
 
     @abstractmethod
     def cast(self, executor: LocalExecutor, size: int, free_loops: bool = False) -> check.Cast:

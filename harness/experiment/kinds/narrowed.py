@@ -16,7 +16,6 @@ from harness.devices.narrowed import NarrowedCheck, NarrowedFrame
 from harness.experiment.kinds.model import Asked, Casting, Kind, ViewCasting
 from harness.experiment.kinds.rays import listed_again
 from harness.kernels import prepass
-from harness.kernels.assemble import with_free_loops
 from harness.scenes.camera import rays_of
 
 REFUSAL = "a prepass narrows the rays of a camera's pixels, in the stage compute"
@@ -44,9 +43,9 @@ class NarrowedCasting(ViewCasting):
 
     def cast(self, executor: LocalExecutor, size: int, free_loops: bool = False) -> Cast:
         surface, rays = self.cell.surface, rays_of(self.camera, size)
-        program = with_free_loops(self.checks[0]) if free_loops else self.checks[0]
         pixels = pixels_of(self.camera, size, self.samples)
-        checked = executor.check(self.cell.device, NarrowedCheck(self._frame(), program, rays, pixels.index))
+        check = NarrowedCheck(self._frame(), self.check_program(free_loops), rays, pixels.index)
+        checked = executor.check(self.cell.device, check)
         hits = validated(checked.answer.hits, surface.domain, rays, counts=False, origin=self.cell.origin)
         facts = {"prepass_evaluations_mean": checked.answer.prepass_evaluations}
         return Cast(surface, rays, hits, checked.compile_ms, facts, {})

@@ -103,8 +103,7 @@ class RayCasting(ViewCasting):
 
     def cast(self, executor: LocalExecutor, size: int, free_loops: bool = False) -> Cast:
         surface, rays = self.cell.surface, rays_of(self.camera, size)
-        program = with_free_loops(self.checks[0]) if free_loops else self.checks[0]
-        checked = executor.check(self.cell.device, ListedCheck(program, rays))
+        checked = executor.check(self.cell.device, ListedCheck(self.check_program(free_loops), rays))
         hits = validated(checked.answer, surface.domain, rays, origin=self.cell.origin)
         return Cast(surface, rays, hits, checked.compile_ms, {}, {})
 
