@@ -1,4 +1,4 @@
-"""Methods are folders with a method.py and a kernel.glsl: ours, those of --plugins, and those of entry points."""
+"""Finds methods: folders with a method.py and a kernel.glsl, of the project, of --plugins and of entry points."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from surfaces.words import suggestion
 BUILT_IN = Path(__file__).parent.parent / "methods"
 ENTRY_POINTS = "firsthit.methods"
 
-AS_PRINTED = "as printed"  # the setting of any method some of whose knobs' defaults are ours
+AS_PRINTED = "as printed"  # a setting of every method that has a knob whose default is ours
 
 
 @dataclass(frozen=True)
@@ -34,25 +34,28 @@ class Plugin:
         number where the knob's are whole.
         """
         defaults = {parameter.name: parameter.default for parameter in self.method.parameters}
-        for name, value in given.items():
+        for name in given:
             if name not in defaults:
-                raise FirsthitError(
-                    f"method {self.method.name!r} has no parameter {name!r}; {suggestion(name, sorted(defaults))}"
-                )
-            if not is_finite(value):
-                raise FirsthitError(f"{self.method.name}: {name} is a finite number, not {str(value)[:40]}")
-            if isinstance(defaults[name], int) and value != int(value):
-                raise FirsthitError(f"{self.method.name}: {name} is a whole number, not {value}")
-        kind = {name: type(default) for name, default in defaults.items()}
-        bound = {name: kind[name](value) for name, value in (defaults | dict(given)).items()}
+                hint = suggestion(name, sorted(defaults))
+                raise FirsthitError(f"method {self.method.name!r} has no parameter {name!r}; {hint}")
+        bound = {name: self._bound(name, given.get(name, default), default) for name, default in defaults.items()}
         turned = ",".join(f"{name}={bound[name]:g}" for name in sorted(given))
         label = f"{self.method.name}[{turned}]" if turned else self.method.name
         return Variant(self.method.name, tuple(sorted(bound.items())), label)
 
-    def setting(self, name: str) -> Variant:
-        """One of the papers' own settings, or AS_PRINTED: every knob that we changed at its source's value.
+    def _bound(self, name: str, value: float, default: float) -> float | int:
+        """Return a knob's value as a number of its default's kind. Raises FirsthitError if it is none."""
+        if not is_finite(value):
+            raise FirsthitError(f"{self.method.name}: {name} is a finite number, not {str(value)[:40]}")
+        if isinstance(default, int) and value != int(value):
+            raise FirsthitError(f"{self.method.name}: {name} is a whole number, not {value}")
+        return type(default)(value)
 
-        Raises FirsthitError for one that the method does not state.
+    def setting(self, name: str) -> Variant:
+        """Return the variant of one of the papers' own settings, or of AS_PRINTED.
+
+        AS_PRINTED binds every knob whose default is ours at its source's value. Raises FirsthitError for a setting that
+        the method does not state.
         """
         if name == AS_PRINTED and self.method.printed:
             return dataclasses.replace(self.variant(self.method.printed), label=f"{self.method.name} {AS_PRINTED}")
@@ -64,7 +67,10 @@ class Plugin:
         return dataclasses.replace(self.variant(self.method.settings[name]), label=name)
 
     def deviations(self) -> list[Variant]:
-        """The default, the default with each knob that we changed at its source's value, and all of them together."""
+        """Return the variants that show what our changes to a method's knobs are worth.
+
+        They are the default, the default with each changed knob alone at its source's value, and with all of them.
+        """
         printed = self.method.printed
         alone = [self.variant({name: value}) for name, value in printed.items()]
         return [self.variant({}), *alone, *([self.setting(AS_PRINTED)] if len(printed) > 1 else [])]
@@ -72,12 +78,13 @@ class Plugin:
 
 @dataclass(frozen=True)
 class Catalog:
-    """The methods found, and why folders that look like one are not."""
+    """The methods found, and why other folders that look like one are none."""
 
     plugins: dict[str, Plugin] = field(default_factory=dict)
     broken: dict[str, str] = field(default_factory=dict)
 
     def get(self, name: str) -> Plugin:
+        """Return a method by name. Raises FirsthitError if there is none, or if it could not be loaded."""
         if name in self.plugins:
             return self.plugins[name]
         if name in self.broken:
@@ -87,7 +94,7 @@ class Catalog:
 
 
 def _load(folder: Path) -> Method:
-    """The METHOD that `folder`/method.py states. Raises FirsthitError with the reason where it does not."""
+    """Return the METHOD that `folder`/method.py states. Raises FirsthitError, with the reason, if it states none."""
     path = folder / "method.py"
     if not (folder / "kernel.glsl").exists():
         raise FirsthitError(f"{folder} has a method.py but no kernel.glsl")
@@ -114,10 +121,12 @@ def _load(folder: Path) -> Method:
 
 
 def _folders(directory: Path) -> list[Path]:
+    """Return the folders in a directory that hold a method.py, sorted."""
     return sorted(path.parent for path in directory.glob("*/method.py"))
 
 
 def _entry_point_folders() -> list[Path]:
+    """Return the folders of installed packages that state methods by entry points."""
     folders = []
     for point in importlib.metadata.entry_points(group=ENTRY_POINTS):
         spec = importlib.util.find_spec(point.value)
@@ -127,9 +136,10 @@ def _entry_point_folders() -> list[Path]:
 
 
 def find_methods(extra: Path | None = None) -> Catalog:
-    """Every method of the project, of installed packages (entry point group `firsthit.methods`) and of `extra`.
+    """Return the methods of the project, of installed packages (entry point group `firsthit.methods`) and of `extra`.
 
-    Raises FirsthitError where `extra` is not a folder or two folders claim one name.
+    A folder that cannot be loaded is listed as broken. Raises FirsthitError if `extra` is no folder, or if two folders
+    have one name.
     """
     if extra is not None and not extra.is_dir():
         raise FirsthitError(f"--plugins {extra}: no such folder")

@@ -12,10 +12,11 @@ from harness.gate.against import verdict_of
 from harness.gate.baseline import Baseline
 from harness.gate.judge import Judged, Tolerance, Verdict, exit_code, judge, tolerances_of
 from harness.results import figures
+from harness.results.facts import FACTS as COMPARED
 from harness.results.timings import Ratio
 
 FACTS = {"name": "opencl:a", "title": "A", "driver": "1", "compiler": "c", "processor": "p", "versions": {"b": "2"}}
-SAME = list(baseline.FACTS)
+SAME = list(COMPARED)
 KEY = baseline.device_key(FACTS, SAME)
 ENTRY = {
     "status": "ok",

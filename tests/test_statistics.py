@@ -6,16 +6,20 @@ from __future__ import annotations
 import json
 import math
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
 
 from harness.contract import FirsthitError, digest
+from harness.devices.interface import Timing
 from harness.results import ranks, timings
-from reports import content, evaluations, growth, summary
-from reports.analysis import counts, derive, ties
+from harness.running.rows import Samples, time_of
+from reports import content, summary
+from reports.analysis import count_tests, derive, ties
 from reports.drawing import choice, style
+from reports.parts import evaluations, growth
 from reports.reading import load
 from reports.reading.arrays import Arrays
 from tests.synthetic_run import cell, printed, reported, retime, tiny_run, write_run
@@ -186,33 +190,33 @@ def test_binomial_tails_against_sums_of_products() -> None:
     for of, share in ((1, 0.3), (5, 0.5), (12, 0.01), (12, 0.9)):
         chances = [math.comb(of, k) * share**k * (1 - share) ** (of - k) for k in range(of + 1)]
         for count in range(of + 1):
-            assert counts.at_least_by_chance(count, of, share) == pytest.approx(sum(chances[count:]))
-            assert counts.at_most_by_chance(count, of, share) == pytest.approx(sum(chances[: count + 1]))
-    assert counts.at_most_by_chance(0, 16_384, 0.001) == pytest.approx(0.999**16_384)
+            assert count_tests.at_least_by_chance(count, of, share) == pytest.approx(sum(chances[count:]))
+            assert count_tests.at_most_by_chance(count, of, share) == pytest.approx(sum(chances[: count + 1]))
+    assert count_tests.at_most_by_chance(0, 16_384, 0.001) == pytest.approx(0.999**16_384)
 
 
 def test_two_rays_of_16384_are_no_more_than_none() -> None:
-    assert counts.exceeds(2, 16_384, 0, 16_384) is None
-    assert counts.exceeds(2, 16_384, 0, 16_384, factor=2.0) is None
-    assert counts.exceeds(40, 16_384, 0, 16_384, factor=2.0, tries=15) is True
-    assert counts.exceeds(40, 16_384, 40, 16_384, factor=2.0) is False
-    assert counts.exceeds(40, 16_384, 40, 16_384) is None
-    assert counts.exceeds(0, 16_384, 40, 16_384) is False
-    assert counts.exceeds(5, 0, 0, 100) is None, "no ray, no verdict"
+    assert count_tests.exceeds(2, 16_384, 0, 16_384) is None
+    assert count_tests.exceeds(2, 16_384, 0, 16_384, factor=2.0) is None
+    assert count_tests.exceeds(40, 16_384, 0, 16_384, factor=2.0, tries=15) is True
+    assert count_tests.exceeds(40, 16_384, 40, 16_384, factor=2.0) is False
+    assert count_tests.exceeds(40, 16_384, 40, 16_384) is None
+    assert count_tests.exceeds(0, 16_384, 40, 16_384) is False
+    assert count_tests.exceeds(5, 0, 0, 100) is None, "no ray, no verdict"
 
 
 def test_a_tenth_of_a_percent_needs_rays() -> None:
-    assert counts.share_exceeds(0, 100, 0.001) is None
-    assert counts.share_exceeds(0, 16_384, 0.001) is False
-    assert counts.share_exceeds(1, 1000, 0.001) is None
-    assert counts.share_exceeds(60, 16_384, 0.001) is True
+    assert count_tests.share_exceeds(0, 100, 0.001) is None
+    assert count_tests.share_exceeds(0, 16_384, 0.001) is False
+    assert count_tests.share_exceeds(1, 1000, 0.001) is None
+    assert count_tests.share_exceeds(60, 16_384, 0.001) is True
 
 
 def test_equal_rates_are_told_apart_as_seldom_as_promised(rng: Any) -> None:
     pairs = rng.binomial(16_384, 0.002, (2000, 2))
-    told = [counts.exceeds(int(a), 16_384, int(b), 16_384) for a, b in pairs]
-    assert np.mean([verdict is True for verdict in told]) <= counts.LEVEL + 0.005
-    assert np.mean([verdict is False for verdict in told]) <= counts.LEVEL + 0.005
+    told = [count_tests.exceeds(int(a), 16_384, int(b), 16_384) for a, b in pairs]
+    assert np.mean([verdict is True for verdict in told]) <= count_tests.LEVEL + 0.005
+    assert np.mean([verdict is False for verdict in told]) <= count_tests.LEVEL + 0.005
 
 
 # ---- fits and evaluations
@@ -221,7 +225,7 @@ def test_equal_rates_are_told_apart_as_seldom_as_promised(rng: Any) -> None:
 def test_a_fit_through_three_surfaces_is_refused_with_its_reason(tmp_path: Path) -> None:
     cells = [timed("newton", surface, ms) for surface, ms in zip(SCENES, (1.0, 9.0, 2.0), strict=True)]
     frame = derive.derive(load.load(tiny_run(tmp_path / "run", *cells)).frame)
-    (section,) = [s for s in growth.sections(frame, style.variant_marks([("newton", "newton")]))]
+    (section,) = growth.sections(SimpleNamespace(listed=frame, marks=style.variant_marks([("newton", "newton")])))
     told = printed(section.blocks)
     assert "3 points do not determine an exponent: the 95 % interval of 0.90, −" in told
     assert "| newton | 3 | – | – | – |" in told
@@ -295,18 +299,16 @@ class _Slow:
         self.seconds, self.budget = seconds, BudgetChoice(seconds=1.0)
 
     def rounds(self) -> int:
-        from types import SimpleNamespace
-
         from harness.running.runner import Runner
 
         runner: Any = SimpleNamespace(_config=SimpleNamespace(budget=self.budget))
-        state: Any = SimpleNamespace(wall_ms=[], timing=0.0)
+        state: Any = SimpleNamespace(samples=Samples("wall"), timing=0.0)
         while True:
-            state.wall_ms.append(1e3 * self.seconds * (1.0 + 0.3 * (len(state.wall_ms) % 2)))
+            taken = len(state.samples.wall_ms)
+            state.samples.add(Timing(1e3 * self.seconds * (1.0 + 0.3 * (taken % 2)), None), 1, taken)
             state.timing += self.seconds
-            state.samples = state.wall_ms
             if Runner._is_done(runner, state):
-                return len(state.wall_ms)
+                return taken + 1
 
 
 @pytest.mark.parametrize(("seconds", "least", "most"), [(0.05, 20, 20), (0.3, 8, 8), (1.3, 8, 8), (10.0, 2, 2)])
@@ -318,22 +320,8 @@ def test_a_slow_cell_is_timed_in_enough_rounds_to_compare_it_but_not_for_ever(
 
 @pytest.mark.parametrize(("clock", "told"), [("device", 0.25), ("wall", None)])
 def test_a_row_has_an_overhead_only_where_the_devices_clock_is_believed(clock: str, told: float | None) -> None:
-    from types import SimpleNamespace
-
-    from harness.experiment.config import BudgetChoice
-    from harness.running.runner import Runner
-
-    runner: Any = SimpleNamespace(_config=SimpleNamespace(seed=1, budget=BudgetChoice()), _session="s")
-    state: Any = SimpleNamespace(
-        warmed=SimpleNamespace(batch=1),
-        by_device=clock == "device",
-        planned=SimpleNamespace(device=SimpleNamespace(clock=clock)),
-        wall_ms=[1.25] * 9,
-        device_ms=[1.0] * 9,
-        samples=[1.0] * 9,
-        rounds=list(range(9)),
-    )
-    found = Runner._time_of(runner, state)["overhead_share"]
+    samples = Samples(clock, [1.25] * 9, [1.0] * 9, list(range(9)))
+    found = time_of(samples, 1, "s", seed=1, interval=0.02)["overhead_share"]
     assert found == (None if told is None else pytest.approx(told))
 
 

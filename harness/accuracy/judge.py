@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import IntEnum
 from typing import Any
@@ -10,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from harness.contract import UNIT_ROUNDOFF, Hits, Precision, RayStatus, Surface, Truth, TruthStatus
+from harness.results.row import Quantiles
 from harness.scenes.camera import scene_radius
 
 # Unit roundoffs of contrast below which f's sign is in doubt. One is for the kernel, whose bound is of first order and
@@ -123,7 +125,7 @@ def nothing_judged(rays: int) -> str:
     return f"none of the {rays} rays is decided and neither grazing nor drowned: nothing to judge"
 
 
-def _quantiles(values: NDArray[np.float64]) -> dict[str, float | None]:
+def _quantiles(values: NDArray[np.float64]) -> Quantiles:
     """Return quantiles of the finite values, None for all of them if there is no finite value.
 
     A normal has no direction at a singular point, and a touch has no condition number.
@@ -232,7 +234,7 @@ def summarize(
     return summary
 
 
-def wrong_share(summary: dict[str, Any]) -> float | None:
+def wrong_share(summary: Mapping[str, Any]) -> float | None:
     """Return the share of judged rays (see `judged`) whose answer is wrong; None if there are none to judge."""
     wrong = sum(summary[name] for name in NAMES.values())
     return min(1.0, wrong / summary["judged"]) if summary["judged"] else None

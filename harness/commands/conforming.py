@@ -7,21 +7,14 @@ import itertools
 import math
 import textwrap
 from collections import defaultdict
-from collections.abc import Iterable, Iterator
-
-import numpy as np
-from numpy.typing import NDArray
+from collections.abc import Iterable
 
 from harness import conformance, console
 from harness.commands import Add
-from harness.conformance import Bench, Finding
-from harness.contract import CellStatus, DeviceInfo, FirsthitError, Hits, Program, Surface
-from harness.devices.discovery import discover_devices
-from harness.devices.executor import CellError, LocalExecutor
-from harness.devices.interface import LANGUAGES, device_named
-from harness.devices.messages import ListedCheck
-from harness.experiment.kinds import of_method
-from harness.plugins import Plugin, find_methods
+from harness.conformance import Finding
+from harness.devices.discovery import usable_devices
+from harness.devices.executor import LocalExecutor
+from harness.plugins import find_methods
 
 WIDTH = 100
 
@@ -47,19 +40,18 @@ def _conform(options: argparse.Namespace) -> int:
     import surfaces
 
     catalog = find_methods(options.plugins)
-    answering = {name: plugin.method for name, plugin in catalog.plugins.items() if plugin.method.answers}
-    names = options.method or [name for name, method in answering.items() if not of_method(method).unlisted]
+    names = options.method or conformance.checkable(catalog)
     plugins = [catalog.get(name) for name in names]
     wanted = surfaces.names() if options.surface == ["all"] else options.surface or conformance.TYPICAL
     chosen = [surfaces.get(name) for name in wanted]
-    devices = _devices(options.device)
+    devices = usable_devices(options.device or ())
     executor = LocalExecutor(options.timeout)
     rows: list[tuple[str, str, Finding]] = []
     failed = 0
     try:
         for plugin, info in itertools.product(plugins, devices):
-            bench = _bench(executor, info.name, info.float64)
-            found = [(plugin.method.name, *located) for located in _findings(bench, plugin, chosen)]
+            bench = conformance.bench_on(executor, info)
+            found = [(plugin.method.name, *located) for located in conformance.findings(bench, plugin, chosen)]
             failed += sum(finding.fails for _, _, finding in found)
             print(told(info.name, found, options.verbose), flush=True)
             rows += [(name, where, finding) for name, where, finding in found]
@@ -70,40 +62,6 @@ def _conform(options: argparse.Namespace) -> int:
     if idle:
         print(f"nothing was checked of {', '.join(idle)}: what is not checked does not conform")
     return 1 if failed or idle else 0
-
-
-def _devices(names: list[str] | None) -> list[DeviceInfo]:
-    found = discover_devices()
-    if names:
-        return [device_named(name, found) for name in names]
-    usable = [info for info in found if not info.problem]
-    if not usable:
-        raise FirsthitError("no usable device; `firsthit devices` says why", exit_code=3)
-    return usable
-
-
-def _bench(executor: LocalExecutor, device: str, float64: bool) -> Bench:
-    def run(program: Program, rays: NDArray[np.float32]) -> Hits:
-        return executor.check(device, ListedCheck(program, rays)).answer
-
-    return Bench(device, LANGUAGES[device.partition(":")[0]], float64, run)
-
-
-def _findings(bench: Bench, plugin: Plugin, chosen: list[Surface]) -> Iterator[tuple[str, Finding]]:
-    """Every check of a method on a device; a step that fails, hangs or crashes is a finding that says no.
-
-    After one that hangs nothing more is asked: each further one would take as long.
-    """
-    for examination in conformance.EXAMINATIONS:
-        for where, findings in examination(bench, plugin, chosen):
-            try:
-                yield from ((where, finding) for finding in findings)
-            except (CellError, FirsthitError) as error:
-                rule = "the program is built and runs to its end"
-                yield where, Finding("runs", math.nan, 0, rule, str(error).splitlines()[0], "see `firsthit compile`")
-                if isinstance(error, CellError) and error.status is CellStatus.TIMEOUT:
-                    yield "the rest", conformance.not_checked("all else", "a step before it hung")
-                    return
 
 
 def told(device: str, found: Iterable[tuple[str, str, Finding]], verbose: bool) -> str:

@@ -5,26 +5,15 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-import numpy as np
-
-from harness.accuracy.answers import invalid
-from harness.accuracy.scene_truth import hits_of
 from harness.commands import Add
-from harness.commands.options import add_origin, given_variant, writable
+from harness.commands.options import add_origin, given_variant, writable_png
 from harness.commands.pictures import need_pillow, save
 from harness.contract import PROXIES, FirsthitError
-from harness.devices.discovery import discover_devices
-from harness.devices.executor import CellError, LocalExecutor
-from harness.devices.frames import RasterCheck, RasterFrame
 from harness.experiment import reading
-from harness.experiment.kinds import draws
 from harness.experiment.shipped import located
-from harness.experiment.targets import able
-from harness.kernels.raster import fill_program
 from harness.plugins import find_methods
-from harness.scenes.camera import camera_for
+from harness.running.scene_picture import draw_scene
 from harness.scenes.model import Scene
-from harness.scenes.records import depth_map
 from surfaces.words import suggestion
 
 
@@ -59,35 +48,15 @@ def _scene(options: argparse.Namespace) -> int:
 
     if not 1 <= options.size <= 8192:
         raise FirsthitError(f"--size {options.size}: an image has 1 to 8192 pixels per side")
-    output, catalog = writable(options.output), find_methods(options.plugins)
+    output, catalog = writable_png(options.output), find_methods(options.plugins)
     path = located(options.config)
     scene = _chosen(reading.load(path, catalog).scenes, options.name, path)
     variant = given_variant(options, catalog)
-    if reason := draws.refusal(scene, variant, catalog):
-        raise FirsthitError(f"{variant} cannot draw {scene.name}: {reason}")
-    usable = [info.name for info in discover_devices() if able(info) and not info.problem]
-    if not usable:
-        raise FirsthitError("no device that rasterises; `firsthit devices` says what is here", exit_code=3)
-    camera = camera_for(scene.view, scene.stand_in)
-    batches = tuple(
-        draw.batch(True) for draw in draws.draws(scene, variant, options.proxy, catalog, origin=options.origin)
-    )
-    depths, side = depth_map(scene, camera), 2 * options.size
-    executor = LocalExecutor(options.timeout)
-    try:
-        frame = RasterFrame(batches, camera, depths, side)
-        picture = executor.check(usable[0], RasterCheck(frame, fill_program())).answer
-    except CellError as error:
-        raise FirsthitError(f"{variant} on {usable[0]}: {error}", exit_code=3) from None
-    finally:
-        executor.close()
-    colours = np.where((picture.batch >= 0)[:, None], picture.colours[:, :3], np.uint8(255)).astype(np.float64)
-    four = colours.reshape(options.size, 2, options.size, 2, 3)
-    save(Image.fromarray(np.round(four.mean(axis=(1, 3))).astype(np.uint8)), output)
-    fragments, hits = int(picture.fragments.sum(dtype=np.int64)), int(picture.fragment_hits.sum(dtype=np.int64))
+    picture = draw_scene(scene, variant, catalog, options.proxy, options.origin, options.size, options.timeout)
+    save(Image.fromarray(picture.pixels), output)
     print(
-        f"{output}: {scene.title}; {np.mean(picture.batch >= 0):.1%} of the pixels drawn, "
-        f"{1.0 - hits / max(1, fragments):.1%} of {fragments:,} fragments discarded"
-        + (f", {bad} pixels invalid" if (bad := invalid(hits_of(scene, picture, options.origin))) else "")
+        f"{output}: {scene.title}; {picture.drawn:.1%} of the pixels drawn, "
+        f"{1.0 - picture.hits / max(1, picture.fragments):.1%} of {picture.fragments:,} fragments discarded"
+        + (f", {picture.invalid} pixels invalid" if picture.invalid else "")
     )
     return 0

@@ -17,6 +17,7 @@ some rays (toledo2007's Newton gives up on up to 0.61 of the Barth sextic's). Fr
 up on any share. What a method's page calls weak without naming it a setting is not checked.
 """
 
+from harness.conformance.bench import bench_on, checkable, findings
 from harness.conformance.cases import (
     GRAZING,
     TYPICAL,
@@ -64,12 +65,15 @@ __all__ = [
     "Finding",
     "agreement",
     "answers",
+    "bench_on",
+    "checkable",
     "conservative_bound",
     "decided",
     "error_below_tolerance",
     "examine",
     "examine_knobs",
     "examine_touches",
+    "findings",
     "finds_touch",
     "joined",
     "no_false_hit",

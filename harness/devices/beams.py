@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +13,7 @@ from harness.devices import lanes
 from harness.devices.interface import Array, Built, Device, Launch
 from harness.devices.messages import FirstRun, Frame, HitsCheck
 from harness.devices.quadtree import BY_DEVICE, Layout, beam_hits_from, last_level, launch_beams, start_of
+from harness.results.row import Lane
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,7 +52,7 @@ class BeamAnswer:
     hits: Hits
     levels: NDArray[np.uint8]
     evaluations: tuple[float | None, int]
-    lanes: list[dict[str, Any]] | None
+    lanes: list[Lane] | None
 
 
 @dataclass(frozen=True, eq=False)

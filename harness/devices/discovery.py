@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import importlib.util
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 from harness.contract import DeviceInfo
 from harness.devices import kept
 from harness.devices.executor import START_SECONDS, CellError, LocalExecutor
-from harness.devices.interface import INSTALL
+from harness.devices.interface import INSTALL, device_named, working
 
 
 @dataclass(frozen=True)
@@ -30,6 +30,15 @@ def discover_devices(wanted: Iterable[str] = ("all",)) -> list[DeviceInfo]:
     named = {name.partition(":")[0] for name in wanted}
     backends = _installed()
     return _look([name for name in backends if name in named] if named <= set(INSTALL) else backends)
+
+
+def usable_devices(names: Sequence[str] = ()) -> list[DeviceInfo]:
+    """Look for the devices of these names or, without any, for all that work.
+
+    Raises FirsthitError, with exit code 3, where a named one is not here or cannot be used, or none works.
+    """
+    found = discover_devices()
+    return [device_named(name, found) for name in names] or working(found)
 
 
 def known_devices(again: bool = False) -> Known:

@@ -3,9 +3,9 @@
 An answer is believed only if all that it may depend on is as it was: the harness; the packages of bindings and drivers;
 the processor, and that the machine has not been started again; the environment variables that drivers and their loaders
 read; the lists by which loaders find drivers; and every file whose code ran in the worker that answered (drivers, their
-compilers, and what these load). An answer is not believed either if it is damaged, or if it says that a device has a
-problem: who mends a device is not to be told that it is still broken. If no folder can be written, nothing is kept, and
-nothing else changes.
+compilers, and what these load). An answer that is damaged is not believed either. One that tells of no device, or of a
+device with a problem, is not kept: who mends a device is not to be told that it is still broken. If no folder can be
+written, nothing is kept, and nothing else changes.
 
 Commands that make rows do not ask here. They look for devices (`discovery.discover_devices`), which replaces what is
 kept.
@@ -29,7 +29,7 @@ from typing import Any
 from harness.contract import DeviceInfo, FirsthitError, digest
 from harness.devices import host
 from harness.results import sources
-from harness.results.store import write_atomically
+from harness.results.writing import write_atomically
 
 PACKAGES = (
     *("pyopencl", "moderngl", "glcontext", "numpy"),
@@ -54,7 +54,7 @@ class Kept:
 
 
 def keep(backend: str, devices: Sequence[DeviceInfo], ran: Iterable[Path] | None) -> None:
-    """Keep what a look at `backend` found; if a device has a problem, remove what was kept before instead.
+    """Keep what a look at `backend` found; if that is nothing, or a device has a problem, forget what was kept.
 
     The problem of a broken double of a working device (one driver that is installed twice) does not count. `ran` names
     the files whose code ran in the worker. It is None if the system does not say; then nothing is kept.
@@ -64,7 +64,7 @@ def keep(backend: str, devices: Sequence[DeviceInfo], ran: Iterable[Path] | None
         return
     file = place / f"{backend}.json"
     working = {_base(info) for info in devices if not info.problem}
-    if not {_base(info) for info in devices} <= working:
+    if not devices or {_base(info) for info in devices} - working:
         with contextlib.suppress(OSError):
             file.unlink(missing_ok=True)
     elif ran is not None:

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +17,7 @@ from numpy.typing import NDArray
 from harness.contract import Hits, RayStatus
 from harness.devices.interface import Array
 from harness.devices.quadtree import LEVELS, PARENT, most_queued
+from harness.results.row import Lane
 
 WIDTHS = (8, 16, 32)  # lanes of float32 in AVX2 and in AVX-512, and of a GPU's warp
 
@@ -37,9 +37,7 @@ class Tree:
     grouped: bool = True
 
 
-def of_frame(
-    tree: Tree, hits: Hits, levels: NDArray[np.uint8], outputs: Sequence[Array]
-) -> list[dict[str, Any]] | None:
+def of_frame(tree: Tree, hits: Hits, levels: NDArray[np.uint8], outputs: Sequence[Array]) -> list[Lane] | None:
     """Sum up what a frame's work items spend, level by level, from all outputs of its launch.
 
     `hits` and `levels` are of all pixels. Returns what `summary` does; None if an answer is INVALID.
@@ -58,7 +56,7 @@ def idle_share(spent: Whole, width: int) -> float:
     return 1.0 - int(spent.sum()) / taken if taken else 0.0
 
 
-def summary(spent: Mapping[int, Whole]) -> list[dict[str, Any]]:
+def summary(spent: Mapping[int, Whole]) -> list[Lane]:
     """Return a dict for each level, from its items' evaluations in the items' order.
 
     Its keys are level, items, evaluations, and idle: the idle share by group width.

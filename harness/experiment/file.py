@@ -15,7 +15,7 @@ Where = tuple[str | int, ...]  # keys and places that lead to a value: ("view", 
 
 @dataclass(frozen=True)
 class ConfigFile:
-    """Hold a config file.
+    """Hold a config as it was read. Errors about it name its path and a line.
 
     table: what tomllib reads from `text`
     """

@@ -1,6 +1,6 @@
-"""The gate: a config's rows held against a blessed baseline, so that CI fails where a method gets worse.
+"""Hold a config's rows against a blessed baseline, so that CI fails where a method gets worse.
 
-The way through: a config's cells are checked and not timed (`harness.running.batch`) → `entries` (rows → what the
-baseline keeps of them, by `figures`) → `judge` (against `baseline`) → `outputs`. `against` compares speed with another
-revision.
+`checked` runs a config's cells without timing them. `entries` makes of their rows what a baseline keeps. `baseline`
+reads and writes the file. `judge` compares the two, and `outputs` tells people and CI servers of it. `against` compares
+speed with another git revision, whose programs `revision` gets by running `export` there.
 """

@@ -1,4 +1,4 @@
-"""Speed against another revision: both programs' frames in interleaved rounds of one run on one device."""
+"""Compare speed with another revision: both programs draw frames in interleaved rounds of one run on one device."""
 
 from __future__ import annotations
 
@@ -11,19 +11,42 @@ from pathlib import Path
 
 from harness.contract import CellStatus
 from harness.devices.executor import CellError, LocalExecutor
+from harness.experiment import plan
 from harness.experiment.config import Experiment
 from harness.experiment.kinds.model import ViewCasting
 from harness.experiment.plan import Planned, shuffled
+from harness.gate.checked import Checked
 from harness.gate.entries import slot_of
 from harness.gate.judge import Change, Judged, Tolerance, Verdict
-from harness.gate.revision import Former
+from harness.gate.revision import Former, programs_at
 from harness.results import timings
 from harness.results.figures import SPEED
 from harness.results.timings import Ratio
+from harness.running.environment import probed
 
 MINIMUM_ROUNDS = 10
 WHEN = {"now": "now", "then": "at the other revision"}
 Sides = Mapping[str, ViewCasting]
+
+
+def speeds(checked: Checked, revision: str, config: Path, plugins: Path | None) -> list[Judged]:
+    """Judge each timed cell's speed against its program at another git revision.
+
+    Times are by the clock that the device's probes support. `config` and `plugins` are the files that `checked` is of.
+    Raises FirsthitError where there is no such revision or its code cannot plan the config.
+    """
+    experiment = checked.experiment
+    here = {p.cell.device: p.device for p in checked.planned if p.device}
+    own = experiment.config.gate.figures.get(SPEED.name)
+    tolerance = Tolerance("lower", own.absolute, own.relative) if own else Tolerance("lower", 0.0, SPEED.relative)
+    former = programs_at(revision, config, plugins, list(here))
+    executor = LocalExecutor(experiment.config.budget.timeout)
+    try:
+        infos = [probed(executor, info, checked.folder / "probes")[0] for info in here.values()]
+        answering = [p for p in plan.plan(experiment, checked.catalog, infos) if p.skip is None]
+        return compare(answering, former, experiment, tolerance, executor, checked.folder / "truth")
+    finally:
+        executor.close()
 
 
 def compare(
@@ -34,7 +57,11 @@ def compare(
     executor: LocalExecutor,
     truth: Path,
 ) -> list[Judged]:
-    """A verdict for each timed cell that answers rightly enough at both revisions; the ratio is now over then."""
+    """Judge each timed cell by the ratio of its frame's time now over that of its program in `former`, by slot.
+
+    A cell is incomparable where its answers at either revision fail the check against the oracle, whose certified
+    answers are kept in the folder `truth`. A failure while running is a verdict too, so that nothing is raised for it.
+    """
     return [_judged(p, former.get(p.cell.slot), experiment, tolerance, executor, truth) for p in planned if p.timed]
 
 
@@ -71,7 +98,11 @@ def _judged(
 
 
 def verdict_of(base: Judged, ratio: Ratio | None, tolerance: Tolerance) -> Judged:
-    """Regressed only where the whole interval of the ratio is above what is allowed."""
+    """Return `base` with the verdict that a ratio of times, now over then, allows.
+
+    It is regressed only where the whole interval of the ratio is above what the tolerance allows, and improved only
+    where the whole interval is below 1 by as much. A ratio of too few rounds, or that is no number, is incomparable.
+    """
     if ratio is None or not ratio.proved:
         rounds = ratio.pairs if ratio else 0
         reason = f"{rounds} rounds prove nothing; raise [budget] seconds"
@@ -89,7 +120,7 @@ def verdict_of(base: Judged, ratio: Ratio | None, tolerance: Tolerance) -> Judge
 
 
 def _wrong(sides: Sides, experiment: Experiment, executor: LocalExecutor, truth: Path) -> str | None:
-    """Say why the two are not timed, if they are not: nothing is before its hits are held against the oracle."""
+    """Say why the two programs must not be timed, or return None where both answer as the oracle does."""
     for side, casting in sides.items():
         if reason := casting.check(executor, experiment.config.accuracy, truth, framed=True).reason:
             return f"{reason} ({WHEN[side]})"
@@ -99,7 +130,11 @@ def _wrong(sides: Sides, experiment: Experiment, executor: LocalExecutor, truth:
 def _race(
     planned: Planned, sides: Sides, experiment: Experiment, tolerance: Tolerance, executor: LocalExecutor
 ) -> Ratio | None:
-    """Rounds that time both programs once, in random order, until the interval is narrow or the budget is spent."""
+    """Time both programs once in each round, in random order, and return the ratio of their times, now over then.
+
+    Rounds go on until the ratio's interval is narrow or the budget is spent. Raises CellError where a frame fails or
+    the device's clock tells no time.
+    """
     budget = experiment.config.budget
     assert planned.device
     frames = {side: frame for side, casting in sides.items() if (frame := casting.frame())}
@@ -112,7 +147,7 @@ def _race(
         for side in shuffled(list(sides), experiment.config.seed, round_number):
             timing = executor.sample(device, keys[side], frames[side], batch)
             told = timing.device_ms if planned.device.clock == "device" else timing.wall_ms
-            if not told or not math.isfinite(told):  # another clock's time would be no pair to the others
+            if not told or not math.isfinite(told):  # a time by the other clock could not be paired with these
                 raise CellError(CellStatus.FAILED, f"the {planned.device.clock}'s clock told {told} for a frame")
             times[side].append(told)
         rounds = range(round_number + 1)

@@ -1,9 +1,9 @@
-"""The blessed baseline: a TOML file made to be read in a diff, one figure a line, sorted.
+"""Read and write the blessed baseline: a TOML file that is made to be read in a diff, one figure a line, sorted.
 
-    [device."opencl:pocl 1f3a6c"]   one device of one machine: its facts, and who blessed it when and why
+    [device."opencl:pocl 1f3a6c"]   one device of one machine: its facts, and who blessed it, when and why
     [row."opencl:pocl 1f3a6c"."newton torus …"]   what one cell gave there
 
-A baseline may hold several devices and machines; blessing replaces only those it ran on.
+A baseline may hold several devices and machines; blessing replaces only those that it ran on.
 """
 
 from __future__ import annotations
@@ -18,15 +18,18 @@ from pathlib import Path
 from typing import Any
 
 from harness.contract import FirsthitError, digest
-from harness.results.store import write_atomically
+from harness.results.writing import write_atomically
 
 FORMAT = 1
-Entry = dict[str, Any]  # status, scene, program, and the figures
+Entry = dict[str, Any]  # status, scene (a hash of what was asked), program (its hash), reason, and the figures
 
 
 @dataclass(frozen=True)
 class Baseline:
-    """Entries by device key and slot (without the device)."""
+    """Holds the entries of rows by the device's key and by slot, and each device's facts by its key.
+
+    A slot is that of `entries.slot_of`, without the device.
+    """
 
     config: str = ""
     devices: dict[str, dict[str, Any]] = field(default_factory=dict)
@@ -34,12 +37,12 @@ class Baseline:
 
 
 def device_key(facts: Mapping[str, Any], same: list[str]) -> str:
-    """A device's name and a hash of the facts that must be `same` for figures to be compared."""
+    """Return a device's name and a hash of those of its facts that must be the `same` for figures to be compared."""
     return f"{facts['name']} {digest({name: facts[name] for name in same})[:6]}"
 
 
 def read(path: Path) -> Baseline:
-    """Raises FirsthitError where there is no baseline or it is damaged."""
+    """Read a baseline. Raises FirsthitError where there is none, or it is damaged or of another format."""
     try:
         document = tomllib.loads(path.read_text(encoding="utf-8"))
     except FileNotFoundError:
@@ -71,7 +74,7 @@ def _is_tables(*values: Any) -> bool:
 
 
 def write(path: Path, baseline: Baseline) -> None:
-    """Write a baseline whole or not at all."""
+    """Write a baseline whole or not at all. Raises FirsthitError where it cannot be written."""
     lines = [
         "# Made by `firsthit bless`; held against by `firsthit gate`. Do not edit: bless with a reason.",
         f"format = {FORMAT}",
@@ -86,9 +89,13 @@ def write(path: Path, baseline: Baseline) -> None:
 
 
 def merged(old: Baseline, new: Baseline) -> Baseline:
-    """`new`, and of `old` the devices of other machines and those that `new` did not run on."""
+    """Return the baseline `new` together with those devices of `old`, and their rows, that `new` did not run on.
+
+    A device of the same name on a machine with another processor is another device.
+    """
 
     def place(facts: Mapping[str, Any]) -> tuple[Any, Any]:
+        """Return what tells one device of one machine from others."""
         return facts.get("name"), facts.get("processor")
 
     replaced = {place(facts) for facts in new.devices.values()}
@@ -102,7 +109,7 @@ def _pairs(table: Mapping[str, Any]) -> list[str]:
 
 
 def _value(value: Any) -> str:
-    """TOML; floats with every digit."""
+    """Write a value as TOML, floats with every digit."""
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, (int, float)):

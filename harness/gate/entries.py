@@ -1,4 +1,4 @@
-"""Rows just run → what the baseline keeps of them."""
+"""Make of a config's rows what a baseline keeps of them."""
 
 from __future__ import annotations
 
@@ -14,7 +14,8 @@ from harness.plugins import Catalog
 from harness.results.figures import figures
 from harness.results.store import Row
 
-# These parts of a cell's identity belong to the method, the machine or the harness; the rest is the question asked.
+# These parts of a cell's identity are the method's, the machine's or the harness's. All others say what was asked of
+# the method: its hash, an entry's `scene`, must be the same for two rows to be compared.
 _NOT_SCENE = {
     "program",
     "program order",
@@ -32,11 +33,15 @@ _NOT_SCENE = {
 
 
 def slot_of(planned: Planned) -> str:
-    """The cell's place in the grid without its device: what a row is gated by, whatever becomes of its program."""
+    """Return the cell's place in the grid without its device, by which a row is found again in a baseline.
+
+    It does not depend on the cell's program, so that a row stays gated when its program changes.
+    """
     return planned.cell.slot.removesuffix(f" {planned.cell.device}")
 
 
 def facts_of(info: DeviceInfo) -> dict[str, Any]:
+    """Return what a baseline says of a device: its name, title, driver, compiler, packages and processor."""
     facts = dataclasses.asdict(info)
     told = {name: facts[name] for name in ("name", "title", "driver", "compiler")}
     return told | {"versions": dict(info.versions), "processor": processor()}
@@ -45,7 +50,11 @@ def facts_of(info: DeviceInfo) -> dict[str, Any]:
 def baseline_of(
     planned: Iterable[Planned], rows: dict[str, Row], catalog: Catalog, config: str, same: list[str]
 ) -> Baseline:
-    """The rows of every device that is here."""
+    """Make a baseline of the rows of all cells whose device is here.
+
+    `rows` holds each cell's row by its key, `config` is the config's name, and `same` names the facts that tell one
+    device from another. Raises FirsthitError where a row's figure is no finite number.
+    """
     made = Baseline(config)
     for p in planned:
         if p.device is None:
@@ -58,8 +67,9 @@ def baseline_of(
 
 
 def _entry(planned: Planned, row: Row, catalog: Catalog) -> Entry:
+    """Return status, hashes and gated figures of a row."""
     scene = {name: value for name, value in planned.identity.items() if name not in _NOT_SCENE}
-    if "accuracy" in scene:  # how much may be undecided decides whether there are figures, and none of them
+    if "accuracy" in scene:  # the share that may be undecided decides whether there are figures, but changes none
         scene["accuracy"] = {name: value for name, value in scene["accuracy"].items() if name != "undecided"}
     entry: Entry = {"status": row["status"], "scene": digest(scene)}
     if row["program"]:

@@ -1,7 +1,7 @@
-"""Run as a script inside another revision's tree: a config's programs as JSON on the last line of stdout.
+"""Print a config's programs as JSON on the last line of stdout. This runs as a script inside another revision's tree.
 
-Arguments: config, plugins folder or "", device names after them. Uses only what every revision's harness has, under the
-names that it went by in each.
+The script's arguments are the config, the plugins folder or "", and the names of devices. It uses only what the harness
+has in every revision, under the name that it has in each.
 """
 
 import dataclasses
@@ -23,7 +23,7 @@ DISCOVERY = ("harness.devices.discovery", "harness.devices.executor", "harness.e
 def _module(names: tuple[str, ...]) -> Any:
     """Import the first of these modules that this revision has. Raises FirsthitError where it has none.
 
-    Its own files are looked for, since an editable installation offers those of another revision beside them.
+    It looks for files of the revision itself, since an editable installation offers modules of another one beside them.
     """
     tree = Path(harness.__file__).parents[1]
     for name in names:
@@ -33,12 +33,17 @@ def _module(names: tuple[str, ...]) -> Any:
 
 
 def _json(program: Program) -> dict[str, Any]:
+    """Return the parts of a program that `harness.gate.revision` makes it of again."""
     sections = [[section.origin, section.text] for section in program.sections]
     return {"language": program.language, "precision": program.precision, "entry": program.entry, "sections": sections}
 
 
 def export(path: str, plugins: str, devices: list[str]) -> dict[str, Any]:
-    """Return each view cell's programs by its slot. Raises FirsthitError where the config cannot be planned."""
+    """Return each cell's programs by its slot. Raises FirsthitError where the config cannot be planned.
+
+    skip: why the cell cannot be run; None where it can
+    check, timed: the programs that are checked and timed; None where there is none
+    """
     catalog = find_methods(Path(plugins) if plugins else None)
     experiment = _module(LOAD).load(Path(path), catalog)
     experiment = dataclasses.replace(experiment, config=dataclasses.replace(experiment.config, devices=devices))

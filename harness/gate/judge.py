@@ -1,4 +1,4 @@
-"""What became of each row since the baseline was blessed."""
+"""Judge what became of each row since the baseline was blessed."""
 
 from __future__ import annotations
 
@@ -6,15 +6,21 @@ import math
 from collections.abc import Container, Mapping
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import Any
+from typing import Any, cast
 
 from harness.contract import CellStatus
+from harness.experiment.config import ToleranceChoice
 from harness.gate.baseline import Baseline, Entry
+from harness.results.facts import FACTS
 from harness.results.figures import GATED, Better
 
 
 class Verdict(StrEnum):
-    """Worst first. INCOMPARABLE is no pass: nothing can be said of the row."""
+    """Names what became of a row, the worst first.
+
+    INCOMPARABLE: nothing can be said of the row, so that this is no pass
+    MISSING: the row was blessed, and its cell is no longer in the config
+    """
 
     REGRESSED = "regressed"
     MISSING = "missing"
@@ -25,23 +31,27 @@ class Verdict(StrEnum):
 
 
 ORDER = list(Verdict)
+Value = float | int | str  # of a figure; a text for a status, and for a figure that is gone
 
 
 @dataclass(frozen=True)
 class Tolerance:
-    """`now` may be worse than `before` by absolute + relative * |before|; better by more than that is improved. What is
-    no number is regressed."""
+    """Says how much a figure may change: by absolute + relative * |before|, for the worse, and still pass.
+
+    A figure that is better by more than that is improved. One that is NaN is regressed.
+    """
 
     better: Better
     absolute: float
     relative: float
 
     def allowed(self, before: float) -> float:
-        """The worst value that passes."""
+        """Return the worst value that passes."""
         slack = self.absolute + self.relative * abs(before)
         return before + slack if self.better == "lower" else before - slack
 
     def verdict(self, before: float, now: float) -> Verdict:
+        """Judge a figure's value now by its value before."""
         slack = self.absolute + self.relative * abs(before)
         worse = now - before if self.better == "lower" else before - now
         return Verdict.IMPROVED if worse < -slack else Verdict.PASS if worse <= slack else Verdict.REGRESSED
@@ -49,28 +59,28 @@ class Tolerance:
 
 @dataclass(frozen=True)
 class Change:
-    """One gated figure of a row."""
+    """Holds what became of one gated figure of a row, or of its status."""
 
     figure: str
-    before: Any
-    now: Any
-    allowed: Any
+    before: Value
+    now: Value
+    allowed: Value
     verdict: Verdict
 
     @property
     def size(self) -> float:
-        """How far beyond what is allowed, over the baseline; 0 for what passes, to sort by."""
+        """Return how far the value is beyond what is allowed, over the baseline's value, to sort by; 0 for a pass."""
         if self.verdict is Verdict.PASS:
             return 0.0
-        if isinstance(self.allowed, str) or isinstance(self.now, str):  # a status, or a figure that is gone
-            return math.inf
+        if isinstance(self.before, str) or isinstance(self.allowed, str) or isinstance(self.now, str):
+            return math.inf  # a status, or a figure that is gone
         size = float(abs(self.now - self.allowed) / max(abs(self.before), 1e-300))
         return math.inf if math.isnan(size) else size
 
 
 @dataclass(frozen=True)
 class Judged:
-    """A row's verdict: the worst of its figures', or why there is none."""
+    """Holds a row's verdict, which is the worst of its figures', and the reason where it follows from no figure."""
 
     slot: str
     device: str
@@ -81,15 +91,17 @@ class Judged:
 
     @property
     def worst(self) -> Change | None:
+        """Return the change with the worst verdict, and of several such the largest; None without a change."""
         return max(self.changes, key=lambda c: (-ORDER.index(c.verdict), c.size), default=None)
 
 
 def judge(
     now: Baseline, before: Baseline, methods: Mapping[str, str], tolerances: Mapping[str, Tolerance]
 ) -> list[Judged]:
-    """Every row of `now`, and of `before` those of the same devices that are gone; the worst first.
+    """Judge every row of `now`, and those rows of `before` on the same devices that are gone; the worst comes first.
 
-    `methods`: each slot's method.
+    methods: each slot's method
+    tolerances: each gated figure's tolerance, as `tolerances_of` returns them
     """
     judged: list[Judged] = []
     for key, rows in now.rows.items():
@@ -115,6 +127,7 @@ def rank(judged: Judged) -> tuple[int, float, str, str]:
 def _judge_row(
     slot: str, device: str, method: str, now: Entry, before: Entry | None, tolerances: Mapping[str, Tolerance]
 ) -> Judged:
+    """Judge one row by its entry now and the one that was blessed, if one was."""
     if before is None:
         return Judged(slot, device, method, Verdict.NEW, f"{now['status']}; bless to gate it")
     if now["scene"] != before["scene"]:
@@ -140,23 +153,28 @@ def _judge_row(
 
 
 def _elsewhere(facts: Mapping[str, Any], before: Baseline) -> str:
-    """Why a device has no baseline, by the nearest one that has."""
+    """Say why a device has no baseline: in which facts it differs from the most similar one that has."""
     alike = [old for old in before.devices.values() if old.get("name") == facts["name"]]
     if not alike:
         known = ", ".join(sorted({str(old.get("name")) for old in before.devices.values()})) or "no device"
         return f"the baseline is of {known}, not of {facts['name']}"
 
     def differing(old: Mapping[str, Any]) -> list[str]:
-        compared = ("title", "driver", "compiler", "processor")
-        return [f"{name}: {old.get(name)!r} → {facts[name]!r}" for name in compared if old.get(name) != facts[name]]
+        return [f"{name}: {old.get(name)!r} → {facts[name]!r}" for name in FACTS if old.get(name) != facts[name]]
 
     nearest = min((differing(old) for old in alike), key=lambda changes: len(changes))
     return f"blessed on another {facts['name']}: {'; '.join(nearest)}"
 
 
 def exit_code(judged: list[Judged], broken: Container[tuple[str, str]]) -> int:
-    """1 where a row regressed or is missing; else 3 where a row could not be judged, or a new one did not finish, or
-    nothing was compared at all; else 0. `broken`: slot and device of the rows that did not finish."""
+    """Return the exit code of a gate.
+
+    1: a row regressed or is missing
+    3: a row could not be judged, a new one did not finish, or no row was compared
+    0: none of these
+
+    `broken` holds slot and device of the rows that did not finish.
+    """
     verdicts = {j.verdict for j in judged}
     if verdicts & {Verdict.REGRESSED, Verdict.MISSING}:
         return 1
@@ -165,13 +183,16 @@ def exit_code(judged: list[Judged], broken: Container[tuple[str, str]]) -> int:
     return 3 if Verdict.INCOMPARABLE in verdicts or broken_new or not compared else 0
 
 
-def tolerances_of(own: Mapping[str, Any]) -> dict[str, Tolerance]:
-    """Each gated figure's tolerance: the config's `own` in place of the defaults; those it leaves ungated are gone."""
+def tolerances_of(own: Mapping[str, ToleranceChoice]) -> dict[str, Tolerance]:
+    """Return each gated figure's tolerance by its name: the config's `own` where it states one, else the default.
+
+    Figures that the config does not want gated are left out.
+    """
     chosen = {}
     for name, figure in GATED.items():
         choice = own.get(name)
         if choice is None:
             chosen[name] = Tolerance(figure.better, figure.absolute, figure.relative)
         elif choice.gated:
-            chosen[name] = Tolerance(choice.better or figure.better, choice.absolute, choice.relative)
+            chosen[name] = Tolerance(cast("Better", choice.better or figure.better), choice.absolute, choice.relative)
     return chosen

@@ -1,4 +1,4 @@
-"""What a gate found, for people, for CI servers (JUnit XML), for pages (Markdown) and as GitHub annotations."""
+"""Write what a gate found as a table for people, JUnit XML for CI servers, Markdown, and GitHub annotations."""
 
 from __future__ import annotations
 
@@ -6,11 +6,10 @@ import re
 from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 from xml.sax.saxutils import escape, quoteattr
 
 from harness import console
-from harness.gate.judge import ORDER, Judged, Verdict
+from harness.gate.judge import ORDER, Judged, Value, Verdict
 
 BAD = (Verdict.REGRESSED, Verdict.MISSING, Verdict.INCOMPARABLE)
 HEADER = ("verdict", "cell", "device", "figure", "baseline", "now", "allowed", "")
@@ -18,20 +17,25 @@ SHOWN = 40  # rows of one kind that a table lists
 REASON = 160  # characters of a reason
 
 
-def number(value: Any) -> str:
+def number(value: Value) -> str:
+    """Write a figure with six digits at most; a text stays as it is."""
     if isinstance(value, float):
         return f"{value:.6g}"
-    return "-" if value is None else str(value)
+    return str(value)
 
 
 def counted(judged: Sequence[Judged]) -> str:
-    """12 pass, 1 regressed; the worst first."""
+    """Count the rows of each verdict, the worst first: `1 regressed, 12 pass`."""
     counts = Counter(j.verdict for j in judged)
     return ", ".join(f"{counts[verdict]} {verdict}" for verdict in ORDER if counts[verdict]) or "nothing to judge"
 
 
 def lines(judged: Sequence[Judged]) -> list[tuple[str, ...]]:
-    """Cells of HEADER for every row that does not simply pass, and each of its figures that changed; worst first."""
+    """List what a table says under HEADER, the worst first.
+
+    Every figure that does not pass has a line. So has a row that does not pass although all of its figures do. Of each
+    verdict SHOWN rows are listed; one more line counts the others.
+    """
     listed: list[tuple[str, ...]] = []
     for verdict in ORDER[:-1]:
         rows = [j for j in judged if j.verdict is verdict]
@@ -51,7 +55,10 @@ def lines(judged: Sequence[Judged]) -> list[tuple[str, ...]]:
 
 
 def _short(reason: str) -> str:
-    """One line; of a compiler's log from the first place in a kernel on."""
+    """Shorten a reason to one line of at most REASON characters.
+
+    A compiler's log begins at the first place that it names in a kernel.
+    """
     text = " ".join(reason.split())
     place = re.search(r"\S+\.glsl:\d+", text)
     text = text[place.start() :] if place else text
@@ -59,12 +66,13 @@ def _short(reason: str) -> str:
 
 
 def table(judged: Sequence[Judged]) -> str:
+    """Write the lines of every row that does not simply pass as an aligned table, and the count of each verdict."""
     listed = lines(judged)
     return "\n".join(filter(None, (console.table(HEADER, listed) if listed else "", counted(judged))))
 
 
 def markdown(judged: Sequence[Judged], title: str, baseline: Path, code: int) -> str:
-    """A heading with the outcome, and the table."""
+    """Write a heading with the outcome, which follows from the exit code `code`, and the table, in Markdown."""
 
     def cell(text: str) -> str:
         return text.replace("\\", "\\\\").replace("|", "\\|").replace("<", "&lt;")
@@ -79,7 +87,10 @@ def markdown(judged: Sequence[Judged], title: str, baseline: Path, code: int) ->
 
 
 def junit(judged: Sequence[Judged], title: str) -> str:
-    """One test case a row; regressed and missing ones are failures, incomparable ones errors."""
+    """Write JUnit XML with a test case for each row.
+
+    Regressed and missing rows are failures, and incomparable ones are errors.
+    """
 
     def attribute(text: str) -> str:
         return quoteattr("".join(c if c.isprintable() else " " for c in text))
@@ -103,7 +114,10 @@ def junit(judged: Sequence[Judged], title: str) -> str:
 
 
 def github(judged: Sequence[Judged], kernels: dict[str, Path]) -> str:
-    """GitHub's workflow commands: an error for each bad row, at its method's kernel where that is below here."""
+    """Write a workflow command of GitHub for each bad row: a warning where it is incomparable, else an error.
+
+    It is shown at the method's kernel, which `kernels` names, where that lies below the working folder.
+    """
 
     def data(text: str) -> str:
         return text.replace("%", "%25").replace("\r", "%0D").replace("\n", "%0A")
@@ -124,6 +138,7 @@ def github(judged: Sequence[Judged], kernels: dict[str, Path]) -> str:
 
 
 def _headline(judged: Judged) -> str:
+    """Say in one line what is worst of a row."""
     worst = judged.worst
     if worst is None or worst.verdict is Verdict.PASS:
         return judged.reason
@@ -131,6 +146,7 @@ def _headline(judged: Judged) -> str:
 
 
 def _told(judged: Judged) -> str:
+    """Say all that was found of a row, a line for each figure that does not pass."""
     changed = [c for c in judged.changes if c.verdict is not Verdict.PASS]
     figures = [f"{c.figure}: {number(c.before)} → {number(c.now)}, allowed {number(c.allowed)}" for c in changed]
     return "\n".join(filter(None, (f"{judged.slot} on {judged.device}: {judged.verdict}", judged.reason, *figures)))

@@ -1,4 +1,4 @@
-"""Another git revision's programs of a config, made by that revision's own code in a temporary worktree."""
+"""Get another git revision's programs of a config, which that revision's own code makes in a temporary worktree."""
 
 from __future__ import annotations
 
@@ -21,7 +21,11 @@ EXPORT = Path(__file__).with_name("export.py")
 
 @dataclass(frozen=True)
 class Former:
-    """One cell's programs at the other revision; `skip`: why there are none."""
+    """Holds one cell's programs at the other revision.
+
+    check, timed: the programs that are checked and timed; None where there is none
+    skip: why the cell is skipped there; None where it is not
+    """
 
     check: Program | None
     timed: Program | None
@@ -29,10 +33,11 @@ class Former:
 
 
 def programs_at(revision: str, config: Path, plugins: Path | None, devices: list[str]) -> dict[str, Former]:
-    """Each view cell's programs by its slot.
+    """Return each cell's programs at a git revision, by its slot.
 
-    The revision is of the repository that holds `plugins`, where they are given, else of this project; where these are
-    two, the harness stays as it is. Raises FirsthitError where there is no such revision or it cannot plan the config.
+    The revision is one of the repository that holds the folder `plugins` or, without plugins, of this project. Where
+    plugins are in a repository of their own, the harness that plans them is the present one. Raises FirsthitError where
+    there is no such revision, and with exit code 3 where its code cannot plan the config.
     """
     top = _git(plugins or ROOT, "rev-parse", "--show-toplevel")
     if top is None:
@@ -54,7 +59,10 @@ def programs_at(revision: str, config: Path, plugins: Path | None, devices: list
 
 @contextlib.contextmanager
 def _worktree(repository: Path, revision: str) -> Iterator[Path]:
-    """`revision` checked out in a temporary folder, and gone again afterwards."""
+    """Check `revision` out into a temporary folder, and remove it again when the block ends.
+
+    Raises FirsthitError where there is no such revision or it cannot be checked out.
+    """
     commit = _git(repository, "rev-parse", "--verify", "--quiet", f"{revision}^{{commit}}")
     if commit is None:
         raise FirsthitError(f"--against: {repository} has no revision {revision!r}; a shallow clone lacks older ones")
@@ -69,6 +77,7 @@ def _worktree(repository: Path, revision: str) -> Iterator[Path]:
 
 
 def _git(folder: Path, *arguments: str) -> str | None:
+    """Run git in a folder and return what it printed; None where it fails or is not here."""
     try:
         ran = subprocess.run(["git", "-C", str(folder), *arguments], capture_output=True, text=True, check=False)
     except OSError:
@@ -77,10 +86,12 @@ def _git(folder: Path, *arguments: str) -> str | None:
 
 
 def _former(cell: dict[str, Any]) -> Former:
+    """Read what harness/gate/export.py wrote of a cell."""
     check, timed = (_program(cell[name]) if cell[name] else None for name in ("check", "timed"))
     return Former(check, timed, cell["skip"])
 
 
 def _program(stored: dict[str, Any]) -> Program:
+    """Read a program that harness/gate/export.py wrote."""
     sections = tuple(Section(origin, text) for origin, text in stored["sections"])
     return Program(stored["language"], stored["precision"], stored["entry"], sections)

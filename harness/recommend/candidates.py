@@ -1,4 +1,4 @@
-"""What is tried: every method's default, its papers' settings and its knobs' sweeps; and the views it is tried on."""
+"""List what is tried: each method's default, its papers' settings and its knobs' sweeps, and the views."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ GOLDEN_ANGLE = 180.0 * (3.0 - math.sqrt(5.0))
 
 
 def variants(catalog: Catalog) -> tuple[Variant, ...]:
-    """Every candidate, each binding of a method's parameters once.
+    """Return every candidate, each binding of a method's parameters once.
 
-    Methods that cast beams are left out: they answer for pixels and have no
-    error along a ray."""
+    Methods whose kernels take no listed rays are left out, since no error along a ray can be told of them.
+    """
     found: dict[tuple[str, tuple[tuple[str, float | int], ...]], Variant] = {}
     for _, plugin in sorted(catalog.plugins.items()):
         if plugin.method.answers and not of_method(plugin.method).unlisted:
@@ -27,6 +27,7 @@ def variants(catalog: Catalog) -> tuple[Variant, ...]:
 
 
 def _of(plugin: Plugin) -> list[Variant]:
+    """List a method's default, its papers' settings, and the grid of its knobs' sweeps, in this order."""
     swept = [(p.name, (None, *p.sweep)) for p in plugin.method.parameters if p.sweep]
     points = itertools.product(*(values for _, values in swept))
     named = [{name: v for (name, _), v in zip(swept, point, strict=True) if v is not None} for point in points]
@@ -35,7 +36,10 @@ def _of(plugin: Plugin) -> list[Variant]:
 
 
 def views(count: int, seed: int) -> list[View]:
-    """`count` directions spread evenly over the sphere, turned by the seed; the surface fills each window."""
+    """Return `count` views in random order, whose directions are spread evenly over the sphere.
+
+    The seed decides how they are turned and ordered. The surface fills each view.
+    """
     draw = random.Random(f"views {seed}")
     turn, order = draw.uniform(0.0, 360.0), draw.sample(range(count), count)
     made = []

@@ -1,5 +1,8 @@
-"""Successive narrowing: all candidates are checked on one view, those within bounds on the next; only what is left is
-timed, interleaved; the fastest are checked once more on views they were not chosen by."""
+"""Search for the fastest variant within an error, and narrow the candidates down step by step.
+
+All candidates are checked on one view, and those within bounds on the next. Only what is left is timed, in interleaved
+rounds. The fastest are checked once more on held-out views, by which they were not chosen.
+"""
 
 from __future__ import annotations
 
@@ -41,22 +44,32 @@ SMALL = 128  # pixels per side of that picture, at most
 
 @dataclass(frozen=True)
 class Wish:
-    """What is asked for. `error`: the largest |t - t*| allowed, scene units; `fps`: frames per second, or 0.
+    """Says what is asked for.
 
-    Raises FirsthitError for a number that is out of range, and for a quantile or precision that there is not.
+    error: the largest |t - t*| allowed, scene units
+    quantile: of which errors `error` is the bound
+    fps: frames per second at least; 0 for any
+    size: pixels per side of the frames that are timed
+    precision: None for float32, and float64 only where no float32 variant holds
+    tuning_views, held_out_views: how many views variants are chosen by, and how many the chosen are checked on
+    accuracy_size: rays per side that are checked on each view
+    seed: of the views
+    seconds: of timing for each contender and view
+
+    Raises FirsthitError for a number that is out of range, and for an unknown quantile or precision.
     """
 
     surface: Surface
     error: float
     quantile: Quantile = "max"
     fps: float = 0.0
-    size: int = 512  # pixels per side of what is timed
-    precision: Precision | None = None  # None: float32, and float64 only where no float32 variant holds
+    size: int = 512
+    precision: Precision | None = None
     tuning_views: int = 5
     held_out_views: int = 3
     accuracy_size: int = 64
     seed: int = 1
-    seconds: float = 1.0  # of timing for each contender and view
+    seconds: float = 1.0
 
     def __post_init__(self) -> None:
         limits = (
@@ -76,12 +89,14 @@ class Wish:
 
     @property
     def target(self) -> float:
-        """What the sampled rays must keep."""
+        """Return the error, scene units, that the sampled rays must keep."""
         return self.error / HEADROOM if self.quantile == "max" else self.error
 
 
 @dataclass(frozen=True)
 class Fallen:
+    """Names a variant that was not chosen, and says why."""
+
     variant: Variant
     precision: Precision
     why: str
@@ -89,7 +104,12 @@ class Fallen:
 
 @dataclass(frozen=True)
 class Contender:
-    """A variant within bounds on every view: `ms` a frame, the mean over the tuning views; the worst error of any."""
+    """Describes a variant that is within bounds on every view.
+
+    ms: the time of a frame, the mean over the tuning views
+    error: the largest error on any view, scene units
+    evaluations: the largest mean number of evaluations of f per ray on any view
+    """
 
     variant: Variant
     precision: Precision
@@ -100,9 +120,12 @@ class Contender:
 
 @dataclass
 class Recommendation:
-    """The variants within bounds on `device`, the fastest first, or none where nothing holds; and why the others fell.
+    """Holds what a search found on a device.
 
-    `held_out` counts the rays that were judged on held-out views, `decided` and `undecided` the oracle's hits on all.
+    contenders: the variants within bounds, the fastest first; none where no variant holds
+    fallen: all others
+    held_out: how many rays were judged on the held-out views
+    decided, undecided: how many hits the oracle decided and left undecided, on all views
     """
 
     device: DeviceInfo
@@ -131,7 +154,7 @@ def recommend(
 
 
 class Search:
-    """`tell(line)` is called as the search goes on."""
+    """Searches on one device; `tell` is called with a line as the search goes on. Rows are stored in `folder`."""
 
     def __init__(
         self,
@@ -149,6 +172,7 @@ class Search:
         self._tuning, self._held_out = sampled[: wish.tuning_views], sampled[wish.tuning_views :]
 
     def run(self) -> Recommendation:
+        """Search in the wished precision or, without one, in float32 and then, where no variant holds, in float64."""
         found = Recommendation(self._device)
         precisions: tuple[Precision, ...] = (self._wish.precision,) if self._wish.precision else ("float32", "float64")
         for precision in precisions:
@@ -158,6 +182,7 @@ class Search:
         return found
 
     def _narrow(self, precision: Precision, found: Recommendation) -> None:
+        """Search in one precision, and put into `found` what holds and what fell."""
         alive = list(variants(self._catalog))
         worst: dict[Variant, tuple[float, float]] = {}
         alive = self._check(alive, precision, self._tuning, found, worst, "")
@@ -177,9 +202,10 @@ class Search:
         worst: dict[Variant, tuple[float, float]],
         where: str,
     ) -> list[Variant]:
-        """Those within bounds on every view, one view after the other; `worst` error and evaluations are kept.
+        """Check variants on one view after the other, and return those within bounds on every view.
 
-        A view whose every ray is proved to miss bounds no error; where all of them are such, nothing holds.
+        `worst` is updated with the largest error and mean evaluations of each. A view on which the oracle proves that
+        every ray misses bounds no error; a variant that was checked on such views only falls.
         """
         measured: set[Variant] = set()
         for view in on:
@@ -205,7 +231,7 @@ class Search:
         return [variant for variant in alive if variant in measured]
 
     def _reason(self, row: Row) -> str | None:
-        """Why a row's variant falls, with figures; None where it holds."""
+        """Say with figures why a row's variant falls; None where it holds."""
         if row["status"] != CellStatus.OK:
             return f"{row['status']}: {' '.join(str(row['reason']).split())}"
         accuracy = row["accuracy"]
@@ -220,7 +246,10 @@ class Search:
         return f"{wish.quantile} error {error:.2g}, {over}, view {row['view']}"
 
     def _race(self, alive: list[Variant], precision: Precision, found: Recommendation) -> dict[Variant, float]:
-        """Milliseconds a frame of the fastest, the mean of its medians over the tuning views."""
+        """Time variants, and return those of the fastest that keep the wished frame rate, with their times.
+
+        A time is in milliseconds for one frame, the mean over the tuning views of the median on each.
+        """
         if not alive:
             return {}
         self._tell(f"{precision}: timing {len(alive)} variants shortly")
@@ -247,13 +276,14 @@ class Search:
     def _medians(
         self, of: list[Variant], precision: Precision, view: View, size: int, seconds: float
     ) -> dict[Variant, float]:
+        """Return the median time of a frame in ms of each variant that could be timed on this view."""
         rows = self._rows(of, precision, view, size, seconds)
         return {variant: row["time"]["median_ms"] for variant, row in rows.items() if row["time"]}
 
     def _rows(
         self, of: list[Variant], precision: Precision, view: View, size: int, seconds: float | None = None
     ) -> dict[Variant, Row]:
-        """Each variant's row on this view, run where it is not stored; timed where `seconds` are given."""
+        """Return each variant's row on this view, run where it is not stored; it is timed where `seconds` are given."""
         wish = self._wish
         config = Config(
             title=f"Recommendation for {wish.surface.title}",
@@ -276,13 +306,15 @@ class Search:
 
 
 def certified_error(accuracy: dict[str, Any], quantile: Quantile) -> float | None:
-    """At least the quantile's |t - t*|, scene units: what was measured is up to the certified interval only. None where
-    no hit was measured."""
+    """Return an upper bound of a quantile of |t - t*|, scene units; None where no hit was measured.
+
+    Errors are measured to the certified interval that encloses t*, so that the largest interval's width is added.
+    """
     measured = accuracy["error"][quantile]
     return None if measured is None else float(measured + accuracy["certified_width"])
 
 
 def named(variant: Variant) -> str:
-    """The label, with the method where a paper's name for a setting does not tell it."""
+    """Return the variant's label, behind the method's name where the label does not begin with it."""
     label = str(variant)
     return label if label.startswith(variant.method) else f"{variant.method} “{label}”"

@@ -1,1 +1,1 @@
-"""Runs what a plan names, and casts single sets of rays. Knows no command line."""
+"""Run what a plan names, and cast single sets of rays. Nothing here knows the command line."""

@@ -1,4 +1,4 @@
-"""Runs what a plan names and is not stored yet, for commands that need rows and not a run folder to look at."""
+"""Run what a plan names and is not stored yet, for commands that need rows and no run folder that people look at."""
 
 from __future__ import annotations
 
@@ -23,11 +23,13 @@ def rows_of(
     executor: LocalExecutor,
     force: bool = False,
 ) -> dict[str, Row]:
-    """Each planned cell's row by its key; run now where `folder` has none, or one that did not finish."""
+    """Return each planned cell's row by its key.
+
+    A cell is run now where `folder` has no row of it, where its row says that it did not finish and, with `force`, in
+    any case. Raises FirsthitError where a row cannot be stored.
+    """
     store = Store(folder)
     found = due(planned, store, "everything" if force else "unfinished")
-    environment = describe()
-    about = {"commit": environment["commit"], "dirty": environment["dirty"]}
     progress = console.Progress(len(found.todo), 1.0 * len(found.todo))
-    rows = Runner(experiment.config, catalog, store, executor, about, progress).run(found.todo)
+    rows = Runner(experiment.config, catalog, store, executor, describe(), progress).run(found.todo)
     return found.kept | {row["key"]: row for row in rows}

@@ -1,4 +1,4 @@
-"""What a report says of a method: its page (the docstring of method.py), its knobs and claims.
+"""Read what a report says of a method: its page (the docstring of method.py), its knobs and claims.
 
 A page is a title line, a paragraph that says what the method does, and parts that begin with a bold name. A part holds
 text, points that begin with "- ", and tables:
@@ -78,6 +78,7 @@ def _parted(body: str) -> tuple[str, list[dict[str, Any]]]:
 
 
 def _cells(line: str, starts: list[int]) -> list[str]:
+    """Cut a table's line into cells, which begin at the columns `starts`."""
     return [line[a:b].strip() for a, b in zip(starts, [*starts[1:], None], strict=True)]
 
 

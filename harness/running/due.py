@@ -1,4 +1,4 @@
-"""Which of a plan's cells must run: those that have no row, and those whose row is not to be kept."""
+"""Find which of a plan's cells must run: those that have no row, and those whose row is not to be kept."""
 
 from __future__ import annotations
 
@@ -17,16 +17,16 @@ PREPARING = 0.3  # seconds to build and check a cell: the mean of 4,392 of confi
 
 @dataclass(frozen=True, eq=False)
 class Due:
-    """A plan's cells, parted."""
+    """Holds a plan's cells that must run, and the rows of the others."""
 
     todo: list[Planned]  # in the plan's order
     kept: dict[str, Row]  # the other cells' rows by their keys, in the plan's order
 
 
 def due(planned: Sequence[Planned], store: Store, again: Again = "nothing") -> Due:
-    """Part the cells that must run from those whose stored row stands.
+    """Tell the cells that must run from those whose stored row is kept.
 
-    A damaged row is none; `store.unreadable` then says why.
+    A row that cannot be read counts as none; `store.unreadable` then says why.
     """
     stored = {p.key: store.read(p.key) for p in planned}
     kept = {key: row for key, row in stored.items() if row and not _is_wanted_again(row, again)}
@@ -34,11 +34,12 @@ def due(planned: Sequence[Planned], store: Store, again: Again = "nothing") -> D
 
 
 def _is_wanted_again(row: Row, again: Again) -> bool:
+    """Tell whether a cell must run although it has this row."""
     return again == "everything" or (again == "unfinished" and row["status"] in UNFINISHED)
 
 
 def estimate_seconds(todo: Iterable[Planned], store: Store, budget_seconds: float) -> float:
-    """Estimate how long cells will take: as long as their slot took before, else the whole budget."""
+    """Estimate the seconds that cells will take: as many as their slot took before, else the whole budget's."""
     before: dict[str, float] = {row["slot"]: row["seconds"] for row in store.rows()}
     typical = budget_seconds + PREPARING
     return sum(before.get(p.cell.slot, 0.0 if p.skip else typical) for p in todo)

@@ -1,4 +1,4 @@
-"""Where a run took place: versions, commit, machine, and its devices as their probes found them."""
+"""Describe where a run took place: versions, commit, machine, and its devices as their probes found them."""
 
 from __future__ import annotations
 
@@ -17,13 +17,14 @@ from harness.devices import host
 from harness.devices.executor import CellError, LocalExecutor
 from harness.devices.probes import BELIEVABLE, Probes
 from harness.results import sources
-from harness.results.store import write_atomically
+from harness.results.writing import write_atomically
 
 ROOT = Path(__file__).parents[2]
 PACKAGES = ("numpy", "sympy", "python-flint", "moderngl", "pyopencl")
 
 
 def _git(*arguments: str) -> str | None:
+    """Run git in the project's folder and return what it printed; None where it fails or is not here."""
     try:
         result = subprocess.run(["git", "-C", str(ROOT), *arguments], capture_output=True, text=True, check=False)
     except OSError:
@@ -32,7 +33,7 @@ def _git(*arguments: str) -> str | None:
 
 
 def describe() -> dict[str, Any]:
-    """Versions, commit and machine, as plan.json keeps them."""
+    """Return versions, commit and machine, as plan.json keeps them."""
     versions = {}
     for package in PACKAGES:
         try:
@@ -53,10 +54,11 @@ def describe() -> dict[str, Any]:
 def probed(
     executor: LocalExecutor, info: DeviceInfo, cache: Path | None = None, again: bool = False
 ) -> tuple[DeviceInfo, dict[str, Any]]:
-    """The device with the clock that its probes support, and what they found.
+    """Return the device with the clock that its probes support, and what the probes found.
 
-    With a `cache` folder the probes are kept there, for as long as the device, its driver, the processor and the
-    harness stay as they are; where it cannot be written, nothing is kept. With `again` they run whatever is kept.
+    With a folder `cache` this is kept there, for as long as the device, its driver, the processor and the harness stay
+    as they are; where the folder cannot be written, nothing is kept. With `again` the probes run whatever is kept.
+    Nothing is found of a device with a problem; probes that fail are a problem of the device that is returned.
     """
     if info.problem:
         return info, {}
@@ -75,7 +77,10 @@ def probed(
 
 
 def kept_probes(info: DeviceInfo, cache: Path) -> tuple[dict[str, Any], float]:
-    """What `probed` kept of a device, and when, in seconds since 1970; empty where that is not there or damaged."""
+    """Return what `probed` kept of a device, and when, in seconds since 1970; {} and 0 where nothing was kept.
+
+    A damaged file counts as nothing.
+    """
     file = _probes_file(info, cache)
     try:
         found, since = json.loads(file.read_text(encoding="utf-8")), file.stat().st_mtime
@@ -86,6 +91,6 @@ def kept_probes(info: DeviceInfo, cache: Path) -> tuple[dict[str, Any], float]:
 
 
 def _probes_file(info: DeviceInfo, cache: Path) -> Path:
-    """Named by all that decides what probes find."""
+    """Return the file of a device's probes, which is named by all that decides what probes find."""
     machine = (host.processor(), host.cores(), host.settings(), sources.methodology())
     return cache / f"{digest(dataclasses.asdict(info), *machine)}.json"

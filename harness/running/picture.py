@@ -1,4 +1,4 @@
-"""A surface's picture, as one method draws it: `firsthit show`, `firsthit sheet` and firsthit.render share it."""
+"""Draw a surface's picture by one method: what `firsthit show`, `firsthit sheet` and firsthit.render share."""
 
 from __future__ import annotations
 
@@ -28,8 +28,9 @@ def picture(
 ) -> tuple[NDArray[np.uint8], Hits]:
     """Draw a surface with a light at the eye, on white: uint8[size, size, 3], row 0 at the top, and the hits.
 
-    Each pixel is the mean of four rays, so there are 4 · size² hits. Rays that the method gave up are orange, answers
-    that can be none magenta. Raises FirsthitError where `size` is no picture's, and where `cast` does.
+    Each pixel is the mean of four rays, so there are 4 · size² hits. Rays that the method gave up are orange,
+    impossible answers (harness.accuracy.answers) magenta. Raises FirsthitError for a size outside 1 to MOST_PIXELS, and
+    where `cast` does.
     """
     need_size(size)
     camera = camera_for(view, surface)

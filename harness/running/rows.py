@@ -1,4 +1,4 @@
-"""What a cell left behind → the row that is stored of it."""
+"""Build the row that is stored of a cell from what the cell left behind."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from harness.experiment.kinds import of_method
 from harness.experiment.plan import Planned
 from harness.kernels.costs import operations_per_evaluation
 from harness.results import timings
-from harness.results.store import Row
+from harness.results.row import Accuracy, Build, CellRow, RungVerdict, Time
 
 
 @dataclass(eq=False)
 class Samples:
-    """The timed repetitions of one cell, in the order in which they were taken; times in ms for one frame."""
+    """Holds the timed repetitions of one cell in the order in which they were taken; times are in ms for one frame."""
 
     clock: str  # the device's clock that is to be believed: "device" or "wall"
     wall_ms: list[float] = field(default_factory=list)
@@ -35,24 +35,24 @@ class Samples:
 
     @property
     def by_device(self) -> bool:
-        """Whether times are by the device's own clock: where that is believed and told every sample's."""
+        """Tell whether times are by the device's own clock: it is believed, and gave a time for every sample."""
         return self.clock == "device" and len(self.device_ms) == len(self.wall_ms)
 
     @property
     def times(self) -> list[float]:
-        """The times that count, in ms, by the clock that `by_device` names."""
+        """Return the times that count, in ms, by the clock that `by_device` names."""
         return self.device_ms if self.by_device else self.wall_ms
 
 
 @dataclass(frozen=True, eq=False)
 class Left:
-    """What a cell that was tried left behind, parts of its row; None for what it did not come to."""
+    """Holds the parts of a row that a cell which was tried left behind; None for a part that it did not get to."""
 
-    build: dict[str, Any]
+    build: Build
     seconds: float  # of checking, building and timing
-    time: dict[str, Any] | None = None
-    accuracy: dict[str, Any] | None = None
-    rungs: list[dict[str, Any]] | None = None
+    time: Time | None = None
+    accuracy: Accuracy | None = None
+    rungs: list[RungVerdict] | None = None
 
 
 def row_of(
@@ -62,8 +62,11 @@ def row_of(
     reason: str | None,
     left: Left | None,
     environment: Mapping[str, Any],
-) -> Row:
-    """Build the row of a cell that ended now; `left` is None for one that was skipped or not tried."""
+) -> CellRow:
+    """Build the row of a cell that ended now; `left` is None for one that was skipped or not tried.
+
+    `environment` tells the project's `commit` and whether it is `dirty` (running.environment.describe).
+    """
     cell, own = planned.cell, planned.kind.facts(planned.cell)
     programs = ((planned.timed,) if planned.timed else ()) + planned.checks
     return {
@@ -105,26 +108,31 @@ def row_of(
         "operations": _operations(cell.surface) if left else None,
         "evaluation_operations": operations_per_evaluation(cell.surface, method.needs) if left else None,
         "program": {"hash": programs[0].hash} if programs else None,
-        "environment": {**environment, "started": datetime.now(UTC).isoformat(timespec="seconds")},
+        "environment": {
+            "commit": environment["commit"],
+            "dirty": environment["dirty"],
+            "started": datetime.now(UTC).isoformat(timespec="seconds"),
+        },
         "seconds": left.seconds if left else 0.0,
         "identity": planned.identity,
     }
 
 
-def time_of(samples: Samples, batch: int, session: str, *, seed: int, interval: float) -> dict[str, Any]:
+def time_of(samples: Samples, batch: int, session: str, *, seed: int, interval: float) -> Time:
     """Sum up timed repetitions of `batch` frames each, taken in the interleaved `session`.
 
     `seed` is the bootstrap's; `interval` is the share of the median within which its interval is to lie. Raises
     ValueError for no samples.
     """
     median, lower, upper, _ = timings.median_interval(samples.times)
+    steady = timings.steadiness(samples.times)
     bootstrap_lower, bootstrap_upper = timings.bootstrap_interval(samples.times, seed)
     return {
         "clock": "device" if samples.by_device else "wall",
         "samples_ms": samples.times,
         "wall_samples_ms": samples.wall_ms,
         "rounds": samples.rounds,
-        "session": session,  # cells of one session were interleaved: their rounds pair
+        "session": session,
         "batch": batch,
         "median_ms": median,
         "lower_ms": lower,
@@ -133,11 +141,15 @@ def time_of(samples: Samples, batch: int, session: str, *, seed: int, interval: 
         "bootstrap_upper_ms": bootstrap_upper,
         "narrow": timings.is_narrow(samples.times, interval),
         "overhead_share": timings.overhead(samples.wall_ms, samples.device_ms) if samples.by_device else None,
-        **timings.steadiness(samples.times),
+        "drift_share": steady["drift_share"],
+        "drift_chance": steady["drift_chance"],
+        "spread_share": steady["spread_share"],
+        "outliers": steady["outliers"],
+        "warnings": steady["warnings"],
     }
 
 
-def build_of(warmed: Warmed | None, checked_ms: float) -> dict[str, Any]:
+def build_of(warmed: Warmed | None, checked_ms: float) -> Build:
     """Say what building took: of the frame where one was `warmed`, else of the checked programs, `checked_ms` alone."""
     return {
         "compile_ms": warmed.compile_ms if warmed else checked_ms,
@@ -148,6 +160,7 @@ def build_of(warmed: Warmed | None, checked_ms: float) -> dict[str, Any]:
 
 
 def _operations(surface: Surface) -> dict[str, int]:
+    """Count the operations of a surface's formula, by kind."""
     import surfaces
 
     return dict(surfaces.operations(surface))

@@ -1,4 +1,7 @@
-"""Runs a config into a folder: what `firsthit run` and firsthit.run share. It prints nothing; a Watcher hears of it."""
+"""Run a config into a folder: what `firsthit run` and firsthit.run share.
+
+Nothing is printed here. A Watcher is told what happens, and may print it.
+"""
 
 from __future__ import annotations
 
@@ -29,7 +32,7 @@ from harness.running.runner import Runner
 
 @dataclass(frozen=True, eq=False)
 class Loaded:
-    """A config, and all that is needed to plan and run it here."""
+    """Holds a config, and all that is needed to plan and run it here."""
 
     whole: Experiment
     parts: tuple[Experiment, ...]  # the config itself, or those that it includes
@@ -39,7 +42,7 @@ class Loaded:
 
 @dataclass(frozen=True, eq=False)
 class Run:
-    """What a run left behind: the folder that reports read, and the row of every cell that its config names."""
+    """Holds what a run left behind: the folder that reports read, and the row of every cell that its config names."""
 
     folder: Path
     rows: tuple[Row, ...]  # of the cells that were run now, in the order in which they ended
@@ -47,21 +50,21 @@ class Run:
 
     @property
     def counts(self) -> dict[CellStatus, int]:
-        """How many rows have each status; all statuses are there."""
+        """Return how many rows have each status; every status is a key."""
         rows = (*self.rows, *self.reused)
         return {status: sum(row["status"] == status for row in rows) for status in CellStatus}
 
     @property
     def unfinished(self) -> int:
-        """How many cells failed, timed out or crashed."""
+        """Return how many cells failed, timed out or crashed."""
         return sum(self.counts[status] for status in UNFINISHED)
 
 
 class Watcher:
-    """Hears what a run does. Here nothing is done about it; a caller overrides what it wants to hear."""
+    """Is told what a run does, and does nothing about it. A caller overrides the methods that it wants to hear by."""
 
     def doing(self, what: str) -> AbstractContextManager[None]:
-        """Hear what goes on while a block runs that takes its time."""
+        """Hear what goes on while a block runs that takes long."""
         del what
         return nullcontext()
 
@@ -75,7 +78,7 @@ class Watcher:
         """Hear how many cells will be run, and an estimate of how long that takes."""
 
     def cell(self, slot: str, row: Row | None) -> None:
-        """Hear which cell is worked on, or with a `row` that it has ended so."""
+        """Hear which cell is worked on or, with a `row`, that the cell has ended and what its row is."""
 
     def ended(self, part: Run) -> None:
         """Hear that a config, or one of those that it includes, is done."""
@@ -136,7 +139,7 @@ def run(
 
 
 def _described(experiment: Experiment, command: str, environment: Mapping[str, Any]) -> dict[str, Any]:
-    """What every plan.json says first."""
+    """Return what every plan.json says first."""
     return {
         "name": experiment.name,
         "title": experiment.config.title,
@@ -150,6 +153,7 @@ def _described(experiment: Experiment, command: str, environment: Mapping[str, A
 
 
 def _run_part(part: Experiment, loaded: Loaded, runs: Path, command: str, again: Again, hears: Watcher) -> Run:
+    """Run the cells and studies of one config, and write its plan.json."""
     store, environment = Store(runs / part.name), describe()
     executor = LocalExecutor(part.config.budget.timeout)
     try:
@@ -167,8 +171,7 @@ def _run_part(part: Experiment, loaded: Loaded, runs: Path, command: str, again:
         for message in store.unreadable.values():
             hears.warned(f"{message}; running that cell again")
         hears.starts(len(found.todo), estimate_seconds(found.todo, store, part.config.budget.seconds))
-        about = {"commit": environment["commit"], "dirty": environment["dirty"]}
-        rows = Runner(part.config, loaded.catalog, store, executor, about, hears.cell).run(found.todo)
+        rows = Runner(part.config, loaded.catalog, store, executor, environment, hears.cell).run(found.todo)
     finally:
         executor.close()
     return Run(store.folder, tuple(rows), tuple(found.kept.values()))
@@ -179,11 +182,11 @@ def _announced(part: Experiment, catalog: Catalog, chosen: Mapping[str, DeviceIn
     here = [info for info in chosen.values() if info]
     cells = len(plan.grid(part, catalog, here)) if part.variants else 0
     where = f" on {', '.join(info.name for info in here)}" if here else ""
-    return f"{part.path}: {cells} cells{where}; measuring what these are worth, and planning"
+    return f"{part.path}: {cells} cells{where}; preparing devices and cells"
 
 
 def _named(part: Experiment, planned: Sequence[Planned], catalog: Catalog) -> dict[str, Any]:
-    """What a plan.json names: cells, families of hard rays, methods and studies."""
+    """Return what a plan.json names: cells, families of hard rays, methods and studies."""
     return {
         "cells": [{"slot": p.cell.slot, "key": p.key} for p in planned if p.kind.listed == "cells"],
         "families": [{"slot": p.cell.slot, "key": p.key} for p in planned if p.kind.listed == "families"],
@@ -194,6 +197,7 @@ def _named(part: Experiment, planned: Sequence[Planned], catalog: Catalog) -> di
 
 
 def _run_studies(names: Iterable[str], folder: Path, force: bool, hears: Watcher) -> None:
+    """Run the studies that are not done yet in a folder; all of them with `force`."""
     from harness.console import duration
 
     for name in names:

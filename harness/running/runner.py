@@ -1,7 +1,7 @@
-"""Runs what a plan names: check against the oracle, then time in interleaved rounds, and store each row as it ends.
+"""Run what a plan names: check each cell against the oracle, time cells in interleaved rounds, and store their rows.
 
-One writer. A cell that fails, hangs or takes its driver down costs its own row; whatever stops the runner itself loses
-only cells that were not finished.
+A row is stored as soon as its cell ends, and only the runner writes rows. A cell that fails, hangs or takes its driver
+down costs its own row. Where the runner itself is stopped, only cells that were not finished are lost.
 """
 
 from __future__ import annotations
@@ -25,15 +25,15 @@ from harness.results.store import Row, Store
 from harness.running.rows import Left, Samples, build_of, row_of, time_of
 
 MINIMUM_SAMPLES = 8
-LONGEST = 16  # times [budget] seconds: what the rounds that comparing a cell takes may take at most
-BYTES_PER_RAY = 24  # of a frame kept ready, at most: its answer on the device, and as it was read back
-MOST_BYTES = 3 * 2**30  # of all frames kept ready at once
+LONGEST = 16  # times [budget] seconds: the longest that a cell is timed to get the rounds that comparing it needs
+BYTES_PER_RAY = 24  # at most, of a frame that is kept ready: its answer on the device, and the copy that was read back
+MOST_BYTES = 3 * 2**30  # of all frames that are kept ready at once
 UNCHECKED = Outcome(0.0)
 
 
 @dataclass(eq=False)
 class _Live:
-    """A cell on its way from plan to row."""
+    """Holds the state of a cell that is being run."""
 
     planned: Planned
     frame: Frame | None
@@ -45,7 +45,11 @@ class _Live:
 
 
 class Runner:
-    """`report(row, index)` is called after each stored row."""
+    """Runs cells and stores their rows.
+
+    `report` is called with a cell's slot and None when the cell is worked on, and with its slot and row when the row is
+    stored. `environment` is stored in every row.
+    """
 
     def __init__(
         self,
@@ -61,13 +65,18 @@ class Runner:
         self._session = ""
 
     def run(self, planned: Iterable[Planned]) -> list[Row]:
-        """Run cells, those that are timed together after each other; the rows, in the order in which they ended."""
+        """Run cells and return their rows, in the order in which they ended.
+
+        Cells that are to be compared with each other are timed in the same interleaved rounds. A cell that fails is a
+        row; raises FirsthitError where a row cannot be stored.
+        """
         groups: dict[str, list[Planned]] = {}
         for one in planned:
             groups.setdefault(one.cell.together, []).append(one)
         return [row for group in groups.values() for part in _fitting(group) for row in self._compare(part)]
 
     def _compare(self, group: list[Planned]) -> list[Row]:
+        """Check every cell of a group, and then time those together that are to be timed."""
         rows: list[Row] = []
         live: dict[str, _Live] = {}
         for planned in group:
@@ -94,7 +103,7 @@ class Runner:
         return rows
 
     def _prepare(self, state: _Live) -> str | None:
-        """Check the cell and, if it is to be timed, warm its frame; a reason not to time it, if there is one."""
+        """Check the cell and, if it is to be timed, warm its frame. Return why it failed; None where it did not."""
         planned, start = state.planned, time.perf_counter()
         assert planned.casting
         try:
@@ -107,7 +116,7 @@ class Runner:
             state.preparing = time.perf_counter() - start
 
     def _time(self, live: dict[str, _Live]) -> list[Row]:
-        """Interleaved rounds: each visits every unfinished cell once, in random order."""
+        """Time cells in interleaved rounds, each of which visits every unfinished cell once, in random order."""
         rows: list[Row] = []
         self._session = uuid.uuid4().hex[:16]
         for round_number in itertools.count():
@@ -129,6 +138,7 @@ class Runner:
         raise AssertionError("unreachable")
 
     def _sample(self, state: _Live, round_number: int) -> None:
+        """Take one sample of a cell's time."""
         assert state.warmed and state.frame
         start = time.perf_counter()
         batch = state.warmed.batch
@@ -137,6 +147,7 @@ class Runner:
         state.timing += time.perf_counter() - start
 
     def _is_done(self, state: _Live) -> bool:
+        """Tell whether a cell has enough samples, or has spent its budget."""
         budget, count = self._config.budget, len(state.samples.wall_ms)
         comparable = count >= budget.rounds
         narrow = comparable and count >= MINIMUM_SAMPLES and timings.is_narrow(state.samples.times, budget.interval)
@@ -147,12 +158,13 @@ class Runner:
         """Build the row of a cell that ended, store it, and report it."""
         method = self._catalog.get(planned.cell.variant.method).method
         left = self._left(state, status) if state else None
-        row = row_of(planned, method, status, reason, left, self._environment)
+        row: Row = dict(row_of(planned, method, status, reason, left, self._environment))
         self._store.write(row, state.outcome.pictures if state else None)
         self._report(planned.cell.slot, row)
         return row
 
     def _left(self, state: _Live, status: CellStatus) -> Left:
+        """Return what the cell left behind; times only where it ended well."""
         timed = None
         if state.warmed and status is CellStatus.OK:
             seed, interval = self._config.seed, self._config.budget.interval
@@ -162,7 +174,7 @@ class Runner:
 
 
 def _fitting(group: list[Planned]) -> list[list[Planned]]:
-    """The group whole where its frames are small enough to be kept ready at once, else comparison by comparison."""
+    """Split a group by comparison where its frames are too large to be kept ready at once; else keep it whole."""
     rays = sum(p.cell.size**2 * p.cell.samples_per_pixel for p in group if p.timed)
     if rays * BYTES_PER_RAY <= MOST_BYTES:
         return [group]

@@ -1,4 +1,4 @@
-"""Casts rays by one method on one device, for people who want to see its answers: nothing is timed or stored."""
+"""Cast rays by one method on one device, for people who want to see its answers. Nothing is timed or stored."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ from harness.contract import (
     Surface,
     Variant,
 )
-from harness.devices.discovery import discover_devices
+from harness.devices.discovery import discover_devices, usable_devices
 from harness.devices.executor import CellError, LocalExecutor
-from harness.devices.interface import LANGUAGES, device_named, no_device
+from harness.devices.interface import LANGUAGES, no_device
 from harness.experiment.kinds import of_method
 from harness.experiment.kinds.model import Shot
 from harness.kernels.assemble import Language, method_program
@@ -32,7 +32,7 @@ from harness.oracle import checked_t_min
 from harness.plugins import Plugin
 from surfaces.words import suggestion
 
-UNIT_LENGTH = 1e-5  # what the length of a ray's direction may differ from 1
+UNIT_LENGTH = 1e-5  # by how much the length of a ray's direction may differ from 1
 
 Tell = Callable[[str], None]
 
@@ -43,10 +43,10 @@ def ignore(_line: str) -> None:
 
 @dataclass(frozen=True)
 class Caster:
-    """A method with its knobs turned, and where it casts.
+    """Holds a method with values for its knobs, and says where and how it casts.
 
-    Raises FirsthitError for a device, precision or origin whose name means nothing. `timeout` is in seconds and for one
-    step, such as compiling or casting all rays.
+    `timeout` is in seconds and for one step, such as compiling or casting all rays. Raises FirsthitError for a device,
+    precision or origin that does not exist.
     """
 
     plugin: Plugin
@@ -69,19 +69,13 @@ class Caster:
 
     @property
     def language(self) -> Language:
-        """The language that the device's compiler takes."""
+        """Return the language that the device's compiler takes."""
         return LANGUAGES[self.device.partition(":")[0]]
 
 
 def usable_device(name: str | None = None) -> DeviceInfo:
     """Find the device of that name, or the first one that works where `name` is None; raises FirsthitError if none."""
-    found = discover_devices()
-    if name:
-        return device_named(name, found)
-    usable = [info for info in found if not info.problem]
-    if not usable:
-        raise FirsthitError("no usable device; `firsthit devices` says why", exit_code=3)
-    return usable[0]
+    return usable_devices([name] if name else [])[0]
 
 
 def checked_rays(rays: object, what: str = "rays") -> NDArray[np.float32]:
@@ -117,9 +111,9 @@ def cast(
 ) -> Hits:
     """Cast rays float32[n, 6] from the distance `t_min` on, in a process that holds the device.
 
-    A method that casts beams needs the camera, float32[12], whose square image the rays are, row by row; it answers for
-    the rays' pixels. Answers that cannot be any are INVALID. `tell` is called with a sentence where f, evaluated here,
-    contradicts some answers.
+    A method that casts beams needs the camera, float32[12]: the rays are those of its square image, row by row, and the
+    method answers for the rays' pixels. Impossible answers (harness.accuracy.answers) are INVALID. `tell` is called
+    with a sentence where f, evaluated on the host, contradicts some answers.
 
     Raises FirsthitError where the method refuses the surface, and with exit code 3 where the kernel fails, hangs,
     crashes or gives other answers when it is run again, or where the device's compiler is found at fault

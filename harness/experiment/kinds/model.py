@@ -32,6 +32,7 @@ from harness.experiment.config import AccuracyChoice, Config, Experiment
 from harness.kernels.assemble import Entry, Language, method_program, with_free_loops
 from harness.kernels.functions import unsupported
 from harness.plugins import Catalog, Plugin
+from harness.results.row import Accuracy, RungVerdict
 from harness.scenes.camera import camera_for, distance_of, pixel_footprint, rays_of
 from harness.scenes.model import Group
 
@@ -90,9 +91,9 @@ class Outcome:
 
     compile_ms: float
     reason: str | None = None
-    summary: dict[str, Any] | None = None
+    summary: Accuracy | None = None
     pictures: dict[str, NDArray[Any]] | None = None
-    rungs: list[dict[str, Any]] | None = None
+    rungs: list[RungVerdict] | None = None
 
 
 class MethodKind(ABC):

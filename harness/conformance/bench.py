@@ -1,0 +1,48 @@
+"""Run a method's checks on a device, in a process of their own, so that what hangs or crashes is a finding too."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+
+from harness.conformance.cases import Bench, Finding, Rays, not_checked
+from harness.conformance.examine import EXAMINATIONS
+from harness.contract import CellStatus, DeviceInfo, FirsthitError, Hits, Program, Surface
+from harness.devices.executor import CellError, LocalExecutor
+from harness.devices.interface import LANGUAGES
+from harness.devices.messages import ListedCheck
+from harness.experiment.kinds import of_method
+from harness.plugins import Catalog, Plugin
+
+
+def checkable(catalog: Catalog) -> list[str]:
+    """List the methods that can be checked: those that answer, and can cast listed rays."""
+    answering = {name: plugin.method for name, plugin in catalog.plugins.items() if plugin.method.answers}
+    return [name for name, method in answering.items() if not of_method(method).unlisted]
+
+
+def bench_on(executor: LocalExecutor, info: DeviceInfo) -> Bench:
+    """Make the bench that runs kernels in the executor's worker for a device. Its `run` raises CellError."""
+
+    def run(program: Program, rays: Rays) -> Hits:
+        return executor.check(info.name, ListedCheck(program, rays)).answer
+
+    return Bench(info.name, LANGUAGES[info.name.partition(":")[0]], info.float64, run)
+
+
+def findings(bench: Bench, plugin: Plugin, chosen: Sequence[Surface]) -> Iterator[tuple[str, Finding]]:
+    """Check a method on a bench, and yield what was checked in each case, and its finding.
+
+    A step that fails, hangs or crashes is a finding that fails. After one that hangs nothing more is checked, since
+    each further step would take as long.
+    """
+    for examination in EXAMINATIONS:
+        for where, found in examination(bench, plugin, chosen):
+            try:
+                yield from ((where, finding) for finding in found)
+            except (CellError, FirsthitError) as error:
+                rule = "the program is built and runs to its end"
+                yield where, Finding("runs", math.nan, 0, rule, str(error).splitlines()[0], "see `firsthit compile`")
+                if isinstance(error, CellError) and error.status is CellStatus.TIMEOUT:
+                    yield "the rest", not_checked("all else", "a step before it hung")
+                    return
