@@ -44,7 +44,7 @@ class Pixels:
 def pixels_of(camera: NDArray[np.float32], rays_per_side: int, size: int) -> Pixels:
     """Find the pixels of a size × size frame that hold the rays of rays_of(camera, rays_per_side).
 
-    `camera` is float32[12]: eye, forward, right, up.
+    `camera` is float32[12] (eye, forward, right, up).
     """
     _, forward, right, up = camera.astype(np.float64).reshape(4, 3)
     twice = 2 * np.arange(rays_per_side) + 1  # a ray's place across the picture, in halves of its own pixels

@@ -20,7 +20,7 @@ from harness.results.row import Lane
 class BeamFrame(Frame):
     """State a frame of beams: one for each pixel of a camera's image, or a quadtree of them.
 
-    camera: float32[12]: eye, forward, right, up
+    camera: float32[12] (eye, forward, right, up)
     size: pixels per side
     layout: how the quadtree's cells are laid over levels and work items
     """

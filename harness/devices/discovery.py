@@ -24,8 +24,8 @@ class Known:
 def discover_devices(wanted: Iterable[str] = ("all",)) -> list[DeviceInfo]:
     """Look for every device of every installed backend, and keep the answers for `known_devices`.
 
-    The backends are looked at side by side in processes of their own: a driver that crashes costs itself. Where
-    `wanted` names devices, as a config does, only the backends that it names are looked at.
+    The backends are looked at side by side in processes of their own, so that a driver that crashes ends only its own
+    process. If all of `wanted` are names of devices, as in a config, only the backends in these names are looked at.
     """
     named = {name.partition(":")[0] for name in wanted}
     backends = _installed()

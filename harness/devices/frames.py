@@ -124,7 +124,7 @@ class RasterLaunch(Launch):
 class RasterFrame(Frame):
     """State batches that are drawn in order into a camera's image.
 
-    camera: float32[12]: eye, forward, right, up
+    camera: float32[12] (eye, forward, right, up)
     depth_map: a, b of the depth buffer's a + b / s, at depth s
     size: pixels per side
     """

@@ -24,7 +24,7 @@ def processor() -> str:
 
 
 def cores() -> int | None:
-    """Count the processor's cores that this process may use: together they are what a software device is as fast as."""
+    """Count the processor's cores that this process may use: a software device has no more."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
 
 

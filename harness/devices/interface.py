@@ -141,7 +141,7 @@ def launch_rays(device: Device, program: Program, built: Built, rays: NDArray[np
 def launch_camera(device: Device, program: Program, built: Built, camera: NDArray[np.float32], size: int) -> Launch:
     """Launch a program over the rays of a camera's image of size × size samples.
 
-    `camera` is float32[12]: eye, forward, right, up.
+    `camera` is float32[12] (eye, forward, right, up).
     """
     outputs = [(size * size, real_type(program)), (size * size, np.int32)]
     return device.launch(built, [np.ascontiguousarray(camera, np.float32)], outputs, (size, size))

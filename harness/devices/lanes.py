@@ -2,7 +2,7 @@
 
 Work items that run in step wait for the one of their group that evaluates f most often. A group is the lanes of a
 processor's vector, or a GPU's warp: work items with neighbouring numbers. Each lane of a group takes the time of the
-group's largest number of evaluations, and is idle for what its own number is smaller. The result is a lower bound. It
+group's largest number of evaluations, and is idle for the difference to its own number. The result is a lower bound. It
 does not see turns of the search that only test the domain, nor evaluations that lanes make at different turns.
 """
 

@@ -128,7 +128,7 @@ def need_steady(differs: NDArray[np.bool_], what: str) -> None:
 class CameraFrame(Frame):
     """State a frame of one ray for each sample of a camera's image.
 
-    camera: float32[12]: eye, forward, right, up
+    camera: float32[12] (eye, forward, right, up)
     size: samples per side
     """
 

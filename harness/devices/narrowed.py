@@ -24,7 +24,7 @@ class NarrowedFrame(Frame):
 
     before: the prepass's program
     program: the rays' program
-    camera: float32[12]: eye, forward, right, up
+    camera: float32[12] (eye, forward, right, up)
     size: samples per side
     """
 

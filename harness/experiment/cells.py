@@ -16,8 +16,8 @@ class Cell:
     """State one point of the experiment's grid: a surface or a scene from a view.
 
     size: pixels per side
-    stage: compute: rays or beams of a camera's image; rays: the same rays, listed; raster: fragments, or triangles of a
-        mesh
+    stage: "compute": rays or beams of a camera's image; "rays": the same rays, listed; "raster": fragments, or
+        triangles of a mesh
     family: of a FamilyCell only
     prepass: "beams": beams of tiles narrow the rays to where they cannot exclude the surface
     proxy: of stage raster: the geometry whose fragments cast rays
@@ -64,12 +64,12 @@ class Cell:
 
     @property
     def comparison(self) -> str:
-        """Return the name that cells share which are compared: all but variant, device and precision."""
+        """Return the name that is one for all cells that are compared: it leaves out variant, device and precision."""
         return f"{self.surface.name} {self.view.name} {self.size}x{self.size}x{self.samples_per_pixel} {self.stage}"
 
     @property
     def together(self) -> str:
-        """Return the name that cells share which are timed in one interleaved run.
+        """Return the name that is one for all cells that are timed in one interleaved run.
 
         Those are the cells of a comparison, of all views of a set, and of all forms of a surface.
         """

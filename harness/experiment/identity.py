@@ -50,7 +50,7 @@ def since(stored: Mapping[str, Any], catalog: Catalog) -> list[str]:
 def changes(old: Mapping[str, Any], new: Mapping[str, Any], path: str = "") -> list[str]:
     """List what differs between two identities, a line each.
 
-    Of what is hashed, only its name is told.
+    Of a hash only the name is told.
     """
     lines: list[str] = []
     for key in sorted(old.keys() | new.keys()):

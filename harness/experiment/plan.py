@@ -72,7 +72,7 @@ class Planned:
 
 
 def _refusal(asked: Asked, kind: kinds.Kind) -> str | None:
-    """Say why a cell cannot run, if it cannot."""
+    """Say why a cell cannot run; None if it can."""
     cell, info, method = asked.cell, asked.info, asked.method
     if info is None:
         return f"there is no device {cell.device!r} on this machine"
@@ -183,7 +183,7 @@ def _families(experiment: Experiment, casters: list[_Caster]) -> Iterator[Cell]:
 
 
 def _cell(caster: _Caster, cell: Cell, raster: Rastering = NOT_RASTERED) -> Cell:
-    """Return what is cast at, `cell`, cast by `caster`."""
+    """Return `cell`, which says what is cast at, with the settings of `caster` and of the way to rasterise."""
     proxy, pixels, normal = raster
     return dataclasses.replace(
         cell,

@@ -43,5 +43,5 @@ def of_cell(cell: Cell, method: Method) -> Kind:
 
 
 def rasterings(stage: Stage, method: Method, experiment: Experiment) -> list[Rastering]:
-    """List the ways to rasterise that make a difference to a method in a stage: one where it does not rasterise."""
+    """List the ways to rasterise that make a difference to a method in a stage; one if it does not rasterise there."""
     return of_method(method).rasterings(method, experiment) if stage == "raster" else [NOT_RASTERED]

@@ -69,8 +69,8 @@ def draws(
 ) -> tuple[Draw, ...]:
     """Make a draw call for each group of a scene.
 
-    `pixels`, `origin` and `normal` are as for raster_program; a group with a variant of its own keeps that one's
-    tolerance. Triangles have no origin. Raises FirsthitError where a group's method cannot draw it.
+    `pixels`, `origin` and `normal` are as for raster_program. A group with a variant of its own keeps that variant's
+    tolerance. Triangles have no origin. Raises FirsthitError if a group's method cannot draw it.
     """
     drawn = []
     for group in scene.groups:

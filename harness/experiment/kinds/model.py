@@ -326,7 +326,7 @@ class ViewCasting(Casting):
 
     @property
     def camera(self) -> NDArray[np.float32]:
-        """Return the view's camera, float32[12]: eye, forward, right, up."""
+        """Return the view's camera, float32[12] (eye, forward, right, up)."""
         return camera_for(self.cell.view, self.cell.surface)
 
     @property

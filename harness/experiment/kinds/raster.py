@@ -37,7 +37,7 @@ from harness.scenes.records import depth_map
 
 @dataclass(frozen=True, eq=False)
 class SceneCast(Cast):
-    """Hold the picture of a scene, whose truth is what is seen first of all its instances.
+    """Hold the picture of a scene. Its truth is, for each pixel, the first hit over all instances.
 
     alone: it shows one surface, in that surface's own coordinates
     """
