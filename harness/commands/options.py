@@ -1,4 +1,4 @@
-"""Options that several commands share, and what they stand for."""
+"""Adds the options that several commands share, and turns them into surfaces, methods and casters."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from harness.running.trace import Caster, usable_device
 
 
 def add_surface(parser: argparse.ArgumentParser) -> None:
+    """Add the options that name a surface, which `surface_of` reads."""
     which = parser.add_mutually_exclusive_group(required=True)
     which.add_argument("--surface", metavar="NAME", help="a surface of the catalog, see `firsthit list surfaces`")
     which.add_argument("--formula", metavar="F", help="f(x, y, z) of your own, as in 'x^2 + y^2*z^3 - z^4'")
@@ -20,6 +21,7 @@ def add_surface(parser: argparse.ArgumentParser) -> None:
 
 
 def add_method(parser: argparse.ArgumentParser) -> None:
+    """Add the options that name a method and where it casts, which `caster_of` reads."""
     parser.add_argument("--method", required=True, metavar="NAME", help="see `firsthit list methods`")
     parser.add_argument("--knob", action="append", default=[], metavar="NAME=VALUE", help="a parameter of the method")
     parser.add_argument("--device", metavar="NAME", help="see `firsthit list devices`; default: the first usable one")
@@ -29,6 +31,7 @@ def add_method(parser: argparse.ArgumentParser) -> None:
 
 
 def add_origin(parser: argparse.ArgumentParser) -> None:
+    """Add the option that says where a method sees its rays begin."""
     help_ = "where the method sees its rays begin: nearest the domain's centre (default), at their entry, at the eye"
     parser.add_argument("--origin", choices=ORIGINS, default="nearest", help=help_)
 
@@ -44,7 +47,7 @@ def _assignments(texts: list[str], option: str) -> dict[str, str]:
 
 
 def surface_of(options: argparse.Namespace) -> Surface:
-    """The surface that --surface or --formula names."""
+    """Return the surface that --surface or --formula names; raises FirsthitError where there is none."""
     import surfaces
 
     parameters = _assignments(options.parameter, "--parameter")
@@ -64,13 +67,16 @@ def _number(text: str, name: str) -> float | int:
 
 
 def given_variant(options: argparse.Namespace, catalog: Catalog) -> Variant:
-    """The method that --method names, with the knobs that --knob turns."""
+    """Return the method that --method names with the knobs that --knob turns; raises FirsthitError for unknown ones."""
     given = _assignments(options.knob, "--knob")
     return catalog.get(options.method).variant({name: _number(text, name) for name, text in given.items()})
 
 
 def caster_of(options: argparse.Namespace) -> Caster:
-    """The method, knobs, device, precision and origin that the options of `add_method` name."""
+    """Return the caster that the options of `add_method` name.
+
+    Without --device the devices are looked for. Raises FirsthitError for a name that means nothing.
+    """
     catalog = find_methods(options.plugins)
     variant = given_variant(options, catalog)
     device = options.device or usable_device().name
@@ -92,7 +98,10 @@ def writable_png(path: Path) -> Path:
 
 
 def writable(path: Path) -> Path:
-    """`path`, if a file can be put there; asked before long work, so that nothing finished is lost."""
+    """Return `path` if a file can be put there, and raise FirsthitError otherwise.
+
+    Commands ask this before long work, so that nothing finished is lost.
+    """
     if path.is_dir() or not path.parent.is_dir():
         raise FirsthitError(f"cannot write {path}: {'it is a folder' if path.is_dir() else 'no such folder'}")
     return path

@@ -1,4 +1,4 @@
-"""trace and oracle: rays in a file → answers in a file."""
+"""The commands trace and oracle: they read rays from a file and write answers to another."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ def _add_files(parser: argparse.ArgumentParser) -> None:
 
 
 def _distance(text: str) -> float:
-    """A finite number that is not negative; raises ArgumentTypeError for anything else."""
+    """Read a finite number that is not negative; raises ArgumentTypeError for anything else."""
     try:
         value = float(text)
     except ValueError:

@@ -119,7 +119,7 @@ class BudgetChoice:
     seconds: a cell is timed for so long, or until the median is known well enough
     interval: the median is known well enough if its 95 % interval is within this share of it
     rounds: a slow cell is timed in at least so many rounds, though they take up to 16 times `seconds`, since fewer
-        cannot tell two variants apart (8 at the level of reports.pairs)
+        cannot tell two variants apart (8 at the level of reports.analysis.ties)
     repetitions: no cell is timed in more rounds
     timeout: seconds for one step (build, check, one repetition), after which the worker is killed
     triangles: a frame of more triangles is skipped
