@@ -1,17 +1,19 @@
-"""What a device draws by rasterisation, and what the check reads of it. Devices without a rasteriser say so."""
+"""Say what a device draws by rasterisation, and what a check reads of the picture.
+
+Devices without a rasteriser refuse such frames. harness.devices.opengl_frames draws them.
+"""
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from harness.contract import FirsthitError, Hits, Program, RayStatus
-from harness.devices.interface import Device, Launch, same_values
+from harness.devices.interface import Built, Device, Launch, same_values
 from harness.devices.messages import Check, Frame, need_steady
 
 RECORD = 32  # float32 of an instance, see harness/kernels/glsl/raster/instance.glsl
@@ -19,36 +21,62 @@ RECORD = 32  # float32 of an instance, see harness/kernels/glsl/raster/instance.
 
 @dataclass(frozen=True, eq=False)
 class Batch:
-    """One draw call."""
+    """State one draw call: n instances of one proxy or mesh, drawn by one program.
+
+    instances: float32[n, RECORD], see harness/kernels/glsl/raster/instance.glsl
+    triangles: uint32[3 k], numbers of the proxy's corners or of the mesh's vertices
+    vertices: float32[v, 6], position and normal in local units; None for a proxy
+    closed: the geometry is closed, so that its back faces are not drawn
+    """
 
     program: Program
-    instances: NDArray[np.float32]  # [n, RECORD]
-    triangles: NDArray[np.uint32]  # [3 k] corners of the proxy, or vertices
-    vertices: NDArray[np.float32] | None  # [v, 6] position and normal, local units; None for a proxy
-    closed: bool  # back faces are not seen
+    instances: NDArray[np.float32]
+    triangles: NDArray[np.uint32]
+    vertices: NDArray[np.float32] | None
+    closed: bool
 
 
 @dataclass(frozen=True, eq=False)
 class Picture:
-    """What a frame with reporting programs answered, row by row from the top left, n pixels in all."""
+    """Hold what the reporting programs of a frame answered for its n pixels, row by row from the top left.
 
-    colours: NDArray[np.uint8]  # [n, 4]
-    rays: NDArray[np.float32]  # [n, 6] in world coordinates
-    local_rays: NDArray[np.float32]  # [n, 6] in the coordinates of who is seen
-    t: NDArray[np.float64]  # [n] along the local ray, in local lengths; NaN where nothing is seen
-    batch: NDArray[np.int32]  # [n] of who is seen; -1 where nothing is
-    instance: NDArray[np.int32]  # [n] of who is seen, within the batch
-    in_world: NDArray[np.bool_]  # [n] a triangle of a mesh is seen: its t and ray are the world's
-    fragments: NDArray[np.int32]  # [n] of proxies and triangles, drawn or not
-    fragment_hits: NDArray[np.int32]  # [n] those with a hit, seen or hidden
-    exhausted: NDArray[np.int32]  # [n] those that gave up
-    evaluations: NDArray[np.int32]  # [n] spent by all of them
-    invalid: NDArray[np.int32]  # [n] those that gave no answer
+    "Seen" is the instance that is in front at a pixel. Counts are over all fragments that fell on the pixel, drawn or
+    hidden.
+
+    colours: uint8[n, 4]
+    rays: float32[n, 6], the pixels' rays in world coordinates
+    local_rays: float32[n, 6], the same rays in the coordinates of the instance that is seen
+    t: float64[n], along the local ray, in local lengths; NaN if nothing is seen
+    batch: int32[n], number of the batch of the instance that is seen; -1 if nothing is seen
+    instance: int32[n], number of the instance that is seen, within its batch
+    in_world: bool[n], a triangle of a mesh is seen, whose t and ray are the world's
+    fragments: int32[n] as all that follow, fragments of proxies and triangles
+    fragment_hits: those with a hit, seen or hidden
+    exhausted: those that gave up
+    evaluations: spent by all of them
+    invalid: those that gave no answer
+    """
+
+    colours: NDArray[np.uint8]
+    rays: NDArray[np.float32]
+    local_rays: NDArray[np.float32]
+    t: NDArray[np.float64]
+    batch: NDArray[np.int32]
+    instance: NDArray[np.int32]
+    in_world: NDArray[np.bool_]
+    fragments: NDArray[np.int32]
+    fragment_hits: NDArray[np.int32]
+    exhausted: NDArray[np.int32]
+    evaluations: NDArray[np.int32]
+    invalid: NDArray[np.int32]
 
     def hits(self, scale: NDArray[np.float64]) -> Hits:
-        """Return the pixels' answers, t in world units; `scale` float64[n] is that of the instance seen. Without one, a
-        pixel with a fragment that gave up is exhausted, and a miss otherwise. A fragment without an answer makes its
-        pixel invalid, since it may have been in front, and so does one whose hit lies behind all that there is."""
+        """Return the pixels' answers with t in world units; `scale` float64[n] is that of the instance that is seen.
+
+        A pixel where nothing is seen is exhausted if one of its fragments gave up, and a miss otherwise. It is invalid
+        if one of its fragments gave no answer, since that one may have been in front, and also if a fragment has a hit
+        and yet nothing is seen.
+        """
         gave_up = np.where(self.exhausted > 0, RayStatus.EXHAUSTED, RayStatus.MISS)
         status = np.where(self.batch >= 0, RayStatus.HIT, gave_up)
         bad = (self.invalid > 0) | (self.evaluations < 0) | ((self.fragment_hits > 0) & (self.batch < 0))
@@ -56,7 +84,7 @@ class Picture:
         return Hits(np.where(bad, np.nan, self.t * scale), status, np.where(bad, 0, self.evaluations))
 
     def differing(self, other: Picture) -> NDArray[np.bool_]:
-        """bool[n]: pixels of the same frame drawn again that differ in anything."""
+        """Return bool[n], the pixels that differ in anything from `other`, the same frame drawn again."""
         differs = np.zeros(len(self.t), bool)
         for name, values in vars(self).items():
             same = same_values(values, getattr(other, name))
@@ -65,48 +93,59 @@ class Picture:
 
 
 class Rasteriser(ABC):
-    """What a device that draws triangles has beside the rest."""
+    """State what a device that draws triangles can do beside the rest."""
 
     @abstractmethod
     def launch_raster(
         self,
         batches: Sequence[Batch],
-        built: Sequence[Any],
+        built: Sequence[Built],
         camera: NDArray[np.float32],
         depth_map: tuple[float, float],
         size: int,
-        fill: Any = None,
+        fill: Built | None = None,
     ) -> RasterLaunch:
-        """A launch that draws batches by their built programs into a size × size target. With the built `fill` program,
-        the batches' programs report, and it has `picture()`."""
+        """Upload batches, to be drawn by their built programs into an image of size × size pixels.
+
+        `camera` is float32[12], `depth_map` as in RasterFrame. With the built `fill` program the batches' programs
+        report what they answer, and the launch's `picture()` can be read.
+        """
 
 
 class RasterLaunch(Launch):
-    """A launch that draws; where its programs report, their picture can be read."""
+    """Draw, and read the picture that reporting programs leave."""
 
     @abstractmethod
     def picture(self) -> Picture:
-        """What the batches' programs reported in the last run."""
+        """Read what the batches' programs reported in the last run."""
 
 
 @dataclass(frozen=True, eq=False)
 class RasterFrame(Frame):
-    """Batches drawn into a camera's image."""
+    """State batches that are drawn in order into a camera's image.
 
-    batches: tuple[Batch, ...]  # in order
-    camera: NDArray[np.float32]  # [12]
-    depth_map: tuple[float, float]  # a, b of its depth buffer's a + b / s
-    size: int  # pixels per side
+    camera: float32[12] (eye, forward, right, up)
+    depth_map: a, b of the depth buffer's a + b / s, at depth s
+    size: pixels per side
+    """
+
+    batches: tuple[Batch, ...]
+    camera: NDArray[np.float32]
+    depth_map: tuple[float, float]
+    size: int
 
     @property
     def programs(self) -> tuple[Program, ...]:
         return tuple(batch.program for batch in self.batches)
 
-    def launch(self, device: Device, built: Sequence[Any]) -> Launch:
+    def launch(self, device: Device, built: Sequence[Built]) -> Launch:
         return self.drawn(device, built, None)
 
-    def drawn(self, device: Device, built: Sequence[Any], fill: Any) -> RasterLaunch:
-        """Upload the frame; see Rasteriser.launch_raster for `fill`. Raises FirsthitError on a device without one."""
+    def drawn(self, device: Device, built: Sequence[Built], fill: Built | None) -> RasterLaunch:
+        """Upload the frame; `fill` is as in Rasteriser.launch_raster.
+
+        Raises FirsthitError if the device draws no triangles.
+        """
         if not isinstance(device, Rasteriser):
             raise FirsthitError(f"{device.info.name} draws no triangles")
         return device.launch_raster(self.batches, built, self.camera, self.depth_map, self.size, fill)
@@ -114,21 +153,23 @@ class RasterFrame(Frame):
 
 @dataclass(frozen=True, eq=False)
 class RasterCheck(Check[Picture]):
-    """A frame whose batches report what they answer, and the picture of it.
+    """State a check that draws a frame whose batches report what they answer, and reads its picture.
 
     With `twice` two pictures are drawn and compared. Each is uploaded anew, since a launch's counts add up from run to
     run.
+
+    fill: the program that reports every pixel's ray
     """
 
     frame: RasterFrame
-    fill: Program  # reports every pixel's ray
+    fill: Program
     twice: bool = True
 
     @property
     def programs(self) -> tuple[Program, ...]:
         return (*self.frame.programs, self.fill)
 
-    def run(self, device: Device, built: Sequence[Any]) -> Picture:
+    def run(self, device: Device, built: Sequence[Built]) -> Picture:
         pictures: list[Picture] = []
         for _ in range(1 + self.twice):
             launch = self.frame.drawn(device, built[:-1], built[-1])

@@ -1,4 +1,4 @@
-"""A config's names → what they stand for: methods, surfaces, scenes, views."""
+"""Resolve the names of a config: find the methods, surfaces, scenes and views that they stand for."""
 
 from __future__ import annotations
 
