@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import cache
+from typing import Any
 
 import numpy as np
 import pytest
@@ -33,6 +34,14 @@ def devices_found_once() -> Iterator[None]:
         patched.setattr(kept, "_place", lambda: None)
         patched.setattr(LocalExecutor, "find", lambda _, backend: _found(backend))
         yield
+
+
+def rotation(pairs: list[tuple[Any, ...]], places: list[tuple[str, str]]) -> list[tuple[Any, tuple[str, str]]]:
+    """Join each pair with one place, in turn, so that every place is used and no choice is by chance.
+
+    Without places there is nothing to join.
+    """
+    return [(pair, places[i % len(places)]) for i, pair in enumerate(pairs)] if places else []
 
 
 @cache
