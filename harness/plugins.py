@@ -1,4 +1,8 @@
-"""Methods are folders with a method.py and a kernel.glsl: ours, those of --plugins, and those of entry points."""
+"""Find methods: folders with a method.py and a kernel.glsl.
+
+They are the project's own, those in the folder that --plugins names, and those of installed packages that state the
+entry point `firsthit.methods`.
+"""
 
 from __future__ import annotations
 
@@ -17,21 +21,21 @@ from surfaces.words import suggestion
 BUILT_IN = Path(__file__).parent.parent / "methods"
 ENTRY_POINTS = "firsthit.methods"
 
-AS_PRINTED = "as printed"  # the setting of any method some of whose knobs' defaults are ours
+AS_PRINTED = "as printed"  # the setting of each method that has knobs whose default is ours and not its source's
 
 
 @dataclass(frozen=True)
 class Plugin:
-    """A method and the folder that holds its kernel."""
+    """Holds a method and the folder that its kernel is in."""
 
     method: Method
     folder: Path
 
     def variant(self, given: Mapping[str, float | int]) -> Variant:
-        """Bind the method's knobs: the `given` ones, and the others at their defaults.
+        """Give every knob of the method a value: the `given` one, else its default.
 
-        Raises FirsthitError for a knob that the method does not have, for a value that is not finite, and for a broken
-        number where the knob's are whole.
+        Raises FirsthitError for a knob that the method does not have, for a value that is not finite, and for a
+        fraction where the knob's values are whole numbers.
         """
         defaults = {parameter.name: parameter.default for parameter in self.method.parameters}
         for name, value in given.items():
@@ -50,9 +54,10 @@ class Plugin:
         return Variant(self.method.name, tuple(sorted(bound.items())), label)
 
     def setting(self, name: str) -> Variant:
-        """One of the papers' own settings, or AS_PRINTED: every knob that we changed at its source's value.
+        """Return the variant of one of the papers' own settings, or of AS_PRINTED.
 
-        Raises FirsthitError for one that the method does not state.
+        AS_PRINTED gives its source's value to every knob whose default is ours. Raises FirsthitError for a setting that
+        the method does not state.
         """
         if name == AS_PRINTED and self.method.printed:
             return dataclasses.replace(self.variant(self.method.printed), label=f"{self.method.name} {AS_PRINTED}")
@@ -64,7 +69,10 @@ class Plugin:
         return dataclasses.replace(self.variant(self.method.settings[name]), label=name)
 
     def deviations(self) -> list[Variant]:
-        """The default, the default with each knob that we changed at its source's value, and all of them together."""
+        """List the default, and what it becomes with its source's value for each knob whose default is ours.
+
+        Where there are several such knobs, the last variant has all of their sources' values.
+        """
         printed = self.method.printed
         alone = [self.variant({name: value}) for name, value in printed.items()]
         return [self.variant({}), *alone, *([self.setting(AS_PRINTED)] if len(printed) > 1 else [])]
@@ -72,12 +80,13 @@ class Plugin:
 
 @dataclass(frozen=True)
 class Catalog:
-    """The methods found, and why folders that look like one are not."""
+    """Holds the methods that were found by name, and why other folders with a method.py could not be loaded."""
 
     plugins: dict[str, Plugin] = field(default_factory=dict)
     broken: dict[str, str] = field(default_factory=dict)
 
     def get(self, name: str) -> Plugin:
+        """Return a method. Raises FirsthitError where there is none of that name, or it could not be loaded."""
         if name in self.plugins:
             return self.plugins[name]
         if name in self.broken:
@@ -87,7 +96,7 @@ class Catalog:
 
 
 def _load(folder: Path) -> Method:
-    """The METHOD that `folder`/method.py states. Raises FirsthitError with the reason where it does not."""
+    """Return the METHOD that `folder`/method.py defines. Raises FirsthitError where it defines no usable one."""
     path = folder / "method.py"
     if not (folder / "kernel.glsl").exists():
         raise FirsthitError(f"{folder} has a method.py but no kernel.glsl")
@@ -97,7 +106,7 @@ def _load(folder: Path) -> Method:
     writes_bytecode, sys.dont_write_bytecode = sys.dont_write_bytecode, True
     try:
         spec.loader.exec_module(module)
-    except Exception as error:  # a plugin may fail in any way; it must cost its own rows only
+    except Exception as error:  # a plugin may fail in any way, and must not take others along
         raise FirsthitError(f"{path}: {type(error).__name__}: {error}") from error
     finally:
         sys.dont_write_bytecode = writes_bytecode
@@ -114,10 +123,12 @@ def _load(folder: Path) -> Method:
 
 
 def _folders(directory: Path) -> list[Path]:
+    """List the folders below `directory` that have a method.py, sorted."""
     return sorted(path.parent for path in directory.glob("*/method.py"))
 
 
 def _entry_point_folders() -> list[Path]:
+    """List the folders of packages that entry points name as methods."""
     folders = []
     for point in importlib.metadata.entry_points(group=ENTRY_POINTS):
         spec = importlib.util.find_spec(point.value)
@@ -127,9 +138,10 @@ def _entry_point_folders() -> list[Path]:
 
 
 def find_methods(extra: Path | None = None) -> Catalog:
-    """Every method of the project, of installed packages (entry point group `firsthit.methods`) and of `extra`.
+    """Find every method of the project, of installed packages and in the folder `extra`.
 
-    Raises FirsthitError where `extra` is not a folder or two folders claim one name.
+    A method that cannot be loaded is listed with the reason. Raises FirsthitError where `extra` is not a folder, or two
+    folders have one name.
     """
     if extra is not None and not extra.is_dir():
         raise FirsthitError(f"--plugins {extra}: no such folder")

@@ -1,4 +1,4 @@
-"""Options that several commands share, and what they stand for."""
+"""Add options that several commands share, and read what they stand for."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from harness.running.trace import Caster, usable_device
 
 
 def add_surface(parser: argparse.ArgumentParser) -> None:
+    """Add the options that `surface_of` reads."""
     which = parser.add_mutually_exclusive_group(required=True)
     which.add_argument("--surface", metavar="NAME", help="a surface of the catalog, see `firsthit list surfaces`")
     which.add_argument("--formula", metavar="F", help="f(x, y, z) of your own, as in 'x^2 + y^2*z^3 - z^4'")
@@ -20,6 +21,7 @@ def add_surface(parser: argparse.ArgumentParser) -> None:
 
 
 def add_method(parser: argparse.ArgumentParser) -> None:
+    """Add the options that `caster_of` reads."""
     parser.add_argument("--method", required=True, metavar="NAME", help="see `firsthit list methods`")
     parser.add_argument("--knob", action="append", default=[], metavar="NAME=VALUE", help="a parameter of the method")
     parser.add_argument("--device", metavar="NAME", help="see `firsthit list devices`; default: the first usable one")
@@ -29,11 +31,13 @@ def add_method(parser: argparse.ArgumentParser) -> None:
 
 
 def add_origin(parser: argparse.ArgumentParser) -> None:
+    """Add --origin."""
     help_ = "where the method sees its rays begin: nearest the domain's centre (default), at their entry, at the eye"
     parser.add_argument("--origin", choices=ORIGINS, default="nearest", help=help_)
 
 
 def _assignments(texts: list[str], option: str) -> dict[str, str]:
+    """Read NAME=VALUE from each text. Raises FirsthitError, which names the option, for anything else."""
     pairs = {}
     for text in texts:
         name, equals, value = text.partition("=")
@@ -44,7 +48,7 @@ def _assignments(texts: list[str], option: str) -> dict[str, str]:
 
 
 def surface_of(options: argparse.Namespace) -> Surface:
-    """The surface that --surface or --formula names."""
+    """Return the surface that --surface or --formula names. Raises FirsthitError where it cannot be made."""
     import surfaces
 
     parameters = _assignments(options.parameter, "--parameter")
@@ -56,6 +60,7 @@ def surface_of(options: argparse.Namespace) -> Surface:
 
 
 def _number(text: str, name: str) -> float | int:
+    """Read a knob's value; a whole number without point or exponent is an int. Raises FirsthitError where it is none."""
     try:
         value = float(text)
     except ValueError:
@@ -64,13 +69,19 @@ def _number(text: str, name: str) -> float | int:
 
 
 def given_variant(options: argparse.Namespace, catalog: Catalog) -> Variant:
-    """The method that --method names, with the knobs that --knob turns."""
+    """Return the method that --method names, with the values that --knob gives to its knobs.
+
+    Raises FirsthitError where there is no such method, knob or value.
+    """
     given = _assignments(options.knob, "--knob")
     return catalog.get(options.method).variant({name: _number(text, name) for name, text in given.items()})
 
 
 def caster_of(options: argparse.Namespace) -> Caster:
-    """The method, knobs, device, precision and origin that the options of `add_method` name."""
+    """Return the method, knobs, device, precision and origin that the options of `add_method` name.
+
+    Raises FirsthitError where one of them is not here.
+    """
     catalog = find_methods(options.plugins)
     variant = given_variant(options, catalog)
     device = options.device or usable_device().name
@@ -79,12 +90,15 @@ def caster_of(options: argparse.Namespace) -> Caster:
 
 
 def tell(line: str) -> None:
-    """Print a line that is no result."""
+    """Print a line that is not a result, on standard error."""
     print(line, file=sys.stderr)
 
 
 def writable(path: Path) -> Path:
-    """`path`, if a file can be put there; asked before long work, so that nothing finished is lost."""
+    """Return `path` if a file can be put there. Raises FirsthitError where it cannot.
+
+    Commands ask this before long work, so that no finished result is lost.
+    """
     if path.is_dir() or not path.parent.is_dir():
         raise FirsthitError(f"cannot write {path}: {'it is a folder' if path.is_dir() else 'no such folder'}")
     return path
