@@ -60,7 +60,7 @@ def surface_of(options: argparse.Namespace) -> Surface:
 
 
 def _number(text: str, name: str) -> float | int:
-    """Read a knob's value; a whole number without point or exponent is an int. Raises FirsthitError where it is none."""
+    """Read a knob's value; a whole number without point or exponent is an int. Raises FirsthitError for others."""
     try:
         value = float(text)
     except ValueError:
