@@ -1,4 +1,4 @@
-"""What the commands print: plain aligned tables, and one line of progress."""
+"""Prints what commands show: plain aligned tables, a line of progress, and warnings about rows."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ WIDEST = 200  # characters of a live line
 
 
 def table(header: Sequence[str], rows: Sequence[Sequence[object]]) -> str:
-    """Aligned columns, two spaces apart."""
+    """Return a table as text, in aligned columns two spaces apart."""
     cells = [[str(cell) for cell in row] for row in (header, *rows)]
     widths = [max(map(len, column)) for column in zip(*cells, strict=True)]
     return "\n".join("  ".join(c.ljust(w) for c, w in zip(row, widths, strict=True)).rstrip() for row in cells)
 
 
 def duration(seconds: float) -> str:
-    """1:05 or 2:03:04."""
+    """Return a duration as text: 1:05 or 2:03:04."""
     minutes, rest = divmod(round(seconds), 60)
     hours, minutes = divmod(minutes, 60)
     return f"{hours}:{minutes:02}:{rest:02}" if hours else f"{minutes}:{rest:02}"
@@ -47,7 +47,10 @@ def _write(text: str) -> None:
 
 
 class Progress:
-    """Cells done, the current one, the time left: one live line on a terminal, a line per finished cell elsewhere."""
+    """Shows how many cells are done, the current cell, and the time left.
+
+    On a terminal it is one line that is written again and again; elsewhere, a line for each finished cell.
+    """
 
     def __init__(self, total: int, estimate: float) -> None:
         self._total, self._estimate = total, estimate
@@ -56,7 +59,7 @@ class Progress:
         self._live = sys.stderr.isatty()
 
     def __call__(self, slot: str, row: Row | None) -> None:
-        """`row` is the cell's finished row; None while it is only the current one."""
+        """Show that a cell is the current one, if `row` is None, or that it has ended with this row."""
         elapsed = time.perf_counter() - self._start
         if row is None:
             if self._live:
@@ -75,7 +78,7 @@ class Progress:
 
 
 def warnings(rows: Sequence[Row]) -> list[str]:
-    """What is to be known of the times of `rows` before they are believed, a line for each kind of trouble."""
+    """Return a line for each kind of warning about the times of `rows`, with the first cell that has it."""
     troubled: dict[str, list[tuple[str, Row]]] = {}
     for row in rows:
         for text in row["time"]["warnings"] if row["time"] else ():
@@ -89,7 +92,7 @@ def warnings(rows: Sequence[Row]) -> list[str]:
 
 
 def undecided(rows: Sequence[Row]) -> list[str]:
-    """How many hits the oracle left undecided that no accuracy of `rows` is of, if any."""
+    """Return a line that says how many hits of `rows` the oracle left undecided, or nothing if there are none."""
     found = [row["accuracy"] for row in rows if row["accuracy"] and row["accuracy"]["undecided"]]
     if not found:
         return []

@@ -49,9 +49,10 @@ class OneOf:
 
 @dataclass(frozen=True)
 class Known:
-    """Names that are known, in a list or as the keys of a table. `names` is called when a config is read.
+    """Names that are known, in a list or as the keys of a table.
 
-    With `or_all`, the list may be ["all"] instead.
+    `names` is called when a config is read, since it may have to import what it lists. With `or_all`, the list may be
+    ["all"] instead.
     """
 
     names: Callable[[], Iterable[str]]

@@ -1,8 +1,4 @@
-"""Find methods: folders with a method.py and a kernel.glsl.
-
-They are the project's own, those in the folder that --plugins names, and those of installed packages that state the
-entry point `firsthit.methods`.
-"""
+"""Find methods: folders with a method.py and a kernel.glsl, of the project, of --plugins and of entry points."""
 
 from __future__ import annotations
 
@@ -21,7 +17,7 @@ from surfaces.words import suggestion
 BUILT_IN = Path(__file__).parent.parent / "methods"
 ENTRY_POINTS = "firsthit.methods"
 
-AS_PRINTED = "as printed"  # the setting of each method that has knobs whose default is ours and not its source's
+AS_PRINTED = "as printed"  # a setting of every method that has a knob whose default is ours
 
 
 @dataclass(frozen=True)
@@ -38,25 +34,27 @@ class Plugin:
         fraction where the knob's values are whole numbers.
         """
         defaults = {parameter.name: parameter.default for parameter in self.method.parameters}
-        for name, value in given.items():
+        for name in given:
             if name not in defaults:
-                raise FirsthitError(
-                    f"method {self.method.name!r} has no parameter {name!r}; {suggestion(name, sorted(defaults))}"
-                )
-            if not is_finite(value):
-                raise FirsthitError(f"{self.method.name}: {name} is a finite number, not {str(value)[:40]}")
-            if isinstance(defaults[name], int) and value != int(value):
-                raise FirsthitError(f"{self.method.name}: {name} is a whole number, not {value}")
-        kind = {name: type(default) for name, default in defaults.items()}
-        bound = {name: kind[name](value) for name, value in (defaults | dict(given)).items()}
+                hint = suggestion(name, sorted(defaults))
+                raise FirsthitError(f"method {self.method.name!r} has no parameter {name!r}; {hint}")
+        bound = {name: self._bound(name, given.get(name, default), default) for name, default in defaults.items()}
         turned = ",".join(f"{name}={bound[name]:g}" for name in sorted(given))
         label = f"{self.method.name}[{turned}]" if turned else self.method.name
         return Variant(self.method.name, tuple(sorted(bound.items())), label)
 
+    def _bound(self, name: str, value: float, default: float) -> float | int:
+        """Return a knob's value as a number of its default's kind. Raises FirsthitError where it cannot be one."""
+        if not is_finite(value):
+            raise FirsthitError(f"{self.method.name}: {name} is a finite number, not {str(value)[:40]}")
+        if isinstance(default, int) and value != int(value):
+            raise FirsthitError(f"{self.method.name}: {name} is a whole number, not {value}")
+        return type(default)(value)
+
     def setting(self, name: str) -> Variant:
         """Return the variant of one of the papers' own settings, or of AS_PRINTED.
 
-        AS_PRINTED gives its source's value to every knob whose default is ours. Raises FirsthitError for a setting that
+        AS_PRINTED binds every knob whose default is ours at its source's value. Raises FirsthitError for a setting that
         the method does not state.
         """
         if name == AS_PRINTED and self.method.printed:
@@ -69,9 +67,9 @@ class Plugin:
         return dataclasses.replace(self.variant(self.method.settings[name]), label=name)
 
     def deviations(self) -> list[Variant]:
-        """List the default, and what it becomes with its source's value for each knob whose default is ours.
+        """Return the variants that show what our changes to a method's knobs are worth.
 
-        Where there are several such knobs, the last variant has all of their sources' values.
+        They are the default, the default with each changed knob alone at its source's value, and with all of them.
         """
         printed = self.method.printed
         alone = [self.variant({name: value}) for name, value in printed.items()]
@@ -86,7 +84,7 @@ class Catalog:
     broken: dict[str, str] = field(default_factory=dict)
 
     def get(self, name: str) -> Plugin:
-        """Return a method. Raises FirsthitError where there is none of that name, or it could not be loaded."""
+        """Return a method by name. Raises FirsthitError if there is none, or if it could not be loaded."""
         if name in self.plugins:
             return self.plugins[name]
         if name in self.broken:
@@ -96,7 +94,7 @@ class Catalog:
 
 
 def _load(folder: Path) -> Method:
-    """Return the METHOD that `folder`/method.py defines. Raises FirsthitError where it defines no usable one."""
+    """Return the METHOD that `folder`/method.py states. Raises FirsthitError, with the reason, if it states none."""
     path = folder / "method.py"
     if not (folder / "kernel.glsl").exists():
         raise FirsthitError(f"{folder} has a method.py but no kernel.glsl")
@@ -106,7 +104,7 @@ def _load(folder: Path) -> Method:
     writes_bytecode, sys.dont_write_bytecode = sys.dont_write_bytecode, True
     try:
         spec.loader.exec_module(module)
-    except Exception as error:  # a plugin may fail in any way, and must not take others along
+    except Exception as error:  # a plugin may fail in any way; it must cost its own rows only
         raise FirsthitError(f"{path}: {type(error).__name__}: {error}") from error
     finally:
         sys.dont_write_bytecode = writes_bytecode
@@ -123,12 +121,12 @@ def _load(folder: Path) -> Method:
 
 
 def _folders(directory: Path) -> list[Path]:
-    """List the folders below `directory` that have a method.py, sorted."""
+    """Return the folders in a directory that hold a method.py, sorted."""
     return sorted(path.parent for path in directory.glob("*/method.py"))
 
 
 def _entry_point_folders() -> list[Path]:
-    """List the folders of packages that entry points name as methods."""
+    """Return the folders of installed packages that state methods by entry points."""
     folders = []
     for point in importlib.metadata.entry_points(group=ENTRY_POINTS):
         spec = importlib.util.find_spec(point.value)
@@ -138,9 +136,9 @@ def _entry_point_folders() -> list[Path]:
 
 
 def find_methods(extra: Path | None = None) -> Catalog:
-    """Find every method of the project, of installed packages and in the folder `extra`.
+    """Return the methods of the project, of installed packages (entry point group `firsthit.methods`) and of `extra`.
 
-    A method that cannot be loaded is listed with the reason. Raises FirsthitError where `extra` is not a folder, or two
+    A folder that cannot be loaded is listed as broken. Raises FirsthitError where `extra` is not a folder, or two
     folders have one name.
     """
     if extra is not None and not extra.is_dir():

@@ -1,8 +1,8 @@
-"""Reports: a run folder's rows → tables, plots, pictures → one PDF and one HTML page, and CSV and Parquet beside them.
+"""Make reports: from a run folder's rows to tables, plots and pictures, one PDF, one HTML page, and CSV and Parquet.
 
-Reads run folders only and never runs anything. The way through, in `report`: `reading.load` (folder → rows, as
-harness.results.schema names them) → `analysis.derive` (speed-ups, floors, fronts) and `analysis.breaks` (of families of
-hard rays) → `summary` and every module of `parts` (what the report says, in the blocks of `content`) →
-`rendering.document` (content → PDF through `report.typ`) and `rendering.html` (content → `page.html` with its style and
-script). `compare` does the same for two runs. `claims` and `published` hold what the papers say.
+Reports read run folders and run nothing. A room may import only the rooms before it: `wording` and `content` (what a
+report consists of) and `published` (the papers' tables); `reading` (a folder's files as rows and arrays); `analysis`
+(what follows from rows); `drawing` (figures and pictures); `claims` (what the papers say, and what decides it);
+`material` (what all parts share); `parts` (the sections); `rendering` (PDF and HTML); then `summary` (the first page),
+`report` and `compare`, which make the report on one run and on two.
 """

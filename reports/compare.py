@@ -1,58 +1,50 @@
-"""Two runs held against each other: two commits, or two devices.
+"""Make the report that compares two runs: of two commits, or on two devices.
 
-Cells are matched by what they are: scene, variant and precision, and the device too where the runs share one; else each
-run's only device stands for it.
+Cells are matched by scene, variant and precision, and by device where the runs share one. Where they share none, each
+run must have only one device.
 """
 
 from __future__ import annotations
 
-import tempfile
 from pathlib import Path
 from typing import Any
 
 import pandas as pd
 
 from harness.contract import CellStatus, FirsthitError
-from harness.results import timings
+from harness.results.writing import replacing_together
 from reports import wording
-from reports.analysis import derive
+from reports.analysis import derive, rounds
 from reports.content import Block, Code, Column, Document, Section, Table, Text
 from reports.drawing import tables
 from reports.reading import load
-from reports.reading.load import Plan, Run
+from reports.reading.run import Plan, Run
 from reports.rendering import document, html
 
-LINES = 40  # changes that the first page lists
+WORST = 10  # changes that the first page lists
 _PLACE = ["scene", "variant", "precision"]
 
 
 def build(a: Path, b: Path) -> Path:
-    """Write what changed from run `a` to run `b` into the folder `a`, as against-….pdf and .html; the path of the PDF.
+    """Write what changed from run `a` to run `b` into the folder `a`, as against-….pdf and .html.
 
-    Raises FirsthitError where either is no run folder, they have nothing in common or `a` cannot be written to.
+    Returns the path of the PDF. Raises FirsthitError if either is no run folder, they have no cell in common, or `a`
+    cannot be written to.
     """
-
     content = report(load.load(a), load.load(b))
     stem = name_of(a, b)
-    try:
-        with tempfile.TemporaryDirectory(prefix=".report-", dir=a) as name:
-            made = Path(name)
-            document.write_pdf(content, made / "pdf", made / f"{stem}.pdf", "")
-            html.write_html(content, {}, made / f"{stem}.html")
-            for ending in ("html", "pdf"):
-                (made / f"{stem}.{ending}").replace(a / f"{stem}.{ending}")
-    except OSError as error:
-        raise FirsthitError(f"cannot write the report into {a}: {error.strerror or error}", exit_code=3) from error
+    with replacing_together(a, "the report") as made:
+        document.write_pdf(content, made / "pdf", made / f"{stem}.pdf", "")
+        html.write_html(content, {}, made / f"{stem}.html")
     return a / f"{stem}.pdf"
 
 
 def paired(a: Run, b: Run) -> tuple[pd.DataFrame, list[str]]:
-    """Cells of both runs, columns of A ending in _a and of B in _b, and the columns they were matched by.
+    """Return the cells of both runs, the columns of A ending in _a and of B in _b, and the columns that match them.
 
-    `ratio` is B's time over A's; its ends, `ratio_low` and `ratio_high`, are of both medians' intervals, where those
-    are proved.
-
-    Raises FirsthitError where nothing matches.
+    `ratio` is B's time over A's; `ratio_low` and `ratio_high` are its ends by the intervals of both medians, NaN where
+    one has too few samples for an interval. Raises FirsthitError if no cell matches, or if the runs share no device
+    and one has several.
     """
     frames = [derive.derive(run.frame).assign(scene=_scenes(run.frame)) for run in (a, b)]
     devices = [set(frame["device"]) for frame in frames]
@@ -68,7 +60,7 @@ def paired(a: Run, b: Run) -> tuple[pd.DataFrame, list[str]]:
         raise FirsthitError(
             f"{a.folder} and {b.folder} have no cell in common: no scene, variant and precision in both"
         )
-    proved = _proved(both["samples_ms_a"]) & _proved(both["samples_ms_b"])
+    proved = rounds.proved(both["samples_ms_a"]) & rounds.proved(both["samples_ms_b"])
     return both.assign(
         ratio=both["median_ms_b"] / both["median_ms_a"],
         ratio_low=(both["lower_ms_b"] / both["upper_ms_a"]).where(proved),
@@ -76,18 +68,13 @@ def paired(a: Run, b: Run) -> tuple[pd.DataFrame, list[str]]:
     ), by
 
 
-def _proved(samples: pd.Series) -> pd.Series:
-    """Which cells have enough samples for the interval of their median."""
-    return samples.map(lambda own: timings.proves(len(own or ()))).astype(bool)
-
-
 def _scenes(frame: pd.DataFrame) -> pd.Series:
-    """A comparison without the name of the run that a collection puts before it."""
+    """Return the comparisons without the run's name, which a collection of runs puts before them."""
     return frame["comparison"].str.replace(r"^[^:]*: ", "", regex=True)
 
 
 def report(a: Run, b: Run) -> Document:
-    """What changed from A to B."""
+    """Make the report on what changed from A to B."""
     both, by = paired(a, b)
     timed = both[both["ratio"].notna()]
     faster = timed[(timed["ratio_high"] < 1.0) & ~(_error_change(timed) > 0)]
@@ -116,7 +103,7 @@ def report(a: Run, b: Run) -> Document:
         Section("Every cell in both", (_speed(timed, by, "Times of both, in A's order."),), True),
     ]
     if len(shown):
-        worst = shown.sort_values("size_of_change", ascending=False).head(LINES // 4)
+        worst = shown.sort_values("size_of_change", ascending=False).head(WORST)
         blocks.append(_speed(worst, by, "The largest changes of speed."))
     blocks.append(Code(f"firsthit report {a.folder} {b.folder}"))
     title = f"{a.plan.name} against {b.plan.name}" if a.plan.name != b.plan.name else f"{a.plan.name}, twice"
@@ -124,10 +111,13 @@ def report(a: Run, b: Run) -> Document:
 
 
 def _error_change(both: pd.DataFrame) -> pd.Series:
+    """Return by how many more rays B answers wrongly than A; 0 where one does not tell."""
     return (both["wrong_rays_b"].astype("float64") - both["wrong_rays_a"].astype("float64")).fillna(0.0)
 
 
 def _runs(a: Plan, b: Plan) -> Table:
+    """Show config, date, commit and devices of both runs."""
+
     def told(plan: Plan) -> dict[str, Any]:
         environment = plan.environment
         dirty = " with uncommitted changes" if environment.get("dirty") else ""
@@ -141,10 +131,12 @@ def _runs(a: Plan, b: Plan) -> Table:
 
 
 def _places(by: list[str]) -> list[Column]:
+    """Return a column for each of the columns that match cells."""
     return [Column(name, stretch=1 if name in ("scene", "variant") else 0) for name in by]
 
 
 def _speed(rows: pd.DataFrame, by: list[str], title: str) -> Table:
+    """Make a line for each cell with the times of both runs."""
     body = []
     for row in rows.head(tables.ROW_LIMIT).itertuples():
         interval = f"{wording.factor(row.ratio_low)} to {wording.factor(row.ratio_high)}"
@@ -167,7 +159,7 @@ def _speed(rows: pd.DataFrame, by: list[str], title: str) -> Table:
 
 
 def _answers(both: pd.DataFrame, by: list[str]) -> list[Block]:
-    """Cells whose status, wrong rays, error or evaluations differ."""
+    """List the cells whose status, wrong rays, error or evaluations differ."""
     fields = ("wrong_rays", "grazing_wrong_rays", "drowned_wrong_rays", "error_max", "evaluations_mean")
     body = []
     for row in both.itertuples():
@@ -193,23 +185,25 @@ def _answers(both: pd.DataFrame, by: list[str]) -> list[Block]:
 
 
 def _same(x: Any, y: Any) -> bool:
+    """Tell whether two cells of a frame are equal, or both absent."""
     return bool(wording.absent(x) and wording.absent(y)) or (not wording.absent(x) and not wording.absent(y) and x == y)
 
 
 def _alone(a: Run, b: Run, by: list[str]) -> list[Block]:
+    """List the finished cells that only one of the runs has, in that run's order."""
     keys = []
     for run in (a, b):
         frame = run.frame.assign(scene=_scenes(run.frame))
         keys.append(dict.fromkeys(frame[frame["status"] == CellStatus.OK][by].itertuples(index=False, name=None)))
     blocks: list[Block] = []
     for side, own, other in (("A", keys[0], keys[1]), ("B", keys[1], keys[0])):
-        only = [cell for cell in own if cell not in other]  # in the run's own order
+        only = [cell for cell in own if cell not in other]
         blocks.append(Table(tuple(_places(by)), only[: tables.ROW_LIMIT], f"Only in {side}.", f"{len(only):,} cells."))
     return blocks
 
 
 def name_of(a: Path, b: Path) -> str:
-    """The stem of the comparison's files, written into A's folder."""
+    """Return the stem of the comparison's files, which are written into A's folder."""
     a, b = a.resolve(), b.resolve()
     if a == b:
         return "against-itself"

@@ -1,7 +1,7 @@
-"""What a report consists of, whatever it is rendered to: sections of text, code, tables, figures and pictures.
+"""What a report consists of, independent of the format: sections of text, code, tables, figures and pictures.
 
-Strings are plain text; a renderer escapes what its format needs. Table cells keep their values and are formatted by
-their column, so that a renderer can sort by value.
+All strings are plain text; a renderer escapes what its format requires. A table's cells keep their values, and their
+column formats them, so that a renderer can sort by value.
 """
 
 from __future__ import annotations
@@ -15,13 +15,15 @@ from reports import wording
 
 @dataclass(frozen=True)
 class Text:
+    """A paragraph; a `strong` one is set in bold."""
+
     text: str
     strong: bool = False
 
 
 @dataclass(frozen=True)
 class Code:
-    """Something to copy: a command, a config."""
+    """A text to copy: a command or a config."""
 
     text: str
     language: str = "sh"
@@ -29,20 +31,24 @@ class Code:
 
 @dataclass(frozen=True)
 class Column:
-    """A title may say by a line break where it is to be broken; neighbours with the same `over` share that heading."""
+    """A column of a table: its title, and how its values are written.
+
+    A line break in the title marks where a renderer may break it. Adjacent columns with the same `over` share that
+    text as a common heading.
+    """
 
     title: str
     show: Callable[[Any], str] = wording.text
     numeric: bool = False
-    stretch: int = 0  # its part of the width that columns of part 0 leave
+    stretch: int = 0  # this column's part of the width that columns with stretch 0 leave over
     over: str = ""
 
 
 @dataclass(frozen=True)
 class Table:
-    """The title names the table, the caption says what to see in it.
+    """A table: the title says what it is, the caption what to look for in it.
 
-    `group` leading columns sort the rows into groups: a renderer may print their repeated values once.
+    Rows are sorted into groups by their first `group` columns; a renderer may print a repeated value of these once.
     """
 
     columns: tuple[Column, ...]
@@ -54,7 +60,7 @@ class Table:
 
 @dataclass(frozen=True)
 class Figure:
-    """A drawing as SVG text; `description` says to those who cannot see it what it shows."""
+    """A drawing as SVG text. `description` tells readers who cannot see it what it shows."""
 
     name: str
     svg: str
@@ -65,6 +71,8 @@ class Figure:
 
 @dataclass(frozen=True)
 class Picture:
+    """An image as a PNG file's bytes. `description` tells readers who cannot see it what it shows."""
+
     name: str
     png: bytes
     description: str
@@ -81,6 +89,8 @@ class Panel:
 
 @dataclass(frozen=True)
 class Gallery:
+    """Panels of pictures with one caption, and one legend of their colours if they need one."""
+
     panels: tuple[Panel, ...]
     caption: str
     legend: Figure | None = None
@@ -91,7 +101,7 @@ Block = Text | Code | Table | Figure | Gallery
 
 @dataclass(frozen=True)
 class Section:
-    """`wide` sections are set on landscape pages."""
+    """A titled part of a report. A `wide` section is set on landscape pages."""
 
     title: str
     blocks: tuple[Block, ...]
@@ -100,7 +110,9 @@ class Section:
 
 @dataclass(frozen=True)
 class Document:
+    """A whole report."""
+
     title: str
     subtitle: str
-    summary: Section  # the first page, to stop after
+    summary: Section  # the first page; a reader in a hurry reads nothing else
     sections: tuple[Section, ...]

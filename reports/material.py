@@ -8,51 +8,52 @@ from functools import cached_property
 
 import pandas as pd
 
-from reports import claims, evaluations
-from reports.analysis import forms, viewstats
-from reports.claims import Claim, Verdict
+from reports import claims
+from reports.analysis import shown, surface_names, viewstats
+from reports.claims import Claim, Verdict, figures
 from reports.claims.evidence import Evidence
 from reports.drawing import images, style
 from reports.drawing.style import Mark
 from reports.reading.arrays import Shelf
-from reports.reading.load import Run
+from reports.reading.run import Run
 
 
 @dataclass(frozen=True, eq=False)
 class Material:
-    """A run, its rows with the derived columns, and what parts share."""
+    """A run, its rows with the derived columns, and what several parts compute from them."""
 
     run: Run
-    frame: pd.DataFrame  # of derive
-    rungs: pd.DataFrame  # of breaks
+    frame: pd.DataFrame  # what analysis.derive returns
+    rungs: pd.DataFrame  # what analysis.breaks returns
     shelf: Shelf
 
     @cached_property
     def marks(self) -> Mapping[str, Mark]:
-        """Give each variant its mark."""
+        """The mark of each variant."""
         variants = pd.concat([of[["method", "variant"]] for of in (self.frame, self.run.families)])
         return style.variant_marks(variants.drop_duplicates().itertuples(index=False, name=None))
 
     @cached_property
     def listed(self) -> pd.DataFrame:
-        """`frame` for what lists scenes one by one: the first view stands for a large set, and a surface as printed for
-        its other forms, which parts/forms compares."""
-        return forms.printed_alone(viewstats.one_view_of_each(self.frame))
+        """The rows of `frame` for tables that list scenes one by one.
+
+        Of a large set of views it has the first alone, and of a surface in several forms the one as printed.
+        """
+        return surface_names.printed_alone(viewstats.one_view_of_each(self.frame))
 
     @cached_property
     def error_scale(self) -> tuple[int, int]:
         """The decades of the one colour scale of errors that all pictures and maps of the report share."""
-        from reports.parts.papers import pictures  # which takes a Material itself
-
-        shown = [images.drawn(self.listed), evaluations.drawn(self.frame)]
-        shown += [pictures.drawn(self.evidence, figure) for figure in pictures.FIGURES]
-        rows = pd.concat(shown).drop_duplicates(["run", "key"])
-        found = (self.shelf.get(row) for row in rows.itertuples())
+        rows = [shown.in_galleries(self.listed), shown.in_evaluation_maps(self.frame)]
+        rows += [figures.rows_of(figure, self.evidence) for figure in figures.FIGURES]
+        every = pd.concat(rows).drop_duplicates(["run", "key"])
+        found = (self.shelf.get(row) for row in every.itertuples())
         mapped = self.frame.loc[self.frame["view_set"] == viewstats.DIRECTIONS, "error_max"].dropna()
         return images.scale_of((arrays for arrays in found if arrays is not None), mapped)
 
     @cached_property
     def evidence(self) -> Evidence:
+        """The run as evidence for and against the papers' claims."""
         return Evidence(self.frame, self.run.studies, self.shelf)
 
     @cached_property

@@ -1,13 +1,12 @@
-"""What the report says: a summary, then its parts, in the blocks of `content` that any renderer sets."""
+"""Make the report on one run: a summary, then its parts."""
 
 from __future__ import annotations
 
-import tempfile
 from pathlib import Path
 
 import pandas as pd
 
-from harness.contract import FirsthitError
+from harness.results.writing import replacing_together
 from reports import parts, summary
 from reports.analysis import breaks, derive
 from reports.content import Document
@@ -15,51 +14,44 @@ from reports.drawing import style
 from reports.material import Material
 from reports.reading import export, load
 from reports.reading.arrays import Shelf
-from reports.reading.load import Run
+from reports.reading.run import Run
 from reports.rendering import document, html
 
 
 def build(run: Path, baseline: str | None = None) -> Path:
-    """Write report.pdf, report.html, results.csv and results.parquet into the folder `run`; the path of the PDF.
+    """Write report.pdf, report.html, results.csv and results.parquet into the folder `run`; returns the PDF's path.
 
-    A run with families of hard rays also gets stability.csv, one line for each rung. All are made in full before the
-    first of them replaces an older one. Speed-ups are over `baseline`, a method or variant of the run, or else over
-    the one that the run's config names.
-    Raises FirsthitError where `run` is no run folder, holds no finished cell, has no such baseline or cannot be written
+    A run with families of hard rays also gets stability.csv, with a line for each rung. No older file is replaced
+    before all new ones are complete. Speed-ups are over `baseline`, a method or variant of the run; None takes the
+    one that the run's config names.
+
+    Raises FirsthitError if `run` is no run folder, holds no finished cell, has no such baseline or cannot be written
     to.
     """
-
     loaded = load.load(run)
     frame = derive.derive(load.over(loaded.frame, baseline), loaded.plan.peaks)
     rungs = breaks.derive(loaded.families, loaded.rungs)
     content = report(loaded, frame, rungs)
-    try:
-        with tempfile.TemporaryDirectory(prefix=".report-", dir=run) as name:
-            made = Path(name)
-            document.write_pdf(content, made / "pdf", made / "report.pdf", loaded.plan.created)
-            html.write_html(content, style.marks([*frame["method"], *loaded.families["method"]]), made / "report.html")
-            export.write(frame, made / "results.csv", made / "results.parquet")
-            files = ["results.csv", "results.parquet", "report.html", "report.pdf"]
-            if not rungs.empty:
-                rungs.to_csv(made / "stability.csv", index=False)
-                files.insert(0, "stability.csv")
-            else:
-                (run / "stability.csv").unlink(missing_ok=True)  # of an earlier plan
-            for file in files:
-                (made / file).replace(run / file)
-    except OSError as error:
-        raise FirsthitError(f"cannot write the report into {run}: {error.strerror or error}", exit_code=3) from error
+    with replacing_together(run, "the report") as made:
+        document.write_pdf(content, made / "pdf", made / "report.pdf", loaded.plan.created)
+        html.write_html(content, style.marks([*frame["method"], *loaded.families["method"]]), made / "report.html")
+        export.write(frame, made / "results.csv", made / "results.parquet")
+        if not rungs.empty:
+            rungs.to_csv(made / "stability.csv", index=False)
+    if rungs.empty:
+        (run / "stability.csv").unlink(missing_ok=True)  # of an earlier plan
     return run / "report.pdf"
 
 
 def report(run: Run, frame: pd.DataFrame, rungs: pd.DataFrame) -> Document:
-    """The whole report on one run; `frame` and `rungs` are the run's own with the derived columns."""
+    """Make the whole report; `frame` and `rungs` are the run's with the columns of analysis.derive and breaks."""
     material = Material(run, frame, rungs, Shelf(run.folders))
     sections = tuple(parts.sections(material))
     return Document(run.plan.title or run.plan.name, _subtitle(run), summary.section(material), sections)
 
 
 def _subtitle(run: Run) -> str:
+    """Write the version, the run's name and date, and the commit."""
     environment = run.plan.environment
     dirty = " with uncommitted changes" if environment.get("dirty") else ""
     told = [f"firsthit {environment.get('firsthit', '')}".strip(), f"run “{run.plan.name}”", run.plan.created[:10]]

@@ -1,4 +1,4 @@
-"""The first page, to stop after: which method wins where, at which error, and what that costs."""
+"""The first page: which method wins where, at which error, and what that costs."""
 
 from __future__ import annotations
 
@@ -6,38 +6,42 @@ from collections import Counter
 
 import pandas as pd
 
-from reports import stability, wording
+from harness.contract import CellStatus
+from reports import wording
 from reports.analysis import derive, ties
+from reports.analysis.scene_names import scene_names
 from reports.claims import Outcome
-from reports.content import Block, Code, Section, Text
-from reports.drawing import choice, plots, style, tables
+from reports.content import Block, Code, Column, Section, Table, Text
+from reports.drawing import choice, plots, style
 from reports.material import Material
+from reports.parts import hard_rays
 
-OVERVIEW_SCENES = 8  # scenes that fit into its figure beside the table
+OVERVIEW_SCENES = 8  # a run with more scenes has no figure on the first page
 
 
 def section(material: Material) -> Section:
+    """Make the first page."""
     run, frame, rungs = material.run, material.frame, material.rungs
     blocks: list[Block] = [] if frame.empty else [Text(_verdict(frame), strong=True)]
-    blocks += [] if rungs.empty else [Text(stability.verdict(rungs), strong=True)]
+    blocks += [] if rungs.empty else [Text(hard_rays.verdict(rungs), strong=True)]
     told = _claims(material)
     blocks += [Text(told, strong=True)] if told else []
     table = choice.table(frame)
     blocks += [table] if table else []
-    scenes = tables.places(frame)
+    scenes = scene_names(frame)
     if table and len(scenes) <= OVERVIEW_SCENES:
         figure = plots.overview(frame, style.marks(frame["method"]), scenes)
         blocks += [figure] if figure else []
     elif table is None and not rungs.empty:
-        blocks.append(stability.summary(rungs, run.plan.facts))
+        blocks.append(hard_rays.summary_table(rungs, run.plan.facts))
     ended = pd.concat([frame["status"], run.families["status"]])
-    blocks.append(tables.statuses(ended, len(run.unreadable), len(run.not_run)))
+    blocks.append(statuses_table(ended, len(run.unreadable), len(run.not_run)))
     blocks.append(Code(run.plan.command))
     return Section("Summary", tuple(blocks))
 
 
 def _claims(material: Material) -> str:
-    """How the papers' claims fare; empty where the run decides few."""
+    """Count the papers' claims that hold and that do not; "" where the run decides less than a quarter of them."""
     outcomes = Counter(verdict.outcome for _, verdict in material.judged)
     decided = outcomes[Outcome.CONFIRMED] + outcomes[Outcome.REFUTED]
     if decided < len(material.judged) / 4:
@@ -49,7 +53,7 @@ def _claims(material: Material) -> str:
 
 
 def _verdict(frame: pd.DataFrame) -> str:
-    """One sentence for who reads no further, or two: who leads, if anybody does."""
+    """Say in a sentence or two which method is fastest where, if any is."""
     rows = derive.contenders(frame)
     leading = ties.leaders(frame)
     if leading.empty:
@@ -84,7 +88,10 @@ def _verdict(frame: pd.DataFrame) -> str:
 
 
 def _gain(won: pd.DataFrame) -> str:
-    """Say how many times as fast as the baseline the winner is, where that is right too, and how exact it is."""
+    """Say how many times as fast as the baseline the winner is in the rows `won`, and how exact.
+
+    Only rows count whose baseline is right too. "" where there are none or where the winner is the baseline.
+    """
     baseline = derive.baseline_of(won)
     told = won[won["speedup"].notna()]
     over = told[~told["floor_bound"].astype(bool)]
@@ -102,8 +109,18 @@ def _gain(won: pd.DataFrame) -> str:
 
 
 def _bound(rows: pd.DataFrame) -> str:
-    """Say what a floor-bound time is under, with the floors of these rows."""
+    """Say below what a time is floor-bound, with the floors of these rows."""
     floors = rows.loc[rows["floor_bound"].astype(bool), "floor_ms"]
     low, high = wording.number(floors.min()), wording.number(floors.max())
     span = f"{low} ms" if low == high else f"{low} to {high} ms"
     return f"{derive.FLOOR_FACTOR:g} times the harness's floor of {span}"
+
+
+def statuses_table(ended: pd.Series, unreadable: int, not_run: int) -> Table:
+    """Count the cells by how they ended: a column for each status that occurs, and always one for `ok`."""
+    counts = {str(status): int((ended == status).sum()) for status in CellStatus}
+    counts |= {"unreadable": unreadable, "not run yet": not_run}
+    shown = {name: count for name, count in counts.items() if count or name == CellStatus.OK}
+    cells = Column("cells", wording.count, numeric=True)
+    columns = (cells, *(Column(name, wording.count, numeric=True) for name in shown))
+    return Table(columns, [(sum(counts.values()), *shown.values())], "Cells by how they ended.")

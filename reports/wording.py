@@ -1,4 +1,7 @@
-"""Numbers as people read them. Every formatter takes None or NaN as "there is none" and prints a dash."""
+"""Write values the way people read them: numbers, shares, counts and lists as text.
+
+Every formatter takes None or NaN as "there is no value" and then returns the dash NONE.
+"""
 
 from __future__ import annotations
 
@@ -13,16 +16,17 @@ NONE = "–"
 
 
 def absent(value: Any) -> bool:
-    """Whether a cell of a frame holds nothing."""
+    """Tell whether a cell of a frame holds no value: None, NaN or pd.NA."""
     return bool(pd.isna(value))
 
 
 def text(value: Any) -> str:
+    """Write any value as str() does."""
     return NONE if absent(value) else str(value)
 
 
 def number(value: Any) -> str:
-    """Three significant digits, no exponent: 0.0123, 1.23, 123, 1,230."""
+    """Write three significant digits and no exponent: 0.0123, 1.23, 123, 1,230."""
     if absent(value):
         return NONE
     if value == 0 or math.isinf(value):
@@ -32,28 +36,29 @@ def number(value: Any) -> str:
 
 
 def factor(value: Any) -> str:
+    """Write a ratio as `number` does, with a multiplication sign: 1.23×."""
     return NONE if absent(value) else f"{number(value)}×"
 
 
 def error(value: Any) -> str:
-    """Two significant digits: 1.2e-7; a zero is a plain 0."""
+    """Write two significant digits with an exponent, 1.2e−7; zero is a plain 0."""
     if absent(value):
         return NONE
     if value == 0 or math.isinf(value):
         return "0" if value == 0 else "∞"
     mantissa, exponent = f"{value:.1e}".split("e")
-    return f"{mantissa}e{int(exponent)}".replace("-", "−")
+    return minus(f"{mantissa}e{int(exponent)}")
 
 
 def short(value: Any) -> str:
-    """Two significant digits or more of a number of unknown size, with an exponent only far from 1: 0.12, 57, 1,234."""
+    """Write at least two significant digits, and an exponent only for numbers far from 1: 0.12, 57, 1,234, 1.2e−7."""
     if absent(value) or not 0.0095 <= value < 9950:
         return error(value)
     return f"{value:#.2g}".rstrip(".") if value < 99.5 else f"{value:,.0f}"
 
 
 def level(value: float) -> str:
-    """A parameter on a ladder: 10⁻⁶, 0.01, 3.5, 1792, 9.5e−7."""
+    """Write a parameter of a family of hard rays: 10⁻⁶, 0.01, 3.5, 1792, 9.5e−7."""
     exponent = math.log10(value) if value > 0 else 0.5
     if abs(exponent) > 2.5 and abs(exponent - round(exponent)) < 1e-9:
         return power_of_ten(round(exponent))
@@ -61,35 +66,41 @@ def level(value: float) -> str:
 
 
 def hundredths(value: Any) -> str:
-    """Two decimals: −0.25."""
-    return NONE if absent(value) else f"{value:.2f}".replace("-", "−")
+    """Write two decimals: −0.25."""
+    return NONE if absent(value) else minus(f"{value:.2f}")
 
 
 def count(value: Any) -> str:
+    """Write a whole number with commas: 1,234."""
     return NONE if absent(value) else f"{int(value):,}"
 
 
 def share(value: Any) -> str:
-    """A share of one as per cent."""
+    """Write a share of one as per cent, with one decimal below 10 %."""
     if absent(value):
         return NONE
     return "< 0.1 %" if 0.0 < value < 0.0005 else f"{100 * value:.{0 if value >= 0.1 else 1}f} %"
 
 
 def rough(value: Any) -> str:
-    """A share of one as per cent that is known to one digit at most: ≈ 20 %."""
+    """Write a share of one as per cent with one digit, for what is known no better: ≈ 20 %."""
     if absent(value):
         return NONE
     return "< 0.1 %" if 0.0 < value < 0.0005 else f"≈ {100 * float(f'{value:.0e}'):g} %"
 
 
 def percentage(value: Any) -> str:
-    """A share of one as per cent with two decimals, as in the papers' tables."""
+    """Write a share of one as per cent with two decimals, as in the papers' tables."""
     return NONE if absent(value) else f"{100 * value:.2f} %"
 
 
+def whole_percentage(value: Any) -> str:
+    """Write a share of one, which may be negative, as per cent without decimals: −8 %."""
+    return NONE if absent(value) else minus(f"{100 * value:.0f} %")
+
+
 def portion(value: Any) -> str:
-    """A share of one as per cent, rounded down: only what is whole is 100 %."""
+    """Write a share of one as per cent, rounded down, so that only the whole is 100 %."""
     return NONE if absent(value) else "100 %" if value == 1 else f"{math.floor(1000 * value) / 10:.1f} %"
 
 
@@ -97,25 +108,37 @@ ZERO = "An error of 0 is of a t within the oracle's certified interval of the ro
 
 
 def zeros(*columns: Any) -> str:
-    """What an error of 0 is, as a further sentence, where a value of these columns is one."""
+    """Return the sentence ZERO, with a space before it, where one of these columns of errors holds a 0; else ""."""
     return f" {ZERO}" if any((pd.Series(column).astype("float64") == 0.0).any() for column in columns) else ""
 
 
+def minus(number: str) -> str:
+    """Replace the hyphens of a written number by minus signs."""
+    return number.replace("-", "−")
+
+
 def power_of_ten(exponent: int) -> str:
+    """Write 10 with a raised exponent: 10⁻⁶."""
     return "10" + str(exponent).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
 
 
 def plural(n: int, noun: str) -> str:
+    """Write a count and its noun: 1 row, 2 rows."""
     return f"{n:,} {noun}" if n == 1 else f"{n:,} {noun}s"
 
 
 def listed(names: Sequence[str]) -> str:
-    """a, b and c"""
+    """Join names as a sentence does: a, b and c."""
     return " and ".join(filter(None, (", ".join(names[:-1]), *names[-1:])))
 
 
+def first_of(shown: int, total: int) -> str:
+    """Return a sentence, with a space before it, that a list is cut to `shown` of `total` rows; "" if it is not."""
+    return f" The first {shown:,} of {total:,}; results.csv has all." if shown < total else ""
+
+
 def excerpt(value: str, limit: int) -> str:
-    """One paragraph of at most `limit` characters, without terminal colours and control characters."""
+    """Fold a text into one paragraph of at most `limit` characters, without colours and control characters."""
     plain = re.sub(r"\x1b\[[0-9;]*[A-Za-z]", "", value)
     folded = " ".join("".join(c if c.isprintable() else " " for c in plain).split())
     return folded if len(folded) <= limit else folded[: limit - 2].rstrip() + " …"

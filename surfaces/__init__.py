@@ -16,23 +16,35 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
 
-from surfaces import formula
-from surfaces.catalog import FIXED
-from surfaces.evaluation import evaluate, expression, gradient, operations, tape_of
-from surfaces.families import FAMILIES
 from surfaces.forms import FORMS, SEPARATOR
 from surfaces.model import Box, Domain, FirsthitError, Sphere, Surface
-from surfaces.validity import check
 from surfaces.words import suggestion
 
+if TYPE_CHECKING:
+    from surfaces.evaluation import evaluate, expression, gradient, operations, tape_of
+
 __all__ = ["evaluate", "expression", "forms_of", "from_formula", "get", "gradient", "names", "operations", "tape_of"]
-_FIXED = {surface.name: surface for surface in FIXED}
+
+
+def __getattr__(name: str) -> Any:
+    """Return a function of surfaces.evaluation, which is imported when it is first asked for.
+
+    It needs numpy; harness.contract, and with it every command, imports this package for surfaces.model alone.
+    """
+    if name in __all__:
+        return getattr(import_module("surfaces.evaluation"), name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
 def names() -> tuple[str, ...]:
     """Return all names of the catalog, sorted, without those of forms."""
-    return tuple(sorted((*FAMILIES, *_FIXED)))
+    from surfaces.catalog import FIXED
+    from surfaces.families import FAMILIES
+
+    return tuple(sorted((*FAMILIES, *(surface.name for surface in FIXED))))
 
 
 def forms_of(name: str) -> tuple[str, ...]:
@@ -59,6 +71,9 @@ def get(name: str, **parameters: str | float) -> Surface:
 
 def _as_printed(name: str, parameters: Mapping[str, str | float]) -> Surface:
     """Return a surface of the catalog in the form of its source. Raises FirsthitError as `get`."""
+    from surfaces.catalog import FIXED
+    from surfaces.families import FAMILIES
+
     if name not in names():
         hint = suggestion(name, names(), most=3, otherwise="see `firsthit list surfaces`")
         raise FirsthitError(f"there is no surface {name!r}; {hint}")
@@ -67,8 +82,8 @@ def _as_printed(name: str, parameters: Mapping[str, str | float]) -> Surface:
         if key not in known:
             has = f"has only {', '.join(known)}" if known else "takes no parameters"
             raise FirsthitError(f"surface {name!r} has no parameter {key!r}: it {has}")
-    if name in _FIXED:
-        return _FIXED[name]
+    if name not in FAMILIES:
+        return next(surface for surface in FIXED if surface.name == name)
     title, make, defaults = FAMILIES[name]
     return make(name, title, defaults | _decimals(parameters))
 
@@ -85,6 +100,9 @@ def from_formula(
     text is no formula or no domain, if f does not depend on x, y and z, or if it cannot be shown to be defined all over
     the domain.
     """
+    from surfaces import formula
+    from surfaces.validity import check
+
     bound = _decimals(parameters or {})
     degree = formula.degree(formula.parse(text, bound))
     surface = Surface(
@@ -102,6 +120,8 @@ def from_formula(
 
 def _decimals(values: Mapping[str, str | float]) -> dict[str, str]:
     """Return parameters as exact decimals. Raises FirsthitError for a text that is none."""
+    from surfaces import formula
+
     texts = {name: value.strip() if isinstance(value, str) else repr(value) for name, value in values.items()}
     for name, text in texts.items():
         try:
@@ -113,6 +133,8 @@ def _decimals(values: Mapping[str, str | float]) -> dict[str, str]:
 
 def _domain(text: str) -> Domain:
     """Return the domain that a text describes. Raises FirsthitError if it describes none."""
+    from surfaces import formula
+
     kind, *groups = (part.strip() for part in text.split(":"))
     numbers = [[float(formula.exact(item.strip())) for item in group.split(",")] for group in groups]
     try:

@@ -2,18 +2,51 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from functools import cache
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from surfaces import formula, lowering
 from surfaces.model import Surface
-from surfaces.numbers import Floats, Floats64
+from surfaces.numbers import Arithmetic
 from surfaces.tape import Tape, walk
 
 if TYPE_CHECKING:
     import sympy
+
+Floats64 = NDArray[np.float64]
+
+
+class Floats(Arithmetic):
+    """Runs a tape in float64 arrays of one shape."""
+
+    def const(self, value: Fraction) -> np.float64:
+        return np.float64(value.numerator / value.denominator)
+
+    def pi(self) -> np.float64:
+        return np.float64(np.pi)
+
+    def e(self) -> np.float64:
+        return np.float64(np.e)
+
+    abs = staticmethod(np.abs)
+    min = staticmethod(np.minimum)
+    max = staticmethod(np.maximum)
+    sqrt = staticmethod(np.sqrt)
+    exp = staticmethod(np.exp)
+    log = staticmethod(np.log)
+    sin = staticmethod(np.sin)
+    cos = staticmethod(np.cos)
+    tan = staticmethod(np.tan)
+
+    def sign(self, a: Floats64) -> Floats64:
+        return np.where(a < 0.0, -1.0, 1.0)
+
+    def below(self, a: Floats64, b: Floats64) -> Floats64:
+        return np.where(a <= b, 1.0, 0.0)
 
 
 @cache
@@ -54,4 +87,5 @@ def gradient(surface: Surface, points: Floats64) -> Floats64:
 
 @cache
 def _gradient_tape(surface: Surface) -> Tape:
+    """Return the real tape of the gradient."""
     return lowering.gradient(lowering.real_tape(tape_of(surface)))

@@ -63,6 +63,7 @@ def exact(text: str) -> Fraction:
 
 @lru_cache(maxsize=1024)
 def _parsed(text: str, parameters: tuple[tuple[str, str], ...], free: bool) -> Tape:
+    """Parse a formula; parameters are sorted pairs, so that they can be a key."""
     return _Parser(text, dict(parameters), free).formula()
 
 
@@ -84,8 +85,7 @@ def expression(tape: Tape) -> Any:
 
 
 def is_polynomial(tape: Tape) -> bool:
-    """Return whether a tape is built as a polynomial: it divides by constants, and calls functions of constants,
-    only."""
+    """Return whether a tape is built as a polynomial: it divides by, and calls functions of, constants only."""
     constant = tape.constants()
     ring = {"add", "sub", "mul", "neg", "sqr", "powi", "var"}
     return all(
@@ -113,6 +113,7 @@ def degree(tape: Tape) -> int | None:
 
 
 def _bits(value: Fraction) -> int:
+    """Return the length of the longer of numerator and denominator, in bits."""
     return max(value.numerator.bit_length(), value.denominator.bit_length())
 
 
@@ -149,6 +150,7 @@ class _Parser:
 
     @staticmethod
     def _reserved(name: str) -> bool:
+        """Return whether a name has a meaning of its own in the language."""
         return name in (*COORDINATES, *FUNCTIONS, *CONSTANTS) or re.fullmatch(r"sqrt[0-9]+", name) is not None
 
     def fail(self, message: str, column: int) -> NoReturn:
@@ -158,6 +160,7 @@ class _Parser:
         raise FirsthitError(f"formula, column {column + 1}: {message}\n    {shown}\n    {' ' * (column - start)}^")
 
     def _tokens(self) -> list[_Token]:
+        """Split the text into tokens, the last of which is its end. Raises FirsthitError at other characters."""
         tokens, column = [], 0
         while column < len(self.text):
             if self.text[column] in " \t\r\n":
@@ -173,23 +176,28 @@ class _Parser:
         return [*tokens, _Token("end", "", len(self.text))]
 
     def peek(self) -> _Token:
+        """Return the next token."""
         return self.tokens[self.position]
 
     def take(self) -> _Token:
+        """Return the next token, and go on behind it."""
         token = self.peek()
         self.position += token.kind != "end"
         return token
 
     def expect(self, text: str) -> None:
+        """Take a token that must be `text`. Raises FirsthitError if it is another."""
         token = self.take()
         if token.text != text:
             self.fail(f"expected {text!r} here, found {self.describe(token)}", token.column)
 
     @staticmethod
     def describe(token: _Token) -> str:
+        """Return how a message names a token."""
         return "the end of the formula" if token.kind == "end" else repr(token.text)
 
     def formula(self) -> Tape:
+        """Parse the whole text. Raises FirsthitError if something is left over."""
         value = self.parse(0)
         token = self.peek()
         if token.kind != "end":
@@ -197,6 +205,7 @@ class _Parser:
         return self.builder.tape(value)
 
     def surplus(self, token: _Token) -> str:
+        """Return what is wrong with a token that is left over."""
         if token.text in (")", ","):
             return f"{token.text!r} without its '('"
         if token.text == "(" and self.tokens[self.position - 1].kind == "name":
@@ -217,6 +226,7 @@ class _Parser:
         return left
 
     def prefix(self) -> int:
+        """Parse a number, a name, a call, or a value in parentheses or behind a sign."""
         token = self.take()
         if token.text in ("-", "+"):
             value = self.parse(_SIGN)
@@ -232,12 +242,14 @@ class _Parser:
         self.fail(f"expected a number, a name or '(' here, found {self.describe(token)}", token.column)
 
     def number(self, token: _Token) -> Fraction:
+        """Return a number exactly. Raises FirsthitError if it is past the range of float64."""
         try:
             return exact(token.text)
         except FirsthitError as error:
             self.fail(str(error), token.column)
 
     def name(self, token: _Token) -> int:
+        """Parse a coordinate, a parameter, a constant or a call. Raises FirsthitError for an unknown name."""
         name, builder = token.text, self.builder
         if name in FUNCTIONS:
             return self.call(token)
@@ -255,9 +267,11 @@ class _Parser:
         self.fail(f"unknown name {name[:40]!r}; {suggestion(name.lower()[:40], known)}", token.column)
 
     def root(self, n: int) -> int:
+        """Return the square root of a whole number."""
         return self.builder.sqrt(self.builder.const(n))
 
     def call(self, token: _Token) -> int:
+        """Parse a function's arguments and apply it. Raises FirsthitError if their number is wrong."""
         name = token.text
         if self.peek().text != "(":
             self.fail(f"{name!r} is a function; write {name}(...)", token.column)
@@ -277,6 +291,7 @@ class _Parser:
         return self.checked(function(values[0]), token.column)
 
     def apply(self, operator: _Token, left: int, right: int) -> int:
+        """Return the result of an operator. Raises FirsthitError for a division by zero."""
         builder = self.builder
         match operator.text:
             case "+":
@@ -292,6 +307,7 @@ class _Parser:
         return self.power(operator, left, right)
 
     def power(self, operator: _Token, base: int, exponent: int) -> int:
+        """Return a power. Raises FirsthitError if the exponent is no whole constant or the power too large."""
         builder, n, value = self.builder, self.builder.value(exponent), self.builder.value(base)
         if builder.ops[base].name == "e":
             return builder.exp(exponent)
@@ -316,6 +332,7 @@ class _Parser:
         return index
 
     def weight(self, index: int) -> int:
+        """Return the degree of an operation, where a function's value has degree 1."""
         ops = self.builder.ops
         while len(self.weights) < len(ops):
             op = ops[len(self.weights)]

@@ -160,6 +160,7 @@ class _Coefficients:
         return [self.b.const(value)]
 
     def _zip(self, combine: Callable[[int, int], int], p: list[int], q: list[int]) -> list[int]:
+        """Combine coefficients of equal powers."""
         zero, n = self.b.const(0), max(len(p), len(q))
         pairs = zip(p + [zero] * (n - len(p)), q + [zero] * (n - len(q)), strict=True)
         return [combine(a, c) for a, c in pairs]

@@ -1,18 +1,14 @@
-"""Defines number systems that run a tape: numpy floats, certified balls, polynomials of balls, sympy expressions.
+"""Defines number systems that run a tape: certified balls, polynomials of balls, and sympy expressions.
 
 Each has a method for each operation of `surfaces.tape`. Balls need python-flint, Symbols need sympy; both are imported
-when they are first used. Their numbers have no types here, since neither library states any.
+when they are first used. The system of numpy floats is in `evaluation`, so that parsing a formula needs no numpy. Their
+numbers have no types here, since neither library states any.
 """
 
 from __future__ import annotations
 
 from fractions import Fraction
 from typing import Any
-
-import numpy as np
-from numpy.typing import NDArray
-
-Floats64 = NDArray[np.float64]
 
 
 class Arithmetic:
@@ -42,35 +38,6 @@ class Arithmetic:
             return a
         half = self.sqr(self.powi(a, n // 2))
         return self.mul(half, a) if n % 2 else half
-
-
-class Floats(Arithmetic):
-    """Runs a tape in float64 arrays of one shape."""
-
-    def const(self, value: Fraction) -> np.float64:
-        return np.float64(value.numerator / value.denominator)
-
-    def pi(self) -> np.float64:
-        return np.float64(np.pi)
-
-    def e(self) -> np.float64:
-        return np.float64(np.e)
-
-    abs = staticmethod(np.abs)
-    min = staticmethod(np.minimum)
-    max = staticmethod(np.maximum)
-    sqrt = staticmethod(np.sqrt)
-    exp = staticmethod(np.exp)
-    log = staticmethod(np.log)
-    sin = staticmethod(np.sin)
-    cos = staticmethod(np.cos)
-    tan = staticmethod(np.tan)
-
-    def sign(self, a: Floats64) -> Floats64:
-        return np.where(a < 0.0, -1.0, 1.0)
-
-    def below(self, a: Floats64, b: Floats64) -> Floats64:
-        return np.where(a <= b, 1.0, 0.0)
 
 
 class Balls(Arithmetic):
@@ -207,6 +174,7 @@ def fractions_of(ball: Any) -> tuple[Fraction, Fraction]:
 
 
 def _bound(exact: Any, outward: int) -> Fraction:
+    """Return an exact flint.arb as a fraction, rounded away from zero to the side `outward` if it is tiny."""
     mantissa, exponent = (int(part) for part in exact.man_exp())
     size = mantissa.bit_length() + exponent
     if size > 1100:

@@ -19,8 +19,7 @@ UNARY = ("sqrt", "exp", "log", "sin", "cos", "tan")  # the functions that a form
 
 @dataclass(frozen=True, slots=True)
 class Op:
-    """One operation. `args` are the indices of earlier operations; const has (Fraction,), var (name,), powi (index,
-    n)."""
+    """One operation. `args` are indices of earlier ones, but const has (Fraction,), var (name,), powi (index, n)."""
 
     name: str
     args: tuple[Any, ...] = ()
@@ -153,8 +152,7 @@ class Builder:
         return self.emit("neg", a)
 
     def _offset(self, index: int) -> tuple[int, Fraction]:
-        """Return the rest and the constant of a sum that ends in a rational constant; else the operation itself and
-        0."""
+        """Return rest and constant of a sum that ends in a rational constant; for others themselves and 0."""
         op = self.ops[index]
         if op.name in ("add", "sub") and (offset := self.value(op.args[1])) is not None:
             return op.args[0], offset if op.name == "add" else -offset
@@ -169,6 +167,7 @@ class Builder:
         return self.emit("add" if total > 0 else "sub", rest, self.const(abs(total)))
 
     def _scaled(self, factor: Fraction, a: int) -> int:
+        """Return factor · a."""
         if factor == 0:
             return self.const(0)
         if factor == 1:

@@ -1,5 +1,4 @@
-"""Proves by ball arithmetic on ever smaller boxes that f is defined all over its domain; refuses a formula if it
-cannot."""
+"""Proves by ball arithmetic on boxes that f is defined all over its domain, or refuses the formula."""
 
 from __future__ import annotations
 

@@ -12,7 +12,7 @@ import pytest
 from harness.contract import DeviceInfo
 from harness.devices import kept
 from harness.devices.executor import LocalExecutor
-from harness.devices.interface import Device, find_devices, open_device
+from harness.devices.interface import INSTALL, Device, find_devices, open_device
 
 
 @cache
@@ -22,7 +22,7 @@ def _found(backend: str) -> list[DeviceInfo]:
 
 @cache
 def usable_devices() -> tuple[DeviceInfo, ...]:
-    return tuple(info for backend in ("opencl", "opengl") for info in _found(backend) if not info.problem)
+    return tuple(info for backend in INSTALL for info in _found(backend) if not info.problem)
 
 
 @pytest.fixture(scope="module")

@@ -13,8 +13,7 @@ import surfaces
 from harness.contract import Box, FirsthitError, Sphere, Surface
 from surfaces import formula, lowering
 from surfaces.entries import SYMMETRIES
-from surfaces.evaluation import evaluate_tape
-from surfaces.numbers import Floats
+from surfaces.evaluation import Floats, evaluate_tape
 from surfaces.tape import walk
 from surfaces.validity import check
 

@@ -13,12 +13,13 @@ from harness.contract import digest
 from harness.plugins import find_methods
 from reports import claims, content, published
 from reports.analysis import derive
-from reports.claims import Claim, Outcome, picks
+from reports.claims import Claim, Outcome, figures, picks
 from reports.claims.evidence import Evidence, Pick
 from reports.parts import checklist
-from reports.parts.papers import pictures, szente
+from reports.parts.papers import szente_tables
 from reports.reading import load
 from reports.reading.arrays import Shelf
+from tests import stated_settings
 from tests.synthetic_run import cell, printed, reported, retime, tiny_run
 
 ROOT = Path(__file__).parent.parent
@@ -82,6 +83,11 @@ def test_planted_times_flip_a_verdict(
     for name, factor, outcome in (("as-claimed", 30.0, Outcome.CONFIRMED), ("against", 0.5, Outcome.REFUTED)):
         cells = (planted(slow, surface, factor), planted(fast, surface, 1.0))
         assert claims.judge(claim(paper, words), evidence(tmp_path / name, *cells)).outcome is outcome
+
+
+def test_the_settings_that_claims_read_are_those_that_the_methods_state() -> None:
+    told = "a method changed its defaults or settings: run `python -m tests.stated_settings`"
+    assert stated_settings.FILE.read_text(encoding="utf-8") == stated_settings.text(), told
 
 
 def test_the_picks_of_toledos_table_1_are_the_settings_that_their_methods_print() -> None:
@@ -355,10 +361,10 @@ def test_the_checklist_and_the_tables_stand_in_the_report(tmp_path: Path) -> Non
 def test_figures_of_the_papers_name_configs_and_surfaces_that_exist() -> None:
     import surfaces
 
-    for figure in pictures.FIGURES:
+    for figure in figures.FIGURES:
         assert (ROOT / "configs" / figure.config).is_file()
         assert set(figure.surfaces) <= set(surfaces.names())
-    for name in szente._NAMES:
+    for name in szente_tables._NAMES:
         assert name in surfaces.names()
     assert checklist.ORDER < 100
     assert published.table("szente_table4_runtime").number("speedup", surface="16-Ball") == 3.3

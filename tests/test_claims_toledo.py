@@ -17,7 +17,7 @@ from harness.results.store import FORMAT
 from reports import claims, content
 from reports.claims import Outcome, picks
 from reports.claims.evidence import Pick
-from reports.parts.papers import toledo
+from reports.parts.papers import toledo_table1
 from tests.synthetic_run import printed, reported, tiny_run
 from tests.test_claims import claim, evidence, planted
 
@@ -228,7 +228,7 @@ def test_pixels_are_counted_by_a_technique_that_loses_none():
         ]
     )
     rows.loc[rows["technique"] == "Polygon 32*32", "casts"] = "mesh"
-    table = toledo._pixels(rows, angles)
+    table = toledo_table1._pixels(rows, angles)
     assert "as Newton 0.001 forwards draws them" in table.caption
     ours = next(row for row in table.rows if row[:2] == ("torus, kilopixels", "ours"))
     assert ours[2:] == (203.0, 203.0)

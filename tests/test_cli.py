@@ -128,6 +128,8 @@ def test_bad_rays_are_one_line_and_leave_no_file(tmp_path, capsys, name, words, 
         ({"--knob": "EPSILN=1"}, 2, "did you mean 'EPSILON'"),
         ({"--knob": "EPSILON"}, 2, "NAME=VALUE"),
         ({"--knob": "EPSILON=big"}, 2, "not a number"),
+        ({"--knob": "EPSILON=nan"}, 2, "EPSILON is a finite number, not nan"),
+        ({"--knob": "MAX_EVALUATIONS=-inf"}, 2, "MAX_EVALUATIONS is a finite number, not -inf"),
         ({"--knob": "MAX_EVALUATIONS=1.5"}, 2, "whole number"),
         ({"--parameter": "q=1"}, 2, "no parameter 'q'"),
         ({"-o": "no/such/folder/out.npz"}, 2, "no such folder"),
@@ -210,7 +212,8 @@ def test_what_is_not_there_is_one_line(capsys, arguments):
 def test_a_run_on_a_device_that_is_not_here_is_one_line(tmp_path, capsys):
     code, _, err = told(capsys, "run", "configs/quick.toml", "--runs", tmp_path, "--device", "opencl:none")
     assert code == 3
-    assert "opencl:none" in err
+    assert "there is no device 'opencl:none' here; known: " in err
+    assert all(info.name in err for info in usable_devices() if info.name.startswith("opencl:"))
     assert not list(tmp_path.iterdir())
 
 

@@ -5,11 +5,11 @@ import typing
 
 import pytest
 
-from harness.contract import FirsthitError, Variant
+from harness.contract import FirsthitError, Method, Parameter, Variant
 from harness.experiment import reading
 from harness.experiment.config import Config
 from harness.limits import Distinct, OneOf, Within
-from harness.plugins import find_methods
+from harness.plugins import Plugin, find_methods
 
 START = """title = "t"
 surfaces = ["sphere"]
@@ -146,6 +146,12 @@ def test_a_knob_is_a_finite_number(value):
         with pytest.raises(FirsthitError, match=f"newton: {name} is a finite number, not "):
             newton.variant({name: value})
     assert isinstance(newton.variant({"EPSILON": 1e-3}), Variant)
+
+
+def test_a_plugins_own_default_is_a_finite_number_too(tmp_path):
+    method = Method("mine", "nowhere", parameters=(Parameter("STEP", float("nan"), "a step"),))
+    with pytest.raises(FirsthitError, match="mine: STEP is a finite number, not nan"):
+        Plugin(method, tmp_path).variant({})
 
 
 def test_a_number_of_more_digits_than_python_reads_is_one_line(tmp_path):

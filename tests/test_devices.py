@@ -1,11 +1,15 @@
 """What every device must do, and that devices agree."""
 
+import importlib.util
+import os
+
 import numpy as np
 import pytest
 
 import surfaces
 from harness.contract import FirsthitError, RayStatus, TruthStatus, View
-from harness.devices.interface import hits_from, launch_camera, launch_rays, map_rows, open_device
+from harness.devices.executor import LocalExecutor
+from harness.devices.interface import find_devices, hits_from, launch_camera, launch_rays, map_rows, open_device
 from harness.devices.probes import PEAK_OPERATIONS, PEAK_SHAPES, peak_section, probe
 from harness.kernels.assemble import KERNELS, file_section, map_program, method_program
 from harness.oracle import first_hits
@@ -119,6 +123,19 @@ def test_timing_is_of_all_repetitions(device):
     assert timing.wall_ms > 0.0
     if timing.device_ms is not None:
         assert 0.0 < timing.device_ms <= 1.05 * timing.wall_ms
+
+
+@pytest.mark.skipif(not importlib.util.find_spec("pyopencl"), reason="no OpenCL binding")
+@pytest.mark.skipif("OCL_ICD_VENDORS" in os.environ, reason="the user's own list of drivers")
+def test_a_worker_leaves_no_files_behind_and_the_environment_as_it_was(tmp_path, monkeypatch):
+    monkeypatch.setenv("TMPDIR", str(tmp_path))
+    executor = LocalExecutor(60.0)
+    try:
+        found = executor.find("opencl")
+    finally:
+        executor.close()
+    assert [info.name for info in found] == [info.name for info in find_devices("opencl")]
+    assert not list(tmp_path.glob("firsthit*")) and "OCL_ICD_VENDORS" not in os.environ
 
 
 @pytest.mark.parametrize("name", ["opencl:nonesuch", "opengl:nonesuch", "vulkan:0", ""])

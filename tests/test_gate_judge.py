@@ -11,12 +11,12 @@ from harness.gate import baseline, outputs
 from harness.gate.against import verdict_of
 from harness.gate.baseline import Baseline
 from harness.gate.judge import Judged, Tolerance, Verdict, exit_code, judge, tolerances_of
-from harness.results import facts as device_facts
 from harness.results import figures
+from harness.results.facts import FACTS as COMPARED
 from harness.results.timings import Ratio
 
 FACTS = {"name": "opencl:a", "title": "A", "driver": "1", "compiler": "c", "processor": "p", "versions": {"b": "2"}}
-SAME = list(device_facts.FACTS)
+SAME = list(COMPARED)
 KEY = baseline.device_key(FACTS, SAME)
 ENTRY = {
     "status": "ok",

@@ -110,6 +110,12 @@ def test_a_device_with_a_problem_is_not_kept_unless_it_doubles_one_that_works(dr
     assert kept.recall("opencl") is None
 
 
+def test_that_there_is_no_device_is_not_kept(driver):
+    kept.keep("opencl", [DEVICE], [driver])
+    kept.keep("opencl", [], [driver])
+    assert kept.recall("opencl") is None
+
+
 def test_where_the_system_does_not_tell_what_ran_nothing_is_kept(cache):
     kept.keep("opencl", [DEVICE], None)
     assert not cache.exists()

@@ -17,8 +17,8 @@ from harness.kernels import printing
 from harness.kernels.assemble import map_program
 from harness.kernels.functions import expands, libraries_for, surface_sections, unsupported
 from surfaces import formula, lowering
-from surfaces.evaluation import evaluate_tape, tape_of
-from surfaces.numbers import BallPolynomials, Balls, Floats
+from surfaces.evaluation import Floats, evaluate_tape, tape_of
+from surfaces.numbers import BallPolynomials, Balls
 from surfaces.tape import Builder, walk
 
 CATALOG = [surfaces.get(name) for name in surfaces.names()]

@@ -10,8 +10,8 @@ from harness.accuracy.judge import judge
 from harness.contract import Hits, TruthStatus
 from harness.oracle import first_hits
 from harness.oracle.noise import Noise, RunningErrors
+from surfaces.evaluation import Floats
 from surfaces.lowering import coefficients_along, real_tape
-from surfaces.numbers import Floats
 from surfaces.tape import walk
 
 from .gallery import anywhere, entries, surface_named

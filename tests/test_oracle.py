@@ -253,7 +253,14 @@ def test_rays_that_are_not_rays(rays: np.ndarray, message: str, tmp_path: Path) 
 
 
 def test_importing_the_oracle_is_cheap() -> None:
-    code = "import sys, harness.oracle; print([m for m in ('flint', 'sympy', 'surfaces') if m in sys.modules])"
+    heavy = ("flint", "sympy", "surfaces.catalog", "surfaces.formula", "surfaces.evaluation")
+    code = f"import sys, harness.oracle; print([m for m in {heavy} if m in sys.modules])"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"
+
+
+def test_the_vocabulary_needs_no_numpy() -> None:
+    code = "import sys, harness.contract; print([m for m in ('numpy', 'surfaces.formula') if m in sys.modules])"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"
 

@@ -28,7 +28,7 @@ from harness.scenes.camera import camera_for, rays_of, scene_radius
 from harness.scenes.model import single
 from harness.scenes.records import depth_map
 from harness.scenes.views import AngleChoice, by_angle
-from reports.analysis import counts
+from reports.analysis import count_tests
 
 from .conftest import opened, usable_devices
 from .test_prepass import narrowed
@@ -139,8 +139,8 @@ def test_sturm_as_printed_needs_the_shift():
             wrong[origin] += int((verdicts.wrong != Wrong.RIGHT).sum())
             right = (verdicts.wrong == Wrong.RIGHT) & (hits.status == RayStatus.HIT)
             errors[origin] = max(errors[origin], float(np.abs(hits.t - truth.lower)[right].max()))
-    assert counts.exceeds(wrong["eye"], judged, wrong["nearest"], judged, factor=8.0), wrong
-    assert counts.exceeds(wrong["eye"], judged, wrong["entry"], judged, factor=8.0), wrong
+    assert count_tests.exceeds(wrong["eye"], judged, wrong["nearest"], judged, factor=8.0), wrong
+    assert count_tests.exceeds(wrong["eye"], judged, wrong["entry"], judged, factor=8.0), wrong
     assert errors["eye"] > 100.0 * errors["nearest"]
 
 

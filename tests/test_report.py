@@ -16,11 +16,10 @@ import pytest
 
 from harness.contract import FirsthitError, digest
 from harness.results import schema
-from reports import content, report
-from reports.analysis import derive, ties
+from reports import content, report, summary
+from reports.analysis import derive, shown, ties
 from reports.drawing import choice, images, tables
-from reports.parts import surfaces as surface_pages
-from reports.parts import winners
+from reports.parts import surface_pages, winners
 from reports.reading import arrays, load
 from tests.synthetic_run import cell, plan, printed, reported, retime, tiny_run, troubled, write_run
 
@@ -70,7 +69,7 @@ def test_every_planned_cell_is_accounted_for(loaded: load.Run, frame: pd.DataFra
     ]
     assert len(loaded.not_run) == 2
     assert len(frame) + len(loaded.unreadable) + len(loaded.not_run) == len(loaded.plan.slots) == 120
-    counts = tables.statuses(frame["status"], 2, 2)
+    counts = summary.statuses_table(frame["status"], 2, 2)
     total, *parts = counts.rows[0]
     assert total == sum(parts) == 120
     titles = [column.title for column in counts.columns]
@@ -102,7 +101,7 @@ def test_the_report_says_what_happened(run: Path) -> None:
 
 
 def test_winners_name_the_fastest_and_the_fastest_with_no_wrong_ray(frame: pd.DataFrame) -> None:
-    rows = {row[:3]: row[3:] for row in tables.winners(frame, ties.leaders(frame)).rows}
+    rows = {row[:3]: row[3:] for row in winners.winners_table(frame, ties.leaders(frame)).rows}
     group = frame[
         (frame["surface"] == "torus") & (frame["device"] == "opencl:intel") & (frame["precision"] == "float32")
     ]
@@ -149,7 +148,7 @@ def test_derived_columns(tmp_path: Path) -> None:
     assert np.isnan(rows["peak_share"]["null"]) and not rows["peak_too_low"].any()
     low = derive.derive(loaded.frame, loaded.plan.peaks).set_index("variant")
     assert np.isnan(low["peak_share"]["b"]) and low["peak_too_low"]["b"], "a share above 100 % is no share"
-    assert "the probe's peak is too low" in tables.flags(next(low.loc[["b"]].itertuples()))
+    assert "the probe's peak is too low" in surface_pages.flags(next(low.loc[["b"]].itertuples()))
 
 
 def test_the_share_of_peak_is_absent_where_no_peak_is_known(frame: pd.DataFrame) -> None:
@@ -161,10 +160,10 @@ def test_the_share_of_peak_is_absent_where_no_peak_is_known(frame: pd.DataFrame)
 
 
 def test_flags_say_what_to_know_of_a_row(frame: pd.DataFrame) -> None:
-    flagged = {word for table_row in frame.itertuples() for word in tables.flags(table_row).split(", ")}
+    flagged = {word for table_row in frame.itertuples() for word in surface_pages.flags(table_row).split(", ")}
     assert flagged - {"drifts", "1 outlier"} == {"", "floor", "front", "interval wide", "overhead 12 %"}
     for row in frame[frame["status"] == "ok"].itertuples():
-        words = tables.flags(row).split(", ")
+        words = surface_pages.flags(row).split(", ")
         assert ("interval wide" in words) == (not row.narrow)
         assert ("front" in words) == bool(row.front)
         assert ("floor" in words) == (row.method == "null")
@@ -181,7 +180,7 @@ def test_no_error_is_told_of_a_method_that_answers_nothing(loaded: load.Run, fra
     assert frame.loc[null, accuracy].isna().all(axis=None)
     kept = frame.loc[~null, accuracy]
     pd.testing.assert_frame_equal(kept, loaded.frame.loc[~null, accuracy])
-    table = tables.results(finished)
+    table = surface_pages.results_table(finished)
     titles = [column.title for column in table.columns]
     first, last = titles.index("max\nerror"), titles.index("evals per\nray cast")
     for row in table.rows:
@@ -257,7 +256,7 @@ def test_runs_with_nothing_to_show_still_make_a_report(tmp_path: Path) -> None:
     with pytest.raises(FirsthitError, match="cannot write the report") as raised:
         report.build(folder)
     assert raised.value.exit_code == 3
-    assert not list(folder.glob(".report-*"))
+    assert not list(folder.glob(".*"))
     (folder / "report.pdf").rmdir()
     assert report.build(folder).stat().st_size > 0
 
@@ -270,12 +269,12 @@ def test_a_damaged_array_file_is_listed_and_the_other_pictures_drawn(tmp_path: P
             broken.write_bytes(broken.read_bytes()[:200])
     loaded = load.load(folder)
     frame = derive.derive(loaded.frame)
-    shown = pd.concat([derive.drawn(rows) for _, rows in frame.groupby("surface")])
-    damaged = {f"arrays/{key}.npz" for key in shown["key"] if key.startswith(victim.name[0])}
+    drawn = pd.concat([shown.of_surface(rows) for _, rows in frame.groupby("surface")])
+    damaged = {f"arrays/{key}.npz" for key in drawn["key"] if key.startswith(victim.name[0])}
     shelf = arrays.Shelf(loaded.folders)
     galleries = images.galleries(shelf, frame, (-8, -2))
     assert {file.file for file in shelf.damaged.values()} == set(shelf.damaged) == damaged
-    assert sum(len(gallery.panels) for gallery in galleries.values()) == len(shown) - len(damaged)
+    assert sum(len(gallery.panels) for gallery in galleries.values()) == len(drawn) - len(damaged)
 
 
 def test_large_runs_print_only_what_matters(run: Path, frame: pd.DataFrame, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -298,7 +297,7 @@ def test_large_runs_print_only_what_matters(run: Path, frame: pd.DataFrame, monk
 
 def test_units_of_error_stand_beside_each_other(frame: pd.DataFrame) -> None:
     rows = frame[(frame["surface"] == "torus") & (frame["status"] == "ok")]
-    table = tables.units(rows)
+    table = surface_pages.units_table(rows)
     assert table is not None
     titles = [(column.over.replace("\n", " "), column.title) for column in table.columns]
     assert [title for title in titles[3:] if title[1] == "max"] == [

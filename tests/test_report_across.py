@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 
-from reports import across
 from reports.analysis import derive
+from reports.parts import devices_compared
 from reports.reading import load
 from tests.synthetic_run import write_run
 
 
 def test_each_row_is_one_variant_and_its_slowest_device_is_once_as_fast(tmp_path: Path) -> None:
     frame = derive.derive(load.load(write_run(tmp_path / "quick")).frame)
-    (section,) = across.sections(frame)
+    (section,) = devices_compared.sections(SimpleNamespace(listed=frame))
     (table,) = section.blocks
     devices = list(dict.fromkeys(column.over for column in table.columns if column.over))
     assert len(devices) > 1
@@ -35,4 +36,4 @@ def test_each_row_is_one_variant_and_its_slowest_device_is_once_as_fast(tmp_path
 
 def test_one_device_has_nothing_to_stand_beside(tmp_path: Path) -> None:
     frame = derive.derive(load.load(write_run(tmp_path / "quick")).frame)
-    assert across.sections(frame[frame["device"] == frame["device"].iloc[0]]) == []
+    assert devices_compared.sections(SimpleNamespace(listed=frame[frame["device"] == frame["device"].iloc[0]])) == []

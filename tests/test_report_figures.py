@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
 import pytest
 
-from reports import condition, content
+from reports import content
 from reports.analysis import derive
 from reports.drawing import canvas, images, plots, style
+from reports.parts import conditions
 from reports.reading import arrays, load
 from tests.synthetic_run import write_run
 
@@ -74,7 +76,9 @@ def test_a_method_keeps_its_mark_and_no_two_share_one() -> None:
 
 def test_errors_are_held_against_what_the_condition_allows(run: Path, frame: pd.DataFrame) -> None:
     marks = style.variant_marks(frame[["method", "variant"]].itertuples(index=False, name=None))
-    (section,) = condition.sections(arrays.Shelf(load.load(run).folders), frame, marks)
+    (section,) = conditions.sections(
+        SimpleNamespace(shelf=arrays.Shelf(load.load(run).folders), frame=frame, marks=marks)
+    )
     figures = [block for block in section.blocks if isinstance(block, content.Figure)]
     assert [figure.title.partition(",")[0] for figure in figures] == ["Sphere", "Torus", "Barth #6 $extic_* @65 <b>"]
     assert len(figures[1].svg) < 300_000, "summaries, not a mark for each ray"
@@ -82,16 +86,16 @@ def test_errors_are_held_against_what_the_condition_allows(run: Path, frame: pd.
     row = next(frame[(frame["variant"] == "newton[EPSILON=0.001]") & (frame["surface"] == "torus")].itertuples())
     stored = np.load(run / "arrays" / f"{row.key}.npz")
     both = np.isfinite(stored["error"]) & np.isfinite(stored["condition"])
-    cloud = condition._cloud(arrays.Shelf(load.load(run).folders), row)
+    cloud = conditions._cloud(arrays.Shelf(load.load(run).folders), row)
     assert cloud is not None and len(cloud.error) == both.sum()
     ratios = stored["error"][both] / (np.maximum(stored["condition"][both], 1) * 2.0**-24 * row.scene_radius)
     assert cloud.excess == pytest.approx(ratios.max())
-    told = condition._cloud(arrays.Shelf(load.load(run).folders), row._replace(domain_radius=2.0))
+    told = conditions._cloud(arrays.Shelf(load.load(run).folders), row._replace(domain_radius=2.0))
     assert told is not None and told.excess == pytest.approx(cloud.excess / 2)
-    edges = np.linspace(np.log10(cloud.condition).min(), np.log10(cloud.condition).max(), condition.BINS + 1)
-    filled, largest, median = condition._spread(cloud, edges)
+    edges = np.linspace(np.log10(cloud.condition).min(), np.log10(cloud.condition).max(), conditions.BINS + 1)
+    filled, largest, median = conditions._spread(cloud, edges)
     for number, top, middle in zip(filled, largest, median, strict=True):
-        last = number == condition.BINS - 1
+        last = number == conditions.BINS - 1
         place = np.log10(cloud.condition)
         errors = cloud.error[(place >= edges[number]) & ((place < edges[number + 1]) | last)]
         assert (top, middle) == (errors.max(), np.sort(errors)[len(errors) // 2])

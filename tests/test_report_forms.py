@@ -12,7 +12,7 @@ import pytest
 from harness.contract import digest
 from harness.studies import form_ranges
 from reports import content
-from reports.analysis import forms
+from reports.analysis.surface_names import PRINTED
 from tests.synthetic_run import cell, printed, reported, tiny_run
 
 TITLE = "How a formula is written"
@@ -49,13 +49,13 @@ def test_forms_are_held_against_the_printed_one_round_by_round(tmp_path: Path) -
     rows = [written("", 1.0, 1), written("nested", 0.5, 2, wrong=7), written("expanded", 1.0, 3)]
     section = page(tiny_run(tmp_path / "run", *rows, written("few", 2.0, 4, rounds=4)))
     cost = lines(section, "What a form costs.")
-    assert cost[forms.PRINTED][3].endswith(" ms")
+    assert cost[PRINTED][3].endswith(" ms")
     assert float(cost["nested"][3].rstrip("×")) == pytest.approx(0.5, rel=0.03)
     assert cost["expanded"][3] == "even"
     assert cost["few"][3].endswith("× ?"), "fewer rounds than tell anything apart"
     assert [row[0] for row in cost.values()] == ["Torus"] * 4
     worth = lines(section, "What a form's answers are worth.")
-    assert worth["nested"][2] == 7 and worth[forms.PRINTED][2] == 0
+    assert worth["nested"][2] == 7 and worth[PRINTED][2] == 0
 
 
 def test_a_failed_form_is_left_out_and_costs_no_page_of_others(tmp_path: Path) -> None:
@@ -63,7 +63,7 @@ def test_a_failed_form_is_left_out_and_costs_no_page_of_others(tmp_path: Path) -
     _, report = reported(tiny_run(tmp_path / "one", written("", 1.0, 1), failed))
     assert TITLE not in [section.title for section in report.sections]
     two = page(tiny_run(tmp_path / "two", written("", 1.0, 1), failed, written("expanded", 2.0, 3)))
-    assert list(lines(two, "What a form costs.")) == [forms.PRINTED, "expanded"]
+    assert list(lines(two, "What a form costs.")) == [PRINTED, "expanded"]
 
 
 def test_one_form_alone_makes_no_page_and_stays_in_the_lists(tmp_path: Path) -> None:
@@ -88,7 +88,7 @@ def test_the_study_of_ranges_is_tabled_and_drawn(tmp_path: Path, monkeypatch: py
     (folder / "studies" / "abc.json").write_text(json.dumps({"format": 1, "rows": form_ranges.compute()}))
     section = page(folder)
     made = lines(section, "What a form makes of f's range.")
-    assert list(made) == [forms.PRINTED, "nested", "squares"]
+    assert list(made) == [PRINTED, "nested", "squares"]
     assert made["squares"][3:6] == pytest.approx((1.0, 1.0, 1.0), abs=1e-3)
     assert "tangle 1.79× as printed, squares 1.00×" in printed(section.blocks)
     (figure,) = [b for b in section.blocks if isinstance(b, content.Figure)]

@@ -7,12 +7,10 @@ from typing import Any
 
 import pandas as pd
 
-from reports import stability
 from reports.analysis import breaks, derive
-from reports.claims import Outcome, picks, szente
+from reports.claims import Outcome, picks, szente_fit
 from reports.content import Block, Document, Table
-from reports.drawing import tables
-from reports.parts import cards
+from reports.parts import hard_rays, method_cards, surface_pages
 from reports.reading import load
 
 from .synthetic_run import cell, family_cell, reported, tiny_run
@@ -42,8 +40,8 @@ def test_invalid_answers_are_wrong_rays_and_have_a_column_where_there_are_any(tm
     clean, bad = frame_of(tmp_path / "a", made()), frame_of(tmp_path / "b", made(invalid=7, grazing_invalid=2))
     assert (clean["wrong_rays"].iloc[0], bad["wrong_rays"].iloc[0], bad["grazing_wrong_rays"].iloc[0]) == (0, 7, 2)
     assert not derive.all_right(bad).any() and not bad["front"].any()
-    assert "in-\nvalid" not in heads(tables.results(clean))
-    table = tables.results(bad)
+    assert "in-\nvalid" not in heads(surface_pages.results_table(clean))
+    table = surface_pages.results_table(bad)
     assert table.rows[0][heads(table).index("in-\nvalid")] == 7
     _, document = reported(tmp_path / "b")
     assert any("in-\nvalid" in heads(block) for block in blocks(document) if isinstance(block, Table))
@@ -54,18 +52,18 @@ def test_rows_of_before_invalid_was_counted_still_load(tmp_path: Path) -> None:
     del old["accuracy"]["invalid"], old["accuracy"]["grazing_invalid"]
     frame = frame_of(tmp_path / "a", old)
     assert frame["wrong_rays"].iloc[0] == 3
-    assert "in-\nvalid" not in heads(tables.results(frame))
+    assert "in-\nvalid" not in heads(surface_pages.results_table(frame))
 
 
 def test_an_invalid_answer_breaks_what_a_method_claims_of_the_ray(tmp_path: Path) -> None:
     frame = frame_of(tmp_path / "a", made(invalid=7, grazing_invalid=2))
     for name, count in (("no_missed_root", 9), ("conservative_bound", 7), ("no_false_hit", 7)):
-        assert f"Broken by {count} of" in cards._claims("ray_march", [name], frame), name
+        assert f"Broken by {count} of" in method_cards._claims("ray_march", [name], frame), name
 
 
 def test_undecided_hits_are_told_under_the_results(tmp_path: Path) -> None:
-    assert "undecided" not in tables.results(frame_of(tmp_path / "a", made())).caption
-    caption = tables.results(frame_of(tmp_path / "b", made(undecided=3))).caption
+    assert "undecided" not in surface_pages.results_table(frame_of(tmp_path / "a", made())).caption
+    caption = surface_pages.results_table(frame_of(tmp_path / "b", made(undecided=3))).caption
     assert "The oracle left 3 hits undecided" in caption
 
 
@@ -75,14 +73,14 @@ def test_invalid_answers_to_hard_rays_have_a_column(tmp_path: Path) -> None:
         rung |= {"right": rung["right"] - 5, "invalid": 5}
     run = load.load(tiny_run(tmp_path / "a", hard))
     verdicts = breaks.verdicts(breaks.derive(run.families, run.rungs))
-    table = stability.table(verdicts, run.plan.facts, "x")
+    table = hard_rays.table(verdicts, run.plan.facts, "x")
     assert table.rows[0][heads(table).index("in-\nvalid")] == 5 * len(hard["rungs"])
 
 
 def test_a_row_that_was_never_held_against_the_oracle_confirms_no_claim(tmp_path: Path) -> None:
     rows = [planted(picks.FIT, surface, 1.0) for surface in picks.TABLE_4]
-    verdict = szente._no_artifacts(evidence(tmp_path / "a", *rows))
+    verdict = szente_fit._no_artifacts(evidence(tmp_path / "a", *rows))
     assert verdict is not None and verdict.outcome is Outcome.CONFIRMED
     for row in rows:
         row["accuracy"] = None
-    assert szente._no_artifacts(evidence(tmp_path / "b", *rows)) is None
+    assert szente_fit._no_artifacts(evidence(tmp_path / "b", *rows)) is None

@@ -9,11 +9,12 @@ import numpy as np
 import pytest
 
 from harness.contract import FROM_ORIGIN, ORIGINS, digest
-from reports import claims, origins
+from reports import claims
 from reports.analysis import breaks, derive
 from reports.claims import Claim, Outcome, Verdict
 from reports.claims.evidence import Evidence, Pick
 from reports.content import Text
+from reports.parts import origins
 from reports.reading import load
 from reports.reading.arrays import Shelf
 from tests.synthetic_run import FAMILIES, cell, family_cell, reported, retime, tiny_run
@@ -65,7 +66,7 @@ def test_no_time_is_told_of_wrong_answers(tmp_path: Path) -> None:
     rows = origins.paired(rows_of(tmp_path / "run", *GAINS))
     _, second = origins.conclusions(rows)
     assert second.endswith("what that costs is not told.")
-    assert np.isnan(origins.table(rows).rows[0][-2])
+    assert np.isnan(origins.by_variant(rows).rows[0][-2])
 
 
 @pytest.mark.parametrize(("nearest", "eye"), [(5, 8), (8, 5)])
@@ -93,7 +94,7 @@ def test_tables_have_a_line_for_each_variant_and_scene(tmp_path: Path) -> None:
     ball = [moved(origin, 1, 1e-5, 1.0, surface="sphere") for origin in ("nearest", "eye")]
     alone = moved("nearest", 0, 1e-6, 1.0, "newton[EPSILON=0.001]")
     rows = origins.paired(rows_of(tmp_path / "run", *GAINS, *null, *ball, alone))
-    by = {line[0]: line[1:] for line in origins.table(rows).rows}
+    by = {line[0]: line[1:] for line in origins.by_variant(rows).rows}
     assert set(by) == {"ray_march", "null"}, "what began at one origin alone is no pair"
     assert by["ray_march"][:4] == (1, 2, 3, 300), (
         "the ball has no row from the entry: its sum would compare with nothing"
@@ -101,7 +102,7 @@ def test_tables_have_a_line_for_each_variant_and_scene(tmp_path: Path) -> None:
     assert by["ray_march"][7:10] == pytest.approx((1e-6, 2e-6, 1e-3))
     assert by["null"][1:10] == (None,) * 9, "it finds nothing, so that its misses say nothing"
     assert by["null"][10:] == pytest.approx((2.0, 1.5))
-    assert len(origins.scenes(rows).rows) == 3
+    assert len(origins.by_scene(rows).rows) == 3
 
 
 def test_families_held_from_one_origin_alone_are_named(tmp_path: Path) -> None:
@@ -115,7 +116,7 @@ def test_families_held_from_one_origin_alone_are_named(tmp_path: Path) -> None:
             made |= {"variant": "newton" + FROM_ORIGIN[origin], "origin": origin}
             cells.append(made | {"key": digest(family, origin), "slot": f"{family} {origin}"})
     run = load.load(tiny_run(tmp_path / "run", *cells))
-    table = origins.hard_rays(breaks.derive(run.families, run.rungs), run.plan.facts)
+    table = origins.families_held(breaks.derive(run.families, run.rungs), run.plan.facts)
     assert table is not None
     ((_, _, caster, of, nearest, eye, lost, won),) = table.rows
     assert (caster, of, nearest, eye, won) == ("newton", 2, 2, 1, "none")

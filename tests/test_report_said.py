@@ -14,10 +14,10 @@ from harness.contract import CLAIMS, View, digest
 from harness.plugins import find_methods
 from harness.running.cards import card
 from harness.scenes.views import DirectionChoice, by_direction
-from reports import condition, content, machine, summary, wording
+from reports import content, summary, wording
 from reports.analysis import derive, viewstats
-from reports.drawing import choice, plots, style, tables, viewplots
-from reports.parts import cards, own_front, rerun
+from reports.drawing import choice, plots, style, viewplots
+from reports.parts import conditions, environment, method_cards, own_front, rerun, surface_pages
 from reports.reading import load
 from reports.report import Material, Shelf
 from tests.synthetic_run import SURFACES, cell, printed, reported, retime, tiny_run, write_run
@@ -45,15 +45,15 @@ def planned(folder: Path, **told: Any) -> Path:
 # ---- ties
 
 
-def cloud(variant: str, excess: float) -> condition.Cloud:
-    return condition.Cloud(variant, variant, "float32", np.array([1.0]), np.array([excess * 2.0**-24]))
+def cloud(variant: str, excess: float) -> conditions.Cloud:
+    return conditions.Cloud(variant, variant, "float32", np.array([1.0]), np.array([excess * 2.0**-24]))
 
 
 def test_all_whose_worst_error_over_condition_is_the_same_are_named() -> None:
-    caption = condition._caption([cloud("a", 12.0), cloud("b", 3.0), cloud("c", 12.01), cloud("d", 3.0)], "domain's")
+    caption = conditions._caption([cloud("a", 12.0), cloud("b", 3.0), cloud("c", 12.01), cloud("d", 3.0)], "domain's")
     assert caption == "Worst error over the line, in float32: from 3.0 (b and d) to 12 (a and c)."
-    assert "float32: 3.0 (a and b)." in condition._caption([cloud("a", 3.0), cloud("b", 3.0)], "domain's")
-    assert "float32: 3.0 (a)." in condition._caption([cloud("a", 3.0)], "domain's")
+    assert "float32: 3.0 (a and b)." in conditions._caption([cloud("a", 3.0), cloud("b", 3.0)], "domain's")
+    assert "float32: 3.0 (a)." in conditions._caption([cloud("a", 3.0)], "domain's")
 
 
 # ---- claims of a method
@@ -62,19 +62,21 @@ def test_all_whose_worst_error_over_condition_is_the_same_are_named() -> None:
 def test_a_card_says_what_a_claim_excepts_and_on_which_rays_it_held(tmp_path: Path) -> None:
     rows = framed(tmp_path / "run", timed("ray_march", "torus", 1.0), timed("ray_march", "sphere", 1.0))
     for name in CLAIMS:
-        assert CLAIMS[name] in cards._claims("ray_march", [name], rows)
-    told = cards._claims("ray_march", ["no_false_hit"], rows.assign(judged=100))
+        assert CLAIMS[name] in method_cards._claims("ray_march", [name], rows)
+    told = method_cards._claims("ray_march", ["no_false_hit"], rows.assign(judged=100))
     assert "on rays that are neither grazing nor drowned. Held on 200 decided rays" in told
     assert told.endswith("in 2 rows of this run (2 surfaces in float32 on opencl:intel).")
-    passed = cards._claims("ray_march", ["no_missed_root"], rows.assign(misses=0, grazing_misses=0, wrong_root=4))
+    passed = method_cards._claims(
+        "ray_march", ["no_missed_root"], rows.assign(misses=0, grazing_misses=0, wrong_root=4)
+    )
     assert "of 8 wrong roots it is not counted which are later ones" in passed
-    assert "`firsthit conform --method mine` checks it" in cards._claims("mine", ["finds_touch"], rows)
+    assert "`firsthit conform --method mine` checks it" in method_cards._claims("mine", ["finds_touch"], rows)
 
 
 def test_a_card_says_what_the_source_prints_for_a_knob() -> None:
     knob = {"name": "SPLIT", "default": 1, "meaning": "where it parts", "printed": 0}
-    assert cards._knob(knob) == "SPLIT = 1 (where it parts; as printed 0)"
-    assert cards._knob(knob | {"printed": None}) == "SPLIT = 1 (where it parts)"
+    assert method_cards._knob(knob) == "SPLIT = 1 (where it parts; as printed 0)"
+    assert method_cards._knob(knob | {"printed": None}) == "SPLIT = 1 (where it parts)"
 
 
 # ---- the floor
@@ -126,7 +128,10 @@ def test_an_error_of_0_is_explained_wherever_one_is_printed(tmp_path: Path) -> N
     assert shown >= 2
     table = choice.table(derive.derive(run.frame))
     assert table is not None and wording.ZERO in table.caption
-    assert wording.ZERO not in tables.results(framed(tmp_path / "other", timed("newton", "torus", 1.0))).caption
+    assert (
+        wording.ZERO
+        not in surface_pages.results_table(framed(tmp_path / "other", timed("newton", "torus", 1.0))).caption
+    )
     text = "\n".join(printed(section.blocks) for section in report.sections)
     assert text.count(wording.ZERO) > shown, "in how to read the pages too"
 
@@ -145,7 +150,7 @@ def test_a_share_of_a_peak_has_one_digit_and_the_devices_say_how_well_it_is_know
     folder = tiny_run(tmp_path / "run", cell("ray_march", "torus", "opencl:intel", "float32"))
     devices = json.loads((folder / "plan.json").read_text())["devices"]
     devices[0]["probes"] |= {"peak_gflops": 528.8, "peak_median_gflops": 311.2}
-    table = machine.devices(load.load(planned(folder, devices=devices)).plan)
+    table = environment.devices_table(load.load(planned(folder, devices=devices)).plan)
     titles = [column.title for column in table.columns if column.over]
     assert titles == ["peak", "median"]
     line = " | ".join(column.show(value) for column, value in zip(table.columns, table.rows[0], strict=True))

@@ -1,12 +1,13 @@
 """The report on scenes: what it holds against what, from planted rows."""
 
 import math
+from types import SimpleNamespace
 
 import pandas as pd
 import pytest
 
-from reports import scenes
 from reports.claims.toledo_tori import crossing
+from reports.parts import instance_scenes
 
 
 def row(variant, ms, error, casts="rays", wrong=0, pixels=0.0, evaluations=10.0):
@@ -48,7 +49,11 @@ def row(variant, ms, error, casts="rays", wrong=0, pixels=0.0, evaluations=10.0)
 
 
 def table(rows, title):
-    blocks = [block for section in scenes.sections(pd.DataFrame(rows)) for block in section.blocks]
+    blocks = [
+        block
+        for section in instance_scenes.sections(SimpleNamespace(listed=pd.DataFrame(rows)))
+        for block in section.blocks
+    ]
     return next(block for block in blocks if getattr(block, "title", "").startswith(title))
 
 

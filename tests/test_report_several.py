@@ -11,8 +11,8 @@ import pytest
 from harness.contract import FirsthitError
 from reports import compare, report
 from reports.analysis import derive
+from reports.analysis.scene_names import scene_names
 from reports.claims.evidence import Evidence
-from reports.drawing import tables
 from reports.reading import arrays, load
 from tests.synthetic_run import cell, plan, printed, tiny_run
 
@@ -33,7 +33,7 @@ def test_a_run_that_collects_others_keeps_their_rows_apart(tmp_path: Path) -> No
     frame = derive.derive(loaded.frame)
     assert frame["run"].tolist() == ["one", "one", "two"]
     assert frame["speedup"].notna().tolist() == [True, True, False], "nothing is compared across runs"
-    assert sorted(set(tables.places(frame).values())) == ["Torus (one)", "Torus (two)"]
+    assert sorted(set(scene_names(frame).values())) == ["Torus (one)", "Torus (two)"]
     assert [file.file for file in loaded.unreadable] == ["three"]
     rows = Evidence(frame, {}, arrays.Shelf(loaded.folders))
     assert rows.of("two.toml").frame["run"].tolist() == ["two"]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -11,9 +12,10 @@ import pytest
 
 from harness.contract import View, digest
 from harness.scenes.views import AngleChoice, DirectionChoice, by_angle, by_direction
-from reports import content, evaluations, growth, views
+from reports import content
 from reports.analysis import derive, fits, viewstats
 from reports.drawing import images, style, viewplots
+from reports.parts import evaluations, growth, view_dependence
 from reports.reading import arrays, load
 from tests.synthetic_run import SURFACES, cell, printed, reported, tiny_run
 from tests.synthetic_run import arrays as made_arrays
@@ -47,6 +49,14 @@ def framed(folder: Path, *cells: dict[str, Any]) -> pd.DataFrame:
     return derive.derive(load.load(tiny_run(folder, *cells)).frame)
 
 
+def curves(frame: pd.DataFrame, axis: growth.Axis) -> list[growth.Curve]:
+    return growth._curves(axis, growth._points(frame, axis)[0])
+
+
+def grown(frame: pd.DataFrame, marks: dict[str, style.Mark]) -> list[content.Section]:
+    return growth.sections(SimpleNamespace(listed=frame, marks=marks))
+
+
 @pytest.fixture(scope="module")
 def run(tmp_path_factory: pytest.TempPathFactory) -> Path:
     angles, around = by_angle(AngleChoice()), by_direction(DirectionChoice(24))
@@ -76,7 +86,7 @@ def test_rows_tell_their_camera(frame: pd.DataFrame) -> None:
 def test_spread_is_the_papers(frame: pd.DataFrame) -> None:
     angles, around = viewstats.view_sets(frame)
     assert (angles.kind, around.kind) == ("angles", "directions"), "two views of no set are none"
-    table = viewstats.dependence(angles)
+    table = view_dependence.dependence_table(angles)
     rows = {row[0]: row for row in table.rows}
     assert [row[0] for row in table.rows] == ["newton[EPSILON=0.001]", "ray_march", "null"], "most dependent first"
     titles = [(column.over.partition(",")[0], column.title) for column in table.columns]
@@ -90,7 +100,7 @@ def test_spread_is_the_papers(frame: pd.DataFrame) -> None:
     null = dict(zip(titles, rows["null"], strict=True))
     assert null["rays in the domain", "mean"] == pytest.approx(256 * 256 / 2 / 0.01e-3 / 1e6), "shares are the scene's"
     assert null["wrong rays", "all"] is None and null["worst error", "view"] is None
-    wrong = viewstats.wrong_rays(around)
+    wrong = view_dependence.wrong_rays_table(around)
     assert wrong is not None
     assert [row[:4] for row in wrong.rows] == [("ray_march", "direction 03", 2, 2), ("ray_march", "direction 02", 1, 1)]
 
@@ -110,7 +120,7 @@ def test_the_report_shows_each_set_and_lists_its_first_view_elsewhere(run: Path,
     assert "direction 02" not in results
     kept = viewstats.one_view_of_each(frame)
     assert set(kept["view"]) == {*(f"angle {a}" for a in range(0, 91, 18)), "direction 01", "a", "b"}
-    assert views.sections(kept[kept["view_set"] != "angles"], {}, (-8, -2)) == []
+    assert view_dependence.sections(SimpleNamespace(frame=kept[kept["view_set"] != "angles"])) == []
 
 
 def test_the_map_is_equal_area_and_gives_each_place_its_nearest_direction() -> None:
@@ -174,17 +184,17 @@ def test_growth_against_pixels_and_degree_and_instances(tmp_path: Path) -> None:
         cells.append(viewed("null", view, 0.3, surface, size=64))
     frame = framed(tmp_path / "run", *cells)
     pixels, degree, instances = growth.AXES
-    (curve,) = growth.curves(frame, pixels)
+    (curve,) = curves(frame, pixels)
     assert (curve.variant, curve.fit.points) == ("ray_march", 3)
     assert curve.fit.exponent == pytest.approx(0.9)
-    (curve,) = growth.curves(frame, degree)
+    (curve,) = curves(frame, degree)
     assert (curve.variant, curve.fit.exponent) == ("newton[EPSILON=0.001]", pytest.approx(2.0))
-    assert growth.curves(frame, instances) == []
+    assert curves(frame, instances) == []
     many = frame[frame["size"] == 64].iloc[[0] * 4].assign(instances=[1, 10, 100, 1000], scene="lattice")
     many = many.assign(median_ms=[1, 10, 100, 1000.0])
-    (curve,) = growth.curves(many, instances)
+    (curve,) = curves(many, instances)
     assert curve.fit.exponent == pytest.approx(1.0)
-    sections = growth.sections(frame, style.variant_marks([("newton", curve.variant), ("ray_march", "ray_march")]))
+    sections = grown(frame, style.variant_marks([("newton", curve.variant), ("ray_march", "ray_march")]))
     assert [section.title for section in sections] == ["Cost against pixels", "Cost against degree"]
     assert "0.90" in printed(sections[0].blocks) and "2.00" in printed(sections[1].blocks)
 
@@ -200,15 +210,15 @@ def test_points_are_of_right_rows_in_the_floors_own_rounds_and_the_rest_is_count
             made["time"] |= {"samples_ms": [0.3] * 20 + [9.9] * 30, "rounds": list(range(50)), "median_ms": 9.9}
     frame = framed(tmp_path / "run", *cells)
     degree_axis = growth.AXES[1]
-    (curve,) = growth.curves(frame, degree_axis)
+    (curve,) = curves(frame, degree_axis)
     assert (curve.variant, curve.fit.exponent) == ("newton[EPSILON=0.001]", pytest.approx(2.0))
-    (section,) = growth.sections(frame, style.variant_marks([("newton", curve.variant)]))
+    (section,) = grown(frame, style.variant_marks([("newton", curve.variant)]))
     told = printed(section.blocks)
     assert "Left out: 1 row with a ray away from silhouettes answered wrongly, or unchecked; a line" in told
     for made in cells:
         if made["method"] == "newton" and made["surface"] == "torus":
             made["time"]["session"] = "another day"
-    (section,) = growth.sections(framed(tmp_path / "apart", *cells), {})
+    (section,) = grown(framed(tmp_path / "apart", *cells), {})
     assert "and 1 row without a round shared with the null method; a line" in printed(section.blocks)
 
 
@@ -224,7 +234,9 @@ def test_evaluations_are_drawn_and_the_worst_of_many_views_chosen(tmp_path: Path
     for made in seen[:6]:
         np.savez_compressed(folder / made["arrays"], **made_arrays(made))
     frame = derive.derive(load.load(folder).frame)
-    (section,) = evaluations.sections(arrays.Shelf(load.load(folder).folders), frame, (-8, -2))
+    (section,) = evaluations.sections(
+        SimpleNamespace(shelf=arrays.Shelf(load.load(folder).folders), frame=frame, error_scale=(-8, -2))
+    )
     (gallery,) = [block for block in section.blocks if isinstance(block, content.Gallery)]
     (panel,) = gallery.panels
     assert panel.title == "ray_march, Torus, angle 54" and "4 wrong" in panel.note

@@ -6,6 +6,7 @@ from __future__ import annotations
 import json
 import math
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -13,9 +14,10 @@ import pytest
 
 from harness.contract import FirsthitError, digest
 from harness.results import ranks, timings
-from reports import content, evaluations, growth, summary
-from reports.analysis import counts, derive, ties
+from reports import content, summary
+from reports.analysis import count_tests, derive, ties
 from reports.drawing import choice, style
+from reports.parts import evaluations, growth
 from reports.reading import load
 from reports.reading.arrays import Arrays
 from tests.synthetic_run import cell, printed, reported, retime, tiny_run, write_run
@@ -186,33 +188,33 @@ def test_binomial_tails_against_sums_of_products() -> None:
     for of, share in ((1, 0.3), (5, 0.5), (12, 0.01), (12, 0.9)):
         chances = [math.comb(of, k) * share**k * (1 - share) ** (of - k) for k in range(of + 1)]
         for count in range(of + 1):
-            assert counts.at_least_by_chance(count, of, share) == pytest.approx(sum(chances[count:]))
-            assert counts.at_most_by_chance(count, of, share) == pytest.approx(sum(chances[: count + 1]))
-    assert counts.at_most_by_chance(0, 16_384, 0.001) == pytest.approx(0.999**16_384)
+            assert count_tests.at_least_by_chance(count, of, share) == pytest.approx(sum(chances[count:]))
+            assert count_tests.at_most_by_chance(count, of, share) == pytest.approx(sum(chances[: count + 1]))
+    assert count_tests.at_most_by_chance(0, 16_384, 0.001) == pytest.approx(0.999**16_384)
 
 
 def test_two_rays_of_16384_are_no_more_than_none() -> None:
-    assert counts.exceeds(2, 16_384, 0, 16_384) is None
-    assert counts.exceeds(2, 16_384, 0, 16_384, factor=2.0) is None
-    assert counts.exceeds(40, 16_384, 0, 16_384, factor=2.0, tries=15) is True
-    assert counts.exceeds(40, 16_384, 40, 16_384, factor=2.0) is False
-    assert counts.exceeds(40, 16_384, 40, 16_384) is None
-    assert counts.exceeds(0, 16_384, 40, 16_384) is False
-    assert counts.exceeds(5, 0, 0, 100) is None, "no ray, no verdict"
+    assert count_tests.exceeds(2, 16_384, 0, 16_384) is None
+    assert count_tests.exceeds(2, 16_384, 0, 16_384, factor=2.0) is None
+    assert count_tests.exceeds(40, 16_384, 0, 16_384, factor=2.0, tries=15) is True
+    assert count_tests.exceeds(40, 16_384, 40, 16_384, factor=2.0) is False
+    assert count_tests.exceeds(40, 16_384, 40, 16_384) is None
+    assert count_tests.exceeds(0, 16_384, 40, 16_384) is False
+    assert count_tests.exceeds(5, 0, 0, 100) is None, "no ray, no verdict"
 
 
 def test_a_tenth_of_a_percent_needs_rays() -> None:
-    assert counts.share_exceeds(0, 100, 0.001) is None
-    assert counts.share_exceeds(0, 16_384, 0.001) is False
-    assert counts.share_exceeds(1, 1000, 0.001) is None
-    assert counts.share_exceeds(60, 16_384, 0.001) is True
+    assert count_tests.share_exceeds(0, 100, 0.001) is None
+    assert count_tests.share_exceeds(0, 16_384, 0.001) is False
+    assert count_tests.share_exceeds(1, 1000, 0.001) is None
+    assert count_tests.share_exceeds(60, 16_384, 0.001) is True
 
 
 def test_equal_rates_are_told_apart_as_seldom_as_promised(rng: Any) -> None:
     pairs = rng.binomial(16_384, 0.002, (2000, 2))
-    told = [counts.exceeds(int(a), 16_384, int(b), 16_384) for a, b in pairs]
-    assert np.mean([verdict is True for verdict in told]) <= counts.LEVEL + 0.005
-    assert np.mean([verdict is False for verdict in told]) <= counts.LEVEL + 0.005
+    told = [count_tests.exceeds(int(a), 16_384, int(b), 16_384) for a, b in pairs]
+    assert np.mean([verdict is True for verdict in told]) <= count_tests.LEVEL + 0.005
+    assert np.mean([verdict is False for verdict in told]) <= count_tests.LEVEL + 0.005
 
 
 # ---- fits and evaluations
@@ -221,7 +223,7 @@ def test_equal_rates_are_told_apart_as_seldom_as_promised(rng: Any) -> None:
 def test_a_fit_through_three_surfaces_is_refused_with_its_reason(tmp_path: Path) -> None:
     cells = [timed("newton", surface, ms) for surface, ms in zip(SCENES, (1.0, 9.0, 2.0), strict=True)]
     frame = derive.derive(load.load(tiny_run(tmp_path / "run", *cells)).frame)
-    (section,) = [s for s in growth.sections(frame, style.variant_marks([("newton", "newton")]))]
+    (section,) = growth.sections(SimpleNamespace(listed=frame, marks=style.variant_marks([("newton", "newton")])))
     told = printed(section.blocks)
     assert "3 points do not determine an exponent: the 95 % interval of 0.90, −" in told
     assert "| newton | 3 | – | – | – |" in told

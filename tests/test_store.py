@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from harness.contract import FirsthitError
-from harness.results.store import Store, savez_atomically, write_atomically
+from harness.results.store import Store
+from harness.results.writing import savez_atomically, write_atomically
 
 
 def test_a_row_comes_back_and_names_its_arrays(tmp_path):

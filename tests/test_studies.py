@@ -53,7 +53,9 @@ def test_a_run_stores_studies_and_reuses_them(tmp_path, capsys):
 
 
 def test_published_tables_cite_their_paper():
-    for name in published.names():
+    names = [path.stem for path in published.FOLDER.glob("*.csv")]
+    assert names
+    for name in names:
         table = published.table(name)
         assert any(title in table.citation for title in ("Szente", "de Toledo", "beam casting"))
         assert table.rows

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from harness.contract import DeviceInfo, FirsthitError
-from harness.devices.interface import device_named
+from harness.devices.interface import device_named, working
 from surfaces.words import suggestion
 
 ROOT = Path(__file__).parent.parent
@@ -38,6 +38,9 @@ def test_a_device_that_is_not_here_is_answered_with_those_that_are():
 
     found = [device("opencl:good"), device("opencl:bad", "its compiler fails")]
     assert device_named("opencl:good", iter(found)) is found[0]
+    assert working(found) == found[:1]
+    with pytest.raises(FirsthitError, match="no usable device"):
+        working(found[1:])
     for name, words in (
         ("opencl:god", "there is no device 'opencl:god' here; known: opencl:good, opencl:bad; see `firsthit devices`"),
         ("opencl:bad", "device 'opencl:bad' cannot be used: its compiler fails"),

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +18,7 @@ from harness.accuracy.judge import Deviations, Verdicts
 from harness.accuracy.pictures import pictures_of
 from harness.contract import Hits, Precision, Surface, Truth
 from harness.oracle import cached_first_hits
+from harness.results.row import Accuracy
 from harness.scenes.camera import meets, scene_radius
 
 
@@ -59,31 +60,32 @@ class Cast:
 
 
 def figures(
-    cast: Cast, truth_folder: Path, grazing_margin: float, precision: Precision, footprint: float
-) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
+    answered: Cast, truth_folder: Path, grazing_margin: float, precision: Precision, footprint: float
+) -> tuple[Accuracy, dict[str, NDArray[Any]]]:
     """Return the figures of a row's accuracy, and its pictures; `footprint` is a pixel's height at distance 1."""
-    surface, size = cast.surface, round(len(cast.rays) ** 0.5)
+    surface, size = answered.surface, round(len(answered.rays) ** 0.5)
     radius = scene_radius(surface)
-    certified = cast.certified(truth_folder, grazing_margin * radius)
+    certified = answered.certified(truth_folder, grazing_margin * radius)
     truth = certified.truth
-    verdicts = judge.judge(cast.hits, truth, radius, grazing_margin, precision)
-    verdicts, corrected = cast.judged(verdicts, certified)
+    verdicts = judge.judge(answered.hits, truth, radius, grazing_margin, precision)
+    verdicts, corrected = answered.judged(verdicts, certified)
     summary = judge.summarize(
         surface,
-        cast.hits,
+        answered.hits,
         truth,
         verdicts,
-        cast.deviations(truth, verdicts),
+        answered.deviations(truth, verdicts),
         precision=precision,
         footprint=footprint,
         grazing_margin=grazing_margin,
     )
-    inside = int(meets(surface.domain, cast.rays).sum())
-    pictures = pictures_of(surface, cast.rays, cast.hits, truth, verdicts, size)
-    return {"size": size, "domain_rays": inside} | summary | corrected | cast.facts, pictures | cast.pictures
+    inside = int(meets(surface.domain, answered.rays).sum())
+    pictures = pictures_of(surface, answered.rays, answered.hits, truth, verdicts, size)
+    found = {"size": size, "domain_rays": inside} | summary | corrected | answered.facts
+    return cast(Accuracy, found), pictures | answered.pictures
 
 
-def unjudged(summary: dict[str, Any], undecided: float) -> str | None:
+def unjudged(summary: Accuracy, undecided: float) -> str | None:
     """Say why a summary tells no accuracy, if it does not; `undecided` is the share of hits that may be so."""
     reason = judge.undecided_hits(summary["truth_hits"], summary["undecided"], undecided)
     if reason or judge.wrong_share(summary) is None:
@@ -91,7 +93,7 @@ def unjudged(summary: dict[str, Any], undecided: float) -> str | None:
     return None
 
 
-def too_wrong(summary: dict[str, Any], most: float) -> str | None:
+def too_wrong(summary: Accuracy, most: float) -> str | None:
     """Say why a cell is too wrong to be timed, if more than the share `most` of its judged rays is wrong."""
     share = judge.wrong_share(summary)
     if share is not None and not share <= most:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import IntEnum
 from typing import Any
@@ -10,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from harness.contract import UNIT_ROUNDOFF, Hits, Precision, RayStatus, Surface, Truth, TruthStatus
+from harness.results.row import Quantiles
 from harness.scenes.camera import scene_radius
 
 # Unit roundoffs under which a ray's contrast leaves f's sign in doubt: one is the kernel's, whose bound is of first
@@ -111,7 +113,7 @@ def nothing_judged(rays: int) -> str:
     return f"none of the {rays} rays is decided and neither grazing nor drowned: nothing to judge"
 
 
-def _quantiles(values: NDArray[np.float64]) -> dict[str, float | None]:
+def _quantiles(values: NDArray[np.float64]) -> Quantiles:
     """Return quantiles of the finite values: a normal has no direction at a singular point, a touch no condition."""
     values = values[np.isfinite(values)]
     if not len(values):
@@ -207,7 +209,7 @@ def summarize(
     return summary
 
 
-def wrong_share(summary: dict[str, Any]) -> float | None:
+def wrong_share(summary: Mapping[str, Any]) -> float | None:
     """The share of judged rays (see `judged`) that were answered wrongly; None where there are none to judge."""
     wrong = sum(summary[name] for name in NAMES.values())
     return min(1.0, wrong / summary["judged"]) if summary["judged"] else None

@@ -21,10 +21,11 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from harness.accuracy.judge import NAMES, Wrong, judge
+from harness.accuracy.judge import Wrong, judge
 from harness.contract import UNIT_ROUNDOFF, Hits, Precision, Truth, TruthStatus
 from harness.hardcases.groups import Group
 from harness.hardcases.model import Rung
+from harness.results.row import RungVerdict
 from harness.scenes.camera import scene_radius
 
 ROUNDINGS = 4.0
@@ -37,8 +38,8 @@ def knowable_margin(rung: Rung, precision: Precision) -> float:
     return ROUNDINGS * UNIT_ROUNDOFF[precision] * (domain.radius + math.hypot(*domain.center))
 
 
-def judge_rung(rung: Rung, hits: Hits, truth: Truth, precision: Precision) -> dict[str, Any]:
-    """Counts, errors in scene units, and stability; all of it JSON.
+def judge_rung(rung: Rung, hits: Hits, truth: Truth, precision: Precision) -> RungVerdict:
+    """Count right and wrong answers, and measure errors and stability.
 
     rays = decided + undecidable + undecided, and decided = right + misses + false_hits + exhausted + wrong_root
     + invalid. An answer that can be none is wrong whatever the truth, so that its ray is a decided one.
@@ -55,13 +56,21 @@ def judge_rung(rung: Rung, hits: Hits, truth: Truth, precision: Precision) -> di
     right = verdicts.wrong == Wrong.RIGHT
     measured = decided & np.isfinite(verdicts.error)
     error = verdicts.error[measured]
+
+    def count(kind: Wrong) -> int:
+        return int((decided & (verdicts.wrong == kind)).sum())
+
     allowed = np.fmax(truth.condition[measured], 1.0) * UNIT_ROUNDOFF[precision] * rung.surface.domain.radius
     return {
         "parameter": rung.parameter,
         "rays": len(certified),
         "decided": int(decided.sum()),
-        "right": int((decided & right).sum()),
-        **{name: int((decided & (verdicts.wrong == kind)).sum()) for kind, name in NAMES.items()},
+        "right": count(Wrong.RIGHT),
+        "misses": count(Wrong.MISS),
+        "false_hits": count(Wrong.FALSE_HIT),
+        "exhausted": count(Wrong.EXHAUSTED),
+        "wrong_root": count(Wrong.WRONG_ROOT),
+        "invalid": count(Wrong.INVALID),
         "undecidable": int(undecidable.sum()),
         "undecidable_right": int((undecidable & right).sum()),
         "undecided": int((~certified).sum()),
@@ -70,7 +79,7 @@ def judge_rung(rung: Rung, hits: Hits, truth: Truth, precision: Precision) -> di
     }
 
 
-def judge_group(group: Group, hits: Hits, truth: Truth, precision: Precision) -> list[dict[str, Any]]:
+def judge_group(group: Group, hits: Hits, truth: Truth, precision: Precision) -> list[RungVerdict]:
     """Return the verdict of `judge_rung` on each rung of a group; hits and truth are of `group.rays`."""
     verdicts, start = [], 0
     for rung in group.rungs:

@@ -14,7 +14,7 @@ from harness.gate import against, baseline, outputs
 from harness.gate.baseline import Baseline
 from harness.gate.checked import Checked, check
 from harness.gate.judge import Judged, Verdict, exit_code, rank
-from harness.results.store import write_atomically
+from harness.results.writing import write_atomically
 
 
 def add_parsers(add: Add) -> None:

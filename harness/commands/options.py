@@ -94,6 +94,14 @@ def tell(line: str) -> None:
     print(line, file=sys.stderr)
 
 
+def writable_png(path: Path) -> Path:
+    """Return `path` if a picture can be put there. Raises FirsthitError where it cannot, or is not named as a PNG."""
+    if writable(path).suffix.lower() != ".png":
+        name = path.with_suffix(".png").name
+        raise FirsthitError(f"cannot write {path}: pictures are PNG files; name it {name}")
+    return path
+
+
 def writable(path: Path) -> Path:
     """Return `path` if a file can be put there. Raises FirsthitError where it cannot.
 

@@ -12,9 +12,9 @@ import numpy as np
 
 from harness.accuracy.answers import invalid
 from harness.commands import Add
-from harness.commands.options import add_method, add_surface, caster_of, surface_of, tell, writable
+from harness.commands.options import add_method, add_surface, caster_of, surface_of, tell, writable_png
 from harness.contract import FirsthitError, RayStatus, View
-from harness.results.store import write_atomically
+from harness.results.writing import write_atomically
 from harness.running.picture import need_size, picture
 
 if TYPE_CHECKING:
@@ -70,7 +70,7 @@ def _show(options: argparse.Namespace) -> int:
     need_pillow()
     from PIL import Image
 
-    view, surface, output = _view(options), surface_of(options), writable(options.output)
+    view, surface, output = _view(options), surface_of(options), writable_png(options.output)
     pixels, hits = picture(caster_of(options), surface, view, options.size, tell)
     save(Image.fromarray(pixels), output)
     exhausted = int((hits.status == RayStatus.EXHAUSTED).sum())
@@ -86,7 +86,7 @@ def _sheet(options: argparse.Namespace) -> int:
 
     import surfaces
 
-    view, output, names, caster = _view(options), writable(options.output), surfaces.names(), caster_of(options)
+    view, output, names, caster = _view(options), writable_png(options.output), surfaces.names(), caster_of(options)
     label, columns = 14, max(1, options.columns)
     width, height = options.size, options.size + label
     sheet = Image.new("RGB", (columns * width, math.ceil(len(names) / columns) * height), "white")

@@ -15,7 +15,7 @@ from harness.commands import Add
 from harness.commands.options import add_method, add_surface, caster_of, surface_of, tell, writable
 from harness.contract import FirsthitError, RayStatus, TruthStatus
 from harness.experiment.config import AccuracyChoice
-from harness.results.store import savez_atomically
+from harness.results.writing import savez_atomically
 from harness.running.trace import cast, checked_rays
 
 

@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 
 from harness.commands import Add
-from harness.commands.options import add_origin, given_variant, writable
+from harness.commands.options import add_origin, given_variant, writable_png
 from harness.commands.pictures import need_pillow, save
 from harness.contract import PROXIES, FirsthitError
 from harness.experiment import reading
@@ -49,7 +49,7 @@ def _scene(options: argparse.Namespace) -> int:
 
     if not 1 <= options.size <= 8192:
         raise FirsthitError(f"--size {options.size}: an image has 1 to 8192 pixels per side")
-    output, catalog = writable(options.output), find_methods(options.plugins)
+    output, catalog = writable_png(options.output), find_methods(options.plugins)
     path = located(options.config)
     scene = _chosen(reading.load(path, catalog).scenes, options.name, path)
     variant = given_variant(options, catalog)

@@ -14,6 +14,7 @@ from harness.devices import lanes
 from harness.devices.interface import Array, Device, Launch
 from harness.devices.messages import FirstRun, Frame, HitsCheck
 from harness.devices.quadtree import BY_DEVICE, Layout, beam_hits_from, last_level, launch_beams, start_of
+from harness.results.row import Lane
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,7 +42,7 @@ class BeamAnswer:
     hits: Hits  # [n]; t along the ray through the pixel's middle
     levels: NDArray[np.uint8]  # [n] of the quadtree, at which each pixel was decided
     evaluations: tuple[float | None, int]  # mean and largest over the frame's pixels, as Hits.spent
-    lanes: list[dict[str, Any]] | None  # what each level's work items spend, as lanes.summary
+    lanes: list[Lane] | None  # what each level's work items spend, as lanes.summary
 
 
 @dataclass(frozen=True, eq=False)

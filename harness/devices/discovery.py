@@ -7,10 +7,10 @@ from collections.abc import Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
-from harness.contract import DeviceInfo, FirsthitError
+from harness.contract import DeviceInfo
 from harness.devices import kept
 from harness.devices.executor import START_SECONDS, CellError, LocalExecutor
-from harness.devices.interface import INSTALL, device_named
+from harness.devices.interface import INSTALL, device_named, working
 
 
 @dataclass(frozen=True)
@@ -38,10 +38,7 @@ def usable_devices(names: Sequence[str] = ()) -> list[DeviceInfo]:
     Raises FirsthitError, with exit code 3, where a named one is not here or cannot be used, or none works.
     """
     found = discover_devices()
-    usable = [device_named(name, found) for name in names] or [info for info in found if not info.problem]
-    if not usable:
-        raise FirsthitError("no usable device; `firsthit devices` says why", exit_code=3)
-    return usable
+    return [device_named(name, found) for name in names] or working(found)
 
 
 def known_devices(again: bool = False) -> Known:

@@ -186,6 +186,14 @@ def device_named(name: str, found: Iterable[DeviceInfo]) -> DeviceInfo:
     return by_name[name]
 
 
+def working(found: Iterable[DeviceInfo]) -> list[DeviceInfo]:
+    """Return the devices that can be used. Raises FirsthitError if there is none."""
+    usable = [info for info in found if not info.problem]
+    if not usable:
+        raise FirsthitError("no usable device; `firsthit devices` says why", exit_code=3)
+    return usable
+
+
 def open_device(name: str) -> Device:
     """Open a device by name. Raises FirsthitError where it is not here or cannot be used.
 

@@ -3,9 +3,9 @@
 An answer is believed only while all that it may depend on is as it was: the harness, the packages of bindings and
 drivers, the processor and the machine since it was started, the environment variables that drivers and their loaders
 listen to, the lists by which loaders find drivers, and every file whose code ran in the worker that answered: drivers,
-their compilers and what these load. One that is damaged, or says that a device has a problem, is not believed either:
-who mends a device is not to be told that it is broken. Without a folder that can be written nothing is kept, and
-nothing else changes.
+their compilers and what these load. One that is damaged is not believed either, and one that tells of no device, or of
+one with a problem, is not kept: who mends a device is not to be told that it is broken. Without a folder that can be
+written nothing is kept, and nothing else changes.
 
 What makes rows does not ask here. It looks for devices (`discovery.discover_devices`), which replaces what is kept.
 """
@@ -28,7 +28,7 @@ from typing import Any
 from harness.contract import DeviceInfo, FirsthitError, digest
 from harness.devices import host
 from harness.results import sources
-from harness.results.store import write_atomically
+from harness.results.writing import write_atomically
 
 PACKAGES = (
     *("pyopencl", "moderngl", "glcontext", "numpy"),
@@ -53,7 +53,7 @@ class Kept:
 
 
 def keep(backend: str, devices: Sequence[DeviceInfo], ran: Iterable[Path] | None) -> None:
-    """Keep what a look at `backend` found; where a device has a problem, what was kept before is removed instead.
+    """Keep what a look at `backend` found; where that is nothing, or a device has a problem, forget what was kept.
 
     A broken double of a working device (one driver installed twice) is none. `ran` names the files whose code ran in
     the worker; None, where the system does not tell them: then nothing is kept.
@@ -63,7 +63,7 @@ def keep(backend: str, devices: Sequence[DeviceInfo], ran: Iterable[Path] | None
         return
     file = place / f"{backend}.json"
     working = {_base(info) for info in devices if not info.problem}
-    if not {_base(info) for info in devices} <= working:
+    if not devices or {_base(info) for info in devices} - working:
         with contextlib.suppress(OSError):
             file.unlink(missing_ok=True)
     elif ran is not None:

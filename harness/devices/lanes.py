@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from harness.contract import Hits, RayStatus
 from harness.devices.quadtree import LEVELS, PARENT, most_queued
+from harness.results.row import Lane
 
 WIDTHS = (8, 16, 32)  # float32 in AVX2, in AVX-512; a warp
 
@@ -34,7 +35,7 @@ class Tree:
     grouped: bool = True
 
 
-def of_frame(tree: Tree, hits: Hits, levels: NDArray[np.uint8], outputs: Sequence[Any]) -> list[dict[str, Any]] | None:
+def of_frame(tree: Tree, hits: Hits, levels: NDArray[np.uint8], outputs: Sequence[Any]) -> list[Lane] | None:
     """Sum up what a frame's work items spend, level by level, from all outputs of its launch.
 
     None where an answer is invalid.
@@ -53,7 +54,7 @@ def idle_share(spent: Whole, width: int) -> float:
     return 1.0 - int(spent.sum()) / taken if taken else 0.0
 
 
-def summary(spent: Mapping[int, Whole]) -> list[dict[str, Any]]:
+def summary(spent: Mapping[int, Whole]) -> list[Lane]:
     """Make a dict for each level from its items' evaluations in their order.
 
     It holds level, items, evaluations, and idle: the idle share by group width.

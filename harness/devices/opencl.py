@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import atexit
 import contextlib
 import ctypes
 import os
@@ -11,7 +10,7 @@ import sys
 import tempfile
 import time
 import warnings
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -34,29 +33,39 @@ PROCESSOR_GROUP = (
 )
 
 
-def _prepare_environment() -> None:
-    """Make every installed driver visible to the loader, and switch off caches that would hide compile times.
-
-    The Intel wheel's own .icd file names a folder that does not exist and its libraries are not on the loader's path,
-    so they are loaded here and the driver is named in a vendors folder of ours, beside the system's own.
-    """
+def _switch_off_caches() -> None:
+    """Switch off what would hide compile times, and ask for the widest vectors, unless the user says otherwise."""
     os.environ.setdefault("PYOPENCL_NO_CACHE", "1")
     os.environ.setdefault("POCL_KERNEL_CACHE", "0")
     if _has_sixteen_lanes():
         os.environ.setdefault("CL_CONFIG_CPU_VECTORIZER_MODE", "16")  # else Intel's compiler chooses 8 for some kernels
+
+
+@contextlib.contextmanager
+def _all_drivers_listed() -> Iterator[None]:
+    """Make every installed driver visible to the loader, which reads the list once, when it is first asked.
+
+    The Intel wheel's own .icd file names a folder that does not exist and its libraries are not on the loader's path,
+    so they are loaded here and the driver is named in a vendors folder of ours, beside the system's own. A user's own
+    list is left as it is.
+    """
     driver = Path(sys.prefix) / "lib" / "libintelocl.so"
     if "OCL_ICD_VENDORS" in os.environ or not driver.exists():
+        yield
         return
     for name in INTEL_LIBRARIES:
         with contextlib.suppress(OSError):  # the driver itself reports what it misses
             ctypes.CDLL(str(driver.parent / name), mode=ctypes.RTLD_GLOBAL)
-    vendors = Path(tempfile.mkdtemp(prefix="firsthit-vendors-"))
-    atexit.register(shutil.rmtree, vendors, ignore_errors=True)
-    (vendors / "intel.icd").write_text(f"{driver}\n")
-    if SYSTEM_VENDORS.is_dir():
-        for icd in SYSTEM_VENDORS.glob("*.icd"):
-            shutil.copy(icd, vendors / icd.name)
-    os.environ["OCL_ICD_VENDORS"] = str(vendors)
+    with tempfile.TemporaryDirectory(prefix="firsthit-vendors-") as vendors:
+        (Path(vendors) / "intel.icd").write_text(f"{driver}\n")
+        if SYSTEM_VENDORS.is_dir():
+            for icd in SYSTEM_VENDORS.glob("*.icd"):
+                shutil.copy(icd, Path(vendors) / icd.name)
+        os.environ["OCL_ICD_VENDORS"] = vendors
+        try:
+            yield
+        finally:
+            del os.environ["OCL_ICD_VENDORS"]
 
 
 def _has_sixteen_lanes() -> bool:
@@ -69,7 +78,7 @@ def _has_sixteen_lanes() -> bool:
 
 @cache
 def _binding() -> Any:
-    _prepare_environment()
+    _switch_off_caches()
     import pyopencl
 
     return pyopencl
@@ -80,7 +89,8 @@ def _named_devices() -> dict[str, Any]:
     """Devices by short name; a second one of the same platform kind gets a number."""
     cl = _binding()
     try:
-        platforms = cl.get_platforms()
+        with _all_drivers_listed():
+            platforms = cl.get_platforms()
     except cl.Error:
         return {}
     named: dict[str, Any] = {}

@@ -15,6 +15,8 @@ Where = tuple[str | int, ...]  # keys and places that lead to a value: ("view", 
 
 @dataclass(frozen=True)
 class ConfigFile:
+    """A config as it was read. Errors about it name its path and a line."""
+
     path: Path
     text: str
     table: dict[str, Any]  # as tomllib reads it

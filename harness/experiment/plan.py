@@ -21,7 +21,6 @@ from harness.contract import (
     View,
     digest,
 )
-from harness.devices.interface import no_device
 from harness.devices.messages import Frame
 from harness.experiment import identity as identities
 from harness.experiment import kinds
@@ -124,11 +123,6 @@ def grid(experiment: Experiment, catalog: Catalog, found: list[DeviceInfo]) -> l
     Raises FirsthitError as `plan` does.
     """
     devices = devices_of(experiment, found)
-    if not any(devices.values()):
-        named = experiment.config.devices
-        if not set(named) <= {"all", "any"}:
-            raise no_device(", ".join(named), (info.name for info in found))
-        raise FirsthitError("no usable device found on this machine; see `firsthit devices`", exit_code=3)
     casters = list(_casters(experiment, catalog, list(devices)))
     cells = itertools.chain(
         _views_of_surfaces(experiment, catalog, casters),

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from harness.contract import DeviceInfo
-from harness.devices.interface import RASTERISES
+from harness.contract import DeviceInfo, FirsthitError
+from harness.devices.interface import RASTERISES, no_device
 from harness.experiment.config import Experiment
 
 
@@ -36,6 +36,15 @@ def able(info: DeviceInfo) -> bool:
 
 
 def devices_of(experiment: Experiment, found: list[DeviceInfo]) -> dict[str, DeviceInfo | None]:
-    """Return the devices that a config's cells run on; where all of them are rasterised, `any` is one that can."""
+    """Return the devices that a config's cells run on; where all of them are rasterised, `any` is one that can.
+
+    Raises FirsthitError where none of the devices that the config names is among those `found`.
+    """
     drawn_only = not experiment.config.families and (not experiment.surfaces or set(experiment.stages) == {"raster"})
-    return choose_devices(experiment.config.devices, found, drawn_only)
+    wanted = experiment.config.devices
+    chosen = choose_devices(wanted, found, drawn_only)
+    if not any(chosen.values()):
+        if not set(wanted) <= {"all", "any"}:
+            raise no_device(", ".join(wanted), (info.name for info in found))
+        raise FirsthitError("no usable device found on this machine; see `firsthit devices`", exit_code=3)
+    return chosen

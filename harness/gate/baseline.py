@@ -1,9 +1,9 @@
 """Read and write the blessed baseline: a TOML file that is made to be read in a diff, one figure a line, sorted.
 
-    [device."opencl:pocl 1f3a6c"]   one device of one machine: its facts, and who blessed it when and why
+    [device."opencl:pocl 1f3a6c"]   one device of one machine: its facts, and who blessed it, when and why
     [row."opencl:pocl 1f3a6c"."newton torus …"]   what one cell gave there
 
-A baseline may hold several devices and machines; blessing replaces only those it ran on.
+A baseline may hold several devices and machines; blessing replaces only those that it ran on.
 """
 
 from __future__ import annotations
@@ -18,10 +18,10 @@ from pathlib import Path
 from typing import Any
 
 from harness.contract import FirsthitError, digest
-from harness.results.store import write_atomically
+from harness.results.writing import write_atomically
 
 FORMAT = 1
-Entry = dict[str, Any]  # status, scene, program, and the figures
+Entry = dict[str, Any]  # status, scene (a hash of what was asked), program (its hash), reason, and the figures
 
 
 @dataclass(frozen=True)
@@ -95,6 +95,7 @@ def merged(old: Baseline, new: Baseline) -> Baseline:
     """
 
     def place(facts: Mapping[str, Any]) -> tuple[Any, Any]:
+        """Return what tells one device of one machine from others."""
         return facts.get("name"), facts.get("processor")
 
     replaced = {place(facts) for facts in new.devices.values()}

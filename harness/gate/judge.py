@@ -11,6 +11,7 @@ from typing import Any, cast
 from harness.contract import CellStatus
 from harness.experiment.config import ToleranceChoice
 from harness.gate.baseline import Baseline, Entry
+from harness.results.facts import FACTS
 from harness.results.figures import GATED, Better
 
 
@@ -159,8 +160,7 @@ def _elsewhere(facts: Mapping[str, Any], before: Baseline) -> str:
         return f"the baseline is of {known}, not of {facts['name']}"
 
     def differing(old: Mapping[str, Any]) -> list[str]:
-        compared = ("title", "driver", "compiler", "processor")
-        return [f"{name}: {old.get(name)!r} → {facts[name]!r}" for name in compared if old.get(name) != facts[name]]
+        return [f"{name}: {old.get(name)!r} → {facts[name]!r}" for name in FACTS if old.get(name) != facts[name]]
 
     nearest = min((differing(old) for old in alike), key=lambda changes: len(changes))
     return f"blessed on another {facts['name']}: {'; '.join(nearest)}"

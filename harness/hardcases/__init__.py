@@ -66,6 +66,5 @@ def get(name: str) -> Family:
 
 @cache
 def rungs(name: str) -> tuple[Rung, ...]:
-    """Return the rungs of a family's ladder, each harder than the one before. Raises FirsthitError for an unknown
-    name."""
+    """Return the rungs of a family's ladder, from easy to hard. Raises FirsthitError for an unknown name."""
     return get(name).make()

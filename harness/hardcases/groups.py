@@ -6,7 +6,6 @@ import hashlib
 import itertools
 from dataclasses import dataclass
 from functools import cache, cached_property
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,7 +36,7 @@ def groups(family: str) -> tuple[Group, ...]:
 
 
 @cache
-def identity(family: str) -> list[dict[str, Any]]:
+def identity(family: str) -> list[dict[str, object]]:
     """Return what decides a family's answers, for cache keys: each group's surface, and a hash of its rays' bytes."""
     return [
         {"surface": group.surface.identity, "rays": hashlib.sha256(group.rays.tobytes()).hexdigest()[:16]}

@@ -46,11 +46,11 @@ class Family:
     seed: int = SEED
 
     def make(self) -> tuple[Rung, ...]:
-        """Return the ladder's rungs. Each draws the same random numbers, so that rungs differ in the parameter
-        alone."""
+        """Return the ladder's rungs, which draw the same random numbers, so that only the parameter differs."""
         return tuple(self._rung(value) for value in self.ladder)
 
     def _rung(self, value: float) -> Rung:
+        """Return one rung."""
         surface, rays = self.build(value, np.random.Generator(np.random.PCG64([self.seed, *self.name.encode()])))
         rays.setflags(write=False)
         return Rung(value, surface, rays, value if self.is_margin else inf)

@@ -55,8 +55,7 @@ def _passing(points: Floats, along: Floats, value: float, rng: np.random.Generat
     why="f touches 0 and never changes sign; the flatter the ray, the longer f stays at rounding level",
 )
 def double_root(value: float, rng: np.random.Generator) -> tuple[Surface, Rays]:
-    """Aim at the squared plane x + 2y + 2z = 0, within 0.4 of its middle. Flatter float32 rays would miss the
-    domain."""
+    """Aim at the squared plane x + 2y + 2z = 0, within 0.4 of its middle. Flatter rays would miss the domain."""
     normal, first, second = (vectors(*row) / 3.0 for row in ((1.0, 2.0, 2.0), (2.0, 1.0, -2.0), (2.0, -2.0, 1.0)))
     cosine, sine = circle(rng)
     flat = scaled(cosine, first) + scaled(sine, second)
@@ -146,8 +145,7 @@ def cusp(value: float, rng: np.random.Generator) -> tuple[Surface, Rays]:
     is_margin=True,
 )
 def double_line(value: float, rng: np.random.Generator) -> tuple[Surface, Rays]:
-    """Pass the z axis in turn at heights of 0.25 to 0.75, where two sheets cross, and of -0.75 to -0.25, at the
-    handle."""
+    """Pass the z axis in turn at heights of 0.25 to 0.75, where sheets cross, and at the handle, -0.75 to -0.25."""
     cosine, sine = circle(rng)
     along = unit(vectors(cosine, sine, uniform(rng, -0.6, 0.6)))
     aside = scaled(signs(rng), unit(cross(along, vectors(0.0, 0.0, 1.0))))

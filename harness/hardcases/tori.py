@@ -101,8 +101,7 @@ def grazing(value: float, rng: np.random.Generator) -> tuple[Surface, Rays]:
     is_margin=True,
 )
 def torus_four_hits(value: float, rng: np.random.Generator) -> tuple[Surface, Rays]:
-    """Cast slightly downwards, so that rays just enter the near side of the tube at its top, and then meet the far
-    side."""
+    """Cast slightly downwards: rays just enter the near side of the tube at its top, then meet the far side."""
     cu, su = circle(rng)
     cosine, up = uniform(rng, -0.3, -0.1), signs(rng)
     sine = up * np.sqrt(1.0 - cosine * cosine)
@@ -157,8 +156,7 @@ def torus_axis(value: float, rng: np.random.Generator) -> tuple[Surface, Rays]:
 
 
 def _starting_at(height: float, rng: np.random.Generator) -> Rays:
-    """Return rays with origins at a signed distance from the torus. In turn they head for the torus and away from
-    it."""
+    """Return rays with origins at a signed distance from the torus, in turn towards it and away from it."""
     points, normals = points_and_normals(circle(rng), *circle(rng))
     heading = directions(rng)
     cosine = dot(heading, normals)

@@ -36,12 +36,15 @@ Language = Literal["glsl", "cl"]
 
 @cache
 def _read(path: Path) -> str:
+    """Return the text of a file, which is read once."""
     return path.read_text(encoding="utf-8")
 
 
 def file_section(path: Path) -> Section:
-    """Return one file as a section. Its origin is the path below the project (`methods/newton/kernel.glsl`), or the
-    last three parts of the path of a file outside it."""
+    """Return one file as a section.
+
+    Its origin is the path below the project (`methods/newton/kernel.glsl`), or the last three parts of an outer path.
+    """
     origin = path.relative_to(ROOT) if path.is_relative_to(ROOT) else Path(*path.parts[-3:])
     return Section(origin.as_posix(), _read(path))
 
@@ -61,16 +64,14 @@ def _library(name: str) -> Section:
 
 
 def head_sections(language: Language, precision: Precision, libraries: Iterable[str]) -> list[Section]:
-    """Return the prelude, the number type and the libraries: eft, ray, hit and those given, each once, in this
-    order."""
+    """Return prelude, number type and libraries, each once: eft, ray, hit and those given, in this order."""
     ordered = list(dict.fromkeys(("eft", "ray", "hit", *libraries)))
     head = files(f"prelude.{language}", f"{precision}.{language}")
     return head + [_library(name) for name in ordered]
 
 
 def literal(value: float | int, precision: Precision, language: Language) -> str:
-    """Return a number as source text. An int stays an int; a real has every digit, and the suffix its compiler
-    needs."""
+    """Return a number as source text: an int as it is, a real with every digit and the suffix of its type."""
     if isinstance(value, int):
         return f"({value})" if value < 0 else str(value)
     suffix = "f" if precision == "float32" else {"glsl": "lf", "cl": ""}[language]

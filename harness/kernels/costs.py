@@ -32,6 +32,7 @@ AFFINE = 10 + WIDENED  # of bounded_affine: one coordinate of a piece of a ray
 
 
 def _value(surface: Surface) -> int:
+    """Count the operations of surface_value, without those of the point."""
     from surfaces import tape_of
     from surfaces.lowering import counts, real_tape
 
@@ -39,16 +40,19 @@ def _value(surface: Surface) -> int:
 
 
 def _sum(counted: dict[str, int]) -> int:
+    """Sum up counts, without those of free operations."""
     return sum(count for name, count in counted.items() if name not in FREE)
 
 
 def _value_along(surface: Surface) -> int:
+    """Count the operations of surface_value_along."""
     from harness.kernels.functions import expands
 
     return 2 * (surface.degree or 0) if expands(surface) else POINT + _value(surface)
 
 
 def _dual_along(surface: Surface) -> int:
+    """Count the operations of surface_dual_along."""
     from harness.kernels.functions import expands
     from surfaces import tape_of
     from surfaces.lowering import counts, real_tape, tangent
@@ -59,6 +63,7 @@ def _dual_along(surface: Surface) -> int:
 
 
 def _distance(surface: Surface) -> int:
+    """Count the operations of surface_distance."""
     from surfaces.formula import parse
     from surfaces.lowering import counts, real_tape
 
@@ -67,6 +72,7 @@ def _distance(surface: Surface) -> int:
 
 
 def _range(surface: Surface) -> int:
+    """Count the operations of surface_range."""
     from harness.kernels.printing import BOUNDED
     from harness.kernels.reach import safe_reach
     from surfaces import tape_of

@@ -168,6 +168,7 @@ def _fit_tables(surface: Surface, precision: Precision, language: Language) -> l
 
 
 def _degree_of(surface: Surface) -> str:
+    """Return how a message names the surface's degree."""
     return "no polynomial" if surface.degree is None else f"of degree {surface.degree}"
 
 
@@ -190,6 +191,7 @@ class _Writer:
         self.parameters = {name: f"instance_parameters.{part}" for name, part in zip(names, "xyzw", strict=False)}
 
     def _printer(self, variables: Mapping[str, str]) -> RealPrinter:
+        """Return a printer in which the surface's parameters have their names."""
         return RealPrinter({**variables, **self.parameters}, self.precision, self.language)
 
     def constants(self) -> str:
@@ -219,6 +221,7 @@ class _Writer:
         return "\n".join(f"#define {name} {values[name]}" for name in named)
 
     def _scalar(self, name: str, tape: Tape) -> str:
+        """Return the text of a function of a point whose value is a tape's output."""
         lines, (value,) = self._printer(_POINT).body(tape)
         return _function(f"real {name}(vec3 p)", lines, f"return {value};")
 

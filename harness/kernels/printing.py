@@ -81,6 +81,7 @@ class RealPrinter:
         self.language = language
 
     def literal(self, value: Fraction) -> str:
+        """Return the nearest number of the precision as a literal."""
         return number(nearest(value, self.precision), self.precision, self.language)
 
     def body(self, tape: Tape) -> tuple[list[str], list[str]]:
@@ -98,6 +99,7 @@ class RealPrinter:
         return lines, [names[i] for i in tape.outputs]
 
     def operation(self, op: Op, args: list[str]) -> str:
+        """Return the text of one operation on arguments that are names or literals."""
         one, zero = self.literal(Fraction(1)), self.literal(Fraction(0))
         match op.name, args:
             case "add", (a, b):
@@ -140,12 +142,15 @@ class IntervalPrinter:
         self.bounded = bounded
 
     def _constant(self, lower: Fraction, upper: Fraction) -> tuple[str, str]:
+        """Return the two ends of an interval that holds a constant, as literals."""
         lo, hi = (number(n, self.precision, self.language) for n in bounds(lower, upper, self.precision))
         return lo, hi
 
     def _factor(self, lower: Fraction, upper: Fraction) -> str | None:
-        """Return a constant as arguments of interval_scale: the nearest number, a place for the other factor, and 1
-        if the number is exact or 2 if it is rounded. None if the constant is so small that its error may be larger."""
+        """Return a constant as arguments of interval_scale, or None if its relative error may be too large.
+
+        They are the nearest number, a place for the other factor, and 1 if the number is exact or 2 if it is rounded.
+        """
         lo, hi = bounds(lower, upper, self.precision)
         if lo != hi and not abs(lo) > 2 * np.finfo(_TYPES[self.precision]).tiny:
             return None
@@ -169,6 +174,7 @@ class IntervalPrinter:
         return lines, [names[i] for i in tape.outputs]
 
     def operation(self, op: Op, names: list[str], factors: Mapping[int, str | None]) -> str:
+        """Return the text of one operation; `factors` holds the constants that interval_scale can take."""
         if op.name == "powi":
             return f"{self._kind('powi')}_powi({names[op.args[0]]}, {op.args[1]})"
         for i, j in (op.args, reversed(op.args)) if op.name == "mul" else ():
@@ -177,6 +183,7 @@ class IntervalPrinter:
         return f"{self._kind(op.name)}_{op.name}({', '.join(names[i] for i in op.args)})"
 
     def _kind(self, name: str) -> str:
+        """Return the prefix of an operation's name: bounded, or interval."""
         return "bounded" if self.bounded and name in BOUNDED else "interval"
 
 

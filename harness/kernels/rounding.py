@@ -35,6 +35,7 @@ class _Errors:
         return float(value), self.own * abs(float(value))
 
     def _rounded(self, value: Numbers, error: Numbers) -> Estimate:
+        """Return a result with its own rounding error added."""
         return value, error + self.own * np.abs(value)
 
     def add(self, a: Estimate, b: Estimate) -> Estimate:

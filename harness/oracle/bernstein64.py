@@ -62,8 +62,7 @@ class BernsteinIsolator:
         return Segments(t_lower, t_upper, in_s.rising, in_s.found, in_s.empty)
 
     def coefficients(self, rays: Floats, lower: Floats, upper: Floats) -> tuple[Floats, Floats]:
-        """Return coefficients on [lower, upper], float64[n, degree + 1], and a bound of each ray's errors,
-        float64[n]."""
+        """Return coefficients on [lower, upper], float64[n, degree + 1], and bounds of their errors, float64[n]."""
         span = Balls(upper[:, None]) - Balls(lower[:, None])
         nodes = Balls(self.nodes)
         inputs = [

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import json
-import os
-import tempfile
 import zipfile
 from dataclasses import fields
 from functools import cache
@@ -17,6 +15,7 @@ from numpy.typing import NDArray
 
 from harness.contract import Surface, Truth
 from harness.results.sources import TRUTH, digest_of, packages
+from harness.results.writing import replacing
 
 
 def truth_path(folder: Path, surface: Surface, rays: NDArray[np.float32], t_min: float = 0.0) -> Path:
@@ -48,13 +47,9 @@ def load(path: Path, count: int) -> Truth | None:
 
 
 def store(path: Path, truth: Truth) -> None:
-    """Write answers to a file, whole or not at all, also if several processes write the same answers."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    descriptor, name = tempfile.mkstemp(prefix=".truth-", suffix=".npz", dir=path.parent)
-    temporary = Path(name)
-    try:
-        with os.fdopen(descriptor, "wb") as file:
-            np.savez(file, **{f.name: getattr(truth, f.name) for f in fields(Truth)})
-        temporary.replace(path)
-    finally:
-        temporary.unlink(missing_ok=True)
+    """Write answers to a file, whole or not at all, also if several processes write the same answers.
+
+    Raises FirsthitError if they cannot be written.
+    """
+    with replacing(path) as temporary, temporary.open("wb") as file:
+        np.savez(file, **{f.name: getattr(truth, f.name) for f in fields(Truth)})

@@ -295,8 +295,7 @@ class _Block:
         return np.asarray(self.enclosure.along(self.given[rows], t + self.shift[rows]).sign != 0)
 
     def _following(self, found: _Extrema) -> Floats:
-        """Return the first change of g's sign behind the first root, sampled or at a minimum; inf where there is
-        none."""
+        """Return the first change of g's sign behind the first root, sampled or at a minimum, or inf."""
         last = self.t.shape[1] - 1
         everyone = np.arange(len(self.hit))
         end = np.minimum(self.change + 1, last)

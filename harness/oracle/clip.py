@@ -1,5 +1,4 @@
-"""Computes the clip interval, the part of a ray in a surface's domain: exactly for one ray, enclosed for many at
-once."""
+"""Computes clip intervals, the parts of rays in a surface's domain: exactly for one ray, enclosed for many."""
 
 from __future__ import annotations
 
@@ -49,8 +48,7 @@ class End:
 
 
 def clip_exactly(domain: Domain, ray: Sequence[Any], t_min: float = 0.0) -> tuple[End, End] | None:
-    """Return the closed interval of t >= `t_min` in which a ray, six fmpq, is in the closed domain; None if it is
-    empty."""
+    """Return the closed interval of t >= `t_min` in which a ray, six fmpq, is in the domain, or None."""
     from harness.oracle.reals import rational
 
     if isinstance(domain, Box):

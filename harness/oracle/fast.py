@@ -70,6 +70,7 @@ class FastSolver:
         return FastAnswers(*(np.concatenate([getattr(b, f) for b in blocks]) for f in FastAnswers.__annotations__))
 
     def _block(self, rays: Floats, t_min: float) -> FastAnswers:
+        """Return the answers for a block of rays."""
         with np.errstate(all="ignore"):
             clip = clip_many(self.domain, rays, t_min)
             status = np.full(len(rays), TruthStatus.MISS, dtype=np.uint8)

@@ -33,7 +33,7 @@ class FloatFunction:
 
     def __init__(self, program: Program, constants: list[float]) -> None:
         self.program = program
-        self.constants = [np.float64(c) for c in constants]
+        self.constants: list[Floats | np.float64] = [np.float64(c) for c in constants]
         # degree + 1 samples give a polynomial everywhere, as long as rounding errors do not grow too much
         self.interpolates = program.is_polynomial and 0 < program.degree <= MOST_DEGREE
         self.samples = 12 * program.degree + 1 if self.interpolates else 129
@@ -41,7 +41,7 @@ class FloatFunction:
 
     def values(self, rays: Floats, t: Floats) -> Floats:
         """Return f in t's shape."""
-        value = self.program.run(self.points(rays, t), self.constants, FUNCTIONS)
+        value: Floats | np.float64 = self.program.run(self.points(rays, t), self.constants, FUNCTIONS)
         return np.asarray(np.broadcast_to(value, t.shape))
 
     def along(self, rays: Floats, t: Floats) -> Dual:
@@ -70,6 +70,7 @@ class FloatFunction:
         return t
 
     def _dual(self, inputs: list[Dual], t: Floats) -> Dual:
+        """Return f and its derivative for inputs that are duals, each in t's shape."""
         result: Dual = self.program.run(inputs, self.duals, DUAL_FUNCTIONS)
         return Dual(np.broadcast_to(result.value, t.shape), np.broadcast_to(result.slope, t.shape))
 

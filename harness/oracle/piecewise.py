@@ -175,8 +175,7 @@ class _Run:
         return values[len(self.program.instructions) - 1]
 
     def needed(self) -> set[int]:
-        """Return the instructions that f needs on this cell, without those of the other side of a minimum or
-        maximum."""
+        """Return the instructions that f needs on this cell, without the other sides of minima and maxima."""
         needed = {len(self.program.instructions) - 1}
         for k in range(len(self.program.instructions) - 1, -1, -1):
             i = self.program.instructions[k]
@@ -223,6 +222,7 @@ class _Run:
         return a[side]
 
     def sum(self, a: Quotient, b: Quotient) -> Quotient:
+        """Return the sum of two quotients."""
         if a[1] == b[1]:
             return add(a[0], b[0]), a[1]
         mul = self.tower.mul

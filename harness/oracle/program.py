@@ -8,13 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from harness.contract import FirsthitError
 
 if TYPE_CHECKING:
     import sympy
 
+Number = TypeVar("Number")
 Functions = Mapping[str, Callable[..., Any]]
 POLYNOMIAL = frozenset({"input", "constant", "add", "sub", "mul", "neg"})
 FUNCTIONS = {"exp": "exp", "log": "log", "sin": "sin", "cos": "cos", "tan": "tan", "Abs": "abs"}
@@ -58,15 +59,15 @@ class Program:
                     degrees.append(max(of))
         return degrees[-1]
 
-    def run(self, inputs: Sequence[Any], constants: Sequence[Any], functions: Functions) -> Any:
+    def run(self, inputs: Sequence[Number], constants: Sequence[Number], functions: Functions) -> Number:
         """Return f at `inputs`, x, y and z, in their number system; `constants` are already converted to it."""
         return self.results(inputs, constants, functions)[-1]
 
-    def results(self, inputs: Sequence[Any], constants: Sequence[Any], functions: Functions) -> list[Any]:
+    def results(self, inputs: Sequence[Number], constants: Sequence[Number], functions: Functions) -> list[Number]:
         """Return the result of each instruction, of which the last is f."""
-        results: list[Any] = []
+        results: list[Number] = []
         for i in self.instructions:
-            a = [results[k] for k in i.args]
+            a: list[Any] = [results[k] for k in i.args]
             match i.name:
                 case "input":
                     value = inputs[i.index]
@@ -99,6 +100,7 @@ class _Compiler:
         self.seen: dict[Instruction | sympy.Expr, int] = {}
 
     def emit(self, name: str, *args: int, index: int = 0) -> int:
+        """Return the number of an instruction, which is added if it is not there yet."""
         instruction = Instruction(name, args, index)
         if instruction not in self.seen:
             self.seen[instruction] = len(self.instructions)
@@ -106,16 +108,19 @@ class _Compiler:
         return self.seen[instruction]
 
     def constant(self, expr: sympy.Expr) -> int:
+        """Emit a constant."""
         if expr not in self.constants:
             self.constants.append(expr)
         return self.emit("constant", index=self.constants.index(expr))
 
     def compile(self, expr: sympy.Expr) -> int:
+        """Return the number of an expression's result."""
         if expr not in self.seen:
             self.seen[expr] = self.walk(expr)
         return self.seen[expr]
 
     def walk(self, expr: sympy.Expr) -> int:
+        """Emit an expression that was not met yet. Raises FirsthitError for an unknown function."""
         import sympy
 
         if expr.is_Symbol:
@@ -137,12 +142,14 @@ class _Compiler:
         return self.emit(name, self.compile(expr.args[0]))
 
     def chain(self, name: str, args: list[int]) -> int:
+        """Apply an operation of two arguments to several, from left to right."""
         result = args[0]
         for a in args[1:]:
             result = self.emit(name, result, a)
         return result
 
     def sum(self, terms: tuple[sympy.Expr, ...]) -> int:
+        """Emit a sum; terms with a minus sign come last and are subtracted."""
         ordered = sorted(terms, key=lambda t: bool(t.could_extract_minus_sign()))
         result: int | None = None
         for term in ordered:
@@ -156,6 +163,7 @@ class _Compiler:
         return result
 
     def product(self, expr: sympy.Expr) -> int:
+        """Emit a product; factors with negative exponents are divided by."""
         import sympy
 
         numerator: list[sympy.Expr] = []
@@ -172,6 +180,7 @@ class _Compiler:
         return self.emit("neg", result) if negative else result
 
     def power(self, base: sympy.Expr, exponent: sympy.Expr) -> int:
+        """Emit a power."""
         import sympy
 
         if exponent.is_Rational and exponent < 0:

@@ -25,13 +25,13 @@ class Segments:
     empty: Mask  # it is proved that there is no root at all
 
     def take(self, mask: Mask) -> Segments:
+        """Return the segments of the rays in `mask`."""
         return Segments(self.lower[mask], self.upper[mask], self.rising[mask], self.found[mask], self.empty[mask])
 
 
 @dataclass(frozen=True)
 class Pieces:
-    """p intervals [lower, upper] of rays numbered `ray`, with data of the isolator about each; all arrays are [p,
-    ...]."""
+    """p intervals [lower, upper] of rays numbered `ray`, with data of the isolator; all arrays are [p, ...]."""
 
     ray: NDArray[np.intp]
     lower: Floats
@@ -39,6 +39,7 @@ class Pieces:
     data: tuple[Floats, ...] = ()
 
     def take(self, mask: Mask) -> Pieces:
+        """Return the pieces in `mask`."""
         return Pieces(self.ray[mask], self.lower[mask], self.upper[mask], tuple(d[mask] for d in self.data))
 
 

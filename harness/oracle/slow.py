@@ -1,5 +1,8 @@
-"""Finds the first hit of one ray with an algebraic surface: by balls of 128 bits, then exactly if that is possible,
-else by balls of up to 4096 bits."""
+"""Finds the first hit of one ray with an algebraic surface.
+
+Balls of 128 bits are tried first. What they leave open is decided by exact arithmetic if that applies, else by balls of
+up to 4096 bits.
+"""
 
 from __future__ import annotations
 

@@ -63,10 +63,12 @@ class Surd:
         return Surd(product.a / norm, product.b / norm, product.d)
 
     def conjugate(self) -> Surd:
+        """Return a − b·√d."""
         return Surd(self.a, -self.b, self.d)
 
     @property
     def is_zero(self) -> bool:
+        """Return whether the polynomial is 0."""
         return not self.a and not self.b
 
     def ball(self) -> Any:
@@ -99,6 +101,7 @@ def sqrt(value: Surd) -> Surd:
 
 
 def _outside(*_: Surd) -> Surd:
+    """Raise NotExact: the function leads out of the field."""
     raise NotExact("an elementary function")
 
 

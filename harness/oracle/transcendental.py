@@ -169,14 +169,17 @@ class _Search:
 
 
 def _sign(a: Any) -> Any:
+    """Return the generalised derivative of abs: ±1, or [−1, 1] if the sign is not known."""
     return arb(1) if a > 0 else arb(-1) if a < 0 else arb(0, 1)
 
 
 def _pick(sign: Any, a: Any, b: Any) -> Any:
+    """Return `a` if the sign is 1, `b` if it is −1, else a ball that holds both."""
     return a if sign == 1 else b if sign == -1 else a.union(b)
 
 
 def _ratio(slope: Any, root: Any) -> Any:
+    """Return slope / root, which is 0 if the slope is."""
     return slope if slope == 0 else slope / root
 
 

@@ -1,4 +1,4 @@
-"""What is gated of a row: figures that the same program on the same device gives again to the last digit."""
+"""The figures of a row that are gated: those that the same program on the same device gives again to the last digit."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from harness.accuracy.judge import NAMES, Wrong
 from harness.contract import FirsthitError
+from harness.results.row import KINDS
 from harness.results.store import Row
 
 Better = Literal["lower", "higher"]
@@ -17,10 +17,11 @@ Value = float | int | None
 
 @dataclass(frozen=True)
 class Figure:
-    """One gated figure: which way is better, and by how much it may get worse before it counts.
+    """Says of one gated figure which way is better, and by how much it may get worse before that counts.
 
-    `read` finds it in a view's accuracy, `add_up` in a family's rungs; None: it has none there. `unsaid` is what a
-    baseline that was blessed before the figure was counted stands for; None: it is not compared.
+    It may get worse by `absolute` + `relative` × the baseline's. `read` finds it in a view's accuracy and `add_up` in a
+    family's rungs; None where these do not have it. `unsaid` is the value that a baseline has which was blessed before
+    the figure was counted; None: then it is not compared.
     """
 
     name: str
@@ -34,6 +35,8 @@ class Figure:
 
 
 def _count(name: str, meaning: str) -> Figure:
+    """Make the figure of a count that may not grow."""
+
     def added(rungs: list[dict[str, Any]]) -> Value:
         return int(sum(rung[name] for rung in rungs))
 
@@ -41,14 +44,16 @@ def _count(name: str, meaning: str) -> Figure:
 
 
 def _error(quantile: str, meaning: str) -> Figure:
+    """Make the figure of a quantile of the errors."""
     return Figure(f"error_{quantile}", "lower", 1e-15, 0.05, meaning, lambda found: found["error"][quantile], None)
 
 
 def _worst(rungs: list[dict[str, Any]], name: str) -> Value:
+    """Return the largest value of a leaf over the rungs that have it; None where none has."""
     return max((rung[name] for rung in rungs if rung[name] is not None), default=None)
 
 
-BROKEN_BY = {  # the counts that contradict a claim; only the first is of grazing and drowned rays too
+BROKEN_BY = {  # by claim, the counts that contradict it; only the first claim is about grazing and drowned rays too
     "no_missed_root": tuple(f"{kind}{name}" for name in ("misses", "invalid") for kind in ("", "grazing_", "drowned_")),
     "conservative_bound": ("misses", "invalid"),
     "no_false_hit": ("false_hits", "invalid"),
@@ -56,12 +61,13 @@ BROKEN_BY = {  # the counts that contradict a claim; only the first is of grazin
 
 
 def _within(kind: str) -> Callable[[dict[str, Any]], Value]:
-    """Wrong answers in the class of `kind` rays; None in rows from before the class was."""
-    names = [f"{kind}_{name}" for wrong, name in NAMES.items() if wrong is not Wrong.INVALID]
+    """Make what adds up the wrong answers to `kind` rays; None for a row that is older than that class."""
+    names = [f"{kind}_{name}" for name in KINDS if name != "invalid"]
     return lambda found: sum(found[name] for name in names) if names[0] in found else None
 
 
 def _invalid(found: dict[str, Any]) -> Value:
+    """Count the answers that can be none, in all classes."""
     return int(sum(found.get(f"{kind}invalid", 0) for kind in ("", "grazing_", "drowned_")))
 
 
@@ -92,7 +98,10 @@ KNOWN = (*GATED, SPEED.name)
 
 
 def figures(row: Row, claims: Iterable[str]) -> dict[str, Value]:
-    """Every figure that `row` has, by name. Raises FirsthitError for one that is no finite number."""
+    """Return every figure that `row` has, by name; `claims` are those of its method (contract.CLAIMS).
+
+    Raises FirsthitError for a figure that is no finite number.
+    """
     found: dict[str, Value] = {}
     accuracy, rungs = row["accuracy"], row["rungs"]
     for figure in FIGURES:
@@ -109,9 +118,9 @@ def figures(row: Row, claims: Iterable[str]) -> dict[str, Value]:
 
 
 def _disproved(claim: str, row: Row) -> bool:
-    """Whether this row contradicts the claim (contract.CLAIMS); one that no row can contradict stands while stated.
+    """Say whether this row contradicts the claim; one that no row can contradict stands for as long as it is stated.
 
-    An answer that can be none contradicts what is claimed of the ray, whatever the truth.
+    An answer that can be none contradicts what is claimed of its ray, whatever the truth.
     """
     counts = [row["accuracy"]] if row["accuracy"] else row["rungs"]
     broken_by = BROKEN_BY.get(claim, ())

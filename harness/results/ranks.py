@@ -1,4 +1,4 @@
-"""Rank tests: whether two sets of timings differ, whatever their distribution. Two-sided, ties by mid-ranks.
+"""Rank tests: whether two sets of timings differ, whatever their distribution. Two-sided; ties share a rank.
 
 Sources: F. Wilcoxon, Individual comparisons by ranking methods, 1945; H. B. Mann, D. R. Whitney, On a test of whether
 one of two random variables is stochastically larger than the other, 1947; normal form with the correction for ties:
@@ -17,9 +17,9 @@ EXACT = 40  # observations up to which the exact distribution is used; the norma
 
 
 def signed_rank(differences: Sequence[float]) -> float:
-    """Wilcoxon's signed-rank test of paired differences: the p-value of "their median is 0". Zeros are left out.
+    """Return the p-value of Wilcoxon's signed-rank test of paired differences, whose hypothesis is a median of 0.
 
-    1.0 where nothing is left.
+    Zeros are left out; 1.0 where nothing is left.
     """
     values = np.array([d for d in differences if d != 0.0])
     if not len(values):
@@ -41,17 +41,17 @@ def signed_rank(differences: Sequence[float]) -> float:
 
 
 def least_chance(pairs: int) -> float:
-    """The smallest p-value that signed_rank can give for so many pairs: when one side leads in all of them."""
+    """Return the smallest p-value that signed_rank can give for `pairs` pairs: when one side leads in all of them."""
     return min(1.0, 2.0 ** (1 - pairs))
 
 
 def pairs_needed(level: float) -> int:
-    """How many pairs it takes until signed_rank can give a p-value of at most `level`, 0 < level <= 1."""
+    """Count the pairs that it takes until signed_rank can give a p-value of at most `level`, 0 < level <= 1."""
     return next(pairs for pairs in range(1, 1100) if least_chance(pairs) <= level)
 
 
 def rank_sum(first: Sequence[float], second: Sequence[float]) -> float:
-    """The test of Mann and Whitney (Wilcoxon's rank sum): the p-value of "both come from one distribution".
+    """Return the p-value of the rank-sum test of Mann and Whitney, whose hypothesis is one distribution of both.
 
     1.0 where either is empty.
     """
@@ -73,7 +73,7 @@ def rank_sum(first: Sequence[float], second: Sequence[float]) -> float:
 
 
 def _mid_ranks(values: NDArray[np.float64]) -> NDArray[np.float64]:
-    """float64[n]: 1, 2, … by size; equal values share the mean of their ranks."""
+    """Return the ranks float64[n] of n values, 1, 2, … by size; equal values share the mean of their ranks."""
     _, places, counts = np.unique(values, return_inverse=True, return_counts=True)
     last = np.cumsum(counts)
     shared: NDArray[np.float64] = (last - (counts - 1) / 2.0)[places]
@@ -81,11 +81,12 @@ def _mid_ranks(values: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _two_sided(chances: NDArray[np.float64], at: int) -> float:
+    """Return the two-sided p-value of the outcome `at`; chances: float64[n], of each outcome 0, 1, …."""
     return min(1.0, 2.0 * min(float(chances[: at + 1].sum()), float(chances[at:].sum())))
 
 
 def _normal(statistic: float, mean: float, variance: float) -> float:
-    """With the correction for continuity."""
+    """Return the two-sided p-value by the normal distribution, with the correction for continuity."""
     if variance == 0.0:
         return 1.0
     away = max(abs(statistic - mean) - 0.5, 0.0) / math.sqrt(variance)

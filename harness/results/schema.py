@@ -1,8 +1,7 @@
-"""The flat rows: which values of a cell's file a report uses, what they are called and of which kind they are.
+"""The flat rows: which columns a report makes of a stored row, what they are called and of which kind they are.
 
-A name is the last part of the value's path in the file, prefixed only where two would collide. CSV, Parquet and
-every table use these names; `reports.analysis.derive` and `reports.analysis.breaks` add the columns that follow from
-them.
+A column is a leaf of harness/results/row.py. CSV, Parquet and every table use these names;
+`reports.analysis.derive` and `reports.analysis.breaks` add the columns that follow from them.
 
 An ordinary cell is one row of SCHEMA. A cell of a family of hard rays is one row of FAMILY and, for each of its
 rungs, one of RUNG.
@@ -11,21 +10,28 @@ rungs, one of RUNG.
 from __future__ import annotations
 
 import json
+import types
+import typing
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, Literal
+from typing import Any, Literal, NotRequired
+
+from harness.results.row import KINDS as KINDS
+from harness.results.row import SAME_NAME, Leaf, Part, RungVerdict, StoredRow
 
 Kind = Literal["text", "real", "whole", "flag", "json", "reals"]
 
 
 @dataclass(frozen=True)
 class Field:
-    """One column. `path` leads to its value in a cell's file; a value that is null or absent is None in the row."""
+    """One leaf and its column. `path` leads to its value in a cell's file; a value that is null or absent is None in
+    the flat row, and an error where the field is `required`."""
 
-    name: str
+    name: str  # the column's; empty where there is none
     kind: Kind
-    path: tuple[str, ...] = ()
+    path: tuple[str, ...]  # "[]" stands for every item of a list
+    meaning: str
     required: bool = False
 
     @cached_property
@@ -34,95 +40,98 @@ class Field:
         return self.path[:-1]
 
 
-def _fields(kind: Kind, names: str, at: str = "", prefix: str = "", required: bool = False) -> Iterator[Field]:
-    for name in names.split():
-        yield Field(prefix + name, kind, (*at.split("."), name) if at else (name,), required)
+def fields_of(declared: Any, path: tuple[str, ...] = (), within: str = "", prefix: str = "") -> Iterator[Field]:
+    """Yield the leaves of a TypedDict of harness/results/row.py in its order, those of its objects where these stand.
+
+    A list of objects is a leaf, and the leaves of its items follow it without columns.
+    `within` says what the object at `path` is, `prefix` begins the names of its columns.
+    """
+    for name, hint in typing.get_type_hints(declared, include_extras=True).items():
+        annotated = typing.get_args(hint)[0] if typing.get_origin(hint) is NotRequired else hint
+        kind, note = _without_none(annotated.__origin__), annotated.__metadata__[0]
+        here = (*path, name)
+        if typing.is_typeddict(kind):
+            part = note if isinstance(note, Part) else Part("", prefix="")
+            yield from fields_of(kind, here, part.meaning, part.prefix)
+            continue
+        leaf = note if isinstance(note, Leaf) else Leaf(note)
+        column = name if leaf.column == SAME_NAME else leaf.column
+        meaning = f"{leaf.meaning} of {within}" if within else leaf.meaning
+        yield Field(prefix + column if column else "", _kind(kind), here, meaning, leaf.always)
+        if typing.get_origin(kind) is list and typing.is_typeddict(item := typing.get_args(kind)[0]):
+            yield from (replace(field, name="", required=False) for field in fields_of(item, (*here, "[]")))
 
 
-KINDS = ("misses", "false_hits", "exhausted", "wrong_root", "invalid")  # of wrong rays; older rows lack the last
-_PERCENTILES = "max p999 p99 p50"
-UNITS = (
-    *("error", "relative_error", "feature_error", "pixel_error", "ulp_error"),
-    *("condition_ratio", "normal_error_degrees", "residual"),
-)
+def _without_none(kind: Any) -> Any:
+    """`kind` where it is one type or None: the type."""
+    if typing.get_origin(kind) not in (types.UnionType, typing.Union):
+        return kind
+    (alone,) = (part for part in typing.get_args(kind) if part is not types.NoneType)
+    return alone
 
-SCHEMA: tuple[Field, ...] = (
-    *_fields("text", "run key slot comparison method variant", required=True),  # `run` is the plan's name
-    *_fields("text", "baseline"),  # the plan's: the method or variant that speed-ups are over
-    *_fields("json", "parameters"),
-    *_fields("text", "surface surface_title", required=True),
-    *_fields("text", "formula"),
-    *_fields("whole", "degree"),
-    *_fields("text", "view", required=True),
-    *_fields("text", "view_set"),
-    *_fields("real", "azimuth elevation fov distance", at="camera"),
-    *_fields("whole", "size samples_per_pixel", required=True),
-    *_fields("text", "precision stage device status", required=True),
-    *_fields("text", "reason"),
-    *_fields("flag", "answers", required=True),
-    *_fields("text", "casts prepass proxy normal scene"),
-    *_fields("text", "origin"),  # of rays; null for beams and triangles, and in older rows
-    *_fields("real", "pixel_tolerance"),
-    *_fields("whole", "instances"),
-    *_fields("text", "clock", at="time"),
-    *_fields("real", "median_ms lower_ms upper_ms overhead_share", at="time"),
-    *_fields("real", "bootstrap_lower_ms bootstrap_upper_ms drift_share drift_chance spread_share", at="time"),
-    *_fields("whole", "outliers", at="time"),
-    *_fields("json", "warnings", at="time"),
-    *_fields("flag", "narrow", at="time"),
-    *_fields("whole", "batch", at="time"),
-    *_fields("reals", "samples_ms", at="time"),
-    *_fields("json", "rounds", at="time"),
-    *_fields("text", "session", at="time"),
-    *_fields("real", "compile_ms upload_ms readback_ms", at="build"),
-    *_fields("whole", "bytes", at="build"),
-    *_fields("whole", "size rays", at="accuracy", prefix="accuracy_"),
-    *_fields("whole", "domain_rays", at="accuracy"),
-    *_fields("whole", "fragments fragments_discarded pixels_drawn other_instance", at="accuracy"),
-    *_fields("whole", "truth_hits truth_misses undecided grazing drowned judged", at="accuracy"),
-    *_fields("real", "grazing_margin scene_radius domain_radius", at="accuracy"),
-    *_fields("whole", " ".join(KINDS), at="accuracy"),
-    *_fields("whole", " ".join(f"grazing_{kind}" for kind in KINDS), at="accuracy"),
-    *_fields("whole", " ".join(f"drowned_{kind}" for kind in KINDS), at="accuracy"),
-    *(field for unit in UNITS for field in _fields("real", _PERCENTILES, at=f"accuracy.{unit}", prefix=f"{unit}_")),
-    *_fields("whole", "beam_only", at="accuracy"),  # hits of what the pixel's beam sees and its ray passes by
-    *_fields("real", "evaluations_mean evaluations_max prepass_evaluations_mean", at="accuracy"),
-    *_fields("json", "lanes", at="accuracy"),  # of beams: what each level's work items spend and leave idle
-    *_fields("text", "arrays"),
-    *_fields("json", "operations"),
-    *_fields("whole", "evaluation_operations"),
-    *_fields("text", "hash", at="program", prefix="program_"),
-    *_fields("text", "started commit", at="environment"),
-    *_fields("json", "identity"),
-)
+
+def _kind(kind: Any) -> Kind:
+    """How a column holds values of a type: numbers and texts as they are, lists of reals as lists, all else as JSON."""
+    if typing.get_origin(kind) is Literal:
+        return "text"
+    return _KINDS.get(kind, "json")
+
+
+_KINDS: dict[Any, Kind] = {str: "text", float: "real", int: "whole", bool: "flag", list[float]: "reals"}
+
+
+def _of_plan(name: str, meaning: str, required: bool = False) -> Field:
+    return Field(name, "text", (name,), meaning, required)
+
+
+LEAVES: tuple[Field, ...] = tuple(fields_of(StoredRow))
+_COLUMNS = [field for field in LEAVES if field.name]
+_AFTER = [field.name for field in _COLUMNS].index("variant") + 1
+
+RUN = _of_plan("run", "the name of the run", required=True)
+BASELINE = _of_plan("baseline", "the method or variant that speed-ups are over")
+SCHEMA: tuple[Field, ...] = (RUN, *_COLUMNS[:_AFTER], BASELINE, *_COLUMNS[_AFTER:])
+
+
+def _derived(kind: Kind, **meanings: str) -> Iterator[Field]:
+    return (Field(name, kind, (name,), meaning) for name, meaning in meanings.items())
+
 
 DERIVED: tuple[Field, ...] = (
-    *_fields("real", "mrays_per_s frames_per_s baseline_ms speedup floor_ms"),
-    *_fields("flag", "floor_bound"),
-    *_fields("real", "peak_share"),
-    *_fields("flag", "peak_too_low"),
-    *_fields("whole", "wrong_rays grazing_wrong_rays drowned_wrong_rays"),
-    *_fields("flag", "front"),
+    *_derived(
+        "real",
+        mrays_per_s="millions of rays per second, by median_ms",
+        frames_per_s="frames per second, by median_ms",
+        baseline_ms="median_ms of the baseline beside it",
+        speedup="the baseline's time over this one's, in the rounds that timed both, where both answer rightly",
+        floor_ms="median_ms of the method null beside it, which measures the harness",
+    ),
+    *_derived("flag", floor_bound="whether the time is under twice floor_ms"),
+    *_derived("real", peak_share="operations of the evaluations per second, over the device's measured peak"),
+    *_derived("flag", peak_too_low="whether the row exceeds the measured peak, so that no share is told"),
+    *_derived(
+        "whole",
+        wrong_rays="clear rays that were answered wrongly, of whatever kind",
+        grazing_wrong_rays="grazing rays that were answered wrongly",
+        drowned_wrong_rays="drowned rays that were answered wrongly",
+    ),
+    *_derived("flag", front="whether no other variant with all clear rays right is both faster and more exact"),
 )
 
 
-FAMILY: tuple[Field, ...] = (
-    *_fields("text", "run key slot family method variant", required=True),
-    *_fields("json", "parameters"),
-    *_fields("text", "origin"),
-    *_fields("text", "precision device status", required=True),
-    *_fields("text", "reason"),
-    *_fields("flag", "answers", required=True),
-)
+def _leaf(name: str) -> Field:
+    """The leaf `name` of the row itself, as a column."""
+    (found,) = (field for field in LEAVES if field.path == (name,))
+    return replace(found, name=name)
+
+
+_OF_FAMILY = "key slot family method variant parameters origin precision device status reason answers"
+FAMILY: tuple[Field, ...] = (RUN, *map(_leaf, _OF_FAMILY.split()))
 
 RUNG: tuple[Field, ...] = (
-    *_fields("text", "key", required=True),
-    *_fields("whole", "level", required=True),  # 0, 1, … going harder
-    *_fields("real", "parameter", required=True),
-    *_fields("whole", "rays decided right misses false_hits exhausted wrong_root", required=True),
-    *_fields("whole", "invalid"),
-    *_fields("whole", "undecidable undecidable_right undecided", required=True),
-    *_fields("real", "max_error worst_ratio"),
+    _leaf("key"),
+    Field("level", "whole", ("level",), "the place of the rung, 0, 1, … going harder", required=True),
+    *fields_of(RungVerdict),
 )
 
 

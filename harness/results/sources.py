@@ -1,7 +1,7 @@
-"""The project's own files, hashed by whole folders: what decides a row, a truth file, a mesh or a study.
+"""Hashes the project's own files by whole folders: what decides a row, a truth file, a mesh or a study.
 
 A folder counts with everything in it, so that a new module is covered on the day it appears. What is left out stands in
-NOT_DECIDING with its reason; tests/test_identity.py walks the imports of a run and fails where one of these is reached.
+NOT_DECIDING with its reason. tests/test_identity.py walks the imports of a run and fails where it reaches one of them.
 """
 
 from __future__ import annotations
@@ -29,19 +29,22 @@ NOT_DECIDING = {
     "harness/console.py": "prints tables and progress",
     "harness/gate": "judges finished rows",
     "harness/recommend": "chooses among finished rows",
+    "harness/results/columns.py": "prints a page of the documentation",
+    "harness/results/schema.py": "says which columns reports make of finished rows",
     "harness/studies": "are no cells; each has a key of its own, see harness/studies/__init__.py",
 }
 TRUTH = ("harness/contract.py", "harness/limits.py", "harness/oracle", "surfaces")
 MESHES = ("harness/contract.py", "harness/limits.py", "harness/scenes/meshes.py", "surfaces")
-PACKAGES = ("numpy", "sympy", "python-flint")  # bindings are among a device's facts, a mesher among a picture's
+PACKAGES = ("numpy", "sympy", "python-flint")  # those of bindings and of the mesher stand elsewhere in a row's identity
 LIBRARIES = ("site-packages", "dist-packages")  # folders that hold other people's modules beside a plugin's
 
 
 @cache
 def hashes(*parts: str) -> dict[str, str]:
-    """The 16-digit hash of each file of `parts`, files and folders below the project, by its path there.
+    """Return the 16-digit hash of each file of `parts`, by its path below the project.
 
-    Raises FirsthitError where a part is not there: nothing may be covered by name alone.
+    `parts` are files and folders, named from the project's folder. Raises FirsthitError where one is not there, since
+    a name alone covers nothing.
     """
     found: dict[str, str] = {}
     for part in parts:
@@ -54,19 +57,19 @@ def hashes(*parts: str) -> dict[str, str]:
 
 @cache
 def methodology() -> dict[str, str]:
-    """Hashes of all of the harness's files that decide what a row says, by path below the project."""
+    """Return the hash of each of our files that decide what a row says, by its path below the project."""
     return {path: found for path, found in hashes(*DECIDING).items() if left_out(path) is None}
 
 
 @cache
 def digest_of(*parts: str) -> str:
-    """One hash of all files of `parts`."""
+    """Return one hash of all files of `parts`. Raises FirsthitError where a part is not there."""
     return digest(hashes(*parts))
 
 
 @cache
 def packages() -> dict[str, str]:
-    """Versions of what computes truth, tables and verdicts, and of Python, whose minor versions differ in speed."""
+    """Return the versions of the packages that compute truth, tables and verdicts, and the minor version of Python."""
     found = {"python": ".".join(platform.python_version_tuple()[:2])}
     for name in PACKAGES:
         try:
@@ -77,17 +80,18 @@ def packages() -> dict[str, str]:
 
 
 def left_out(path: str) -> str | None:
-    """Why a file below the project, `harness/cli.py`, does not decide a row; None where it does."""
+    """Say why a file, such as `harness/cli.py`, does not decide a row; None where it does."""
     folders = [path, *(parent.as_posix() for parent in Path(path).parents)]
     return next((NOT_DECIDING[folder] for folder in folders if folder in NOT_DECIDING), None)
 
 
 def hash_of(file: Path) -> str:
+    """Return the first 16 digits of a file's SHA-256."""
     return hashlib.sha256(file.read_bytes()).hexdigest()[:16]
 
 
 def files_in(path: Path) -> list[Path]:
-    """`path` itself, or all files below it, sorted; without hidden ones, backups and compiled Python."""
+    """List `path` itself, or all files below it, sorted, without hidden ones, backups and compiled Python."""
     if path.is_file():
         return [path]
     found = (file for file in path.rglob("*") if file.is_file() and not file.name.endswith("~"))
@@ -99,10 +103,11 @@ def _is_litter(path: Path) -> bool:
 
 
 def of_method(folder: Path) -> dict[str, str]:
-    """Hashes of a method's folder and of its own modules outside it that these files import, lazily too.
+    """Return the hash of each file of a method's folder, and of each of its own modules that these files import.
 
-    Own are modules beside the folder and those of the package that holds it. The harness's are covered by
-    `methodology`, packages by what they change in the program. Files that a method reads elsewhere are not seen.
+    Its own modules are those beside the folder and those of the package that holds it; imports inside functions count.
+    The harness's modules are covered by `methodology`, other packages by what they change in the program. A file that
+    a method reads from elsewhere is not seen.
     """
     top = _topmost(folder)
     open_files, found = files_in(folder), dict[Path, str]()
@@ -120,14 +125,14 @@ def _named(file: Path, above: Path) -> str:
 
 
 def _topmost(folder: Path) -> Path:
-    """The folder of the outermost package that holds `folder`, or `folder` itself."""
+    """Return the folder of the outermost package that holds `folder`, or `folder` itself."""
     while (folder.parent / "__init__.py").exists():
         folder = folder.parent
     return folder
 
 
 def _roots(folder: Path, top: Path) -> list[tuple[Path, str | None]]:
-    """Where a method's own modules may lie, and of which package they must then be; None: of any name."""
+    """List where a method's own modules may lie, each with the package they must be of; None: of any name."""
     roots: list[tuple[Path, str | None]] = [(folder, None), (top.parent, top.name)]
     if folder.parent.name not in LIBRARIES:
         roots.append((folder.parent, None))
@@ -135,7 +140,7 @@ def _roots(folder: Path, top: Path) -> list[tuple[Path, str | None]]:
 
 
 def imported(file: Path, roots: list[tuple[Path, str | None]]) -> list[Path]:
-    """The files below `roots` that a Python file imports, at its top or inside functions; none where it is broken."""
+    """List the files below `roots` that a Python file imports, at its top or in functions; none where it is broken."""
     try:
         tree = ast.parse(file.read_bytes())
     except (SyntaxError, ValueError):  # then the method is not loaded
@@ -152,7 +157,7 @@ def imported(file: Path, roots: list[tuple[Path, str | None]]) -> list[Path]:
 
 
 def _imports(tree: ast.Module) -> Iterator[tuple[list[str], int]]:
-    """The names of modules that may be meant by each import, and how many folders up it starts."""
+    """Yield, for each import, the modules that it may mean, and how many folders up it starts."""
     for node in ast.walk(tree):
         if isinstance(node, ast.Import):
             yield [name.name for name in node.names], 0
@@ -162,7 +167,7 @@ def _imports(tree: ast.Module) -> Iterator[tuple[list[str], int]]:
 
 
 def _modules(root: Path, name: str) -> Iterator[Path]:
-    """The files that importing `name` below `root` executes: the module's, and those of packages on the way."""
+    """Yield the files that importing `name` below `root` executes: the module's, and those of packages on the way."""
     path = root
     for part in name.split(".") if name else ():
         path = path / part

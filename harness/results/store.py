@@ -1,4 +1,4 @@
-"""Results as files below runs/<config>/, written whole or not at all and named by what decides them.
+"""Keeps results as files below runs/<config>/, written whole or not at all, and named by what decides them.
 
 plan.json            the experiment as last run: which cells it names, on which devices
 cells/<key>.json     one row
@@ -9,50 +9,20 @@ truth/<hash>.npz     the oracle's answers, shared by all rows with the same rays
 from __future__ import annotations
 
 import json
-import os
-import tempfile
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any, cast
+from typing import Any
 
-import numpy as np
 from numpy.typing import NDArray
 
-from harness.contract import FirsthitError
+from harness.results.writing import savez_atomically, write_atomically
 
 FORMAT = 1
-Row = dict[str, Any]
-
-
-def write_atomically(path: Path, content: bytes) -> None:
-    """Replace `path` by `content`, never leaving half a file. Raises FirsthitError where it cannot be written."""
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-        try:
-            with os.fdopen(handle, "wb") as file:
-                file.write(content)
-                file.flush()
-                os.fsync(file.fileno())
-            Path(name).chmod(0o644)
-            Path(name).replace(path)
-        finally:
-            Path(name).unlink(missing_ok=True)  # only where it did not become `path`
-    except OSError as error:
-        raise FirsthitError(f"cannot write {path}: {error.strerror or error}", exit_code=3) from None
-
-
-def savez_atomically(path: Path, **arrays: NDArray[Any]) -> None:
-    """Write arrays as one compressed .npz, whole or not at all."""
-    import io
-
-    buffer = io.BytesIO()
-    np.savez_compressed(buffer, **cast(Any, arrays))
-    write_atomically(path, buffer.getvalue())
+Row = dict[str, Any]  # as it was read, of this or an older version; harness/results/row.py declares what is in it
 
 
 class Store:
-    """One experiment's folder. Only one process writes to it."""
+    """Holds one experiment's folder, to which only one process writes."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
@@ -63,7 +33,7 @@ class Store:
         return self.folder / "cells" / f"{key}.json"
 
     def read(self, key: str) -> Row | None:
-        """The row of `key`; None where there is none or its file is damaged (then `unreadable` says why)."""
+        """Return the row of `key`; None if there is none or its file is damaged (then `unreadable` says why)."""
         try:
             row = json.loads(self._cell(key).read_text(encoding="utf-8"))
         except FileNotFoundError:
@@ -77,7 +47,10 @@ class Store:
         return row
 
     def write(self, row: Row, arrays: dict[str, NDArray[Any]] | None = None) -> None:
-        """Store a finished row, its arrays first, so that a row never names arrays that are not there."""
+        """Store a finished row, its arrays first, so that a row never names arrays that are not there.
+
+        Raises FirsthitError where a file cannot be written.
+        """
         if arrays is not None:
             row = row | {"arrays": f"arrays/{row['key']}.npz"}
             savez_atomically(self.folder / row["arrays"], **arrays)
@@ -85,10 +58,11 @@ class Store:
         write_atomically(self._cell(row["key"]), text.encode())
 
     def rows(self) -> Iterator[Row]:
-        """Every readable row, current or stale."""
+        """Yield every row that can be read, current or stale."""
         for path in sorted((self.folder / "cells").glob("*.json")):
             if row := self.read(path.stem):
                 yield row
 
     def write_plan(self, plan: dict[str, Any]) -> None:
+        """Store what the run sets out to do. Raises FirsthitError if it cannot be written."""
         write_atomically(self.folder / "plan.json", json.dumps({"format": FORMAT, **plan}, indent=1).encode())

@@ -1,8 +1,9 @@
 """What repeated timings say: the median with its interval, drift, noise, and one variant's time over another's.
 
-Two intervals stand beside each other. The order-statistic one assumes nothing and covers the median at least 95 times
-in 100 from 6 samples on; it decides. The bootstrap one is what papers print; with few samples it promises too much (at
-8 it covers 90 times in 100, tests/test_measure.py) and decides nothing.
+Two intervals stand beside each other. The order-statistic interval assumes nothing of the distribution, and from 6
+samples on it covers the median at least 95 times in 100: it decides. The bootstrap interval is what papers print. With
+few samples it covers the median less often than it says (at 8 samples 90 times in 100, tests/test_measure.py), and it
+decides nothing.
 """
 
 from __future__ import annotations
@@ -22,13 +23,16 @@ RESAMPLES = 2000
 DRIFT_SHARE = 0.03  # a change between the halves smaller than this is no drift worth a warning
 DRIFT_CHANCE = 0.05  # nor one that chance makes this often
 NOISE_SHARE = 0.1  # the middle half of the samples spread over more than this share of the median is noise
-CLOCKS_AGREE = 1.05  # a device's clock that tells more than this many times what passed on the host's is not believed
-FENCE = 3.0  # quartile ranges outside the quartiles: an outlier ("far out": Tukey, Exploratory Data Analysis, 1977)
+CLOCKS_AGREE = 1.05  # a device that tells more than so many times what passed on the host's clock is not believed
+FENCE = 3.0  # an outlier lies so many quartile ranges outside the quartiles (Tukey, Exploratory Data Analysis, 1977)
 
 
 @cache
 def _rank(count: int) -> int | None:
-    """The largest k so that the k-th smallest and k-th largest of `count` samples enclose the median at CONFIDENCE."""
+    """Find the largest k for which the k-th smallest and k-th largest of `count` samples hold the median at CONFIDENCE.
+
+    None where there is no such k.
+    """
     tail, k = 0.0, 0
     while True:
         tail += math.exp(math.lgamma(count + 1) - math.lgamma(k + 1) - math.lgamma(count - k + 1) - count * math.log(2))
@@ -38,9 +42,10 @@ def _rank(count: int) -> int | None:
 
 
 def median_interval(samples: Sequence[float]) -> tuple[float, float, float, bool]:
-    """(median, lower, upper, proved): the 95 % order-statistic interval of the median.
+    """Return (median, lower, upper, proved): the median and its 95 % order-statistic interval, in the samples' unit.
 
-    Under 6 samples none exists: then the extremes are given and `proved` is False. Raises ValueError for no samples.
+    Of fewer than 6 samples there is none: then the extremes are returned and `proved` is False. Raises ValueError for
+    no samples.
     """
     if not samples:
         raise ValueError("no samples")
@@ -53,7 +58,7 @@ def median_interval(samples: Sequence[float]) -> tuple[float, float, float, bool
 
 
 def bootstrap_interval(samples: Sequence[float], seed: int) -> tuple[float, float]:
-    """(lower, upper): the 95 % percentile-bootstrap interval of the median, the same for the same seed.
+    """Return (lower, upper): the 95 % percentile-bootstrap interval of the median, the same for the same seed.
 
     Source: B. Efron, Bootstrap methods: another look at the jackknife, 1979. Raises ValueError for no samples.
     """
@@ -65,7 +70,7 @@ def bootstrap_interval(samples: Sequence[float], seed: int) -> tuple[float, floa
 
 
 def is_narrow(samples: Sequence[float], share: float) -> bool:
-    """Whether the 95 % interval of the median lies within ± `share` of it."""
+    """Say whether the 95 % interval of the median exists and lies within ± `share` of it."""
     if not samples:
         return False
     median, lower, upper, proved = median_interval(samples)
@@ -73,15 +78,15 @@ def is_narrow(samples: Sequence[float], share: float) -> bool:
 
 
 def proves(count: int) -> bool:
-    """Whether so many samples are enough for a 95 % interval of their median."""
+    """Say whether `count` samples are enough for a 95 % interval of their median."""
     return count > 0 and _rank(count) is not None
 
 
 def overhead(wall_ms: Sequence[float], device_ms: Sequence[float]) -> float | None:
-    """What the host's clock tells beyond the device's own, as a share of the latter: the median over the samples.
+    """Return what the host's clock tells beyond the device's, as a share of the latter: the median over the samples.
 
-    None where nothing can be told: without a device time for each sample, where one is not positive, or where the
-    device tells more than passed. Both clocks' own error, up to CLOCKS_AGREE, is an overhead of 0.
+    None where there is no device time for each sample, where one is not positive, or where the device tells more than
+    passed on the host. A device that tells up to CLOCKS_AGREE times as much has an overhead of 0: so far clocks err.
     """
     if not wall_ms or len(wall_ms) != len(device_ms) or min(device_ms) <= 0.0:
         return None
@@ -90,7 +95,7 @@ def overhead(wall_ms: Sequence[float], device_ms: Sequence[float]) -> float | No
 
 
 def steadiness(samples: Sequence[float]) -> dict[str, Any]:
-    """Drift, noise and outliers of samples in the order in which they were taken; all of it JSON.
+    """Describe drift, noise and outliers of samples, which are in the order in which they were taken; JSON-able.
 
     `drift_share`: the second half's median over the first's, less 1; `drift_chance`: how often chance alone parts the
     halves so (rank_sum); `spread_share`: the quartile range over the median; `outliers`: how many lie more than FENCE
@@ -127,7 +132,7 @@ def steadiness(samples: Sequence[float]) -> dict[str, Any]:
 
 @dataclass(frozen=True)
 class Ratio:
-    """One variant's time over another's, from `pairs` rounds that timed both; `proved` as in median_interval.
+    """Holds one variant's time over another's, from `pairs` rounds that timed both; `proved` as in median_interval.
 
     `chance` is how often chance alone parts equally fast variants so (signed_rank of the logarithms).
     """
@@ -143,9 +148,10 @@ class Ratio:
 def paired_ratio(
     times: Sequence[float], rounds: Sequence[int], others: Sequence[float], other_rounds: Sequence[int]
 ) -> Ratio | None:
-    """`times` over `others`, round by round, so that what slows a whole round cancels; None without a common round.
+    """Divide `times` by `others` round by round, so that what slows a whole round cancels.
 
-    Only rounds of one interleaved run may be paired.
+    `rounds` and `other_rounds` number the round of each time; only rounds of one interleaved run may be paired. None
+    without a common round.
     """
     by_round = dict(zip(other_rounds, others, strict=True))
     pairs = [(time, by_round[at]) for time, at in zip(times, rounds, strict=True) if at in by_round]

@@ -30,8 +30,6 @@ def rows_of(
     """
     store = Store(folder)
     found = due(planned, store, "everything" if force else "unfinished")
-    environment = describe()
-    about = {"commit": environment["commit"], "dirty": environment["dirty"]}
     progress = console.Progress(len(found.todo), 1.0 * len(found.todo))
-    rows = Runner(experiment.config, catalog, store, executor, about, progress).run(found.todo)
+    rows = Runner(experiment.config, catalog, store, executor, describe(), progress).run(found.todo)
     return found.kept | {row["key"]: row for row in rows}

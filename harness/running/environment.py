@@ -17,7 +17,7 @@ from harness.devices import host
 from harness.devices.executor import CellError, LocalExecutor
 from harness.devices.probes import BELIEVABLE, Probes
 from harness.results import sources
-from harness.results.store import write_atomically
+from harness.results.writing import write_atomically
 
 ROOT = Path(__file__).parents[2]
 PACKAGES = ("numpy", "sympy", "python-flint", "moderngl", "pyopencl")

@@ -14,7 +14,7 @@ from harness.experiment.kinds import of_method
 from harness.experiment.plan import Planned
 from harness.kernels.costs import operations_per_evaluation
 from harness.results import timings
-from harness.results.store import Row
+from harness.results.row import Accuracy, Build, CellRow, RungVerdict, Time
 
 
 @dataclass(eq=False)
@@ -48,11 +48,11 @@ class Samples:
 class Left:
     """Holds the parts of a row that a cell which was tried left behind; None for a part that it did not get to."""
 
-    build: dict[str, Any]
+    build: Build
     seconds: float  # of checking, building and timing
-    time: dict[str, Any] | None = None
-    accuracy: dict[str, Any] | None = None
-    rungs: list[dict[str, Any]] | None = None
+    time: Time | None = None
+    accuracy: Accuracy | None = None
+    rungs: list[RungVerdict] | None = None
 
 
 def row_of(
@@ -62,8 +62,11 @@ def row_of(
     reason: str | None,
     left: Left | None,
     environment: Mapping[str, Any],
-) -> Row:
-    """Build the row of a cell that ended now; `left` is None for one that was skipped or not tried."""
+) -> CellRow:
+    """Build the row of a cell that ended now; `left` is None for one that was skipped or not tried.
+
+    `environment` tells the project's `commit` and whether it is `dirty` (running.environment.describe).
+    """
     cell, own = planned.cell, planned.kind.facts(planned.cell)
     programs = ((planned.timed,) if planned.timed else ()) + planned.checks
     return {
@@ -105,26 +108,31 @@ def row_of(
         "operations": _operations(cell.surface) if left else None,
         "evaluation_operations": operations_per_evaluation(cell.surface, method.needs) if left else None,
         "program": {"hash": programs[0].hash} if programs else None,
-        "environment": {**environment, "started": datetime.now(UTC).isoformat(timespec="seconds")},
+        "environment": {
+            "commit": environment["commit"],
+            "dirty": environment["dirty"],
+            "started": datetime.now(UTC).isoformat(timespec="seconds"),
+        },
         "seconds": left.seconds if left else 0.0,
         "identity": planned.identity,
     }
 
 
-def time_of(samples: Samples, batch: int, session: str, *, seed: int, interval: float) -> dict[str, Any]:
-    """Summarise timed repetitions of `batch` frames each, which were taken in the interleaved `session`.
+def time_of(samples: Samples, batch: int, session: str, *, seed: int, interval: float) -> Time:
+    """Sum up timed repetitions of `batch` frames each, taken in the interleaved `session`.
 
     `seed` is the bootstrap's; `interval` is the share of the median within which its interval is to lie. Raises
     ValueError for no samples.
     """
     median, lower, upper, _ = timings.median_interval(samples.times)
+    steady = timings.steadiness(samples.times)
     bootstrap_lower, bootstrap_upper = timings.bootstrap_interval(samples.times, seed)
     return {
         "clock": "device" if samples.by_device else "wall",
         "samples_ms": samples.times,
         "wall_samples_ms": samples.wall_ms,
         "rounds": samples.rounds,
-        "session": session,  # cells of one session were interleaved: their rounds pair
+        "session": session,
         "batch": batch,
         "median_ms": median,
         "lower_ms": lower,
@@ -133,15 +141,16 @@ def time_of(samples: Samples, batch: int, session: str, *, seed: int, interval: 
         "bootstrap_upper_ms": bootstrap_upper,
         "narrow": timings.is_narrow(samples.times, interval),
         "overhead_share": timings.overhead(samples.wall_ms, samples.device_ms) if samples.by_device else None,
-        **timings.steadiness(samples.times),
+        "drift_share": steady["drift_share"],
+        "drift_chance": steady["drift_chance"],
+        "spread_share": steady["spread_share"],
+        "outliers": steady["outliers"],
+        "warnings": steady["warnings"],
     }
 
 
-def build_of(warmed: Warmed | None, checked_ms: float) -> dict[str, Any]:
-    """Return the times in ms of building the frame where one was `warmed`, and its bytes.
-
-    Without a frame only `checked_ms` is known, the time of building the checked programs.
-    """
+def build_of(warmed: Warmed | None, checked_ms: float) -> Build:
+    """Say what building took: of the frame where one was `warmed`, else of the checked programs, `checked_ms` alone."""
     return {
         "compile_ms": warmed.compile_ms if warmed else checked_ms,
         "upload_ms": warmed.upload_ms if warmed else None,

@@ -171,8 +171,7 @@ def _run_part(part: Experiment, loaded: Loaded, runs: Path, command: str, again:
         for message in store.unreadable.values():
             hears.warned(f"{message}; running that cell again")
         hears.starts(len(found.todo), estimate_seconds(found.todo, store, part.config.budget.seconds))
-        about = {"commit": environment["commit"], "dirty": environment["dirty"]}
-        rows = Runner(part.config, loaded.catalog, store, executor, about, hears.cell).run(found.todo)
+        rows = Runner(part.config, loaded.catalog, store, executor, environment, hears.cell).run(found.todo)
     finally:
         executor.close()
     return Run(store.folder, tuple(rows), tuple(found.kept.values()))
@@ -183,7 +182,7 @@ def _announced(part: Experiment, catalog: Catalog, chosen: Mapping[str, DeviceIn
     here = [info for info in chosen.values() if info]
     cells = len(plan.grid(part, catalog, here)) if part.variants else 0
     where = f" on {', '.join(info.name for info in here)}" if here else ""
-    return f"{part.path}: {cells} cells{where}; measuring what these are worth, and planning"
+    return f"{part.path}: {cells} cells{where}; preparing devices and cells"
 
 
 def _named(part: Experiment, planned: Sequence[Planned], catalog: Catalog) -> dict[str, Any]:

@@ -158,7 +158,7 @@ class Runner:
         """Build the row of a cell that ended, store it, and report it."""
         method = self._catalog.get(planned.cell.variant.method).method
         left = self._left(state, status) if state else None
-        row = row_of(planned, method, status, reason, left, self._environment)
+        row: Row = dict(row_of(planned, method, status, reason, left, self._environment))
         self._store.write(row, state.outcome.pictures if state else None)
         self._report(planned.cell.slot, row)
         return row

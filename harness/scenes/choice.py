@@ -92,8 +92,7 @@ def scenes_of(
 
 
 def rotation(x: float, y: float, z: float) -> Floats:
-    """Return the rotation float64[3, 3] by x degrees about the x axis, then y about the y axis, then z about the z
-    axis."""
+    """Return the rotation float64[3, 3] by x, y and z degrees about the x axis, then the y axis, then the z axis."""
     made = np.eye(3)
     for axis, degrees in enumerate((x, y, z)):
         angle, (i, j) = math.radians(degrees), [(1, 2), (2, 0), (0, 1)][axis]

@@ -50,8 +50,7 @@ def _tori(count: int, where: str) -> str:
 
 
 def lattice(count: int, seed: int, view: View) -> Scene:
-    """Place `count` tori with R = 0.7 and r = 0.3 in a cubic lattice, each turned at random (toledo2007, section
-    5.2)."""
+    """Place `count` tori with R = 0.7, r = 0.3 in a cubic lattice, each turned at random (toledo2007, section 5.2)."""
     import surfaces
 
     source, side = np.random.default_rng([seed, count]), math.ceil(count ** (1.0 / 3.0) - 1e-9)

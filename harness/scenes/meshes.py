@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from harness.contract import Box, FirsthitError, MeshRecipe, Surface, digest
 from harness.results.sources import MESHES, digest_of, packages
-from harness.results.store import savez_atomically
+from harness.results.writing import savez_atomically
 
 FARTHEST = 5000  # how many samples of a surface are compared with its mesh
 PARAMETRIC = {  # the formulas whose parametric form is known here

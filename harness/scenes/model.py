@@ -54,7 +54,7 @@ class Group:
 
     @property
     def differ_in(self) -> str:
-        """The names of the parameters that instances differ in, for people."""
+        """Return the names of the parameters that instances differ in, as text."""
         bound = [dict(surface.parameters) for surface in self.distinct]
         names = [name for name in bound[0] if len({parameters[name] for parameters in bound}) > 1]
         return ", ".join(names) or "their domains"

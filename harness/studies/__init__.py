@@ -16,7 +16,8 @@ from typing import Any, Protocol, cast
 
 from harness.contract import digest
 from harness.results import sources
-from harness.results.store import FORMAT, write_atomically
+from harness.results.store import FORMAT
+from harness.results.writing import write_atomically
 
 NAMES = ("condition_numbers", "extrema_bounds", "form_ranges", "mesh_errors", "torus_along_rays")
 
@@ -32,6 +33,7 @@ class Study(Protocol):
 
 
 def _module(name: str) -> Study:
+    """Import a study."""
     return cast(Study, importlib.import_module(f"harness.studies.{name}"))
 
 
@@ -69,4 +71,5 @@ def run(name: str, folder: Path) -> dict[str, Any]:
 
 
 def _path(name: str, folder: Path) -> Path:
+    """Return the file of a study in a run folder."""
     return folder / "studies" / f"{key(name)}.json"

@@ -39,14 +39,17 @@ class Reading:
 
 
 def _unit(rng: np.random.Generator, n: int) -> Curve:
+    """Draw n + 1 coefficients in [0, 1]."""
     return rng.random(n + 1)
 
 
 def _signed(rng: np.random.Generator, n: int) -> Curve:
+    """Draw n + 1 coefficients in [−1, 1]."""
     return rng.uniform(-1.0, 1.0, n + 1)
 
 
 def _slope(rng: np.random.Generator, n: int) -> Curve:
+    """Draw a curve of degree n + 1 with coefficients in [0, 1], and return the coefficients of its derivative."""
     return (n + 1) * np.diff(rng.random(n + 2))
 
 

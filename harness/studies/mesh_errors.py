@@ -14,8 +14,11 @@ SIZES = (32, 64, 128, 256, 512)
 
 
 def compute() -> list[dict[str, int | float]]:
-    """Return a row for each N: n; ring and both, the formulas, and to_surface and to_mesh, measured, all over R + r;
-    and the mesh's vertices, triangles and bytes. Without pyvista there are no rows."""
+    """Return a row for each N; without pyvista there are none.
+
+    A row has n; ring and both, the formulas, and to_surface and to_mesh, the measured distances, all over R + r; and
+    the mesh's vertices, triangles and bytes.
+    """
     import surfaces
     from harness.contract import MeshRecipe
     from harness.scenes import meshes

@@ -1,1 +1,1 @@
-"""Rows → what follows from them: speed-ups, fronts, ties, fits, exact tests. Nothing here draws."""
+"""Compute what follows from a run's rows: speed-ups, fronts, ties, fits and exact tests. Nothing here draws."""

@@ -1,7 +1,8 @@
-"""What follows from the rungs of families of hard rays: who is right how often, and the first rung that breaks it.
+"""Compute from the rungs of families of hard rays how often each variant is right, and the first rung that breaks it.
 
-A variant breaks on a rung where it is right on less than HELD of the decided rays. Rays that no arithmetic of the
-precision can decide are no part of this; a rung without decided rays neither breaks a variant nor clears it.
+A family is a ladder of rungs, each of rays that are harder than those of the rung before. A variant breaks on a rung
+where it answers less than the share HELD of the decided rays rightly. Rays that no arithmetic of the precision can
+decide do not count. A rung without decided rays neither breaks a variant nor clears it.
 """
 
 from __future__ import annotations
@@ -18,14 +19,21 @@ ALL_DEVICES = "all devices"
 
 
 def derive(families: pd.DataFrame, rungs: pd.DataFrame) -> pd.DataFrame:
-    """One row for each rung: its cell's columns, the rung's own, and `share_right` of its decided rays (or NaN)."""
+    """Return one row for each rung: its cell's columns, its own, and `share_right` of its decided rays (else NaN).
+
+    `families` has a row for each cell, `rungs` the rungs of all cells; methods that answer nothing are left out.
+    """
     told = ["key", "slot", "family", "method", "variant", "parameters", "origin", "precision", "device"]
     rows = families.loc[families["answers"].astype(bool), told].merge(rungs, on="key", sort=False)
     return rows.assign(share_right=_share(rows["right"], rows["decided"]))
 
 
 def by_device(rungs: pd.DataFrame) -> dict[str, pd.DataFrame]:
-    """The rungs of each device; where all devices agree on every count, as of one, with the worst error of any."""
+    """Return the rungs of each device.
+
+    Where several devices agree on every count, all are returned as the one device ALL_DEVICES, with the largest
+    error of any.
+    """
     rung = [*LADDER, "level"]
     if rungs["device"].nunique() <= 1 or (rungs.groupby(rung)[COUNTS].nunique() > 1).any(axis=None):
         return {str(device): rows for device, rows in rungs.groupby("device", sort=False)}
@@ -34,9 +42,10 @@ def by_device(rungs: pd.DataFrame) -> dict[str, pd.DataFrame]:
 
 
 def verdicts(rungs: pd.DataFrame) -> pd.DataFrame:
-    """Sum up one device's rungs, a row for each ladder: COUNTS over it, `share_right`, `worst_ratio`, `breaks_at`.
+    """Sum up one device's rungs in a row for each ladder: COUNTS over it, `share_right`, `worst_ratio`, `breaks_at`.
 
-    `breaks_at` is the parameter of the first rung, going harder, that breaks the variant; NaN where none does.
+    `breaks_at` is the parameter of the first rung, in order of growing difficulty, that breaks the variant; NaN where
+    none does.
     """
     ladders = rungs.groupby(LADDER, sort=False)
     rows = ladders[["method", "device"]].first().join(ladders[COUNTS].sum()).join(ladders["worst_ratio"].max())

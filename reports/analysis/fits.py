@@ -1,4 +1,4 @@
-"""Power laws through points: an exponent by least squares in logarithms, with its interval."""
+"""Fit power laws to points: an exponent by least squares in logarithms, with its 95 % interval."""
 
 from __future__ import annotations
 
@@ -9,12 +9,14 @@ from functools import cache
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-FEWEST = 3  # different places that a fit needs
+from reports import wording
+
+FEWEST = 3  # different x that a fit needs
 
 
 @dataclass(frozen=True)
 class Refusal:
-    """Why no exponent is told of so many points."""
+    """Why `points` points give no exponent."""
 
     points: int
     reason: str
@@ -22,7 +24,10 @@ class Refusal:
 
 @dataclass(frozen=True)
 class Power:
-    """y = factor · x ** exponent; the exponent is known to ± `half_width` at 95 % if errors are normal."""
+    """The law y = factor · x ** exponent.
+
+    If errors are normal, the exponent is known to ± `half_width` at 95 %.
+    """
 
     exponent: float
     half_width: float
@@ -31,14 +36,16 @@ class Power:
     scatter: float  # standard deviation of ln y about the line
 
     def at(self, x: ArrayLike) -> NDArray[np.float64]:
+        """Return y at each of x [n], as float64[n]."""
         fitted: NDArray[np.float64] = self.factor * np.asarray(x, np.float64) ** self.exponent
         return fitted
 
 
 def power_law(x: ArrayLike, y: ArrayLike) -> Power | Refusal:
-    """The fit through positive points [n], or why there is none: too few places, or an interval wider than itself.
+    """Fit a power law to points x [n], y [n]; those that are not positive and finite are left out.
 
-    At least FEWEST different x make a fit.
+    Returns a Refusal where there are fewer than FEWEST different x, or where the exponent's interval is wider than the
+    exponent.
     """
     places, values = np.asarray(x, np.float64), np.asarray(y, np.float64)
     usable = (places > 0) & (values > 0) & np.isfinite(places) & np.isfinite(values)
@@ -56,15 +63,20 @@ def power_law(x: ArrayLike, y: ArrayLike) -> Power | Refusal:
         ends = f"{exponent - half_width:.2f} to {exponent + half_width:.2f}"
         return Refusal(
             points,
-            f"{points} points do not determine an exponent: the 95 % interval of {exponent:.2f}, {ends}, is wider than "
-            "that".replace("-", "−"),
+            wording.minus(
+                f"{points} points do not determine an exponent: the 95 % interval of {exponent:.2f}, {ends}, is wider "
+                "than that"
+            ),
         )
     return Power(exponent, half_width, math.exp(level), points, scatter)
 
 
 @cache
 def student(freedom: int, share: float = 0.975) -> float:
-    """The quantile of Student's distribution at `share` > 1/2, found by bisection on its integrated density."""
+    """Return the quantile of Student's distribution with `freedom` degrees of freedom at `share` > 1/2.
+
+    It is found by bisection on the integrated density.
+    """
     constant = math.exp(math.lgamma((freedom + 1) / 2) - math.lgamma(freedom / 2)) / math.sqrt(freedom * math.pi)
     # t = √freedom · tan φ makes the density's integral one of cos^(freedom − 1) over a bounded range
     low, high = 0.0, math.pi / 2

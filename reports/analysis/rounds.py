@@ -1,7 +1,7 @@
-"""One row's time over another's, in the rounds that timed both.
+"""Compare the times of two rows in the rounds that timed both.
 
-A row ends its rounds when its interval is narrow. What slows the machine down later is then in the other rows' medians
-alone, so that medians of different rounds make no ratio.
+A row's rounds end when its interval is narrow. What slows the machine down after that is in the other rows' medians
+alone. So a ratio is never made of two medians over different rounds.
 """
 
 from __future__ import annotations
@@ -17,10 +17,11 @@ from harness.results.timings import Ratio
 from reports import wording
 
 COLUMNS = ["session", "rounds", "samples_ms"]
+_RATIO = ["ratio", "ratio_low", "ratio_high"]
 
 
 def ratio(row: Any, other: Any) -> Ratio | None:
-    """`row`'s time over `other`'s, round by round; None unless both were timed in one interleaved run."""
+    """Return `row`'s time over `other`'s, round by round; None unless both were timed in one interleaved run."""
     if wording.absent(row.session) or row.session != other.session:
         return None
     if any(wording.absent(one.rounds) or not one.samples_ms for one in (row, other)):
@@ -29,19 +30,22 @@ def ratio(row: Any, other: Any) -> Ratio | None:
 
 
 def times_over(row: Any, other: Any) -> float:
-    """`row`'s time over `other`'s: the median over the rounds that timed both; NaN where none did."""
+    """Return the median of `row`'s time over `other`'s in the rounds that timed both; NaN where no round did."""
     paired = ratio(row, other)
     return math.nan if paired is None else paired.median
 
 
 def ratios(both: pd.DataFrame, suffix: str) -> list[Ratio | None]:
-    """Compute for each line of `both` the time of the row in the columns that end in `suffix` over the other row's."""
+    """Return for each line of `both`, a join of two rows, the time of the one over the time of the other.
+
+    The columns of the dividend end in `suffix`, those of the divisor have no ending.
+    """
     other = both[[f"{name}{suffix}" for name in COLUMNS]].set_axis(COLUMNS, axis=1)
     return [ratio(a, b) for a, b in zip(other.itertuples(), both[COLUMNS].itertuples(), strict=True)]
 
 
 def above(row: Any, other: Any) -> float:
-    """Compute how many ms longer `row` takes than `other`: the median over the rounds that timed both, or NaN."""
+    """Return by how many ms `row` takes longer than `other`: the median over their common rounds, NaN without any."""
     if ratio(row, other) is None:
         return math.nan
     others = dict(zip(json.loads(other.rounds), other.samples_ms, strict=True))
@@ -50,8 +54,10 @@ def above(row: Any, other: Any) -> float:
 
 
 def over_first(rows: pd.DataFrame, firsts: pd.DataFrame, keys: list[str]) -> pd.Series:
-    """The time of the row of `firsts` with the same `keys` over each of `rows`, by their index; NaN without one that
-    shares a round."""
+    """Return for each of `rows` the time of the row of `firsts` with the same `keys` over its own.
+
+    The result has the index of `rows`; NaN where `firsts` has no such row or shares no round with it.
+    """
     told = [*keys, *COLUMNS]
     by_key = {tuple(getattr(row, key) for key in keys): row for row in firsts[told].itertuples()}
     found = {}
@@ -60,3 +66,27 @@ def over_first(rows: pd.DataFrame, firsts: pd.DataFrame, keys: list[str]) -> pd.
         if first is not None:
             found[row.Index] = times_over(first, row)
     return pd.Series(found, dtype="float64").reindex(rows.index)
+
+
+def over(slow: pd.DataFrame, fast: pd.DataFrame, keys: list[str]) -> pd.DataFrame:
+    """Divide the times of the rows `slow` by those of the rows `fast` with the same `keys`.
+
+    Returns the columns of `fast`; `ratio`, the median over the common rounds, with its 95 % interval from `ratio_low`
+    to `ratio_high` (NaN where there are too few common rounds for one); `slow_ms`, `fast_ms` and `key_slow`. Pairs
+    without a common round are left out. All rows given are timed ones.
+    """
+    told = ["key", "median_ms", *COLUMNS]
+    both = fast.merge(slow[[*keys, *told]], on=keys, suffixes=("", "_slow"))
+    found = {}
+    for at, paired in zip(both.index, ratios(both, "_slow"), strict=True):
+        if paired is not None:
+            ends = (paired.lower, paired.upper) if paired.proved else (math.nan, math.nan)
+            found[at] = (paired.median, *ends)
+    divided = pd.DataFrame(list(found.values()), index=list(found), columns=_RATIO, dtype="float64")
+    both = both.assign(slow_ms=both["median_ms_slow"], fast_ms=both["median_ms"])
+    return both.loc[divided.index].join(divided).reset_index(drop=True)
+
+
+def proved(samples: pd.Series) -> pd.Series:
+    """Tell for each list of times whether it is long enough for the interval of its median."""
+    return samples.map(lambda own: timings.proves(len(own or ()))).astype(bool)

@@ -1,4 +1,7 @@
-"""Whether two variants' times differ: a verdict of the rounds that timed both, never of two medians alone."""
+"""Decide whether the times of two variants differ: by the rounds that timed both.
+
+Only rows that share no round are told apart by the intervals of their two medians.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +15,7 @@ from reports import wording
 from reports.analysis import derive, rounds
 from reports.analysis.rounds import ratio
 
-LEVEL = 0.01  # a chance above this is no evidence that two variants differ
+LEVEL = 0.01  # the largest chance that is evidence of a difference
 NEEDED = ranks.pairs_needed(LEVEL)
 SLOWER, FASTER, ALIKE = "slower", "faster", "not told apart"
 TORN = f"{ALIKE}: the test and the interval disagree"
@@ -26,7 +29,7 @@ RULE = (
 
 
 def verdict(of: Ratio) -> str:
-    """SLOWER, FASTER, ALIKE, TORN, or that there were too few rounds to tell, with how many it takes."""
+    """Return SLOWER, FASTER, ALIKE, TORN, or a text that there were too few rounds, with how many are needed."""
     if of.pairs < NEEDED:
         least = wording.short(ranks.least_chance(of.pairs))
         return f"too few rounds: {of.pairs} can at best give a chance of {least}; needs {NEEDED}"
@@ -37,7 +40,7 @@ def verdict(of: Ratio) -> str:
 
 
 def is_slower(row: Any, other: Any) -> bool:
-    """Whether `row` is told to be slower than `other`; without common rounds, by intervals that do not meet."""
+    """Tell whether `row` is proved slower than `other`: by common rounds, else by intervals that do not meet."""
     paired = ratio(row, other)
     if paired is not None:
         return verdict(paired) == SLOWER
@@ -46,22 +49,24 @@ def is_slower(row: Any, other: Any) -> bool:
 
 
 def best(rows: pd.DataFrame) -> Any:
-    """The fastest of `rows`, which are fastest first by their medians and at least one, with the columns of _TOLD.
+    """Return the fastest of `rows`, as a named tuple of the columns of _TOLD.
 
-    Medians are over all rounds of each; where another row is faster in the rounds that both have, that one is it.
+    `rows` are in order of their medians, fastest first; there is at least one. A median is over all rounds of its row.
+    So a row that is faster than the first in the rounds that both have takes its place.
     """
     return _best(list(rows[_TOLD].itertuples()))
 
 
 def tied(rows: pd.DataFrame, first: Any) -> list[str]:
-    """The variants of other methods than `first`'s, of each the fastest of `rows`, that are not told to be slower.
+    """Return the variants of other methods that are not proved slower than `first`; of each method its fastest.
 
-    `rows` are of one scene and device, fastest first.
+    `rows` are of one scene and device, in order of their medians.
     """
     return _tied(list(rows[_TOLD].itertuples()), first)
 
 
 def _best(rows: list[Any]) -> Any:
+    """Do what `best` does, for rows as named tuples."""
     first = rows[0]
     for row in rows[1:]:
         paired = ratio(row, first)  # whatever the medians: they may be of other rounds
@@ -71,6 +76,7 @@ def _best(rows: list[Any]) -> Any:
 
 
 def _tied(rows: list[Any], first: Any) -> list[str]:
+    """Do what `tied` does, for rows as named tuples."""
     fastest_of: dict[str, Any] = {}
     for row in rows:
         if row.method != first.method:
@@ -79,7 +85,7 @@ def _tied(rows: list[Any], first: Any) -> list[str]:
 
 
 def _groups(rows: pd.DataFrame) -> list[list[Any]]:
-    """The rows of each group, in their order."""
+    """Return the rows of each group, in their order."""
     found: dict[tuple[Any, ...], list[Any]] = {}
     for row in rows[[*derive.GROUP, *_TOLD]].itertuples():
         found.setdefault((row.comparison, row.device, row.precision), []).append(row)
@@ -87,9 +93,10 @@ def _groups(rows: pd.DataFrame) -> list[list[Any]]:
 
 
 def leaders(frame: pd.DataFrame) -> pd.DataFrame:
-    """The fastest row with every ray right of each group that has one, with two more columns.
+    """Return the fastest row with every ray right of each group that has one, with two more columns.
 
-    `tied`: the variants of other methods that it is not told apart from; `methods`: how many methods were timed there.
+    `tied` has the variants of other methods that it is not told apart from, `methods` the number of methods timed
+    in the group.
     """
     rows = derive.contenders(frame)
     methods = rows.groupby(derive.GROUP)["method"].nunique().rename("methods")
@@ -105,6 +112,6 @@ def leaders(frame: pd.DataFrame) -> pd.DataFrame:
 
 
 def fastest(frame: pd.DataFrame) -> pd.DataFrame:
-    """The fastest row of each group, whether it answers every ray rightly or not."""
+    """Return the fastest row of each group, whether it answers every ray rightly or not."""
     rows = derive.contenders(frame)
     return rows.loc[[_best(own).Index for own in _groups(rows)]]

@@ -1,12 +1,12 @@
 """The papers' qualitative claims as data: what is claimed, what decides it, and a function from rows to a verdict.
 
-`CLAIMS` are in the order of the papers. A claim is judged by whatever rows a run has; without them it is not testable,
-and the checklist says which config would decide it.
+CLAIMS are in the order of the papers. A claim is judged by the rows that a run has. Without the rows it needs it is not
+testable, and the checklist names the config that makes them.
 """
 
 from reports.claims.beamcasting import CLAIMS as _BEAMCASTING
 from reports.claims.model import Claim, Outcome, Verdict, judge
-from reports.claims.szente import CLAIMS as _SZENTE
+from reports.claims.szente_fit import CLAIMS as _SZENTE
 from reports.claims.szente_studies import CLAIMS as _SZENTE_STUDIES
 from reports.claims.szente_tracing import CLAIMS as _SZENTE_TRACING
 from reports.claims.toledo import CLAIMS as _TOLEDO

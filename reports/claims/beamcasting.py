@@ -4,18 +4,19 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable
 
 import numpy as np
 import pandas as pd
 
 from harness.results import ranks
 from reports import wording
-from reports.analysis import derive, lanes
+from reports.analysis import derive
+from reports.analysis.idle_lanes import WARP, idle_share
 from reports.claims import picks
 from reports.claims.evidence import Evidence, Pick
 from reports.claims.model import (
     Claim,
+    Judge,
     Verdict,
     always,
     at_least,
@@ -31,9 +32,9 @@ from reports.claims.model import (
 PAPER = "beamcasting"
 TABLES = "beamcasting-tables.toml"
 DIVERGENCE = "beamcasting-divergence.toml"
-MUCH = 0.25  # the share of a warp's lanes from which on idle ones cost much
-TOLD_APART = 0.01  # idle shares differ by so much from run to run, as the queue's order does
-LEVEL = 0.01  # a chance above this is no evidence that a gain grows
+MUCH = 0.25  # the idle share of a warp's lanes that is called much
+TOLD_APART = 0.01  # idle shares differ by so much from run to run, because the order of the queue does
+LEVEL = 0.01  # the largest chance that is evidence of a growing gain
 _BOTH = ("interval_uniform", "interval_adaptive")
 
 
@@ -56,6 +57,7 @@ def _always(evidence: Evidence) -> Verdict | None:
 
 
 def _grows(evidence: Evidence, by: str, kept: str, told_there: str) -> Verdict | None:
+    """Judge whether the gain grows with the column `by`, at each value of `kept`; `told_there` is the paper's."""
     ratios = _ratios(evidence)
     table = ratios.pivot_table(index=["device", "surface", kept], columns=by, values="ratio").dropna()
     if table.shape[1] < 2 or table.empty:
@@ -111,7 +113,10 @@ def _beyond_algebra(evidence: Evidence) -> Verdict | None:
 
 
 def _wrong_roots(rows: pd.DataFrame) -> str:
-    """Pieces that a pixel's beam touches and its middle ray does not hit: no beam method tells these apart."""
+    """Write how often a beam finds another root than its middle ray.
+
+    A beam may touch a piece of the surface that its middle ray does not hit; no method of beams tells these apart.
+    """
     wrong, of = counted(rows, "wrong_root"), counted(rows, "accuracy_rays")
     return f"other roots than the middle ray's: {count(wrong)} of {count(of)}"
 
@@ -144,9 +149,9 @@ def _complexity(evidence: Evidence) -> Verdict | None:
 
 
 def _idle(evidence: Evidence, pick: Pick) -> pd.DataFrame:
-    """The rows of `pick` whose work items' evaluations are known, with the idle share of warps in `idle`."""
+    """Return the rows of `pick` that store their levels, with the idle share of warps as `idle`."""
     rows = evidence.rows(pick)
-    idle = [lanes.idle_share(row, lanes.WARP) for row in rows.itertuples()]
+    idle = [idle_share(row, WARP) for row in rows.itertuples()]
     return rows.assign(idle=pd.Series(idle, rows.index, dtype="float64")).dropna(subset=["idle"])
 
 
@@ -155,12 +160,12 @@ def _divergence(evidence: Evidence) -> Verdict | None:
     if adaptive.empty or uniform.empty:
         return None
     shares, beside = (quantities(rows["idle"], wording.share) for rows in (adaptive, uniform))
-    told = f"idle of {lanes.WARP} lanes: adaptive {shares}; uniform {beside}"
+    told = f"idle of {WARP} lanes: adaptive {shares}; uniform {beside}"
     return verdict(at_least(adaptive["idle"].min(), adaptive["idle"].max(), MUCH), told)
 
 
-def _less_idle(before: Pick, after: Pick) -> Callable[[Evidence], Verdict | None]:
-    """A judge of "`after` leaves less idle than `before`": by more than runs differ by, on every surface."""
+def _less_idle(before: Pick, after: Pick) -> Judge:
+    """Make a judge of "`after` leaves less idle than `before`": by more than TOLD_APART, on every surface."""
 
     def decide(evidence: Evidence) -> Verdict | None:
         both = _idle(evidence, before).merge(_idle(evidence, after), on=derive.GROUP, suffixes=("", "_after"))
@@ -168,7 +173,7 @@ def _less_idle(before: Pick, after: Pick) -> Callable[[Evidence], Verdict | None
             return None
         gain = both["idle"] - both["idle_after"]
         shares = (quantities(both[name], wording.share) for name in ("idle", "idle_after"))
-        told = f"idle of {lanes.WARP} lanes: {' before, '.join(shares)} after"
+        told = f"idle of {WARP} lanes: {' before, '.join(shares)} after"
         if len(ratios := evidence.ratios(before, after)):
             told += f"; time before over after: {quantities(ratios['ratio'])}"
         return verdict(at_least(float(gain.min()), float(gain.max()), TOLD_APART), told)
@@ -252,7 +257,7 @@ CLAIMS = (
         PAPER,
         "III.E",
         "Grouping threads by the place of their beams lowers divergence.",
-        f"Idle share of {lanes.WARP} lanes, uniform method: pixels row by row, and in Z order",
+        f"Idle share of {WARP} lanes, uniform method: pixels row by row, and in Z order",
         _less_idle(picks.UNIFORM_IN_ROWS, picks.UNIFORM),
         ("interval_uniform",),
         DIVERGENCE,
@@ -261,7 +266,7 @@ CLAIMS = (
         PAPER,
         "V",
         "Divergence within a warp costs much.",
-        f"Idle share of {lanes.WARP} lanes, adaptive method as printed: at least {MUCH:.0%} on every surface",
+        f"Idle share of {WARP} lanes, adaptive method as printed: at least {MUCH:.0%} on every surface",
         _divergence,
         _BOTH,
         DIVERGENCE,
@@ -270,7 +275,7 @@ CLAIMS = (
         PAPER,
         "V",
         "Remapping threads by the position of their beams relative to the surface lowers divergence (planned).",
-        f"Idle share of {lanes.WARP} lanes: quarters in turn, and those last whose parent evaluated f over 16 times",
+        f"Idle share of {WARP} lanes: quarters in turn, and those last whose parent evaluated f over 16 times",
         _less_idle(picks.ADAPTIVE, picks.REMAPPED),
         ("interval_adaptive",),
         DIVERGENCE,

@@ -1,9 +1,8 @@
-"""What claims and reproductions are decided by: rows picked by method and knobs, and ratios of times taken in turns."""
+"""What decides the papers' claims: rows picked by method and knobs, and ratios of times taken in the same rounds."""
 
 from __future__ import annotations
 
 import json
-import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -13,17 +12,17 @@ from typing import Any
 import pandas as pd
 
 from harness.contract import ORIGINS, CellStatus, Origin
-from harness.results import timings
 from reports.analysis import derive, rounds
 from reports.reading.arrays import Arrays, Shelf
 
-STOOD: Mapping[str, Origin] = {
-    # Where a paper's rays begin, by the first word of its configs' names. toledo2007, sections 3, 4.3 and 4.4: "from
-    # where the ray-casting starts" is the bounding box; t = 0 is the ray's entry, λ its exit.
+RAYS_BEGIN: Mapping[str, Origin] = {
+    # Where the rays of a paper begin, by the first word of its configs' names.
+    # toledo2007, sections 3, 4.3 and 4.4: "from where the ray-casting starts" is the bounding box; t = 0 is where the
+    # ray enters it, λ where it leaves.
     "toledo": "entry",
-    # szente, section 2: f is sampled along the view ray p(t) of each pixel; no step moves its origin.
+    # szente, section 2: f is sampled along the view ray p(t) of each pixel; nothing moves its origin.
     "szente": "eye",
-    # beamcasting has no rays: its boxes are in world coordinates. What stands beside its beams is ours.
+    # beamcasting has no rays: its boxes are in world coordinates. Rays that are compared with them are ours.
 }
 _WORDS: Mapping[Origin, str] = {
     "nearest": "their point nearest the domain's centre",
@@ -34,8 +33,10 @@ _WORDS: Mapping[Origin, str] = {
 
 @dataclass(frozen=True)
 class Pick:
-    """A method with some of its knobs at stated values; `words` name it in texts. `origin` is where its rays begin;
-    None: where those of the paper do that is judged."""
+    """A method with some of its knobs at stated values.
+
+    `words` name it in texts. `origin` is where its rays begin; None means where the rays of the judged paper do.
+    """
 
     words: str
     method: str
@@ -45,26 +46,27 @@ class Pick:
 
 @dataclass(frozen=True, eq=False)
 class Evidence:
-    """All that a run holds, for those who judge by it. Only cells that ended well count.
+    """What a run holds that claims can be judged by: the cells that ended well and were checked against the oracle.
 
-    Rays that begin at several origins are never mixed: a pick states its own, or takes `origin`.
+    Rows whose rays begin at different origins are never mixed: a pick states its origin, or takes `origin`.
     """
 
-    frame: pd.DataFrame  # with the columns of derive
-    studies: Mapping[str, list[dict[str, Any]]]
+    frame: pd.DataFrame  # with the columns of analysis.derive
+    studies: Mapping[str, list[dict[str, Any]]]  # rows by study
     shelf: Shelf
-    apart: set[tuple[str, str]] = field(default_factory=set)  # keys of pairs that `ratios` left out
-    config: str = ""  # by whose paper it is judged, see STOOD
+    apart: set[tuple[str, str]] = field(default_factory=set)  # the keys of pairs of rows that `ratios` left out
+    config: str = ""  # the config whose claims are judged; its first word names the paper, as in RAYS_BEGIN
 
     @cached_property
     def finished(self) -> pd.DataFrame:
-        frame = self.frame  # what was never held against the oracle is evidence of nothing
+        """The rows of cells that ended well, answer, and were checked against the oracle."""
+        frame = self.frame
         return frame[(frame["status"] == CellStatus.OK) & frame["answers"] & frame["accuracy_rays"].notna()]
 
     def of(self, config: str) -> Evidence:
-        """The rows of `config`'s own run alone, where this collects several and that one is among them; else all."""
+        """Return the evidence of the run of `config` alone, if this one collects several runs with it; else of all."""
         if config not in self._judged:
-            self._judged[config] = replace(self._runs.get(Path(config).stem, self), config=config)
+            self._judged[config] = replace(self._runs.get(run_of(config), self), config=config)
         return self._judged[config]
 
     @cached_property
@@ -73,18 +75,17 @@ class Evidence:
 
     @cached_property
     def origin(self) -> Origin:
-        """Where rays begin: as in the paper, where rows are of such rays, else at the first of ORIGINS of which rows
-        are."""
+        """Where rays begin: as in the paper if there are such rows, else at the first of ORIGINS that rows have."""
         there = set(self.finished["origin"].dropna())
         return next((origin for origin in (self._stated, *ORIGINS) if origin in there), self._stated)
 
     @property
     def _stated(self) -> Origin:
-        return STOOD.get(Path(self.config).stem.partition("-")[0], "nearest")
+        return RAYS_BEGIN.get(run_of(self.config).partition("-")[0], "nearest")
 
     @property
     def note(self) -> str:
-        """Say where rays begin, if not as in the paper; else empty."""
+        """Where rays begin, in words, if not as in the paper; else ""."""
         if self.origin == self._stated:
             return ""
         return f"of rays that begin at {_WORDS[self.origin]}, where the paper's begin at {_WORDS[self._stated]}"
@@ -101,10 +102,10 @@ class Evidence:
     def rows(
         self, pick: Pick, surfaces: Iterable[str] | None = None, precision: str | None = "float32"
     ) -> pd.DataFrame:
-        """The finished rows of `pick` from one origin, one for each scene, device and precision (the first, where knobs
-        leave several). Beams and triangles have no origin, and their rows stand beside those of any.
+        """Return the finished rows of `pick` from one origin, one for each scene, device and precision.
 
-        `precision` None takes all precisions, `surfaces` None all surfaces.
+        Where the pick's knobs leave several rows, it is the first. Beams and triangles have no origin, so that their
+        rows go with those of any origin. `precision` None takes all precisions, `surfaces` None all surfaces.
         """
         rows = self._methods.get(pick.method, self.finished.head(0))
         rows = rows[rows["origin"].isna() | (rows["origin"] == (pick.origin or self.origin))]
@@ -126,50 +127,30 @@ class Evidence:
     ) -> pd.DataFrame:
         """Divide the times of `slow` by those of `fast`: one row for each group that timed both in the same rounds.
 
-        Columns as in `over`. Pairs that were not timed in turns are left out, and noted in `apart`.
+        The columns are those of `rounds.over`. Pairs without a common round are left out, and added to `apart`.
         """
         a, b = (self.rows(pick, surfaces, precision).dropna(subset=["median_ms"]) for pick in (slow, fast))
         return self.over(a, b, derive.GROUP)
 
     def over(self, slow: pd.DataFrame, fast: pd.DataFrame, keys: list[str]) -> pd.DataFrame:
-        """Do what the function `over` does, and note in `apart` the pairs that it leaves out."""
-        found = over(slow, fast, keys)
+        """Do what `rounds.over` does, and add the pairs that it leaves out to `apart`."""
+        found = rounds.over(slow, fast, keys)
         pairs = fast[[*keys, "key"]].merge(slow[[*keys, "key"]], on=keys, suffixes=("", "_slow"))
         every, kept = (set(zip(of["key_slow"], of["key"], strict=True)) for of in (pairs, found))
         self.apart.update(every - kept)
         return found
 
     def arrays(self, row: Any) -> Arrays | None:
+        """Return the arrays of a row; None where its file is damaged or gone."""
         return self.shelf.get(row)
 
 
-_RATIO = ["ratio", "ratio_low", "ratio_high"]
+def run_of(config: str) -> str:
+    """Return the name of the run of a config's file: `toledo-fig4` of `toledo-fig4.toml`."""
+    return Path(config).stem
 
 
-def over(slow: pd.DataFrame, fast: pd.DataFrame, keys: list[str]) -> pd.DataFrame:
-    """Timed rows `slow` over timed rows `fast` with the same `keys`, where some round timed both; other pairs are left
-    out, since medians of different rounds make no ratio.
-
-    Columns: those of `fast`, `ratio`, the median over the common rounds, with its 95 % interval `ratio_low` to
-    `ratio_high` (NaN where too few common rounds prove none), and `slow_ms`, `fast_ms` and `key_slow`.
-    """
-    told = ["key", "median_ms", *rounds.COLUMNS]
-    both = fast.merge(slow[[*keys, *told]], on=keys, suffixes=("", "_slow"))
-    found = {}
-    for at, paired in zip(both.index, rounds.ratios(both, "_slow"), strict=True):
-        if paired is not None:
-            ends = (paired.lower, paired.upper) if paired.proved else (math.nan, math.nan)
-            found[at] = (paired.median, *ends)
-    ratios = pd.DataFrame(list(found.values()), index=list(found), columns=_RATIO, dtype="float64")
-    both = both.assign(slow_ms=both["median_ms_slow"], fast_ms=both["median_ms"])
-    return both.loc[ratios.index].join(ratios).reset_index(drop=True)
-
-
-def proved(rows: pd.DataFrame) -> pd.Series:
-    """Which rows have enough samples for the interval of their median."""
-    return rows["samples_ms"].map(lambda samples: timings.proves(len(samples or ()))).astype(bool)
-
-
-def _has(parameters: Any, knobs: Mapping[str, float]) -> bool:
+def _has(parameters: str | None, knobs: Mapping[str, float]) -> bool:
+    """Tell whether a row's parameters, as JSON, have these values."""
     bound = json.loads(parameters) if isinstance(parameters, str) else {}
     return all(bound.get(name) == value for name, value in knobs.items())

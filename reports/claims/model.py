@@ -1,9 +1,9 @@
-"""What a claim is, and the judgements that many claims share."""
+"""What a claim and a verdict are, and the judgements that many claims share."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from typing import Any
@@ -15,36 +15,44 @@ from reports.claims.evidence import Evidence, Pick
 
 
 class Outcome(StrEnum):
+    """How a claim fares in a run; the values are what reports print."""
+
     CONFIRMED = "confirmed"
     REFUTED = "refuted"
-    UNDECIDED = "not decided"  # the rows are there, but a figure is missing or no test tells
+    UNDECIDED = "not decided"  # the rows are there, but a figure is missing or no test decides
     UNTESTED = "not testable here"
 
 
 @dataclass(frozen=True)
 class Verdict:
+    """The outcome of a claim, and the figures that decide it."""
+
     outcome: Outcome
     figure: str  # what was measured, in words and numbers
 
 
+Judge = Callable[[Evidence], Verdict | None]  # None where the rows that it needs are missing
+
+
 @dataclass(frozen=True)
 class Claim:
-    """`decide` returns None where the rows it needs are missing."""
+    """A claim of a paper, and what decides it."""
 
     paper: str  # as the papers are cited: toledo2007, szente, beamcasting
     section: str
     text: str  # the claim, in our words
     evidence: str  # what decides it
-    decide: Callable[[Evidence], Verdict | None]
-    methods: tuple[str, ...] = ()  # whose cards show it
+    decide: Judge
+    methods: tuple[str, ...] = ()  # the methods whose cards show the claim
     config: str = ""  # the config whose rows decide it
-    reason: str = ""  # why no config here decides it, where none does
+    reason: str = ""  # why no config here decides it, if none does
 
 
 def judge(claim: Claim, evidence: Evidence) -> Verdict:
-    """The verdict on one claim, by the rows of its own config where they are there; else what is missing is said.
+    """Return the verdict on one claim, by the rows of its own config if the run has them, else by all rows.
 
-    Pairs of rows that were left out, since they were not timed in turns, are counted in the figure.
+    Where rows are missing, the verdict says which config makes them. Pairs of rows that were not timed in the same
+    rounds are left out; the figure says how many.
     """
     own = evidence.of(claim.config)
     own.apart.clear()
@@ -59,36 +67,37 @@ def judge(claim: Claim, evidence: Evidence) -> Verdict:
 
 
 def untestable(_: Evidence) -> Verdict | None:
+    """Judge a claim that nothing here can decide."""
     return None
 
 
 def verdict(confirmed: bool | None, figure: str) -> Verdict:
-    """Make a verdict; `confirmed` None is not decided."""
+    """Make a verdict: confirmed, refuted, or not decided where `confirmed` is None."""
     if confirmed is None:
         return Verdict(Outcome.UNDECIDED, figure)
     return Verdict(Outcome.CONFIRMED if confirmed else Outcome.REFUTED, figure)
 
 
 def both(*held: bool | None) -> bool | None:
-    """Whether all hold: one that does not refutes; else one that is not decided leaves the whole so, as none does."""
+    """Tell whether all hold: False where one does not; else None where one is not decided or there is none."""
     if any(one is False for one in held):
         return False
     return True if held and all(one is True for one in held) else None
 
 
 def at_least(low: float, high: float, limit: float) -> bool | None:
-    """Whether what lies between `low` and `high` is at least `limit`; None where they enclose it or one is missing."""
+    """Tell whether a value from `low` to `high` is at least `limit`; None where the limit is within or one is NaN."""
     return True if low >= limit else False if high < limit else None
 
 
 def mean_ratio(ratios: pd.DataFrame, limit: float) -> bool | None:
-    """Whether the mean of these ratios of times is at least `limit`, by the means of their intervals' ends."""
+    """Tell whether the mean of ratios of times is at least `limit`, by the means of their intervals' ends."""
     low, high = (float(ratios[name].mean(skipna=False)) for name in ("ratio_low", "ratio_high"))
     return at_least(low, high, limit)
 
 
 def each_mean(readings: list[pd.DataFrame], limit: float) -> bool | None:
-    """Tell whether `mean_ratio` holds for every reading of one comparison; None where readings disagree.
+    """Tell whether the mean ratio is at least `limit` in every reading of one comparison; None where they disagree.
 
     Readings without rows do not count.
     """
@@ -96,36 +105,36 @@ def each_mean(readings: list[pd.DataFrame], limit: float) -> bool | None:
     return held.pop() if len(held) == 1 else None
 
 
-def known(value: Any, test: Callable[[Any], bool]) -> bool | None:
-    """Whether an exact figure passes; None where it is missing."""
-    return None if pd.isna(value) else bool(test(value))
+def known(value: float | None, test: Callable[[float], bool]) -> bool | None:
+    """Tell whether an exact figure passes `test`; None where the figure is missing."""
+    return None if value is None or pd.isna(value) else bool(test(value))
 
 
-def every(values: Any, test: Callable[[Any], bool]) -> bool | None:
-    """Whether each of these exact figures passes; None where one is missing or there is none."""
+def every(values: Iterable[float], test: Callable[[float], bool]) -> bool | None:
+    """Tell whether each exact figure passes `test`; None where one is missing or there is none."""
     return both(*(known(value, test) for value in values))
 
 
 def counted(rows: pd.DataFrame, *names: str) -> int | None:
-    """The sum of these counts over all rows; None where one is missing or there is no row."""
+    """Return the sum of these columns over all rows; None where a count is missing or there is no row."""
     cells = rows[list(names)]
     return None if rows.empty or cells.isna().any(axis=None) else int(cells.sum().sum())
 
 
 def largest(rows: pd.DataFrame, name: str) -> float:
-    """NaN where one is missing or there is no row."""
+    """Return the largest value of a column; NaN where a value is missing or there is no row."""
     return float(rows[name].astype("float64").max(skipna=False)) if len(rows) else math.nan
 
 
 def cases(rows: pd.DataFrame) -> str:
-    """Say what these rows are of: 6 views in float32 on opencl:intel."""
+    """Write what these rows are of: 6 views in float32 on opencl:intel."""
     return f"{wording.plural(int(rows['view'].nunique()), 'view')} {where(rows)}"
 
 
 def rays(rows: pd.DataFrame) -> str:
-    """Say how many rays a count over these rows is out of: 147,456 rays (16,384 in each of 9 rows: 3 surfaces in …).
+    """Write how many rays a count over these rows is out of: 147,456 rays (16,384 in each of 9 rows: 3 surfaces in …).
 
-    Rows of one view that differ in device, size or variant are of the same rays.
+    Rows of one view that differ in device, size or variant check the same rays, which count once for each row.
     """
     each = f"{count(int(rows['accuracy_rays'].iloc[0]))} in each of " if rows["accuracy_rays"].nunique() == 1 else ""
     surfaces = wording.plural(int(rows["surface"].nunique()), "surface")
@@ -134,27 +143,31 @@ def rays(rows: pd.DataFrame) -> str:
 
 
 def where(rows: pd.DataFrame) -> str:
-    """Name the precisions and the devices of these rows."""
+    """Write the precisions and the devices of these rows: in float32 on opencl:intel."""
     precisions, devices = (list(dict.fromkeys(rows[name])) for name in ("precision", "device"))
     each = "each of " if len(devices) > 1 else ""
     return f"in {wording.listed(precisions)} on {each}{wording.listed(devices)}"
 
 
 def count(value: int | None) -> str:
+    """Write a count, or a dash for None."""
     return wording.NONE if value is None else f"{value:,}"
 
 
-def quantities(values: Any, show: Callable[[Any], str] = wording.factor) -> str:
-    """Mean and range, of several; the value itself, of one."""
+def quantities(values: Iterable[float], show: Callable[[Any], str] = wording.factor) -> str:
+    """Write the mean and the range of several values, or the one value."""
     series = pd.Series(values, dtype="float64")
     if len(series) == 1:
         return show(series.iloc[0])
     return f"{show(series.mean())} in the mean ({show(series.min())} to {show(series.max())}, {len(series)} cases)"
 
 
-def faster(slow: Pick, fast: Pick, surfaces: tuple[str, ...] | None = None, told: str = "") -> Any:
-    """A judge of "`fast` is always faster than `slow`": confirmed where it is in every case, beyond both intervals;
-    refuted by one the other way, or where it is not faster in the mean."""
+def faster(slow: Pick, fast: Pick, surfaces: tuple[str, ...] | None = None, told: str = "") -> Judge:
+    """Make a judge of "`fast` is always faster than `slow`".
+
+    Confirmed where it is faster in every case, by the whole interval of the ratio; refuted by one case the other way,
+    or where it is not faster in the mean. `told` is what the paper prints.
+    """
 
     def decide(evidence: Evidence) -> Verdict | None:
         ratios = evidence.ratios(slow, fast, surfaces)
@@ -170,8 +183,10 @@ def faster(slow: Pick, fast: Pick, surfaces: tuple[str, ...] | None = None, told
 def _answered_wrongly(
     evidence: Evidence, picked: tuple[Pick, ...], ratios: pd.DataFrame, surfaces: tuple[str, ...] | None
 ) -> str:
-    """Say how many rays away from silhouettes each of `picked` answers wrongly where its times are compared; "" where
-    all answer rightly."""
+    """Say how many rays away from silhouettes each pick answers wrongly where its times are compared.
+
+    Returns "" where all answer rightly.
+    """
     told, any_wrong = [], False
     for pick in picked:
         rows = evidence.rows(pick, surfaces)
@@ -183,21 +198,33 @@ def _answered_wrongly(
 
 
 def always(ratios: pd.DataFrame) -> bool | None:
-    """Whether every ratio of times is above 1 beyond its interval; refuted by one below it, or by their mean."""
+    """Tell whether the whole interval of every ratio of times is above 1.
+
+    False where the whole interval of one is below 1, or that of the mean; None where neither is so.
+    """
     if (ratios["ratio_high"] < 1.0).any() or mean_ratio(ratios, 1.0) is False:
         return False
     return True if len(ratios) and (ratios["ratio_low"] > 1.0).all() else None
 
 
 def lost(ratios: pd.DataFrame) -> str:
-    """Say in how many cases it is the other way round, and in how many the intervals do not tell."""
+    """Say in how many cases the ratio is below 1, and in how many its interval does not decide; "" for none."""
     slower, faster = int((ratios["ratio_high"] < 1.0).sum()), int((ratios["ratio_low"] > 1.0).sum())
     told = f"; slower in {slower} of {len(ratios)}" if slower else ""
     even = len(ratios) - slower - faster
     return told + (f"; not told apart in {even} of {len(ratios)}" if even else "")
 
 
-def wrong(rows: pd.DataFrame, grazing: bool = False) -> pd.Series:
-    """Wrong rays of each row; with `grazing` those at silhouettes and drowned ones too."""
-    names = ["wrong_rays", *(["grazing_wrong_rays", "drowned_wrong_rays"] if grazing else [])]
-    return rows[names].astype("float64").sum(axis=1, skipna=False)
+def beside(printed: Judge, ours: Judge, whose: str) -> Judge:
+    """Make a judge that decides by `printed` alone, and whose figure ends with the figure and outcome of `ours`.
+
+    `printed` judges a method as its paper prints it, `ours` the same method at our best; `whose` names the change.
+    """
+
+    def decide(evidence: Evidence) -> Verdict | None:
+        found, other = printed(evidence), ours(evidence)
+        if found is None or other is None:
+            return found
+        return replace(found, figure=f"{found.figure}. Ours at its best, {whose}: {other.figure} ({other.outcome})")
+
+    return decide

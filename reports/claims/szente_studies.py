@@ -15,13 +15,13 @@ _LU = ("lu_lipschitz",)
 
 
 def condition(evidence: Evidence) -> pd.DataFrame:
-    """Build our Table 1: index basis, one column for each degree; empty where the study was not run."""
+    """Return our Table 1: a row for each basis, a column for each degree; empty where the study was not run."""
     rows = pd.DataFrame(evidence.studies.get("condition_numbers", []), columns=["basis", "degree", "condition"])
     return rows.pivot_table(index="basis", columns="degree", values="condition", sort=False)
 
 
 def bounds(evidence: Evidence) -> pd.DataFrame:
-    """Build our Table 2: index (reading, bound), one column for each degree; empty where the study was not run."""
+    """Return our Table 2: a row for each (reading, bound), a column for each degree; empty without the study."""
     columns = ["reading", "bound", "degree", "percent"]
     rows = pd.DataFrame(evidence.studies.get("extrema_bounds", []), columns=columns)
     return rows.pivot_table(index=["reading", "bound"], columns="degree", values="percent", sort=False)
@@ -38,21 +38,21 @@ def _digits(evidence: Evidence) -> Verdict | None:
 
 
 def _better_interval(evidence: Evidence) -> Verdict | None:
-    ours = condition(evidence)
-    if "monomial on [0, 1]" not in ours.index:
-        return None
-    ratio = ours.loc["monomial on [0, 1]"] / ours.loc["monomial"]
-    told = ", ".join(f"{wording.factor(value)} at degree {n}" for n, value in ratio.items())
-    return verdict(every(ratio, lambda r: r > 1.0), f"on [0, 1] it is larger {told}")
+    return _worse(evidence, "monomial on [0, 1]", "monomial", "on [0, 1] it is larger")
 
 
 def _steadier_basis(evidence: Evidence) -> Verdict | None:
+    return _worse(evidence, "monomial", "Bernstein", "the monomial basis is worse conditioned")
+
+
+def _worse(evidence: Evidence, basis: str, other: str, words: str) -> Verdict | None:
+    """Judge whether `basis` is worse conditioned than `other` at every degree; `words` say so."""
     ours = condition(evidence)
-    if ours.empty:
+    if basis not in ours.index:
         return None
-    ratio = ours.loc["monomial"] / ours.loc["Bernstein"]
+    ratio = ours.loc[basis] / ours.loc[other]
     told = ", ".join(f"{wording.factor(value)} at degree {n}" for n, value in ratio.items())
-    return verdict(every(ratio, lambda r: r > 1.0), f"the monomial basis is worse conditioned {told}")
+    return verdict(every(ratio, lambda r: r > 1.0), f"{words} {told}")
 
 
 def _sharper(evidence: Evidence) -> Verdict | None:

@@ -4,22 +4,23 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
 from reports import wording
-from reports.analysis import counts, derive
+from reports.analysis import count_tests, derive
 from reports.claims import picks
 from reports.claims.evidence import Evidence, Pick
 from reports.claims.model import (
     Claim,
+    Judge,
     Verdict,
     at_least,
+    beside,
     both,
     cases,
     count,
@@ -32,19 +33,18 @@ from reports.claims.model import (
     untestable,
     verdict,
 )
-from reports.claims.toledo_ours import beside
 
 PAPER = "toledo2007"
 _WRONG = ("wrong_rays", "grazing_wrong_rays")
 VIEWS = "toledo-fig4.toml"
-UNEVEN = 2.0  # a view has more failures than another where it has this many times as many
-MANY_WRONG = 0.001  # a smaller share of wrong rays, where a test says so, is “very good”
-FINE = (picks.STURM, picks.NEWTON_5)  # of Table 1: the errors that it prints of these are 25e-6 r and 30e-6 r
-SLOWER = 1.5  # more evaluations near grazing than elsewhere, to call it slow there
+UNEVEN = 2.0  # the failures depend on the view where one view has more than this many times another's
+MANY_WRONG = 0.001  # a share of wrong rays that is smaller by a test is called “very good”
+FINE = (picks.STURM, picks.NEWTON_5)  # the finest of Table 1, which prints errors of 25e-6 r and 30e-6 r for them
+SLOWER = 1.5  # the least ratio of evaluations on grazing rays and on others that is called slow
 
 
 def _sturm_depends_on_the_view(evidence: Evidence) -> Verdict | None:
-    """By rays from where the paper's begin; its o may be read as the eye too, which is told."""
+    """Judge by rays that begin where the paper's do; the figure also tells those from the eye, another reading of o."""
     found, other = (_uneven(evidence, pick) for pick in (picks.STURM, picks.STURM_FROM_EYE))
     if found is None or other is None:
         return found
@@ -52,6 +52,7 @@ def _sturm_depends_on_the_view(evidence: Evidence) -> Verdict | None:
 
 
 def _uneven(evidence: Evidence, pick: Pick) -> Verdict | None:
+    """Judge whether one view has more than UNEVEN times the wrong rays of another."""
     rows = evidence.rows(pick, picks.TORUS)
     if rows["view"].nunique() < 2:
         return None
@@ -68,7 +69,7 @@ def _uneven(evidence: Evidence, pick: Pick) -> Verdict | None:
     figure += "" if exact.empty else f"; in float64 {count(counted(exact, *_WRONG))} over {cases(exact)}"
     pairs = len(found) * (len(found) - 1) // 2
     held = (int(most["bad"]), int(most["accuracy_rays"]), int(least["bad"]), int(least["accuracy_rays"]))
-    uneven = counts.exceeds(*held, UNEVEN, tries=pairs)
+    uneven = count_tests.exceeds(*held, UNEVEN, tries=pairs)
     return verdict(False if most["bad"] == 0 else uneven, figure)
 
 
@@ -106,14 +107,14 @@ def _slow_near_grazing(evidence: Evidence) -> Verdict | None:
 
 
 def _mean(values: NDArray[Any]) -> tuple[float, float]:
-    """The mean and half its 99 % interval; NaN for fewer than two."""
+    """Return the mean of values [n] and half its 99 % interval; NaN for fewer than two values."""
     if len(values) < 2:
         return math.nan, math.nan
     return float(values.mean()), float(2.576 * values.std(ddof=1) / math.sqrt(len(values)))
 
 
 def _more_precise(evidence: Evidence) -> Verdict | None:
-    """Judged by FINE, view by view; what the coarser settings of Table 1 leave is told beside them."""
+    """Judge by the picks FINE, view by view; the figure also tells the coarser settings of Table 1."""
     closed, planes = (evidence.rows(pick, picks.TORUS) for pick in (picks.LOOP_BLINN, picks.BETWEEN_PLANES))
     told, held = [f"{picks.LOOP_BLINN.words} {wording.error(largest(closed, 'feature_error_max'))} r"], []
     if len(planes):
@@ -131,8 +132,8 @@ def _more_precise(evidence: Evidence) -> Verdict | None:
     return verdict(both(*held), f"largest errors over {cases(closed)}: {', '.join(told)}") if held else None
 
 
-def _planes(name: str) -> Callable[[Evidence], Verdict | None]:
-    """A judge of whether the near or the far plane changes the error of screen-space coefficients."""
+def _planes(name: Literal["NEAR", "FAR"]) -> Judge:
+    """Make a judge of "this plane changes the error of screen-space coefficients"."""
     other = {"NEAR": "FAR", "FAR": "NEAR"}[name]
 
     def decide(evidence: Evidence) -> Verdict | None:
@@ -175,13 +176,16 @@ def _cubics(evidence: Evidence) -> Verdict | None:
     bad, of = counted(rows, "wrong_rays"), counted(rows, "accuracy_rays")
     if bad is None or not of:
         return verdict(None, f"wrong rays away from silhouettes: {each}")
-    more = counts.share_exceeds(bad, of, MANY_WRONG)
+    more = count_tests.share_exceeds(bad, of, MANY_WRONG)
     told = f"wrong rays away from silhouettes: {each}; {wording.share(bad / of)} of all {of:,} rays"
     return verdict(None if more is None else not more, told)
 
 
 def _evident_after_zooming(evidence: Evidence) -> Verdict | None:
-    """Judge by the zoomed view with most wrong rays, silhouettes included: at a singular point nearly all is one."""
+    """Judge by the zoomed view with most wrong rays, silhouettes included.
+
+    Near a singular point nearly every ray is at a silhouette.
+    """
     rows = evidence.rows(picks.STURM, picks.CUBICS)
     if rows.empty:
         return None
@@ -192,7 +196,7 @@ def _evident_after_zooming(evidence: Evidence) -> Verdict | None:
     most, of = int(bad.max()), int(worst["accuracy_rays"])
     figure = f"most on {worst['surface_title']}, {worst['view']}: {most} of {of:,} rays; {int(bad.sum())} over all "
     figure += wording.plural(len(rows), "view")
-    return verdict(counts.share_exceeds(most, of, MANY_WRONG), figure)
+    return verdict(count_tests.share_exceeds(most, of, MANY_WRONG), figure)
 
 
 CLAIMS = (

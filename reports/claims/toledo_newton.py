@@ -1,4 +1,7 @@
-"""Claims of toledo2007 about Newton's method (4.4 and 5.1), judged as printed, with our steps forwards beside it."""
+"""Claims of toledo2007 about Newton's method (sections 4.4 and 5.1).
+
+They are judged by the method as printed; the figure of our steps forwards stands beside it.
+"""
 
 from __future__ import annotations
 
@@ -7,12 +10,14 @@ import math
 import pandas as pd
 
 from reports import wording
-from reports.analysis import counts, derive
+from reports.analysis import count_tests, derive, rounds
 from reports.claims import picks
-from reports.claims.evidence import Evidence, Pick, proved
+from reports.claims.evidence import Evidence, Pick
 from reports.claims.model import (
     Claim,
+    Judge,
     Verdict,
+    beside,
     both,
     cases,
     count,
@@ -24,12 +29,10 @@ from reports.claims.model import (
     quantities,
     verdict,
 )
-from reports.claims.toledo_ours import Judge, beside
+from reports.claims.toledo import PAPER, VIEWS
 
-PAPER = "toledo2007"
-VIEWS = "toledo-fig4.toml"
 FORWARDS = "steps forwards"
-MORE_STEPS = 1.0  # doubling the digits of 0.001 r gives more than 0.00003 r has
+MORE_STEPS = 1.0  # one step that doubles the digits of 0.001 r gives more digits than 0.00003 r has
 
 
 def _fastest(pick: Pick, settings: tuple[Pick, ...]) -> Judge:
@@ -46,10 +49,10 @@ def _fastest(pick: Pick, settings: tuple[Pick, ...]) -> Judge:
 
 
 def _won(groups: list[pd.DataFrame], pick: Pick) -> Verdict:
-    """Judge whether `pick` is the fastest in each of these groups, by intervals that are proved."""
+    """Judge whether `pick` is the fastest in each of these groups, by the intervals of medians."""
     lost, won = [], 0
     for own in groups:
-        own = own[proved(own)]
+        own = own[rounds.proved(own["samples_ms"])]
         newton, others = (own[(own["words"] == pick.words) == is_it] for is_it in (True, False))
         if newton.empty:
             continue
@@ -67,6 +70,8 @@ def _won(groups: list[pd.DataFrame], pick: Pick) -> Verdict:
 
 
 def _thresholds_hold(coarse: Pick, fine: Pick) -> Judge:
+    """Make a judge of "the largest errors are at most the thresholds, 0.001 r and 0.00003 r"."""
+
     def decide(evidence: Evidence) -> Verdict | None:
         told: list[str] = []
         held: list[bool | None] = []
@@ -85,6 +90,8 @@ def _thresholds_hold(coarse: Pick, fine: Pick) -> Judge:
 
 
 def _quadratic(coarse: Pick, fine: Pick) -> Judge:
+    """Make a judge of "`fine` takes at most MORE_STEPS more evaluations for each hit than `coarse`"."""
+
     def decide(evidence: Evidence) -> Verdict | None:
         near, nearer = (evidence.rows(pick, picks.TORUS) for pick in (coarse, fine))
         pairs = near.merge(nearer, on=derive.GROUP, suffixes=("", "_fine"))
@@ -100,7 +107,10 @@ def _quadratic(coarse: Pick, fine: Pick) -> Judge:
 
 
 def _step_bound(loose: Pick, bound: Pick) -> Judge:
-    """Judge by rays that vanish, as a miss or at a later root; those that stay in a dip, exhausted, are told too."""
+    """Make a judge of "fewer rays vanish with the bound, at no less than 0.9 of the speed".
+
+    A ray vanishes that is a miss or finds a later root. The figure also tells exhausted rays, which stay in a dip.
+    """
 
     def decide(evidence: Evidence) -> Verdict | None:
         ratios = evidence.ratios(loose, bound, picks.TORUS)
@@ -116,7 +126,7 @@ def _step_bound(loose: Pick, bound: Pick) -> Judge:
         )
         if gone is None or of_free is None or left is None or of_held is None:
             return verdict(None, figure)
-        avoids = False if gone == 0 else counts.exceeds(gone, of_free, left, of_held)
+        avoids = False if gone == 0 else count_tests.exceeds(gone, of_free, left, of_held)
         return verdict(both(avoids, mean_ratio(ratios, 0.9)), figure)
 
     return decide

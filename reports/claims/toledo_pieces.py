@@ -1,4 +1,4 @@
-"""Claims of toledo2007 about single pieces of its methods: each is judged by the method with it and without it."""
+"""Claims of toledo2007 about single pieces of its methods, judged by the method with the piece and without it."""
 
 from __future__ import annotations
 
@@ -8,24 +8,34 @@ from typing import Any
 import pandas as pd
 
 from reports import wording
+from reports.analysis import derive, rounds
 from reports.claims import picks
-from reports.claims.evidence import Evidence, Pick, over, proved
-from reports.claims.model import Claim, Verdict, always, cases, every, lost, quantities, verdict
-from reports.claims.toledo_ours import Judge, beside
+from reports.claims.evidence import Evidence, Pick
+from reports.claims.model import (
+    Claim,
+    Judge,
+    Verdict,
+    always,
+    beside,
+    cases,
+    every,
+    lost,
+    quantities,
+    verdict,
+)
+from reports.claims.toledo import PAPER, VIEWS
 
-PAPER = "toledo2007"
 CUBICS = "toledo-cubics.toml"
 PROXIES = "toledo-proxies.toml"
 NORMALS = "toledo-normals.toml"
 FIGURE_3 = "toledo-fig3.toml"
-EXACT = 1e-9  # of what float64 can say
-VIEWS = "toledo-fig4.toml"
+EXACT = 1e-9  # a relative error in float64 that is called none
 SEARCHED = (*picks.CUBICS, *picks.TORUS)
 
 
 @dataclass(frozen=True)
 class Piece:
-    """A piece of a method that the paper has or we added, and the picks without it and with it."""
+    """A piece of a method that the paper has or that we added, and the picks without it and with it."""
 
     title: str
     whose: str
@@ -70,21 +80,21 @@ def _cubics_are_slower(evidence: Evidence) -> Verdict | None:
         f"{wording.factor(slower.min())} to {wording.factor(slower.max())} that time on "
         f"{wording.plural(both['surface'].nunique(), 'cubic')}"
     )
-    if not (proved(sturm).all() and proved(ball).all()):
+    if not (all(rounds.proved(rows["samples_ms"]).all() for rows in (sturm, ball))):
         return verdict(None, figure)
     told_apart = (both["lower_ms"] > both["upper_ms_ball"]) | (both["upper_ms"] < both["median_ms_ball"])
     return verdict(every(slower, lambda ratio: ratio > 1.0) if told_apart.all() else None, figure)
 
 
 def by_proxy(evidence: Evidence) -> pd.DataFrame:
-    """Select Table 1's views by Newton as printed, in each proxy; `waste` is its share of fragments without a hit."""
+    """Return Newton's rows of Table 1's views in each proxy; `waste` is the share of fragments without a hit."""
     rows = evidence.rows(picks.NEWTON_3, picks.TORUS).iloc[:0]
     found = evidence.finished
     found = found[found["method"].eq(picks.NEWTON_3.method) & found["stage"].eq("raster")]
     found = found[found["surface"].isin(picks.TORUS) & found["view_set"].eq("angles")]
     if found["proxy"].nunique() < 2:
         return rows.assign(waste=pd.Series(dtype=float))
-    found = found[found["device"] == found["device"].iloc[0]]
+    found = derive.on_first_device(found)
     return found.assign(waste=found["fragments_discarded"].astype("float64") / found["fragments"].astype("float64"))
 
 
@@ -107,19 +117,19 @@ def _tetrahedron_wastes(evidence: Evidence) -> Verdict | None:
 
 
 def by_normal(evidence: Evidence) -> pd.DataFrame:
-    """Select the torus by Newton as printed, shaded by each normal, on the first device that has several."""
+    """Return Newton's rows of the torus shaded by each normal, on the first device; none unless there are several."""
     found = evidence.finished
     found = found[found["method"].eq(picks.NEWTON_3.method) & found["surface"].isin(picks.TORUS)]
     found = found[found["proxy"].eq("box")].dropna(subset=["median_ms", "normal"])
     if found["normal"].nunique() < 2:
         return found.iloc[:0]
-    return found[found["device"] == found["device"].iloc[0]]
+    return derive.on_first_device(found)
 
 
 def shaded(rows: pd.DataFrame, slow: str, fast: str) -> pd.DataFrame:
-    """Compute the time of frames shaded by the normal `slow` over that of frames shaded by `fast`, view by view."""
+    """Divide the times of frames shaded by the normal `slow` by those shaded by `fast`, view by view."""
     long, short = (rows[rows["normal"] == name] for name in (slow, fast))
-    return over(long, short, ["comparison", "device"])
+    return rounds.over(long, short, ["comparison", "device"])
 
 
 def _core_circle_is_cheaper(evidence: Evidence) -> Verdict | None:
@@ -135,6 +145,7 @@ def _core_circle_is_cheaper(evidence: Evidence) -> Verdict | None:
 
 
 def _sampled(evidence: Evidence) -> dict[str, Any] | None:
+    """Return the row of the study of T along random rays; None where the study was not run."""
     rows = evidence.studies.get("torus_along_rays", [])
     return next((row for row in rows if row["case"] == "sampled"), None)
 
@@ -160,7 +171,7 @@ def _mean_of_roots(evidence: Evidence) -> Verdict | None:
 
 
 def _pays(piece: Pick, without: Pick, surfaces: tuple[str, ...]) -> Judge:
-    """Make a judge of "`piece` is faster than `without`", which also tells the evaluations and wrong rays of both."""
+    """Make a judge of "`piece` is faster than `without`"; its figure also tells the evaluations and wrong rays."""
 
     def decide(evidence: Evidence) -> Verdict | None:
         ratios = evidence.ratios(without, piece, surfaces)

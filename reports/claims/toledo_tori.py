@@ -7,13 +7,25 @@ import math
 import pandas as pd
 
 from reports import wording
+from reports.analysis import derive, rounds
 from reports.analysis.viewstats import spread
 from reports.claims import picks
-from reports.claims.evidence import Evidence, Pick, over, proved
-from reports.claims.model import Claim, Outcome, Verdict, always, both, faster, lost, quantities, verdict
-from reports.claims.toledo_ours import Judge, beside
+from reports.claims.evidence import Evidence, Pick
+from reports.claims.model import (
+    Claim,
+    Judge,
+    Outcome,
+    Verdict,
+    always,
+    beside,
+    both,
+    faster,
+    lost,
+    quantities,
+    verdict,
+)
+from reports.claims.toledo import PAPER
 
-PAPER = "toledo2007"
 CONFIG = "toledo-fig6.toml"
 TABLE_1 = "toledo-table1.toml"
 PICKS = (picks.NEWTON_3, picks.NEWTON_5, *picks.POLYGONS[:3])
@@ -22,27 +34,34 @@ OVERTAKES = 700  # tori
 MANY = 16_000
 LOD = "toledo-lod.toml"
 DETAIL = 0.1  # footprints of a pixel that an error may grow to, and is not seen
+_PICTURE = ["device", "view", "size", "samples_per_pixel", "precision"]
 INTERACTIVE_MS = 20.0  # 50 frames per second
 
 
 def tori(evidence: Evidence) -> pd.DataFrame:
-    """The timed rows of Figure 6's techniques and ours on lattices, with `technique`, on the first device that has
-    them."""
+    """Return the timed rows of Figure 6's techniques and of ours on lattices, with the column `technique`.
+
+    Of the first device that has them, and of the first picture where a run draws each lattice in several.
+    """
     rows = pd.concat([evidence.rows(pick).assign(technique=pick.words) for pick in (*PICKS, OURS)])
     rows = rows[(rows["scene"] == "lattice") & ~(rows["pixel_tolerance"] > 0.0)].dropna(subset=["median_ms"])
-    if not (rows["method"] == "polygon").any():  # lattices of another experiment
+    if not (rows["method"] == "polygon").any():  # the lattices are of another experiment
         return rows.iloc[:0]
-    return rows[rows["device"] == rows["device"].iloc[0]] if len(rows) else rows
+    rows = rows[(rows[_PICTURE] == rows[_PICTURE].iloc[0]).all(axis=1)] if len(rows) else rows
+    return rows.drop_duplicates(["technique", "instances"])
 
 
 def curve(rows: pd.DataFrame, pick: Pick) -> pd.Series:
-    """Milliseconds by number of tori."""
+    """Return a technique's milliseconds by the number of tori, ascending."""
     own = rows[rows["technique"] == pick.words]
     return own.set_index(own["instances"].astype(int))["median_ms"].sort_index()
 
 
 def crossing(fast: pd.Series, slow: pd.Series) -> float | None:
-    """The number of tori from which `fast` is faster at all counts that both have; 1 if always, None if never."""
+    """Return the number of tori from which on `fast` is faster; 1 if it always is, None if not at the end.
+
+    Between two counts that both have it is interpolated, on logarithmic axes.
+    """
     both = sorted(fast.index.intersection(slow.index))
     lead = [math.log(slow[n] / fast[n]) for n in both]
     if not both or lead[-1] <= 0.0:
@@ -56,6 +75,8 @@ def crossing(fast: pd.Series, slow: pd.Series) -> float | None:
 
 
 def _fastest_for_many(newton: Pick) -> Judge:
+    """Make a judge of "`newton` is faster than every other technique for OVERTAKES tori and more"."""
+
     def decide(evidence: Evidence) -> Verdict | None:
         rows = tori(evidence)
         own = curve(rows, newton) if len(rows) else pd.Series(dtype=float)
@@ -75,12 +96,14 @@ def _fastest_for_many(newton: Pick) -> Judge:
 
 
 def _against(rows: pd.DataFrame, pick: Pick, newton: Pick) -> pd.DataFrame:
-    """`pick`'s time over `newton`'s, for each number of tori that both drew."""
+    """Divide `pick`'s times by `newton`'s, for each number of tori that both drew."""
     slow, fast = (rows[rows["technique"] == of.words] for of in (pick, newton))
-    return over(slow, fast, ["comparison", "device"])
+    return rounds.over(slow, fast, ["comparison", "device"])
 
 
 def _faster_at_equal_error(newton: Pick) -> Judge:
+    """Make a judge of "`newton` is always faster than the polygons of about its error"."""
+
     def decide(evidence: Evidence) -> Verdict | None:
         rows = tori(evidence)
         if rows.empty:
@@ -108,13 +131,13 @@ def _only_one_interactive(evidence: Evidence) -> Verdict | None:
     quick = sorted(set(rows[rows["median_ms"] <= INTERACTIVE_MS]["technique"]))
     told = f"50 frames/s beyond {MANY:,} tori: {wording.listed(quick)}"
     across = (rows["lower_ms"] <= INTERACTIVE_MS) & (rows["upper_ms"] > INTERACTIVE_MS)
-    if (across | ~proved(rows)).any():
+    if (across | ~rounds.proved(rows["samples_ms"])).any():
         return verdict(None, f"{told}; the interval of a time reaches beyond that of 50 frames/s")
     return verdict(quick == [picks.NEWTON_3.words], told)
 
 
 def _less_memory(evidence: Evidence) -> Verdict | None:
-    """Judge by a frame's bytes on the device: instances, and the proxy's corners or one mesh that all share."""
+    """Judge by a frame's bytes on the device: the instances, and a proxy's corners or one mesh that all share."""
     rows = tori(evidence)
     rows = rows[rows["technique"] != OURS.words] if len(rows) else rows
     newton = _bytes(rows, picks.NEWTON_3)
@@ -135,13 +158,13 @@ def _less_memory(evidence: Evidence) -> Verdict | None:
 
 
 def _bytes(rows: pd.DataFrame, pick: Pick) -> pd.Series:
-    """Bytes by number of tori, ascending."""
+    """Return a technique's bytes by the number of tori, ascending."""
     own = rows[rows["technique"] == pick.words] if len(rows) else rows
     return own.set_index(own["instances"].astype(int))["bytes"].astype("float64").dropna().sort_index()
 
 
 def detail(evidence: Evidence) -> pd.DataFrame:
-    """Sturm on lattices at its own 18 halvings over Sturm at DETAIL pixels, for each number of tori."""
+    """Divide the times of Sturm with 18 halvings by those at DETAIL pixels, for each number of tori."""
     rows = evidence.finished[evidence.finished["method"].eq(picks.STURM.method)]
     rows = rows[rows["scene"].eq("lattice")].dropna(subset=["median_ms"])
     whole, seen = (rows[rows["pixel_tolerance"].sub(size).abs() < 1e-9] for size in (0.0, DETAIL))
@@ -165,11 +188,11 @@ def _most_dependent(evidence: Evidence) -> Verdict | None:
     for pick in picks.TABLE_1:
         rows = evidence.rows(pick, picks.TORUS)
         rows = rows[(rows["stage"] == "raster") & (rows["view_set"] == "angles")].dropna(subset=["median_ms"])
-        rows = rows[rows["device"] == rows["device"].iloc[0]] if len(rows) else rows
+        rows = derive.on_first_device(rows)
         if len(rows) >= 3:
             found[pick.words] = spread(rows["frames_per_s"] * rows["fragments"].astype("float64"))
             noise[pick.words] = float(((rows["upper_ms"] - rows["lower_ms"]) / (2.0 * rows["median_ms"])).max())
-            sound = sound and bool(proved(rows).all())
+            sound = sound and bool(rounds.proved(rows["samples_ms"]).all())
     if len(found) < len(picks.TABLE_1):
         return None
     order = sorted(found, key=lambda words: -found[words])

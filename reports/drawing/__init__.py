@@ -1,1 +1,1 @@
-"""Frames → figures, pictures and tables of a report."""
+"""Draw the figures and pictures of a report, and make the tables that several parts share."""

@@ -1,7 +1,7 @@
-"""What all drawings share: their look, their way into a report, and an axis of errors on which zero has a place.
+"""What all drawings share: their settings, their key, how they become SVG, and an axis of errors that can show zero.
 
-Errors are drawn on a logarithmic axis that is broken below its smallest decade, so that an error of exactly zero has
-a place; positions on it are decimal exponents.
+The axis of errors is logarithmic, and broken below its smallest decade, where an error of exactly zero is drawn.
+Positions on it are decimal exponents.
 """
 
 from __future__ import annotations
@@ -9,17 +9,19 @@ from __future__ import annotations
 import io
 import json
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
 from urllib.parse import quote
 
 import numpy as np
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.figure import Figure as Drawing
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullLocator
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from reports import wording
 from reports.drawing import style
@@ -44,22 +46,23 @@ RC: dict[Any, Any] = {
     "legend.frameon": False,
     "svg.fonttype": "none",  # text stays text: the PDF embeds the same font, and readers can search it
     "svg.hashsalt": "firsthit",
-    "text.parse_math": False,  # a $ in a name is a $
+    "text.parse_math": False,  # a name may have a $ in it
 }
 LINE: dict[str, Any] = {"lw": 0.8, "ms": 3.6, "mew": 0.8}
-SERIES = "series:"  # opens the id of a group of marks, see `series`
-WIDE, NARROW = 10.4, 7.0  # inches, of the text on a landscape page and on an upright one
+SERIES = "series:"  # begins the id of a group of marks, see `series`
+WIDE, NARROW = 10.4, 7.0  # the width of the text on a landscape page and on an upright one, inches
 
 
 @dataclass(frozen=True)
 class ErrorAxis:
-    """Decades `lowest` to `highest` of a logarithmic axis, and below them the place of zero."""
+    """A logarithmic axis from decade `lowest` to decade `highest`, and below them the place of zero."""
 
     lowest: int
     highest: int
 
     @classmethod
     def of(cls, errors: ArrayLike) -> ErrorAxis:
+        """Return the axis that holds these errors [n]; NaN and infinities do not count."""
         values = np.asarray(errors, np.float64)
         positive = values[(values > 0) & np.isfinite(values)]
         if not len(positive):
@@ -69,18 +72,19 @@ class ErrorAxis:
 
     @property
     def zero(self) -> float:
+        """The position of an error of exactly zero."""
         return self.lowest - max(1.0, 0.18 * (self.highest - self.lowest))
 
-    def position(self, errors: ArrayLike) -> Any:
-        """float64[n]: where to draw each error."""
+    def position(self, errors: ArrayLike) -> NDArray[np.float64]:
+        """Return where to draw each error [n], as float64[n]."""
         values = np.asarray(errors, np.float64)
-        return np.where(values > 0, np.log10(np.where(values > 0, values, 1.0)), self.zero)
+        return np.asarray(np.where(values > 0, np.log10(np.where(values > 0, values, 1.0)), self.zero))
 
     def _label(self, position: float, _: object) -> str:
         return wording.power_of_ten(round(position)) if position > self.zero else "0"
 
     def dress(self, axes: Axes, which: Literal["x", "y"] = "x") -> None:
-        """Make it the x or y axis of `axes`: ticks, limits, and a grey ground behind zero."""
+        """Make this the x or y axis of `axes`: its ticks, its limits, and a grey ground behind zero."""
         span = self.highest - self.lowest
         step = max(1, math.ceil(span / 4))
         axis = axes.xaxis if which == "x" else axes.yaxis
@@ -96,13 +100,13 @@ class ErrorAxis:
 class Key:
     """A key above the panels of a drawing, in as few lines as its labels need."""
 
-    handles: list[Any]
+    handles: Sequence[Artist]
     labels: list[str]
     width: float  # inches
 
     @property
     def _columns(self) -> int:
-        """As many as fit, when labels fill one column after the other: a letter takes 0.056 inches, a handle 0.5."""
+        """The most columns that fit; labels fill one after the other. A letter takes 0.056 inches, a handle 0.5."""
         letters = [len(label) for label in self.labels]
         for columns in range(len(letters), 1, -1):
             longest = [max(column) for column in np.array_split(letters, columns)]
@@ -112,16 +116,20 @@ class Key:
 
     @property
     def height(self) -> float:
-        """Inches."""
+        """The height in inches."""
         return 0.02 + 0.14 * -(-len(self.labels) // self._columns)
 
     def draw(self, drawing: Drawing) -> None:
+        """Draw the key at the top of a drawing."""
         told: dict[str, Any] = {"ncols": self._columns, "borderaxespad": 0.1, "handlelength": 2.6}
         drawing.legend(self.handles, self.labels, loc="upper center", **told)
 
 
 def label_decades(axis: Axis, few: bool = False) -> None:
-    """Plain numbers on a logarithmic axis whose limits are set: some on a short one, not too many on a long one."""
+    """Label a logarithmic axis, whose limits are set, with plain numbers.
+
+    A short axis has labels within its decades too; `few` asks for fewer labels.
+    """
     low, high = axis.get_view_interval()
     within_decades = (1.0, 2.0, 5.0) if high / low < (30 if few else 300) else (1.0,)
     axis.set_major_locator(LogLocator(subs=within_decades, numticks=5 if few else 9))
@@ -130,20 +138,20 @@ def label_decades(axis: Axis, few: bool = False) -> None:
 
 
 def series(method: str, *variants: str) -> str:
-    """The id of a line's group in the SVG: its method, and its one variant or the variant of each mark in turn.
+    """Return the id of a line's group in the SVG: its method, and its variant or the variant of each of its marks.
 
-    As JSON, percent-encoded: matplotlib writes an id with quotes in it in quotes of another kind.
+    It is JSON, percent-encoded, because matplotlib puts an id with quotes in it between quotes of the other kind.
     """
     return SERIES + quote(json.dumps([method, *variants], ensure_ascii=False), safe="")
 
 
 def line_of(mark: Mark) -> Line2D:
-    """How a variant's line and mark look in a key."""
+    """Return a line as a key shows it for a variant."""
     return Line2D([], [], color=mark.color, marker=mark.marker, ls=mark.line, **LINE)
 
 
 def svg(drawing: Drawing) -> str:
-    """The drawing as SVG text, the same every time."""
+    """Return the drawing as SVG text, which is the same every time."""
     buffer = io.StringIO()
     drawing.savefig(buffer, format="svg", metadata={"Date": None})
     return buffer.getvalue()

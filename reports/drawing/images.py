@@ -1,4 +1,4 @@
-"""A run's arrays → pictures: what a method drew, and beside it how wrong it was, on the rays of the accuracy check."""
+"""Make pictures of a run's arrays: what a method drew, and beside it its errors, on the rays of the accuracy check."""
 
 from __future__ import annotations
 
@@ -17,25 +17,20 @@ from PIL import Image
 from harness.contract import TruthStatus
 from harness.results.schema import KINDS
 from reports import wording
-from reports.analysis import derive
+from reports.analysis import shown
 from reports.content import Gallery, Panel, Picture
 from reports.drawing import plots, style
 from reports.reading.arrays import Arrays, Shelf
 
-PIXELS = 480  # pixels are repeated to at least this side, because some viewers blur small pictures
-GRAZING_PALE = 0.55  # how far the colour of a wrong ray fades to white in the grazing and the drowned class
-WIDEST_SCALE = 10  # decades
-
-
-def drawn(frame: pd.DataFrame) -> pd.DataFrame:
-    """The rows that the galleries of the surfaces show."""
-    return pd.concat([frame.head(0), *(derive.drawn(rows) for _, rows in frame.groupby("surface", sort=False))])
+PIXELS = 480  # pixels are repeated until the longer side has so many, because some viewers blur small pictures
+PALE = 0.55  # how far the colour of a wrong ray fades to white where it is grazing or drowned
+WIDEST_SCALE = 10  # decades of the colour scale of errors
 
 
 def galleries(shelf: Shelf, frame: pd.DataFrame, scale: tuple[int, int]) -> dict[str, Gallery]:
-    """A gallery for each surface that has pictures, by the surface's name; `scale` is of scale_of."""
+    """Make a gallery for each surface that has pictures, by its name; `scale` is what scale_of returns."""
     picked: dict[str, list[tuple[Any, Arrays]]] = {}
-    for row in drawn(frame).itertuples():
+    for row in shown.in_galleries(frame).itertuples():
         arrays = shelf.get(row)
         if arrays is not None:
             picked.setdefault(str(row.surface), []).append((row, arrays))
@@ -43,8 +38,11 @@ def galleries(shelf: Shelf, frame: pd.DataFrame, scale: tuple[int, int]) -> dict
 
 
 def gallery(shelf: Shelf, rows: pd.DataFrame, caption: str, name: str, scale: tuple[int, int]) -> Gallery | None:
-    """Every row of `rows` that has pictures, in its order, titled by its column `setting` and, where several are there,
-    its view; `name` sets these pictures apart from others of the rows, `scale` is of scale_of."""
+    """Make a gallery of the rows that have pictures, in their order; None where none has.
+
+    A panel's title has the row's column `setting`, and its view if there are several. `name` begins the names of the
+    pictures, so that they differ from others of the same rows; `scale` is what scale_of returns.
+    """
     views = rows["view"].nunique() > 1
     rows = rows.assign(panel=rows["surface_title"] + (", " + rows["view"] if views else "") + ": " + rows["setting"])
     cells = [(row, arrays) for row in rows.itertuples() if (arrays := shelf.get(row)) is not None]
@@ -56,13 +54,17 @@ def gallery(shelf: Shelf, rows: pd.DataFrame, caption: str, name: str, scale: tu
 def _gallery(
     cells: list[tuple[Any, Arrays]], scale: tuple[int, int], caption: str, name: str = "", titled: bool = False
 ) -> Gallery:
+    """Make a gallery with a panel for each row."""
     panels = tuple(_panel(row, arrays, scale, name, titled) for row, arrays in cells)
     return Gallery(panels, caption, plots.error_legend(*scale))
 
 
 def scale_of(every: Iterable[Arrays], beside: Iterable[float] = ()) -> tuple[int, int]:
-    """The decades of the pictures' positive errors but for each one's smallest hundredth, and of the errors `beside`
-    them, at most WIDEST_SCALE: one scale for the report."""
+    """Return the first and the last decimal exponent of one colour scale for all errors of a report.
+
+    The scale holds the positive errors of every picture, but for the smallest hundredth of each, and the positive
+    errors `beside`. It spans at most WIDEST_SCALE decades, the largest ones.
+    """
     positive = (arrays.error[(arrays.error > 0) & np.isfinite(arrays.error)] for arrays in every)
     ends = [(float(np.quantile(e, 0.01)), float(e.max())) for e in positive if e.size]
     ends = [*ends, *((error, error) for error in beside if error > 0.0)] or [(1e-7, 1e-3)]
@@ -72,6 +74,7 @@ def scale_of(every: Iterable[Arrays], beside: Iterable[float] = ()) -> tuple[int
 
 
 def _panel(row: Any, arrays: Arrays, scale: tuple[int, int], prefix: str, titled: bool) -> Panel:
+    """Show what one row drew beside its errors; `titled` by its column `panel`, else by its variant."""
     name = f"{row.variant}, {row.precision}"
     pictures = (
         Picture(f"{prefix}{row.key}-shade", png(shaded(arrays)), f"{row.surface_title} drawn by {name}"),
@@ -79,15 +82,19 @@ def _panel(row: Any, arrays: Arrays, scale: tuple[int, int], prefix: str, titled
     )
     counts = zip((getattr(row, kind) for kind in KINDS), style.WRONG, strict=True)
     wrong = ", ".join(f"{kind.title} {n:,}" for n, kind in counts if not wording.absent(n) and n > 0)
-    note = f"max {wording.error(row.error_max)} · {wrong or 'no wrong ray away from silhouettes'}"
-    if not wording.absent(row.grazing_wrong_rays) and row.grazing_wrong_rays > 0:
-        note += f" · {wording.count(row.grazing_wrong_rays)} wrong at grazing"
-    if not wording.absent(row.drowned_wrong_rays) and row.drowned_wrong_rays > 0:
-        note += f" · {wording.count(row.drowned_wrong_rays)} wrong at drowned"
+    note = f"max {wording.error(row.error_max)} · {wrong or 'no wrong ray away from silhouettes'}{wrong_apart(row)}"
     return Panel(f"{row.panel}, {row.precision}" if titled else name, pictures, note)
 
 
+def wrong_apart(row: Any) -> str:
+    """Write how many grazing and drowned rays of a row are wrong, for the end of a note; "" where none are."""
+    counts = {"grazing": row.grazing_wrong_rays, "drowned": row.drowned_wrong_rays}
+    told = (f" · {wording.count(n)} wrong at {name}" for name, n in counts.items() if not wording.absent(n) and n > 0)
+    return "".join(told)
+
+
 def _caption(row: Any) -> str:
+    """Explain the gallery of one surface, whose rows share all but the method with `row`."""
     return (
         f"{row.surface_title} on {row.device}, view {row.view}: what each method drew, and its error beside it. Dark "
         "blue to yellow is a growing |t − t*| on one logarithmic scale for all pictures of this report, whose end "
@@ -99,7 +106,10 @@ def _caption(row: Any) -> str:
 
 
 def shaded(arrays: Arrays) -> NDArray[np.float64]:
-    """float64[h, w, 3] in 0…1: the hit points lit from the camera, on white; of several samples the mean colour."""
+    """Paint the hit points lit from the camera, on white; returns float64[h, w, 3] in 0…1.
+
+    A pixel with several samples has their mean colour.
+    """
     shade = arrays.shade if arrays.samples is None else arrays.samples
     light = np.clip(np.nan_to_num(shade.astype(np.float64)), 0.0, 1.0)[..., None]
     lit = _rgb(style.SURFACE_SHADOW) * (1 - light) + _rgb(style.SURFACE_LIGHT) * light
@@ -109,7 +119,10 @@ def shaded(arrays: Arrays) -> NDArray[np.float64]:
 
 
 def error_map(arrays: Arrays, scale: tuple[int, int]) -> NDArray[np.float64]:
-    """float64[h, w, 3] in 0…1: errors by colour between the decades of `scale`, wrong rays in their class's colour."""
+    """Paint errors by colour between the decades of `scale`, and wrong rays in the colour of their kind.
+
+    Returns float64[h, w, 3] in 0…1.
+    """
     lowest, highest = scale
     error = arrays.error.astype(np.float64)
     positive = np.isfinite(error) & (error > 0)
@@ -121,15 +134,17 @@ def error_map(arrays: Arrays, scale: tuple[int, int]) -> NDArray[np.float64]:
     for kind in style.WRONG:
         color = _rgb(kind.color)
         image[(arrays.wrong == kind.code) & ~arrays.apart] = color
-        image[(arrays.wrong == kind.code) & arrays.apart] = color + GRAZING_PALE * (1 - color)
+        image[(arrays.wrong == kind.code) & arrays.apart] = color + PALE * (1 - color)
     return image
 
 
 def _rgb(color: str) -> NDArray[np.float64]:
+    """Return a colour as float64[3] in 0…1."""
     return np.asarray(to_rgb(color))
 
 
 def png(image: NDArray[np.float64]) -> bytes:
+    """Write an image [h, w, 3] in 0…1 as a PNG file, its pixels repeated as PIXELS says."""
     times = max(1, -(-PIXELS // max(image.shape[:2])))
     pixels = np.round(255 * image).astype(np.uint8).repeat(times, axis=0).repeat(times, axis=1)
     buffer = io.BytesIO()

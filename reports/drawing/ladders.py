@@ -1,4 +1,4 @@
-"""Small multiples of families of hard rays: the share answered rightly, rung by rung."""
+"""Draw families of hard rays: the share of rays answered rightly, rung by rung."""
 
 from __future__ import annotations
 
@@ -16,15 +16,16 @@ from reports.content import Figure
 from reports.drawing import style
 from reports.drawing.canvas import LINE, NARROW, RC, Key, line_of, series, svg
 from reports.drawing.style import Mark
-from reports.reading.load import Facts
+from reports.reading.run import Facts
 
-DODGE = 0.5  # of the step between rungs, over which the marks of one rung are spread so that all are seen
+DODGE = 0.5  # the share of the step between rungs over which marks of one rung are spread, so that all are seen
 
 
 def figure(devices: Mapping[str, pd.DataFrame], facts: Facts, marks: Mapping[str, Mark]) -> Figure:
-    """One family: a panel for each device (down) and precision (across), a line for each variant.
+    """Draw one family: a panel for each device and precision, a line for each variant.
 
-    Rungs stand at equal steps in the ladder's own order, because some ladders leap and one may reach 0.
+    Devices are below each other, precisions beside each other. Rungs have equal distances, in order of growing
+    difficulty: a scale of the parameter would crowd some ladders, and a logarithmic one cannot show a rung at 0.
     """
     rows = pd.concat(devices.values())
     variants = [variant for variant in marks if (rows["variant"] == variant).any()]
@@ -53,6 +54,7 @@ def figure(devices: Mapping[str, pd.DataFrame], facts: Facts, marks: Mapping[str
 
 
 def _draw(axes: Axes, rows: pd.DataFrame, variants: list[str], marks: Mapping[str, Mark]) -> None:
+    """Draw the ladder of one device and precision."""
     if rows.empty:
         axes.text(0.5, 0.5, "no result", transform=axes.transAxes, ha="center", va="center", color=style.FAINT)
     rungs = rows.drop_duplicates("level").sort_values("level")
@@ -76,7 +78,7 @@ def _draw(axes: Axes, rows: pd.DataFrame, variants: list[str], marks: Mapping[st
 
 
 def _undecided(rows: pd.DataFrame) -> str:
-    """What to say of precisions in which nothing of the family can be decided."""
+    """Say in which precisions no ray of the family can be decided; "" where there is none."""
     told = ""
     for precision, own in rows.groupby("precision"):
         if not own["decided"].any():

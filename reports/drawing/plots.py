@@ -1,4 +1,4 @@
-"""Frames → figures of content on speed and error, and the key to pictures of errors."""
+"""Draw speed against error, the overview of the first page, and the legend of pictures of errors."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from typing import Any
 import matplotlib
 import numpy as np
 import pandas as pd
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure as Drawing
 from matplotlib.lines import Line2D
@@ -22,12 +23,15 @@ from reports.drawing import style
 from reports.drawing.canvas import NARROW, RC, WIDE, ErrorAxis, Key, label_decades, series, svg
 from reports.drawing.style import Mark
 
-PANELS_ACROSS = 5
+PANELS_ACROSS = 5  # devices in one figure
 
 
 def speed_against_error(rows: pd.DataFrame, marks: Mapping[str, Mark], name: str, title: str) -> list[Figure]:
-    """For one comparison: a panel for each device and precision, `PANELS_ACROSS` devices to a figure; none for fewer
-    than two rows, which leave nothing to compare."""
+    """Draw one comparison: a panel for each device and precision, PANELS_ACROSS devices to a figure.
+
+    Returns [] for fewer than two rows, which leave nothing to compare. `marks` are by method; `name` begins the
+    figures' names.
+    """
     shown = derive.contenders(rows)
     shown = shown[shown["error_max"].notna() & np.isfinite(shown["mrays_per_s"]) & (shown["mrays_per_s"] > 0)]
     if len(shown) < 2:
@@ -47,9 +51,9 @@ def speed_against_error(rows: pd.DataFrame, marks: Mapping[str, Mark], name: str
 
 
 def overview(frame: pd.DataFrame, marks: Mapping[str, Mark], titles: Mapping[str, str]) -> Figure | None:
-    """How fast each method's fastest variant with no wrong ray is, for the page that all read; `titles` by comparison.
+    """Draw the speed of each method's fastest variant with no wrong ray, scene by scene.
 
-    None where there is nothing to draw or more devices than fit.
+    `marks` are by method, `titles` by comparison. None where there is nothing to draw or more devices than fit.
     """
     rows = derive.contenders(frame)
     rows = rows[derive.all_right(rows) & np.isfinite(rows["mrays_per_s"])].drop_duplicates([*derive.GROUP, "method"])
@@ -93,6 +97,7 @@ def overview(frame: pd.DataFrame, marks: Mapping[str, Mark], titles: Mapping[str
 
 
 def _bound_marks(rows: pd.DataFrame) -> str:
+    """Say how many marks are floor-bound; "" for none."""
     bound = int(rows["floor_bound"].sum())
     return (
         f" Of {len(rows)} marks {bound} are floor-bound: under {derive.FLOOR_FACTOR:g} times the time of the harness "
@@ -103,13 +108,15 @@ def _bound_marks(rows: pd.DataFrame) -> str:
 
 
 def _methods(rows: pd.DataFrame) -> list[str]:
+    """Return the methods of rows by name."""
     return sorted(set(rows["method"]))
 
 
 def _speed_against_error(shown: pd.DataFrame, devices: Sequence[str], marks: Mapping[str, Mark]) -> str:
+    """Draw the panels of these devices; returns SVG text."""
     precisions = sorted(set(shown["precision"]))
     axis = ErrorAxis.of(shown["error_max"])
-    alone = len(devices) == 1  # then its precisions stand side by side
+    alone = len(devices) == 1  # the panels of one device are beside each other
     columns, lines = (len(precisions), 1) if alone else (len(devices), len(precisions))
     width = min(WIDE, 0.7 + 3.2 * columns)
     key = Key(*_key(shown, marks), width)
@@ -117,7 +124,7 @@ def _speed_against_error(shown: pd.DataFrame, devices: Sequence[str], marks: Map
     with matplotlib.rc_context(RC):
         drawing = Drawing(figsize=(width, height))
         panels = drawing.subplots(lines, columns, sharex=True, sharey=True, squeeze=False)
-        # Margins in inches: left for speeds, below for errors, above for the key. Automatic layout costs a third more.
+        # margins in inches: left for speeds, below for errors, above for the key; automatic layout takes longer
         above = key.height + 0.26
         drawing.subplots_adjust(0.55 / width, 0.5 / height, 1 - 0.08 / width, 1 - above / height, 0.06, 0.16)
         for i, precision in enumerate(precisions):
@@ -137,6 +144,7 @@ def _speed_against_error(shown: pd.DataFrame, devices: Sequence[str], marks: Map
 
 
 def _draw_group(axes: Axes, group: pd.DataFrame, axis: ErrorAxis, marks: Mapping[str, Mark]) -> None:
+    """Draw one panel: the rows of one device and precision, their front, and where rows are floor-bound."""
     if group.empty:
         axes.text(0.5, 0.5, "no result", transform=axes.transAxes, ha="center", va="center", color=style.FAINT)
         return
@@ -151,7 +159,7 @@ def _draw_group(axes: Axes, group: pd.DataFrame, axis: ErrorAxis, marks: Mapping
     y = group["mrays_per_s"]
     low, high = y * group["median_ms"] / group["upper_ms"], y * group["median_ms"] / group["lower_ms"]
     right = derive.all_right(group)
-    for method, rows in x.sort_index().groupby(group["method"]):  # a knob's settings joined in the plan's order
+    for method, rows in x.sort_index().groupby(group["method"]):  # a line joins a method's settings in the plan's order
         mark = marks[str(method)]
         look: dict[str, Any] = {"color": mark.color, "marker": mark.marker, "ms": 4.5, "mew": 0.9, "zorder": 4}
         names = group["variant"][rows.index]
@@ -163,14 +171,15 @@ def _draw_group(axes: Axes, group: pd.DataFrame, axis: ErrorAxis, marks: Mapping
             own = series(str(method), *names[hollow.index])
             axes.plot(hollow, y[hollow.index], lw=0, markerfacecolor=style.PAPER, gid=own, **look)
     front = x[group["front"].astype(bool)].sort_values()
-    if len(front):  # drawn down from its most exact row and right from its fastest, for what these two beat
+    if len(front):  # the line goes down from the most exact row and right from the fastest: what lies there is beaten
         ends, speeds = (front.iloc[0], front.iloc[-1] + 99), y[front.index]
         edge_x, edge_y = np.r_[ends[0], front, ends[1]], np.r_[speeds.iloc[0] * 1e-9, speeds, speeds.iloc[-1]]
         axes.step(edge_x, edge_y, where="post", color=style.INK, lw=0.8, zorder=2)
 
 
-def _key(shown: pd.DataFrame, marks: Mapping[str, Mark]) -> tuple[list[Any], list[str]]:
-    entries: list[tuple[Any, str]] = [
+def _key(shown: pd.DataFrame, marks: Mapping[str, Mark]) -> tuple[list[Artist], list[str]]:
+    """Return the handles and labels of the key."""
+    entries: list[tuple[Artist, str]] = [
         (Line2D([], [], color=marks[m].color, marker=marks[m].marker, markersize=4.5, lw=0.5), m)
         for m in _methods(shown)
     ]
@@ -184,6 +193,7 @@ def _key(shown: pd.DataFrame, marks: Mapping[str, Mark]) -> tuple[list[Any], lis
 
 
 def _caption(shown: pd.DataFrame) -> str:
+    """Say how to read the figure, and what the largest gain over the baseline in it is."""
     baseline = derive.baseline_of(shown)
     over = {(row.device, row.precision): row for row in derive.baseline_rows(shown).itertuples()}
     gains = [
@@ -218,14 +228,14 @@ def _caption(shown: pd.DataFrame) -> str:
 
 
 def _floor(row: Any) -> str:
-    """What the harness itself takes of a row's time."""
+    """Write how much of a row's time is the harness's floor."""
     if wording.absent(row.floor_ms):
         return "; the harness's floor was not measured there"
     return f"; of its {wording.number(row.median_ms)} ms the harness's floor is {wording.number(row.floor_ms)} ms"
 
 
 def error_legend(lowest: int, highest: int) -> Figure:
-    """The key to the error pictures: the colour scale between two decades, and a patch for each kind of wrong ray."""
+    """Draw the legend of pictures of errors: the colour scale between two decades, and the kinds of wrong rays."""
     with matplotlib.rc_context(RC):
         drawing = Drawing(figsize=(6.8, 0.42))
         bar = drawing.add_axes((0.03, 0.6, 0.29, 0.36))

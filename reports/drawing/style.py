@@ -1,7 +1,7 @@
-"""The visual language: a colour and marker for each method, a line for its variant, a colour for a kind of wrong ray.
+"""How things look: a colour and a marker for each method, dashes for its variants, a colour for a kind of wrong ray.
 
-Colours are Okabe and Ito's, which the colour-blind can tell apart. There are more methods than colours, so that each of
-the suite's own has a marker that no other has: it tells them apart in greyscale too.
+The colours are Okabe and Ito's, which colour-blind readers can tell apart. There are more methods than colours. So each
+method of the suite has a marker that no other has, which tells them apart in greyscale too.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ INK = "#222222"
 FAINT = "#8a8a8a"
 HAIRLINE = "#d9d9d9"
 PAPER = "#ffffff"
-FONT = "DejaVu Sans"  # matplotlib brings it along, and the PDF embeds the same file
+FONT = "DejaVu Sans"  # matplotlib has the file, and the PDF embeds it
 
 _BLUE, _ORANGE, _GREEN, _VERMILLION = "#0072B2", "#E69F00", "#009E73", "#D55E00"
 _PURPLE, _SKY, _YELLOW, _GREY = "#CC79A7", "#56B4E9", "#B8A800", "#777777"  # the yellow darkened to be seen on paper
@@ -23,7 +23,7 @@ _PURPLE, _SKY, _YELLOW, _GREY = "#CC79A7", "#56B4E9", "#B8A800", "#777777"  # th
 
 @dataclass(frozen=True)
 class Mark:
-    """How a method is drawn, or with a `line` of its own a variant; `marker` and `line` are matplotlib's."""
+    """How a method is drawn, or a variant, which has its method's colour and marker. Values are matplotlib's."""
 
     color: str
     marker: str | tuple[int, Literal[0, 1, 2], int]
@@ -50,7 +50,16 @@ _HOUSE: dict[str, Mark] = {
     "contour": Mark(_SKY, (4, 1, 0)),  # a star with four points
 }
 _SPARE_COLORS = (_PURPLE, _GREEN, _VERMILLION, _SKY, _ORANGE, _BLUE, _YELLOW)
-_SPARE_MARKERS = ("p", ">", "X", "8", "H", "D", "v", "s")  # 7 and 8 have no common factor: 56 different pairs
+_SPARE_MARKERS = (
+    "p",
+    ">",
+    "X",
+    "8",
+    "H",
+    "D",
+    "v",
+    "s",
+)  # 7 colours and 8 markers have no common factor, which gives 56 pairs
 _SPARE = [
     mark
     for mark in (Mark(_SPARE_COLORS[i % 7], _SPARE_MARKERS[i % 8]) for i in range(56))
@@ -59,7 +68,10 @@ _SPARE = [
 
 
 def marks(methods: Iterable[str]) -> dict[str, Mark]:
-    """A mark for each method, in name order: the suite's methods have theirs in every report, plugins take spares."""
+    """Return a mark for each method, by name.
+
+    The suite's methods have the same mark in every report; plugins take spare ones.
+    """
     names = sorted(set(methods))
     spares = {name: _SPARE[i % len(_SPARE)] for i, name in enumerate(n for n in names if n not in _HOUSE)}
     return {name: _HOUSE.get(name) or spares[name] for name in names}
@@ -69,7 +81,7 @@ _LINES = ("-", "--", ":", "-.")
 
 
 def variant_marks(variants: Iterable[tuple[str, str]]) -> dict[str, Mark]:
-    """A mark for each (method, variant): its method's, with the next kind of line for each further variant."""
+    """Return a mark for each variant of pairs (method, variant): its method's, with other dashes for each variant."""
     pairs = list(dict.fromkeys(variants))
     own = marks(method for method, _ in pairs)
     seen: Counter[str] = Counter()
@@ -81,7 +93,7 @@ def variant_marks(variants: Iterable[tuple[str, str]]) -> dict[str, Mark]:
 
 
 @dataclass(frozen=True)
-class Class:
+class Kind:
     """A kind of wrong ray; `code` is its value in the `wrong` array of a run."""
 
     code: int
@@ -90,11 +102,11 @@ class Class:
 
 
 WRONG = (
-    Class(1, "miss", _VERMILLION),
-    Class(2, "false hit", _PURPLE),
-    Class(3, "exhausted", _SKY),
-    Class(4, "wrong root", _GREEN),
-    Class(5, "invalid", "#FF00FF"),
+    Kind(1, "miss", _VERMILLION),
+    Kind(2, "false hit", _PURPLE),
+    Kind(3, "exhausted", _SKY),
+    Kind(4, "wrong root", _GREEN),
+    Kind(5, "invalid", "#FF00FF"),
 )
 UNDECIDED = "#bdbdbd"
 EXACT = "#e9eef4"  # an error of exactly zero, below the colour scale

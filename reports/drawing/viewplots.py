@@ -1,4 +1,4 @@
-"""Time, error and wrong rays over the projection angle, and maps of them over the sphere of directions."""
+"""Draw time, error and wrong rays over the projection angle, and maps of them over the sphere of directions."""
 
 from __future__ import annotations
 
@@ -17,21 +17,22 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 from numpy.typing import NDArray
 
 from reports import wording
+from reports.analysis.scene_names import rays_checked
 from reports.analysis.viewstats import ViewSet
 from reports.content import Figure
-from reports.drawing import style, tables
+from reports.drawing import style
 from reports.drawing.canvas import LINE, NARROW, RC, WIDE, ErrorAxis, Key, label_decades, line_of, svg
 from reports.drawing.style import Mark
 
-DODGE = 0.3  # of the step between angles, over which marks are spread so that all are seen
+DODGE = 0.3  # the share of the step between angles over which marks of one angle are spread, so that all are seen
 ACROSS, DOWN = 4, 4  # variants in one figure of maps
-MAP_PIXELS = (90, 180)  # of a map; each shows the nearest direction
+MAP_PIXELS = (90, 180)  # height and width of a map; each pixel shows the nearest direction
 TIME_MAP = "viridis"
-Limits = tuple[float, float]  # decimal exponents, the ends of a colour scale
+Limits = tuple[float, float]  # the ends of a colour scale, as decimal exponents
 
 
 def over_angle(of: ViewSet, marks: Mapping[str, Mark], name: str) -> Figure:
-    """Time per ray, largest error and wrong rays against the projection angle, a line for each variant."""
+    """Draw time per ray, largest error and wrong rays against the projection angle, a line for each variant."""
     variants = dict(of.variants())
     angles = sorted(of.rows["angle"].unique())
     step = min(np.diff(angles), default=1.0)
@@ -79,21 +80,24 @@ def over_angle(of: ViewSet, marks: Mapping[str, Mark], name: str) -> Figure:
         f"Time, error and wrong rays of {wording.listed(list(variants))} against the projection angle.",
         f"{of.place}.",
         "A level line does not depend on the view. On the right, marks of one angle stand side by side; counts are of "
-        f"the {tables.checked(of.rows)} rays of each angle's check." + wording.zeros(of.rows["error_max"]),
+        f"the {rays_checked(of.rows)} rays of each angle's check." + wording.zeros(of.rows["error_max"]),
     )
 
 
 @dataclass(frozen=True, eq=False)
 class Sphere:
-    """The sphere of directions in Mollweide's equal-area projection, each place given to the nearest direction."""
+    """The sphere of directions in Mollweide's equal-area projection, for n directions.
 
-    nearest: NDArray[np.intp]  # [h, w]; -1 outside the ellipse
-    x: NDArray[np.float64]  # [n] of each direction, in [-2, 2]
-    y: NDArray[np.float64]  # [n] in [-1, 1]
+    Each pixel of the map belongs to the nearest direction.
+    """
+
+    nearest: NDArray[np.intp]  # [h, w]: the index of the nearest direction; -1 outside the ellipse
+    x: NDArray[np.float64]  # [n]: where each direction is on the map, in [-2, 2]
+    y: NDArray[np.float64]  # [n]: the same, in [-1, 1]
 
     @classmethod
     def of(cls, azimuth: NDArray[np.float64], elevation: NDArray[np.float64]) -> Sphere:
-        """Angles in degrees, [n] each; azimuth 0 is in the middle, the z axis up."""
+        """Project directions given in degrees, [n] each; azimuth 0 is in the middle of the map, the z axis up."""
         height, width = MAP_PIXELS
         y = 1 - (2 * np.arange(height) + 1) / height
         x = (4 * np.arange(width) + 2) / width - 2
@@ -105,7 +109,8 @@ class Sphere:
         return cls(np.where(np.abs(longitude) <= np.pi, nearest, -1), *mollweide(azimuth, elevation))
 
 
-def _unit(azimuth: Any, elevation: Any) -> NDArray[np.float64]:
+def _unit(azimuth: NDArray[np.float64], elevation: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the unit vectors float64[..., 3] of directions in radians, [...] each."""
     return np.stack(
         [np.cos(elevation) * np.cos(azimuth), np.cos(elevation) * np.sin(azimuth), np.sin(elevation)], axis=-1
     )
@@ -114,11 +119,14 @@ def _unit(azimuth: Any, elevation: Any) -> NDArray[np.float64]:
 def mollweide(
     azimuth: NDArray[np.float64], elevation: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Degrees → x in [-2, 2], y in [-1, 1], by J. P. Snyder, Map Projections: A Working Manual, 1987, (31-1) to (31-3)
-    over the square root of 2."""
+    """Project directions in degrees, [n] each, to x in [-2, 2] and y in [-1, 1].
+
+    By J. P. Snyder, Map Projections: A Working Manual, 1987, equations (31-1) to (31-3), divided by the square root
+    of 2.
+    """
     longitude, latitude = np.radians((azimuth + 180.0) % 360.0 - 180.0), np.radians(elevation)
     low, high = np.full(latitude.shape, -np.pi / 2), np.full(latitude.shape, np.pi / 2)
-    for _ in range(60):  # 2θ + sin 2θ = π sin φ rises in θ
+    for _ in range(60):  # bisection: the left side of 2θ + sin 2θ = π sin φ grows with θ
         theta = (low + high) / 2
         below = 2 * theta + np.sin(2 * theta) < np.pi * np.sin(latitude)
         low, high = np.where(below, theta, low), np.where(below, high, theta)
@@ -127,27 +135,31 @@ def mollweide(
 
 @dataclass(frozen=True)
 class Scales:
-    """The ends of the colour scales that all maps of a report share, in decimal exponents."""
+    """The ends of the two colour scales that all maps of a report share."""
 
-    times: Limits  # of a time per ray over the variant's mean
-    errors: Limits
+    times: Limits  # of the time per ray over the variant's mean
+    errors: Limits  # of the largest error in scene units
 
     @classmethod
     def of(cls, sets: Sequence[ViewSet], errors: tuple[int, int]) -> Scales:
-        """The scales of all maps of these sets; `errors` is the report's of errors."""
+        """Return the scales of all maps of these sets; `errors` is the report's own scale of errors."""
         every = np.concatenate([_over_mean(rows) for of in sets for _, rows in of.variants()] or [np.ones(1)])
         reach = math.log10(max(1.1, float(every.max()), float(1 / every.min())))
         return cls((-reach, reach), errors)
 
 
 def _over_mean(rows: pd.DataFrame) -> NDArray[np.float64]:
+    """Return each row's time per ray over the mean of all, float64[n]."""
     times = np.asarray(rows["us_per_ray"], np.float64)
     over: NDArray[np.float64] = times / times.mean()
     return over
 
 
 def over_directions(of: ViewSet, scales: Scales, name: str) -> list[Figure]:
-    """For each variant two maps: its time per ray over its mean, and its largest error; wrong rays marked on both."""
+    """Draw two maps for each variant: its time per ray over its mean, and its largest error.
+
+    Both mark the directions with wrong rays. A figure holds at most ACROSS × DOWN variants.
+    """
     variants = dict(of.variants())
     names = list(variants)
     batches = [names[i : i + ACROSS * DOWN] for i in range(0, len(names), ACROSS * DOWN)]
@@ -155,6 +167,7 @@ def over_directions(of: ViewSet, scales: Scales, name: str) -> list[Figure]:
 
 
 def _maps(of: ViewSet, variants: Mapping[str, pd.DataFrame], scales: Scales, name: str) -> Figure:
+    """Draw the maps of at most ACROSS × DOWN variants."""
     ratios = {variant: _over_mean(rows) for variant, rows in variants.items()}
     lines = -(-len(variants) // ACROSS)
     line, below, above = 1.12, 0.5, 0.05
@@ -195,19 +208,24 @@ def _maps(of: ViewSet, variants: Mapping[str, pd.DataFrame], scales: Scales, nam
         "nearest direction, a dot. Left, the time per ray in the domain over the variant's own mean, on one scale "
         "for all maps of this report: an even map does not depend on the view. Right, the largest error, in "
         f"the colours of all pictures of this report; pale is an error of 0. {wording.ZERO} Red crosses are directions "
-        f"with wrong rays, larger where there are more; the count adds them up, of {tables.checked(of.rows)} rays of "
+        f"with wrong rays, larger where there are more; the count adds them up, of {rays_checked(of.rows)} rays of "
         "each direction's check.",
     )
 
 
 def _name(variant: str) -> str:
+    """Shorten a name that is too long for the title of a map."""
     return variant if len(variant) <= 42 else f"{variant[:40]} …"
 
 
 def _map(
     axes: Axes, sphere: Sphere, values: NDArray[Any], limits: Limits, cmap: str, wrong: NDArray[np.float64]
 ) -> None:
-    """Decimal exponents by colour between `limits`; -inf is an exact zero, NaN nothing known."""
+    """Draw one map: `values` [n] of the directions, as decimal exponents, by colour between `limits`.
+
+    A value of -inf is an error of exactly zero, NaN one that is not known. Crosses mark the directions where `wrong`
+    [n] is positive.
+    """
     level = (np.where(np.isfinite(values), values, limits[0]) - limits[0]) / (limits[1] - limits[0])
     colors = matplotlib.colormaps[cmap](np.clip(level, 0.0, 1.0))
     colors[np.isneginf(values)] = matplotlib.colors.to_rgba(style.EXACT)
@@ -228,10 +246,12 @@ def _map(
 
 
 def _told_times(rows: pd.DataFrame, ratio: NDArray[np.float64]) -> str:
+    """Write the mean time per ray, and the range of times over it."""
     return f"mean {wording.number(1e3 * rows['us_per_ray'].mean())} ns, {ratio.min():.2f} to {ratio.max():.2f}"
 
 
 def _told_errors(rows: pd.DataFrame, wrong: NDArray[np.float64]) -> str:
+    """Write the range of largest errors, and the number of wrong rays."""
     if not rows["answers"].iloc[0]:
         return "finds nothing"
     error = rows["error_max"].astype("float64")
@@ -240,7 +260,7 @@ def _told_errors(rows: pd.DataFrame, wrong: NDArray[np.float64]) -> str:
 
 
 def _scales(drawing: Drawing, times: Limits, errors: Limits, height: float) -> None:
-    """The two colour bars below the maps, and a cross's key."""
+    """Draw the two colour bars below the maps, and what a cross means."""
     reach = 10.0 ** times[1]
     levels = (0.7, 0.8, 0.9, 1.0, 1.1, 1.25, 1.4) if reach < 1.6 else (0.1, 0.2, 0.3, 0.5, 0.7, 1.0, 1.4, 2.0, 3.0, 5.0)
     ratios = [level for level in levels if 1 / reach <= level <= reach]

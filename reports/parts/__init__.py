@@ -1,23 +1,41 @@
-"""The parts of a report. A module here is a part: `ORDER`, a whole number that places it, and
-`sections(material: Material) -> list[Section]`, empty where the run has nothing for it. No list names them.
+"""The parts of a report. Every module in this folder is one, and no list names them.
 
-In the report of a run that collects others, parts with `LEADS` come first: what the collection is about."""
+A part has ORDER, a whole number that places it, and `sections(material)`, which returns its sections: [] where the run
+has nothing for it. In the report of a run that collects others, parts with LEADS come first, because the run collects
+the others for them.
+"""
 
 from __future__ import annotations
 
 import importlib
 import pkgutil
-from typing import Any
+from collections.abc import Iterable
+from typing import Protocol, cast
 
 from reports.content import Section
 from reports.material import Material
 
 
+class Part(Protocol):
+    """A module that makes sections of a report."""
+
+    ORDER: int
+    __name__: str
+
+    def sections(self, material: Material, /) -> list[Section]:
+        """Make the sections of this part."""
+
+
+def found(package: str, folders: Iterable[str]) -> list[Part]:
+    """Import every module in the folders of `package`, and return them by ORDER."""
+    names = (module.name for module in pkgutil.iter_modules(folders))
+    parts = [cast(Part, importlib.import_module(f"{package}.{name}")) for name in names]
+    return sorted(parts, key=lambda part: (part.ORDER, part.__name__))
+
+
 def sections(material: Material) -> list[Section]:
-    """The sections of every part, in order."""
-    modules: list[Any] = [
-        importlib.import_module(f"{__name__}.{found.name}") for found in pkgutil.iter_modules(__path__)
-    ]
-    leads = bool(material.run.plan.include)
-    ordered = sorted(modules, key=lambda m: (not (leads and hasattr(m, "LEADS")), m.ORDER, m.__name__))
-    return [section for module in ordered for section in module.sections(material)]
+    """Return the sections of every part, in the order of the parts."""
+    parts = found(__name__, __path__)
+    if material.run.plan.include:
+        parts.sort(key=lambda part: not hasattr(part, "LEADS"))
+    return [section for part in parts for section in part.sections(material)]

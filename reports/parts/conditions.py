@@ -1,12 +1,177 @@
-"""Error against condition."""
+"""Error against condition: whether a method's errors are those of the problem, or larger because it is unstable."""
 
-from reports import condition
-from reports.analysis import forms
-from reports.content import Section
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import matplotlib
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure as Drawing
+from matplotlib.lines import Line2D
+from matplotlib.ticker import FixedLocator, FuncFormatter
+from numpy.typing import NDArray
+
+from harness.contract import UNIT_ROUNDOFF
+from reports import wording
+from reports.analysis import shown, surface_names
+from reports.content import Block, Figure, Section, Text
+from reports.drawing import style
+from reports.drawing.canvas import LINE, NARROW, RC, ErrorAxis, Key, line_of, series, svg
+from reports.drawing.style import Mark
 from reports.material import Material
+from reports.reading.arrays import Shelf
 
 ORDER = 40
+BINS = 12  # of equal width in the logarithm of the condition, over the range of one surface's conditions
+VARIANTS = 4  # the most that are drawn of one method
+DODGE = 0.6  # the share of a bin's width over which its marks are spread, so that all are seen
+_ROUNDOFF: Mapping[str, float] = {str(name): unit for name, unit in UNIT_ROUNDOFF.items()}
+EXPLANATION = (
+    "The error |t − t*| over the radius of each ray that hits the right root, against the condition number of its "
+    "root: how far the root moves when the terms of f change by a relative amount. The black line is condition × unit "
+    "roundoff (condition at least 1), what the problem allows. A mark is the largest error among the rays of a narrow "
+    "range of condition; the thin line below it reaches down to their median. A method along the line is as bad as the "
+    "problem and no worse; one that stays high above it is unstable, or stops early. "
+    + wording.ZERO
+    + " Rays at silhouettes are included: they have the largest "
+    f"conditions. Of the device with most results, and at most {VARIANTS} variants of each method."
+)
+
+
+@dataclass(frozen=True, eq=False)
+class Cloud:
+    """The rays of one row that hit the right root."""
+
+    method: str
+    variant: str
+    precision: str
+    condition: NDArray[np.float64]  # [n]
+    error: NDArray[np.float64]  # [n], over the domain's radius
+
+    @property
+    def excess(self) -> float:
+        """The largest ratio of an error to the error that the problem allows there."""
+        return float((self.error / allowed(self.condition, self.precision)).max())
+
+
+def allowed(condition: NDArray[np.float64], precision: str) -> NDArray[np.float64]:
+    """Return the error, over the domain's radius, that the problem allows at each condition [n], as float64[n]."""
+    return np.maximum(condition, 1.0) * _ROUNDOFF[precision]
 
 
 def sections(material: Material) -> list[Section]:
-    return condition.sections(material.shelf, forms.printed_alone(material.frame), material.marks)
+    """Make a section with a figure for each surface whose conditions are known; [] where none are."""
+    frame = surface_names.printed_alone(material.frame)
+    figures: list[Block] = []
+    for _, rows in frame.groupby("surface", sort=False):
+        drawn = shown.of_surface(rows, VARIANTS)
+        clouds = [cloud for row in drawn.itertuples() if (cloud := _cloud(material.shelf, row)) is not None]
+        if clouds:
+            figures.append(_figure(f"condition-{len(figures)}", clouds, material.marks, drawn.iloc[0]))
+    return [Section("Error against condition", (Text(EXPLANATION), *figures))] if figures else []
+
+
+def _cloud(shelf: Shelf, row: Any) -> Cloud | None:
+    """Read the cloud of one row; None where its conditions or its radius are not known."""
+    arrays = shelf.get(row)
+    if arrays is None or arrays.condition is None:
+        return None
+    radius = row.scene_radius if wording.absent(row.domain_radius) else row.domain_radius
+    known = np.isfinite(arrays.error) & np.isfinite(arrays.condition) & (arrays.condition > 0)
+    if wording.absent(radius) or not known.any():
+        return None
+    condition, error = (array[known].astype(np.float64) for array in (arrays.condition, arrays.error))
+    return Cloud(row.method, row.variant, row.precision, condition, error / radius)
+
+
+def _figure(name: str, clouds: list[Cloud], marks: Mapping[str, Mark], row: Any) -> Figure:
+    """Draw the clouds of one surface, a panel for each precision; `row` is one of its rows."""
+    radius = "scene's" if wording.absent(row["domain_radius"]) else "domain's"
+    variants = [variant for variant in marks if any(cloud.variant == variant for cloud in clouds)]
+    precisions = sorted({cloud.precision for cloud in clouds})
+    every = np.log10(np.concatenate([cloud.condition for cloud in clouds]))
+    edges = np.linspace(every.min(), max(every.max(), every.min() + 0.1), BINS + 1)
+    limits = np.concatenate([allowed(10.0 ** edges[[0, -1]], precision) for precision in precisions])
+    axis = ErrorAxis.of(np.concatenate([limits, *(np.concatenate(_spread(c, edges)[1:]) for c in clouds)]))
+    line = Line2D([], [], color=style.INK, lw=1.1)
+    key = Key([*(line_of(marks[v]) for v in variants), line], [*variants, "condition × unit roundoff"], NARROW)
+    above = key.height + 0.2
+    height = above + 0.36 + 1.7
+    with matplotlib.rc_context(RC):
+        drawing = Drawing(figsize=(NARROW, height))
+        panels = drawing.subplots(1, len(precisions), sharex=True, sharey=True, squeeze=False)[0]
+        drawing.subplots_adjust(0.5 / NARROW, 0.36 / height, 1 - 0.05 / NARROW, 1 - above / height, 0.05)
+        for axes, precision in zip(panels, precisions, strict=True):
+            axes.set_title(precision, color=style.INK)
+            _dress(axes, edges, axis, precision)
+            for cloud in clouds:
+                if cloud.precision == precision:
+                    place = (variants.index(cloud.variant) + 0.5) / len(variants) - 0.5
+                    _draw(axes, cloud, edges, DODGE * place * (edges[1] - edges[0]), axis, marks[cloud.variant])
+        drawing.supxlabel("condition number", y=0.08 / height, va="center", fontsize=6.5)
+        drawing.supylabel(f"|t − t*| over the {radius} radius", x=0.08 / NARROW, ha="center", fontsize=6.5)
+        key.draw(drawing)
+        drawn = svg(drawing)
+    return Figure(
+        name,
+        drawn,
+        f"Largest and median error of {wording.listed(variants)} on {row['surface_title']}, against condition.",
+        f"{row['surface_title']}, view {row['view']}, on {row['device']}.",
+        _caption(clouds, radius),
+    )
+
+
+def _spread(cloud: Cloud, edges: NDArray[np.float64]) -> tuple[NDArray[Any], NDArray[np.float64], NDArray[np.float64]]:
+    """Return the indices of the bins that hold rays, and the largest and the median error in each, [bins] each."""
+    bins = np.clip(np.searchsorted(edges, np.log10(cloud.condition), side="right") - 1, 0, len(edges) - 2)
+    order = np.lexsort((cloud.error, bins))
+    errors = cloud.error[order]
+    filled, first, count = np.unique(bins[order], return_index=True, return_counts=True)
+    return filled, errors[first + count - 1], errors[first + count // 2]
+
+
+def _draw(axes: Axes, cloud: Cloud, edges: NDArray[np.float64], shift: float, axis: ErrorAxis, mark: Mark) -> None:
+    """Draw one cloud, its marks moved by `shift` from the middle of their bin."""
+    filled, largest, median = _spread(cloud, edges)
+    x = (edges[filled] + edges[filled + 1]) / 2 + shift
+    top, middle = axis.position(largest), axis.position(median)
+    own = series(cloud.method, cloud.variant)
+    axes.vlines(x, middle, top, color=mark.color, lw=0.7, zorder=3, gid=own)
+    axes.plot(x, top, color=mark.color, marker=mark.marker, ls=mark.line, zorder=4, gid=own, **LINE)
+
+
+def _dress(axes: Axes, edges: NDArray[np.float64], axis: ErrorAxis, precision: str) -> None:
+    """Set the axes of one panel, and draw the line of what the problem allows."""
+    axis.dress(axes, "y")
+    low, high = float(edges[0]), float(edges[-1])
+    axes.set_xlim(low - 0.03 * (high - low), high + 0.03 * (high - low))
+    within = (1, 2, 5) if high - low < 1.8 else (1,)
+    step = max(1, math.ceil((high - low) / 8))
+    places = [e + math.log10(m) for e in range(math.floor(low), math.ceil(high) + 1, step) for m in within]
+    axes.xaxis.set_major_locator(FixedLocator(places))
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda place, _: wording.level(10.0**place)))
+    line = np.unique(np.clip([low, 0.0, high], low, high))
+    axes.plot(line, np.log10(allowed(10.0**line, precision)), color=style.INK, lw=1.1, zorder=5)
+
+
+def _caption(clouds: list[Cloud], radius: str) -> str:
+    """Name in each precision the variants furthest above the line and those least above it.
+
+    Variants whose printed figure is the same are named together.
+    """
+    told = []
+    for precision in sorted({cloud.precision for cloud in clouds}):
+        own = [cloud for cloud in clouds if cloud.precision == precision]
+        figures = {cloud.variant: wording.short(cloud.excess) for cloud in sorted(own, key=lambda c: c.excess)}
+        lowest, highest = (figures[variant] for variant in (next(iter(figures)), next(reversed(figures))))
+        low, high = (
+            f"{end} ({wording.listed([v for v, figure in figures.items() if figure == end])})"
+            for end in (lowest, highest)
+        )
+        told.append(f"{precision}: {high}" if lowest == highest else f"{precision}: from {low} to {high}")
+    note = "" if radius == "domain's" else " This run does not tell the domain's radius; the line takes the scene's."
+    return f"Worst error over the line, in {'; in '.join(told)}.{note}"

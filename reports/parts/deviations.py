@@ -30,12 +30,12 @@ CAPTION = (
     "extreme over the comparisons that have both."
 )
 
-_ELSE = ["prepass", "origin", "proxy", "normal"]  # what two rows of one comparison may differ in beside their knobs
+_ELSE = ["prepass", "origin", "proxy", "normal"]  # in which rows of one comparison may differ beside their knobs
 _KEYS = ["run", *derive.GROUP, *_ELSE]
 
 
 def sections(material: Material) -> list[Section]:
-    """Make the section; [] where the run holds no method with a knob at its printed value beside its default."""
+    """Make the section; [] where the run has no method with a knob at its printed value and at its default."""
     body = [line for name, told in material.run.plan.methods.items() for line in _lines(name, told, material.frame)]
     if not body:
         return []
@@ -62,7 +62,7 @@ def sections(material: Material) -> list[Section]:
 
 
 def _lines(name: str, told: Mapping[str, Any], frame: pd.DataFrame) -> Iterator[tuple[Any, ...]]:
-    """A line for each knob whose printed value was run alone, and one for all of them."""
+    """Yield a line for each knob whose printed value was run alone, and one for all of them together."""
     knobs = {knob["name"]: knob for knob in told.get("parameters", []) if knob.get("printed") is not None}
     rows = frame[(frame["method"] == name) & (frame["status"] == "ok") & frame["accuracy_rays"].notna()]
     if not knobs or rows.empty:
@@ -80,7 +80,7 @@ def _lines(name: str, told: Mapping[str, Any], frame: pd.DataFrame) -> Iterator[
 
 
 def _line(what: tuple[str, ...], ours: pd.DataFrame, theirs: pd.DataFrame) -> Iterator[tuple[Any, ...]]:
-    """The line, where the two have a comparison in common."""
+    """Yield one line if the rows `ours` and `theirs` have a comparison in common; `what` are its first cells."""
     left, right = (
         rows.assign(**{name: rows[name].fillna("") for name in _ELSE}).drop_duplicates(_KEYS).set_index(_KEYS)
         for rows in (ours, theirs)

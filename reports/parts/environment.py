@@ -1,13 +1,78 @@
-"""Devices, machine, software and config."""
+"""Devices, machine, software and config of a run."""
 
-from reports import machine
-from reports.content import Code, Section
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from reports import wording
+from reports.content import Code, Column, Section, Table
 from reports.material import Material
+from reports.reading.run import Plan
 
 ORDER = 80
 
 
 def sections(material: Material) -> list[Section]:
+    """Make the section, which every report has."""
     plan = material.run.plan
-    tabled = (machine.devices(plan), machine.environment(plan))
+    tabled = (devices_table(plan), _environment(plan))
     return [Section("Devices, environment, config", (*tabled, Code(plan.config_text, "toml")), wide=True)]
+
+
+def devices_table(plan: Plan) -> Table:
+    """Make a line for each device with what its probes found; columns without any value are left out."""
+    body: list[tuple[Any, ...]] = []
+    for device in plan.devices:
+        versions = ", ".join(f"{name} {version}" for name, version in _pairs(device.get("versions")))
+        told = (device.get("title"), device.get("driver"), device.get("compiler"), device.get("compute_units"))
+        probes = device.get("probes") or {}
+        peak = (probes.get("peak_gflops"), probes.get("peak_median_gflops"), probes.get("peak_shape"))
+        float64 = "yes" if device.get("float64") else "no"
+        how = (float64, device.get("clock"), versions, device.get("problem"))
+        body.append((device.get("name"), *told, *peak, *how))
+    columns: tuple[Column, ...] = (
+        Column("device"),
+        Column("hardware"),
+        Column("driver"),
+        Column("compiler"),
+        Column("units", numeric=True),
+        Column("peak", _two_digits, numeric=True, over="GFLOP/s"),
+        Column("median", _two_digits, numeric=True, over="GFLOP/s"),
+        Column("reached by"),
+        Column("float64"),
+        Column("clock"),
+        Column("bindings"),
+        Column("problem"),
+    )
+    known = [i for i in range(len(columns)) if not all(wording.absent(row[i]) for row in body)]
+    columns, body = tuple(columns[i] for i in known), [tuple(row[i] for i in known) for row in body]
+    caption = (
+        "The clock is the one to be believed there, and times are by it. The peak is the best rate of float32 "
+        "multiply-adds, two operations each, that a launch of the probe's loops reached, however many chains it had: "
+        "shares of a peak are shares of this rate. The median is of all launches of that loop: where it is far below "
+        "the peak, other programs slowed the probe down, and the next one may find another peak."
+    )
+    return Table(columns, body, "Devices of this run.", caption)
+
+
+def _two_digits(value: Any) -> str:
+    """Write two significant digits without an exponent."""
+    return wording.NONE if wording.absent(value) else f"{float(f'{value:.1e}'):,g}"
+
+
+def _environment(plan: Plan) -> Table:
+    """Make a line for each fact about the machine and the software that the run was made with."""
+    told = {name: value for name, value in plan.environment.items() if name != "versions"}
+    if told.pop("dirty", False):
+        told["commit"] = f"{told.get('commit')} with uncommitted changes"
+    versions = ", ".join(f"{name} {version}" for name, version in _pairs(plan.environment.get("versions")))
+    body = [("config", plan.config), ("created", plan.created), *told.items(), ("packages", versions or None)]
+    return Table((Column(""), Column("")), body, "The machine and software of this run.")
+
+
+def _pairs(versions: Any) -> list[tuple[str, str]]:
+    """Return versions as pairs of name and version; runs store them as an object or as a list of pairs."""
+    if isinstance(versions, Mapping):
+        return [(str(name), str(version)) for name, version in versions.items()]
+    return [(str(pair[0]), str(pair[1])) for pair in versions or [] if isinstance(pair, list) and len(pair) == 2]

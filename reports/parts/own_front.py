@@ -8,21 +8,22 @@ import pandas as pd
 
 from reports import wording
 from reports.analysis import derive, rounds, ties
+from reports.analysis.scene_names import scene_names
 from reports.content import Block, Column, Section, Table, Text
-from reports.drawing import tables
 from reports.material import Material
 
 ORDER = 12
-OWN = "firsthit"  # what the source that a method of our own states begins with
+OWN = "firsthit"  # how the source begins that a method of our own states
 
 
 def sections(material: Material) -> list[Section]:
-    """None where a run holds no method of our own beside another one."""
+    """Make a section for each method of our own; [] where none was timed beside another method."""
     own = sorted(name for name, told in material.run.plan.methods.items() if str(told.get("source")).startswith(OWN))
     return [section for name in own for section in _of(name, material.listed)]
 
 
 def _of(method: str, frame: pd.DataFrame) -> list[Section]:
+    """Make the section of one method; [] where it has no comparison with a front."""
     rows = derive.contenders(frame)
     groups = [group for _, group in rows.groupby(derive.GROUP) if group["method"].nunique() > 1]
     groups = [group for group in groups if (group["method"] == method).any()]
@@ -31,7 +32,7 @@ def _of(method: str, frame: pd.DataFrame) -> list[Section]:
         return []
     planned = list(dict.fromkeys(frame["comparison"]))
     lines.sort(key=lambda line: (line[0], planned.index(line[1]), line[2]))
-    named = tables.places(rows)
+    named = scene_names(rows)
     body = [(degree, named[comparison], *told) for degree, comparison, *told, _ in lines]
     off = [line for line in lines if line[3] == "no"]
     told = f"{method} is on the front in {len(lines) - len(off)} of {wording.plural(len(lines), 'comparison')}"
@@ -59,9 +60,9 @@ def _of(method: str, frame: pd.DataFrame) -> list[Section]:
 
 
 def _line(method: str, group: pd.DataFrame) -> tuple[Any, ...]:
-    """Make the line of one comparison; its last item is whether the rival is told to be faster.
+    """Make the line of one comparison, and as its last item whether the rival is proved faster.
 
-    `group` is in order of time.
+    The rows of `group` are fastest first.
     """
     own = group[group["method"] == method]
     right = own[derive.all_right(own)]
@@ -77,12 +78,12 @@ def _line(method: str, group: pd.DataFrame) -> tuple[Any, ...]:
 
 
 def _rival(row: Any, own: Any | None) -> list[Any]:
-    """Describe the rival `row`; no ratio where `own` is None, as the method's own variant answers a ray wrongly."""
+    """Return the cells of the rival `row`; the last is its time over that of `own`, None where `own` is None."""
     return [str(row.variant), row.median_ms, row.error_max, None if own is None else rounds.times_over(row, own)]
 
 
 def _without(count: int) -> str:
-    """Say in how many comparisons no method is on the front; empty for none."""
+    """Say in how many comparisons there is no front; "" for none."""
     if not count:
         return ""
     return (
@@ -92,7 +93,7 @@ def _without(count: int) -> str:
 
 
 def _lost(off: list[tuple[Any, ...]]) -> str:
-    """Who wins where the method is not on the front, by degree."""
+    """Say at which degrees the method is not on the front, and which methods win there; "" where it always is."""
     if not off:
         return ""
     degrees = sorted({line[0] for line in off})

@@ -1,4 +1,4 @@
-"""How to have the same again."""
+"""How to run the same again."""
 
 from __future__ import annotations
 
@@ -11,12 +11,13 @@ import pandas as pd
 from reports import wording
 from reports.content import Code, Section, Text
 from reports.material import Material
-from reports.reading.load import Plan
+from reports.reading.run import Plan
 
 ORDER = 95
 
 
 def sections(material: Material) -> list[Section]:
+    """Make the section, which every report has."""
     plan = material.run.plan
     commit = str(plan.environment.get("commit") or "")
     lines = [f"git checkout {commit}"] if commit else []
@@ -35,7 +36,7 @@ def sections(material: Material) -> list[Section]:
 
 
 def _plugins(material: Material) -> str:
-    """What the commit does not hold of the methods: those from outside the project, with the hashes of their files."""
+    """Name the methods from outside the project, which the commit does not hold, with the hashes of their files."""
     plan = material.run.plan
     outside = {name: told["outside"] for name, told in plan.methods.items() if told.get("outside")}
     if not outside:
@@ -51,7 +52,7 @@ def _plugins(material: Material) -> str:
 
 
 def _files(frame: pd.DataFrame, method: str) -> str:
-    """The files of a method that its rows name, with their hashes; empty where none does."""
+    """Write the files of a method and their hashes, as its rows store them; "" where none does."""
     for text in frame.loc[(frame["method"] == method) & frame["identity"].notna(), "identity"]:
         files = json.loads(text).get("method") or {}
         own = [f"{file} {found}" for file, found in files.items()]
@@ -60,7 +61,7 @@ def _files(frame: pd.DataFrame, method: str) -> str:
 
 
 def _config(plan: Plan) -> str:
-    """What is to be said of a config outside the project."""
+    """Say that a config outside the project is no part of the commit; "" of one inside."""
     if not PurePath(plan.config).is_absolute():
         return ""
     return f"The config {plan.config} is no part of the commit either; its text is in “Devices, environment, config”."

@@ -1,11 +1,153 @@
-"""How speed and error depend on the view."""
+"""View dependence: how speed, error and wrong rays change with the direction from which a surface is seen."""
 
-from reports import views
-from reports.content import Section
+from __future__ import annotations
+
+import pandas as pd
+
+from reports import wording
+from reports.analysis import derive, viewstats
+from reports.analysis.scene_names import rays_checked
+from reports.analysis.viewstats import ViewSet
+from reports.content import Block, Column, Section, Table, Text
+from reports.drawing import viewplots
 from reports.material import Material
 
 ORDER = 25
+MOST_SETS = 6  # a run with more sets of views shows one for each surface, at most so many
+MOST_MAPPED = 4  # sets whose maps are drawn
+PRINTED_WRONG = 40  # lines of the table of wrong rays
+EXPLANATION = (
+    "Every surface, device, precision and size that was timed from at least three views of one set. The spread is the "
+    "standard deviation over the mean, as in toledo2007, Table 1. There it is of frames per second × pixels of the "
+    "bounding box, the rays that a method is called for; that is “rays in the domain” here. “Rays cast” counts every "
+    "pixel of the picture, “rays that hit” those that the surface covers. The views of a set are timed interleaved, so "
+    "that the machine's drift cancels; what spread the method null has in rays cast, which cost it the same from "
+    "everywhere, is noise. Elsewhere in this report its first view stands for a set of "
+    f"more than {viewstats.MOST_LISTED}."
+)
+
+
+def _kept(sets: list[ViewSet]) -> list[ViewSet]:
+    """Return all sets if there are at most MOST_SETS, else the first of each surface, at most MOST_SETS."""
+    if len(sets) <= MOST_SETS:
+        return sets
+    return list({of.first.surface: of for of in reversed(sets)}.values())[::-1][:MOST_SETS]
 
 
 def sections(material: Material) -> list[Section]:
-    return views.sections(material.frame, material.marks, material.error_scale)
+    """Make a section of tables and up to two of pictures; [] where the run has no set of views."""
+    every = viewstats.view_sets(material.frame)
+    if not every:
+        return []
+    sets = _kept(every)
+    cut = "" if len(sets) == len(every) else f" {len(sets)} of {len(every):,} such sets, those of the first surfaces."
+    tabled: list[Block] = [Text(EXPLANATION + cut)]
+    for of in sets:
+        tabled += filter(None, (dependence_table(of), wrong_rays_table(of)))
+    made = [Section("View dependence", tuple(tabled), wide=True)]
+    by_angle = [(i, of) for i, of in enumerate(sets) if of.kind == viewstats.ANGLES]
+    lines = [viewplots.over_angle(of, material.marks, f"angles-{i}") for i, of in by_angle]
+    mapped = [of for of in sets if of.kind == viewstats.DIRECTIONS][:MOST_MAPPED]
+    scales = viewplots.Scales.of(mapped, material.error_scale) if mapped else None
+    maps = [
+        figure
+        for i, of in enumerate(mapped)
+        if scales
+        for figure in viewplots.over_directions(of, scales, f"sphere-{i}")
+    ]
+    made += [Section("View dependence: over the projection angle", tuple(lines))] if lines else []
+    made += [Section("View dependence: over the sphere of directions", tuple(maps), wide=True)] if maps else []
+    return made
+
+
+def dependence_table(of: ViewSet) -> Table:
+    """Make a line for each variant, the most view-dependent first."""
+    body = []
+    for variant, rows in of.variants():
+        slow = rows.loc[rows["us_per_ray"].idxmax()]
+        rates = [f(rows[f"{name}_rate"]) for name in viewstats.RATES for f in (pd.Series.mean, viewstats.spread)]
+        errors = rows["error_max"].astype("float64")
+        worst = rows.loc[errors.idxmax()] if errors.notna().any() else None
+        wrong = rows["wrong_rays"].fillna(0).astype(int)
+        mistaken = rows.loc[wrong.idxmax(), "view"] if wrong.any() else None
+        answers = bool(rows["answers"].iloc[0])
+        body.append(
+            (
+                variant,
+                *rates,
+                float(((rows["upper_ms"] - rows["lower_ms"]) / (2 * rows["median_ms"])).max()),
+                slow["view"],
+                float(slow["us_per_ray"] / rows["us_per_ray"].mean()),
+                None if worst is None else worst["view"],
+                None if worst is None else worst["error_max"],
+                int(wrong.sum()) if answers else None,
+                int((wrong > 0).sum()) if answers else None,
+                mistaken,
+                int(rows["grazing_wrong_rays"].fillna(0).sum()) if answers else None,
+                int(rows["drowned_wrong_rays"].fillna(0).sum()) if answers else None,
+            )
+        )
+    body.sort(key=lambda row: -(row[4] if row[4] == row[4] else row[2]))
+    rate_columns = (
+        Column(title, show, numeric=True, over=f"{over},\nMrays/s")
+        for over in viewstats.RATES.values()
+        for title, show in (("mean", wording.number), ("std/mean", wording.percentage))
+    )
+    return Table(
+        (
+            Column("variant", stretch=1),
+            *rate_columns,
+            Column("noise,\n±", wording.share, numeric=True),
+            Column("view", over="slowest per ray"),
+            Column("over\nmean", wording.factor, numeric=True, over="slowest per ray"),
+            Column("view", over="worst error"),
+            Column("|t − t*|", wording.error, numeric=True, over="worst error"),
+            Column("all", wording.count, numeric=True, over="wrong rays"),
+            Column("in\nviews", wording.count, numeric=True, over="wrong rays"),
+            Column("most in", over="wrong rays"),
+            Column("grazing", wording.count, numeric=True, over="wrong rays"),
+            Column("drowned", wording.count, numeric=True, over="wrong rays"),
+        ),
+        body,
+        f"View dependence over {len(of.views)} {_name(of)}: {of.place}.",
+        "The most view-dependent first, by the spread of rays in the domain per second. A spread says something of the "
+        "method only well above the noise: half the 95 % interval of the median, in the view where it is widest. "
+        f"Wrong rays are of the {rays_checked(of.rows)} rays of each view's check."
+        + wording.zeros([row[11] for row in body]),
+    )
+
+
+def _name(of: ViewSet) -> str:
+    """Name the views of a set: 6 of them are of “projection angles”, say."""
+    named = {viewstats.ANGLES: "projection angles", viewstats.DIRECTIONS: "directions"}.get(of.kind, of.kind)
+    return (
+        named if of.kind in (viewstats.ANGLES, viewstats.DIRECTIONS, viewstats.NAMED) else f"views of the set “{named}”"
+    )
+
+
+def wrong_rays_table(of: ViewSet) -> Table | None:
+    """Make a line for each variant and view with wrong rays that are neither grazing nor drowned, the most first.
+
+    None where there are none.
+    """
+    rows = of.rows[of.rows["wrong_rays"].fillna(0) > 0].sort_values("wrong_rays", ascending=False, kind="stable")
+    if rows.empty:
+        return None
+    kinds = derive.kinds(rows)
+    apart = ("grazing_wrong_rays", "drowned_wrong_rays")
+    body = [
+        (r.variant, r.view, r.wrong_rays, *(getattr(r, name) for name in (*kinds, *apart)))
+        for r in rows.head(PRINTED_WRONG).itertuples()
+    ]
+    titles = ("wrong", *(kind.replace("_", " ") for kind in kinds), "grazing wrong", "drowned wrong")
+    cut = wording.first_of(len(body), len(rows))
+    return Table(
+        (
+            Column("variant", stretch=1),
+            Column("view"),
+            *(Column(title, wording.count, numeric=True) for title in titles),
+        ),
+        body,
+        f"Wrong rays view by view: {of.place}.",
+        f"Of the {wording.count(of.first.accuracy_rays)} rays of each view's check; other views have none.{cut}",
+    )

@@ -1,1 +1,1 @@
-"""Run folders → rows, arrays and plans; and rows → CSV and Parquet."""
+"""Reads run folders as rows, arrays and plans, and writes rows as CSV and Parquet."""

@@ -1,4 +1,4 @@
-"""A cell's answers ray by ray, as a run stores them on the grid of its accuracy check."""
+"""Reads a cell's answers ray by ray, as a run stores them on the grid of its accuracy check."""
 
 from __future__ import annotations
 
@@ -12,12 +12,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from reports.reading.load import Unreadable, problem
+from reports.reading.load import problem
+from reports.reading.run import Unreadable
 
 
 @dataclass(frozen=True, eq=False)
 class Arrays:
-    """Every array is [h, w] with row 0 at the top."""
+    """Holds one cell's answers; every array is [h, w] with row 0 at the top, unless it says otherwise."""
 
     truth: NDArray[np.uint8]  # TruthStatus
     error: NDArray[np.float32]  # |t − t*| in scene units; NaN where not both hit
@@ -33,7 +34,7 @@ class Arrays:
 
     @property
     def apart(self) -> NDArray[np.bool_]:
-        """Rays whose wrong answers are counted apart."""
+        """Return bool[h, w]: the rays whose wrong answers are counted apart."""
         return self.grazing if self.drowned is None else self.grazing | self.drowned
 
 
@@ -43,7 +44,7 @@ MOST_SAMPLES = 64  # on each side of a pixel
 
 
 def read(path: Path) -> Arrays:
-    """The arrays of one cell; a ValueError or OSError where the file is damaged or not of this kind."""
+    """Read the arrays of one cell. Raises ValueError or OSError where the file is damaged or not of this kind."""
     try:
         with np.load(path, allow_pickle=False) as file:
             named = {name: file[name] for name in NEEDED}
@@ -58,7 +59,7 @@ def read(path: Path) -> Arrays:
 
 
 def _whole_pixels(samples: NDArray[Any] | None, shape: tuple[int, ...]) -> NDArray[Any] | None:
-    """`samples`, if any; a ValueError where they are not as many on each side of every pixel."""
+    """Return `samples`, if any. Raises ValueError where they are not as many on each side of every pixel of `shape`."""
     if samples is None or any(samples.shape == tuple(s * side for side in shape) for s in range(1, MOST_SAMPLES + 1)):
         return samples
     raise ValueError(f"its samples {samples.shape} do not fill pixels {shape}")
@@ -66,13 +67,13 @@ def _whole_pixels(samples: NDArray[Any] | None, shape: tuple[int, ...]) -> NDArr
 
 @dataclass(frozen=True)
 class Shelf:
-    """The arrays of a run or several; files that could not be used are noted as they are met."""
+    """Gives the arrays of a run or several, and notes files that could not be used as it meets them."""
 
     folders: Mapping[str, Path]  # by the name of the run
     damaged: dict[str, Unreadable] = field(default_factory=dict)  # by file
 
     def get(self, row: Any) -> Arrays | None:
-        """The arrays of a row of the frame; None where its file is damaged or gone."""
+        """Return the arrays of a row of the frame; None where its file is damaged or gone."""
         file = f"arrays/{row.key}.npz"
         try:
             return read(self.folders[row.run] / file)

@@ -5,25 +5,21 @@ Each run keeps its rows apart: rows are compared only with rows of the same run,
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
 import pandas as pd
 
 from harness.contract import FirsthitError
-from reports.reading import load as loading
-from reports.reading.load import Plan, Run, Unreadable
+from reports.reading.run import Plan, Run, Unreadable
 
 
-def load(folder: Path, plan: Plan) -> Run:
-    """The runs that `plan` includes, which lie beside `folder`; a FirsthitError where none has anything finished."""
-    runs: list[Run] = []
-    missing: list[Unreadable] = []
-    for name in plan.include:
-        try:
-            runs.append(loading.load(folder.parent / name))
-        except FirsthitError as error:
-            missing.append(Unreadable(name, str(error)))
+def together(folder: Path, plan: Plan, runs: Sequence[Run], missing: Sequence[Unreadable]) -> Run:
+    """Join the runs that `plan` includes; `missing` are those that could not be read.
+
+    Raises FirsthitError where there is no run.
+    """
     if not runs:
         raise FirsthitError(
             f"none of the runs that {folder} collects has anything finished; run `{plan.command}` first"

@@ -1,4 +1,4 @@
-"""Rows ↔ tables of columns: the pandas frame a report works on, and the CSV and Parquet files it leaves behind."""
+"""Makes tables of rows: the pandas frame that a report works on, and its CSV and Parquet files."""
 
 from __future__ import annotations
 
@@ -33,14 +33,20 @@ _ARROW: dict[Kind, pa.DataType] = {
 
 
 def frame(fields: Sequence[Field], rows: Sequence[tuple[Any, ...]]) -> pd.DataFrame:
-    """Rows in the order of `fields` → a frame whose columns keep their kind even where every value is missing."""
+    """Make a frame of rows, whose values are in the order of `fields`.
+
+    Its columns keep their kind even where every value is missing.
+    """
     columns = zip(*rows, strict=True) if rows else [()] * len(fields)
     return pd.DataFrame({f.name: pd.Series(c, dtype=_DTYPES[f.kind]) for f, c in zip(fields, columns, strict=True)})
 
 
 def write(frame: pd.DataFrame, csv: Path, parquet: Path) -> None:
-    """Every column of every cell. In Parquet time samples are a list and missing values nulls; in CSV lists and objects
-    are JSON and missing values empty."""
+    """Write every column of every cell, as CSV and as Parquet. Raises OSError where a file cannot be written.
+
+    In Parquet time samples are a list and missing values are nulls. In CSV lists and objects are JSON and missing
+    values are empty.
+    """
     schema = pa.schema([(field.name, _ARROW[field.kind]) for field in (*SCHEMA, *DERIVED)])
     table = pa.Table.from_pandas(frame, schema=schema, preserve_index=False).replace_schema_metadata(None)
     pq.write_table(table, parquet)

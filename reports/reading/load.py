@@ -6,7 +6,6 @@ import contextlib
 import gc
 import json
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -14,80 +13,25 @@ import pandas as pd
 
 from harness.contract import BASELINE, CellStatus, FirsthitError, suggestion
 from harness.results.schema import FAMILY, RUNG, SCHEMA, flatten
-from reports.reading import export
+from reports.reading import collect, export
+from reports.reading.run import Facts, Plan, Run, Unreadable
 
 FORMAT = 1
-
-
-@dataclass(frozen=True)
-class Facts:
-    """What a family of hard rays is: rays that get harder as one parameter grows or shrinks."""
-
-    title: str
-    parameter: str  # what the number means, with its unit
-    harder: str  # "smaller" or "larger"
-    why: str
-    source: str
-
-
-@dataclass(frozen=True)
-class Plan:
-    """plan.json: what the run set out to do, where, and by which command."""
-
-    name: str
-    title: str
-    config: str
-    config_text: str
-    command: str
-    created: str  # ISO 8601
-    environment: Mapping[str, Any]
-    devices: tuple[Mapping[str, Any], ...]
-    slots: Mapping[str, str]  # key → slot of every cell, in the plan's order; families after views
-    facts: Mapping[str, Facts]  # by family, in the plan's order
-    studies: Mapping[str, str]  # name → key
-    methods: Mapping[str, Mapping[str, Any]]  # what the methods say of themselves, by name
-    include: tuple[str, ...]  # run folders beside this one that its report collects
-    baseline: str = BASELINE  # the method or variant that speed-ups are over
-
-    @property
-    def peaks(self) -> dict[str, float]:
-        """By device, the rate of float32 multiply-adds that its probe measured, in 1e9 operations per second."""
-        probed = ((device.get("name"), device.get("probes")) for device in self.devices)
-        rates = ((name, probes.get("peak_gflops")) for name, probes in probed if isinstance(probes, Mapping))
-        return {str(name): float(rate) for name, rate in rates if isinstance(rate, int | float) and rate > 0.0}
-
-
-@dataclass(frozen=True)
-class Unreadable:
-    """A file of the run that could not be used, and why."""
-
-    file: str  # below the run folder
-    problem: str
-
-
-@dataclass(frozen=True, eq=False)
-class Run:
-    """What the plan's finished cells say, in the plan's order."""
-
-    folder: Path
-    plan: Plan
-    frame: pd.DataFrame  # SCHEMA: one row for each cell that is a view
-    families: pd.DataFrame  # FAMILY: one row for each cell that is a family of hard rays
-    rungs: pd.DataFrame  # RUNG: one row for each rung of the latter
-    unreadable: tuple[Unreadable, ...]
-    not_run: tuple[str, ...]  # slots
-    studies: Mapping[str, list[dict[str, Any]]]  # rows by study
-    folders: Mapping[str, Path]  # by the name of the run; several where this one collects others
 
 
 def load(folder: Path) -> Run:
     """The run in `folder`, or those it collects; a FirsthitError where it is no run folder or nothing is finished."""
     plan = _plan(folder)
-    if plan.include:
-        from reports.reading import collect
-
-        return collect.load(folder, plan)
-    return load_one(folder, plan)
+    if not plan.include:
+        return load_one(folder, plan)
+    runs: list[Run] = []
+    missing: list[Unreadable] = []
+    for name in plan.include:
+        try:
+            runs.append(load(folder.parent / name))
+        except FirsthitError as error:
+            missing.append(Unreadable(name, str(error)))
+    return collect.together(folder, plan, runs, missing)
 
 
 def over(frame: pd.DataFrame, baseline: str | None) -> pd.DataFrame:

@@ -1,1 +1,1 @@
-"""A report's content → PDF and HTML."""
+"""Render a report's content as PDF and as HTML."""

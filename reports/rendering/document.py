@@ -1,4 +1,4 @@
-"""Content → PDF. The template reads the report as data (JSON and files), so no text is ever parsed as markup."""
+"""Render content as PDF. The template reads the report as JSON and files, so that no text is parsed as markup."""
 
 from __future__ import annotations
 
@@ -18,9 +18,10 @@ TEMPLATE = Path(__file__).with_name("report.typ")
 
 
 def write_pdf(document: Document, folder: Path, pdf: Path, created: str) -> None:
-    """Set `document` as the file `pdf`, with `folder` (made here) for the template's inputs.
+    """Write `document` as the file `pdf`; the template's inputs go into `folder`, which must not exist yet.
 
-    `created` (ISO 8601) becomes the PDF's date where it is one, so that the same run gives the same bytes.
+    `created` becomes the PDF's date if it is one by ISO 8601, so that the same run gives the same bytes. Raises
+    ValueError where two figures or pictures of one name differ, and OSError where a file cannot be written.
     """
     folder.mkdir()
     shutil.copy(TEMPLATE, folder)
@@ -42,6 +43,7 @@ def write_pdf(document: Document, folder: Path, pdf: Path, created: str) -> None
 
 
 def _timestamp(created: str) -> int | None:
+    """Return the seconds since 1970 of a date by ISO 8601; None where it is none."""
     try:
         return int(datetime.fromisoformat(created).timestamp())
     except ValueError:
@@ -49,10 +51,12 @@ def _timestamp(created: str) -> int | None:
 
 
 def _section(section: Section, folder: Path) -> dict[str, Any]:
+    """Return a section as the template reads it; its pictures go into `folder`."""
     return {"title": section.title, "wide": section.wide, "blocks": [_block(block, folder) for block in section.blocks]}
 
 
 def _block(block: Block, folder: Path) -> dict[str, Any]:
+    """Return a block as the template reads it; its pictures go into `folder`."""
     match block:
         case Text():
             return {"kind": "text", "text": block.text, "strong": block.strong}
@@ -67,7 +71,7 @@ def _block(block: Block, folder: Path) -> dict[str, Any]:
 
 
 def _table(table: Table) -> dict[str, Any]:
-    """Cells as printed; a leading value that repeats the row above within its group is left blank."""
+    """Write the cells; a value of a grouping column that repeats the row above is left blank."""
     rows = []
     above: tuple[Any, ...] = ()
     for row in table.rows:
@@ -99,7 +103,7 @@ def _figure(figure: Figure, folder: Path) -> dict[str, Any]:
 
 
 def _write(path: Path, made: bytes) -> None:
-    """What a name stands for is the same wherever a report uses it: else one page would show another's picture."""
+    """Write a picture's file; a ValueError where another picture of the report has this name."""
     if path.exists() and path.read_bytes() != made:
         raise ValueError(f"two figures of one report are named {path.stem}")
     path.write_bytes(made)

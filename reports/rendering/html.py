@@ -1,7 +1,7 @@
-"""Content → one HTML page that needs nothing beside it: no network, no other file; it works from file://.
+"""Render content as one HTML page that needs no network and no other file, so that it works from file://.
 
-Drawings stay the SVG of the PDF. Their series carry `drawing.series` names, which become data attributes here, so that
-the page's script can name a variant under the pointer and fade all methods but one.
+Drawings are the same SVG as in the PDF. The ids of their series, which drawing.canvas.series writes, become data
+attributes here, by which the page's script names the variant under the pointer and fades all methods but one.
 """
 
 from __future__ import annotations
@@ -27,11 +27,12 @@ _NAMED = re.compile(f'<g id="{re.escape(SERIES)}([^"]*)"')
 
 
 def write_html(document: Document, marks: Mapping[str, Mark], path: Path) -> None:
-    """Write `document` as the file `path`; `marks` are of the methods that can be clicked to fade the others."""
+    """Write `document` as the file `path`; a click on a method of `marks` fades the others."""
     path.write_text(page(document, marks), encoding="utf-8", errors="replace")
 
 
 def page(document: Document, marks: Mapping[str, Mark]) -> str:
+    """Return the page of `document`; see write_html."""
     sections = [document.summary, *document.sections]
     links = "".join(f'<li><a href="#s{i}">{_e(section.title)}</a></li>' for i, section in enumerate(sections))
     chips = "".join(
@@ -54,6 +55,7 @@ def page(document: Document, marks: Mapping[str, Mark]) -> str:
 
 
 def _e(text: str) -> str:
+    """Escape a text for HTML."""
     return html.escape(text, quote=True)
 
 
@@ -63,6 +65,7 @@ def _section(section: Section, number: int) -> str:
 
 
 def _block(block: Block, name: str) -> str:
+    """Write a block as HTML; `name` begins the ids within it."""
     match block:
         case Text():
             told = _e(block.text)
@@ -78,11 +81,12 @@ def _block(block: Block, name: str) -> str:
 
 
 def _caption(title: str, caption: str) -> str:
+    """Write title and caption of a figure; "" without either."""
     return f"<strong>{_e(title)}</strong> {_e(caption)}" if title or caption else ""
 
 
 def _table(table: Table) -> str:
-    """Every cell carries its value, so that numbers sort as numbers; nothing repeated is left out."""
+    """Write a table whose cells have their values beside their texts, so that numbers sort as numbers."""
     over = [(name, len(list(own))) for name, own in itertools.groupby(table.columns, key=lambda column: column.over)]
     groups = "".join(f'<th class="over" colspan="{span}" scope="colgroup">{_e(name)}</th>' for name, span in over)
     titles = "".join(
@@ -102,6 +106,7 @@ def _table(table: Table) -> str:
 
 
 def _cells(columns: Sequence[Column], row: tuple[Any, ...]) -> str:
+    """Write the cells of one row, each with its value if that is a number."""
     cells = []
     for column, value in zip(columns, row, strict=True):
         number = not isinstance(value, str | bool) and not pd.isna(value)
@@ -119,7 +124,7 @@ def _figure(figure: Figure, name: str) -> str:
 
 
 def _svg(svg: str, name: str) -> str:
-    """The drawing to stand in the page: its ids made its own, its series named by data attributes."""
+    """Make a drawing part of the page: its ids get a prefix, and its series data attributes."""
     own = svg[svg.index("<svg") :]
     own = _NAMED.sub(lambda found: f'<g class="series" data-series="{found[1]}"', own)
     own = _ID.sub(rf'id="{name}-\1"', own)
@@ -140,7 +145,7 @@ def _panel(panel: Panel) -> str:
 
 
 def _gallery(gallery: Gallery, name: str) -> str:
-    """The panels, and before them two pictures of one's choice with a slider between; the script fills it."""
+    """Write the panels, and before them a comparison of two pictures by a slider, which the script fills."""
     legend = "" if gallery.legend is None else _svg(gallery.legend.svg, name)
     compare = (
         '<div class="compare"><label>left <select class="left"></select></label> '

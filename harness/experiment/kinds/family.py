@@ -18,6 +18,7 @@ from harness.experiment.kinds.model import Asked, Casting, Kind, Outcome
 from harness.experiment.kinds.narrowed import REFUSAL as NO_PREPASS
 from harness.hardcases import groups
 from harness.oracle import cached_first_hits
+from harness.results.row import RungVerdict
 
 
 class FamilyCasting(Casting):
@@ -30,7 +31,7 @@ class FamilyCasting(Casting):
         return None
 
     def check(self, executor: LocalExecutor, choice: AccuracyChoice, folder: Path, framed: bool) -> Outcome:
-        cell, compile_ms, rungs = self.cell, 0.0, list[dict[str, Any]]()
+        cell, compile_ms, rungs = self.cell, 0.0, list[RungVerdict]()
         assert cell.family
         for group, program in zip(groups.groups(cell.family), self.checks, strict=True):
             truth = cached_first_hits(group.surface, group.rays, folder)
@@ -38,7 +39,7 @@ class FamilyCasting(Casting):
             hits = validated(checked.answer, group.surface.domain, group.rays, origin=cell.origin)
             compile_ms += checked.compile_ms
             rungs += judge_group(group, hits, truth, cell.precision)
-        rays, undecided = (sum(rung[name] for rung in rungs) for name in ("rays", "undecided"))
+        rays, undecided = (sum(rung["rays"] for rung in rungs), sum(rung["undecided"] for rung in rungs))
         reason = undecided_hits(rays - undecided, undecided, choice.undecided, "rays")
         return Outcome(compile_ms, reason, rungs=None if reason else rungs)
 

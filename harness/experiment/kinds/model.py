@@ -29,6 +29,7 @@ from harness.experiment.config import AccuracyChoice, Config, Experiment
 from harness.kernels.assemble import Language, method_program
 from harness.kernels.functions import unsupported
 from harness.plugins import Catalog, Plugin
+from harness.results.row import Accuracy, RungVerdict
 from harness.scenes.camera import camera_for, distance_of, pixel_footprint, rays_of
 from harness.scenes.model import Group
 
@@ -72,9 +73,9 @@ class Outcome:
 
     compile_ms: float
     reason: str | None = None  # why the cell is not timed
-    summary: dict[str, Any] | None = None  # the row's accuracy
+    summary: Accuracy | None = None  # the row's accuracy
     pictures: dict[str, NDArray[Any]] | None = None  # the row's arrays
-    rungs: list[dict[str, Any]] | None = None  # of a family
+    rungs: list[RungVerdict] | None = None  # of a family
 
 
 class MethodKind(ABC):

@@ -1,22 +1,19 @@
-"""The papers' tables and figures, ours beside theirs. A module here has ORDER and `sections(material)`; no list names
-them. Each section ends with the verdicts on the claims that its config's rows decide."""
+"""The papers' tables and figures, ours beside theirs. Every module in this folder makes some, and no list names them.
+
+Such a module is made like a part of the report. Each section ends with the verdicts on the claims that the rows of its
+config decide.
+"""
 
 from __future__ import annotations
 
-import importlib
-import pkgutil
-from typing import Any
-
 from reports.content import Section
 from reports.material import Material
+from reports.parts import found
 
 ORDER = 65
 LEADS = True
 
 
 def sections(material: Material) -> list[Section]:
-    modules: list[Any] = [
-        importlib.import_module(f"{__name__}.{found.name}") for found in pkgutil.iter_modules(__path__)
-    ]
-    shown = sorted((module for module in modules if hasattr(module, "ORDER")), key=lambda module: module.ORDER)
-    return [section for module in shown for section in module.sections(material)]
+    """Return the sections of every module of this folder."""
+    return [section for part in found(__name__, __path__) for section in part.sections(material)]

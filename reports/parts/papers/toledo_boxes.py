@@ -10,7 +10,9 @@ from matplotlib.colors import to_rgb
 from numpy.typing import NDArray
 
 from reports import wording
+from reports.analysis import derive
 from reports.claims import picks
+from reports.claims.evidence import run_of
 from reports.content import Gallery, Panel, Picture, Section, Text
 from reports.drawing import images
 from reports.material import Material
@@ -22,6 +24,7 @@ BOX = "#cfe3f2"  # a fragment without a hit
 
 
 def sections(material: Material) -> list[Section]:
+    """Make up to two sections, of scenes of tori and of Table 1's views; [] where the run has neither."""
     found = []
     for config, title, told in (
         (
@@ -45,17 +48,16 @@ def sections(material: Material) -> list[Section]:
 
 
 def _panels(material: Material, config: str) -> list[Panel]:
-    """One for each view or scene that Sturm drew by the fragments of boxes in `config`'s own run."""
+    """Make a panel for each view or scene that Sturm drew by the fragments of boxes in the run of `config`."""
     rows = material.evidence.rows(picks.STURM)
-    rows = rows[(rows["run"] == config.removesuffix(".toml")) & (rows["stage"] == "raster") & (rows["proxy"] == "box")]
-    if rows.empty:
-        return []
-    rows = rows[rows["device"] == rows["device"].iloc[0]]
+    rows = rows[(rows["run"] == run_of(config)) & (rows["stage"] == "raster") & (rows["proxy"] == "box")]
+    rows = derive.on_first_device(rows)
     drawn = [(row, arrays) for row in rows.itertuples() if (arrays := material.shelf.get(row)) is not None]
     return [_panel(row, arrays) for row, arrays in drawn if arrays.evaluations is not None]
 
 
 def _panel(row: Any, arrays: Arrays) -> Panel:
+    """Show one row's picture, with its fragments of boxes."""
     tori = 1 if pd.isna(row.instances) else int(row.instances)
     title = row.view.replace("angle ", "tilted by ") + "°" if tori == 1 else f"{tori:,} tori"
     told = f"{wording.count(row.fragments)} fragments, {wording.share(row.fragments_discarded / row.fragments)} wasted"
@@ -65,7 +67,10 @@ def _panel(row: Any, arrays: Arrays) -> Panel:
 
 
 def boxed(arrays: Arrays) -> NDArray[np.float64]:
-    """Paint float64[h, w, 3] in 0…1: hits lit from the camera, other pixels that evaluated f pale blue, on white."""
+    """Paint hits lit from the camera, other pixels that evaluated f pale blue, and the rest white.
+
+    Returns float64[h, w, 3] in 0…1.
+    """
     assert arrays.evaluations is not None
     empty = np.isnan(arrays.shade) & (arrays.evaluations > 0)
     return np.where(empty[..., None], np.asarray(to_rgb(BOX)), images.shaded(arrays))

@@ -10,30 +10,32 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure as Drawing
 from matplotlib.lines import Line2D
 
+from reports.claims.verdict_tables import verdict_tables
 from reports.content import Block, Figure, Section
 from reports.drawing import style
 from reports.drawing.canvas import RC, WIDE, svg
 from reports.material import Material
-from reports.parts.papers import verdicts
 
 ORDER = 11
 CONFIG = "toledo-fig3.toml"
-ACROSS = 4
-BEYOND = 0.15  # of the stretch between the outermost marks, drawn at both ends
+ACROSS = 4  # panels beside each other
+BEYOND = 0.15  # curves go on by this share of the stretch between the outermost marks
 CURVES = ((0, "T", "#0072B2", "-"), (1, "T′", "#E69F00", "--"), (2, "T″", "#009E73", ":"))
 MARKS = (("roots", "o", "roots of T"), ("extremes", "^", "roots of T′"), ("bends", "s", "roots of T″"))
 
 
 def sections(material: Material) -> list[Section]:
+    """Make the section; [] where the run has no rows for it."""
     rows = material.evidence.studies.get("torus_along_rays")
     if not rows:
         return []
     blocks: list[Block] = [_figure([row for row in rows if row["case"] != "sampled"])]
-    blocks += verdicts.of(material, CONFIG, "toledo2007, Figure 3")
+    blocks += verdict_tables(material.judged, CONFIG, "toledo2007, Figure 3")
     return [Section("toledo2007, Figure 3", tuple(blocks), wide=True)]
 
 
 def _figure(cases: list[dict[str, Any]]) -> Figure:
+    """Draw a panel for each case, a row of the study."""
     down = -(-len(cases) // ACROSS)
     with matplotlib.rc_context(RC):
         drawing = Drawing(figsize=(WIDE, 0.4 + 1.5 * down), layout="constrained")
@@ -61,6 +63,7 @@ def _figure(cases: list[dict[str, Any]]) -> Figure:
 
 
 def _case(axes: Axes, case: dict[str, Any]) -> None:
+    """Draw T and its two derivatives along one ray, each scaled to T's height."""
     places = [t for name, _, _ in MARKS for t in case[name]]
     reach = max(places) - min(places) or 1.0
     t = np.linspace(min(places) - BEYOND * reach, max(places) + BEYOND * reach, 200)

@@ -8,16 +8,17 @@ import pandas as pd
 
 from reports import wording
 from reports.claims import toledo_pieces
-from reports.claims.evidence import Evidence
+from reports.claims.evidence import Evidence, run_of
 from reports.claims.toledo_pieces import CUBICS, NORMALS, PIECES, PROXIES, Piece
+from reports.claims.verdict_tables import verdict_tables
 from reports.content import Block, Column, Section, Table
 from reports.material import Material
-from reports.parts.papers import verdicts
 
 ORDER = 13
 
 
 def sections(material: Material) -> list[Section]:
+    """Make the section; [] where the run has none of the pieces, proxies and normals."""
     blocks: list[Block] = []
     worth = [row for piece in PIECES if (row := _worth(piece, material.evidence.of(piece.config)))]
     if worth:
@@ -29,13 +30,13 @@ def sections(material: Material) -> list[Section]:
     if not rows.empty:
         blocks.append(_normals(rows))
     for config, told in ((CUBICS, "section 3"), (PROXIES, "proxies"), (NORMALS, "section 4.5")):
-        if (material.frame["run"] == config.removesuffix(".toml")).any():
-            blocks += verdicts.of(material, config, f"toledo2007, {told}")
+        if (material.frame["run"] == run_of(config)).any():
+            blocks += verdict_tables(material.judged, config, f"toledo2007, {told}")
     return [Section("toledo2007, piece by piece", tuple(blocks), wide=True)] if blocks else []
 
 
 def _worth(piece: Piece, evidence: Evidence) -> tuple[Any, ...] | None:
-    """A row of the table of pieces; None where none of its settings was timed beside the other."""
+    """Make the line of one piece; None where the method was not timed with it and without it in the same rounds."""
     ratios = evidence.ratios(piece.without, piece.having, piece.surfaces)
     if ratios.empty:
         return None
@@ -48,6 +49,7 @@ def _worth(piece: Piece, evidence: Evidence) -> tuple[Any, ...] | None:
 
 
 def _pieces(worth: list[tuple[Any, ...]]) -> Table:
+    """Make the table of what each piece is worth."""
     return Table(
         (
             Column("piece", stretch=2),
@@ -69,6 +71,7 @@ def _pieces(worth: list[tuple[Any, ...]]) -> Table:
 
 
 def _proxies(rows: pd.DataFrame) -> Table:
+    """Make a line for each angle and proxy."""
     body = [
         (row.view.removeprefix("angle ") + "°", row.proxy, row.fragments, row.waste, row.median_ms, row.wrong_rays)
         for row in rows.itertuples()
@@ -91,6 +94,7 @@ def _proxies(rows: pd.DataFrame) -> Table:
 
 
 def _normals(rows: pd.DataFrame) -> Table:
+    """Make a line for each view: its times by the three normals."""
     body = []
     for view in dict.fromkeys(rows["view"]):
         own = rows[rows["view"] == view].set_index("normal")["median_ms"]

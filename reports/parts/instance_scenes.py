@@ -1,4 +1,4 @@
-"""Scenes: ray casting against tessellation at equal image error, and what tolerances in pixels save."""
+"""Scenes of many instances: ray casting against tessellation, and what tolerances in pixels save."""
 
 from __future__ import annotations
 
@@ -9,16 +9,19 @@ import pandas as pd
 
 from harness.contract import CellStatus
 from reports import wording
-from reports.analysis import rounds
+from reports.analysis import derive, rounds
 from reports.content import Block, Column, Section, Table, Text
+from reports.material import Material
 
-LEVELS = (1.0, 0.1, 0.01, 0.001)  # pixel footprints
+ORDER = 29
+ERRORS = (1.0, 0.1, 0.01, 0.001)  # the image errors compared at, in pixel footprints
 MESHES = "mesh"
 PLACE = ["surface", "surface_title", "view", "size", "samples_per_pixel", "precision", "device"]
 
 
-def sections(frame: pd.DataFrame) -> list[Section]:
-    """One section where scenes were drawn, one where tolerances in pixels were compared."""
+def sections(material: Material) -> list[Section]:
+    """Make one section where scenes were drawn, and one where tolerances in pixels were compared."""
+    frame = material.listed
     rows = frame[(frame["status"] == CellStatus.OK) & frame["answers"] & frame["median_ms"].notna()]
     drawn = rows[rows["scene"].notna() & ~(rows["pixel_tolerance"] > 0.0)]
     blocks: list[Block] = [table for table in (_equal_error(drawn), _each(drawn)) if table]
@@ -34,21 +37,16 @@ def sections(frame: pd.DataFrame) -> list[Section]:
     return made
 
 
-def right(rows: pd.DataFrame) -> pd.Series:
-    """Which rows have no more than 1 in 1,000 rays wrong that are neither grazing nor drowned."""
-    return rows["wrong_rays"].astype("float64") <= 1e-3 * rows["accuracy_rays"].astype("float64")
-
-
 def _equal_error(rows: pd.DataFrame) -> Table | None:
-    """At each level of image error, the fastest ray caster and the fastest tessellation that keep it."""
+    """Make a line for each scene and each of ERRORS: the fastest ray caster and tessellation that keep it."""
     body: list[tuple[Any, ...]] = []
     for _, own in rows.groupby(PLACE, sort=False):
-        usable = own[right(own)]
+        usable = own[derive.nearly_all_right(own)]
         meshes, casters = usable[usable["casts"] == MESHES], usable[usable["casts"] != MESHES]
         if not (own["casts"] == MESHES).any() or casters.empty:
             continue
         first = own.iloc[0]
-        for level in LEVELS:
+        for level in ERRORS:
             cast, mesh = (_fastest(of[of["pixel_error_p99"] <= level]) for of in (casters, meshes))
             if cast is None:
                 continue
@@ -82,11 +80,13 @@ def _equal_error(rows: pd.DataFrame) -> Table | None:
     )
 
 
-def _fastest(rows: pd.DataFrame) -> Any:
+def _fastest(rows: pd.DataFrame) -> pd.Series | None:
+    """Return the row with the smallest median time; None of none."""
     return None if rows.empty else rows.loc[rows["median_ms"].idxmin()]
 
 
 def _each(rows: pd.DataFrame) -> Table | None:
+    """Make a line for each row; None of none."""
     if rows.empty:
         return None
     body = [
@@ -131,7 +131,7 @@ def _each(rows: pd.DataFrame) -> Table | None:
 
 
 def _detail(rows: pd.DataFrame) -> Table | None:
-    """What a tolerance in pixels saves over the method's own, and what it costs."""
+    """Make a line for each row with a tolerance in pixels, beside the same without; None without such pairs."""
     body = list(_savings(rows))
     if not body:
         return None
@@ -141,10 +141,10 @@ def _detail(rows: pd.DataFrame) -> Table | None:
             Column("variant"),
             Column("its own", wording.number, numeric=True, over="evaluations per pixel"),
             Column("tolerant", wording.number, numeric=True, over="evaluations per pixel"),
-            Column("saved", _signed, numeric=True, over="evaluations per pixel"),
+            Column("saved", wording.whole_percentage, numeric=True, over="evaluations per pixel"),
             Column("its own", wording.number, numeric=True, over="ms"),
             Column("tolerant", wording.number, numeric=True, over="ms"),
-            Column("saved", _signed, numeric=True, over="ms"),
+            Column("saved", wording.whole_percentage, numeric=True, over="ms"),
             Column("50 %", wording.short, numeric=True, over="error, pixels"),
             Column("99 %", wording.short, numeric=True, over="error, pixels"),
             Column("its own", wording.count, numeric=True, over="wrong rays"),
@@ -161,11 +161,8 @@ def _detail(rows: pd.DataFrame) -> Table | None:
     )
 
 
-def _signed(value: Any) -> str:
-    return wording.NONE if wording.absent(value) else f"{100 * value:.0f} %".replace("-", "−")
-
-
 def _savings(rows: pd.DataFrame) -> Iterator[tuple[Any, ...]]:
+    """Yield the lines of `_detail`."""
     loose = rows[rows["pixel_tolerance"] > 0.0]
     for row in loose.itertuples():
         own = rows[

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 import matplotlib
@@ -15,16 +15,16 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 from harness.contract import CellStatus
 from reports import wording
 from reports.analysis import rounds, ties
-from reports.analysis.forms import PRINTED, base_of, form_of
+from reports.analysis.surface_names import PRINTED, base_of, form_of
 from reports.content import Block, Column, Figure, Section, Table, Text
 from reports.drawing import style
 from reports.drawing.canvas import LINE, RC, WIDE, svg
 from reports.material import Material
 
 ORDER = 22
-SIDES = (0.25, 0.03125, 0.00390625)  # of boxes, over the domain's radius, that the table names
+SIDES = (0.25, 0.03125, 0.00390625)  # of the boxes in the table, over the domain's radius
 _ONE_PICTURE = ["device", "precision", "view", "size", "samples_per_pixel", "stage"]
-_STYLES = (  # by the order in which forms first appear, so that a form looks alike in all panels
+_STYLES = (  # colour, marker and dashes; a form takes the next, and keeps it in all panels
     ("#222222", "o", "-"),
     ("#0072B2", "s", "--"),
     ("#D55E00", "^", ":"),
@@ -47,7 +47,7 @@ WARNING = (
 
 
 def sections(material: Material) -> list[Section]:
-    """Make one section where a run holds two forms of one surface on the same picture, or the study of their ranges."""
+    """Make the section; [] unless the run has two forms of a surface in one picture, or the study of ranges."""
     rows = _picture(material.evidence.of("forms.toml").frame)
     ranges = pd.DataFrame(material.run.studies.get("form_ranges", []))
     blocks: list[Block] = [Text(LEAD)]
@@ -60,7 +60,7 @@ def sections(material: Material) -> list[Section]:
 
 
 def _picture(frame: pd.DataFrame) -> pd.DataFrame:
-    """The finished rows of surfaces with several forms on the first device, precision, view and size that has any."""
+    """Select the finished rows of surfaces with several forms, of the first device, precision, view and size of any."""
     rows = frame[frame["answers"].astype(bool) & (frame["status"] == CellStatus.OK)]
     rows = rows.assign(base=rows["surface"].map(base_of), form=rows["surface"].map(form_of))
     several = rows.groupby([*_ONE_PICTURE, "base"])["surface"].transform("nunique") > 1
@@ -80,6 +80,7 @@ def _narrowest(ranges: pd.DataFrame, titles: dict[str, str]) -> str:
 
 
 def _ranges(ranges: pd.DataFrame, rows: pd.DataFrame, titles: dict[str, str]) -> Table:
+    """Make a line for each form: how wide its extension is, and how many empty boxes it excludes."""
     operations = dict(zip(rows["surface"], rows["operations"], strict=True))
     body: list[tuple[Any, ...]] = []
     for form, own in ranges.groupby("form", sort=False):
@@ -110,6 +111,7 @@ def _ranges(ranges: pd.DataFrame, rows: pd.DataFrame, titles: dict[str, str]) ->
 
 
 def _figure(ranges: pd.DataFrame, titles: dict[str, str]) -> Figure:
+    """Draw each form's overestimation against the size of boxes, a panel for each surface."""
     bases = list(dict.fromkeys(ranges["surface"]))
     forms = list(dict.fromkeys(ranges["form"].map(form_of)))
     looks = {form: _STYLES[i % len(_STYLES)] for i, form in enumerate(forms)}
@@ -134,6 +136,7 @@ def _figure(ranges: pd.DataFrame, titles: dict[str, str]) -> Figure:
 
 
 def _panel(axes: Axes, own: pd.DataFrame, looks: Mapping[str, tuple[str, str, Any]]) -> None:
+    """Draw the overestimation of one surface's forms; `looks` has the style of each form."""
     for form, line in own.groupby(own["form"].map(form_of), sort=False):
         color, marker, dashes = looks[str(form)]
         axes.plot(line["side"], line["factor"], color=color, marker=marker, ls=dashes, label=form, **LINE)
@@ -152,7 +155,7 @@ def _panel(axes: Axes, own: pd.DataFrame, looks: Mapping[str, tuple[str, str, An
 
 
 def _work(rows: pd.DataFrame) -> Table:
-    """Evaluations per ray and the time over that of the form as printed, in the rounds that timed both."""
+    """Make the table of evaluations per ray, and of times over that of the form as printed."""
 
     def told(row: Any, printed: Any) -> tuple[Any, Any]:
         return row.evaluations_mean, _times(row, printed)
@@ -168,6 +171,7 @@ def _work(rows: pd.DataFrame) -> Table:
 
 
 def _times(row: Any, printed: Any) -> str | None:
+    """Write a form's time over that of the form as printed, or the time of the latter; None without a time."""
     if wording.absent(row.median_ms) or printed is None or wording.absent(printed.median_ms):
         return None
     if row.surface == printed.surface:
@@ -180,6 +184,8 @@ def _times(row: Any, printed: Any) -> str | None:
 
 
 def _errors(rows: pd.DataFrame) -> Table:
+    """Make the table of wrong rays and errors."""
+
     def told(row: Any, _: Any) -> tuple[Any, Any]:
         return row.wrong_rays, row.relative_error_p99
 
@@ -195,9 +201,12 @@ def _errors(rows: pd.DataFrame) -> Table:
 
 
 def _by_variant(
-    rows: pd.DataFrame, told: Any, heads: tuple[Column, Column]
+    rows: pd.DataFrame, told: Callable[[Any, Any], tuple[Any, Any]], heads: tuple[Column, Column]
 ) -> tuple[tuple[Column, ...], list[tuple[Any, ...]]]:
-    """Columns and lines of a table with a line for each form, and two columns for each variant."""
+    """Return columns and lines of a table with a line for each form and two columns for each variant.
+
+    `told` returns the two values of a row, given that row and the one of the form as printed, or None.
+    """
     variants = list(dict.fromkeys(rows["variant"]))
     body: list[tuple[Any, ...]] = []
     for _, forms in rows.groupby("base", sort=False):

@@ -12,34 +12,37 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure as Drawing
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
+from numpy.typing import NDArray
 
 from harness.contract import CellStatus
-from reports import scenes, wording
+from reports import wording
 from reports.analysis import derive, rounds
 from reports.analysis.fits import FEWEST, Power, Refusal, power_law
 from reports.content import Block, Column, Figure, Section, Table, Text
 from reports.drawing import style, tables
 from reports.drawing.canvas import LINE, NARROW, RC, Key, label_decades, line_of, svg
 from reports.drawing.style import Mark
+from reports.material import Material
 
+ORDER = 26
 PANELS = 6  # of one figure
-MOST_FIGURES = 4  # along one axis
-ACROSS = 3
+MOST_FIGURES = 4  # for one axis
+ACROSS = 3  # panels beside each other
 
 
 @dataclass(frozen=True)
 class Axis:
-    """What cost grows with: `of` says how much of it each row has; rows that share `fixed` differ in nothing else."""
+    """A quantity that cost grows with. Rows with the same values of `fixed` differ in nothing else."""
 
     name: str
     unit: str
-    of: Callable[[pd.DataFrame], Any]
-    fixed: tuple[str, ...]
-    needs: str  # a column, where there is none there is nothing to fit
-    above_floor: bool = False  # the null method's time is taken off, in the rounds that timed both
+    of: Callable[[pd.DataFrame], pd.Series]  # the quantity of each row
+    fixed: tuple[str, ...]  # columns
+    needs: str  # a column; a frame without it has nothing to fit
+    above_floor: bool = False  # whether the null method's time is subtracted, in the rounds that timed both
     right: Callable[[pd.DataFrame], pd.Series] = derive.all_right  # which rows' answers are good enough to time
-    wrongly: str = "with a ray away from silhouettes answered wrongly, or unchecked"  # what the other rows are
-    expected: str = ""
+    wrongly: str = "with a ray away from silhouettes answered wrongly, or unchecked"  # says what the other rows are
+    expected: str = ""  # says what an exponent means
 
 
 _ELSE = ("device", "precision", "stage", "samples_per_pixel")
@@ -70,7 +73,7 @@ AXES = (
         lambda rows: rows["instances"],
         ("scene", "size", "view", *_ELSE),
         needs="instances",
-        right=scenes.right,
+        right=derive.nearly_all_right,
         wrongly="with over 1 in 1,000 rays answered wrongly away from silhouettes, or unchecked",
         expected="An exponent of 0 is a cost that pixels alone decide, 1 one in proportion to the instances.",
     ),
@@ -80,24 +83,19 @@ TITLES = {axis.name: f"Cost against {axis.name}" for axis in AXES}
 
 @dataclass(frozen=True, eq=False)
 class Curve:
-    """One variant along one axis, all else fixed."""
+    """The times of one variant along one axis, all else fixed."""
 
     place: tuple[Any, ...]  # the values of the axis's `fixed`, in their order
     variant: str
-    x: np.ndarray[Any, Any]
-    ms: np.ndarray[Any, Any]
+    x: NDArray[np.float64]  # [n], growing
+    ms: NDArray[np.float64]  # [n]
     fit: Power | Refusal
 
 
-def curves(frame: pd.DataFrame, axis: Axis) -> list[Curve]:
-    """Every variant with at least three different places on `axis`, in the plan's order."""
-    return _curves(axis, _points(frame, axis)[0])
-
-
 def _points(frame: pd.DataFrame, axis: Axis) -> tuple[pd.DataFrame, dict[str, int]]:
-    """The rows that points are made of, with `x` and `ms`, and how many of the others are left out for which reason.
+    """Return the rows that become points, with `x` and `ms`, and how many rows are left out for which reason.
 
-    Only lines are counted that had enough places before.
+    Only rows of lines that have at least FEWEST places are counted.
     """
     if axis.needs not in frame:
         return frame.head(0), {}
@@ -123,7 +121,7 @@ def _points(frame: pd.DataFrame, axis: Axis) -> tuple[pd.DataFrame, dict[str, in
 
 
 def _over_floor(rows: pd.DataFrame, axis: Axis) -> pd.Series | None:
-    """Compute how much longer each row takes than its group's null method; None where the axis or run has no such."""
+    """Return by how many ms each row takes longer than its group's null method; None where none is subtracted."""
     floors = derive.floor_rows(rows)
     if not axis.above_floor or floors.empty:
         return None
@@ -136,10 +134,12 @@ def _over_floor(rows: pd.DataFrame, axis: Axis) -> pd.Series | None:
 
 
 def _line(axis: Axis) -> list[str]:
+    """Return the columns whose values the points of one line share."""
     return [*axis.fixed, "variant"]
 
 
 def _curves(axis: Axis, rows: pd.DataFrame) -> list[Curve]:
+    """Fit a curve to each line of at least FEWEST places, in the plan's order; `rows` is what _points returns."""
     by = _line(axis)
     if rows.empty:
         return []
@@ -152,12 +152,12 @@ def _curves(axis: Axis, rows: pd.DataFrame) -> list[Curve]:
     return found
 
 
-def sections(frame: pd.DataFrame, marks: Mapping[str, Mark]) -> list[Section]:
-    """A section for each axis along which some variant was timed at three places or more; `marks` by variant.
+def sections(material: Material) -> list[Section]:
+    """Make a section for each axis along which some variant was timed at FEWEST places or more.
 
     Where all of its rows are left out, the section says so.
     """
-    made = []
+    frame, made = material.listed, []
     titles = frame.drop_duplicates("surface").set_index("surface")["surface_title"].to_dict()
     for axis in (_of_run(axis, frame) for axis in AXES):
         rows, left_out = _points(frame, axis)
@@ -171,23 +171,24 @@ def sections(frame: pd.DataFrame, marks: Mapping[str, Mark]) -> list[Section]:
                 f"{axis.wrongly}.{_told_left_out(left_out)}"
             )
             blocks: list[Block] = [Text(lead)]
-            blocks += [*_figures(axis, found, marks, titles), table(axis, found, titles)] if found else []
+            blocks += [*_figures(axis, found, material.marks, titles), _table(axis, found, titles)] if found else []
             made.append(Section(TITLES[axis.name], tuple(blocks)))
     return made
 
 
 def _of_run(axis: Axis, frame: pd.DataFrame) -> Axis:
-    """The axis as this run has it: without the null method nothing is taken off."""
+    """Return the axis as this run has it: without a null method nothing is subtracted."""
     return axis if bool((~frame["answers"].astype(bool)).any()) else replace(axis, above_floor=False)
 
 
 def _told_left_out(left_out: Mapping[str, int]) -> str:
+    """Say how many rows are left out for which reason; "" where none are."""
     each = wording.listed([f"{wording.plural(count, 'row')} {reason}" for reason, count in left_out.items()])
     return f" Left out: {each}; a line that keeps fewer than {FEWEST} places is not drawn." if each else ""
 
 
-def table(axis: Axis, found: list[Curve], titles: Mapping[str, str]) -> Table:
-    """One line for each curve, the fastest growing first within its place."""
+def _table(axis: Axis, found: list[Curve], titles: Mapping[str, str]) -> Table:
+    """Make a line for each curve, the fastest growing first within its place."""
     named = _places(axis, found, titles)
     order = list(dict.fromkeys(curve.place for curve in found))
     lines = sorted(found, key=lambda c: (order.index(c.place), -c.fit.exponent if isinstance(c.fit, Power) else np.inf))
@@ -211,13 +212,14 @@ def table(axis: Axis, found: list[Curve], titles: Mapping[str, str]) -> Table:
 
 
 def _told(fit: Power | Refusal) -> tuple[Any, ...]:
+    """Return the exponent, half its interval and the scatter, or why there are none."""
     if isinstance(fit, Refusal):
         return (None, None, None, fit.reason)
     return (fit.exponent, fit.half_width, fit.scatter, None)
 
 
 def _places(axis: Axis, found: list[Curve], titles: Mapping[str, str]) -> dict[tuple[Any, ...], str]:
-    """Each place for people: its device and precision, and what else differs from place to place."""
+    """Return the name of each place: its surface, device and precision, and what else differs among the places."""
     columns = list(zip(*dict.fromkeys(curve.place for curve in found), strict=True))
     shown = [
         i for i, name in enumerate(axis.fixed) if name in ("surface", "device", "precision") or len(set(columns[i])) > 1
@@ -233,6 +235,7 @@ def _places(axis: Axis, found: list[Curve], titles: Mapping[str, str]) -> dict[t
 
 
 def _figures(axis: Axis, found: list[Curve], marks: Mapping[str, Mark], titles: Mapping[str, str]) -> Iterator[Figure]:
+    """Draw the curves of the first places, PANELS to a figure; `marks` are by variant, `titles` by surface."""
     named = _places(axis, found, titles)
     places = list(named)
     for start in range(0, min(len(places), MOST_FIGURES * PANELS), PANELS):
@@ -248,6 +251,7 @@ def _figure(
     marks: Mapping[str, Mark],
     name: str,
 ) -> Figure:
+    """Draw the curves of these places, a panel for each."""
     variants = [variant for variant in marks if any(curve.variant == variant for curve in found)]
     columns = min(ACROSS, len(places))
     lines = -(-len(places) // columns)
@@ -295,12 +299,12 @@ def _figure(
         drawn,
         f"Time of {wording.listed(variants)} against {axis.unit}, with lines where one fits.",
         f"Time against {axis.unit}.",
-        f"{told}; the table below has each.".replace("-", "−"),
+        wording.minus(f"{told}; the table below has each."),
     )
 
 
 def _apart(ticks: list[float]) -> list[float]:
-    """Keep those of rising `ticks` that stand far enough from the one before to be labelled on a logarithmic axis."""
+    """Drop those of the growing `ticks` whose labels would touch the one before on a logarithmic axis."""
     kept: list[float] = []
     for tick in ticks:
         if not kept or np.log(tick / kept[-1]) > 0.07 * np.log(ticks[-1] / ticks[0]):

@@ -12,12 +12,12 @@ from reports.claims import picks
 from reports.claims.evidence import Evidence, Pick
 from reports.claims.model import counted, largest
 from reports.claims.szente_studies import bounds, condition
+from reports.claims.verdict_tables import verdict_tables
 from reports.content import Block, Column, Section, Table
 from reports.material import Material
-from reports.parts.papers import verdicts
 
 ORDER = 20
-MATCH = 0.03  # a reading matches Table 2 where no figure is off by more than this share
+MATCH = 0.03  # a reading matches Table 2 where each figure differs by at most this share
 _NAMES = {
     "sphere": "Sphere",
     "torus": "Torus",
@@ -31,28 +31,31 @@ _NAMES = {
 
 
 def sections(material: Material) -> list[Section]:
+    """Make up to four sections; [] where the run has no rows for any."""
     made = (_table_1_and_2(material), _table_4(material), _changes(material), _table_5(material))
     return [section for section in made if section]
 
 
 def _table_1_and_2(material: Material) -> Section | None:
+    """Make the section of the two studies."""
     ours = condition(material.evidence)
     blocks: list[Block] = []
     if not ours.empty:
         blocks.append(_table_1(ours))
     figures = bounds(material.evidence)
     if not figures.empty:
-        blocks += _table_2(figures)
+        blocks.append(_table_2(figures))
     if not blocks:
         return None
     return Section(
         "szente, Tables 1 and 2",
-        (*blocks, *verdicts.of(material, "szente-tables-1-2.toml", "szente, Tables 1 and 2")),
+        (*blocks, *verdict_tables(material.judged, "szente-tables-1-2.toml", "szente, Tables 1 and 2")),
         wide=True,
     )
 
 
 def _table_1(ours: pd.DataFrame) -> Table:
+    """Hold our condition numbers against the paper's."""
     paper = published.table("szente_table1_condition")
     body: list[tuple[Any, ...]] = []
     for basis, row in ours.iterrows():
@@ -82,10 +85,11 @@ def _exact(value: Any) -> str:
 
 
 def _small(value: Any) -> str:
-    return wording.NONE if wording.absent(value) else f"{value:+.4f}".replace("-", "−")
+    return wording.NONE if wording.absent(value) else wording.minus(f"{value:+.4f}")
 
 
-def _table_2(figures: pd.DataFrame) -> list[Block]:
+def _table_2(figures: pd.DataFrame) -> Table:
+    """Hold our errors of bounds, by each reading of the paper, against the paper's."""
     paper = published.table("szente_table2_bounds")
     columns = (
         Column("what was run", stretch=1),
@@ -106,7 +110,7 @@ def _table_2(figures: pd.DataFrame) -> list[Block]:
         if all(abs(a - b) <= MATCH * b for a, b in pairs):
             matches.append(str(reading))
     told = f"Matched by: {'; '.join(matches)}." if matches else "No reading matches it."
-    table = Table(
+    return Table(
         columns,
         body,
         "szente, Table 2: relative errors of bounds of extrema, in per cent, mean of 100 random curves.",
@@ -115,14 +119,14 @@ def _table_2(figures: pd.DataFrame) -> list[Block]:
         "28.54 % cannot come from Equations 5 to 8 as printed.",
         group=1,
     )
-    return [table]
 
 
 def _percent(value: Any) -> str:
-    return wording.NONE if wording.absent(value) else f"{value:z.2f}".replace("-", "−")
+    return wording.NONE if wording.absent(value) else wording.minus(f"{value:z.2f}")
 
 
 def _table_4(material: Material) -> Section | None:
+    """Hold the times of the fit and of ray marching against the paper's."""
     evidence = material.evidence.of("szente-table4.toml")
     march = evidence.ratios(picks.MARCH, picks.FIT, picks.TABLE_4)
     if march.empty:
@@ -182,11 +186,12 @@ def _table_4(material: Material) -> Section | None:
         "the sphere, which is the catalog's.",
     )
     return Section(
-        "szente, Table 4", (table, *verdicts.of(material, "szente-table4.toml", "szente, Table 4")), wide=True
+        "szente, Table 4", (table, *verdict_tables(material.judged, "szente-table4.toml", "szente, Table 4")), wide=True
     )
 
 
 def _changes(material: Material) -> Section | None:
+    """Tell what each of our changes is worth when it is made alone."""
     evidence = material.evidence.of("szente-changes.toml")
     body = [
         row
@@ -220,6 +225,7 @@ def _changes(material: Material) -> Section | None:
 
 
 def _change(evidence: Evidence, printed: Pick, change: Pick) -> tuple[Any, ...] | None:
+    """Make the line of one change; None where the two were not timed in the same rounds."""
     ratios = evidence.ratios(printed, change, picks.TABLE_4)
     if ratios.empty:
         return None
@@ -234,6 +240,7 @@ def _change(evidence: Evidence, printed: Pick, change: Pick) -> tuple[Any, ...] 
 
 
 def _table_5(material: Material) -> Section | None:
+    """Hold the times of Lipschitz tracing by two bounds against the paper's."""
     evidence = material.evidence.of("szente-table5.toml")
     ratios = evidence.ratios(picks.CONTROL, picks.LU, picks.TABLE_5)
     if ratios.empty:
@@ -274,30 +281,32 @@ def _table_5(material: Material) -> Section | None:
         "Domains are those of the authors' code, but for the sphere, which is the catalog's.",
     )
     return Section(
-        "szente, Table 5", (table, *verdicts.of(material, "szente-table5.toml", "szente, Table 5")), wide=True
+        "szente, Table 5", (table, *verdict_tables(material.judged, "szente-table5.toml", "szente, Table 5")), wide=True
     )
 
 
 def _in_order(ratios: pd.DataFrame, surfaces: tuple[str, ...]) -> list[Any]:
-    """The first device's row of each surface, in the paper's order."""
+    """Return the first device's row of each surface, in the paper's order."""
     rows = {row.surface: row for row in reversed(list(ratios.itertuples()))}
     return [rows[name] for name in surfaces if name in rows]
 
 
 def _lookup(name: str, column: str, row: Any) -> float | None:
+    """Return the paper's figure for the surface of `row`; None where it has none."""
     return published.table(name).number(column, surface=_NAMES.get(row.surface, ""))
 
 
 def _both(over: str, show: Callable[[Any], str]) -> tuple[Column, Column]:
+    """Make a column of ours and one of the paper's under one heading."""
     return Column("ours", show, numeric=True, over=over), Column("paper", show, numeric=True, over=over)
 
 
 def _whole(value: Any) -> str:
-    return wording.NONE if wording.absent(value) else f"{value:z.0f}".replace("-", "−")
+    return wording.NONE if wording.absent(value) else wording.minus(f"{value:z.0f}")
 
 
 def _means(body: list[tuple[Any, ...]], columns: tuple[int, ...], ratio: int) -> tuple[Any, ...]:
-    """The means of `columns`, and in column `ratio` that of the two columns before it."""
+    """Make the line of means of `columns`; column `ratio` has the ratio of the two means before it."""
     means: list[Any] = ["mean", *[None] * (len(body[0]) - 1)]
     for i in columns:
         known = [row[i] for row in body if not wording.absent(row[i])]

@@ -10,12 +10,12 @@ import pandas as pd
 from reports import wording
 from reports.claims import picks
 from reports.claims.toledo_tori import CONFIG, OURS, PICKS, crossing, curve, tori
+from reports.claims.verdict_tables import verdict_tables
 from reports.content import Block, Column, Section, Table
 from reports.material import Material
-from reports.parts.papers import verdicts
 
 ORDER = 12
-CLAIMED = {  # technique against Newton 0.001 → what the text says
+CLAIMED = {  # what the paper's text says of Newton 0.001 against each technique
     picks.POLYGONS[0].words: "Newton 0.001 is the fastest for more than 700 tori",
     picks.POLYGONS[1].words: "Newton 0.001 is the fastest for more than 700 tori",
     picks.POLYGONS[2].words: "of equal error: Newton 0.001 is always faster",
@@ -24,14 +24,20 @@ CLAIMED = {  # technique against Newton 0.001 → what the text says
 
 
 def sections(material: Material) -> list[Section]:
+    """Make the section; [] where the run has no rows for it."""
     rows = tori(material.evidence.of(CONFIG))
     if rows.empty:
         return []
-    blocks: list[Block] = [_times(rows), _crossings(rows), *verdicts.of(material, CONFIG, "toledo2007, Figure 6")]
+    blocks: list[Block] = [
+        _times(rows),
+        _crossings(rows),
+        *verdict_tables(material.judged, CONFIG, "toledo2007, Figure 6"),
+    ]
     return [Section("toledo2007, Figure 6", tuple(blocks), wide=True)]
 
 
 def _times(rows: pd.DataFrame) -> Table:
+    """Make a line for each technique: its time by the number of tori."""
     counts = sorted(int(n) for n in rows["instances"].unique())
     body: list[tuple[Any, ...]] = []
     for pick in (*PICKS, OURS):
@@ -51,6 +57,7 @@ def _times(rows: pd.DataFrame) -> Table:
 
 
 def _crossings(rows: pd.DataFrame) -> Table:
+    """Make a line for each technique: from how many tori on Newton is faster than it."""
     newton, ours = curve(rows, picks.NEWTON_3), curve(rows, OURS)
     body = []
     for pick in PICKS[1:]:
@@ -77,6 +84,7 @@ def _crossings(rows: pd.DataFrame) -> Table:
 
 
 def _told(at: float | None) -> str:
+    """Write what `crossing` returns."""
     if at is None:
         return "nowhere measured"
     return (

@@ -1,4 +1,4 @@
-"""Which rows are of the same surface, written in another way."""
+"""Read a surface's name: which surface it is, and in which form its formula is written."""
 
 from __future__ import annotations
 
@@ -8,17 +8,17 @@ PRINTED = "as printed"
 
 
 def form_of(name: str) -> str:
-    """Read the form from a surface's name: `nested` from `chmutov:nested`; PRINTED where the name has none."""
+    """Return the form that a surface's name states: `nested` of `chmutov:nested`; PRINTED where it states none."""
     return name.partition(":")[2] or PRINTED
 
 
 def base_of(name: str) -> str:
-    """Return a surface's name without that of its form."""
+    """Return a surface's name without its form: `chmutov` of `chmutov:nested`."""
     return name.partition(":")[0]
 
 
 def printed_alone(frame: pd.DataFrame) -> pd.DataFrame:
-    """Drop the rows of further forms of surfaces that are there as printed too."""
+    """Drop the rows of a surface's other forms where the frame has the surface as printed too."""
     there = set(frame["surface"])
     further = frame["surface"].map(lambda name: base_of(name) != name and base_of(name) in there)
     return frame[~further.astype(bool)]

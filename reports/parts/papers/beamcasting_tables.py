@@ -1,4 +1,4 @@
-"""beamcasting's Tables I and II, and Figure 1."""
+"""beamcasting's Tables I and II and Figure 1, and how many lanes wait."""
 
 from __future__ import annotations
 
@@ -7,31 +7,20 @@ from typing import Any
 import numpy as np
 
 from harness.contract import RayStatus
-from reports import beams, published, wording
-from reports.analysis import derive, lanes
+from reports import published, wording
+from reports.analysis import derive, idle_lanes
 from reports.claims import picks
+from reports.claims.evidence import run_of
+from reports.claims.verdict_tables import verdict_tables
 from reports.content import Block, Column, Gallery, Section, Table, Text
+from reports.drawing import levels
 from reports.material import Material
-from reports.parts.papers import verdicts
 
 ORDER = 40
-_NAMES = {
-    "sphere": "Sphere",
-    "dingdong_beamcasting": "Dingdong",
-    "klein": "Klein",
-    "mitchell": "Mitchell",
-    "octdong": "Octdong",
-    "steiner": "Steiner",
-    "tangle": "Tangle",
-    "teardrop": "Teardrop",
-    "barth_sextic": "Barth",
-    "heart": "Heart",
-    "chmutov": "Chmutov",
-    "blinn_blob": "Blob",
-}
 
 
 def sections(material: Material) -> list[Section]:
+    """Make up to three sections; [] where the run has no rows for any."""
     return [*_tables(material), *_figure_1(material), *_divergence(material)]
 
 
@@ -48,17 +37,26 @@ _TOLD = (
 
 
 def _tables(material: Material) -> list[Section]:
+    """Hold the speeds of both methods against the paper's."""
     evidence = material.evidence.of("beamcasting-tables.toml")
-    ratios = evidence.ratios(picks.UNIFORM, picks.ADAPTIVE, _NAMES)
+    ratios = evidence.ratios(picks.UNIFORM, picks.ADAPTIVE, picks.BEAM_SURFACES)
     if ratios.empty:
         return []
-    ratios = ratios[ratios["device"] == ratios["device"].iloc[0]]
-    best = evidence.ratios(picks.UNIFORM, picks.ADAPTIVE_OURS, _NAMES).set_index(derive.GROUP)["ratio"].to_dict()
+    ratios = derive.on_first_device(ratios)
+    best = (
+        evidence.ratios(picks.UNIFORM, picks.ADAPTIVE_OURS, picks.BEAM_SURFACES)
+        .set_index(derive.GROUP)["ratio"]
+        .to_dict()
+    )
     spent = evidence.rows(picks.UNIFORM).set_index(derive.GROUP)["evaluations_mean"].to_dict()
     paper = published.table("beamcasting_tables_fps")
     body: list[tuple[Any, ...]] = []
     for row in ratios.sort_values(["size", "samples_per_pixel"], kind="stable").itertuples():
-        where = {"surface": _NAMES[row.surface], "image_size": row.size, "samples_per_pixel": row.samples_per_pixel}
+        where = {
+            "surface": picks.BEAM_SURFACES[row.surface],
+            "image_size": row.size,
+            "samples_per_pixel": row.samples_per_pixel,
+        }
         theirs = [paper.number(c, **where) for c in ("uniform_fps", "adaptive_fps", "adaptive_over_uniform")]
         told = (row.size, row.samples_per_pixel, row.surface_title, 1e3 / row.slow_ms, theirs[0])
         last = None if theirs[2] is None else row.ratio / theirs[2]
@@ -93,15 +91,15 @@ def _tables(material: Material) -> list[Section]:
     return [
         Section(
             "beamcasting, Tables I and II",
-            (Text(_TOLD), table, *verdicts.of(material, "beamcasting-tables.toml", "beamcasting")),
+            (Text(_TOLD), table, *verdict_tables(material.judged, "beamcasting-tables.toml", "beamcasting")),
         )
     ]
 
 
 def _figure_1(material: Material) -> list[Section]:
-    """The levels of elimination of its own config's rows."""
+    """Show the levels at which boxes are eliminated, by the rows of the figure's own config."""
     rows = material.evidence.rows(picks.ADAPTIVE, ("octdong",))
-    rows = rows[rows["run"] == "beamcasting-fig1"].sort_values("size", kind="stable")
+    rows = rows[rows["run"] == run_of("beamcasting-fig1.toml")].sort_values("size", kind="stable")
     found = [(row, arrays) for row in rows.itertuples() if (arrays := material.shelf.get(row)) is not None]
     found = [(row, arrays) for row, arrays in found if arrays.level is not None and arrays.status is not None]
     if not found:
@@ -110,12 +108,12 @@ def _figure_1(material: Material) -> list[Section]:
         "The paper shows the Octdong with each pixel coloured by the level at which its box was eliminated, and white "
         "where the subdivision reaches the surface. Here the same at three sizes; the paper prints no shares."
     )
-    gallery = Gallery(tuple(beams.level_panel(row, arrays, "figure-1-") for row, arrays in found), beams.LEVELS)
+    gallery = Gallery(tuple(levels.panel(row, arrays, "figure-1-") for row, arrays in found), levels.EXPLANATION)
     body: list[tuple[Any, ...]] = []
     for row, arrays in found:
-        hit, levels = np.asarray(arrays.status == RayStatus.HIT), np.asarray(arrays.level)
-        for level in range(int(levels.min()), int(levels.max()) + 1):
-            body.append((row.size, level, row.size >> level, float(np.mean(~hit & (levels == level)))))
+        hit, decided = np.asarray(arrays.status == RayStatus.HIT), np.asarray(arrays.level)
+        for level in range(int(decided.min()), int(decided.max()) + 1):
+            body.append((row.size, level, row.size >> level, float(np.mean(~hit & (decided == level)))))
         body.append((row.size, "surface", None, float(hit.mean())))
     table = Table(
         (
@@ -145,18 +143,23 @@ _IDLE = (
 
 
 def _divergence(material: Material) -> list[Section]:
-    """Idle lanes, of whole frames by setting, and level by level on the surface of the paper's Figure 1."""
+    """Tell how many lanes wait: of whole frames by setting, and level by level on the surface of Figure 1."""
     config = "beamcasting-divergence.toml"
     evidence = material.evidence.of(config)
-    rows = [(pick, row) for pick in _SETTINGS for row in evidence.rows(pick, _NAMES).itertuples()]
-    rows = [(pick, row) for pick, row in rows if row.run == config.removesuffix(".toml") and lanes.levels_of(row)]
+    rows = [(pick, row) for pick in _SETTINGS for row in evidence.rows(pick, picks.BEAM_SURFACES).itertuples()]
+    rows = [(pick, row) for pick, row in rows if row.run == run_of(config) and idle_lanes.levels_of(row)]
     if not rows:
         return []
     rows = [(pick, row) for pick, row in rows if row.device == rows[0][1].device]
-    order = list(_NAMES)
+    order = list(picks.BEAM_SURFACES)
     rows.sort(key=lambda one: order.index(one[1].surface))
-    body = [(_NAMES[row.surface], pick.words, row.evaluations_mean, *_shares(row), row.median_ms) for pick, row in rows]
-    shares = [Column(str(width), wording.share, numeric=True, over="idle of so many lanes") for width in lanes.WIDTHS]
+    body = [
+        (picks.BEAM_SURFACES[row.surface], pick.words, row.evaluations_mean, *_shares(row), row.median_ms)
+        for pick, row in rows
+    ]
+    shares = [
+        Column(str(width), wording.share, numeric=True, over="idle of so many lanes") for width in idle_lanes.WIDTHS
+    ]
     whole = Table(
         (
             Column("surface"),
@@ -171,19 +174,19 @@ def _divergence(material: Material) -> list[Section]:
         "quarters of a cell that evaluated f more than 16 times come after the others (its plan, V).",
         group=1,
     )
-    levels = [
+    by_level = [
         (
             pick.words,
             level["level"],
             level["items"],
             level["evaluations"] / level["items"],
-            *(level["idle"][str(width)] for width in lanes.WIDTHS),
+            *(level["idle"][str(width)] for width in idle_lanes.WIDTHS),
         )
         for pick, row in rows
         if row.surface == "octdong"
-        for level in lanes.levels_of(row)
+        for level in idle_lanes.levels_of(row)
     ]
-    by_level = Table(
+    level_table = Table(
         (
             Column("setting", stretch=1),
             Column("level", wording.count, numeric=True),
@@ -191,7 +194,7 @@ def _divergence(material: Material) -> list[Section]:
             Column("evals\nper item", wording.number, numeric=True),
             *shares,
         ),
-        levels,
+        by_level,
         "The Octdong level by level.",
         "The first level is the one that fills the device. Coarse levels wait most, since their neighbouring cells "
         "are least alike.",
@@ -200,11 +203,12 @@ def _divergence(material: Material) -> list[Section]:
     blocks: tuple[Block, ...] = (
         Text(_IDLE),
         whole,
-        *([by_level] if levels else []),
-        *verdicts.of(material, config, "beamcasting"),
+        *([level_table] if by_level else []),
+        *verdict_tables(material.judged, config, "beamcasting"),
     )
     return [Section("beamcasting, divergence", blocks)]
 
 
 def _shares(row: Any) -> tuple[float | None, ...]:
-    return tuple(lanes.idle_share(row, width) for width in lanes.WIDTHS)
+    """Return a row's idle share for each of WIDTHS."""
+    return tuple(idle_lanes.idle_share(row, width) for width in idle_lanes.WIDTHS)

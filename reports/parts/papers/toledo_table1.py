@@ -8,21 +8,23 @@ from typing import Any
 import pandas as pd
 
 from reports import published, wording
+from reports.analysis import derive
 from reports.analysis.viewstats import spread
 from reports.claims import picks
 from reports.claims.evidence import Evidence, Pick
+from reports.claims.verdict_tables import verdict_tables
 from reports.content import Block, Column, Section, Table
 from reports.material import Material
-from reports.parts.papers import verdicts
 
 ORDER = 10
 CONFIG = "toledo-table1.toml"
 PICKS = (*picks.TABLE_1, *picks.OURS_OF_TABLE_1, *picks.POLYGONS)
-REFERENCE = picks.NEWTON_3  # what the ratios of techniques are over
+REFERENCE = picks.NEWTON_3  # the technique that ratios are over
 OURS, PAPER = "ours", "paper"
 
 
 def sections(material: Material) -> list[Section]:
+    """Make the section; [] where the run has no rows for it."""
     rows = table_rows(material.evidence.of(CONFIG))
     if rows.empty:
         return []
@@ -30,29 +32,38 @@ def sections(material: Material) -> list[Section]:
     blocks: list[Block] = [_pixels(rows, angles), _frames(rows, angles), _rates(rows), _errors(rows)]
     if measured := material.evidence.studies.get("mesh_errors"):
         blocks.append(_meshes(measured))
-    return [Section("toledo2007, Table 1", (*blocks, *verdicts.of(material, CONFIG, "toledo2007, Table 1")), wide=True)]
+    return [
+        Section(
+            "toledo2007, Table 1", (*blocks, *verdict_tables(material.judged, CONFIG, "toledo2007, Table 1")), wide=True
+        )
+    ]
 
 
 def table_rows(evidence: Evidence) -> pd.DataFrame:
-    """The timed rows of Table 1's techniques in stage raster, with `technique`, on the first device that has them."""
+    """Return the timed rows of Table 1's techniques in stage raster, with `technique`, on the first device."""
     found = [evidence.rows(pick, picks.TORUS).assign(technique=pick.words) for pick in PICKS]
     rows = pd.concat(found)
-    # the paper's own distance tells its views from others of the torus
+    # only the views of Table 1 are at the paper's distance
     rows = rows[(rows["stage"] == "raster") & (rows["proxy"] == "box") & (rows["view_set"] == "angles")]
     rows = rows[(rows["distance"] - 5.584).abs() < 1e-9].dropna(subset=["median_ms"])
-    return rows[rows["device"] == rows["device"].iloc[0]] if len(rows) else rows
+    return derive.on_first_device(rows)
 
 
 def _column(view: str) -> str:
+    """Return the column of a view in the paper's tables."""
     return view.replace("angle ", "angle_")
 
 
 def _title(view: str) -> str:
+    """Write the angle of a view."""
     return view.removeprefix("angle ") + "°"
 
 
 def _pixels(rows: pd.DataFrame, angles: list[str]) -> Table:
-    """Counted on the device, of the rays' technique with the fewest wrong rays: one that loses rays loses pixels."""
+    """Hold our counts of pixels against the paper's.
+
+    Ours are counted on the device, of the ray caster with the fewest wrong rays, because lost rays are lost pixels.
+    """
     cast = rows[rows["casts"] == "rays"]
     wrong = (
         cast.assign(bad=cast["wrong_rays"].astype("float64")).groupby("technique", sort=False)["bad"].sum(min_count=1)
@@ -94,14 +105,16 @@ def _pixels(rows: pd.DataFrame, angles: list[str]) -> Table:
 
 
 def _one_digit(value: Any) -> str:
-    return wording.NONE if wording.absent(value) else f"{value:,.1f}".replace("-", "−")
+    return wording.NONE if wording.absent(value) else wording.minus(f"{value:,.1f}")
 
 
 def _of(rows: pd.DataFrame, pick: Pick) -> pd.DataFrame:
+    """Return one technique's rows by view."""
     return rows[rows["technique"] == pick.words].set_index("view")
 
 
 def _frames(rows: pd.DataFrame, angles: list[str]) -> Table:
+    """Hold our frames per second against the paper's."""
     paper, body = published.table("toledo2007_table1_fps"), []
     reference = _of(rows, REFERENCE)["frames_per_s"].mean()
     theirs_reference = paper.number("average", technique=REFERENCE.words)
@@ -132,6 +145,7 @@ def _frames(rows: pd.DataFrame, angles: list[str]) -> Table:
 
 
 def _rates(rows: pd.DataFrame) -> Table:
+    """Hold our pixels per second, and their spread over the views, against the paper's."""
     paper, body = published.table("toledo2007_table1_megapixels"), []
     for pick in (*picks.TABLE_1, *picks.OURS_OF_TABLE_1):
         own = _of(rows, pick)
@@ -162,6 +176,7 @@ def _rates(rows: pd.DataFrame) -> Table:
 
 
 def _errors(rows: pd.DataFrame) -> Table:
+    """Hold our errors against the paper's."""
     paper, body = published.table("toledo2007_table1_fps"), []
     for pick in PICKS:
         own = _of(rows, pick)
@@ -202,6 +217,7 @@ def _errors(rows: pd.DataFrame) -> Table:
 
 
 def _meshes(measured: list[dict[str, Any]]) -> Table:
+    """Hold the measured errors of polygonal tori against the formulas; `measured` has the study's rows."""
     paper = published.table("toledo2007_table1_fps")
     body = []
     for row in measured:
@@ -217,7 +233,7 @@ def _meshes(measured: list[dict[str, Any]]) -> Table:
             Column("both chords", wording.error, numeric=True, over="formula, over R + r"),
             Column("mesh to\ntorus", wording.error, numeric=True, over="measured, over R + r"),
             Column("torus to\nmesh", wording.error, numeric=True, over="measured, over R + r"),
-            Column("measured less\nboth chords", lambda x: f"{100 * x:+.1f} %".replace("-", "−"), numeric=True),
+            Column("measured less\nboth chords", lambda x: wording.minus(f"{100 * x:+.1f} %"), numeric=True),
             Column("bytes", wording.count, numeric=True, stretch=1),
         ),
         body,

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure as Drawing
 
 from harness.contract import CLAIMS
 from reports import wording
-from reports.claims import Outcome
+from reports.claims import Claim, Outcome, Verdict
 from reports.claims.model import where
 from reports.content import Block, Column, Figure, Section, Table
 from reports.drawing import style
@@ -26,7 +26,7 @@ LONG_CELL = 24  # characters of a table's cell that may be broken
 
 
 def sections(material: Material) -> list[Section]:
-    """None where the run does not say what its methods are (runs of before it did)."""
+    """Make the section; [] where the run, made by an older version, does not store its methods' cards."""
     told = material.run.plan.methods
     if not told:
         return []
@@ -36,7 +36,8 @@ def sections(material: Material) -> list[Section]:
     return [Section("Methods", tuple(blocks))]
 
 
-def _card(name: str, told: Mapping[str, Any], rows: pd.DataFrame, judged: list[Any]) -> list[Block]:
+def _card(name: str, told: Mapping[str, Any], rows: pd.DataFrame, judged: list[tuple[Claim, Verdict]]) -> list[Block]:
+    """Make the card of one method: `told` is what its plan stores of it, `rows` are its rows of this run."""
     knobs = ", ".join(_knob(knob) for knob in told.get("parameters", []))
     tables = told.get("tables", [])
     said = {part: text for part, text in told.get("doc", {}).items() if not _is_caption(part, text, tables)}
@@ -78,16 +79,18 @@ def _table(name: str, told: Mapping[str, Any], text: str) -> Table:
 
 
 def _knob(knob: Mapping[str, Any]) -> str:
+    """Write a knob: its name, default and meaning, and its value as printed if that is another."""
     printed = "" if knob.get("printed") is None else f"; as printed {knob['printed']:g}"
     return f"{knob['name']} = {knob['default']:g} ({knob['meaning']}{printed})"
 
 
 def _points(text: str) -> str:
-    """A text of paragraphs and points, a line each; a point begins with "- "."""
+    """Fold a text to a line for each paragraph and point; a point begins with "- "."""
     return "\n".join(wording.excerpt(re.sub("^- ", "• ", line), TEXT_LIMIT) for line in text.split("\n"))
 
 
 def _key(names: list[str]) -> Figure:
+    """Draw the mark of each method."""
     marks = style.marks(names)
     key = Key([line_of(marks[name]) for name in names], names, NARROW)
     with matplotlib.rc_context(RC):
@@ -99,37 +102,40 @@ def _key(names: list[str]) -> Figure:
 
 
 def _default(told: Mapping[str, Any], rows: pd.DataFrame) -> pd.DataFrame:
-    """The rows with every knob at its default, and rays from the nearest point: what a method's claims are about."""
+    """Select the rows that a method's claims are about: every knob at its default, rays from the nearest point."""
     rows = rows[rows["origin"].fillna("nearest") == "nearest"]
     defaults = {knob["name"]: knob["default"] for knob in told.get("parameters", [])}
     bound = rows["parameters"].map(lambda text: json.loads(text) if isinstance(text, str) else {})
     return rows[bound.map(lambda knobs: defaults | knobs == defaults).astype(bool)]
 
 
-_BROKEN_BY = {  # the counts that contradict a claim (harness.contract.CLAIMS); only the first are of every class
+_BROKEN_BY = {  # the counts that contradict a claim; only the first is about grazing and drowned rays too
     "no_missed_root": [f"{kind}{name}" for name in ("misses", "invalid") for kind in ("", "grazing_", "drowned_")],
     "conservative_bound": ["misses", "invalid"],
     "no_false_hit": ["false_hits", "invalid"],
 }
-_PASSED = {  # where roots that were passed are counted, among other wrong ones
+_PASSED = {  # the counts that hold later roots, which contradict a claim, among other wrong roots, which do not
     "no_missed_root": [f"{kind}wrong_root" for kind in ("", "grazing_", "drowned_")],
     "conservative_bound": ["wrong_root"],
 }
 
 
 def _claims(method: str, stated: list[str], rows: pd.DataFrame) -> str:
-    """What the method itself claims, with all that a claim excepts, and whether this run's counts speak against it."""
+    """Write each claim of a method, and whether this run's counts contradict it.
+
+    An older run may state a claim that is no longer known, which has no meaning beside it.
+    """
     if not stated:
         return "none"
     lines = []
     for name in sorted(stated):
-        meaning = f": {CLAIMS[name]}" if name in CLAIMS else ""  # an older run may know another
+        meaning = f": {CLAIMS[name]}" if name in CLAIMS else ""
         lines.append(f"• {name.replace('_', ' ')}{meaning}. {_held(method, name, rows)}")
     return "\n".join(lines)
 
 
 def _held(method: str, name: str, rows: pd.DataFrame) -> str:
-    """What the counts of `rows` say of one claim."""
+    """Say whether the counts of `rows` contradict one claim."""
     columns = _BROKEN_BY.get(name)
     known = rows[rows["accuracy_rays"].notna()] if columns else rows.head(0)
     if known.empty or not columns:

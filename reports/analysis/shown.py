@@ -1,0 +1,62 @@
+"""Choose the rows that a report shows ray by ray, as pictures, maps and clouds of points."""
+
+from __future__ import annotations
+
+import pandas as pd
+
+from harness.contract import CellStatus
+from reports.analysis.derive import casters, on_fullest_device
+
+EVERY_VIEW = 3  # a surface with so many views or fewer has maps of all; else each variant has one of its worst view
+MOST_SURFACES = 4  # a run with more surfaces has no maps of evaluations
+
+
+def _pictured(rows: pd.DataFrame) -> pd.DataFrame:
+    """Select the finished rows of methods that answer and whose arrays are stored."""
+    return rows[(rows["status"] == CellStatus.OK) & rows["answers"] & rows["arrays"].notna()]
+
+
+def of_surface(rows: pd.DataFrame, per_method: int = 1) -> pd.DataFrame:
+    """Select at most `per_method` variants of each method and precision from the rows of one surface.
+
+    They are of its fullest scene, on the device with most rows there, and the first of their method in the plan's
+    order, so that they are the same for every precision where that can be.
+    """
+    rows = _pictured(rows)
+    if rows.empty:
+        return rows
+    kept = on_fullest_device(rows[rows["comparison"] == fullest(rows)])
+    kept = kept[kept.groupby(["method", "precision"]).cumcount() < per_method]
+    return kept.sort_values(["method", "precision"], kind="stable")
+
+
+def fullest(rows: pd.DataFrame) -> str:
+    """Return the comparison with most methods among rows of one surface.
+
+    Of several with equally many it is that with most variants, not counting where their rays begin, and then the
+    first in the plan's order.
+    """
+    counted = rows.assign(variant=casters(rows)).groupby("comparison", sort=False)[["method", "variant"]].nunique()
+    return str(counted.sort_values(["method", "variant"], ascending=False, kind="stable").index[0])
+
+
+def in_galleries(frame: pd.DataFrame) -> pd.DataFrame:
+    """Select the rows that the galleries on the surfaces' pages show."""
+    return pd.concat([frame.head(0), *(of_surface(rows) for _, rows in frame.groupby("surface", sort=False))])
+
+
+def in_evaluation_maps(frame: pd.DataFrame) -> pd.DataFrame:
+    """Select the rows whose evaluations are shown ray by ray; none in a run of more than MOST_SURFACES surfaces."""
+    rows = _pictured(frame)
+    if rows.empty or rows["surface"].nunique() > MOST_SURFACES:
+        return rows.head(0)
+    rows = on_fullest_device(rows)
+    rows = rows[rows["precision"] == rows["precision"].iloc[0]].drop_duplicates(["surface", "view", "variant"])
+    by_surface = (own for _, own in rows.groupby("surface", sort=False))
+    return pd.concat([own if own["view"].nunique() <= EVERY_VIEW else _worst_views(own) for own in by_surface])
+
+
+def _worst_views(rows: pd.DataFrame) -> pd.DataFrame:
+    """Keep for each variant the view with most wrong rays; among equals that with most evaluations on one ray."""
+    ordered = rows.sort_values(["wrong_rays", "evaluations_max", "evaluations_mean"], ascending=False, kind="stable")
+    return rows.loc[sorted(ordered.drop_duplicates("variant").index)]
