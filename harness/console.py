@@ -46,6 +46,14 @@ def _write(text: str) -> None:
     sys.stderr.flush()
 
 
+def outcome(row: Row) -> str:
+    """Say how a cell ended: its median time and what is to be known of it, or its status and the reason."""
+    if not row["time"]:
+        return f"{row['status']}: {row['reason']}" if row["reason"] else str(row["status"])
+    warnings = [text.partition(":")[0] for text in row["time"]["warnings"]]
+    return ", ".join([f"{row['time']['median_ms']:.3g} ms", *warnings])
+
+
 class Progress:
     """Shows how many cells are done, the current cell, and the time left.
 
@@ -66,10 +74,7 @@ class Progress:
                 _write(f"{CLEAR}{self._head(elapsed)} {slot}"[:WIDEST])
             return
         self._done += 1
-        ended = f"{row['status']}: {row['reason']}" if row["reason"] else row["status"]
-        outcome = f"{row['time']['median_ms']:.3g} ms" if row["time"] else ended
-        warnings = [text.partition(":")[0] for text in row["time"]["warnings"]] if row["time"] else []
-        line = f"{self._head(elapsed)} {slot}: {', '.join([outcome, *warnings])}"
+        line = f"{self._head(elapsed)} {slot}: {outcome(row)}"
         _write(f"{CLEAR}{line}\n" if self._live else f"{line}\n")
 
     def _head(self, elapsed: float) -> str:

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import surfaces
-from harness import cli
-from harness.accuracy import compilers, conformance
+from harness import cli, conformance
+from harness.accuracy import compilers
 from harness.conformance import dense
 from harness.contract import Hits, RayStatus, Section
 from harness.devices.interface import BuildError, hits_from, launch_rays, map_rows

@@ -10,7 +10,7 @@ import pytest
 
 from harness.plugins import find_methods
 from harness.running.cards import card
-from reports.parts import cards
+from reports.parts import method_cards
 
 PLUGINS = find_methods().plugins
 PAGE = """A title.
@@ -118,7 +118,7 @@ def test_a_reports_card_shows_the_table_with_what_it_was_measured_on(tmp_path):
     told = written(tmp_path, PAGE)
     told["doc"] = {"Theory": "A sentence.", "What was tried": "On one device."}
     rows = pd.DataFrame({"origin": ["nearest"], "parameters": [None]})
-    page, tried = cards._card("mine", told, rows, [])
+    page, tried = method_cards._card("mine", told, rows, [])
     assert ("what it does", "What it does, in a paragraph.") in page.rows
     assert ("theory", "A sentence.") in page.rows
     assert not [row for row in page.rows if row[0] == "what was tried"]
@@ -126,5 +126,5 @@ def test_a_reports_card_shows_the_table_with_what_it_was_measured_on(tmp_path):
     assert [column.title for column in tried.columns] == ["what was tried", "measured", "kept"]
     assert tried.rows[0] == ("blocks of 8 steps and their sum", "5.8 times as fast", "yes")
     older = {name: value for name, value in told.items() if name not in ("summary", "tables")}
-    (page,) = cards._card("mine", older, rows, [])
+    (page,) = method_cards._card("mine", older, rows, [])
     assert ("what was tried", "On one device.") in page.rows

@@ -30,7 +30,7 @@ from . import tiny_runs
 from .conftest import usable_devices
 
 BY_MACHINE = {("time", "overhead_share"), ("environment", "commit")}  # null without a device's clock, without git
-NOT_SHOWN = {"szente"}  # the papers' parts that the tiny runs have no settings or studies for
+NOT_SHOWN = {"szente_tables"}  # the papers' parts that the tiny runs have no settings or studies for
 
 
 @pytest.fixture(scope="module")

@@ -13,7 +13,9 @@ import numpy as np
 import pytest
 
 from harness.contract import FirsthitError, digest
+from harness.devices.interface import Timing
 from harness.results import ranks, timings
+from harness.running.rows import Samples, time_of
 from reports import content, summary
 from reports.analysis import count_tests, derive, ties
 from reports.drawing import choice, style
@@ -297,18 +299,16 @@ class _Slow:
         self.seconds, self.budget = seconds, BudgetChoice(seconds=1.0)
 
     def rounds(self) -> int:
-        from types import SimpleNamespace
-
         from harness.running.runner import Runner
 
         runner: Any = SimpleNamespace(_config=SimpleNamespace(budget=self.budget))
-        state: Any = SimpleNamespace(wall_ms=[], timing=0.0)
+        state: Any = SimpleNamespace(samples=Samples("wall"), timing=0.0)
         while True:
-            state.wall_ms.append(1e3 * self.seconds * (1.0 + 0.3 * (len(state.wall_ms) % 2)))
+            taken = len(state.samples.wall_ms)
+            state.samples.add(Timing(1e3 * self.seconds * (1.0 + 0.3 * (taken % 2)), None), 1, taken)
             state.timing += self.seconds
-            state.samples = state.wall_ms
             if Runner._is_done(runner, state):
-                return len(state.wall_ms)
+                return taken + 1
 
 
 @pytest.mark.parametrize(("seconds", "least", "most"), [(0.05, 20, 20), (0.3, 8, 8), (1.3, 8, 8), (10.0, 2, 2)])
@@ -320,22 +320,8 @@ def test_a_slow_cell_is_timed_in_enough_rounds_to_compare_it_but_not_for_ever(
 
 @pytest.mark.parametrize(("clock", "told"), [("device", 0.25), ("wall", None)])
 def test_a_row_has_an_overhead_only_where_the_devices_clock_is_believed(clock: str, told: float | None) -> None:
-    from types import SimpleNamespace
-
-    from harness.experiment.config import BudgetChoice
-    from harness.running.runner import Runner
-
-    runner: Any = SimpleNamespace(_config=SimpleNamespace(seed=1, budget=BudgetChoice()), _session="s")
-    state: Any = SimpleNamespace(
-        warmed=SimpleNamespace(batch=1),
-        by_device=clock == "device",
-        planned=SimpleNamespace(device=SimpleNamespace(clock=clock)),
-        wall_ms=[1.25] * 9,
-        device_ms=[1.0] * 9,
-        samples=[1.0] * 9,
-        rounds=list(range(9)),
-    )
-    found = Runner._time_of(runner, state)["overhead_share"]
+    samples = Samples(clock, [1.25] * 9, [1.0] * 9, list(range(9)))
+    found = time_of(samples, 1, "s", seed=1, interval=0.02)["overhead_share"]
     assert found == (None if told is None else pytest.approx(told))
 
 

@@ -126,7 +126,8 @@ def one(monkeypatch):
         pytest.skip("no device")
 
     def leave(share):
-        monkeypatch.setattr("harness.running.runner.cached_first_hits", _undecided(share))
+        for module in ("accuracy.check", "experiment.kinds.family"):
+            monkeypatch.setattr(f"harness.{module}.cached_first_hits", _undecided(share))
 
     return usable_devices()[0].name, leave
 

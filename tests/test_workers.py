@@ -7,6 +7,8 @@ import sys
 import time
 from pathlib import Path
 
+import pytest
+
 from harness.devices import serving
 
 ROOT = Path(__file__).parents[1]
@@ -37,12 +39,17 @@ def script(folder, more):
     return {"args": [sys.executable, str(path)], "cwd": folder, "env": environment, "text": True}
 
 
-def test_a_script_without_a_guard_runs_once_and_finds_the_devices(tmp_path):
+@pytest.mark.parametrize("typed", [False, True], ids=["script", "typed in"])
+def test_a_script_without_a_guard_runs_once_and_finds_the_devices(tmp_path, typed):
     work = tmp_path / "work"
     (work / "harness").mkdir(parents=True)
     (work / "harness/__init__.py").write_text("raise SystemExit('the harness of another folder was imported')")
     started = script(tmp_path, FIND)
-    result = subprocess.run(**(started | {"cwd": work}), capture_output=True, check=True, timeout=120)
+    if typed:
+        started |= {"args": [sys.executable], "input": (tmp_path / "script.py").read_text()}
+    else:
+        started |= {"cwd": work}
+    result = subprocess.run(**started, capture_output=True, check=True, timeout=120)
     first, *found = result.stdout.splitlines()
     assert first == "the script runs" and first not in found
     assert found and all("looking for it" not in line for line in found), result.stdout + result.stderr

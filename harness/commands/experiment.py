@@ -20,11 +20,11 @@ from harness.running.run import Loaded, Run, Watcher, load, run
 
 
 def add_parsers(add: Add) -> None:
-    parser = add("plan", "firsthit plan configs/quick.toml")
+    parser = add("plan", "firsthit plan quick")
     _add_config(parser)
     parser.set_defaults(run=_plan)
 
-    parser = add("run", "firsthit run configs/quick.toml --retry failed")
+    parser = add("run", "firsthit run quick --retry failed")
     _add_config(parser)
     parser.add_argument("--force", action="store_true", help="run every cell again")
     parser.add_argument("--retry", choices=["failed"], help="run failed, timed out and crashed cells again")

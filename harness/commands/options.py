@@ -12,7 +12,7 @@ from harness.running.trace import Caster, usable_device
 
 
 def add_surface(parser: argparse.ArgumentParser) -> None:
-    """Add the options that `surface_of` reads."""
+    """Add the options that name a surface, which `surface_of` reads."""
     which = parser.add_mutually_exclusive_group(required=True)
     which.add_argument("--surface", metavar="NAME", help="a surface of the catalog, see `firsthit list surfaces`")
     which.add_argument("--formula", metavar="F", help="f(x, y, z) of your own, as in 'x^2 + y^2*z^3 - z^4'")
@@ -21,7 +21,7 @@ def add_surface(parser: argparse.ArgumentParser) -> None:
 
 
 def add_method(parser: argparse.ArgumentParser) -> None:
-    """Add the options that `caster_of` reads."""
+    """Add the options that name a method and where it casts, which `caster_of` reads."""
     parser.add_argument("--method", required=True, metavar="NAME", help="see `firsthit list methods`")
     parser.add_argument("--knob", action="append", default=[], metavar="NAME=VALUE", help="a parameter of the method")
     parser.add_argument("--device", metavar="NAME", help="see `firsthit list devices`; default: the first usable one")
@@ -31,7 +31,7 @@ def add_method(parser: argparse.ArgumentParser) -> None:
 
 
 def add_origin(parser: argparse.ArgumentParser) -> None:
-    """Add --origin."""
+    """Add the option that says where a method sees its rays begin."""
     help_ = "where the method sees its rays begin: nearest the domain's centre (default), at their entry, at the eye"
     parser.add_argument("--origin", choices=ORIGINS, default="nearest", help=help_)
 
@@ -78,9 +78,9 @@ def given_variant(options: argparse.Namespace, catalog: Catalog) -> Variant:
 
 
 def caster_of(options: argparse.Namespace) -> Caster:
-    """Return the method, knobs, device, precision and origin that the options of `add_method` name.
+    """Return the caster that the options of `add_method` name.
 
-    Raises FirsthitError where one of them is not here.
+    Without --device the devices are looked for. Raises FirsthitError for a name that means nothing.
     """
     catalog = find_methods(options.plugins)
     variant = given_variant(options, catalog)

@@ -15,7 +15,7 @@ from harness.commands import Add
 from harness.commands.options import add_method, add_surface, caster_of, surface_of, tell, writable_png
 from harness.contract import FirsthitError, RayStatus, View
 from harness.results.writing import write_atomically
-from harness.running.picture import need_size, picture
+from harness.running.picture import picture
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -45,14 +45,11 @@ def _view(options: argparse.Namespace) -> View:
         azimuth, elevation = (float(part) for part in options.view.split(","))
     except ValueError:
         raise FirsthitError(f"--view {options.view!r}: write azimuth,elevation in degrees, as in 30,30") from None
-    need_size(options.size, "--size")
-    if not (0.0 < options.fov < 180.0):
-        raise FirsthitError(f"--fov {options.fov:g}: the angle lies between 0 and 180 degrees")
     return View("shown", azimuth=azimuth, elevation=elevation, fov=options.fov)
 
 
 def need_pillow() -> None:
-    """Raise FirsthitError where the one package that pictures need is missing, before any work is done."""
+    """Raise FirsthitError where the one package that picture files need is missing, before any work is done."""
     import importlib.util
 
     if not importlib.util.find_spec("PIL"):

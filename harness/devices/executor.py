@@ -1,4 +1,4 @@
-"""Where cells run. Here: one local worker process per device, restarted when it dies or hangs.
+"""Runs the steps of cells: here in one worker process for each device, restarted after it died or was killed.
 
 The runner needs no more of an executor than these methods, so that another one may send cells elsewhere.
 """
@@ -16,13 +16,14 @@ from harness.contract import CellStatus, DeviceInfo, Program
 from harness.devices import serving
 from harness.devices.interface import Timing
 from harness.devices.messages import Answer, Check, Checked, Frame, Warmed
+from harness.devices.probes import Probes
 
 START_SECONDS = 60.0  # for a worker to start and a driver to load
 STOP_SECONDS = 0.5  # for a worker to end by itself once its connection is closed
 
 
 class CellError(Exception):
-    """A step of one cell went wrong: `status` is failed, timeout or crashed."""
+    """Says that a step of one cell went wrong; its `status` is failed, timeout or crashed."""
 
     def __init__(self, status: CellStatus, reason: str) -> None:
         super().__init__(reason)
@@ -36,7 +37,11 @@ class _Process:
 
 
 class LocalExecutor:
-    """Workers on this machine. One step runs at a time, since software devices share the processor's cores."""
+    """Runs steps in workers on this machine, one at a time, since software devices share the processor's cores.
+
+    A step that takes longer than `timeout` seconds costs its worker. All methods but `close` raise CellError where the
+    step fails, takes too long, or ends its worker; the next step on that device starts another one.
+    """
 
     def __init__(self, timeout: float) -> None:
         self._timeout = timeout
@@ -44,6 +49,7 @@ class LocalExecutor:
         self._warm: dict[str, str] = {}  # frame key → device whose worker holds it
 
     def find(self, backend: str) -> list[DeviceInfo]:
+        """Find the devices of a backend, "opencl" or "opengl"."""
         found: list[DeviceInfo] = self._call(backend, "find")
         return found
 
@@ -61,11 +67,13 @@ class LocalExecutor:
         mapped = (line.split(maxsplit=5) for line in text.splitlines())  # addresses, rights, offset, device, node, path
         return sorted({Path(fields[5]) for fields in mapped if len(fields) == 6 and "x" in fields[1]})
 
-    def probe(self, device: str) -> Any:
-        return self._call(device, "probe")
+    def probe(self, device: str) -> Probes:
+        """Measure what the device's arithmetic and clock are worth."""
+        probes: Probes = self._call(device, "probe")
+        return probes
 
     def build(self, device: str, program: Program) -> float:
-        """Compile, and no more; the milliseconds that it took."""
+        """Compile a program, and no more; return the milliseconds that it took."""
         compile_ms: float = self._call(device, "build", program)
         return compile_ms
 
@@ -81,17 +89,19 @@ class LocalExecutor:
         return warmed
 
     def sample(self, device: str, key: str, frame: Frame, batch: int) -> Timing:
-        """One timed repetition; the frame is warmed again first where its worker has been restarted since."""
+        """Run one timed repetition, after warming the frame again where its worker has been restarted since."""
         if key not in self._warm:
             self.warm(device, key, frame)
         timing: Timing = self._call(device, "sample", key, batch)
         return timing
 
     def release(self, device: str, key: str) -> None:
+        """Give up a frame that `warm` keeps ready."""
         if self._warm.pop(key, None):
             self._call(device, "release", key)
 
     def close(self) -> None:
+        """End all workers."""
         for device in list(self._processes):
             self._stop(device)
 
@@ -101,7 +111,7 @@ class LocalExecutor:
         return self._processes[device]
 
     def _stop(self, device: str) -> int:
-        """End the worker, if need be by force; its exit code, or minus the number of the signal that ended it."""
+        """End a worker, if need be by force; return its exit code, or minus the number of the signal that ended it."""
         stopped = self._processes.pop(device)
         self._warm = {key: holder for key, holder in self._warm.items() if holder != device}
         stopped.connection.close()

@@ -15,8 +15,6 @@ import sys
 from multiprocessing import Pipe
 from multiprocessing.connection import Connection
 
-from harness.contract import FirsthitError
-
 
 def start(device: str) -> tuple[subprocess.Popen[bytes], Connection]:
     """Start the worker that holds `device`; its process and this end of the connection to it.
@@ -27,8 +25,9 @@ def start(device: str) -> tuple[subprocess.Popen[bytes], Connection]:
     """
     ours, theirs = Pipe()
     handle = theirs.fileno()
-    command = [sys.executable, "-P", "-m", "harness.devices.serving", device, str(handle)]
-    environment = os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)}
+    options = ["-P", *(["-S"] if sys.flags.no_site else [])]  # -P: no module is taken from the current folder
+    command = [sys.executable, *options, "-m", "harness.devices.serving", device, str(handle)]
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join(path for path in sys.path if isinstance(path, str))}
     try:
         if sys.platform == "win32":
             os.set_handle_inheritable(handle, True)
@@ -36,6 +35,8 @@ def start(device: str) -> tuple[subprocess.Popen[bytes], Connection]:
         else:
             process = subprocess.Popen(command, env=environment, stdin=subprocess.DEVNULL, pass_fds=[handle])
     except OSError as error:
+        from harness.contract import FirsthitError
+
         ours.close()
         raise FirsthitError(f"cannot start {sys.executable} as the worker of {device}: {error}", exit_code=3) from None
     finally:
@@ -52,6 +53,7 @@ def _die_with_parent() -> None:
 
 def serve(connection: Connection, device: str) -> None:
     """Answer (operation, arguments) with ("ok", result) or ("failed", reason) until the connection closes."""
+    from harness.contract import FirsthitError
     from harness.devices.interface import BuildError
     from harness.devices.worker import Worker
 
@@ -79,7 +81,7 @@ def main(device: str, handle: str) -> None:
     Drivers may take long to unload, and some crash at it; by then nothing is left to be answered.
     """
     _die_with_parent()
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the runner decides when to stop
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the runner decides when to stop; so this comes before long imports
     if sys.platform == "win32":
         from multiprocessing.connection import PipeConnection
 

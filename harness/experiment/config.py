@@ -116,7 +116,7 @@ class BudgetChoice:
 
     It is timed for `seconds`, or until the 95 % interval of the median is within `interval` of it. A slow cell is timed
     in at least so many `rounds`, though they take up to 16 times `seconds`: fewer cannot tell two variants apart (8 at
-    the level of reports.pairs). `repetitions` are the most that any cell is timed in.
+    the level of reports.analysis.ties). `repetitions` are the most that any cell is timed in.
 
     After `timeout` seconds for any one step (build, check, one repetition) the worker is killed. A frame of more than
     so many `triangles` is skipped.

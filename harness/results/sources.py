@@ -22,8 +22,13 @@ NOT_DECIDING = {
     "harness/__init__.py": "holds the version's number, which a row does not depend on",
     "harness/running/batch.py": "chooses which cells are run, and leaves running them to the runner",
     "harness/running/due.py": "chooses which cells are run, by what is stored",
+    "harness/running/picture.py": "draws a picture to look at, and stores no row",
+    "harness/running/run.py": "chooses which cells are run, and leaves running them to the runner",
+    "harness/running/trace.py": "casts rays to look at, and stores no row",
     "harness/running/cards.py": "copies docstrings for the report",
     "harness/cli.py": "reads the command line",
+    "harness/py.typed": "says that type checkers may read the annotations",
+    "surfaces/py.typed": "says that type checkers may read the annotations",
     "harness/commands": "read options and print; what an option changes is in the config, and so in the identity",
     "harness/conformance": "checks methods and stores no row",
     "harness/console.py": "prints tables and progress",
@@ -136,7 +141,7 @@ def _roots(folder: Path, top: Path) -> list[tuple[Path, str | None]]:
     roots: list[tuple[Path, str | None]] = [(folder, None), (top.parent, top.name)]
     if folder.parent.name not in LIBRARIES:
         roots.append((folder.parent, None))
-    return [(root, name) for root, name in roots if root != ROOT]
+    return [(root, name) for root, name in roots if name is not None or root != ROOT]
 
 
 def imported(file: Path, roots: list[tuple[Path, str | None]]) -> list[Path]:

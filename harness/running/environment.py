@@ -32,6 +32,11 @@ def _git(*arguments: str) -> str | None:
     return result.stdout.strip() if result.returncode == 0 else None
 
 
+def _is_versioned() -> bool:
+    """Whether git keeps this file: where firsthit is installed, a repository around it is somebody else's."""
+    return _git("ls-files", "--error-unmatch", str(Path(__file__))) is not None
+
+
 def describe() -> dict[str, Any]:
     """Return versions, commit and machine, as plan.json keeps them."""
     versions = {}
@@ -42,8 +47,8 @@ def describe() -> dict[str, Any]:
             continue
     return {
         "firsthit": __version__,
-        "commit": _git("rev-parse", "--short=12", "HEAD"),
-        "dirty": bool(_git("status", "--porcelain", "--untracked-files=no")),
+        "commit": _git("rev-parse", "--short=12", "HEAD") if _is_versioned() else None,
+        "dirty": _is_versioned() and bool(_git("status", "--porcelain", "--untracked-files=no")),
         "python": platform.python_version(),
         "platform": platform.platform(),
         "cpu": host.processor(),

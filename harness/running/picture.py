@@ -17,22 +17,19 @@ EXHAUSTED = np.array([0.84, 0.37, 0.0])
 INVALID = np.array([1.0, 0.0, 1.0])
 
 
-def need_size(size: int, name: str = "size") -> None:
-    """Raise FirsthitError where no picture has `size` pixels a side."""
-    if not 1 <= size <= MOST_PIXELS:
-        raise FirsthitError(f"{name} {size}: an image has 1 to {MOST_PIXELS} pixels per side")
-
-
 def picture(
     caster: Caster, surface: Surface, view: View, size: int, tell: Tell = ignore
 ) -> tuple[NDArray[np.uint8], Hits]:
     """Draw a surface with a light at the eye, on white: uint8[size, size, 3], row 0 at the top, and the hits.
 
-    Each pixel is the mean of four rays, so there are 4 · size² hits. Rays that the method gave up are orange,
-    impossible answers (harness.accuracy.answers) magenta. Raises FirsthitError for a size outside 1 to MOST_PIXELS, and
-    where `cast` does.
+    Each pixel is the mean of four rays, so there are 4 · size² hits. Rays that the method gave up are orange, answers
+    that can be none magenta. Raises FirsthitError for a size or a field of view that no picture has, and where `cast`
+    does.
     """
-    need_size(size)
+    if not 1 <= size <= MOST_PIXELS:
+        raise FirsthitError(f"size {size}: an image has 1 to {MOST_PIXELS} pixels per side")
+    if not 0.0 < view.fov < 180.0:
+        raise FirsthitError(f"fov {view.fov:g}: the angle lies between 0 and 180 degrees")
     camera = camera_for(view, surface)
     rays = rays_of(camera, 2 * size)
     hits = cast(caster, surface, rays, camera, tell=tell)

@@ -6,14 +6,14 @@ Nothing is printed here. A Watcher is told what happens, and may print it.
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
-from harness import studies
+from harness import console, studies
 from harness.contract import CellStatus, DeviceInfo, FirsthitError
 from harness.devices.discovery import discover_devices
 from harness.devices.executor import LocalExecutor
@@ -82,6 +82,32 @@ class Watcher:
 
     def ended(self, part: Run) -> None:
         """Hear that a config, or one of those that it includes, is done."""
+
+
+class Teller(Watcher):
+    """Tells what a run does to a function that takes a line of text."""
+
+    def __init__(self, tell: Callable[[str], None]) -> None:
+        self._tell, self._left = tell, 0
+
+    def told(self, line: str) -> None:
+        self._tell(line)
+
+    def warned(self, line: str) -> None:
+        self._tell(line)
+
+    def starts(self, cells: int, seconds: float) -> None:
+        self._left = cells
+        self._tell(f"{cells} cells to run, about {console.duration(seconds)}")
+
+    def cell(self, slot: str, row: Row | None) -> None:
+        if row:
+            self._left -= 1
+            self._tell(f"{slot}: {console.outcome(row)}; {self._left} left")
+
+    def ended(self, part: Run) -> None:
+        for line in (*console.undecided((*part.rows, *part.reused)), *console.warnings(part.rows)):
+            self._tell(line)
 
 
 def load(
@@ -198,11 +224,9 @@ def _named(part: Experiment, planned: Sequence[Planned], catalog: Catalog) -> di
 
 def _run_studies(names: Iterable[str], folder: Path, force: bool, hears: Watcher) -> None:
     """Run the studies that are not done yet in a folder; all of them with `force`."""
-    from harness.console import duration
-
     for name in names:
         if force or not studies.is_done(name, folder):
             done = studies.run(name, folder)
-            hears.told(f"study {name}: {len(done['rows'])} rows, {duration(done['seconds'])}")
+            hears.told(f"study {name}: {len(done['rows'])} rows, {console.duration(done['seconds'])}")
         else:
             hears.told(f"study {name}: reused")

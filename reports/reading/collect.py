@@ -1,4 +1,4 @@
-"""Several run folders → one run: what a config that includes others reports on.
+"""Joins several runs to one: what the report of a config that includes others is about.
 
 Each run keeps its rows apart: rows are compared only with rows of the same run, since only those were timed in turns.
 """
@@ -41,6 +41,7 @@ def together(folder: Path, plan: Plan, runs: Sequence[Run], missing: Sequence[Un
 
 
 def _whole(plan: Plan, parts: list[Plan]) -> Plan:
+    """Return `plan` with what its parts say of configs, devices, methods and families."""
     devices = {str(device.get("name")): device for part in parts for device in part.devices}
     return replace(
         plan,

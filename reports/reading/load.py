@@ -1,4 +1,4 @@
-"""A run folder → the plan and one flat row for each finished cell and rung. Nothing here draws or computes."""
+"""Reads a run folder: its plan, and one flat row for each finished cell and rung. Nothing here draws or computes."""
 
 from __future__ import annotations
 
@@ -20,7 +20,10 @@ FORMAT = 1
 
 
 def load(folder: Path) -> Run:
-    """The run in `folder`, or those it collects; a FirsthitError where it is no run folder or nothing is finished."""
+    """Read the run in `folder`, or those that it collects.
+
+    Raises FirsthitError where it is no run folder, or where nothing is finished.
+    """
     plan = _plan(folder)
     if not plan.include:
         return load_one(folder, plan)
@@ -35,7 +38,10 @@ def load(folder: Path) -> Run:
 
 
 def over(frame: pd.DataFrame, baseline: str | None) -> pd.DataFrame:
-    """`frame` with another baseline; as it is where that is None. A FirsthitError where no row that answers has it."""
+    """Return `frame` with another baseline, or as it is where that is None.
+
+    Raises FirsthitError where no row that answers has that baseline.
+    """
     if baseline is None:
         return frame
     answering = frame[frame["answers"].astype(bool)]
@@ -47,7 +53,7 @@ def over(frame: pd.DataFrame, baseline: str | None) -> pd.DataFrame:
 
 @contextlib.contextmanager
 def _uncollected() -> Iterator[None]:
-    """Without the search for cycles: JSON has none, and the search takes a fifth of the time of 100,000 rows."""
+    """Leave out the search for cycles: JSON has none, and the search takes a fifth of the time of 100,000 rows."""
     was = gc.isenabled()
     gc.disable()
     try:
@@ -59,7 +65,7 @@ def _uncollected() -> Iterator[None]:
 
 @_uncollected()
 def load_one(folder: Path, plan: Plan) -> Run:
-    """What the cells that `plan` names say."""
+    """Read what the cells that `plan` names say. Raises FirsthitError where none of them is finished."""
     rows: list[tuple[Any, ...]] = []
     families: list[tuple[Any, ...]] = []
     rungs: list[tuple[Any, ...]] = []
@@ -96,7 +102,10 @@ def load_one(folder: Path, plan: Plan) -> Run:
 
 
 def _ladder(document: dict[str, Any], facts: Mapping[str, Facts]) -> list[tuple[Any, ...]]:
-    """The rungs of a family's cell, which stores them going harder; none where it gave no result."""
+    """Return the rungs of a family's cell, which stores them going harder; none where it gave no result.
+
+    Raises ValueError where a rung is not as harness.results.schema.RUNG says, or the plan does not know the family.
+    """
     if document["family"] not in facts:
         raise ValueError(f"the plan says nothing of its family, {document['family']!r:.40}")
     rungs = [] if document.get("rungs") is None else _typed(document, "rungs", list)
@@ -107,6 +116,7 @@ def _ladder(document: dict[str, Any], facts: Mapping[str, Facts]) -> list[tuple[
 
 
 def _cell(path: Path, key: str) -> dict[str, Any]:
+    """Read a cell's file. Raises ValueError where it is damaged, of another version or of another cell."""
     document = _json_object(path)
     if document.get("format") != FORMAT:
         raise ValueError(f"its format is {document.get('format')!r:.40}, not {FORMAT}")
@@ -118,6 +128,7 @@ def _cell(path: Path, key: str) -> dict[str, Any]:
 
 
 def _study(path: Path) -> list[dict[str, Any]]:
+    """Read the rows of a study. Raises ValueError where its file is damaged."""
     rows: list[dict[str, Any]] = _typed(_json_object(path), "rows", list)
     if not all(isinstance(row, dict) for row in rows):
         raise ValueError("a row is no object")
@@ -125,6 +136,7 @@ def _study(path: Path) -> list[dict[str, Any]]:
 
 
 def _plan(folder: Path) -> Plan:
+    """Read a run's plan. Raises FirsthitError where there is none, or where it is damaged."""
     path = folder / "plan.json"
     if not folder.is_dir():
         raise FirsthitError(f"there is no run folder {folder}; `firsthit run CONFIG` makes one under runs/")
@@ -170,11 +182,12 @@ _FACTS = ("title", "parameter", "harder", "why", "source")
 
 
 def problem(error: Exception) -> str:
-    """What went wrong, without the path that an OSError adds."""
+    """Say what went wrong, without the path that an OSError adds."""
     return (isinstance(error, OSError) and error.strerror) or str(error)
 
 
 def _json_object(path: Path) -> dict[str, Any]:
+    """Read a file that holds one JSON object. Raises ValueError where it does not."""
     try:
         document = json.loads(path.read_bytes())
     except ValueError as error:
@@ -185,6 +198,7 @@ def _json_object(path: Path) -> dict[str, Any]:
 
 
 def _typed(document: Any, name: str, kind: type) -> Any:
+    """Return the value of `name` in an object. Raises ValueError where it is missing or not of `kind`."""
     value = document.get(name) if isinstance(document, dict) else None
     if not isinstance(value, kind):
         raise ValueError(f"{name} is missing or no {kind.__name__}")

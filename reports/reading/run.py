@@ -1,4 +1,4 @@
-"""What a run folder says: its plan, its finished cells as rows, and which files could not be read."""
+"""Says what a run folder holds: its plan, its finished cells as rows, and which files could not be read."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from harness.contract import BASELINE
 
 @dataclass(frozen=True)
 class Facts:
-    """What a family of hard rays is: rays that get harder as one parameter grows or shrinks."""
+    """Says what a family of hard rays is: rays that get harder as one parameter grows or shrinks."""
 
     title: str
     parameter: str  # what the number means, with its unit
@@ -25,7 +25,7 @@ class Facts:
 
 @dataclass(frozen=True)
 class Plan:
-    """plan.json: what the run set out to do, where, and by which command."""
+    """Holds plan.json: what the run set out to do, where, and by which command."""
 
     name: str
     title: str
@@ -44,7 +44,7 @@ class Plan:
 
     @property
     def peaks(self) -> dict[str, float]:
-        """By device, the rate of float32 multiply-adds that its probe measured, in 1e9 operations per second."""
+        """Return the rate of float32 multiply-adds that each device's probe measured, in 1e9 operations per second."""
         probed = ((device.get("name"), device.get("probes")) for device in self.devices)
         rates = ((name, probes.get("peak_gflops")) for name, probes in probed if isinstance(probes, Mapping))
         return {str(name): float(rate) for name, rate in rates if isinstance(rate, int | float) and rate > 0.0}
@@ -52,7 +52,7 @@ class Plan:
 
 @dataclass(frozen=True)
 class Unreadable:
-    """A file of the run that could not be used, and why."""
+    """Names a file of the run that could not be used, and says why."""
 
     file: str  # below the run folder
     problem: str
@@ -60,7 +60,7 @@ class Unreadable:
 
 @dataclass(frozen=True, eq=False)
 class Run:
-    """What the plan's finished cells say, in the plan's order."""
+    """Holds what the plan's finished cells say, in the plan's order."""
 
     folder: Path
     plan: Plan
