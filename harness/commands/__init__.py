@@ -1,4 +1,4 @@
-"""What `firsthit` does, a module per group of commands.
+"""Offer what `firsthit` does: a module for each group of commands, with options and printing and nothing else.
 
 GROUPS says of every command what it does and which module holds it, so that a module is imported only where one of its
 commands is named: most of them import numpy, sympy and more. Each module has `add_parsers(add)`, which calls `add` for
@@ -39,13 +39,16 @@ GROUPS: dict[str, dict[str, str]] = {
 
 
 class Add(Protocol):
-    """Adds the parser of a command of GROUPS; its description is what GROUPS says of it where none is given."""
+    """Adds the parser of a command of GROUPS.
+
+    Its help is what GROUPS says of the command, and so is its description where none is given.
+    """
 
     def __call__(self, name: str, example: str, description: str | None = None) -> argparse.ArgumentParser: ...
 
 
 def adder(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> Add:
-    """The function that modules of commands are given, which adds to `commands`."""
+    """Make the function that modules of commands are given. It adds to `commands`."""
     told = {name: text for own in GROUPS.values() for name, text in own.items()}
 
     def add(name: str, example: str, description: str | None = None) -> argparse.ArgumentParser:
