@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from harness.contract import DeviceInfo
-from harness.devices import kept
+from harness.devices import kept_answers
 from harness.devices.executor import LocalExecutor
 from harness.devices.interface import INSTALL, Device, find_devices, open_device
 
@@ -31,7 +31,7 @@ def devices_found_once() -> Iterator[None]:
     longer than what most tests are about, and tests that run commands in processes of their own do it still. What the
     user's cache folder holds of devices is left alone."""
     with pytest.MonkeyPatch.context() as patched:
-        patched.setattr(kept, "_place", lambda: None)
+        patched.setattr(kept_answers, "_place", lambda: None)
         patched.setattr(LocalExecutor, "find", lambda _, backend: _found(backend))
         yield
 

@@ -15,6 +15,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from harness.accuracy.judge import NAMES
+from harness.contract import Casts
 from harness.results import columns, row, schema
 from harness.results.row import KINDS, Accuracy, StoredRow
 from harness.results.schema import DERIVED, LEAVES, SCHEMA
@@ -94,6 +95,7 @@ def test_every_kind_of_cell_ran(rows):
         ("quadtree", "compute"),
         ("mesh", "raster"),
     }
+    assert {row["casts"] for row in ok} == set(typing.get_args(Casts)), "tests/tiny_runs.py has a method of each"
     assert {row["device"].split(":")[0] for row in ok} == {"opencl", "opengl"}
     assert any(row["prepass"] == "beams" for row in ok)
     assert any(row["family"] for row in ok) and any(row["scene"] for row in ok)

@@ -1,1 +1,1 @@
-"""Answers held against the oracle: which are wrong, how far off the right ones are, and who is at fault."""
+"""Hold answers against the oracle: which are wrong, how far off the others are, and whether a compiler is at fault."""

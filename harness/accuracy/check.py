@@ -1,7 +1,7 @@
-"""What a cell's checked programs answered, held against the oracle: one way for all kinds of casting.
+"""Hold what a cell's checked programs answered against the oracle, in one way for all kinds of casting.
 
-A kind says what was cast (`Cast`): the rays, the hits that it read, and what only it knows of them. All else is the
-same for every kind: truth, verdicts, the figures of the row, its pictures, and whether it may be timed.
+A kind states what was cast (`Cast`): the rays, the hits that it read, and what only it knows of them. All else is the
+same for every kind: truth, verdicts, the figures of the row, its pictures, and whether the cell may be timed.
 """
 
 from __future__ import annotations
@@ -31,27 +31,37 @@ class Certified:
 
 @dataclass(frozen=True, eq=False)
 class Cast:
-    """Holds the answers for the rays of a square grid, one after the other, row by row from the top left.
+    """Hold the answers for the rays of a square grid, one after the other, row by row from the top left.
 
     A kind whose answers say more than hits derives from this class.
+
+    surface: the surface whose size lengths are compared with
+    rays: float32[n, 6]
+    hits: [n], along the rays, validated (harness.accuracy.answers)
+    compile_ms: what building the programs took
+    facts: leaves of the row's accuracy that only this kind has
+    pictures: arrays of the row that only this kind has
     """
 
-    surface: Surface  # that all lengths are told for
-    rays: NDArray[np.float32]  # [n, 6]
-    hits: Hits  # [n], along the rays, validated
+    surface: Surface
+    rays: NDArray[np.float32]
+    hits: Hits
     compile_ms: float
-    facts: dict[str, Any]  # leaves of the row's accuracy that only this kind has
-    pictures: dict[str, NDArray[Any]]  # arrays of the row that only this kind has
+    facts: dict[str, Any]
+    pictures: dict[str, NDArray[Any]]
 
     def certified(self, folder: Path, margin: float) -> Certified:
         """Certify the first hits of the rays; `folder` keeps the oracle's answers.
 
-        What a ray passes by within `margin`, in scene units, is certified too where there are several surfaces.
+        With several surfaces, what a ray passes by within `margin`, in scene units, is certified too.
         """
         return Certified(cached_first_hits(self.surface, self.rays, folder))
 
     def judged(self, verdicts: Verdicts, certified: Certified) -> tuple[Verdicts, dict[str, int]]:
-        """Correct verdicts by what only this kind knows, and return what was counted on the way."""
+        """Correct verdicts by what only this kind knows.
+
+        Returns the verdicts, and counts of what was corrected, by the names of leaves of the row's accuracy.
+        """
         return verdicts, {}
 
     def deviations(self, truth: Truth, verdicts: Verdicts) -> Deviations:
@@ -62,7 +72,11 @@ class Cast:
 def figures(
     answered: Cast, truth_folder: Path, grazing_margin: float, precision: Precision, footprint: float
 ) -> tuple[Accuracy, dict[str, NDArray[Any]]]:
-    """Return the figures of a row's accuracy, and its pictures; `footprint` is a pixel's height at distance 1."""
+    """Return the figures of a row's accuracy, and its pictures by name, [size, size] each.
+
+    `grazing_margin` is in scene radii, `footprint` is a pixel's height at distance 1. `truth_folder` keeps the oracle's
+    answers.
+    """
     surface, size = answered.surface, round(len(answered.rays) ** 0.5)
     radius = scene_radius(surface)
     certified = answered.certified(truth_folder, grazing_margin * radius)
@@ -86,7 +100,10 @@ def figures(
 
 
 def unjudged(summary: Accuracy, undecided: float) -> str | None:
-    """Say why a summary tells no accuracy, if it does not; `undecided` is the share of hits that may be so."""
+    """Say why a summary tells no accuracy; None if it does.
+
+    `undecided` is the share of hits that the oracle may leave undecided.
+    """
     reason = judge.undecided_hits(summary["truth_hits"], summary["undecided"], undecided)
     if reason or judge.wrong_share(summary) is None:
         return reason or judge.nothing_judged(summary["rays"])
@@ -94,7 +111,7 @@ def unjudged(summary: Accuracy, undecided: float) -> str | None:
 
 
 def too_wrong(summary: Accuracy, most: float) -> str | None:
-    """Say why a cell is too wrong to be timed, if more than the share `most` of its judged rays is wrong."""
+    """Say why a cell is too wrong to be timed; None if at most the share `most` of its judged rays is wrong."""
     share = judge.wrong_share(summary)
     if share is not None and not share <= most:
         return f"wrong on {share:.1%} of the rays that are neither grazing nor drowned: not timed"

@@ -1,22 +1,24 @@
-"""Whether a program's first answers are its kernel's, or a mistake of the compiler that built it.
+"""Tell whether a program's first answers are its kernel's, or a mistake of the compiler that built it.
 
-First f itself is asked, in float64 on the host, along SAMPLE of the rays: it contradicts a miss on which it changes its
-sign, a hit about which it neither does so nor comes near zero, and a hit behind such a change. A weak method earns
-contradictions too: newton ends where f is small, ray_march passes pairs of roots. So where more than DOUBTFUL of the
-rays are contradicted, the same kernel is built once more, without optimisation, and casts the sample again: what a
-method does wrong it does wrong in both builds. The compiler is at fault where the second build's answers differ and f
-agrees with them, on more than DOUBTFUL of the rays and OUTWEIGHS times as often as the other way round.
+First f itself is evaluated, in float64 on the host, along SAMPLE of the rays. It contradicts three kinds of answers: a
+miss on a ray where it changes its sign, a hit near which it neither changes its sign nor comes near zero, and a hit
+behind such a change. A weak method earns contradictions too: newton ends where f is small, ray_march passes pairs of
+roots. So if more than DOUBTFUL of the rays are contradicted, the same kernel is built once more, without optimisation,
+and casts the sample again: what a method does wrong it does wrong in both builds. The compiler is at fault if the
+second build's answers differ and f agrees with them, on more than DOUBTFUL of the rays and OUTWEIGHS times as often as
+the other way round.
 
 **Where there is a second build** OpenCL compilers can be told not to optimise. OpenGL's cannot: its programs are held
-against the first usable OpenCL device, which compiles the same kernel text by another compiler. Without one, or where
+against the first usable OpenCL device, which compiles the same kernel text by another compiler. If there is none, or if
 the second build fails or takes too long, doubts are told and nothing is decided.
 
-A kernel that reads a variable that it never set answers differently in both builds too, and is told so.
+A kernel that reads a variable that it never set answers differently in both builds too, and the message names that
+cause as well.
 
-**What this cannot see** Mistakes on fewer than DOUBTFUL of the rays; those that both builds make; errors in t under FAR
-scene radii; evaluations counted wrongly; rays given up (they are no wrong answers); roots between which f changes its
-sign twice within one of STEPS steps; what rasterised programs answer. The oracle's verdicts see these, where they are
-asked. Answers are of the listed-rays program; the timed one differs in where its rays come from.
+**What this cannot see** It does not see mistakes on fewer than DOUBTFUL of the rays, mistakes that both builds make,
+errors in t under FAR scene radii, wrong counts of evaluations, rays that are given up (these are no wrong answers),
+pairs of roots within one of STEPS steps, and what rasterised programs answer. The oracle's verdicts see these, where it
+is asked. The answers are of the program of listed rays; the timed one differs in where its rays come from.
 """
 
 from __future__ import annotations
@@ -40,11 +42,11 @@ from harness.oracle.clip import clip_many
 from harness.scenes.camera import scene_radius
 
 SAMPLE = 512  # rays
-STEPS = 64  # of a ray's stay in the domain
+STEPS = 64  # of the part of a ray that is in the domain
 DOUBTFUL = 0.02  # share of the sample
 OUTWEIGHS = 4.0
-NEAR_ZERO = 0.05  # of f's largest size within FAR scene radii: as small as it is about a touch
-NOISE = 1e-6  # of f's largest size along the ray: smaller values have no sign
+NEAR_ZERO = 0.05  # of f's largest magnitude within FAR scene radii: near a touch f is as small
+NOISE = 1e-6  # of f's largest magnitude along the ray: the sign of smaller values is not used
 
 Floats = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -54,7 +56,7 @@ Run = Callable[[str, Program, Index], Hits]
 
 @dataclass(frozen=True)
 class Doubts:
-    """How many of the `rays` in the sample f contradicts, and what is wrong with the compiler, if that was found."""
+    """Hold how many of the `rays` in the sample f contradicts, and the compiler's `fault`, if one was found."""
 
     contradicted: int
     rays: int
@@ -62,7 +64,7 @@ class Doubts:
 
     @property
     def note(self) -> str:
-        """One sentence to tell; empty where there is little to tell."""
+        """Return one sentence to tell; it is empty if few answers are contradicted."""
         if self.contradicted <= DOUBTFUL * self.rays:
             return ""
         return f"f, evaluated on the host, contradicts {self.contradicted} of {self.rays} sampled rays' answers"
@@ -70,8 +72,11 @@ class Doubts:
 
 @dataclass(frozen=True, eq=False)
 class SecondBuild:
-    """The same kernel, compiled another way. `program` writes it in a language; `run` casts rays, by their places, with
-    a program on a device, and may raise CellError."""
+    """State how the same kernel is compiled in another way, and cast.
+
+    program: makes the program in a language
+    run: casts rays, by their places int[k], with a program on a device, and returns hits [k]; it may raise CellError
+    """
 
     device: str
     precision: Precision
@@ -79,7 +84,7 @@ class SecondBuild:
     run: Run
 
     def answers(self, index: Index) -> tuple[str, Hits] | None:
-        """How it was built, and what it answers; None where there is no other way, or it fails."""
+        """Build and cast; return how it was built, and the hits [k]. None if there is no other way, or if it fails."""
         there = self.device if LANGUAGES[self.device.partition(":")[0]] == "cl" else _stand_in(self.precision)
         if there is None:
             return None
@@ -91,13 +96,13 @@ class SecondBuild:
 
 
 def with_listed_rays(executor: LocalExecutor, rays: NDArray[np.float32]) -> Run:
-    """How a SecondBuild of a listed-rays program runs."""
+    """Return how the second build of a program of listed rays, float32[n, 6], is run."""
     return lambda device, program, index: executor.check(device, ListedCheck(program, rays[index])).answer
 
 
 @cache
 def _stand_in(precision: Precision) -> str | None:
-    """The first usable OpenCL device."""
+    """Find the first usable OpenCL device that has the precision; None if there is none."""
     found = discover_devices(("opencl:",))
     usable = (info.name for info in found if not info.problem and (precision == "float32" or info.float64))
     return next(usable, None)
@@ -106,8 +111,10 @@ def _stand_in(precision: Precision) -> str | None:
 def doubts_about(
     surface: Surface, rays: NDArray[np.float32], hits: Hits, second: SecondBuild, t_min: float = 0.0
 ) -> Doubts:
-    """Hold a program's answers, for rays float32[n, 6] from t_min on, against f and, where that contradicts, a second
-    build."""
+    """Hold a program's answers for rays float32[n, 6] against f and, if f contradicts them, against a second build.
+
+    The rays begin at `t_min`.
+    """
     index = _sample(surface.domain, rays, t_min)
     first = _some(hits, index)
     against_first = contradicted(surface, rays[index], first, t_min)
@@ -132,7 +139,7 @@ def doubts_about(
 def compared(
     surface: Surface, rays: NDArray[np.float32], first: Hits, against_first: Mask, again: Hits, t_min: float
 ) -> tuple[int, int]:
-    """How many answers of another build differ and are contradicted no more, and how many are only now."""
+    """Count answers of another build that differ, in two ways: f contradicts the first only, or the other only."""
     against_again = contradicted(surface, rays, again, t_min)
     with np.errstate(invalid="ignore"):
         apart = ~(np.abs(first.t - again.t) <= FAR * scene_radius(surface))
@@ -143,7 +150,10 @@ def compared(
 
 
 def contradicted(surface: Surface, rays: NDArray[np.float32], hits: Hits, t_min: float = 0.0) -> Mask:
-    """bool[n]: the answers that f's signs along the rays float32[n, 6] contradict; never a ray that was given up."""
+    """Return bool[n]: f's signs along the rays float32[n, 6] contradict the answer.
+
+    A ray that was given up is never contradicted.
+    """
     reach = FAR * scene_radius(surface)
     enter, leave = _stay(surface.domain, rays, t_min)
     t = enter[:, None] + (leave - enter)[:, None] * np.linspace(0.0, 1.0, STEPS + 1)
@@ -166,7 +176,7 @@ def contradicted(surface: Surface, rays: NDArray[np.float32], hits: Hits, t_min:
 
 
 def _along(surface: Surface, rays: NDArray[np.float32], t: Floats) -> Floats:
-    """f at parameters float64[n, k] of rays float32[n, 6]: float64[n, k]."""
+    """Evaluate f at parameters float64[n, k] of rays float32[n, 6]: float64[n, k]."""
     import surfaces
 
     origins, directions = np.split(rays.astype(np.float64), 2, axis=1)
@@ -175,7 +185,7 @@ def _along(surface: Surface, rays: NDArray[np.float32], t: Floats) -> Floats:
 
 
 def _sample(domain: Domain, rays: NDArray[np.float32], t_min: float) -> Index:
-    """SAMPLE places of rays that run through the domain, evenly over all."""
+    """Return the places of at most SAMPLE rays that run through the domain, evenly over all."""
     enter, leave = _stay(domain, rays, t_min)
     with np.errstate(invalid="ignore"):
         through = np.flatnonzero(leave > enter)
@@ -185,10 +195,11 @@ def _sample(domain: Domain, rays: NDArray[np.float32], t_min: float) -> Index:
 
 
 def _stay(domain: Domain, rays: NDArray[np.float32], t_min: float) -> tuple[Floats, Floats]:
-    """Where rays enter and leave the domain, from t_min on; NaN where they pass it."""
+    """Return where rays enter and leave the domain, from t_min on, float64[n] each; NaN if they pass it by."""
     clip = clip_many(domain, rays.astype(np.float64), t_min)
     return np.where(clip.missed, np.nan, clip.enter_lower), np.where(clip.missed, np.nan, clip.leave_upper)
 
 
 def _some(hits: Hits, index: Index) -> Hits:
+    """Return the hits of the rays at the places `index`."""
     return Hits(hits.t[index], hits.status[index], hits.evaluations[index])

@@ -1,4 +1,4 @@
-"""A method's hits held against certified truth: what is wrong, and how far off what is right."""
+"""Judge hits against the certified truth: which answers are wrong, and how far off the right ones are."""
 
 from __future__ import annotations
 
@@ -14,15 +14,18 @@ from harness.contract import UNIT_ROUNDOFF, Hits, Precision, RayStatus, Surface,
 from harness.results.row import Quantiles
 from harness.scenes.camera import scene_radius
 
-# Unit roundoffs under which a ray's contrast leaves f's sign in doubt: one is the kernel's, whose bound is of first
-# order and whose compiler may regroup, one is the estimate's, which is of float64.
+# Unit roundoffs of contrast below which f's sign is in doubt. One is for the kernel, whose bound is of first order and
+# whose compiler may regroup terms. The other is for the estimate of the contrast, which is computed in float64.
 DROWNED = 2.0
-FAR = 0.05  # a hit further than this from the first root, over the scene radius, belongs to no root or another one
+FAR = 0.05  # scene radii: a hit that is further from the first root belongs to another root, or to none
 
 
 class Wrong(IntEnum):
-    """What is wrong with one answer; WRONG_ROOT is a later root, or a place that is no root at all; INVALID is what can
-    be no answer, whatever the truth (harness.accuracy.answers)."""
+    """Name what is wrong with one answer.
+
+    WRONG_ROOT: the hit is at a later root, or at a place that is no root at all
+    INVALID: the answer can be none, whatever the truth (harness.accuracy.answers)
+    """
 
     RIGHT = 0
     MISS = 1
@@ -43,8 +46,12 @@ NAMES = {
 
 @dataclass(frozen=True, eq=False)
 class Verdicts:
-    """Per ray: `wrong` uint8[n]; `error` float64[n], |t − t*|, NaN unless the right root was hit; `grazing` and
-    `drowned` bool[n], classes without a common ray."""
+    """Hold the verdicts on n answers.
+
+    wrong: uint8[n], Wrong
+    error: float64[n], |t − t*| in scene units; NaN unless the right root was hit
+    grazing, drowned: bool[n], two classes of rays; no ray is in both
+    """
 
     wrong: NDArray[np.uint8]
     error: NDArray[np.float64]
@@ -53,7 +60,7 @@ class Verdicts:
 
     @property
     def clear(self) -> NDArray[np.bool_]:
-        """bool[n]: rays outside both classes, on which every wrong answer is the method's fault."""
+        """Return bool[n]: rays outside both classes, on which every wrong answer is the method's fault."""
         return ~(self.grazing | self.drowned)
 
 
@@ -62,11 +69,13 @@ def judge(
 ) -> Verdicts:
     """Compare n answers with n certified ones.
 
-    `error` is the distance from the certified interval. A ray whose margin is under `grazing_margin` scene radii is in
-    the grazing class, where a perturbation of that size changes the answer. Of the others, one whose contrast is under
-    DROWNED unit roundoffs of `precision` is in the class of drowned rays, on which |f| falls under what arithmetic of
-    that precision may be off in it; without a precision no ray is. Right is what is shown to be right; of an undecided
-    ray nothing is shown but that its answer is none: it counts as right here and is no part of `judged`.
+    An error is the distance from the certified interval. A ray is grazing if its margin is under `grazing_margin` scene
+    radii: a perturbation of that size changes the answer. Of the others, a ray is drowned if its contrast is under
+    DROWNED unit roundoffs of `precision`: |f| falls below the error that arithmetic of that precision may make in it.
+    Without a precision no ray is drowned.
+
+    An answer is RIGHT if it is shown to be right. Of a ray that the oracle leaves undecided, only an INVALID answer is
+    shown to be wrong; any other counts as RIGHT here, and the ray is no part of `judged`.
     """
     undecided = truth.status == TruthStatus.UNDECIDED
     there = (truth.status == TruthStatus.CROSSING) | (truth.status == TruthStatus.TOUCH)
@@ -89,13 +98,16 @@ def judge(
 
 
 def judged(truth: Truth, verdicts: Verdicts) -> NDArray[np.bool_]:
-    """bool[n]: the rays that shares of wrong ones are of: decided, and neither grazing nor drowned."""
+    """Return bool[n]: the rays over which shares of wrong answers are taken: decided, neither grazing nor drowned."""
     return np.asarray((truth.status != TruthStatus.UNDECIDED) & verdicts.clear)
 
 
 def undecided_hits(truth_hits: int, undecided: int, most: float, what: str = "hits") -> str | None:
-    """Why a truth of so many decided and undecided hits measures no error, where it does not; `most` is the share of
-    undecided ones among both that it may have. Rays that all are proved to miss are judged by their misses."""
+    """Say why a truth with so many decided and undecided hits measures no error; None if it does.
+
+    `most` is the share of undecided ones, of both together, that is allowed. If all rays are proved to miss, they are
+    judged by their misses.
+    """
     both = truth_hits + undecided
     if undecided <= most * both:
         return None
@@ -109,12 +121,15 @@ def undecided_too_many(truth: Truth, most: float) -> str | None:
 
 
 def nothing_judged(rays: int) -> str:
-    """What is said of a truth none of whose rays is decided and clear."""
+    """Say that no ray of a truth is decided, and neither grazing nor drowned."""
     return f"none of the {rays} rays is decided and neither grazing nor drowned: nothing to judge"
 
 
 def _quantiles(values: NDArray[np.float64]) -> Quantiles:
-    """Return quantiles of the finite values: a normal has no direction at a singular point, a touch no condition."""
+    """Return quantiles of the finite values, None for all of them if there is no finite value.
+
+    A normal has no direction at a singular point, and a touch has no condition number.
+    """
     values = values[np.isfinite(values)]
     if not len(values):
         return {"max": None, "p999": None, "p99": None, "p50": None}
@@ -124,17 +139,20 @@ def _quantiles(values: NDArray[np.float64]) -> Quantiles:
 
 @dataclass(frozen=True, eq=False)
 class Deviations:
-    """What an error in t does at the hit, float64[n] each, NaN unless the right root was hit.
+    """Hold what an error in t does at the hit, float64[n] each; NaN unless the right root was hit.
 
     The position is off by as much as t, since directions have length 1.
+
+    normal: degrees between the surface's normals at the hit and at the root
+    residual: |f| at the hit over the sum of |terms of f| at the root, which is the backward error
     """
 
-    normal: NDArray[np.float64]  # degrees between the surface's normals at the hit and at the root
-    residual: NDArray[np.float64]  # |f| at the hit over the sum of |terms of f| at the root: the backward error
+    normal: NDArray[np.float64]
+    residual: NDArray[np.float64]
 
 
 def deviations(surface: Surface, rays: NDArray[np.float32], hits: Hits, truth: Truth, verdicts: Verdicts) -> Deviations:
-    """Evaluated on the host in float64."""
+    """Compute the deviations of hits on rays float32[n, 6], on the host in float64."""
     import surfaces
 
     normal, residual = np.full(len(rays), np.nan), np.full(len(rays), np.nan)
@@ -165,14 +183,21 @@ def summarize(
     footprint: float,
     grazing_margin: float,
 ) -> dict[str, Any]:
-    """Counts and quantiles, of clear rays, and in the classes of grazing (`grazing_…`) and drowned (`drowned_…`) ones.
+    """Return counts and quantiles, JSON-able: of clear rays, and in the classes of grazing and of drowned ones.
 
-    `footprint` is a pixel's height at distance 1. Errors are of clear rays that hit the right root:
-    in scene units; relative to the scene radius (toledo2007's ε(R + r)) and to the feature radius (its ε(r)); in pixel
-    footprints; in units in the last place of t; and over condition × unit roundoff × radius, which a method as good as
-    the problem allows keeps at a small number. Errors are distances to a certified interval: what is smaller than its
-    width (`certified_width` is the largest) may show as 0. `judged` rays are decided and outside the grazing class;
-    evaluations are over rays that were answered.
+    Names of the classes' counts begin with `grazing_` and `drowned_`. `footprint` is a pixel's height at distance 1.
+    `judged` counts the rays that are decided and in neither class. Evaluations are over rays whose answer is not
+    INVALID.
+
+    Errors are of clear rays that hit the right root. They are distances to a certified interval: an error smaller than
+    its width may show as 0, and `certified_width` is the largest width. Their units are:
+
+    error: scene units
+    relative_error: scene radii, which is toledo2007's ε(R + r)
+    feature_error: feature radii, which is toledo2007's ε(r)
+    pixel_error: pixel footprints
+    ulp_error: units in the last place of t
+    condition_ratio: condition × unit roundoff × radius; a method that is as good as the problem allows keeps this small
     """
     clear, radius = verdicts.clear, scene_radius(surface)
     widths = (truth.upper - truth.lower)[clear & np.isfinite(verdicts.error)]
@@ -210,6 +235,6 @@ def summarize(
 
 
 def wrong_share(summary: Mapping[str, Any]) -> float | None:
-    """The share of judged rays (see `judged`) that were answered wrongly; None where there are none to judge."""
+    """Return the share of judged rays (see `judged`) whose answer is wrong; None if there are none to judge."""
     wrong = sum(summary[name] for name in NAMES.values())
     return min(1.0, wrong / summary["judged"]) if summary["judged"] else None

@@ -1,4 +1,4 @@
-"""A row's answers as pictures."""
+"""Make the pictures of a row: what was answered, what is true, and a shaded image."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def pictures_of(
     verdicts: judge.Verdicts,
     size: int,
 ) -> dict[str, NDArray[Any]]:
-    """The row's answers as [size, size] pictures, row 0 at the top."""
+    """Return the row's answers as pictures by name, [size, size] each, row 0 at the top."""
     pictures: dict[str, NDArray[Any]] = {
         "status": hits.status,
         "truth": truth.status,
@@ -35,7 +35,7 @@ def pictures_of(
 
 
 def headlight(surface: Surface, rays: NDArray[np.float32], hits: Hits) -> NDArray[np.float32]:
-    """float32[n]: the cosine between ray and surface normal at each hit, in [0, 1]; NaN without one."""
+    """Return float32[n]: the cosine between ray and surface normal at each hit, in [0, 1]; NaN without a hit."""
     import surfaces
 
     shade = np.full(len(hits.t), np.nan, np.float32)

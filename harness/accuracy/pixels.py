@@ -1,13 +1,14 @@
-"""Beams held against rays: which pixel's beam holds an accuracy ray, and what its answer says of the ray.
+"""Hold beams against rays: find the pixel whose beam holds an accuracy ray, and say what its answer means for the ray.
 
-A beam's hit says that f's interval extension cannot keep the surface out of a piece of the pixel's closed beam. A ray
-in that beam may well pass the surface there. So, for a ray in the beam:
+A beam's hit says only that f's interval extension cannot exclude the surface from a piece of the pixel's closed beam. A
+ray in that beam may well pass the surface there. So these rules hold for a ray in the beam:
 
-- where the ray hits, the beam must hit, and at no later depth (`no_missed_root`);
-- |t - t*| is of the beam's depth, brought to the ray;
-- a hit where the ray has none, or in front of its first, is `beam_only` where the ray's margin (the oracle's estimate
-  of its distance from another answer) is no more than its distance from the beam's farthest edge there: the beam can
-  see what the ray passes by. Further away it is a false hit or a wrong root as for any method.
+- If the ray hits, the beam must hit too, and at no later depth (`no_missed_root`).
+- |t - t*| is computed from the beam's depth, brought to the ray.
+- A hit where the ray has none, or in front of the ray's first hit, is `beam_only` if the ray's margin (the oracle's
+  estimate of its distance from another answer) is no more than its distance from the beam's farthest edge there: the
+  beam then holds the piece of surface that the ray passes by. Otherwise it is a false hit or a wrong root, as for any
+  method.
 """
 
 from __future__ import annotations
@@ -26,18 +27,25 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class Pixels:
-    """The pixels of a size × size frame whose closed beams hold the rays of a coarser or finer grid of its view.
+    """Hold the pixels of a size × size frame whose closed beams hold the rays of another grid over the same view.
 
-    Arrays are [n], a ray each, row by row from the top left.
+    Arrays are [n], one value a ray, row by row from the top left.
+
+    index: row * size + column
+    per_middle: t along the ray, over t at the same depth along the ray through the pixel's middle
+    reach: distance from the ray to the farthest edge of the pixel's beam, over t
     """
 
-    index: NDArray[np.int32]  # row * size + column
-    per_middle: Floats  # t along the ray, over t at the same depth along the ray through the pixel's middle
-    reach: Floats  # distance from the ray to the pixel beam's farthest edge, over t
+    index: NDArray[np.int32]
+    per_middle: Floats
+    reach: Floats
 
 
 def pixels_of(camera: NDArray[np.float32], rays_per_side: int, size: int) -> Pixels:
-    """For the rays of rays_of(camera, rays_per_side), in a frame of size × size pixels. camera: float32[12]."""
+    """Find the pixels of a size × size frame that hold the rays of rays_of(camera, rays_per_side).
+
+    `camera` is float32[12] (eye, forward, right, up).
+    """
     _, forward, right, up = camera.astype(np.float64).reshape(4, 3)
     twice = 2 * np.arange(rays_per_side) + 1  # a ray's place across the picture, in halves of its own pixels
     pixel = twice * size // (2 * rays_per_side)
@@ -55,12 +63,15 @@ def pixels_of(camera: NDArray[np.float32], rays_per_side: int, size: int) -> Pix
 
 
 def along_rays(hits: Hits, pixels: Pixels) -> Hits:
-    """The answers of `pixels` with t along the rays that they hold."""
+    """Return the answers of `pixels` with t along the rays that they hold."""
     return dataclasses.replace(hits, t=hits.t * pixels.per_middle)
 
 
 def set_apart(verdicts: Verdicts, hits: Hits, truth: Truth, pixels: Pixels) -> tuple[Verdicts, NDArray[np.bool_]]:
-    """Verdicts in which what only the beam can see is not wrong, and bool[n], those rays. `hits` are along the rays."""
+    """Call those answers right whose surface only the beam can see, and return bool[n], which these are.
+
+    `hits` are along the rays.
+    """
     with np.errstate(invalid="ignore"):
         seen = truth.margin <= pixels.reach * hits.t
         in_front = (verdicts.wrong == Wrong.WRONG_ROOT) & (hits.t < truth.lower)

@@ -1,16 +1,18 @@
-"""A method's answers on a rung: right and wrong counts, error over what the problem allows, and where it breaks.
+"""Judge a method's answers on a rung: counts of right and wrong ones, and errors over what the problem allows.
 
-Unlike in pictures, rays near tangency are not excused. What no arithmetic of the cell's precision can know is told
-apart from what a method gets wrong: a kernel evaluates f at o + t·d, three coordinates rounded when the origin is
-moved, when t·d is formed and when it is added, and with constants rounded once. Points are then off by up to
-ROUNDINGS · unit roundoff · their size, at most that of the domain. A ray that such a shift turns into one with other
-roots (`margin` of the oracle, or of the rung by construction) is `undecidable` and counted apart. The distance to the
-origin is no part of that size: the origin is given exactly and can be moved near without a loss.
+Unlike in views, rays near tangency are not excused here. What no arithmetic of the cell's precision can know is told
+apart from what a method gets wrong. A kernel evaluates f at o + t·d. The three coordinates are rounded when the origin
+is moved, when t·d is formed and when it is added, and constants are rounded once. Points are then off by up to
+ROUNDINGS · unit roundoff · their size, which is at most that of the domain. If such a shift can turn a ray into one
+with other roots, the ray is `undecidable` and counted apart: the margin of the oracle, or of the rung by construction,
+is then smaller than the shift. The distance to the origin is no part of that size: the origin is given exactly and can
+be moved near without a loss.
 
-The class of drowned rays, which views have beside the grazing one (harness.accuracy.judge), is another: there f's
-value is off, by its own roundings and by those of the point at that very place, so that flat places count, and places
-of a size far below the domain's do not. Neither class holds the other. Families keep to the points alone: their
-ladders are built along a distance, and `undecidable` says where that distance ends, whatever the formula.
+Views have a class of drowned rays beside the grazing one (harness.accuracy.judge), which is another class. There f's
+value is off, by its own roundings and by those of the point at that very place. So flat places count there, and places
+whose size is far below the domain's do not. Neither class contains the other. Families use the errors of points alone:
+their ladders are built along a distance, and `undecidable` says where that distance becomes too small, whatever the
+formula.
 """
 
 from __future__ import annotations
@@ -33,20 +35,21 @@ PerRay = TypeVar("PerRay", Hits, Truth)
 
 
 def knowable_margin(rung: Rung, precision: Precision) -> float:
-    """The margin, in scene units, below which a ray of this rung is undecidable."""
+    """Return the margin, in scene units, below which a ray of this rung is undecidable."""
     domain = rung.surface.domain
     return ROUNDINGS * UNIT_ROUNDOFF[precision] * (domain.radius + math.hypot(*domain.center))
 
 
 def judge_rung(rung: Rung, hits: Hits, truth: Truth, precision: Precision) -> RungVerdict:
-    """Count right and wrong answers, and measure errors and stability.
+    """Return counts, errors in scene units, and stability; all of it JSON-able.
 
-    rays = decided + undecidable + undecided, and decided = right + misses + false_hits + exhausted + wrong_root
-    + invalid. An answer that can be none is wrong whatever the truth, so that its ray is a decided one.
-    `undecidable_right`: undecidable rays answered as the oracle does. `max_error` and `worst_ratio` are over `right`,
-    None where there is no hit: the largest |t - t*|, and of it over max(condition, 1) · unit roundoff · the domain's
-    radius (t itself cannot be had better than with condition 1). A backward stable method's ratio is a small number
-    on every rung.
+    rays = decided + undecidable + undecided, and decided = right + misses + false_hits + exhausted + wrong_root +
+    invalid. An INVALID answer is wrong whatever the truth, so that its ray is a decided one.
+
+    undecidable_right: undecidable rays that are answered as the oracle does
+    max_error: the largest |t - t*| over `right` rays that hit; None if there are none
+    worst_ratio: the largest |t - t*| over max(condition, 1) · unit roundoff · the domain's radius, of the same rays; no
+        t can be had better than with condition 1. A backward stable method's ratio is a small number on every rung
     """
     verdicts = judge(hits, truth, scene_radius(rung.surface), grazing_margin=0.0)
     invalid = verdicts.wrong == Wrong.INVALID

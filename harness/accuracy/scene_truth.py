@@ -1,4 +1,4 @@
-"""What is seen of a scene, by the oracle: each instance that a ray may meet is certified in its own coordinates."""
+"""Certify what is seen of a scene: the oracle is asked for each instance that a ray may meet, in its coordinates."""
 
 from __future__ import annotations
 
@@ -12,26 +12,34 @@ from numpy.typing import NDArray
 from harness.accuracy import answers
 from harness.accuracy.check import Certified
 from harness.contract import Hits, Origin, Surface, Truth, TruthStatus
-from harness.devices.frames import Picture
+from harness.devices.raster import Picture
 from harness.oracle import cached_first_hits
 from harness.scenes.model import Group, Scene
 from harness.scenes.records import pack
 
 CHUNK = 2**22  # pairs of ray and instance that are looked at together
 SLACK = 1e-5  # of a bounding sphere's radius, for rounding
-DEPTH_SHARE = 1e-6  # of the depth: what the depth buffer may not tell apart
+DEPTH_SHARE = 1e-6  # of the depth: nearer to each other, the depth buffer may confuse two instances
 
 
 @dataclass(frozen=True, eq=False)
 class Seen(Certified):
-    """The certified picture of n rays, in world units."""
+    """Hold the certified picture of n rays, in world units.
 
-    batch: NDArray[np.int32]  # [n] the group of the first hit; -1 without one
-    instance: NDArray[np.int32]  # [n] within it
-    gap: NDArray[np.float64]  # [n] from the first hit to the next instance's; inf where there is none
+    batch: int32[n], number of the group of the first hit; -1 without a hit
+    instance: int32[n], number of the instance within the group
+    gap: float64[n], from the first hit to the next instance's; inf if there is none
+    """
+
+    batch: NDArray[np.int32]
+    instance: NDArray[np.int32]
+    gap: NDArray[np.float64]
 
     def other_instance(self, picture: Picture) -> NDArray[np.bool_]:
-        """bool[n]: another instance is seen than is first, by more than the depth buffer may confuse."""
+        """Return bool[n]: the picture shows another instance than the one that is first.
+
+        Instances that are so close that the depth buffer may confuse them do not count.
+        """
         both = (self.batch >= 0) & (picture.batch >= 0)
         other = (self.batch != picture.batch) | (self.instance != picture.instance)
         return np.asarray(both & other & (self.gap > DEPTH_SHARE * self.truth.upper))
@@ -39,10 +47,14 @@ class Seen(Certified):
 
 @dataclass(frozen=True, eq=False)
 class _Part:
-    """Pairs [k] of a ray and an instance that it may meet."""
+    """Hold k pairs of a ray and an instance that it may meet.
 
-    local: NDArray[np.float32]  # [k, 6] the world's ray in the instance's coordinates
-    cast: NDArray[np.float32]  # [k, 6] the ray that the fragment cast, where the instance is seen
+    local: float32[k, 6], the world's ray in the instance's coordinates
+    cast: float32[k, 6], the ray that the fragment cast, if the instance is seen in the picture; otherwise `local`
+    """
+
+    local: NDArray[np.float32]
+    cast: NDArray[np.float32]
     pixel: NDArray[np.intp]
     batch: NDArray[np.int_]
     instance: NDArray[np.intp]
@@ -50,7 +62,7 @@ class _Part:
 
 
 def scale_of(scene: Scene, picture: Picture) -> NDArray[np.float64]:
-    """float64[n]: the scale of who is seen; 1 where nothing is."""
+    """Return float64[n]: the scale of the instance that is seen; 1 if none is."""
     found = np.ones(len(picture.t))
     for number, group in enumerate(scene.groups):
         mine = (picture.batch == number) & ~picture.in_world
@@ -76,11 +88,11 @@ def hits_of(scene: Scene, picture: Picture, origin: Origin = "nearest") -> Hits:
 
 
 def scene_truth(scene: Scene, rays: NDArray[np.float32], picture: Picture, folder: Path, margin: float) -> Seen:
-    """Certified first hits for rays float32[n, 6] in world coordinates; `folder` keeps the oracle's answers.
+    """Certify the first hits of rays float32[n, 6] in world coordinates; `folder` keeps the oracle's answers.
 
-    Instances that a ray passes by within `margin`, in world units, are certified too: they make it a grazing one.
-    Who is seen in the picture is certified on the local ray that its fragment cast, others on the world's ray as the
-    instance's float32 record places it.
+    Instances that a ray passes by within `margin`, in world units, are certified too: they make the ray a grazing one.
+    The instance that is seen in the picture is certified on the local ray that its fragment cast, others on the world's
+    ray as the instance's float32 record places it.
     """
     wide = rays.astype(np.float64)
     work: dict[Surface, list[_Part]] = defaultdict(list)
@@ -103,7 +115,7 @@ def scene_truth(scene: Scene, rays: NDArray[np.float32], picture: Picture, folde
 
 
 def _candidates(group: Group, rays: NDArray[np.float64], margin: float) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Pairs (ray, instance) where the ray passes the instance's bounding sphere within `margin`."""
+    """Return the pairs (ray, instance) whose ray passes the instance's bounding sphere within `margin`."""
     origins, directions = rays[:, :3], rays[:, 3:]
     pixels, instances = [], []
     step = max(1, CHUNK // len(rays))
@@ -124,7 +136,7 @@ def _candidates(group: Group, rays: NDArray[np.float64], margin: float) -> tuple
 
 
 def _local(records: NDArray[np.float32], rays: NDArray[np.float64]) -> NDArray[np.float32]:
-    """float32[k, 6]: each world ray in the coordinates of its instance."""
+    """Return float32[k, 6]: each world ray in the coordinates of its instance."""
     rows = records[:, :12].astype(np.float64).reshape(-1, 3, 4)
     origins = np.einsum("kij,kj->ki", rows[:, :, :3], rays[:, :3]) + rows[:, :, 3]
     directions = np.einsum("kij,kj->ki", rows[:, :, :3], rays[:, 3:]) * records[:, 15:16].astype(np.float64)
@@ -132,8 +144,9 @@ def _local(records: NDArray[np.float32], rays: NDArray[np.float64]) -> NDArray[n
 
 
 def _certified(surface: Surface, parts: list[_Part], folder: Path) -> tuple[_Part, Truth]:
+    """Return all pairs of a surface as one part, and the certified first hits of the rays that were cast."""
     whole = _Part(*(np.concatenate([getattr(part, name) for part in parts]) for name in _Part.__dataclass_fields__))
-    truth = cached_first_hits(surface, whole.local, folder)  # the same for all methods
+    truth = cached_first_hits(surface, whole.local, folder)  # kept once for all methods
     other = (whole.cast != whole.local).any(axis=1)
     if other.any():
         own = cached_first_hits(surface, whole.cast[other], folder)

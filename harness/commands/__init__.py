@@ -18,11 +18,11 @@ GROUPS: dict[str, dict[str, str]] = {
         "why": "say what would make a cell run again, or what set it apart from its last result",
         "report": "make the PDF, HTML, CSV and Parquet of a run, or hold two runs against each other; runs nothing",
     },
-    "gating": {
+    "gate": {
         "gate": "fail where a config's results are worse than its blessed baseline",
         "bless": "make a config's present results the baseline of its gate",
     },
-    "advice": {
+    "recommend": {
         "recommend": "the fastest variant whose certified error stays within a bound, and why the others fell",
     },
     "devices": {"devices": "the devices of this machine and what their arithmetic and clocks are worth"},
@@ -31,7 +31,7 @@ GROUPS: dict[str, dict[str, str]] = {
     "scenes": {"scene": "draw a scene of a config, by rasterisation"},
     "rays": {"trace": "cast a file of rays by a method", "oracle": "certified first hits for a file of rays"},
     "kernels": {"compile": "compile every method's kernel on every device, for the surfaces named"},
-    "conforming": {
+    "conform": {
         "conform": "check a method's answers, claims and knobs as the tests check ours, at its default and its papers' "
         "settings, from several views; exit code 1 where a check fails or nothing was checked",
     },

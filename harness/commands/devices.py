@@ -9,7 +9,7 @@ from datetime import UTC, datetime
 from harness import console
 from harness.commands import Add
 from harness.contract import DeviceInfo
-from harness.devices import kept
+from harness.devices import kept_answers
 from harness.devices.discovery import known_devices
 from harness.devices.executor import START_SECONDS, LocalExecutor
 from harness.devices.probes import Probes
@@ -55,7 +55,7 @@ def _devices(options: argparse.Namespace) -> int:
     with console.doing("looking for devices"):
         known = known_devices(again=options.again)
     since, tried = [known.since], []
-    folder, executor = kept.probes_folder(), LocalExecutor(START_SECONDS)
+    folder, executor = kept_answers.probes_folder(), LocalExecutor(START_SECONDS)
     try:
         for info in known.devices:
             before, when = kept_probes(info, folder) if folder and not options.again else (None, 0.0)

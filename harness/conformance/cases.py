@@ -209,5 +209,5 @@ def refusal(plugin: Plugin, surface: Surface, precision: Precision, bench: Bench
     if precision == "float64" and not bench.float64:
         return "the device has no float64"
     if reason := of_method(plugin.method).unlisted:
-        return reason
+        return f"it {reason}"
     return plugin.method.accepts(surface) or unsupported(surface, precision, bench.language)

@@ -1,1 +1,1 @@
-"""Devices behind one interface, and the worker processes that hold them."""
+"""Hold devices behind one interface, and run the worker processes that open them."""

@@ -1,4 +1,4 @@
-"""Which devices this machine has."""
+"""Find the devices of this machine, by looking at each backend in a process of its own."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 from harness.contract import DeviceInfo
-from harness.devices import kept
+from harness.devices import kept_answers
 from harness.devices.executor import START_SECONDS, CellError, LocalExecutor
 from harness.devices.interface import INSTALL, device_named, working
 
 
 @dataclass(frozen=True)
 class Known:
-    """Devices, and since when the oldest kept answer among them holds, in seconds since 1970; None: all are new."""
+    """Hold devices, and when the oldest kept answer among them was kept, in seconds since 1970; None if all are new."""
 
     devices: list[DeviceInfo]
     since: float | None
@@ -24,8 +24,8 @@ class Known:
 def discover_devices(wanted: Iterable[str] = ("all",)) -> list[DeviceInfo]:
     """Look for every device of every installed backend, and keep the answers for `known_devices`.
 
-    The backends are looked at side by side in processes of their own: a driver that crashes costs itself. Where
-    `wanted` names devices, as a config does, only the backends that it names are looked at.
+    The backends are looked at side by side in processes of their own, so that a driver that crashes ends only its own
+    process. If all of `wanted` are names of devices, as in a config, only the backends in these names are looked at.
     """
     named = {name.partition(":")[0] for name in wanted}
     backends = _installed()
@@ -42,13 +42,13 @@ def usable_devices(names: Sequence[str] = ()) -> list[DeviceInfo]:
 
 
 def known_devices(again: bool = False) -> Known:
-    """Every device, from kept answers where these still hold: for telling of devices, never for making rows.
+    """Return every device, from kept answers where these still hold: to tell of devices, never to make rows.
 
-    With `again` all are looked for. Kept answers tell nothing of a device that was taken out since, where nothing that
-    `kept` sees has changed.
+    With `again` all backends are looked at anew. A kept answer still names a device that was taken out since, if
+    nothing has changed that `harness.devices.kept_answers` can see.
     """
     backends = _installed()
-    held = {name: answer for name in backends if not again and (answer := kept.recall(name))}
+    held = {name: answer for name in backends if not again and (answer := kept_answers.recall(name))}
     looked = _look([name for name in backends if name not in held])
     of_held = [info for answer in held.values() for info in answer.devices]
     devices = sorted([*of_held, *looked], key=lambda info: backends.index(info.name.partition(":")[0]))
@@ -74,5 +74,5 @@ def _find(backend: str) -> list[DeviceInfo]:
         found = [DeviceInfo(f"{backend}:none", "none", "none", "none", None, False, "wall", (), problem)]
     finally:
         executor.close()
-    kept.keep(backend, found, ran)
+    kept_answers.keep(backend, found, ran)
     return found

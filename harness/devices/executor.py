@@ -1,6 +1,7 @@
-"""Runs the steps of cells: here in one worker process for each device, restarted after it died or was killed.
+"""Run steps of cells on devices: here, in one local worker process for each device.
 
-The runner needs no more of an executor than these methods, so that another one may send cells elsewhere.
+A worker that dies or hangs is ended, and started again for the next step. The runner needs no more of an executor than
+the methods of LocalExecutor, so that another executor may send cells elsewhere.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ STOP_SECONDS = 0.5  # for a worker to end by itself once its connection is close
 
 
 class CellError(Exception):
-    """Says that a step of one cell went wrong; its `status` is failed, timeout or crashed."""
+    """Report that a step of one cell went wrong; `status` is failed, timeout or crashed."""
 
     def __init__(self, status: CellStatus, reason: str) -> None:
         super().__init__(reason)
@@ -37,10 +38,10 @@ class _Process:
 
 
 class LocalExecutor:
-    """Runs steps in workers on this machine, one at a time, since software devices share the processor's cores.
+    """Run steps in worker processes on this machine.
 
-    A step that takes longer than `timeout` seconds costs its worker. All methods but `close` raise CellError where the
-    step fails, takes too long, or ends its worker; the next step on that device starts another one.
+    One step runs at a time, since software devices share the processor's cores. A step may take `timeout` seconds; in a
+    new worker it has START_SECONDS more. A step raises CellError if it fails, takes too long, or ends its worker.
     """
 
     def __init__(self, timeout: float) -> None:
@@ -49,14 +50,14 @@ class LocalExecutor:
         self._warm: dict[str, str] = {}  # frame key → device whose worker holds it
 
     def find(self, backend: str) -> list[DeviceInfo]:
-        """Find the devices of a backend, "opencl" or "opengl"."""
+        """Find every device of a backend, in the worker that is named after it."""
         found: list[DeviceInfo] = self._call(backend, "find")
         return found
 
     def running_files(self, device: str) -> list[Path] | None:
-        """The files whose code the worker of `device` has loaded: Python, bindings, drivers and their compilers.
+        """Return the files whose code the worker of `device` has loaded: Python, bindings, drivers and their compilers.
 
-        None where the worker is gone or the system does not tell them; Linux does.
+        Returns None if the worker is gone, or if the system does not say; Linux does.
         """
         if device not in self._processes:
             return None
@@ -68,35 +69,38 @@ class LocalExecutor:
         return sorted({Path(fields[5]) for fields in mapped if len(fields) == 6 and "x" in fields[1]})
 
     def probe(self, device: str) -> Probes:
-        """Measure what the device's arithmetic and clock are worth."""
+        """Probe a device's arithmetic and clock, as harness.devices.probes does."""
         probes: Probes = self._call(device, "probe")
         return probes
 
     def build(self, device: str, program: Program) -> float:
-        """Compile a program, and no more; return the milliseconds that it took."""
+        """Compile a program, do nothing else, and return the milliseconds that it took."""
         compile_ms: float = self._call(device, "build", program)
         return compile_ms
 
     def check(self, device: str, check: Check[Answer]) -> Checked[Answer]:
-        """Build a check's programs and run it; CellError where that fails, or two runs answer differently."""
+        """Build a check's programs and run it. Raises CellError if that fails, or if two runs answer differently."""
         checked: Checked[Answer] = self._call(device, "check", check)
         return checked
 
     def warm(self, device: str, key: str, frame: Frame) -> Warmed:
-        """Build a frame and keep it ready for `sample`."""
+        """Build a frame and keep it under `key`, ready for `sample`."""
         warmed: Warmed = self._call(device, "warm", key, frame)
         self._warm[key] = device
         return warmed
 
     def sample(self, device: str, key: str, frame: Frame, batch: int) -> Timing:
-        """Run one timed repetition, after warming the frame again where its worker has been restarted since."""
+        """Time one repetition: `batch` runs of the frame that is kept under `key`.
+
+        If its worker has been restarted since, the frame is warmed again first.
+        """
         if key not in self._warm:
             self.warm(device, key, frame)
         timing: Timing = self._call(device, "sample", key, batch)
         return timing
 
     def release(self, device: str, key: str) -> None:
-        """Give up a frame that `warm` keeps ready."""
+        """Free what the frame under `key` holds on its device; does nothing if no frame is kept there."""
         if self._warm.pop(key, None):
             self._call(device, "release", key)
 
@@ -111,7 +115,10 @@ class LocalExecutor:
         return self._processes[device]
 
     def _stop(self, device: str) -> int:
-        """End a worker, if need be by force; return its exit code, or minus the number of the signal that ended it."""
+        """End a worker, by force if it does not end within STOP_SECONDS.
+
+        Returns its exit code, or minus the number of the signal that ended it.
+        """
         stopped = self._processes.pop(device)
         self._warm = {key: holder for key, holder in self._warm.items() if holder != device}
         stopped.connection.close()

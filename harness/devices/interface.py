@@ -1,6 +1,7 @@
-"""Devices behind one interface: build a program, launch it, time it, read it back.
+"""Define what a device can do: build a program, launch it, time it, and read back what it wrote.
 
-Everything above sees only this module. A device is opened by name (`opencl:intel`) in the process that uses it.
+Everything above this room sees only this module, and no backend. A device is opened by name (`opencl:intel`) in the
+process that uses it.
 """
 
 from __future__ import annotations
@@ -19,20 +20,25 @@ from harness.contract import DeviceInfo, FirsthitError, Hits, Program, RayStatus
 from harness.kernels.assemble import Language
 
 Array = NDArray[Any]
+Built = Any  # a program as a backend has built it, for launches of the same device only
 INSTALL = {"opencl": "pyopencl", "opengl": "moderngl"}
 LANGUAGES: dict[str, Language] = {"opengl": "glsl", "opencl": "cl"}
-# A GPU's compute unit with 65,536 registers holds 1,024 work items of 64 each, which beams and ranges may well need
+# Work items that fill a GPU's compute unit: it has 65,536 registers, and beams and ranges may need 64 of them each
 GPU_RESIDENT = 1024
 RASTERISES = ("opengl",)  # backends whose devices draw triangles
 
 
 class BuildError(Exception):
-    """A program that does not compile; the message names the section's own file and line."""
+    """Report that a program does not compile. The message names file and line of the section that is at fault."""
 
 
 @dataclass(frozen=True)
 class Timing:
-    """One timed repetition: host time from submit to finished, and the device's own clock where it has one."""
+    """Hold one timed repetition.
+
+    wall_ms: the host's time from submitting the work until it is finished
+    device_ms: by the device's own clock; None if it has none
+    """
 
     wall_ms: float
     device_ms: float | None
@@ -40,12 +46,13 @@ class Timing:
 
 @dataclass(frozen=True)
 class Step:
-    """A built program over a grid of work items, one of the steps that a launch takes in order.
+    """State one of the steps that a launch takes in order: a built program over a grid of work items.
 
-    It is given the launch's `buffers`, by their places, then the grid, then `numbers` (GLSL takes those by name).
+    The program is given the launch's `buffers`, by their places, then the grid, then `numbers` (in GLSL by their
+    names).
     """
 
-    built: Any
+    built: Built
     buffers: tuple[int, ...]
     grid: tuple[int, int]
     numbers: Mapping[str, int] = field(default_factory=dict)
@@ -53,82 +60,98 @@ class Step:
 
 @dataclass(frozen=True)
 class Reserved:
-    """A buffer of `count` numbers of a kind, each of which starts as `fill`; None: as anything."""
+    """State a buffer of `count` numbers of the type `kind`, each of which starts as `fill`; None: as anything."""
 
     count: int
     kind: type
     fill: int | None = None
 
     def filled(self) -> Array:
-        """What the buffer starts with, where that is stated."""
+        """Return what the buffer starts with; `fill` must be given."""
         assert self.fill is not None
         return np.full(max(1, self.count), self.fill, self.kind)
 
 
 class Launch(ABC):
-    """Built programs with their buffers on the device, ready to run again and again."""
+    """Hold built programs and their buffers on a device, ready to run again and again.
+
+    upload_ms: what uploading the buffers took
+    """
 
     upload_ms: float
 
     @abstractmethod
     def run(self, times: int = 1) -> Timing:
-        """Run `times` times back to back and wait until finished; the times are of all together.
+        """Run `times` times back to back and wait until finished; the times are of all runs together.
 
         The device's time of a run is from its first step's beginning to its last step's end.
         """
 
     @abstractmethod
     def read(self) -> list[Array]:
-        """The outputs, in the program's order."""
+        """Read back the outputs, in the order in which they were asked for."""
 
     @abstractmethod
     def release(self) -> None: ...
 
 
 class Device(ABC):
-    """An open device. `build` and `launch` raise BuildError where the driver's compiler refuses."""
+    """Hold an open device."""
 
     info: DeviceInfo
     language: Language
 
     @abstractmethod
-    def build(self, program: Program) -> Any:
-        """Compile; what comes back is only for `launch`."""
+    def build(self, program: Program) -> Built:
+        """Compile a program, for launches of this device only. Raises BuildError if the driver's compiler refuses."""
 
     @abstractmethod
     def launch_steps(
         self, buffers: Sequence[Array | Reserved], outputs: Sequence[int], steps: Sequence[Step]
     ) -> Launch:
-        """Upload or reserve `buffers`, ready to take `steps`; those at the places `outputs` can be read back."""
+        """Upload or reserve `buffers`, and make ready to take `steps`; the buffers at the places `outputs` can be read.
+
+        Raises FirsthitError if the device cannot run so many work items at once.
+        """
 
     def launch(
-        self, built: Any, inputs: Sequence[Array], outputs: Sequence[tuple[int, type]], grid: tuple[int, int]
+        self, built: Built, inputs: Sequence[Array], outputs: Sequence[tuple[int, type]], grid: tuple[int, int]
     ) -> Launch:
-        """Upload `inputs`, reserve `outputs` (count, dtype), ready for one work item per point of `grid`."""
+        """Upload `inputs`, reserve `outputs`, and make ready to run one work item for each point of `grid`.
+
+        An output is a count and a type. Raises FirsthitError as `launch_steps` does.
+        """
         buffers: list[Array | Reserved] = [*inputs, *(Reserved(count, kind) for count, kind in outputs)]
         places = tuple(range(len(buffers)))
         return self.launch_steps(buffers, places[len(inputs) :], [Step(built, places, grid)])
 
 
 def real_type(program: Program) -> type:
+    """Return the type of a program's reals."""
     return np.float32 if program.precision == "float32" else np.float64
 
 
-def launch_rays(device: Device, program: Program, built: Any, rays: NDArray[np.float32]) -> Launch:
-    """rays: float32[n, 6], origins and directions, used as given."""
+def launch_rays(device: Device, program: Program, built: Built, rays: NDArray[np.float32]) -> Launch:
+    """Launch a program over listed rays float32[n, 6], origins and directions, which are used as they are given."""
     count = len(rays)
     outputs = [(2 * count, real_type(program)), (count, np.int32)]
     return device.launch(built, [np.ascontiguousarray(rays, np.float32)], outputs, (count, 1))
 
 
-def launch_camera(device: Device, program: Program, built: Any, camera: NDArray[np.float32], size: int) -> Launch:
-    """camera: float32[12] (eye, forward, right, up); size: samples per side."""
+def launch_camera(device: Device, program: Program, built: Built, camera: NDArray[np.float32], size: int) -> Launch:
+    """Launch a program over the rays of a camera's image of size × size samples.
+
+    `camera` is float32[12] (eye, forward, right, up).
+    """
     outputs = [(size * size, real_type(program)), (size * size, np.int32)]
     return device.launch(built, [np.ascontiguousarray(camera, np.float32)], outputs, (size, size))
 
 
 def hits_from(outputs: Sequence[Array]) -> Hits:
-    """What a `rays` or `camera` launch answered. The two parts of a listed ray's t are added in float64."""
+    """Read what a launch of entry `rays` or `camera` answered.
+
+    t of a listed ray comes in two parts, which are added in float64.
+    """
     t, answer = outputs
     whole = t.astype(np.float64)
     if len(whole) == 2 * len(answer):
@@ -137,14 +160,21 @@ def hits_from(outputs: Sequence[Array]) -> Hits:
 
 
 def unpacked(t: Array, word: Array, status: Array, evaluations: Array) -> Hits:
-    """The answers [n] packed in `word`, which is negative where a kernel's status or count was none."""
+    """Return the answers [n] that are packed in `word`, int32[n].
+
+    `word` is negative if the kernel's status or count was none. `status` and `evaluations`, int32[n], are its parts
+    otherwise.
+    """
     status = np.where(word < 0, RayStatus.INVALID, status).astype(np.uint8)
     spent = np.where(status == RayStatus.INVALID, 0, evaluations).astype(np.int32)
     return Hits(np.where(status == RayStatus.HIT, t.astype(np.float64), np.nan), status, spent)
 
 
 def same_values(a: NDArray[Any], b: NDArray[Any]) -> NDArray[np.bool_]:
-    """bool: where two arrays of one shape and kind are the same bits; every NaN is the same."""
+    """Return bool of the arrays' shape: where two arrays of one shape and type have the same bits.
+
+    Every NaN is the same.
+    """
     if a.dtype.kind != "f":
         return np.asarray(a == b)
     bits = np.dtype(f"u{a.dtype.itemsize}")
@@ -153,7 +183,7 @@ def same_values(a: NDArray[Any], b: NDArray[Any]) -> NDArray[np.bool_]:
 
 
 def map_rows(device: Device, program: Program, rows: Array, outputs: int) -> Array:
-    """Run a map program over rows [n, INPUTS] → [n, outputs], in the program's precision."""
+    """Run a map program over rows [n, INPUTS], and return [n, outputs] in the program's precision."""
     kind = real_type(program)
     launch = device.launch(
         device.build(program), [np.ascontiguousarray(rows, kind)], [(len(rows) * outputs, kind)], (len(rows), 1)
@@ -165,7 +195,7 @@ def map_rows(device: Device, program: Program, rows: Array, outputs: int) -> Arr
 
 
 def find_devices(backend: str) -> list[DeviceInfo]:
-    """Every device of an installed backend ("opencl" or "opengl"); a broken one says so in its `problem`."""
+    """Find every device of an installed backend, "opencl" or "opengl"; a broken one says so in its `problem`."""
     found: list[DeviceInfo] = importlib.import_module(f"harness.devices.{backend}").find()
     return found
 

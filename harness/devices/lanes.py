@@ -1,33 +1,35 @@
-"""Idle lanes of beams: work items that run in step wait for the one of their group that evaluates f most often.
+"""Compute how many lanes of beams are idle.
 
-A group is the lanes of a processor's vector, or a GPU's warp: work items with neighbouring numbers. What a group of
-`width` lanes takes is `width` times the largest number of evaluations in it; what is not evaluated of that is idle. A
-lower bound: turns of the search that only test the domain, and evaluations that lanes make at different turns, are not
-seen.
+Work items that run in step wait for the one of their group that evaluates f most often. A group is the lanes of a
+processor's vector, or a GPU's warp: work items with neighbouring numbers. Each lane of a group takes the time of the
+group's largest number of evaluations, and is idle for the difference to its own number. The result is a lower bound. It
+does not see turns of the search that only test the domain, nor evaluations that lanes make at different turns.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from harness.contract import Hits, RayStatus
+from harness.devices.interface import Array
 from harness.devices.quadtree import LEVELS, PARENT, most_queued
 from harness.results.row import Lane
 
-WIDTHS = (8, 16, 32)  # float32 in AVX2, in AVX-512; a warp
+WIDTHS = (8, 16, 32)  # lanes of float32 in AVX2 and in AVX-512, and of a GPU's warp
 
 Whole = NDArray[np.int64]
 
 
 @dataclass(frozen=True)
 class Tree:
-    """The levels `first` to `last`, whose cells are pixels, of a quadtree over size × size pixels; grouped: see
-    beams.Layout."""
+    """State the levels `first` to `last` of a quadtree over size × size pixels; the cells of level `last` are pixels.
+
+    grouped: as in quadtree.Layout
+    """
 
     size: int
     first: int
@@ -35,10 +37,10 @@ class Tree:
     grouped: bool = True
 
 
-def of_frame(tree: Tree, hits: Hits, levels: NDArray[np.uint8], outputs: Sequence[Any]) -> list[Lane] | None:
+def of_frame(tree: Tree, hits: Hits, levels: NDArray[np.uint8], outputs: Sequence[Array]) -> list[Lane] | None:
     """Sum up what a frame's work items spend, level by level, from all outputs of its launch.
 
-    None where an answer is invalid.
+    `hits` and `levels` are of all pixels. Returns what `summary` does; None if an answer is INVALID.
     """
     if np.any(hits.status == RayStatus.INVALID):
         return None
@@ -55,9 +57,9 @@ def idle_share(spent: Whole, width: int) -> float:
 
 
 def summary(spent: Mapping[int, Whole]) -> list[Lane]:
-    """Make a dict for each level from its items' evaluations in their order.
+    """Return a dict for each level, from its items' evaluations in the items' order.
 
-    It holds level, items, evaluations, and idle: the idle share by group width.
+    Its keys are level, items, evaluations, and idle: the idle share by group width.
     """
     return [
         {
@@ -71,12 +73,12 @@ def summary(spent: Mapping[int, Whole]) -> list[Lane]:
 
 
 def spent_by_items(
-    tree: Tree, evaluations: NDArray[Any], levels: NDArray[np.uint8], queue: NDArray[Any], counts: NDArray[Any]
+    tree: Tree, evaluations: NDArray[np.int32], levels: NDArray[np.uint8], queue: Array, counts: Array
 ) -> dict[int, Whole]:
-    """Sort the evaluations int[n] of each level's work items into their order; cells outside the image spend none.
+    """Return the evaluations int[n] of each level's work items, in the items' order, by level.
 
-    evaluations, levels: [size, size], what each pixel was told. A pixel's evaluations are its cell's and its share of
-    those of the cells above: what was handed down is taken off again.
+    evaluations, levels: [size, size], what each pixel was told. A pixel is told its cell's evaluations and its share of
+    those of the cells above. What was handed down is subtracted here. A cell outside the image spends none.
     """
     across = 1 << tree.last
     edge = ((0, across - tree.size), (0, across - tree.size))
@@ -104,7 +106,7 @@ def spent_by_items(
 
 
 def _all_cells(tree: Tree) -> tuple[Whole, Whole]:
-    """Column and row of each work item's cell at the first level."""
+    """Return column and row of each work item's cell at the first level."""
     items = np.arange(4**tree.first)
     if not tree.grouped:
         return items & ((1 << tree.first) - 1), items >> tree.first

@@ -1,7 +1,8 @@
-"""What a worker is asked for, and what it answers: frames to time, checks to read.
+"""Define what a worker is asked for, and what it answers: frames to time, checks to read.
 
-A message holds programs and buffers only, and knows how a device launches them; so a worker holds no case for each way
-of casting. Those of rays stand here, the others beside their launches (`beams`, `narrowed`, `frames`).
+A message holds programs and buffers only, and knows how a device launches them. So a worker has no case for each way of
+casting. The messages of rays are here; those of other kinds are beside their launches, in `beams`, `narrowed` and
+`frames`. Messages travel between processes: they hold what can be pickled.
 """
 
 from __future__ import annotations
@@ -9,20 +10,20 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Generic, TypeVar
+from typing import Generic, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from harness.contract import DeviceInfo, FirsthitError, Hits, Program
-from harness.devices.interface import Array, Device, Launch, hits_from, launch_camera, launch_rays, same_values
+from harness.devices.interface import Array, Built, Device, Launch, hits_from, launch_camera, launch_rays, same_values
 
 Answer = TypeVar("Answer")
 
 
 @dataclass(frozen=True)
 class Checked(Generic[Answer]):
-    """Holds what a check answered, and the milliseconds that building its programs took."""
+    """Hold what a check answered, and the milliseconds that building its programs took."""
 
     answer: Answer
     compile_ms: float
@@ -30,30 +31,36 @@ class Checked(Generic[Answer]):
 
 @dataclass(frozen=True)
 class Warmed:
-    """Holds what a frame cost apart from running, and how often it is repeated within one sample."""
+    """Hold what a frame costs apart from running, and how often it is repeated within one sample.
+
+    bytes: of instances, triangles and vertices that a rasterised frame keeps on the device; None for other frames
+    """
 
     compile_ms: float
     upload_ms: float
     readback_ms: float
     batch: int
-    bytes: int | None = None  # of instances, triangles and vertices that a rasterised frame keeps on the device
+    bytes: int | None = None
 
 
 class Frame(ABC):
-    """A frame that is timed."""
+    """State a frame that is timed."""
 
     @property
     @abstractmethod
     def programs(self) -> tuple[Program, ...]:
-        """The programs that `launch` needs, in the order in which it takes them built."""
+        """Return the programs that `launch` needs, in the order in which it takes them built."""
 
     @abstractmethod
-    def launch(self, device: Device, built: Sequence[Any]) -> Launch:
-        """Upload the frame. Raises FirsthitError where the device cannot cast it."""
+    def launch(self, device: Device, built: Sequence[Built]) -> Launch:
+        """Upload the frame, ready to run; `built` holds `programs`, built.
+
+        Raises FirsthitError if the device cannot cast it.
+        """
 
 
 class Check(ABC, Generic[Answer]):
-    """A launch whose answers are read.
+    """State a launch whose answers are read.
 
     It is run twice: a program that answers otherwise the second time has no answers.
     """
@@ -61,16 +68,19 @@ class Check(ABC, Generic[Answer]):
     @property
     @abstractmethod
     def programs(self) -> tuple[Program, ...]:
-        """The programs that `run` needs, in the order in which it takes them built."""
+        """Return the programs that `run` needs, in the order in which it takes them built."""
 
     @abstractmethod
-    def run(self, device: Device, built: Sequence[Any]) -> Answer:
-        """Run the programs. Raises FirsthitError where the answers of two runs differ, or the device cannot."""
+    def run(self, device: Device, built: Sequence[Built]) -> Answer:
+        """Run the programs and return their answer. `built` holds `programs`, built.
+
+        Raises FirsthitError if the answers of two runs differ, or if the device cannot cast.
+        """
 
 
 @dataclass(frozen=True, eq=False)
 class FirstRun:
-    """Holds what the first run of a check left: the hits of each ray or pixel, and all outputs of the launch."""
+    """Hold what the first run of a check left: the device, the hits of each ray or pixel, and all outputs."""
 
     info: DeviceInfo
     hits: Hits
@@ -78,21 +88,21 @@ class FirstRun:
 
 
 class HitsCheck(Check[Answer]):
-    """A check whose outputs hold a hit for each ray or pixel."""
+    """State a check whose outputs hold a hit for each ray or pixel."""
 
     @abstractmethod
-    def launch(self, device: Device, built: Sequence[Any]) -> Launch:
-        """Upload what is cast."""
+    def launch(self, device: Device, built: Sequence[Built]) -> Launch:
+        """Upload what is cast, ready to run. `built` holds `programs`, built."""
 
     @abstractmethod
     def hits(self, outputs: Sequence[Array]) -> Hits:
-        """Read the hits in a launch's outputs."""
+        """Read the hits in a launch's outputs, all that two runs must agree in."""
 
     @abstractmethod
     def answer(self, first: FirstRun) -> Answer:
         """Make the answer from the first run."""
 
-    def run(self, device: Device, built: Sequence[Any]) -> Answer:
+    def run(self, device: Device, built: Sequence[Built]) -> Answer:
         launch = self.launch(device, built)
         outputs, again = [_outputs(launch) for _ in range(2)]
         launch.release()
@@ -108,7 +118,7 @@ def _outputs(launch: Launch) -> list[Array]:
 
 
 def need_steady(differs: NDArray[np.bool_], what: str) -> None:
-    """Raise FirsthitError where the same program on the same input answered differently; `differs` is bool[n]."""
+    """Raise FirsthitError if the same program answered differently on the same input; `differs` is bool[n]."""
     if differs.any():
         message = f"two runs of the program answer {int(differs.sum())} of {len(differs)} {what} differently"
         raise FirsthitError(f"{message}: its kernel reads what nobody wrote, or the device is at fault", exit_code=3)
@@ -116,47 +126,51 @@ def need_steady(differs: NDArray[np.bool_], what: str) -> None:
 
 @dataclass(frozen=True, eq=False)
 class CameraFrame(Frame):
-    """A ray for each sample of a camera's image."""
+    """State a frame of one ray for each sample of a camera's image.
+
+    camera: float32[12] (eye, forward, right, up)
+    size: samples per side
+    """
 
     program: Program
-    camera: NDArray[np.float32]  # [12]
-    size: int  # samples per side
+    camera: NDArray[np.float32]
+    size: int
 
     @property
     def programs(self) -> tuple[Program, ...]:
         return (self.program,)
 
-    def launch(self, device: Device, built: Sequence[Any]) -> Launch:
+    def launch(self, device: Device, built: Sequence[Built]) -> Launch:
         return launch_camera(device, self.program, built[0], self.camera, self.size)
 
 
 @dataclass(frozen=True, eq=False)
 class ListedFrame(Frame):
-    """Listed rays."""
+    """State a frame of listed rays, float32[n, 6]."""
 
     program: Program
-    rays: NDArray[np.float32]  # [n, 6]
+    rays: NDArray[np.float32]
 
     @property
     def programs(self) -> tuple[Program, ...]:
         return (self.program,)
 
-    def launch(self, device: Device, built: Sequence[Any]) -> Launch:
+    def launch(self, device: Device, built: Sequence[Built]) -> Launch:
         return launch_rays(device, self.program, built[0], self.rays)
 
 
 @dataclass(frozen=True, eq=False)
 class ListedCheck(HitsCheck[Hits]):
-    """Listed rays, and what is hit by each."""
+    """State a check that casts listed rays, float32[n, 6], and reads the hit of each."""
 
     program: Program
-    rays: NDArray[np.float32]  # [n, 6]
+    rays: NDArray[np.float32]
 
     @property
     def programs(self) -> tuple[Program, ...]:
         return (self.program,)
 
-    def launch(self, device: Device, built: Sequence[Any]) -> Launch:
+    def launch(self, device: Device, built: Sequence[Built]) -> Launch:
         return launch_rays(device, self.program, built[0], self.rays)
 
     def hits(self, outputs: Sequence[Array]) -> Hits:

@@ -1,19 +1,18 @@
-"""Rays behind a prepass: beams over tiles of the image run first, and leave to each ray the depths that are left.
+"""Launch rays behind a prepass, whose beams over tiles of the image leave to each ray the depths to be searched.
 
-What beams a prepass casts, and what a ray then knows, is harness.kernels.prepass.
+harness.kernels.prepass says which beams a prepass casts, and what a ray then knows.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from harness.contract import Hits, Program
-from harness.devices.interface import Array, Device, Launch, Reserved, Step, hits_from, real_type
+from harness.devices.interface import Array, Built, Device, Launch, Reserved, Step, hits_from, real_type
 from harness.devices.messages import FirstRun, Frame, HitsCheck
 from harness.devices.quadtree import LEVELS, first_level, last_level, quadtree_steps
 from harness.kernels import prepass
@@ -21,44 +20,58 @@ from harness.kernels import prepass
 
 @dataclass(frozen=True, eq=False)
 class NarrowedFrame(Frame):
-    """A ray for each sample of a camera's image, narrowed by the beams of a prepass over it."""
+    """State a frame of one ray for each sample of a camera's image, narrowed by the beams of a prepass over it.
 
-    before: Program  # the prepass's
+    before: the prepass's program
+    program: the rays' program
+    camera: float32[12] (eye, forward, right, up)
+    size: samples per side
+    """
+
+    before: Program
     program: Program
-    camera: NDArray[np.float32]  # [12]
-    size: int  # samples per side
+    camera: NDArray[np.float32]
+    size: int
 
     @property
     def programs(self) -> tuple[Program, ...]:
         return self.before, self.program
 
-    def launch(self, device: Device, built: Sequence[Any]) -> Launch:
+    def launch(self, device: Device, built: Sequence[Built]) -> Launch:
         before, rays = built
         return launch_narrowed_camera(device, (self.before, self.program), (before, rays), self.camera, self.size)
 
 
 @dataclass(frozen=True, eq=False)
 class NarrowedAnswer:
-    """Holds what narrowed rays answered, and what the prepass spent."""
+    """Hold what narrowed rays answered, and what the prepass spent.
+
+    prepass_evaluations: the prepass's own, mean over the frame's pixels
+    """
 
     hits: Hits
-    prepass_evaluations: float  # the prepass's own, mean over the frame's pixels
+    prepass_evaluations: float
 
 
 @dataclass(frozen=True, eq=False)
 class NarrowedCheck(HitsCheck[NarrowedAnswer]):
-    """Listed rays, narrowed by the prepass of the frame whose pixels they lie in."""
+    """State a check that casts listed rays, narrowed by the prepass of the frame whose pixels they lie in.
 
-    frame: NarrowedFrame  # whose prepass; its own program is not run
+    frame: the frame whose prepass is run; its own program is not
+    rays: float32[n, 6]
+    pixels: int32[n], row * size + column of the pixel that each ray lies in
+    """
+
+    frame: NarrowedFrame
     program: Program
-    rays: NDArray[np.float32]  # [n, 6]
-    pixels: NDArray[np.int32]  # [n]
+    rays: NDArray[np.float32]
+    pixels: NDArray[np.int32]
 
     @property
     def programs(self) -> tuple[Program, ...]:
         return self.frame.before, self.program
 
-    def launch(self, device: Device, built: Sequence[Any]) -> Launch:
+    def launch(self, device: Device, built: Sequence[Built]) -> Launch:
         before, rays = built
         camera, size = self.frame.camera, self.frame.size
         return launch_narrowed_rays(device, self.programs, (before, rays), camera, size, self.rays, self.pixels)
@@ -70,8 +83,11 @@ class NarrowedCheck(HitsCheck[NarrowedAnswer]):
         return NarrowedAnswer(first.hits, float(first.outputs[2].sum()) / self.frame.size**2)
 
 
-def _prepass(device: Device, program: Program, built: Any, size: int) -> tuple[list[Step], list[Array | Reserved]]:
-    """The prepass's steps over a size × size image, and its buffers behind the camera: spans, counters, queues."""
+def _prepass(device: Device, program: Program, built: Built, size: int) -> tuple[list[Step], list[Array | Reserved]]:
+    """Return the prepass's steps over a size × size image, and its buffers behind the camera.
+
+    The buffers hold the tiles' spans of depth, the evaluations that tiles spent, the queue, and its counts.
+    """
     last = last_level(size)
     stop = max(0, last - prepass.TILE_BITS)
     steps, queue = quadtree_steps(device, built, size, first_level(device.info, stop), last, stop)
@@ -83,13 +99,13 @@ def _prepass(device: Device, program: Program, built: Any, size: int) -> tuple[l
 def launch_narrowed_camera(
     device: Device,
     programs: tuple[Program, ...],
-    built: tuple[Any, Any],
+    built: tuple[Built, Built],
     camera: NDArray[np.float32],
     size: int,
 ) -> Launch:
-    """Launch a prepass, and the rays of a size × size image narrowed by it.
+    """Launch a prepass, and the rays of a size × size image that are narrowed by it.
 
-    programs, built: of the prepass, of the rays.
+    programs, built: of the prepass, of the rays. Outputs: t and answer of each sample, for hits_from.
     """
     steps, scratch = _prepass(device, programs[0], built[0], size)
     outputs = [Reserved(size * size, real_type(programs[1])), Reserved(size * size, np.int32)]
@@ -100,7 +116,7 @@ def launch_narrowed_camera(
 def launch_narrowed_rays(
     device: Device,
     programs: tuple[Program, ...],
-    built: tuple[Any, Any],
+    built: tuple[Built, Built],
     camera: NDArray[np.float32],
     size: int,
     rays: NDArray[np.float32],
@@ -108,7 +124,8 @@ def launch_narrowed_rays(
 ) -> Launch:
     """Launch a prepass, and listed rays float32[n, 6] narrowed by it, which lie in `pixels`, int32[n], of its image.
 
-    A third output holds the prepass's evaluations; they add up to all.
+    programs, built: of the prepass, of the rays. Outputs: t and answer of each ray, for hits_from, and the evaluations
+    that the prepass's tiles spent; they add up to all.
     """
     steps, scratch = _prepass(device, programs[0], built[0], size)
     row, column = np.divmod(pixels, size)

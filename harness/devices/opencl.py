@@ -1,4 +1,4 @@
-"""OpenCL through pyopencl: every platform and device the loader finds."""
+"""Open OpenCL devices through pyopencl: every platform and device that the loader finds."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from harness.contract import DeviceInfo, Program
-from harness.devices.interface import GPU_RESIDENT, Array, BuildError, Device, Launch, Reserved, Step, Timing
+from harness.devices.interface import GPU_RESIDENT, Array, BuildError, Built, Device, Launch, Reserved, Step, Timing
 from harness.kernels.assemble import explain_log
 
 SHORT = {"intel": "intel", "portable": "pocl", "nvidia": "nvidia", "amd": "amd", "rusticl": "rusticl", "apple": "apple"}
@@ -28,9 +28,8 @@ OPTIONS = {"float32": ["-cl-single-precision-constant"], "float64": []}
 UNOPTIMISED = ["-cl-opt-disable"]
 ROUNDED_DIVISION = "-cl-fp32-correctly-rounded-divide-sqrt"  # without it 2.5 ulp may be lost; some devices lack it
 GROUP = 64
-PROCESSOR_GROUP = (
-    256  # a processor spends 60 ns on starting a group: a fifth of the null method's time with groups of 64
-)
+# A processor spends 60 ns on starting a group: with groups of 64 that is a fifth of the null method's time
+PROCESSOR_GROUP = 256
 
 
 def _switch_off_caches() -> None:
@@ -69,7 +68,7 @@ def _all_drivers_listed() -> Iterator[None]:
 
 
 def _has_sixteen_lanes() -> bool:
-    """Whether the processor's vectors hold 16 float32, as far as it says so."""
+    """Tell whether the processor's vectors hold 16 float32; False if it does not say so."""
     try:
         return " avx512f " in Path("/proc/cpuinfo").read_text(encoding="utf-8")
     except OSError:
@@ -86,7 +85,7 @@ def _binding() -> Any:
 
 @cache
 def _named_devices() -> dict[str, Any]:
-    """Devices by short name; a second one of the same platform kind gets a number."""
+    """Return devices by short name; a second one of the same kind of platform gets a number."""
     cl = _binding()
     try:
         with _all_drivers_listed():
@@ -112,7 +111,10 @@ def _named_devices() -> dict[str, Any]:
 
 
 def _problem(device: Any) -> str | None:
-    """Why the device cannot run even an empty kernel: some drivers' compilers do not know newer processors."""
+    """Say why the device cannot run even an empty kernel; None if it can.
+
+    Some drivers' compilers do not know newer processors.
+    """
     cl = _binding()
     try:
         with warnings.catch_warnings():
@@ -125,18 +127,18 @@ def _problem(device: Any) -> str | None:
 
 
 def names() -> list[str]:
-    """The names of all OpenCL devices, in the loader's order, whether they work or not."""
+    """List the names of all OpenCL devices, in the loader's order, whether they work or not."""
     return list(_named_devices())
 
 
 def find() -> list[DeviceInfo]:
-    """Every OpenCL device, in the loader's order."""
+    """Find every OpenCL device, in the loader's order."""
     return [info(name) for name in names()]
 
 
 @cache
 def info(name: str) -> DeviceInfo:
-    """One device of `names`; whether it has a problem is found by compiling for it."""
+    """Describe one device of `names`; whether it has a problem is found by compiling for it."""
     cl, device = _binding(), _named_devices()[name]
     return DeviceInfo(
         name=name,
@@ -157,6 +159,8 @@ def open(name: str) -> OpenCLDevice:
 
 
 class OpenCLDevice(Device):
+    """Hold an OpenCL device, its context and a queue that times what runs."""
+
     language = "cl"
 
     def __init__(self, name: str) -> None:
@@ -167,13 +171,13 @@ class OpenCLDevice(Device):
         self._options = {**OPTIONS, "float32": [*OPTIONS["float32"], *([ROUNDED_DIVISION] if rounds else [])]}
         self._queue = cl.CommandQueue(self._context, properties=cl.command_queue_properties.PROFILING_ENABLE)
 
-    def build(self, program: Program) -> Any:
+    def build(self, program: Program) -> Built:
         cl = _binding()
         source = cl.Program(self._context, program.text)
         options = [*self._options[program.precision], *([] if program.optimised else UNOPTIMISED)]
         try:
             with warnings.catch_warnings():
-                warnings.simplefilter("ignore", cl.CompilerWarning)  # drivers that greet are not in error
+                warnings.simplefilter("ignore", cl.CompilerWarning)  # some drivers print a greeting, which is no error
                 return source.build(options=options), program.entry
         except cl.Error as error:
             raise BuildError(f"{self.info.name}: {explain_log(program, str(error))}") from None
@@ -185,6 +189,8 @@ class OpenCLDevice(Device):
 
 
 class OpenCLLaunch(Launch):
+    """Hold built kernels and their buffers in an OpenCL context. Outputs must be Reserved buffers."""
+
     def __init__(
         self,
         context: Any,

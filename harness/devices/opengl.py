@@ -1,4 +1,7 @@
-"""OpenGL through moderngl, without a window (EGL): compute shaders; opengl_raster has its frames of triangles."""
+"""Open the OpenGL device through moderngl, without a window (EGL), and run compute shaders on it.
+
+harness.devices.opengl_raster draws its frames of triangles.
+"""
 
 from __future__ import annotations
 
@@ -14,9 +17,9 @@ from typing import Any
 import numpy as np
 
 from harness.contract import DeviceInfo, FirsthitError, Program, source
-from harness.devices.frames import Batch, Rasteriser, RasterLaunch
-from harness.devices.interface import GPU_RESIDENT, Array, BuildError, Device, Launch, Reserved, Step, Timing
-from harness.devices.opengl_frames import OpenGLRasterLaunch
+from harness.devices.interface import GPU_RESIDENT, Array, BuildError, Built, Device, Launch, Reserved, Step, Timing
+from harness.devices.opengl_raster import OpenGLRasterLaunch
+from harness.devices.raster import Batch, Rasteriser, RasterLaunch
 from harness.kernels.assemble import explain_log
 
 SHORT = ("llvmpipe", "softpipe", "nvidia", "geforce", "radeon", "intel", "apple")
@@ -36,7 +39,7 @@ void main() {
 
 @cache
 def _context() -> Any:
-    """The process's one context; raises whatever the platform's EGL says where there is none."""
+    """Create the process's one context. Raises what the platform's EGL raises if there is none."""
     os.environ.setdefault("MESA_SHADER_CACHE_DISABLE", "true")  # a cache would hide compile times
     import moderngl
 
@@ -46,7 +49,10 @@ def _context() -> Any:
 
 @cache
 def find() -> list[DeviceInfo]:
-    """The OpenGL device that EGL gives, if any; an unusable one carries its problem."""
+    """Find the OpenGL device that EGL gives.
+
+    A device that cannot be used says so in its problem. If there is none, a stand-in's problem says why.
+    """
     versions = (("moderngl", version("moderngl")),)
     try:
         context = _context()
@@ -74,17 +80,20 @@ def find() -> list[DeviceInfo]:
 
 
 def names() -> list[str]:
-    """The names of what `find` finds, which may have problems."""
+    """List the names of what `find` finds, which may have problems."""
     return [found.name for found in find()]
 
 
 def info(name: str) -> DeviceInfo:
-    """One device of `names`."""
+    """Describe one device of `names`."""
     return next(found for found in find() if found.name == name)
 
 
 def _keeps_doubles(context: Any) -> bool:
-    """Whether an array of doubles that is indexed at run time keeps them: NVIDIA's 580 rounds them to float32."""
+    """Tell whether an array of doubles that is indexed at run time keeps them.
+
+    NVIDIA's driver 580 rounds them to float32.
+    """
     kept = np.array([3.0, 0.0, 0.0, 1.0 / 3.0, 0.0])
     buffer = context.buffer(kept.tobytes())
     buffer.bind_to_storage_buffer(0)
@@ -106,6 +115,8 @@ def open(_name: str) -> OpenGLDevice:
 
 
 class OpenGLDevice(Device, Rasteriser):
+    """Hold the OpenGL device: the process's context."""
+
     language = "glsl"
 
     def __init__(self) -> None:
@@ -113,7 +124,7 @@ class OpenGLDevice(Device, Rasteriser):
         self._context = _context()
         self.most_groups = _most_groups(self._context)  # of one launch
 
-    def build(self, program: Program) -> Any:
+    def build(self, program: Program) -> Built:
         import moderngl
 
         if not program.optimised:
@@ -131,11 +142,11 @@ class OpenGLDevice(Device, Rasteriser):
     def launch_raster(
         self,
         batches: Sequence[Batch],
-        built: Sequence[Any],
+        built: Sequence[Built],
         camera: Array,
         depth_map: tuple[float, float],
         size: int,
-        fill: Any = None,
+        fill: Built | None = None,
     ) -> RasterLaunch:
         return OpenGLRasterLaunch(self._context, batches, built, camera, depth_map, size, fill)
 
@@ -154,6 +165,11 @@ def _groups(step: Step) -> int:
 
 
 class OpenGLLaunch(Launch):
+    """Hold built compute shaders and their buffers.
+
+    Raises FirsthitError if a step needs more work groups than the device runs at once.
+    """
+
     def __init__(
         self, context: Any, buffers: Sequence[Array | Reserved], outputs: Sequence[int], steps: Sequence[Step]
     ) -> None:

@@ -1,4 +1,7 @@
-"""What a device's arithmetic and clock are worth, found by trying."""
+"""Find by trying what a device's arithmetic and clock are worth.
+
+Whether error-free transforms are exact there is a device's fact, and how far its own clock may be trusted.
+"""
 
 from __future__ import annotations
 
@@ -12,14 +15,14 @@ from harness.devices.interface import Device, map_rows, real_type
 from harness.kernels.assemble import KERNELS, file_section, map_program
 
 CASES = 65536
-PEAK_ITEMS = 1024  # at first: more until a launch takes PEAK_MS, since a GPU is not filled by so few
+PEAK_ITEMS = 1024  # of the first launch; their number grows until a launch takes PEAK_MS, since a GPU needs more
 MOST_ITEMS = 1 << 20
 PEAK_MS = 5.0
-PEAK_TRIES = 12  # launches of each of the PEAK_FINALISTS best shapes: other programs may slow any of them down
+PEAK_TRIES = 12  # launches of each of the PEAK_FINALISTS best shapes, since other programs may slow any of them down
 PEAK_FINALISTS = 3
 PEAK_OPERATIONS = 131072  # per item, two for each multiply-add
-# (independent chains of multiply-adds, whether they are fused): which of them a compiler makes vectors of, and how many
-# hide the arithmetic's latency, differs from compiler to compiler by a factor of 100
+# (independent chains of multiply-adds, whether they are fused). Compilers differ in which of them they turn into
+# vectors, and in how many of them hide the arithmetic's latency: the rates of two shapes may differ by a factor of 100
 PEAK_SHAPES = (
     (8, True),
     (8, False),
@@ -31,22 +34,33 @@ PEAK_SHAPES = (
     (64, False),
     (96, True),
 )
-BELIEVABLE = (0.5, 1.05)  # device clock over wall clock, for a launch of some milliseconds, that is to be trusted
+BELIEVABLE = (0.5, 1.05)  # least and most that a trusted device clock tells of a launch of some ms, over the host's
 
 
 @dataclass(frozen=True)
 class Probes:
-    """Shares are of CASES random pairs; rates are of float32 multiply-adds, two operations each."""
+    """Hold what was found. Shares are of CASES random pairs; rates are of float32 multiply-adds, two operations each.
 
-    two_sum: float  # share where two_sum is exact
-    two_prod_split: float  # share where two_prod by Dekker splitting is exact
-    two_prod_fma: float  # share where a * b and fma(a, b, -a * b) sum to the product
-    round_to_nearest: float  # share of sums and products that are rounded to nearest
-    division: float  # share of quotients that are rounded to nearest
-    peak_gflops: float  # the best that any of PEAK_SHAPES reaches
-    peak_median_gflops: float  # the median launch of that same loop: how far the best one may be trusted
-    peak_shape: str  # that shape, in words
-    clock_ratio: float | None  # device clock over wall clock; None where the device has none
+    two_sum: the share on which two_sum is exact
+    two_prod_split: the share on which two_prod by Dekker's splitting is exact
+    two_prod_fma: the share on which a * b and fma(a, b, -a * b) add up to the product
+    round_to_nearest: the share of sums and products that are rounded to nearest
+    division: the share of quotients that are rounded to nearest
+    peak_gflops: the best rate of any of PEAK_SHAPES
+    peak_median_gflops: the rate of the median launch of that shape, which shows how far the best one may be trusted
+    peak_shape: that shape, in words
+    clock_ratio: the device's clock over the host's; None if the device has none
+    """
+
+    two_sum: float
+    two_prod_split: float
+    two_prod_fma: float
+    round_to_nearest: float
+    division: float
+    peak_gflops: float
+    peak_median_gflops: float
+    peak_shape: str
+    clock_ratio: float | None
 
 
 def _pairs(precision: Precision) -> NDArray[np.float64]:
@@ -84,16 +98,22 @@ def _rounded(values: NDArray[np.float64]) -> NDArray[np.float64]:
 
 @dataclass(frozen=True)
 class _Peak:
+    """Hold rates in Gflop/s: of the best launch and of the median one.
+
+    clock_ratio: of the best launch
+    """
+
     gflops: float
-    median: float  # rate of the median launch
+    median: float
     shape: str
-    clock_ratio: float | None  # of the best launch
+    clock_ratio: float | None
 
 
 def _peak(device: Device) -> _Peak:
-    """The best of many launches of the best shapes: what slows a launch is no part of a peak.
+    """Find the best rate of many launches of the best shapes; whatever slows a launch is no part of a peak.
 
-    With the median launch of the same shape: where that is far below, the machine was busy, and the best is of luck.
+    The median launch of the same shape is told beside it. If that is far below, the machine was busy, and the best rate
+    is luck.
     """
     tried = [(_rate(device, shape, tries=2), shape) for shape in PEAK_SHAPES]
     tried.sort(key=lambda pair: -pair[0].gflops)
@@ -103,9 +123,10 @@ def _peak(device: Device) -> _Peak:
 
 
 def peak_section(chains: int, fused: bool) -> Section:
-    """A map item of so many independent chains of multiply-adds, PEAK_OPERATIONS operations or some more in all.
+    """Return a map item of `chains` independent chains of multiply-adds.
 
-    The chains have names: compilers keep an array of them in memory.
+    It has PEAK_OPERATIONS operations, or a few more. Each chain has a variable of its own name, since compilers keep an
+    array of them in memory.
     """
     names = [f"a{k}" for k in range(chains)]
     step = "{0} = fma({0}, scale, shift);" if fused else "{0} = {0} * scale + shift;"
@@ -134,7 +155,7 @@ def _turns(chains: int) -> int:
 
 
 def _rate(device: Device, shape: tuple[int, bool], tries: int) -> _Peak:
-    """The rates of one shape, by the best and the median of so many launches of PEAK_MS or more."""
+    """Measure one shape: the best and the median of `tries` launches, of PEAK_MS or more each."""
     program = map_program(peak_section(*shape), "float32", device.language)
     built, kind = device.build(program), real_type(program)
     items = PEAK_ITEMS

@@ -1,7 +1,7 @@
-"""The process of a worker: `python -m harness.devices.serving DEVICE HANDLE`, which only the executor starts.
+"""Run a worker's process: `python -m harness.devices.serving DEVICE HANDLE`, which only the executor starts.
 
-It is started as a module and not by multiprocessing, which would run the caller's script once more in each worker: a
-script without a main guard, or a notebook, would then start workers of its own or fail.
+It is started as a module and not by multiprocessing, which would run the caller's script once more in each worker. A
+script without a main guard, or a notebook, would then start workers of its own, or fail.
 """
 
 from __future__ import annotations
@@ -17,11 +17,11 @@ from multiprocessing.connection import Connection
 
 
 def start(device: str) -> tuple[subprocess.Popen[bytes], Connection]:
-    """Start the worker that holds `device`; its process and this end of the connection to it.
+    """Start the worker that holds `device`; return its process, and our end of the connection to it.
 
     The worker looks for modules where this process does (`sys.path`), so that it runs the same harness. It shares
     standard output and error with this process, where drivers write what they like, and reads no input. Raises
-    FirsthitError where no process can be started.
+    FirsthitError if no process can be started.
     """
     ours, theirs = Pipe()
     handle = theirs.fileno()
@@ -61,13 +61,13 @@ def serve(connection: Connection, device: str) -> None:
     while True:
         try:
             operation, arguments = connection.recv()
-        except (EOFError, ConnectionError):  # reset, where the runner went without reading the last answer
+        except (EOFError, ConnectionError):  # a reset: the runner ended without reading the last answer
             return
         try:
             answer = ("ok", getattr(worker, operation)(*arguments))
         except (BuildError, FirsthitError) as error:
             answer = ("failed", str(error))
-        except Exception as error:  # a binding may raise anything; it costs this one cell
+        except Exception as error:  # a binding may raise anything; only this cell fails
             answer = ("failed", f"{type(error).__name__}: {error}")
         try:
             connection.send(answer)
@@ -78,7 +78,7 @@ def serve(connection: Connection, device: str) -> None:
 def main(device: str, handle: str) -> None:
     """Serve the connection whose end this process was given as `handle`, then end at once.
 
-    Drivers may take long to unload, and some crash at it; by then nothing is left to be answered.
+    Drivers may take long to unload, and some crash when they do; by then everything has been answered.
     """
     _die_with_parent()
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the runner decides when to stop; so this comes before long imports

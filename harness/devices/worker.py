@@ -1,6 +1,7 @@
-"""What the process that holds a device does: it knows programs and buffers only, no plugins, surfaces or files.
+"""Do the work of the process that holds a device. It knows programs and buffers only, no plugins, surfaces or files.
 
-Whatever a driver does to it, the runner on the other end of the pipe sees an answer, a closed pipe or silence.
+Whatever a driver does to this process, the runner at the other end of the pipe sees an answer, a closed pipe or
+silence.
 """
 
 from __future__ import annotations
@@ -9,44 +10,53 @@ import time
 from collections import OrderedDict
 from collections.abc import Sequence
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING
 
 from harness.contract import DeviceInfo, Program
-from harness.devices.interface import Device, Launch, Timing, find_devices, open_device
+from harness.devices.interface import Built, Device, Launch, Timing, find_devices, open_device
 from harness.devices.messages import Answer, Check, Checked, Frame, Warmed
-from harness.devices.trial import trial_launch
+from harness.devices.trial_launch import trial_launch
+
+if TYPE_CHECKING:
+    from harness.devices.probes import Probes
 
 ENOUGH_MS = 2.0  # a sample lasts at least about this long; shorter launches are repeated within it
 MOST_REPEATS = 64
 WARM_MS = 200.0  # a launch that takes longer has warmed the device up by itself
-KEPT_PROGRAMS = 128  # built ones: a surface's views run the same programs, one view after the other
+KEPT_PROGRAMS = 128  # built programs: the views of a surface run the same ones, one view after the other
 
 
 class Worker:
+    """Hold a device, the programs that were built for it, and the frames that are kept ready.
+
+    `name` is a device's; for `find` it is a backend's. The device is opened when it is first needed.
+    """
+
     def __init__(self, name: str) -> None:
         self._name = name
         self._frames: dict[str, Launch] = {}
-        self._built: OrderedDict[str, tuple[Any, float]] = OrderedDict()  # by hash; the first is the longest unused
+        self._built: OrderedDict[str, tuple[Built, float]] = OrderedDict()  # by hash; the first was used longest ago
 
     @cached_property
     def _device(self) -> Device:
         return open_device(self._name)
 
     def find(self) -> list[DeviceInfo]:
-        """The devices of the backend this worker is named after."""
+        """Find the devices of the backend that this worker is named after."""
         return find_devices(self._name)
 
-    def probe(self) -> Any:
+    def probe(self) -> Probes:
+        """Probe the device's arithmetic and clock."""
         from harness.devices.probes import probe
 
         return probe(self._device)
 
     def build(self, program: Program) -> float:
-        """The milliseconds that compiling took, what the driver leaves to the first launch included."""
+        """Compile a program; return the milliseconds that it took, with what the driver leaves to the first launch."""
         return self._build(program)[1]
 
-    def _build(self, program: Program) -> tuple[Any, float]:
-        """The built program, and the milliseconds that compiling it took, now or when this worker first did."""
+    def _build(self, program: Program) -> tuple[Built, float]:
+        """Return the built program, and the milliseconds that compiling took, now or when this worker first did it."""
         if program.hash not in self._built:
             start = time.perf_counter()
             built = self._device.build(program)
@@ -61,8 +71,8 @@ class Worker:
         self._built.move_to_end(program.hash)
         return self._built[program.hash]
 
-    def _build_all(self, programs: Sequence[Program]) -> tuple[list[Any], float]:
-        """Build programs; all built ones, and the milliseconds that compiling took, each program once."""
+    def _build_all(self, programs: Sequence[Program]) -> tuple[list[Built], float]:
+        """Build programs; return all of them, and the milliseconds that compiling took, each program counted once."""
         built = [self._build(program) for program in programs]
         taken = {program.hash: compile_ms for program, (_, compile_ms) in zip(programs, built, strict=True)}
         return [one for one, _ in built], sum(taken.values())
@@ -87,8 +97,10 @@ class Worker:
         return Warmed(compile_ms, launch.upload_ms, readback_ms, batch, getattr(launch, "bytes", None))
 
     def sample(self, key: str, batch: int) -> Timing:
+        """Run the frame that is kept under `key` `batch` times, and time it."""
         return self._frames[key].run(batch)
 
     def release(self, key: str) -> None:
+        """Free what the frame under `key` holds on the device; does nothing if no frame is kept there."""
         if frame := self._frames.pop(key, None):
             frame.release()

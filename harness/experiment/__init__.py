@@ -1,1 +1,1 @@
-"""From a config to its cells: what is asked, on which device, made of which programs, and what decides each answer."""
+"""Turn a config into cells: what is asked, on which device, by which programs, and what decides each answer."""

@@ -1,4 +1,4 @@
-"""Cells: the points of an experiment's grid, and the names by which people and results tell them apart."""
+"""Define cells, the points of an experiment's grid, and the names by which people and results tell them apart."""
 
 from __future__ import annotations
 
@@ -13,10 +13,12 @@ BEHIND: Mapping[Prepass, str] = {"none": "", "beams": "+beams"}
 
 @dataclass(frozen=True)
 class Cell:
-    """One point of the experiment grid: a surface or a scene from a view; see FamilyCell for families of hard rays.
+    """State one point of the experiment's grid: a surface or a scene from a view.
 
     size: pixels per side
-    family: of a FamilyCell
+    stage: "compute": rays or beams of a camera's image; "rays": the same rays, listed; "raster": fragments, or
+        triangles of a mesh
+    family: of a FamilyCell only
     prepass: "beams": beams of tiles narrow the rays to where they cannot exclude the surface
     proxy: of stage raster: the geometry whose fragments cast rays
     tolerance: of stage raster: pixel footprints that a method's own tolerance may grow to; 0: it does not grow
@@ -44,8 +46,10 @@ class Cell:
 
     @property
     def caster(self) -> str:
-        """Return the variant's label, with each of prepass, tolerance, proxy, origin and normal that is not the
-        default."""
+        """Return the variant's label, followed by the settings of the cell that are not the defaults.
+
+        These are prepass, tolerance, proxy, origin and normal.
+        """
         loose = f" to {self.tolerance:g} pixels" if self.tolerance else ""
         proxy = "" if self.proxy == "box" else f" in a {self.proxy}"
         shaded = "" if self.normal == "distance" else f" shaded by {self.normal}"
@@ -60,22 +64,24 @@ class Cell:
 
     @property
     def comparison(self) -> str:
-        """Return what cells share that are compared with each other: all but variant, device and precision."""
+        """Return the name that is one for all cells that are compared: it leaves out variant, device and precision."""
         return f"{self.surface.name} {self.view.name} {self.size}x{self.size}x{self.samples_per_pixel} {self.stage}"
 
     @property
     def together(self) -> str:
-        """Return what cells share that are timed in one interleaved run: those of a comparison, of all views of a set,
-        and of all forms of a surface."""
+        """Return the name that is one for all cells that are timed in one interleaved run.
+
+        Those are the cells of a comparison, of all views of a set, and of all forms of a surface.
+        """
         views = self.view.name if self.view.set is None else self.view.set
         return f"{self.surface.base} {views} {self.size}x{self.size}x{self.samples_per_pixel} {self.stage}"
 
 
 @dataclass(frozen=True)
 class FamilyCell(Cell):
-    """One point of the experiment grid that is checked and not timed: a family of hard rays, from harness.hardcases.
+    """State one point of the experiment's grid that is checked and not timed: a family of hard rays.
 
-    The rays of its rungs replace surface and view.
+    The rays of the family's rungs (harness.hardcases) replace surface and view.
     """
 
     @property

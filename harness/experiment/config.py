@@ -1,4 +1,4 @@
-"""What a config may say. Each field states its own limits, which harness.experiment.reading holds it against."""
+"""Define what a config may say. Each field states its own limits, to which harness.experiment.reading holds it."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ from harness.scenes.views import AngleChoice, DirectionChoice
 NOT_NEGATIVE = Within(0.0, inf, "a tolerance is not negative")
 
 
-# Annotated types call these by name: a lambda among them would not find this module's names
+# Annotated types name these functions. A lambda in an annotation would not find the names of this module
 
 
 def _facts() -> Iterable[str]:
@@ -63,17 +63,17 @@ def _names(views: list[View]) -> list[str]:
 
 
 def _angles(angles: AngleChoice | None) -> list[str]:
-    """Return the angles as their views are named by them."""
+    """Return the angles as they appear in their views' names."""
     return [f"{angle:g}" for angle in angles.values] if angles else []
 
 
 @dataclass(frozen=True)
 class MethodChoice:
-    """A method, and one value or several for each knob; the values of several knobs multiply.
+    """Choose a method, and one value or several for each of its knobs; every combination of the values is a variant.
 
-    `settings` are the papers' own, by the names that the method gives them. `stages` are this method's, where they are
-    not the experiment's. `deviations` adds the default, and each knob that we changed at the value that the method's
-    source prints.
+    settings: the papers' own settings, by the names that the method gives them
+    stages: of this method, if they are not the experiment's
+    deviations: add the default, and each knob that we changed at the value that the method's source prints
     """
 
     name: str
@@ -85,9 +85,9 @@ class MethodChoice:
 
 @dataclass(frozen=True)
 class SurfaceChoice:
-    """A surface of the config's own; without a formula, the catalog's of that name.
+    """Define a surface of the config's own; without a formula, change the catalog's of that name.
 
-    Without a domain it is in the catalog's, or in sphere:1.5.
+    domain: if none is given, the catalog's, or sphere:1.5 for a formula
     """
 
     formula: str = ""
@@ -97,11 +97,13 @@ class SurfaceChoice:
 
 @dataclass(frozen=True)
 class AccuracyChoice:
-    """Accuracy is checked on each view sampled `size` × `size`.
+    """Say how accuracy is checked.
 
-    Rays nearer than `grazing_margin` scene radii to another answer are a class of their own; a variant that is wrong
-    on more than `max_wrong_share` of the others is not timed. Where the oracle leaves more than a share of `undecided`
-    hits, of those and the decided ones together, a row has no accuracy, and fails.
+    size: each view is sampled by `size` × `size` rays
+    grazing_margin: rays nearer than this to another answer, in scene radii, are a class of their own
+    max_wrong_share: a variant that is wrong on a larger share of the other rays is not timed
+    undecided: the share of hits, of decided and undecided ones together, that the oracle may leave undecided; above it
+        a row has no accuracy, and fails
     """
 
     size: Annotated[int, Within(1, 4096)] = 128
@@ -112,14 +114,15 @@ class AccuracyChoice:
 
 @dataclass(frozen=True)
 class BudgetChoice:
-    """What one cell may cost.
+    """Say what one cell may cost.
 
-    It is timed for `seconds`, or until the 95 % interval of the median is within `interval` of it. A slow cell is timed
-    in at least so many `rounds`, though they take up to 16 times `seconds`: fewer cannot tell two variants apart (8 at
-    the level of reports.analysis.ties). `repetitions` are the most that any cell is timed in.
-
-    After `timeout` seconds for any one step (build, check, one repetition) the worker is killed. A frame of more than
-    so many `triangles` is skipped.
+    seconds: a cell is timed for so long, or until the median is known well enough
+    interval: the median is known well enough if its 95 % interval is within this share of it
+    rounds: a slow cell is timed in at least so many rounds, though they take up to 16 times `seconds`, since fewer
+        cannot tell two variants apart (8 at the level of reports.analysis.ties)
+    repetitions: no cell is timed in more rounds
+    timeout: seconds for one step (build, check, one repetition), after which the worker is killed
+    triangles: a frame of more triangles is skipped
     """
 
     seconds: Annotated[float, Within(0.0, 1e5)] = 2.0
@@ -132,9 +135,10 @@ class BudgetChoice:
 
 @dataclass(frozen=True)
 class ToleranceChoice:
-    """How much worse a gated figure may get: `absolute` + `relative` × the baseline.
+    """Say how much worse a gated figure may get: `absolute` + `relative` × the baseline.
 
-    `better` is "lower" or "higher" where it is not as usual. `gated` = false leaves the figure alone.
+    better: "lower" or "higher", if it is not as usual
+    gated: False leaves the figure alone
     """
 
     absolute: Annotated[float, NOT_NEGATIVE] = 0.0
@@ -145,9 +149,10 @@ class ToleranceChoice:
 
 @dataclass(frozen=True)
 class GateChoice:
-    """Figures with tolerances of their own, and the device facts that must be the `same` for rows to be compared.
+    """Say how rows are held against a baseline.
 
-    harness.results.figures has the tolerances of all other figures.
+    same: device facts that must be the same for rows to be compared
+    figures: figures with tolerances of their own; harness.results.figures has the tolerances of all others
     """
 
     same: Annotated[list[str], Known(_facts), Distinct()] = field(default_factory=lambda: list(FACTS))
@@ -156,14 +161,21 @@ class GateChoice:
 
 @dataclass(frozen=True)
 class Config:
-    """An experiment: methods × prepass × origins × surfaces × views × sizes × samples × stages × precisions × devices,
-    and, untimed, methods × families of hard rays × precisions × devices. `surfaces` and `families` may be ["all"].
+    """State an experiment. Its cells are all combinations, in two grids:
 
-    `view` holds the views that are named one by one, and, once names are resolved, those of `angles` and `directions`;
-    without any, one default view. A `scene` is drawn by stage raster, from its own view.
-    `baseline` is the method, or the variant by its label, that reports give speed-ups over.
-    `studies` are computations of harness.studies. With `include`, a list of config files, it holds nothing else:
-    each of them is run into its own folder, and one report collects them.
+    - methods × prepass × origins × surfaces × views × sizes × samples × stages × precisions × devices, and
+    - methods × families of hard rays × precisions × devices, which are checked and not timed.
+
+    include: config files; with it, a config holds nothing else but a title. Each is run into its own folder, and one
+        report collects them
+    baseline: the method, or the variant by its label, that reports give speed-ups over
+    studies: computations of harness.studies
+    surfaces, families: names, or ["all"]
+    view: the views that are named one by one and, once names are resolved, those of `angles` and `directions`; without
+        any, one default view
+    origins: of rays; beams have none
+    proxies, tolerances, normals: of stage raster
+    scene: drawn by stage raster, from its own view
     """
 
     title: str
@@ -181,10 +193,10 @@ class Config:
     precisions: Annotated[list[Precision], Distinct()] = field(default_factory=lambda: ["float32"])
     stages: Annotated[list[Stage], Distinct()] = field(default_factory=lambda: ["compute"])
     prepass: Annotated[list[Prepass], Distinct()] = field(default_factory=lambda: ["none"])
-    origins: Annotated[list[Origin], Distinct()] = field(default_factory=lambda: ["nearest"])  # beams have none
-    proxies: Annotated[list[Proxy], Distinct()] = field(default_factory=lambda: ["box"])  # of stage raster
+    origins: Annotated[list[Origin], Distinct()] = field(default_factory=lambda: ["nearest"])
+    proxies: Annotated[list[Proxy], Distinct()] = field(default_factory=lambda: ["box"])
     tolerances: Annotated[list[Annotated[float, Within(0.0, 1e3)]], Distinct()] = field(default_factory=lambda: [0.0])
-    normals: Annotated[list[Normal], Distinct()] = field(default_factory=lambda: ["distance"])  # of stage raster
+    normals: Annotated[list[Normal], Distinct()] = field(default_factory=lambda: ["distance"])
     devices: Annotated[list[str], Distinct()] = field(default_factory=lambda: ["all"])
     seed: Annotated[int, SEED] = 1
     accuracy: AccuracyChoice = field(default_factory=AccuracyChoice)
@@ -196,7 +208,10 @@ class Config:
 
 @dataclass(frozen=True)
 class Experiment:
-    """A config with every name in it resolved. One that includes others has nothing but `included`."""
+    """Hold a config with every name in it resolved. One that includes others has nothing but `included`.
+
+    own_stages: the stages of variants whose stages are not `stages`
+    """
 
     name: str
     path: Path
@@ -212,7 +227,7 @@ class Experiment:
     proxies: tuple[Proxy, ...] = ("box",)
     normals: tuple[Normal, ...] = ("distance",)
     scenes: tuple[Scene, ...] = ()
-    own_stages: Mapping[Variant, tuple[Stage, ...]] = field(default_factory=dict)  # where they are not `stages`
+    own_stages: Mapping[Variant, tuple[Stage, ...]] = field(default_factory=dict)
 
     def stages_of(self, variant: Variant) -> tuple[Stage, ...]:
         """Return the stages that a variant is cast in."""

@@ -1,4 +1,4 @@
-"""What decides a cell's row: two cells with the same identity give the same row, but for the clock's noise."""
+"""State what decides a cell's row: two cells with the same identity have the same row, except for the clock's noise."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ HASHED = ("program", "program order", "methodology", "method")
 
 
 def common(folders: Iterable[Path], timed: bool) -> dict[str, Any]:
-    """What every cell's identity holds beside its question and program; `folders` are its methods'.
+    """Return what every cell's identity holds beside its question and program; `folders` are its methods'.
 
-    The number of cores decides times only, so that a checked row is the same on more of them.
+    The number of cores decides times only. So the identity of a cell that is not timed is the same on more of them.
     """
     own: dict[str, str] = {}
     for folder in folders:
@@ -48,7 +48,10 @@ def since(stored: Mapping[str, Any], catalog: Catalog) -> list[str]:
 
 
 def changes(old: Mapping[str, Any], new: Mapping[str, Any], path: str = "") -> list[str]:
-    """What differs between two identities, a line each; of what is hashed only whose hash it is."""
+    """List what differs between two identities, a line each.
+
+    Of a hash only the name is told.
+    """
     lines: list[str] = []
     for key in sorted(old.keys() | new.keys()):
         name = f"{path}{key}"

@@ -1,4 +1,4 @@
-"""An experiment → its cells, and for each cell what decides its result."""
+"""Plan an experiment: which cells it has, and for each cell what decides its result."""
 
 from __future__ import annotations
 
@@ -36,7 +36,13 @@ from harness.scenes.model import Scene
 
 @dataclass(frozen=True, eq=False)
 class Planned:
-    """A cell with its key; `skip` says why where it cannot run, and then it has no casting."""
+    """Hold a cell with its key.
+
+    identity: what decides the cell's row, JSON-able; the key is its digest
+    casting: the cell's programs; None if it cannot run
+    skip: why it cannot run
+    is_timed: False: the cell is checked only
+    """
 
     cell: Cell
     key: str
@@ -45,28 +51,28 @@ class Planned:
     casting: Casting | None
     skip: str | None
     kind: kinds.Kind
-    is_timed: bool = True  # False: checked only
+    is_timed: bool = True
 
     @property
     def checks(self) -> tuple[Program, ...]:
-        """The programs whose answers are read."""
+        """Return the programs whose answers are read."""
         return self.casting.checks if self.casting else ()
 
     @property
     def timed(self) -> Program | None:
-        """The frame's program; None where there is no frame."""
+        """Return the frame's program; None if there is no frame."""
         if self.casting is None or not (self.is_timed or self.kind.checked_on_frame):
             return None
         return self.casting.timed
 
     @property
     def frame(self) -> Frame | None:
-        """What is timed, if anything."""
+        """Build the frame that is timed; None if nothing is."""
         return self.casting.frame() if self.casting and self.timed else None
 
 
 def _refusal(asked: Asked, kind: kinds.Kind) -> str | None:
-    """Say why a cell cannot run, if it cannot."""
+    """Say why a cell cannot run; None if it can."""
     cell, info, method = asked.cell, asked.info, asked.method
     if info is None:
         return f"there is no device {cell.device!r} on this machine"
@@ -90,7 +96,7 @@ def _planned(cell: Cell, info: DeviceInfo | None, catalog: Catalog, experiment: 
         except FirsthitError as error:
             skip = str(error)
     planned = Planned(cell, "", {}, info, casting, skip, kind, timed)
-    # which clock is believed is found by probing when a run starts, after a plan is printed: no part of the key
+    # Probing finds which clock is to be trusted, when a run starts and its plan is printed already: no part of the key
     facts = None if info is None else dataclasses.asdict(dataclasses.replace(info, clock="wall"))
     others = casting.others if casting else ()
     programs = [program for program in (*planned.checks, planned.timed, *others) if program]
@@ -134,7 +140,7 @@ def grid(experiment: Experiment, catalog: Catalog, found: list[DeviceInfo]) -> l
 
 @dataclass(frozen=True)
 class _Caster:
-    """Who casts: all of a cell that has nothing to do with what is cast at."""
+    """State who casts: all of a cell that does not depend on what is cast at."""
 
     variant: Variant
     prepass: Prepass
@@ -177,7 +183,7 @@ def _families(experiment: Experiment, casters: list[_Caster]) -> Iterator[Cell]:
 
 
 def _cell(caster: _Caster, cell: Cell, raster: Rastering = NOT_RASTERED) -> Cell:
-    """Return what is cast at, `cell`, cast by `caster`."""
+    """Return `cell`, which says what is cast at, with the settings of `caster` and of the way to rasterise."""
     proxy, pixels, normal = raster
     return dataclasses.replace(
         cell,
@@ -198,12 +204,12 @@ def _rasterings(stage: Stage, variant: Variant, experiment: Experiment, catalog:
 
 
 def _views(scene: Scene, config: Config) -> list[View]:
-    """A scene has its own view; a set of views is cast at it besides, where the config names one."""
+    """Return the views of a scene: its own, and those of the config's sets of views."""
     return [scene.view, *(view for view in config.view if view.set)]
 
 
 def shuffled(items: list[str], seed: int, round_number: int) -> list[str]:
-    """`items` in a random order that depends on the seed and the round alone."""
+    """Return `items` in a random order that depends on the seed and the round alone."""
     order = list(items)
     random.Random(f"{seed} {round_number}").shuffle(order)
     return order

@@ -1,4 +1,4 @@
-"""TOML → the dataclasses of a config, each field held against its limits; every mistake is answered with its line."""
+"""Read a config's TOML into dataclasses, hold each field to its limits, and answer every mistake with its line."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ import typing
 from pathlib import Path
 from typing import Any
 
-from harness.experiment import file
+from harness.experiment import toml_file
 from harness.experiment.config import Config, Experiment
-from harness.experiment.file import ConfigFile, Where
 from harness.experiment.resolving import resolve
+from harness.experiment.toml_file import ConfigFile, Where
 from harness.limits import Limit, is_finite
 from harness.plugins import Catalog
 from surfaces.words import suggestion
@@ -21,7 +21,7 @@ WORDS = {float: "a number", int: "a whole number", str: "a text in quotes", bool
 
 def load(path: Path, catalog: Catalog) -> Experiment:
     """Read a config and resolve its names. Raises FirsthitError with file and line for anything wrong in it."""
-    read = file.read(path)
+    read = toml_file.read(path)
     config: Config = _table(Config, read.table, (), read)
     return resolve(config, read, catalog)
 
@@ -52,7 +52,10 @@ def _value(kind: Any, value: Any, where: Where, source: ConfigFile) -> Any:
 
 
 def _limited(stated: tuple[Any, ...], value: Any, where: Where, source: ConfigFile) -> Any:
-    """Read the value of an Annotated kind. A single value is told by its whole path, a collection by its own name."""
+    """Read the value of an Annotated kind.
+
+    A mistake in a single value is told with the value's whole path, one in a collection with the collection's own name.
+    """
     kind, limits = stated[0], typing.cast(tuple[Limit, ...], stated[1:])
     read = _value(kind, value, where, source)
     name = _path(where) if isinstance(read, int | float | str) else str(where[-1])
@@ -63,7 +66,7 @@ def _limited(stated: tuple[Any, ...], value: Any, where: Where, source: ConfigFi
 
 
 def _word(known: tuple[str, ...], value: Any, where: Where, source: ConfigFile) -> str:
-    """Read one of the `known` words. An unknown one in a list is told by the list's name."""
+    """Read one of the `known` words. If an item of a list is unknown, the mistake is told with the list's name."""
     word: str = _scalar(str, value, where, source)
     if word not in known:
         place = where[:-1] if isinstance(where[-1], int) else where
@@ -88,7 +91,7 @@ def _tuple(kinds: tuple[Any, ...], value: Any, where: Where, source: ConfigFile)
 
 
 def _names(kind: Any, value: Any, where: Where, source: ConfigFile) -> dict[str, Any]:
-    """Read a table whose keys are names of the writer's choice."""
+    """Read a table whose keys are names that the writer chose."""
     if not isinstance(value, dict):
         raise source.error(where, f"{_path(where)} is a table of names, not {value!r}")
     return {key: _value(kind, item, (*where, key), source) for key, item in value.items()}

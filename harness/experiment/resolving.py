@@ -1,4 +1,4 @@
-"""A config's names → what they stand for: methods, surfaces, scenes, views."""
+"""Resolve the names of a config: find the methods, surfaces, scenes and views that they stand for."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Mapping
 
 from harness.contract import FirsthitError, Stage, Surface, Variant, View
 from harness.experiment.config import Config, Experiment, MethodChoice, SurfaceChoice
-from harness.experiment.file import ConfigFile, Where
+from harness.experiment.toml_file import ConfigFile, Where
 from harness.limits import Distinct, Known
 from harness.plugins import Catalog
 from harness.scenes.choice import cut, scenes_of

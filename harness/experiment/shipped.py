@@ -1,4 +1,4 @@
-"""The configs that come with firsthit: they are found by name, wherever firsthit is installed."""
+"""Find the configs that come with firsthit by their names, wherever firsthit is installed."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def located(config: str | Path) -> Path:
     Raises FirsthitError, with the nearest name, where there is neither.
     """
     path = Path(config)
-    if path.is_file() or path.suffix or len(path.parts) != 1:  # whoever reads it says that a path is not there
+    if path.is_file() or path.suffix or len(path.parts) != 1:  # if it is not there, reading it says so
         return path
     known = names()
     if path.name in known:

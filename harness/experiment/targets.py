@@ -1,4 +1,4 @@
-"""Which devices an experiment runs on, and which of its cells a device cannot run."""
+"""Choose the devices that an experiment runs on."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ def choose_devices(
 ) -> dict[str, DeviceInfo | None]:
     """Return the devices to run on by name; None for a named one that is not here.
 
-    `any` is the first that works, and rasterises if it must. `all` leaves out a broken double of a working device (one
-    driver installed twice).
+    `any` is the first one that works and, with `rasterises`, draws triangles. `all` leaves out a broken double of a
+    working device (one driver that is installed twice).
     """
     by_name = {info.name: info for info in found}
     chosen: dict[str, DeviceInfo | None] = {}
@@ -36,9 +36,9 @@ def able(info: DeviceInfo) -> bool:
 
 
 def devices_of(experiment: Experiment, found: list[DeviceInfo]) -> dict[str, DeviceInfo | None]:
-    """Return the devices that a config's cells run on; where all of them are rasterised, `any` is one that can.
+    """Return the devices that a config's cells run on; `any` is one that rasterises if all cells are rasterised.
 
-    Raises FirsthitError where none of the devices that the config names is among those `found`.
+    Raises FirsthitError if none of the devices that the config names is among those `found`.
     """
     drawn_only = not experiment.config.families and (not experiment.surfaces or set(experiment.stages) == {"raster"})
     wanted = experiment.config.devices

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache
@@ -32,6 +32,8 @@ ROOT = Path(__file__).parents[2]
 KERNELS = Path(__file__).parent / "glsl"
 AFTER_TABLES = ("fit_samples", "fit_whole")  # libraries that read a method's tables, and so come after them
 Language = Literal["glsl", "cl"]
+Entry = Literal["rays", "camera", "beams"]  # as what a method's program is started
+ROOMS: dict[Entry, str] = {"rays": "rays", "camera": "rays", "beams": "beams"}  # the folder of glsl/ that holds it
 
 
 @cache
@@ -116,7 +118,7 @@ def method_program(
     surface: Surface,
     precision: Precision,
     language: Language,
-    entry: Literal["rays", "camera", "beams"],
+    entry: Entry,
     narrowed: Section | None = None,
     t_min: float = 0.0,
     origin: Origin = "nearest",
@@ -131,16 +133,14 @@ def method_program(
     method does not cast rays and so cannot begin them elsewhere.
     """
     listed = entry == "rays" and narrowed is None
-    if entry == "beams":
-        sections = beam_sections(surface, method.needs, precision, language, early_libraries(method))
-    else:
-        needs = (*method.needs, "surface_value") if listed else method.needs
-        sections = ray_sections(surface, needs, precision, language, early_libraries(method))
+    needs = (*method.needs, "surface_value") if listed else method.needs
+    ahead: dict[str, Callable[..., list[Section]]] = {"rays": ray_sections, "beams": beam_sections}
+    sections = ahead[ROOMS[entry]](surface, needs, precision, language, early_libraries(method))
     sections += method_sections(method, folder, variant, surface, precision, language)
-    if entry != "beams":
+    if ROOMS[entry] == "rays":
         sections += cast_sections(origin)
     elif origin != "nearest":
-        raise FirsthitError(f"an origin is chosen for rays, and the method {method.name} casts beams")
+        raise FirsthitError(f"an origin is chosen for rays, and the method {method.name} casts {ROOMS[entry]}")
     if listed:
         sections += [_t_min_section(t_min, precision, language), *files("rays/listed.glsl")]
     sections += _entry_sections(entry, narrowed, language)
@@ -175,15 +175,14 @@ def ray_sections(
     return [*sections, _domain_section(surface)]
 
 
-def _entry_sections(entry: str, narrowed: Section | None, language: Language) -> list[Section]:
+def _entry_sections(entry: Entry, narrowed: Section | None, language: Language) -> list[Section]:
     """Return a program's entry point and what it calls beside the cast."""
     sections = files("rays/camera.glsl") if entry == "camera" else []
     if narrowed:
         sections += [narrowed, *files("rays/narrowed.glsl")]
     if entry == "rays" and language == "glsl":
         sections += files("turns.glsl")
-    room = "beams" if entry == "beams" else "rays"
-    return sections + files(f"{room}/entry_{entry}{'_narrowed' if narrowed else ''}.{language}")
+    return sections + files(f"{ROOMS[entry]}/entry_{entry}{'_narrowed' if narrowed else ''}.{language}")
 
 
 def kept_loops() -> Section:

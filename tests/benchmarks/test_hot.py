@@ -9,8 +9,9 @@ import pytest
 
 import surfaces
 from harness.contract import View
-from harness.devices.interface import Device, launch_camera
-from harness.devices.quadtree import launch_beams
+from harness.devices.interface import Device
+from harness.experiment import kinds
+from harness.experiment.cells import Cell
 from harness.kernels.assemble import method_program
 from harness.kernels.functions import FUNCTIONS, surface_sections
 from harness.oracle import first_hits
@@ -58,18 +59,17 @@ def test_assemble(benchmark):
     assert benchmark(lambda: method_program(*made).hash)
 
 
-@pytest.mark.parametrize("method", [name for name, plugin in CATALOG.plugins.items() if plugin.method.casts != "mesh"])
+@pytest.mark.parametrize("method", CATALOG.plugins)
 def test_kernel(benchmark, first_device, method):
     """One 256 × 256 frame of the torus, on the first device."""
-    plugin, surface = CATALOG.get(method), surfaces.get("torus")
-    if reason := plugin.method.accepts(surface):
+    plugin, info = CATALOG.get(method), first_device.info
+    cell = Cell(plugin.variant({}), surfaces.get("torus"), VIEW, 256, 1, "float32", "compute", info.name)
+    kind = kinds.of_cell(cell, plugin.method)
+    asked = kinds.Asked(cell, info, CATALOG, kinds.of_method(plugin.method), 0)
+    if reason := kind.refusal(asked):
         pytest.skip(reason)
-    casts = plugin.method.casts
-    entry = "camera" if casts == "rays" else "beams"
-    made = (plugin.method, plugin.folder, plugin.variant({}), surface, "float32", first_device.language, entry)
-    program = method_program(*made)
-    frame = (first_device, program, first_device.build(program), camera_for(VIEW, surface), 256)
-    launch = launch_camera(*frame) if casts == "rays" else launch_beams(*frame, casts == "quadtree")
+    frame = kind.casting(asked).frame()
+    launch = frame.launch(first_device, [first_device.build(program) for program in frame.programs])
     assert benchmark(launch.run).wall_ms >= 0.0
     launch.release()
 

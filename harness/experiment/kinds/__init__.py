@@ -1,28 +1,36 @@
-"""Kinds: one for each way of casting. Each file says of its kind what it refuses and why, which programs it is made of,
-what a device is asked to do for a check and for a frame, and how answers become hits of rays.
+"""Define the kinds: one for each way of casting a cell.
 
-A new kind is a file here, its kernels, and, where a device is to launch it in a new way, a message beside
-harness/devices/messages.py. `of_cell` is the only place that chooses.
+A kind says what it refuses and why, which programs it is made of, what a device is asked to do for a check and for a
+frame, and how answers become hits of rays. The rest of the harness asks the kind, and never asks how a cell is cast.
+
+    module    what it defines
+    --------  ---------------------------------------------------------------------------------------------------------
+    model     the abstract classes MethodKind, Kind, Casting and ViewCasting, and what they are handed
+    casts     the table of the words of Method.casts; a new way to cast has its line there
+    rays      rays, each cast by itself. The model for a kind whose checked rays can be listed
+    beams     beams, one for each pixel, and quadtrees of them. The model for a kind that answers for pixels of a frame
+    narrowed  rays behind a prepass. The model for a kind of two programs, the first of which helps the second
+    mesh      triangles of a surface that is tessellated beforehand
+    family    families of hard rays, which are checked and never timed
+    raster    scenes in stage raster; draws makes their draw calls
+
+CONTRIBUTING.md, "a kind", lists all that a new one needs.
 """
 
 from __future__ import annotations
 
-from harness.contract import Casts, Method, Stage
+from harness.contract import Method, Stage
 from harness.experiment.cells import Cell
 from harness.experiment.config import Experiment
-from harness.experiment.kinds.beams import Beams
+from harness.experiment.kinds.casts import WAYS, of_method
 from harness.experiment.kinds.family import Family
-from harness.experiment.kinds.mesh import Mesh
-from harness.experiment.kinds.methods import of_method
 from harness.experiment.kinds.model import NOT_RASTERED, Asked, Casting, Kind, MethodKind, Outcome, Rastering
 from harness.experiment.kinds.narrowed import Narrowed
 from harness.experiment.kinds.raster import Raster
-from harness.experiment.kinds.rays import Rays
 
 __all__ = ["Asked", "Casting", "Kind", "MethodKind", "Outcome", "of_cell", "of_method", "rasterings"]
 
 FAMILY, RASTER, NARROWED = Family(), Raster(), Narrowed()
-BY_METHOD: dict[Casts, Kind] = {"rays": Rays(), "beams": Beams(False), "quadtree": Beams(True), "mesh": Mesh()}
 
 
 def of_cell(cell: Cell, method: Method) -> Kind:
@@ -31,9 +39,9 @@ def of_cell(cell: Cell, method: Method) -> Kind:
         return FAMILY
     if cell.stage == "raster":
         return RASTER
-    return BY_METHOD[method.casts] if cell.prepass == "none" else NARROWED
+    return WAYS[method.casts].cells if cell.prepass == "none" else NARROWED
 
 
 def rasterings(stage: Stage, method: Method, experiment: Experiment) -> list[Rastering]:
-    """List the ways to rasterise that make a difference to a method in a stage: one where it does not rasterise."""
+    """List the ways to rasterise that make a difference to a method in a stage; one if it does not rasterise there."""
     return of_method(method).rasterings(method, experiment) if stage == "raster" else [NOT_RASTERED]

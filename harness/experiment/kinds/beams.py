@@ -1,4 +1,8 @@
-"""Beams: one for each pixel, or a quadtree of them over the image. A beam's answer is held against a ray inside it."""
+"""Cast beams: one for each pixel, or a quadtree of them over the image.
+
+The check casts the whole frame. Each ray of the accuracy grid lies in the beam of a pixel, and that beam's answer,
+brought to the ray, is held against the oracle (harness.accuracy.pixels).
+"""
 
 from __future__ import annotations
 
@@ -12,7 +16,7 @@ from harness.accuracy.answers import validated_beams
 from harness.accuracy.check import Cast, Certified
 from harness.accuracy.judge import Verdicts
 from harness.accuracy.pixels import Pixels, along_rays, pixels_of, set_apart
-from harness.contract import Hits, Program, Stage, Surface
+from harness.contract import Hits, Program, Surface
 from harness.devices.beams import BeamAnswer, BeamCheck, BeamFrame
 from harness.devices.executor import LocalExecutor
 from harness.devices.messages import Check, Checked, Frame
@@ -24,22 +28,14 @@ from harness.scenes.camera import rays_of
 
 @dataclass(frozen=True)
 class BeamMethods(MethodKind):
-    """Methods whose kernel answers a cell of the image: `void cast_cell(Work, Cell)`."""
+    """State what follows for methods whose kernel answers a cell of the image: `void cast_cell(Work, Cell)`."""
 
     quadtree: bool
 
     what = "beams"
     entries = ("beams",)
-    unlisted = "it casts the beams of a camera's pixels, and listed rays have none"
+    unlisted = "casts the beams of a camera's pixels, and listed rays have none"
     undrawn = "casts the beams of a camera's pixels, and a fragment has one ray"
-
-    def stage_refusal(self, stage: Stage) -> str | None:
-        if stage == "rays":
-            return "the method casts the beams of a camera's pixels, and listed rays have none"
-        return None
-
-    def shot_refusal(self, camera: NDArray[np.float32] | None) -> str | None:
-        return None if camera is not None else "casts the beams of a camera's pixels, and listed rays have none"
 
     def shot(self, program: Program, shot: Shot, index: NDArray[np.intp]) -> Check[BeamAnswer]:
         assert shot.camera is not None
@@ -56,7 +52,10 @@ class BeamMethods(MethodKind):
 
 @dataclass(frozen=True, eq=False)
 class BeamCast(Cast):
-    """Holds the answers of the beams that hold the grid's rays, brought to the rays."""
+    """Hold the answers of the beams that hold the grid's rays, brought to the rays.
+
+    pixels: which pixel's beam holds each ray
+    """
 
     pixels: Pixels
 
@@ -66,7 +65,7 @@ class BeamCast(Cast):
 
 
 class BeamCasting(ViewCasting):
-    """The beams of a camera's image, or a quadtree of them."""
+    """Cast the beams of a camera's image, or a quadtree of them."""
 
     def __init__(self, asked: Asked, check: Program, timed: Program, quadtree: bool) -> None:
         super().__init__(asked, (check,), timed)
@@ -82,12 +81,11 @@ class BeamCasting(ViewCasting):
 
     def cast(self, executor: LocalExecutor, size: int, free_loops: bool = False) -> Cast:
         surface, rays = self.cell.surface, rays_of(self.camera, size)
-        program = with_free_loops(self.checks[0]) if free_loops else self.checks[0]
-        pixels = pixels_of(self.camera, size, self.samples)
-        checked: Checked[BeamAnswer] = executor.check(self.cell.device, BeamCheck(self._frame(program), pixels.index))
+        pixels, frame = pixels_of(self.camera, size, self.samples), self._frame(self.check_program(free_loops))
+        checked: Checked[BeamAnswer] = executor.check(self.cell.device, BeamCheck(frame, pixels.index))
         answer = checked.answer
         hits = beam_hits(answer.hits, pixels, surface, rays, self.camera)
-        mean, largest = answer.evaluations  # of the frame: large beams are shared by more pixels than are checked
+        mean, largest = answer.evaluations  # over all pixels, since large beams are shared by unchecked ones
         facts = {"evaluations_mean": mean, "evaluations_max": largest, "lanes": answer.lanes}
         pictures = {"level": answer.levels.reshape(size, size)}
         return BeamCast(surface, rays, hits, checked.compile_ms, facts, pictures, pixels)
@@ -99,13 +97,16 @@ class BeamCasting(ViewCasting):
 def beam_hits(
     hits: Hits, pixels: Pixels, surface: Surface, rays: NDArray[np.float32], camera: NDArray[np.float32]
 ) -> Hits:
-    """Bring the answers of beams to the rays float32[n, 6] that they hold, and mark those INVALID that can be none."""
+    """Bring the answers of beams to the rays float32[n, 6] that they hold, and mark those INVALID that can be none.
+
+    `camera` is float32[12].
+    """
     return validated_beams(along_rays(hits, pixels), surface.domain, rays, camera[3:6])
 
 
 @dataclass(frozen=True)
 class Beams(Kind):
-    """Beams of stage compute."""
+    """Make castings of beams, in stage compute."""
 
     quadtree: bool
     checked_on_frame = True

@@ -1,11 +1,18 @@
-"""Scene and variant → what the raster stage draws: programs, instance records, proxies or meshes, and the depth range.
+"""Make what stage raster draws of a scene by a variant: programs, instance records, and proxies or meshes.
 
-Rays are not made here: each fragment makes the ray through its pixel's middle, and the check reads it back.
+Rays are not made here. Each fragment makes the ray through its pixel's middle, and the check reads it back.
 
-**Tried**, opengl:llvmpipe, 512 tori on a lattice at 768 × 768, ms with gl_FragDepth declared depth_greater / without:
-newton 76 / 80, near instances first 75 / 75, far first 80 / 76; sturm 551 / 558, 545 / 548, 592 / 664; the same picture
-bit for bit. llvmpipe rejects no fragment early, so instances are drawn as they stand; the promise is kept for devices
-that do.
+**What was tried** Time in ms of 512 tori on a lattice at 768 × 768 on opengl:llvmpipe, if gl_FragDepth is declared
+depth_greater or not. The picture is the same bit for bit.
+
+    order of instances  newton, declared  not declared  sturm, declared  not declared
+    ------------------  ----------------  ------------  ---------------  ------------
+    as they stand       76                80            551              558
+    near ones first     75                75            545              548
+    far ones first      80                76            592              664
+
+llvmpipe rejects no fragment early. So instances are drawn as they stand, and depth_greater is declared for devices that
+do.
 """
 
 from __future__ import annotations
@@ -14,8 +21,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from harness.contract import MeshRecipe, Method, Normal, Origin, Program, Proxy, Variant
-from harness.devices.frames import Batch
-from harness.experiment.kinds.methods import of_method
+from harness.devices.raster import Batch
+from harness.experiment.kinds.casts import of_method
 from harness.experiment.kinds.model import Drawing
 from harness.plugins import Catalog
 from harness.scenes.model import Group, Scene
@@ -24,16 +31,24 @@ from harness.scenes.records import corners, pack
 
 @dataclass(frozen=True, eq=False)
 class Draw:
-    """One draw call: a group of instances by one variant."""
+    """State one draw call: a group of instances by one variant.
+
+    recipe: of a mesh, which needs no proxy; None for a proxy
+    timed, check: the program that is timed, and the one that reports what it answers
+    """
 
     group: Group
     proxy: Proxy
-    recipe: MeshRecipe | None  # of a mesh, which needs no proxy
+    recipe: MeshRecipe | None
     timed: Program
     check: Program
 
     def batch(self, reports: bool) -> Batch:
-        """Ready for a device; a mesh is made here, or read from where it was kept."""
+        """Return the draw call ready for a device; a mesh is made here, or read from where it was kept.
+
+        With `reports` it is drawn by the program that reports what it answers. Raises FirsthitError if a mesh cannot be
+        made.
+        """
         records, program = pack(self.group), self.check if reports else self.timed
         if self.recipe is None:
             return Batch(program, records, corners(self.proxy), None, True)
@@ -54,8 +69,8 @@ def draws(
 ) -> tuple[Draw, ...]:
     """Make a draw call for each group of a scene.
 
-    `pixels`, `origin` and `normal` are as for raster_program; a group with a variant of its own keeps that one's
-    tolerance. Triangles have no origin. Raises FirsthitError where a group's method cannot draw it.
+    `pixels`, `origin` and `normal` are as for raster_program. A group with a variant of its own keeps that variant's
+    tolerance. Triangles have no origin. Raises FirsthitError if a group's method cannot draw it.
     """
     drawn = []
     for group in scene.groups:
@@ -72,7 +87,7 @@ def _recipe(group: Group, variant: Variant, method: Method) -> MeshRecipe | None
 
 
 def refusal(scene: Scene, variant: Variant, catalog: Catalog) -> str | None:
-    """Say why the methods of a scene cannot draw its surfaces, if they cannot."""
+    """Say why the methods of a scene cannot draw its surfaces; None if they can."""
     for group in scene.groups:
         chosen = group.variant or variant
         method = catalog.get(chosen.method).method
@@ -88,8 +103,10 @@ def refusal(scene: Scene, variant: Variant, catalog: Catalog) -> str | None:
 
 
 def too_many(scene: Scene, variant: Variant, catalog: Catalog, most: int) -> str | None:
-    """Why a scene's meshes are too fine for a frame of at most `most` triangles, if they are; contours are not counted
-    before they are made."""
+    """Say why a scene's meshes are too fine for a frame of at most `most` triangles; None if they are not.
+
+    Contours are not counted, since their triangles are known only once they are made.
+    """
     count = 0
     for group in scene.groups:
         chosen = group.variant or variant
@@ -102,7 +119,7 @@ def too_many(scene: Scene, variant: Variant, catalog: Catalog, most: int) -> str
 
 
 def identity(scene: Scene, proxy: Proxy, drawn: tuple[Draw, ...]) -> Mapping[str, object]:
-    """What beside the programs decides a picture: goes into cache keys."""
+    """Return what decides a picture beside the programs, JSON-able; it is part of the cell's identity."""
     from harness.scenes import meshes
 
     recipes = [None if d.recipe is None else [d.recipe.kind, d.recipe.resolution] for d in drawn]

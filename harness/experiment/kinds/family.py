@@ -1,4 +1,4 @@
-"""Families of hard rays: listed rays, checked rung by rung, and never timed."""
+"""Cast families of hard rays: listed rays that are checked rung by rung, and never timed."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from harness.results.row import RungVerdict
 
 
 class FamilyCasting(Casting):
-    """The listed rays of a family, by one program for each of its surfaces."""
+    """Cast the listed rays of a family, by one program for each of its surfaces."""
 
     def __init__(self, asked: Asked, checks: tuple[Program, ...]) -> None:
         super().__init__(asked, checks, None)
@@ -45,7 +45,7 @@ class FamilyCasting(Casting):
 
 
 class Family(Kind):
-    """Listed rays of a family."""
+    """Make castings of families."""
 
     is_timed = False
     listed = "families"

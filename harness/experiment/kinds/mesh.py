@@ -1,4 +1,7 @@
-"""Meshes: a surface tessellated beforehand, whose triangles are rasterised in place of rays."""
+"""Draw meshes: a surface is tessellated beforehand, and its triangles are rasterised instead of casting rays.
+
+Only stage raster draws them; kinds/raster.py makes its castings.
+"""
 
 from __future__ import annotations
 
@@ -17,10 +20,12 @@ from harness.scenes.model import Group
 
 
 class MeshMethods(MethodKind):
-    """Methods whose kernel shades a triangle: `vec3 mesh_normal(vec3)`."""
+    """State what follows for methods whose kernel shades a triangle: `vec3 mesh_normal(vec3)`."""
 
     what = "triangles"
-    unlisted = "it draws triangles, and listed rays meet none"
+    entries = ()
+    unlisted = "draws triangles, and listed rays meet none"
+    undrawn = None
 
     def stage_refusal(self, stage: Stage) -> str | None:
         return "the method draws triangles, in stage raster"
@@ -52,7 +57,7 @@ class MeshMethods(MethodKind):
 
 
 class Mesh(Kind):
-    """Triangles outside stage raster, where nothing draws them: MeshMethods.stage_refusal refuses every such cell."""
+    """Stand for triangles outside stage raster, where MeshMethods.stage_refusal refuses every cell."""
 
     def casting(self, asked: Asked) -> Casting:
         raise NotImplementedError("a mesh is drawn by stage raster: ask refusal first")

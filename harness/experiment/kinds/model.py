@@ -1,8 +1,11 @@
-"""What a kind of casting has to say, so that plan, runner and gate ask it and branch on nothing.
+"""State what a kind of casting must say, so that plan, runner and gate ask it and branch on nothing.
 
 A `MethodKind` belongs to what a method's kernel defines (`Method.casts`): rays, beams, a quadtree of beams, a mesh. A
-`Kind` belongs to a cell: which way its method is asked to cast. It refuses a cell or makes its `Casting`, which holds
-the cell's programs and runs them.
+`Kind` belongs to a cell: it is the way in which the cell's method is asked to cast. A Kind refuses a cell, or makes its
+`Casting`, which holds the cell's programs and runs them. Most castings are a `ViewCasting`, which checks answers on a
+grid of a view's rays.
+
+Each abstract method must be given by a new kind. The others have an answer that is right for most kinds.
 """
 
 from __future__ import annotations
@@ -20,33 +23,37 @@ from numpy.typing import NDArray
 from harness.accuracy import check, freeloops
 from harness.accuracy.compilers import SecondBuild, doubts_about
 from harness.accuracy.pictures import headlight
-from harness.contract import DeviceInfo, Hits, Method, Normal, Origin, Program, Proxy, Stage, Surface, Variant
+from harness.contract import DeviceInfo, Hits, Method, Normal, Origin, Program, Proxy, Section, Stage, Surface, Variant
 from harness.devices.executor import LocalExecutor
 from harness.devices.interface import LANGUAGES
 from harness.devices.messages import Check, Frame
 from harness.experiment.cells import Cell
 from harness.experiment.config import AccuracyChoice, Config, Experiment
-from harness.kernels.assemble import Language, method_program
+from harness.kernels.assemble import Entry, Language, method_program, with_free_loops
 from harness.kernels.functions import unsupported
 from harness.plugins import Catalog, Plugin
 from harness.results.row import Accuracy, RungVerdict
 from harness.scenes.camera import camera_for, distance_of, pixel_footprint, rays_of
 from harness.scenes.model import Group
 
-Entry = Literal["rays", "camera", "beams"]
-Rastering = tuple[Proxy, float, Normal]  # proxy, tolerance in pixels, normal: what only stage raster asks
+Rastering = tuple[Proxy, float, Normal]  # proxy, tolerance in pixels, normal: of stage raster only
 NOT_RASTERED: Rastering = ("box", 0.0, "distance")
 
 
 @dataclass(frozen=True, eq=False)
 class Asked:
-    """A cell to be cast on a device, with all that a kind needs to know of it."""
+    """State a cell that is to be cast on a device, with all that a kind needs to know of it.
+
+    info: of the cell's device; None if it is not here
+    method_kind: the kind of the cell's method
+    most_triangles: the most that a frame may have
+    """
 
     cell: Cell
-    info: DeviceInfo | None  # None: no such device is here
+    info: DeviceInfo | None
     catalog: Catalog
     method_kind: MethodKind
-    most_triangles: int  # of a frame
+    most_triangles: int
 
     @property
     def plugin(self) -> Plugin:
@@ -60,52 +67,78 @@ class Asked:
     def language(self) -> Language:
         return LANGUAGES[self.cell.device.partition(":")[0]]
 
-    def program(self, surface: Surface, entry: Entry, language: Language | None = None, **more: Any) -> Program:
-        """Make a program of the cell's variant, as harness.kernels.assemble.method_program does."""
+    def program(
+        self, surface: Surface, entry: Entry, language: Language | None = None, narrowed: Section | None = None
+    ) -> Program:
+        """Make a program of the cell's variant at `surface`, as harness.kernels.assemble.method_program does.
+
+        `language` is the device's if none is given. Raises FirsthitError as method_program does.
+        """
         cell, plugin = self.cell, self.plugin
         stated = plugin.method, plugin.folder, cell.variant, surface, cell.precision, language or self.language
-        return method_program(*stated, entry, origin=cell.origin, **more)
+        return method_program(*stated, entry, narrowed, origin=cell.origin)
 
 
 @dataclass(frozen=True, eq=False)
 class Outcome:
-    """Holds what checking a cell found; None for what its kind does not find, or what nothing could be judged by."""
+    """Hold what checking a cell found. What a kind does not find is None, as is what nothing could be judged by.
+
+    reason: why the cell fails and is not timed; None if it may be
+    summary: the row's accuracy
+    pictures: the row's arrays by name
+    rungs: of a family: what accuracy.rungs says of each rung
+    """
 
     compile_ms: float
-    reason: str | None = None  # why the cell is not timed
-    summary: Accuracy | None = None  # the row's accuracy
-    pictures: dict[str, NDArray[Any]] | None = None  # the row's arrays
-    rungs: list[RungVerdict] | None = None  # of a family
+    reason: str | None = None
+    summary: Accuracy | None = None
+    pictures: dict[str, NDArray[Any]] | None = None
+    rungs: list[RungVerdict] | None = None
 
 
 class MethodKind(ABC):
-    """What follows from what a method's kernel casts."""
+    """State what follows from what a method's kernel casts.
 
-    entries: tuple[Entry, ...] = ()  # of the programs that `firsthit compile` builds
-    unlisted: str | None = None  # why listed rays cannot be cast, where they cannot
-    undrawn: str | None = None  # why stage raster cannot draw with it, where it cannot
-
-    def stage_refusal(self, stage: Stage) -> str | None:
-        """Say why the method cannot cast in a stage other than raster, if it cannot."""
-        return None
-
-    def origin_refusal(self, method: Method, origin: Origin) -> str | None:
-        """Say why the method cannot begin its rays at `origin`, if it cannot."""
-        if origin == "nearest":
-            return None
-        return f"an origin is chosen for rays, and the method {method.name} casts {self.what}"
+    Kinds state the four properties as class attributes. A shot is an image, or listed rays, that `firsthit show` and
+    `firsthit trace` cast once.
+    """
 
     @property
     @abstractmethod
     def what(self) -> str:
-        """What the method casts, in the plural: rays, beams, triangles."""
+        """Name what the method casts, in the plural: rays, beams, triangles."""
+
+    @property
+    @abstractmethod
+    def entries(self) -> tuple[Entry, ...]:
+        """List the entries of the method's programs, which `firsthit compile` builds; the first is that of shots."""
+
+    @property
+    @abstractmethod
+    def unlisted(self) -> str | None:
+        """Say why listed rays cannot be cast, in what follows the method's name in a sentence; None if they can."""
+
+    @property
+    @abstractmethod
+    def undrawn(self) -> str | None:
+        """Say why stage raster cannot draw by the method, in what follows its name in a sentence; None if it can."""
+
+    def stage_refusal(self, stage: Stage) -> str | None:
+        """Say why the method cannot cast in a stage other than raster; None if it can."""
+        return f"the method {self.unlisted}" if stage == "rays" and self.unlisted else None
+
+    def origin_refusal(self, method: Method, origin: Origin) -> str | None:
+        """Say why the method cannot begin its rays at `origin`; None if it can."""
+        if origin == "nearest":
+            return None
+        return f"an origin is chosen for rays, and the method {method.name} casts {self.what}"
 
     def origins(self, experiment: Experiment) -> tuple[Origin, ...]:
-        """List the origins that make a difference to the method; what has none is cast once."""
+        """List the origins that make a difference to the method. One without rays has a single cell for all of them."""
         return ("nearest",)
 
     def told_origin(self, origin: Origin) -> Origin | None:
-        """Return the origin that a row tells; None where the method has none."""
+        """Return the origin that a row names; None if the method has none."""
         return None
 
     def rasterings(self, method: Method, experiment: Experiment) -> list[Rastering]:
@@ -113,46 +146,55 @@ class MethodKind(ABC):
         return [NOT_RASTERED]
 
     def draw_refusal(self, method: Method, variant: Variant, group: Group) -> str | None:
-        """Say why the method cannot draw a scene's group of instances, if it cannot."""
+        """Say why the method cannot draw a scene's group of instances; None if it can."""
         return None
 
     def draw_programs(self, plugin: Plugin, drawing: Drawing) -> tuple[Program, Program]:
-        """Make the programs that draw a group, timed and reporting.
+        """Make the programs that draw a group: the timed one, and the one that reports what it answers.
 
-        Raises FirsthitError where the method cannot draw it.
+        Raises FirsthitError if the method cannot draw the group.
         """
         raise NotImplementedError(f"{plugin.method.name} draws nothing: ask draw_refusal first")
 
     def compiled_drawing(self, plugin: Plugin, surface: Surface) -> Program | None:
-        """Make the reporting program of stage raster, which holds the timed one's text; None where there is none."""
-        return None
+        """Make the reporting program of stage raster, for `firsthit compile`; None if the method draws nothing.
 
-    def shot_refusal(self, camera: NDArray[np.float32] | None) -> str | None:
-        """Say why the method cannot cast an image of single rays, if it cannot: what follows its name in a sentence.
-
-        `camera`, float32[12], is the image's; None where the rays are of no camera.
+        The reporting program contains the timed one's text.
         """
         return None
 
+    def shot_refusal(self, camera: NDArray[np.float32] | None) -> str | None:
+        """Say why the method cannot cast a shot, in what follows its name in a sentence; None if it can.
+
+        `camera`, float32[12], is the image's; None if the rays are of no camera.
+        """
+        return self.unlisted if camera is None else None
+
     @abstractmethod
     def shot(self, program: Program, shot: Shot, index: NDArray[np.intp]) -> Check[Any]:
-        """Build the check that casts the rays `index`, int[k], of a shot; its program is of the entry `entries[0]`."""
+        """Make the check that casts the rays `index`, int[k], of a shot. `program` has the entry `entries[0]`."""
 
     @abstractmethod
     def shot_hits(self, answer: Any) -> Hits:
-        """Read the hits [k] from what the check of `shot` answered."""
+        """Read the hits [k], with t along the rays, from what the check of `shot` answered."""
 
     @abstractmethod
     def validated(self, hits: Hits, surface: Surface, shot: Shot) -> Hits:
-        """Mark those answers for all rays of a shot INVALID that can be none."""
+        """Mark those answers INVALID that can be none (harness.accuracy.answers); `hits` are of all rays of a shot."""
 
 
 @dataclass(frozen=True, eq=False)
 class Shot:
-    """Holds rays that are cast once, to be looked at: for `firsthit trace` and `firsthit show`."""
+    """Hold rays that are cast once, to be looked at: for `firsthit trace` and `firsthit show`.
 
-    rays: NDArray[np.float32]  # [n, 6]
-    camera: NDArray[np.float32] | None  # [12], of the square image whose rays these are, row by row
+    rays: float32[n, 6]
+    camera: float32[12], of the square image whose rays these are, row by row; None if they are of no image
+    knobs: of the method's variant
+    t_min: where the rays begin, in units of t
+    """
+
+    rays: NDArray[np.float32]
+    camera: NDArray[np.float32] | None
     knobs: Mapping[str, float | int]
     t_min: float = 0.0
     origin: Origin = "nearest"
@@ -160,7 +202,11 @@ class Shot:
 
 @dataclass(frozen=True, eq=False)
 class Drawing:
-    """How a group of instances is to be drawn; see harness.kernels.assemble.raster_program."""
+    """State how a group of instances is to be drawn.
+
+    pixels: pixel footprints that the method's tolerance may grow to; see harness.kernels.raster.raster_program for
+        this, `origin` and `normal`
+    """
 
     group: Group
     variant: Variant
@@ -171,18 +217,24 @@ class Drawing:
 
 
 class Kind(ABC):
-    """A way to cast a cell."""
+    """State a way to cast a cell.
 
-    checked_on_frame = False  # whether the check needs the frame that is timed, so that untimed cells have it too
-    is_timed = True  # whether cells of this kind have a frame to time
-    listed: Literal["cells", "families"] = "cells"  # where plan.json lists its cells
+    checked_on_frame: the check casts the frame that is timed, so that its program is made for cells too that are not
+        timed
+    is_timed: cells of this kind have a frame to time
+    listed: the part of plan.json that lists its cells
+    """
+
+    checked_on_frame = False
+    is_timed = True
+    listed: Literal["cells", "families"] = "cells"
 
     def surfaces(self, cell: Cell) -> Sequence[Surface]:
         """List the surfaces that the cell's programs are of."""
         return [cell.surface]
 
     def refusal(self, asked: Asked) -> str | None:
-        """Say why the cell's method cannot cast it in this way, if it cannot."""
+        """Say why the cell's method cannot cast it in this way; None if it can."""
         cell, method = asked.cell, asked.method
         if cell.scene:
             return "the stage casts at one surface; several are drawn by stage raster"
@@ -196,18 +248,18 @@ class Kind(ABC):
         return None
 
     def unable(self, asked: Asked) -> str | None:
-        """Say what only this kind refuses, whatever the surface."""
+        """Say what only this kind refuses, whatever the surface; None if that is nothing."""
         return None
 
     @abstractmethod
     def casting(self, asked: Asked) -> Casting:
-        """Make the cell's programs. Raises FirsthitError where they cannot be made."""
+        """Make the cell's programs; `refusal` was asked before. Raises FirsthitError if they cannot be made."""
 
     def facts(self, cell: Cell) -> dict[str, Any]:
         """Return the leaves of the cell's row that depend on the kind.
 
-        `camera` is the view's angles in degrees and its distance from the target in scene units, also where the view
-        leaves that to the surface. Of stage raster are `proxy`, `normal` and `pixel_tolerance`.
+        `camera` is the view's angles in degrees and its distance from the target in scene units, also if the view
+        leaves that to the surface. `proxy`, `normal` and `pixel_tolerance` are of stage raster, and None elsewhere.
         """
         view, distance = cell.view, distance_of(cell.view, cell.surface)
         pose = {"azimuth": view.azimuth, "elevation": view.elevation, "fov": view.fov, "distance": distance}
@@ -226,12 +278,15 @@ class Kind(ABC):
 
 
 class Casting(ABC):
-    """A cell's programs, and what is done with them."""
+    """Hold a cell's programs, and run them.
 
-    not_raced: str | None = None  # why its frame is not timed against another revision's, where it is not
+    not_raced: why its frame is not timed against another revision's; None if it is
+    """
+
+    not_raced: str | None = None
 
     def __init__(self, asked: Asked, checks: tuple[Program, ...], timed: Program | None) -> None:
-        """`checks` are the programs whose answers are read, `timed` is the frame's, None where nothing is timed."""
+        """Take `checks`, the programs whose answers are read, and `timed`, the frame's; None if nothing is timed."""
         self.asked, self.checks, self.timed = asked, checks, timed
 
     @property
@@ -240,38 +295,38 @@ class Casting(ABC):
 
     @property
     def others(self) -> tuple[Program, ...]:
-        """The programs beside `checks` and `timed` that decide the cell's row."""
+        """Return the programs beside `checks` and `timed` that decide the cell's row, such as a prepass's."""
         return ()
 
     @property
     def methods(self) -> tuple[str, ...]:
-        """The names of the methods whose programs these are."""
+        """Return the names of the methods whose programs these are."""
         return (self.cell.variant.method,)
 
     @property
     def decides(self) -> Mapping[str, object]:
-        """What decides the cell's row beside its programs and its question."""
+        """Return what decides the cell's row beside its programs and its question, JSON-able."""
         return {}
 
     @abstractmethod
     def frame(self) -> Frame | None:
-        """Build the frame that is timed; None where nothing is timed."""
+        """Build the frame that is timed; None if nothing is timed."""
 
     @abstractmethod
     def check(self, executor: LocalExecutor, choice: AccuracyChoice, folder: Path, framed: bool) -> Outcome:
         """Cast, and hold the answers against the oracle, whose answers `folder` keeps.
 
-        `framed`: a frame is to follow, so that a cell which is too wrong for that is given a reason. Raises CellError
-        where a step fails, and FirsthitError where what is to be drawn cannot be made.
+        With `framed` a frame is to follow, so that a cell which is too wrong to be timed is given a reason. Raises
+        CellError if a step fails, and FirsthitError if what is to be drawn cannot be made.
         """
 
 
 class ViewCasting(Casting):
-    """A cell that is cast from a view: its answers are checked on a grid of the view's rays."""
+    """Hold the programs of a cell that is cast from a view, and check their answers on a grid of the view's rays."""
 
     @property
     def camera(self) -> NDArray[np.float32]:
-        """float32[12], as camera_for makes it."""
+        """Return the view's camera, float32[12] (eye, forward, right, up)."""
         return camera_for(self.cell.view, self.cell.surface)
 
     @property
@@ -280,19 +335,26 @@ class ViewCasting(Casting):
         side: float = self.cell.samples_per_pixel**0.5
         return self.cell.size * round(side)
 
+    def check_program(self, free_loops: bool) -> Program:
+        """Return the program that is checked, of a casting with one; with `free_loops` as it is timed (see `cast`)."""
+        return with_free_loops(self.checks[0]) if free_loops else self.checks[0]
+
     @abstractmethod
     def cast(self, executor: LocalExecutor, size: int, free_loops: bool = False) -> check.Cast:
-        """Cast a grid of size × size rays of the view.
+        """Cast a grid of size × size rays of the view, rays_of(self.camera, size), and return validated answers.
 
         With `free_loops` the programs leave their loops to the compiler, as timed ones do.
         """
 
     def second_build(self, executor: LocalExecutor, cast: check.Cast) -> SecondBuild | None:
-        """Return the same kernel compiled another way, to tell whether a compiler is at fault; None: there is none."""
+        """Return how the same kernel is compiled in another way; None if it cannot be.
+
+        It tells whether a compiler is at fault for answers that f contradicts.
+        """
         return None
 
     def samples_shade(self, executor: LocalExecutor, size: int) -> NDArray[np.float32] | None:
-        """Shade the samples of size × size pixels, [k, k]; None where a pixel has one sample."""
+        """Shade the samples of size × size pixels, float32[k, k]; None if a pixel has one sample."""
         side = size * round(self.cell.samples_per_pixel**0.5)
         if side == size:
             return None
@@ -320,4 +382,7 @@ class ViewCasting(Casting):
 
     @abstractmethod
     def with_programs(self, checked: Program | None, timed: Program) -> ViewCasting:
-        """Return the same casting by another revision's programs; without `checked`, the timed one is checked."""
+        """Return the same casting by another revision's programs; without `checked`, the timed one is checked.
+
+        Raises NotImplementedError for a kind that is `not_raced`.
+        """

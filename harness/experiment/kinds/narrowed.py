@@ -1,4 +1,7 @@
-"""Rays behind a prepass: beams over tiles of the image narrow each ray before its method is called."""
+"""Cast rays behind a prepass, whose beams over tiles of the image narrow each ray before its method is called.
+
+The check lists rays, and narrows them by the prepass of the frame that is timed.
+"""
 
 from __future__ import annotations
 
@@ -13,14 +16,13 @@ from harness.devices.narrowed import NarrowedCheck, NarrowedFrame
 from harness.experiment.kinds.model import Asked, Casting, Kind, ViewCasting
 from harness.experiment.kinds.rays import listed_again
 from harness.kernels import prepass
-from harness.kernels.assemble import with_free_loops
 from harness.scenes.camera import rays_of
 
 REFUSAL = "a prepass narrows the rays of a camera's pixels, in the stage compute"
 
 
 class NarrowedCasting(ViewCasting):
-    """Rays of a camera's image, narrowed by the prepass `before`."""
+    """Cast rays of a camera's image, narrowed by the prepass's program `before`."""
 
     not_raced = "rays behind a prepass are not raced"
 
@@ -41,9 +43,9 @@ class NarrowedCasting(ViewCasting):
 
     def cast(self, executor: LocalExecutor, size: int, free_loops: bool = False) -> Cast:
         surface, rays = self.cell.surface, rays_of(self.camera, size)
-        program = with_free_loops(self.checks[0]) if free_loops else self.checks[0]
         pixels = pixels_of(self.camera, size, self.samples)
-        checked = executor.check(self.cell.device, NarrowedCheck(self._frame(), program, rays, pixels.index))
+        check = NarrowedCheck(self._frame(), self.check_program(free_loops), rays, pixels.index)
+        checked = executor.check(self.cell.device, check)
         hits = validated(checked.answer.hits, surface.domain, rays, counts=False, origin=self.cell.origin)
         facts = {"prepass_evaluations_mean": checked.answer.prepass_evaluations}
         return Cast(surface, rays, hits, checked.compile_ms, facts, {})
@@ -56,7 +58,7 @@ class NarrowedCasting(ViewCasting):
 
 
 class Narrowed(Kind):
-    """Rays of stage compute behind a prepass."""
+    """Make castings of rays behind a prepass, in stage compute."""
 
     checked_on_frame = True
 

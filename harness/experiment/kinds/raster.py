@@ -1,8 +1,8 @@
-"""Rasterisation: a scene's instances are drawn, by proxies whose fragments cast rays, or by meshes.
+"""Draw a scene's instances by rasterisation: proxies whose fragments cast rays, or meshes.
 
-Rays are not made here: each fragment makes the ray through its pixel's middle, and the check reads it back. The
-accuracy grid is drawn as a picture of its own by programs that write their rays. A pixel that no proxy covers was
-answered by the rasteriser: its answer is a miss. Fragments are counted on the frame that is timed.
+Rays are not made here. Each fragment makes the ray through its pixel's middle, and the check reads it back. The
+accuracy grid is drawn as a picture of its own, by programs that write their rays. A pixel that no proxy covers is a
+miss, since the rasteriser itself has answered it. Fragments are counted on the frame that is timed.
 """
 
 from __future__ import annotations
@@ -21,8 +21,8 @@ from harness.accuracy.judge import Deviations, Verdicts
 from harness.accuracy.scene_truth import Seen, hits_of, scene_truth
 from harness.contract import Program, Truth
 from harness.devices.executor import LocalExecutor
-from harness.devices.frames import Picture, RasterCheck, RasterFrame
 from harness.devices.messages import Frame
+from harness.devices.raster import Picture, RasterCheck, RasterFrame
 from harness.experiment.cells import Cell
 from harness.experiment.kinds.draws import Draw, draws, identity, refusal, too_many
 from harness.experiment.kinds.model import Asked, Casting, Kind, ViewCasting
@@ -37,11 +37,14 @@ from harness.scenes.records import depth_map
 
 @dataclass(frozen=True, eq=False)
 class SceneCast(Cast):
-    """Holds the picture of a scene, whose truth is what is seen first of all its instances."""
+    """Hold the picture of a scene. Its truth is, for each pixel, the first hit over all instances.
+
+    alone: it shows one surface, in that surface's own coordinates
+    """
 
     scene: Scene
     picture: Picture
-    alone: bool  # whether it is of one surface, in that surface's own coordinates
+    alone: bool
 
     def certified(self, folder: Path, margin: float) -> Seen:
         return scene_truth(self.scene, self.rays, self.picture, folder, margin)
@@ -59,7 +62,7 @@ class SceneCast(Cast):
 
 
 class RasterCasting(ViewCasting):
-    """The draw calls of a scene."""
+    """Draw a scene by its draw calls."""
 
     not_raced = "stage raster's pictures are not raced"
 
@@ -84,7 +87,7 @@ class RasterCasting(ViewCasting):
         return self._frame(self.samples, reports=False)
 
     def _frame(self, size: int, reports: bool, free_loops: bool = False) -> RasterFrame:
-        """Build the frame of size × size pixels; with `reports` its programs say what they answered."""
+        """Build the frame of size × size pixels; with `reports` by the programs that report what they answered."""
         batches = tuple(draw.batch(reports) for draw in self.draws)
         if free_loops:
             batches = tuple(dataclasses.replace(batch, program=with_free_loops(batch.program)) for batch in batches)
@@ -103,7 +106,7 @@ class RasterCasting(ViewCasting):
         return SceneCast(surface, picture.rays, hits, checked.compile_ms, facts, pictures, self.scene, picture, alone)
 
     def _fragments(self, executor: LocalExecutor) -> dict[str, Any]:
-        """Count the fragments of the frame that is timed."""
+        """Count the fragments of the frame that is timed; they are leaves of the row's accuracy."""
         whole = RasterCheck(self._frame(self.samples, reports=True), fill_program(), twice=False)
         picture = executor.check(self.cell.device, whole).answer
         fragments, found = (int(counts.sum(dtype=np.int64)) for counts in (picture.fragments, picture.fragment_hits))
@@ -121,7 +124,7 @@ class RasterCasting(ViewCasting):
 
 
 class Raster(Kind):
-    """A scene, or one surface alone, drawn by stage raster."""
+    """Make castings of scenes, or of one surface alone, in stage raster."""
 
     def refusal(self, asked: Asked) -> str | None:
         cell, info = asked.cell, asked.info

@@ -1,4 +1,7 @@
-"""Rays: each is cast by itself, from a camera's image or from a list."""
+"""Cast rays, each by itself, from a camera's image or from a list.
+
+The checked program takes listed rays. In stage compute the timed one makes the same rays from the camera.
+"""
 
 from __future__ import annotations
 
@@ -22,10 +25,12 @@ from harness.scenes.records import MOST_PARAMETERS
 
 
 class RayMethods(MethodKind):
-    """Methods whose kernel answers one ray: `Hit first_hit(Ray, real t0, real t1)`."""
+    """State what follows for methods whose kernel answers one ray: `Hit first_hit(Ray, real t0, real t1)`."""
 
     what = "rays"
     entries = ("rays", "camera")
+    unlisted = None
+    undrawn = None
 
     def origin_refusal(self, method: Method, origin: Origin) -> str | None:
         return None
@@ -85,7 +90,7 @@ class RayMethods(MethodKind):
 
 
 class RayCasting(ViewCasting):
-    """Rays of a camera's image, or the same rays listed."""
+    """Cast rays of a camera's image, or the same rays listed."""
 
     def __init__(self, asked: Asked, check: Program, timed: Program) -> None:
         super().__init__(asked, (check,), timed)
@@ -98,8 +103,7 @@ class RayCasting(ViewCasting):
 
     def cast(self, executor: LocalExecutor, size: int, free_loops: bool = False) -> Cast:
         surface, rays = self.cell.surface, rays_of(self.camera, size)
-        program = with_free_loops(self.checks[0]) if free_loops else self.checks[0]
-        checked = executor.check(self.cell.device, ListedCheck(program, rays))
+        checked = executor.check(self.cell.device, ListedCheck(self.check_program(free_loops), rays))
         hits = validated(checked.answer, surface.domain, rays, origin=self.cell.origin)
         return Cast(surface, rays, hits, checked.compile_ms, {}, {})
 
@@ -112,21 +116,24 @@ class RayCasting(ViewCasting):
 
 
 class OtherRays(RayCasting):
-    """Rays by another revision's programs: its kernel is not at hand to be built in a second way."""
+    """Cast rays by another revision's programs.
+
+    They have no second build, since that revision's kernel is not at hand.
+    """
 
     def second_build(self, executor: LocalExecutor, cast: Cast) -> SecondBuild | None:
         return None
 
 
 def listed_again(asked: Asked, executor: LocalExecutor, cast: Cast) -> SecondBuild:
-    """Return how the cell's kernel casts the rays of `cast` when it is built in a second way."""
+    """Return how the cell's kernel casts the rays of `cast` if it is built in a second way."""
     cell = asked.cell
     run = with_listed_rays(executor, cast.rays)
     return SecondBuild(cell.device, cell.precision, lambda language: asked.program(cell.surface, "rays", language), run)
 
 
 class Rays(Kind):
-    """Rays from a camera's image in stage compute, or listed in stage rays."""
+    """Make castings of rays: from a camera's image in stage compute, listed in stage rays."""
 
     def casting(self, asked: Asked) -> Casting:
         surface = asked.cell.surface

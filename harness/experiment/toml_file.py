@@ -1,4 +1,4 @@
-"""A config file: its text, its TOML, and on which line something stands."""
+"""Hold a config file: its text, its TOML, and the line on which a value stands."""
 
 from __future__ import annotations
 
@@ -15,20 +15,23 @@ Where = tuple[str | int, ...]  # keys and places that lead to a value: ("view", 
 
 @dataclass(frozen=True)
 class ConfigFile:
-    """A config as it was read. Errors about it name its path and a line."""
+    """Hold a config as it was read. Errors about it name its path and a line.
+
+    table: what tomllib reads from `text`
+    """
 
     path: Path
     text: str
-    table: dict[str, Any]  # as tomllib reads it
+    table: dict[str, Any]
 
     def error(self, where: Where, message: str) -> FirsthitError:
-        """Make the error that says `message` of what stands at `where`, with file and line."""
+        """Make the error that says `message` of the value at `where`, with file and line."""
         return FirsthitError(f"{self.path}:{self._line(where)}: {message}")
 
     def _line(self, where: Where) -> int:
-        """Find the line that sets `where` or, where nothing does, its nearest ancestor; 1 where that is the whole file.
+        """Find the line that sets the value at `where`; if nothing does, the line of its nearest ancestor, or 1.
 
-        tomllib keeps no positions, so the shortest beginning of the file that sets it is looked for.
+        tomllib keeps no positions, so the shortest beginning of the file that sets the value is looked for.
         """
         lines = self.text.splitlines()
         for depth in range(len(where), 0, -1):
@@ -48,7 +51,7 @@ def read(path: Path) -> ConfigFile:
         raise FirsthitError(f"cannot read {path}: {reason}; see `firsthit list configs`") from None
     try:
         return ConfigFile(path, text, tomllib.loads(text))
-    except ValueError as error:  # a TOMLDecodeError, or of a number of more digits than Python reads
+    except ValueError as error:  # a TOMLDecodeError, or a number with more digits than Python reads
         raise FirsthitError(f"{path}: not valid TOML: {error}") from None
 
 

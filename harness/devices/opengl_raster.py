@@ -1,4 +1,4 @@
-"""Frames of triangles through moderngl: colour and depth, and, where the programs report, what they answered."""
+"""Draw frames of triangles through moderngl: colour and depth and, if their programs report, what they answered."""
 
 from __future__ import annotations
 
@@ -9,25 +9,27 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from harness.devices.frames import Batch, Picture, RasterLaunch
-from harness.devices.interface import Array, Timing
+from harness.devices.interface import Array, Built, Timing
+from harness.devices.raster import Batch, Picture, RasterLaunch
 
-GL_DEPTH_CLAMP = 0x864F  # proxies may reach in front of the near plane; what they hold does not
+GL_DEPTH_CLAMP = 0x864F  # a proxy may reach in front of the near plane, though the surface in it does not
 
 
 class OpenGLRasterLaunch(RasterLaunch):
-    """Batches drawn in order into one target with a depth buffer; `built` has a program for each, and with `fill` they
-    report."""
+    """Draw batches in order into one target with a depth buffer.
+
+    `built` holds a program for each batch; with `fill` these programs report.
+    """
 
     def __init__(
         self,
         context: Any,
         batches: Sequence[Batch],
-        built: Sequence[Any],
+        built: Sequence[Built],
         camera: NDArray[np.float32],
         depth_map: tuple[float, float],
         size: int,
-        fill: Any = None,
+        fill: Built | None = None,
     ) -> None:
         self._context, self._size, reports = context, size, fill is not None
         start = time.perf_counter()
@@ -64,7 +66,7 @@ class OpenGLRasterLaunch(RasterLaunch):
         self.bytes += values.nbytes
         return self._keep(self._context.buffer(np.ascontiguousarray(values).tobytes()))
 
-    def _call(self, batch: Batch, program: Any) -> tuple[Any, Any, Any, int, bool]:
+    def _call(self, batch: Batch, program: Built) -> tuple[Built, Any, Any, int, bool]:
         instances, triangles = self._buffer(batch.instances), self._buffer(batch.triangles)
         content = []
         if batch.vertices is not None:
@@ -107,13 +109,13 @@ class OpenGLRasterLaunch(RasterLaunch):
             array.render(moderngl.TRIANGLES, instances=count)
         context.disable_direct(GL_DEPTH_CLAMP)
 
-    def _set(self, program: Any, batch: int) -> None:
+    def _set(self, program: Built, batch: int) -> None:
         for name, value in {**self._uniforms, "batch": batch}.items():
             if name in program:
                 program[name] = value
 
     def read(self) -> list[Array]:
-        """The picture, uint8[size, size, 4], row 0 at the top."""
+        """Read the picture, uint8[size, size, 4], row 0 at the top."""
         return [self._flipped(np.frombuffer(self._colour.read(), np.uint8), 4)]
 
     def _flipped(self, values: Array, width: int) -> Array:
@@ -121,7 +123,7 @@ class OpenGLRasterLaunch(RasterLaunch):
         return np.ascontiguousarray(rows)
 
     def picture(self) -> Picture:
-        """Read back what a frame with reporting programs showed; it must have been run once."""
+        """Read what a frame with reporting programs answered; it must have been run once."""
         assert self._rays is not None and self._counts is not None
         count = self._size**2
         (colours,) = self.read()

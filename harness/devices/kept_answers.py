@@ -1,13 +1,14 @@
-"""What was found of this machine's devices, kept in the user's cache folder, for commands that only tell of it.
+"""Keep what was found of this machine's devices in the user's cache folder, for commands that only tell of it.
 
-An answer is believed only while all that it may depend on is as it was: the harness, the packages of bindings and
-drivers, the processor and the machine since it was started, the environment variables that drivers and their loaders
-listen to, the lists by which loaders find drivers, and every file whose code ran in the worker that answered: drivers,
-their compilers and what these load. One that is damaged is not believed either, and one that tells of no device, or of
-one with a problem, is not kept: who mends a device is not to be told that it is broken. Without a folder that can be
-written nothing is kept, and nothing else changes.
+An answer is believed only if all that it may depend on is as it was: the harness; the packages of bindings and drivers;
+the processor, and that the machine has not been started again; the environment variables that drivers and their loaders
+read; the lists by which loaders find drivers; and every file whose code ran in the worker that answered (drivers, their
+compilers, and what these load). An answer that is damaged is not believed either. One that tells of no device, or of a
+device with a problem, is not kept: who mends a device is not to be told that it is still broken. If no folder can be
+written, nothing is kept, and nothing else changes.
 
-What makes rows does not ask here. It looks for devices (`discovery.discover_devices`), which replaces what is kept.
+Commands that make rows do not ask here. They look for devices (`discovery.discover_devices`), which replaces what is
+kept.
 """
 
 from __future__ import annotations
@@ -34,7 +35,7 @@ PACKAGES = (
     *("pyopencl", "moderngl", "glcontext", "numpy"),
     *("pocl-binary-distribution", "intel-opencl-rt", "intel-cmplr-lib-rt"),
 )
-LOADERS = (  # beginnings of the environment variables by which drivers are found, beside host.SETTINGS
+LOADERS = (  # how names of the variables begin by which drivers are found, beside those in host.SETTINGS
     *("OCL_", "OPENCL_", "LD_", "EGL_", "__EGL_", "__GLX_", "LIBGL_", "GALLIUM_", "RUSTICL_", "DRI_", "VK_"),
     *("NVIDIA_", "ROCR_", "HIP_", "HSA_", "GPU_", "AMD_", "ZE_", "SYCL_", "NEO", "DISPLAY", "WAYLAND_"),
 )
@@ -46,17 +47,17 @@ NODES = ("dri/*", "nvidia*", "kfd")  # below /dev: the hardware that drivers ope
 
 @dataclass(frozen=True)
 class Kept:
-    """What a look at one backend found, and when it was kept, in seconds since 1970."""
+    """Hold what a look at one backend found, and when it was kept, in seconds since 1970."""
 
     devices: tuple[DeviceInfo, ...]
     since: float
 
 
 def keep(backend: str, devices: Sequence[DeviceInfo], ran: Iterable[Path] | None) -> None:
-    """Keep what a look at `backend` found; where that is nothing, or a device has a problem, forget what was kept.
+    """Keep what a look at `backend` found; if that is nothing, or a device has a problem, forget what was kept.
 
-    A broken double of a working device (one driver installed twice) is none. `ran` names the files whose code ran in
-    the worker; None, where the system does not tell them: then nothing is kept.
+    The problem of a broken double of a working device (one driver that is installed twice) does not count. `ran` names
+    the files whose code ran in the worker. It is None if the system does not say; then nothing is kept.
     """
     place = _place()
     if place is None:
@@ -68,14 +69,14 @@ def keep(backend: str, devices: Sequence[DeviceInfo], ran: Iterable[Path] | None
             file.unlink(missing_ok=True)
     elif ran is not None:
         with contextlib.suppress(FirsthitError, OSError, ValueError):
-            states = {str(path): state for path in ran if (state := _state(path))}  # a compiler's own may be gone
+            states = {str(path): state for path in ran if (state := _state(path))}  # a compiler's files may be gone
             found = [dataclasses.asdict(info) for info in devices]
             record = {"surroundings": _surroundings(), "files": states, "devices": found}
             write_atomically(file, json.dumps(record | {"digest": digest(record)}).encode())
 
 
 def recall(backend: str) -> Kept | None:
-    """What the last look at `backend` found, where all that it may depend on is as it was then."""
+    """Return what the last look at `backend` found; None if something that it may depend on has changed since."""
     place = _place()
     try:
         if place is None:
@@ -92,13 +93,13 @@ def recall(backend: str) -> Kept | None:
 
 
 def probes_folder() -> Path | None:
-    """Where `environment.probed` may keep what probes found; None where there is no cache folder."""
+    """Return where `environment.probed` may keep what probes found; None if there is no cache folder."""
     place = _place()
     return None if place is None else place / "probes"
 
 
 def _place() -> Path | None:
-    """This installation's folder on this machine, in the user's cache folder; None where the user has none."""
+    """Return this installation's folder on this machine, in the user's cache folder; None if the user has none."""
     cache = Path(os.environ.get("XDG_CACHE_HOME", ""))
     if not cache.is_absolute():
         try:
@@ -109,7 +110,7 @@ def _place() -> Path | None:
 
 
 def _base(info: DeviceInfo) -> str:
-    """`opencl:pocl` of `opencl:pocl-2`."""
+    """Return a device's name without its number: `opencl:pocl` of `opencl:pocl-2`."""
     return info.name.partition("-")[0]
 
 
@@ -118,7 +119,7 @@ def _device(facts: dict[str, Any]) -> DeviceInfo:
 
 
 def _surroundings() -> str:
-    """A digest of what an answer may depend on, but for the files whose code ran."""
+    """Return a digest of what an answer may depend on, except the files whose code ran."""
     packages = {}
     for name in PACKAGES:
         with contextlib.suppress(PackageNotFoundError):
@@ -132,8 +133,8 @@ def _surroundings() -> str:
     return digest(sources.methodology(), python, settings, machine, usable, _lists())
 
 
-def _lists() -> list[Any]:
-    """The state of the lists by which loaders find drivers, and of the drivers that they name by a whole path."""
+def _lists() -> list[tuple[str, list[int] | None]]:
+    """Return the state of the lists by which loaders find drivers, and of the drivers named there by a whole path."""
     named = [Path(os.environ[name]) for name in ("OCL_ICD_VENDORS", "OPENCL_VENDOR_PATH") if os.environ.get(name)]
     wheel = Path(sys.prefix) / "lib" / "libintelocl.so"  # which harness/devices/opencl.py lists by itself
     files = [file for path in (*LISTS, *named) for file in (sorted(path.iterdir()) if path.is_dir() else [path])]
@@ -142,7 +143,7 @@ def _lists() -> list[Any]:
 
 
 def _state(path: Path) -> list[int] | None:
-    """Size and time of change of a file; None where there is no such file."""
+    """Return size in bytes and time of change in nanoseconds of a file; None if there is no such file."""
     try:
         facts = path.stat()
     except OSError:

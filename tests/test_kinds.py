@@ -1,0 +1,71 @@
+"""What a new way to cast must say is said by every one that there is, and what it leaves out is told."""
+
+import dataclasses
+from typing import get_args
+
+import numpy as np
+import pytest
+
+import surfaces
+from harness.contract import Casts
+from harness.devices.trial_launch import trial_launch
+from harness.experiment.kinds.casts import WAYS
+from harness.experiment.kinds.model import MethodKind
+from harness.kernels.assemble import KERNELS, ROOMS, Entry, method_program
+from harness.plugins import find_methods
+
+BY_ENTRY = {"rays": "newton", "camera": "newton", "beams": "interval_uniform"}
+
+
+class Recording:
+    """Stands in for a device: keeps what it is asked to launch."""
+
+    def launch_steps(self, buffers, outputs, steps):
+        return buffers, outputs, steps
+
+
+def program(entry):
+    plugin = find_methods().get(BY_ENTRY[entry])
+    variant = plugin.variant({})
+    return method_program(plugin.method, plugin.folder, variant, surfaces.get("torus"), "float32", "cl", entry)
+
+
+def test_every_word_for_what_methods_cast_has_its_kinds():
+    assert set(WAYS) == set(get_args(Casts))
+
+
+def test_every_entry_of_a_kind_has_a_folder_and_files():
+    assert set(ROOMS) == set(get_args(Entry)) == set(BY_ENTRY)
+    assert {entry for way in WAYS.values() for entry in way.methods.entries} == set(ROOMS)
+    for entry, room in ROOMS.items():
+        assert all((KERNELS / room / f"entry_{entry}.{language}").exists() for language in ("glsl", "cl"))
+
+
+@pytest.mark.parametrize("entry", ROOMS)
+def test_every_entry_is_tried_over_one_item(entry):
+    buffers, outputs, (step,) = trial_launch(Recording(), program(entry), None)
+    assert step.grid == (1, 1) and not outputs
+    assert step.buffers == tuple(range(len(buffers)))
+
+
+def test_an_entry_that_nobody_knows_how_to_try_is_told_with_the_file_to_mend():
+    unknown = dataclasses.replace(program("rays"), entry="tiles")
+    with pytest.raises(NotImplementedError, match=r"harness/devices/trial\.py .* tiles program"):
+        trial_launch(Recording(), unknown, None)
+
+
+@pytest.mark.parametrize("left_out", ["what", "entries", "unlisted", "undrawn", "shot", "shot_hits", "validated"])
+def test_a_kind_of_methods_that_leaves_something_out_cannot_be_made(left_out):
+    stated = dict.fromkeys(MethodKind.__abstractmethods__)
+    del stated[left_out]
+    with pytest.raises(TypeError, match=left_out):
+        type("Tiles", (MethodKind,), stated)()
+
+
+def test_a_kind_that_cannot_be_listed_refuses_listed_rays_and_rays_of_no_camera():
+    beams, rays = WAYS["quadtree"].methods, WAYS["rays"].methods
+    assert beams.unlisted == "casts the beams of a camera's pixels, and listed rays have none"
+    assert beams.stage_refusal("rays") == f"the method {beams.unlisted}" and beams.stage_refusal("compute") is None
+    assert beams.shot_refusal(None) == beams.unlisted and beams.shot_refusal(np.zeros(12, np.float32)) is None
+    assert rays.stage_refusal("rays") is None and rays.shot_refusal(None) is None
+    assert WAYS["mesh"].methods.stage_refusal("compute") == "the method draws triangles, in stage raster"
