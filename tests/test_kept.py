@@ -207,7 +207,7 @@ def test_probes_whose_file_is_damaged_are_measured_again(backends, cache):
 def test_probes_that_cannot_be_kept_are_told_all_the_same(tmp_path):
     (tmp_path / "file").write_text("in the way")
     info, found = probed(LocalExecutor(1.0), DEVICE, tmp_path / "file" / "probes")
-    assert info.clock == "device" and found == PROBES
+    assert info.clock == "device" and dataclasses.asdict(found) == PROBES
 
 
 def test_looking_replaces_what_is_kept(backends):

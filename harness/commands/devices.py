@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import contextlib
 from datetime import UTC, datetime
-from typing import Any
 
 from harness import console
 from harness.commands import Add
@@ -13,6 +12,7 @@ from harness.contract import DeviceInfo
 from harness.devices import kept_answers
 from harness.devices.discovery import known_devices
 from harness.devices.executor import START_SECONDS, LocalExecutor
+from harness.devices.probes import Probes
 from harness.running.environment import kept_probes, probed
 
 HEADER = (
@@ -41,13 +41,13 @@ def _peak(gflops: float) -> str:
     return f"{float(f'{gflops:.0e}'):,g}"
 
 
-def _row(info: DeviceInfo, found: dict[str, Any]) -> tuple[str, ...]:
-    """Return what the table says of a device under HEADER; `found` is what its probes found, or empty."""
+def _row(info: DeviceInfo, found: Probes | None) -> tuple[str, ...]:
+    """Return what the table says of a device under HEADER; `found` is what its probes found."""
     units = "-" if info.compute_units is None else str(info.compute_units)
     head = (info.name, info.title, info.driver, units, "yes" if info.float64 else "no")
-    if not found:
+    if found is None:
         return (*head, *["-"] * 7)
-    return (*head, info.clock, *(_share(found[key]) for key in SHARES), _peak(found["peak_gflops"]))
+    return (*head, info.clock, *(_share(getattr(found, name)) for name in SHARES), _peak(found.peak_gflops))
 
 
 def _devices(options: argparse.Namespace) -> int:
@@ -58,7 +58,7 @@ def _devices(options: argparse.Namespace) -> int:
     folder, executor = kept_answers.probes_folder(), LocalExecutor(START_SECONDS)
     try:
         for info in known.devices:
-            before, when = kept_probes(info, folder) if folder and not options.again else ({}, 0.0)
+            before, when = kept_probes(info, folder) if folder and not options.again else (None, 0.0)
             since += [when] if before else []
             with contextlib.nullcontext() if before or info.problem else console.doing(f"measuring {info.name}"):
                 tried.append(probed(executor, info, folder, options.again))

@@ -14,6 +14,7 @@ from harness.contract import DeviceInfo, FirsthitError
 from harness.experiment import config, identity, plan
 from harness.experiment.plan import Planned
 from harness.plugins import Catalog, find_methods
+from harness.results.history import past_of
 from harness.results.store import Row, Store
 from harness.running.due import due, estimate_seconds
 from harness.running.run import Loaded, Run, Watcher, load, run
@@ -122,34 +123,27 @@ def _run(options: argparse.Namespace) -> int:
 
 def _why(options: argparse.Namespace) -> int:
     """Print what set a cell apart from its last result and its next, and what would make it run again now."""
-    key = Path(options.cell).stem
-    matches = [p for p in sorted(options.runs.glob("*/cells/*.json")) if p.stem.startswith(key)]
-    if len({path.stem for path in matches}) != 1:
-        what = "several cells start" if matches else "no cell starts"
-        raise FirsthitError(f"{what} with {key!r} below {options.runs}; see `firsthit plan CONFIG` for keys")
-    store = Store(matches[0].parent.parent)
-    row = store.read(matches[0].stem)
-    if row is None:
-        raise FirsthitError(f"{store.unreadable[matches[0].stem]}; `firsthit run` makes it again")
+    past = past_of(Path(options.cell).stem, options.runs)
+    row = past.row
     print(f"{row['key']}  {row['slot']}\nrun {row['environment']['started']}: {row['status']}")
     if row["reason"]:
         print(f"reason: {row['reason']}")
-    history = sorted(
-        (other for other in store.rows() if other["slot"] == row["slot"]),
-        key=lambda r: str(r["environment"]["started"]),
-    )
-    at = next(i for i, other in enumerate(history) if other["key"] == row["key"])
-    if len(history) == 1:
+    if not past.before and not past.after:
         print("the only result of this cell so far")
-    for word, older, newer in (("before", at - 1, at), ("after", at, at + 1)):
-        if older >= 0 and newer < len(history):
-            other = history[older if newer == at else newer]
-            print(f"\n{word} it: {other['key']}, run {other['environment']['started']}; between the two changed:")
-            for line in identity.changes(history[older]["identity"], history[newer]["identity"]):
-                print(f"  {line}")
-    if at == len(history) - 1:
+    if past.before:
+        _print_changes("before", past.before, past.before, row)
+    if past.after:
+        _print_changes("after", past.after, row, past.after)
+    else:
         _why_again(row, find_methods(options.plugins))
     return 0
+
+
+def _print_changes(word: str, other: Row, older: Row, newer: Row) -> None:
+    """Print what changed between two results of a cell; `other` is the one that is not asked about."""
+    print(f"\n{word} it: {other['key']}, run {other['environment']['started']}; between the two changed:")
+    for line in identity.changes(older["identity"], newer["identity"]):
+        print(f"  {line}")
 
 
 def _why_again(row: Row, catalog: Catalog) -> None:

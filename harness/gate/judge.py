@@ -160,6 +160,7 @@ def _elsewhere(facts: Mapping[str, Any], before: Baseline) -> str:
         return f"the baseline is of {known}, not of {facts['name']}"
 
     def differing(old: Mapping[str, Any]) -> list[str]:
+        """List the facts in which a blessed device differs from this one."""
         return [f"{name}: {old.get(name)!r} → {facts[name]!r}" for name in FACTS if old.get(name) != facts[name]]
 
     nearest = min((differing(old) for old in alike), key=lambda changes: len(changes))

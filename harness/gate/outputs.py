@@ -75,6 +75,7 @@ def markdown(judged: Sequence[Judged], title: str, baseline: Path, code: int) ->
     """Write a heading with the outcome, which follows from the exit code `code`, and the table, in Markdown."""
 
     def cell(text: str) -> str:
+        """Escape a text for a cell of a table."""
         return text.replace("\\", "\\\\").replace("|", "\\|").replace("<", "&lt;")
 
     outcome = {0: "passed", 1: "**failed**"}.get(code, "**could not judge everything**")
@@ -93,6 +94,7 @@ def junit(judged: Sequence[Judged], title: str) -> str:
     """
 
     def attribute(text: str) -> str:
+        """Quote a text as an attribute, without characters that XML cannot hold."""
         return quoteattr("".join(c if c.isprintable() else " " for c in text))
 
     failures = sum(j.verdict in (Verdict.REGRESSED, Verdict.MISSING) for j in judged)
@@ -120,9 +122,11 @@ def github(judged: Sequence[Judged], kernels: dict[str, Path]) -> str:
     """
 
     def data(text: str) -> str:
+        """Escape a text for a command's message."""
         return text.replace("%", "%25").replace("\r", "%0D").replace("\n", "%0A")
 
     def place(text: str) -> str:
+        """Escape a text for a command's property."""
         return data(text).replace(":", "%3A").replace(",", "%2C")
 
     written = []

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Literal
+from typing import Literal
 
 from harness.accuracy.judge import NAMES
 from harness.contract import (
@@ -28,6 +28,7 @@ from harness.experiment import plan
 from harness.experiment.config import AccuracyChoice, BudgetChoice, Config, Experiment, MethodChoice
 from harness.plugins import Catalog
 from harness.recommend.candidates import variants, views
+from harness.results.row import Accuracy
 from harness.results.store import Row
 from harness.running import batch
 from harness.running.environment import probed
@@ -305,7 +306,7 @@ class Search:
         return {p.cell.variant: rows[p.key] for p in planned}
 
 
-def certified_error(accuracy: dict[str, Any], quantile: Quantile) -> float | None:
+def certified_error(accuracy: Accuracy, quantile: Quantile) -> float | None:
     """Return an upper bound of a quantile of |t - t*|, scene units; None where no hit was measured.
 
     Errors are measured to the certified interval that encloses t*, so that the largest interval's width is added.

@@ -33,7 +33,7 @@ def _git(*arguments: str) -> str | None:
 
 
 def _is_versioned() -> bool:
-    """Whether git keeps this file: where firsthit is installed, a repository around it is somebody else's."""
+    """Tell whether git keeps this file: where firsthit is installed, a repository around it is somebody else's."""
     return _git("ls-files", "--error-unmatch", str(Path(__file__))) is not None
 
 
@@ -58,31 +58,31 @@ def describe() -> dict[str, Any]:
 
 def probed(
     executor: LocalExecutor, info: DeviceInfo, cache: Path | None = None, again: bool = False
-) -> tuple[DeviceInfo, dict[str, Any]]:
+) -> tuple[DeviceInfo, Probes | None]:
     """Return the device with the clock that its probes support, and what the probes found.
 
     With a folder `cache` this is kept there, for as long as the device, its driver, the processor and the harness stay
     as they are; where the folder cannot be written, nothing is kept. With `again` the probes run whatever is kept.
-    Nothing is found of a device with a problem; probes that fail are a problem of the device that is returned.
+    They are None for a device with a problem; probes that fail are a problem of the device that is returned.
     """
     if info.problem:
-        return info, {}
-    found, _ = kept_probes(info, cache) if cache and not again else ({}, 0.0)
-    if not found:
+        return info, None
+    found, _ = kept_probes(info, cache) if cache and not again else (None, 0.0)
+    if found is None:
         try:
-            found = dataclasses.asdict(executor.probe(info.name))
+            found = executor.probe(info.name)
         except CellError as error:
-            return dataclasses.replace(info, problem=f"its probes failed: {error}"), {}
+            return dataclasses.replace(info, problem=f"its probes failed: {error}"), None
         if cache:
             with contextlib.suppress(FirsthitError):
-                write_atomically(_probes_file(info, cache), json.dumps(found).encode())
-    ratio = found["clock_ratio"]
+                write_atomically(_probes_file(info, cache), json.dumps(dataclasses.asdict(found)).encode())
+    ratio = found.clock_ratio
     believable = ratio is not None and BELIEVABLE[0] <= ratio <= BELIEVABLE[1]
     return dataclasses.replace(info, clock="device" if believable else "wall"), found
 
 
-def kept_probes(info: DeviceInfo, cache: Path) -> tuple[dict[str, Any], float]:
-    """Return what `probed` kept of a device, and when, in seconds since 1970; {} and 0 where nothing was kept.
+def kept_probes(info: DeviceInfo, cache: Path) -> tuple[Probes | None, float]:
+    """Return what `probed` kept of a device, and when, in seconds since 1970; None and 0 where nothing was kept.
 
     A damaged file counts as nothing.
     """
@@ -90,9 +90,9 @@ def kept_probes(info: DeviceInfo, cache: Path) -> tuple[dict[str, Any], float]:
     try:
         found, since = json.loads(file.read_text(encoding="utf-8")), file.stat().st_mtime
     except (OSError, ValueError):
-        return {}, 0.0
+        return None, 0.0
     fields = {field.name for field in dataclasses.fields(Probes)}
-    return (found, since) if isinstance(found, dict) and found.keys() == fields else ({}, 0.0)
+    return (Probes(**found), since) if isinstance(found, dict) and found.keys() == fields else (None, 0.0)
 
 
 def _probes_file(info: DeviceInfo, cache: Path) -> Path:

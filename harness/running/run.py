@@ -17,6 +17,7 @@ from harness import console, studies
 from harness.contract import CellStatus, DeviceInfo, FirsthitError
 from harness.devices.discovery import discover_devices
 from harness.devices.executor import LocalExecutor
+from harness.devices.probes import Probes
 from harness.experiment import plan, reading, targets
 from harness.experiment.config import Experiment
 from harness.experiment.plan import Planned
@@ -189,7 +190,7 @@ def _run_part(part: Experiment, loaded: Loaded, runs: Path, command: str, again:
             planned = plan.plan(part, loaded.catalog, [info for info, _ in tried]) if part.variants else []
         store.write_plan(
             _described(part, command, environment)
-            | {"devices": [dataclasses.asdict(i) | {"versions": dict(i.versions), "probes": p} for i, p in tried]}
+            | {"devices": [_device(info, found) for info, found in tried]}
             | _named(part, planned, loaded.catalog)
         )
         _run_studies(part.config.studies, store.folder, again == "everything", hears)
@@ -201,6 +202,12 @@ def _run_part(part: Experiment, loaded: Loaded, runs: Path, command: str, again:
     finally:
         executor.close()
     return Run(store.folder, tuple(rows), tuple(found.kept.values()))
+
+
+def _device(info: DeviceInfo, found: Probes | None) -> dict[str, Any]:
+    """Return what a plan.json says of a device and of what its probes found."""
+    probes = dataclasses.asdict(found) if found else {}
+    return dataclasses.asdict(info) | {"versions": dict(info.versions), "probes": probes}
 
 
 def _announced(part: Experiment, catalog: Catalog, chosen: Mapping[str, DeviceInfo | None]) -> str:
