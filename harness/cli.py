@@ -1,4 +1,8 @@
-"""The `firsthit` command. Exit codes: 0 done, 1 a gate fell, 2 usage or config, 3 something failed while running."""
+"""Run the `firsthit` command.
+
+Exit codes are 0 where the command did what it was asked for, 1 where a gate failed, 2 where the usage or a config is
+wrong, and 3 where something failed while running.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +20,7 @@ INTERRUPTED = 3
 
 
 def build_parser(arguments: Sequence[str] | None = None) -> argparse.ArgumentParser:
-    """The parser of a command line. With its `arguments`, only commands named among them have their options."""
+    """Build the parser of a command line. With its `arguments`, only commands named among them have their options."""
     parser = argparse.ArgumentParser(
         prog="firsthit",
         description="Which ray caster should draw this implicit surface on this device, and at what error?",
@@ -35,7 +39,7 @@ def build_parser(arguments: Sequence[str] | None = None) -> argparse.ArgumentPar
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run one command; its exit code. A user's mistake is one line on stderr, never a traceback."""
+    """Run one command and return its exit code. A user's mistake is one line on stderr, and never a traceback."""
     arguments = sys.argv[1:] if arguments is None else arguments
     options = build_parser(arguments).parse_args(arguments)
     from harness.contract import FirsthitError  # imports numpy, which help and usage do without

@@ -1,4 +1,4 @@
-"""Finds methods: folders with a method.py and a kernel.glsl, of the project, of --plugins and of entry points."""
+"""Find methods: folders with a method.py and a kernel.glsl, of the project, of --plugins and of entry points."""
 
 from __future__ import annotations
 
@@ -22,16 +22,16 @@ AS_PRINTED = "as printed"  # a setting of every method that has a knob whose def
 
 @dataclass(frozen=True)
 class Plugin:
-    """A method and the folder that holds its kernel."""
+    """Holds a method and the folder that its kernel is in."""
 
     method: Method
     folder: Path
 
     def variant(self, given: Mapping[str, float | int]) -> Variant:
-        """Bind the method's knobs: the `given` ones, and the others at their defaults.
+        """Give every knob of the method a value: the `given` one, else its default.
 
-        Raises FirsthitError for a knob that the method does not have, for a value that is not finite, and for a broken
-        number where the knob's are whole.
+        Raises FirsthitError for a knob that the method does not have, for a value that is not finite, and for a
+        fraction where the knob's values are whole numbers.
         """
         defaults = {parameter.name: parameter.default for parameter in self.method.parameters}
         for name in given:
@@ -44,7 +44,7 @@ class Plugin:
         return Variant(self.method.name, tuple(sorted(bound.items())), label)
 
     def _bound(self, name: str, value: float, default: float) -> float | int:
-        """Return a knob's value as a number of its default's kind. Raises FirsthitError if it is none."""
+        """Return a knob's value as a number of its default's kind. Raises FirsthitError where it cannot be one."""
         if not is_finite(value):
             raise FirsthitError(f"{self.method.name}: {name} is a finite number, not {str(value)[:40]}")
         if isinstance(default, int) and value != int(value):
@@ -78,7 +78,7 @@ class Plugin:
 
 @dataclass(frozen=True)
 class Catalog:
-    """The methods found, and why other folders that look like one are none."""
+    """Holds the methods that were found by name, and why other folders with a method.py could not be loaded."""
 
     plugins: dict[str, Plugin] = field(default_factory=dict)
     broken: dict[str, str] = field(default_factory=dict)
@@ -138,8 +138,8 @@ def _entry_point_folders() -> list[Path]:
 def find_methods(extra: Path | None = None) -> Catalog:
     """Return the methods of the project, of installed packages (entry point group `firsthit.methods`) and of `extra`.
 
-    A folder that cannot be loaded is listed as broken. Raises FirsthitError if `extra` is no folder, or if two folders
-    have one name.
+    A folder that cannot be loaded is listed as broken. Raises FirsthitError where `extra` is not a folder, or two
+    folders have one name.
     """
     if extra is not None and not extra.is_dir():
         raise FirsthitError(f"--plugins {extra}: no such folder")

@@ -7,7 +7,7 @@ from pathlib import Path
 import pandas as pd
 
 from harness.results.writing import replacing_together
-from reports import parts, summary
+from reports import first_page, parts
 from reports.analysis import breaks, derive
 from reports.content import Document
 from reports.drawing import style
@@ -47,7 +47,7 @@ def report(run: Run, frame: pd.DataFrame, rungs: pd.DataFrame) -> Document:
     """Make the whole report; `frame` and `rungs` are the run's with the columns of analysis.derive and breaks."""
     material = Material(run, frame, rungs, Shelf(run.folders))
     sections = tuple(parts.sections(material))
-    return Document(run.plan.title or run.plan.name, _subtitle(run), summary.section(material), sections)
+    return Document(run.plan.title or run.plan.name, _subtitle(run), first_page.section(material), sections)
 
 
 def _subtitle(run: Run) -> str:

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import cache
+from typing import Any
 
 import numpy as np
 import pytest
 
 from harness.contract import DeviceInfo
-from harness.devices import kept
+from harness.devices import kept_answers
 from harness.devices.executor import LocalExecutor
-from harness.devices.interface import Device, find_devices, open_device
+from harness.devices.interface import INSTALL, Device, find_devices, open_device
 
 
 @cache
@@ -21,7 +22,7 @@ def _found(backend: str) -> list[DeviceInfo]:
 
 @cache
 def usable_devices() -> tuple[DeviceInfo, ...]:
-    return tuple(info for backend in ("opencl", "opengl") for info in _found(backend) if not info.problem)
+    return tuple(info for backend in INSTALL for info in _found(backend) if not info.problem)
 
 
 @pytest.fixture(scope="module")
@@ -30,9 +31,17 @@ def devices_found_once() -> Iterator[None]:
     longer than what most tests are about, and tests that run commands in processes of their own do it still. What the
     user's cache folder holds of devices is left alone."""
     with pytest.MonkeyPatch.context() as patched:
-        patched.setattr(kept, "_place", lambda: None)
+        patched.setattr(kept_answers, "_place", lambda: None)
         patched.setattr(LocalExecutor, "find", lambda _, backend: _found(backend))
         yield
+
+
+def rotation(pairs: list[tuple[Any, ...]], places: list[tuple[str, str]]) -> list[tuple[Any, tuple[str, str]]]:
+    """Join each pair with one place, in turn, so that every place is used and no choice is by chance.
+
+    Without places there is nothing to join.
+    """
+    return [(pair, places[i % len(places)]) for i, pair in enumerate(pairs)] if places else []
 
 
 @cache

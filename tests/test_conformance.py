@@ -32,7 +32,7 @@ from harness.devices.interface import Device, hits_from, launch_rays
 from harness.plugins import find_methods
 from harness.scenes.camera import scene_radius
 
-from .conftest import opened, usable_devices
+from .conftest import opened, rotation, usable_devices
 from .test_devices import cast
 
 METHODS = [n for n, plugin in find_methods().plugins.items() if plugin.method.answers and plugin.method.casts == "rays"]
@@ -79,7 +79,7 @@ def _other_pairs() -> list[tuple[str, str]]:
 
 
 PLACES = [(name, precision) for precision in PRECISIONS for name in DEVICES]
-OTHERS = [(*pair, *place) for pair, place in conformance.rotation(_other_pairs(), PLACES)] if PLACES else []
+OTHERS = [(*pair, *place) for pair, place in rotation(_other_pairs(), PLACES)]
 
 
 @pytest.mark.parametrize(("method", "surface_name", "device_name", "precision"), OTHERS)
@@ -100,7 +100,7 @@ def _settings() -> list[tuple[str, str, str]]:
     ]
 
 
-SETTINGS = [(*one, *place) for one, place in conformance.rotation(_settings(), PLACES)] if PLACES else []
+SETTINGS = [(*one, *place) for one, place in rotation(_settings(), PLACES)]
 
 
 @pytest.mark.parametrize(("method", "setting", "surface_name", "device_name", "precision"), SETTINGS)

@@ -17,7 +17,7 @@ from harness.conformance import dense
 from harness.contract import PRECISIONS, TruthStatus
 from harness.plugins import find_methods
 
-from .conftest import opened, usable_devices
+from .conftest import opened, rotation, usable_devices
 from .test_conformance import bench_on, hold
 from .test_method_bernstein_claims import hold_promise
 
@@ -49,7 +49,7 @@ def pairs():
 
 @pytest.mark.parametrize(
     ("method", "degree", "device_name", "precision"),
-    [(*pair, *place) for pair, place in conformance.rotation(pairs(), PLACES)] if PLACES else [],
+    [(*pair, *place) for pair, place in rotation(pairs(), PLACES)],
 )
 def test_method_conforms_on_a_dense_polynomial(method, degree, device_name, precision):
     bench, plugin = bench_on(opened(device_name)), find_methods().get(method)

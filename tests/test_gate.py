@@ -271,5 +271,5 @@ def test_the_projects_own_gate_config_and_baseline_fit_one_another():
 
 
 def test_gating_needs_no_report_packages():
-    code = "import harness.commands.gating, sys; assert not {'pandas', 'matplotlib', 'typst'} & set(sys.modules)"
+    code = "import harness.commands.gate, sys; assert not {'pandas', 'matplotlib', 'typst'} & set(sys.modules)"
     subprocess.run([sys.executable, "-c", code], check=True, cwd=ROOT)

@@ -14,7 +14,7 @@ import pytest
 
 from harness import cli
 from harness.contract import DeviceInfo, digest
-from harness.devices import discovery, kept
+from harness.devices import discovery, kept_answers
 from harness.devices.executor import LocalExecutor
 from harness.results.sources import ROOT
 from harness.running.environment import probed
@@ -41,10 +41,10 @@ def driver(tmp_path) -> Path:
 
 def test_an_answer_comes_back_as_it_was_kept(cache, driver):
     before = time.time()
-    kept.keep("opencl", [DEVICE], [driver])
-    answer = kept.recall("opencl")
+    kept_answers.keep("opencl", [DEVICE], [driver])
+    answer = kept_answers.recall("opencl")
     assert answer is not None and answer.devices == (DEVICE,) and answer.since >= before - 1.0
-    assert kept.recall("opengl") is None
+    assert kept_answers.recall("opengl") is None
     assert list(cache.glob("firsthit/*/opencl.json"))
 
 
@@ -58,88 +58,88 @@ def _touch(driver: Path) -> None:
 
 @pytest.mark.parametrize("change", [Path.unlink, _replace, _touch])
 def test_a_driver_that_was_replaced_is_looked_at_anew(driver, change):
-    kept.keep("opencl", [DEVICE], [driver])
+    kept_answers.keep("opencl", [DEVICE], [driver])
     change(driver)
-    assert kept.recall("opencl") is None
+    assert kept_answers.recall("opencl") is None
 
 
 @pytest.mark.parametrize("name", ["OCL_ICD_FILENAMES", "LP_NUM_THREADS", "CUDA_VISIBLE_DEVICES", "LD_LIBRARY_PATH"])
 def test_an_environment_variable_that_drivers_listen_to_is_seen(driver, monkeypatch, name):
     monkeypatch.delenv(name, raising=False)
-    kept.keep("opencl", [DEVICE], [driver])
+    kept_answers.keep("opencl", [DEVICE], [driver])
     monkeypatch.setenv("EDITOR_OF_MINE", "no driver asks for this")
-    assert kept.recall("opencl")
+    assert kept_answers.recall("opencl")
     monkeypatch.setenv(name, "\udcff")  # a byte that is no text
-    assert kept.recall("opencl") is None
+    assert kept_answers.recall("opencl") is None
 
 
 @pytest.mark.parametrize(
     ("part", "name", "now"),
     [
-        (kept.host, "processor", lambda: "another"),
-        (kept.host, "cores", lambda: 1024),
-        (kept.sources, "methodology", lambda: {"harness/devices/opencl.py": "edited"}),
-        (kept, "version", lambda _: "99"),
-        (kept.platform, "release", lambda: "another kernel"),
-        (kept, "MACHINE", (Path("/proc/version"),)),
+        (kept_answers.host, "processor", lambda: "another"),
+        (kept_answers.host, "cores", lambda: 1024),
+        (kept_answers.sources, "methodology", lambda: {"harness/devices/opencl.py": "edited"}),
+        (kept_answers, "version", lambda _: "99"),
+        (kept_answers.platform, "release", lambda: "another kernel"),
+        (kept_answers, "MACHINE", (Path("/proc/version"),)),
     ],
 )
 def test_the_machine_the_packages_and_the_harness_are_seen(driver, monkeypatch, part, name, now):
-    kept.keep("opencl", [DEVICE], [driver])
+    kept_answers.keep("opencl", [DEVICE], [driver])
     monkeypatch.setattr(part, name, now)
-    assert kept.recall("opencl") is None
+    assert kept_answers.recall("opencl") is None
 
 
 def test_a_driver_that_is_installed_is_seen_before_anything_has_loaded_it(driver, tmp_path, monkeypatch):
     vendors = tmp_path / "vendors"
     vendors.mkdir()
-    monkeypatch.setattr(kept, "LISTS", (vendors,))
-    kept.keep("opencl", [DEVICE], [driver])
+    monkeypatch.setattr(kept_answers, "LISTS", (vendors,))
+    kept_answers.keep("opencl", [DEVICE], [driver])
     (vendors / "new.icd").write_text(f"{tmp_path / 'libnew.so'}\n")
-    assert kept.recall("opencl") is None
-    kept.keep("opencl", [DEVICE], [driver])
-    assert kept.recall("opencl")
+    assert kept_answers.recall("opencl") is None
+    kept_answers.keep("opencl", [DEVICE], [driver])
+    assert kept_answers.recall("opencl")
     (tmp_path / "libnew.so").write_text("the driver that the list names")
-    assert kept.recall("opencl") is None
+    assert kept_answers.recall("opencl") is None
 
 
 def test_a_device_with_a_problem_is_not_kept_unless_it_doubles_one_that_works(driver):
-    kept.keep("opencl", [DEVICE, BROKEN], [driver])
-    assert kept.recall("opencl").devices == (DEVICE, BROKEN)
-    kept.keep("opencl", [dataclasses.replace(DEVICE, problem="hangs")], [driver])
-    assert kept.recall("opencl") is None
+    kept_answers.keep("opencl", [DEVICE, BROKEN], [driver])
+    assert kept_answers.recall("opencl").devices == (DEVICE, BROKEN)
+    kept_answers.keep("opencl", [dataclasses.replace(DEVICE, problem="hangs")], [driver])
+    assert kept_answers.recall("opencl") is None
 
 
 def test_that_there_is_no_device_is_not_kept(driver):
-    kept.keep("opencl", [DEVICE], [driver])
-    kept.keep("opencl", [], [driver])
-    assert kept.recall("opencl") is None
+    kept_answers.keep("opencl", [DEVICE], [driver])
+    kept_answers.keep("opencl", [], [driver])
+    assert kept_answers.recall("opencl") is None
 
 
 def test_where_the_system_does_not_tell_what_ran_nothing_is_kept(cache):
-    kept.keep("opencl", [DEVICE], None)
+    kept_answers.keep("opencl", [DEVICE], None)
     assert not cache.exists()
 
 
 @pytest.mark.parametrize("damage", ["", "[]", "{}", "null", "half", "edited"])
 def test_a_damaged_answer_is_none(cache, driver, damage):
-    kept.keep("opencl", [DEVICE], [driver])
+    kept_answers.keep("opencl", [DEVICE], [driver])
     (file,) = cache.glob("firsthit/*/opencl.json")
     text = file.read_text()
     edited = {"half": text[: len(text) // 2], "edited": text.replace("driver 1", "driver 2")}
     file.write_text(edited.get(damage, damage))
-    assert kept.recall("opencl") is None
-    kept.keep("opencl", [DEVICE], [driver])
-    assert kept.recall("opencl")
+    assert kept_answers.recall("opencl") is None
+    kept_answers.keep("opencl", [DEVICE], [driver])
+    assert kept_answers.recall("opencl")
 
 
 @pytest.mark.parametrize("place", ["/proc/none", "{tmp}/file", "{tmp}/file/deeper"])
 def test_a_folder_that_cannot_be_written_harms_nothing(tmp_path, driver, monkeypatch, place):
     (tmp_path / "file").write_text("in the way")
     monkeypatch.setenv("XDG_CACHE_HOME", place.format(tmp=tmp_path))
-    kept.keep("opencl", [DEVICE], [driver])
-    kept.keep("opencl", [BROKEN], [driver])
-    assert kept.recall("opencl") is None
+    kept_answers.keep("opencl", [DEVICE], [driver])
+    kept_answers.keep("opencl", [BROKEN], [driver])
+    assert kept_answers.recall("opencl") is None
 
 
 def test_a_user_without_a_home_keeps_nothing(driver, monkeypatch):
@@ -148,8 +148,8 @@ def test_a_user_without_a_home_keeps_nothing(driver, monkeypatch):
 
     monkeypatch.delenv("XDG_CACHE_HOME", raising=False)
     monkeypatch.setattr(Path, "home", no_home)
-    kept.keep("opencl", [DEVICE], [driver])
-    assert kept.recall("opencl") is None and kept.probes_folder() is None
+    kept_answers.keep("opencl", [DEVICE], [driver])
+    assert kept_answers.recall("opencl") is None and kept_answers.probes_folder() is None
 
 
 PROBES = dict.fromkeys(("two_sum", "two_prod_split", "two_prod_fma", "round_to_nearest", "division"), 1.0)

@@ -8,7 +8,7 @@ import pytest
 
 import surfaces
 from harness.contract import Casts
-from harness.devices.trial import trial_launch
+from harness.devices.trial_launch import trial_launch
 from harness.experiment.kinds.casts import WAYS
 from harness.experiment.kinds.model import MethodKind
 from harness.kernels.assemble import KERNELS, ROOMS, Entry, method_program

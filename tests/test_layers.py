@@ -38,7 +38,7 @@ REPORTS = (
     ("reports.claims",),
     ("reports.material",),
     ("reports.parts", "reports.rendering"),
-    ("reports.summary",),
+    ("reports.first_page",),
     ("reports.report", "reports.compare"),
 )
 OTHERS = {  # rooms beside the tower, and all that they may import of ours

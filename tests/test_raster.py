@@ -8,7 +8,7 @@ import pytest
 import surfaces
 from harness.accuracy.judge import judge
 from harness.contract import NORMALS, PROXIES, FirsthitError, RayStatus, View
-from harness.devices.frames import Rasteriser
+from harness.devices.raster import Rasteriser
 from harness.experiment.kinds import draws
 from harness.kernels.raster import fill_program
 from harness.oracle import first_hits

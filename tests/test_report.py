@@ -16,7 +16,7 @@ import pytest
 
 from harness.contract import FirsthitError, digest
 from harness.results import schema
-from reports import content, report, summary
+from reports import content, first_page, report
 from reports.analysis import derive, shown, ties
 from reports.drawing import choice, images, tables
 from reports.parts import surface_pages, winners
@@ -69,7 +69,7 @@ def test_every_planned_cell_is_accounted_for(loaded: load.Run, frame: pd.DataFra
     ]
     assert len(loaded.not_run) == 2
     assert len(frame) + len(loaded.unreadable) + len(loaded.not_run) == len(loaded.plan.slots) == 120
-    counts = summary.statuses_table(frame["status"], 2, 2)
+    counts = first_page.statuses_table(frame["status"], 2, 2)
     total, *parts = counts.rows[0]
     assert total == sum(parts) == 120
     titles = [column.title for column in counts.columns]

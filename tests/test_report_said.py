@@ -14,7 +14,7 @@ from harness.contract import CLAIMS, View, digest
 from harness.plugins import find_methods
 from harness.running.cards import card
 from harness.scenes.views import DirectionChoice, by_direction
-from reports import content, summary, wording
+from reports import content, first_page, wording
 from reports.analysis import derive, viewstats
 from reports.drawing import choice, plots, style, viewplots
 from reports.parts import conditions, environment, method_cards, own_front, rerun, surface_pages
@@ -90,7 +90,7 @@ def test_a_row_bound_by_the_floor_is_no_largest_gain(tmp_path: Path) -> None:
     assert "The largest gain with no wrong ray: newton on opencl:intel" in figure.caption
     assert "20.0× as fast as ray_march" in figure.caption
     assert "of its 2.00 ms the harness's floor is 0.500 ms. 1 floor-bound row left out" in figure.caption
-    told = summary._verdict(frame)
+    told = first_page._verdict(frame)
     assert "bound is fastest in 1 of 1" in told and "50.0×" not in told
     assert "where every time is floor-bound: under 2 times the harness's floor of 0.500 ms" in told
     alone = framed(tmp_path / "alone", *cells[:3])
@@ -106,7 +106,7 @@ def test_a_headline_counts_the_floor_bound_rows_that_its_gain_leaves_out(tmp_pat
     for surface, floor in (("torus", 0.9), ("sphere", 0.1)):
         cells += [timed("null", surface, floor), timed("ray_march", surface, 20.0), timed("newton", surface, 1.0)]
     cells[4] = timed("ray_march", "sphere", 8.0)
-    told = summary._verdict(framed(tmp_path / "run", *cells))
+    told = first_page._verdict(framed(tmp_path / "run", *cells))
     assert (
         "8.00× as fast as ray_march there (1 left out, whose times are floor-bound: under 2 times the harness's" in told
     )

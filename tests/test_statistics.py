@@ -16,7 +16,7 @@ from harness.contract import FirsthitError, digest
 from harness.devices.interface import Timing
 from harness.results import ranks, timings
 from harness.running.rows import Samples, time_of
-from reports import content, summary
+from reports import content, first_page
 from reports.analysis import count_tests, derive, ties
 from reports.drawing import choice, style
 from reports.parts import evaluations, growth
@@ -35,7 +35,7 @@ def timed(method: str, surface: str, median: float, misses: int = 0, precision: 
 
 
 def headline(folder: Path, *cells: dict[str, Any], baseline: str | None = None) -> str:
-    return summary._verdict(derive.derive(load.over(load.load(tiny_run(folder, *cells)).frame, baseline)))
+    return first_page._verdict(derive.derive(load.over(load.load(tiny_run(folder, *cells)).frame, baseline)))
 
 
 def noisy(made: dict[str, Any], seed: int, spread: float = 0.05) -> dict[str, Any]:
@@ -161,11 +161,11 @@ def test_one_method_alone_is_not_the_fastest(tmp_path: Path) -> None:
 def test_the_baseline_is_a_setting_of_the_plan_and_of_the_report(tmp_path: Path) -> None:
     cells = [timed(method, "torus", ms) for method, ms in (("newton", 1.0), ("sturm", 4.0), ("ray_march", 8.0))]
     folder = tiny_run(tmp_path / "run", *cells)
-    assert "8.00× as fast as ray_march" in summary._verdict(derive.derive(load.load(folder).frame))
+    assert "8.00× as fast as ray_march" in first_page._verdict(derive.derive(load.load(folder).frame))
     plan = json.loads((folder / "plan.json").read_text())
     (folder / "plan.json").write_text(json.dumps(plan | {"baseline": "sturm"}))
     frame = load.load(folder).frame
-    assert "4.00× as fast as sturm" in summary._verdict(derive.derive(frame))
+    assert "4.00× as fast as sturm" in first_page._verdict(derive.derive(frame))
     again = derive.derive(load.over(frame, "newton")).set_index("variant")["speedup"]
     assert again.to_dict() == pytest.approx({"newton": 1.0, "sturm": 0.25, "ray_march": 0.125})
     with pytest.raises(FirsthitError, match=r"--baseline: unknown 'strum'; did you mean 'sturm'\?"):

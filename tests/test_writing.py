@@ -160,7 +160,7 @@ def test_probes_which_a_run_does_without(tmp_path):
 def test_what_commands_write(tmp_path):
     """Here oracle stands for trace, which writes as it does; what needs a device is called behind the casting."""
     image = pytest.importorskip("PIL.Image")
-    from harness.commands import gating
+    from harness.commands import gate
     from harness.commands.pictures import save
 
     rays, truth, picture = tmp_path / "rays.npy", tmp_path / "oracle" / "t.npz", tmp_path / "show" / "a.png"
@@ -177,7 +177,7 @@ def test_what_commands_write(tmp_path):
     for kind in ("junit", "markdown"):
         told = SimpleNamespace(junit=None, markdown=None, github=False)
         setattr(told, kind, tmp_path / kind / "gate.txt")
-        kept(getattr(told, kind), partial(gating._tell, told, checked, [], tmp_path / "baseline.toml", 0))
+        kept(getattr(told, kind), partial(gate._tell, told, checked, [], tmp_path / "baseline.toml", 0))
 
 
 def test_a_report_is_replaced_as_a_whole(tmp_path):

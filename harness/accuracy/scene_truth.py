@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from harness.accuracy import answers
 from harness.accuracy.check import Certified
 from harness.contract import Hits, Origin, Surface, Truth, TruthStatus
-from harness.devices.frames import Picture
+from harness.devices.raster import Picture
 from harness.oracle import cached_first_hits
 from harness.scenes.model import Group, Scene
 from harness.scenes.records import pack

@@ -1,4 +1,4 @@
-"""What `firsthit` does, a module per group of commands.
+"""Offer what `firsthit` does: a module for each group of commands, with options and printing and nothing else.
 
 GROUPS says of every command what it does and which module holds it, so that a module is imported only where one of its
 commands is named: most of them import numpy, sympy and more. Each module has `add_parsers(add)`, which calls `add` for
@@ -18,11 +18,11 @@ GROUPS: dict[str, dict[str, str]] = {
         "why": "say what would make a cell run again, or what set it apart from its last result",
         "report": "make the PDF, HTML, CSV and Parquet of a run, or hold two runs against each other; runs nothing",
     },
-    "gating": {
+    "gate": {
         "gate": "fail where a config's results are worse than its blessed baseline",
         "bless": "make a config's present results the baseline of its gate",
     },
-    "advice": {
+    "recommend": {
         "recommend": "the fastest variant whose certified error stays within a bound, and why the others fell",
     },
     "devices": {"devices": "the devices of this machine and what their arithmetic and clocks are worth"},
@@ -31,7 +31,7 @@ GROUPS: dict[str, dict[str, str]] = {
     "scenes": {"scene": "draw a scene of a config, by rasterisation"},
     "rays": {"trace": "cast a file of rays by a method", "oracle": "certified first hits for a file of rays"},
     "kernels": {"compile": "compile every method's kernel on every device, for the surfaces named"},
-    "conforming": {
+    "conform": {
         "conform": "check a method's answers, claims and knobs as the tests check ours, at its default and its papers' "
         "settings, from several views; exit code 1 where a check fails or nothing was checked",
     },
@@ -39,13 +39,16 @@ GROUPS: dict[str, dict[str, str]] = {
 
 
 class Add(Protocol):
-    """Adds the parser of a command of GROUPS; its description is what GROUPS says of it where none is given."""
+    """Adds the parser of a command of GROUPS.
+
+    Its help is what GROUPS says of the command, and so is its description where none is given.
+    """
 
     def __call__(self, name: str, example: str, description: str | None = None) -> argparse.ArgumentParser: ...
 
 
 def adder(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> Add:
-    """The function that modules of commands are given, which adds to `commands`."""
+    """Make the function that modules of commands are given. It adds to `commands`."""
     told = {name: text for own in GROUPS.values() for name, text in own.items()}
 
     def add(name: str, example: str, description: str | None = None) -> argparse.ArgumentParser:

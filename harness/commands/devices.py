@@ -1,4 +1,4 @@
-"""devices: what is here, and what it is worth."""
+"""Offer `firsthit devices`: which devices are here, and what their arithmetic and clocks are worth."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import Any
 from harness import console
 from harness.commands import Add
 from harness.contract import DeviceInfo
-from harness.devices import kept
+from harness.devices import kept_answers
 from harness.devices.discovery import known_devices
 from harness.devices.executor import START_SECONDS, LocalExecutor
 from harness.running.environment import kept_probes, probed
@@ -29,15 +29,20 @@ def add_parsers(add: Add) -> None:
 
 
 def _share(value: float | None) -> str:
+    """Write a share as per cent; `-` where it was not measured."""
     return "-" if value is None else f"{value:.2%}".replace(".00%", "%")
 
 
 def _peak(gflops: float) -> str:
-    """To one digit: two probes of a device may differ by tens of percent, and more where other programs run."""
+    """Write a peak to one digit.
+
+    Two probes of a device may differ by tens of per cent, and by more where other programs run.
+    """
     return f"{float(f'{gflops:.0e}'):,g}"
 
 
 def _row(info: DeviceInfo, found: dict[str, Any]) -> tuple[str, ...]:
+    """Return what the table says of a device under HEADER; `found` is what its probes found, or empty."""
     units = "-" if info.compute_units is None else str(info.compute_units)
     head = (info.name, info.title, info.driver, units, "yes" if info.float64 else "no")
     if not found:
@@ -46,10 +51,11 @@ def _row(info: DeviceInfo, found: dict[str, Any]) -> tuple[str, ...]:
 
 
 def _devices(options: argparse.Namespace) -> int:
+    """Print the devices, measured now or before; the exit code is 3 where none is usable."""
     with console.doing("looking for devices"):
         known = known_devices(again=options.again)
     since, tried = [known.since], []
-    folder, executor = kept.probes_folder(), LocalExecutor(START_SECONDS)
+    folder, executor = kept_answers.probes_folder(), LocalExecutor(START_SECONDS)
     try:
         for info in known.devices:
             before, when = kept_probes(info, folder) if folder and not options.again else ({}, 0.0)

@@ -1,4 +1,4 @@
-"""The commands plan, run, why and report, for a config and its results."""
+"""Offer `firsthit plan`, `run`, `why` and `report`: what one does with a config and its results."""
 
 from __future__ import annotations
 
@@ -68,6 +68,7 @@ def _plan(options: argparse.Namespace) -> int:
 def _plan_one(
     experiment: config.Experiment, catalog: Catalog, devices: list[DeviceInfo], options: argparse.Namespace
 ) -> None:
+    """Print a config's cells, and how long those that must run will take."""
     planned = plan.plan(experiment, catalog, devices)
     store = Store(options.runs / experiment.name)
     found = due(planned, store)
@@ -120,6 +121,7 @@ def _run(options: argparse.Namespace) -> int:
 
 
 def _why(options: argparse.Namespace) -> int:
+    """Print what set a cell apart from its last result and its next, and what would make it run again now."""
     key = Path(options.cell).stem
     matches = [p for p in sorted(options.runs.glob("*/cells/*.json")) if p.stem.startswith(key)]
     if len({path.stem for path in matches}) != 1:

@@ -1,4 +1,4 @@
-"""compile: every kernel through every compiler, before anyone waits for a run to find the typing mistake."""
+"""Offer `firsthit compile`: compile every kernel on every device, which finds mistakes sooner than a run does."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from harness.devices.discovery import usable_devices
 from harness.plugins import find_methods
 from harness.running.compiling import compile_all
 
-TYPICAL = ("sphere", "torus", "barth_sextic")  # box and ball, coefficients along the ray and none
+TYPICAL = ("sphere", "torus", "barth_sextic")  # domains box and ball; with coefficients along a ray, and without
 
 
 def add_parsers(add: Add) -> None:

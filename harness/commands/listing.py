@@ -1,4 +1,4 @@
-"""list: what there is to choose from."""
+"""Offer `firsthit list`: what there is to choose from."""
 
 from __future__ import annotations
 
@@ -25,6 +25,7 @@ def _list(options: argparse.Namespace) -> int:
 
 
 def _methods(options: argparse.Namespace) -> str:
+    """Write tables of the methods, of what their claims mean, and of their parameters."""
     catalog = find_methods(options.plugins)
     rows = []
     for name, plugin in sorted(catalog.plugins.items()):

@@ -1,4 +1,4 @@
-"""Adds the options that several commands share, and turns them into surfaces, methods and casters."""
+"""Add options that several commands share, and read what they stand for."""
 
 from __future__ import annotations
 
@@ -37,6 +37,7 @@ def add_origin(parser: argparse.ArgumentParser) -> None:
 
 
 def _assignments(texts: list[str], option: str) -> dict[str, str]:
+    """Read NAME=VALUE from each text. Raises FirsthitError, which names the option, for anything else."""
     pairs = {}
     for text in texts:
         name, equals, value = text.partition("=")
@@ -47,7 +48,7 @@ def _assignments(texts: list[str], option: str) -> dict[str, str]:
 
 
 def surface_of(options: argparse.Namespace) -> Surface:
-    """Return the surface that --surface or --formula names; raises FirsthitError where there is none."""
+    """Return the surface that --surface or --formula names. Raises FirsthitError where it cannot be made."""
     import surfaces
 
     parameters = _assignments(options.parameter, "--parameter")
@@ -59,6 +60,7 @@ def surface_of(options: argparse.Namespace) -> Surface:
 
 
 def _number(text: str, name: str) -> float | int:
+    """Read a knob's value; a whole number without point or exponent is an int. Raises FirsthitError for others."""
     try:
         value = float(text)
     except ValueError:
@@ -67,7 +69,10 @@ def _number(text: str, name: str) -> float | int:
 
 
 def given_variant(options: argparse.Namespace, catalog: Catalog) -> Variant:
-    """Return the method that --method names with the knobs that --knob turns; raises FirsthitError for unknown ones."""
+    """Return the method that --method names, with the values that --knob gives to its knobs.
+
+    Raises FirsthitError where there is no such method, knob or value.
+    """
     given = _assignments(options.knob, "--knob")
     return catalog.get(options.method).variant({name: _number(text, name) for name, text in given.items()})
 
@@ -85,7 +90,7 @@ def caster_of(options: argparse.Namespace) -> Caster:
 
 
 def tell(line: str) -> None:
-    """Print a line that is no result."""
+    """Print a line that is not a result, on standard error."""
     print(line, file=sys.stderr)
 
 
@@ -98,9 +103,9 @@ def writable_png(path: Path) -> Path:
 
 
 def writable(path: Path) -> Path:
-    """Return `path` if a file can be put there, and raise FirsthitError otherwise.
+    """Return `path` if a file can be put there. Raises FirsthitError where it cannot.
 
-    Commands ask this before long work, so that nothing finished is lost.
+    Commands ask this before long work, so that no finished result is lost.
     """
     if path.is_dir() or not path.parent.is_dir():
         raise FirsthitError(f"cannot write {path}: {'it is a folder' if path.is_dir() else 'no such folder'}")

@@ -1,4 +1,4 @@
-"""The commands show and sheet: they draw surfaces."""
+"""Offer `firsthit show` and `sheet`: pictures of surfaces."""
 
 from __future__ import annotations
 
@@ -40,6 +40,7 @@ def add_parsers(add: Add) -> None:
 
 
 def _view(options: argparse.Namespace) -> View:
+    """Return the view that the options name. Raises FirsthitError for angles or a size that no picture has."""
     try:
         azimuth, elevation = (float(part) for part in options.view.split(","))
     except ValueError:
@@ -56,7 +57,7 @@ def need_pillow() -> None:
 
 
 def save(image: Image, output: Path) -> None:
-    """Write an image as a PNG file, whole or not at all."""
+    """Write an image as a PNG file, whole or not at all. Raises FirsthitError where it cannot be written."""
     buffer = io.BytesIO()
     image.save(buffer, "png", optimize=True)
     write_atomically(output, buffer.getvalue())

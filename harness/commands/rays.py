@@ -1,4 +1,4 @@
-"""The commands trace and oracle: they read rays from a file and write answers to another."""
+"""Offer `firsthit trace` and `oracle`: read rays from a file, and write answers to one."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def add_parsers(add: Add) -> None:
         "trace",
         "firsthit trace --surface torus --method newton --rays rays.npy -o hits.npz",
         "Cast the rays float32[n, 6] (origin, direction) of a .npy file. Writes an .npz with t (float64, "
-        "NaN without a hit), status (uint8: 0 miss, 1 hit, 2 exhausted, 3 invalid: an answer that can be none) and "
+        "NaN without a hit), status (uint8: 0 miss, 1 hit, 2 exhausted, 3 invalid: an impossible answer) and "
         "evaluations (int32).",
     )
     add_surface(parser)
@@ -52,7 +52,7 @@ def _add_files(parser: argparse.ArgumentParser) -> None:
 
 
 def _distance(text: str) -> float:
-    """Read a finite number that is not negative; raises ArgumentTypeError for anything else."""
+    """Read a finite number that is not negative. Raises ArgumentTypeError for anything else."""
     try:
         value = float(text)
     except ValueError:
@@ -63,7 +63,7 @@ def _distance(text: str) -> float:
 
 
 def load_rays(path: Path) -> NDArray[np.float32]:
-    """Read float32[n, 6] from a .npy file. Raises FirsthitError for anything else, naming the first bad row."""
+    """Read rays float32[n, 6] from a .npy file. Raises FirsthitError for anything else, and names the first bad row."""
     try:
         rays = np.load(path, allow_pickle=False)
     except OSError as error:

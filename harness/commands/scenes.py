@@ -1,4 +1,4 @@
-"""scene: what a config's scenes look like."""
+"""Offer `firsthit scene`: pictures of a config's scenes."""
 
 from __future__ import annotations
 
@@ -34,6 +34,7 @@ def add_parsers(add: Add) -> None:
 
 
 def _chosen(scenes: tuple[Scene, ...], name: str | None, path: Path) -> Scene:
+    """Return the scene of that name, or the first. Raises FirsthitError where the config at `path` has none such."""
     if not scenes:
         raise FirsthitError(f"{path} has no scenes; see configs/pipes.toml for how they are stated")
     names = {scene.name: scene for scene in scenes}

@@ -1,20 +1,22 @@
-"""What every method is held to, the same for tests and `firsthit conform`: answers against the oracle, the claims it
-states, knobs that move the error the way it says, and the same bits from run to run.
+"""Check what every method must keep, in the same way for the tests and for `firsthit conform`.
 
-Each check says what it measured, the limit, and the rule that both follow. What is not at most the limit fails, NaN
-too, and what could not be measured is named and is no pass. Rays nearer than GRAZING scene radii to another answer,
-and those on which f drowns in its own rounding, count only where a claim says so. Rays that the oracle leaves undecided
-count as neither right nor wrong, and are bounded.
+A method's answers are held against the oracle and against the claims that it states. Its knobs must move the error the
+way that it says, and every answer must be the same to the last bit when it is cast again.
 
-**Views** Four from outside (oblique, along an axis, down a pole, from below), and one with the eye inside the domain,
-whose limit for wrong answers is wider: the papers start their rays outside.
+Each check says what it measured, the limit, and the rule for both. It fails where the measured value is above the limit
+or NaN. What could not be measured is named, and is not a pass. Rays nearer than GRAZING scene radii to another answer,
+and rays on which f drowns in its own rounding, count only where a claim says so. Rays that the oracle leaves undecided
+count as neither right nor wrong; how many there may be is limited.
 
-**Surfaces** On TYPICAL ones nearly every answer must be right. On others a method may be weak, never useless.
+**Views** Four are from outside: oblique, along an axis, down a pole, and from below. One has its eye inside the domain;
+its limit for wrong answers is wider, since the papers start their rays outside.
+
+**Surfaces** On TYPICAL surfaces nearly every answer must be right. On others a method may be weak, but not useless.
 
 **Settings** The papers' own settings (Method.settings) are held to the same claims as the default, and otherwise to the
 limits of a surface that is not typical, since a paper may prefer speed (its thresholds) or leave out what would cure
-some rays (toledo2007's Newton gives up on up to 0.61 of the Barth sextic's). From inside the domain a setting may give
-up on any share. What a method's page calls weak without naming it a setting is not checked.
+some rays: toledo2007's Newton gives up on up to 0.61 of the rays at the Barth sextic. From inside the domain a setting
+may give up on any share. A weakness that a method's page describes, but that is no setting of it, is not checked.
 """
 
 from harness.conformance.bench import bench_on, checkable, findings
@@ -50,7 +52,6 @@ from harness.conformance.examine import (
     examine,
     examine_knobs,
     examine_touches,
-    rotation,
 )
 from harness.conformance.knobs import settings_of, swept
 
@@ -80,7 +81,6 @@ __all__ = [
     "no_missed_root",
     "not_checked",
     "refusal",
-    "rotation",
     "rounding_adds",
     "same_bits",
     "settings_of",

@@ -1,4 +1,4 @@
-"""What methods are checked on: rays with certified answers, where kernels run, and what one check found."""
+"""Make the cases that methods are checked on, and define what runs kernels and what one check found."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import dataclasses
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,25 +20,30 @@ from harness.oracle import first_hits
 from harness.plugins import Plugin
 from harness.scenes.camera import camera_for, rays_of, scene_radius
 
-GRAZING = 1e-3
+GRAZING = 1e-3  # scene radii: rays that are nearer to another answer are grazing
 TYPICAL = ("sphere", "torus", "barth_sextic")  # ball and box, coefficients along a ray and none
 OUTSIDE = "oblique"
 INSIDE = "inside"  # the view whose eye is in the domain
 VIEWS: dict[str, tuple[View, int]] = {  # with rays per side
+    # 33 is odd, so that a row and a column of rays lie in planes of symmetry: users try such rays first
     OUTSIDE: (View("oblique", azimuth=30, elevation=35), 48),
-    "axis": (View("axis", azimuth=0, elevation=0), 33),  # odd, so that a row and a column lie in planes of symmetry:
-    "pole": (View("pole", azimuth=0, elevation=90), 33),  # users try such rays first
+    "axis": (View("axis", azimuth=0, elevation=0), 33),
+    "pole": (View("pole", azimuth=0, elevation=90), 33),
     "below": (View("below", azimuth=-107, elevation=-12), 32),
     INSIDE: (View("inside", azimuth=200, elevation=25, fov=90), 32),
 }
-INSIDE_SHARE = 0.7  # of the way from the domain's centre to its boundary: where the eye inside it is
+INSIDE_SHARE = 0.7  # of the way from the domain's centre to its boundary: how far the eye of INSIDE is from the centre
 
 Rays = NDArray[np.float32]
+T = TypeVar("T", Truth, Hits)
 
 
 @dataclass(frozen=True, eq=False)
 class Case:
-    """A surface, rays and their certified answers; `views` names the rays' parts in their order, with their counts."""
+    """Holds a surface, rays float32[n, 6] at it, and their certified answers.
+
+    `views` holds name and count of each part of the rays, in their order; it is empty where they are of no view.
+    """
 
     surface: Surface
     rays: Rays
@@ -47,22 +52,27 @@ class Case:
 
     @property
     def radius(self) -> float:
+        """Return the scene radius, in scene units."""
         return scene_radius(self.surface)
 
     @property
     def there(self) -> NDArray[np.bool_]:
-        """bool[n]: the oracle proves a first hit."""
+        """Return bool[n]: true where the oracle proves a first hit."""
         return np.asarray(np.isin(self.truth.status, (TruthStatus.CROSSING, TruthStatus.TOUCH)))
 
     def judged(self, hits: Hits, precision: Precision) -> Verdicts:
+        """Hold the answers to all n rays against the oracle's."""
         return judge(hits, self.truth, self.radius, GRAZING, precision)
 
     def clear(self, verdicts: Verdicts) -> NDArray[np.bool_]:
-        """bool[n]: rays that a method must answer rightly: decided by the oracle, and neither grazing nor drowned."""
+        """Return bool[n]: true for rays that a method must answer rightly.
+
+        These are the rays that the oracle decides and that are neither grazing nor drowned.
+        """
         return judged(self.truth, verdicts)
 
     def parts(self, hits: Hits) -> Iterator[tuple[str, Case, Hits]]:
-        """Each view by itself: its name, its rays as a case, and what `hits` say of them."""
+        """Yield for each view its name, its rays as a case, and the answers to them."""
         start = 0
         for name, count in self.views or (("", len(self.rays)),):
             part = slice(start, start + count)
@@ -72,7 +82,7 @@ class Case:
 
 @dataclass(frozen=True, eq=False)
 class Bench:
-    """Where kernels run: `run` builds a program of listed rays and casts float32[n, 6]."""
+    """Runs kernels on one device: `run` builds a program of listed rays and casts float32[n, 6]."""
 
     device: str
     language: Language
@@ -80,6 +90,10 @@ class Bench:
     run: Callable[[Program, Rays], Hits]
 
     def cast(self, plugin: Plugin, case: Case, precision: Precision, **knobs: float) -> Hits:
+        """Cast a case's rays by a method with some of its knobs turned; impossible answers are INVALID.
+
+        Raises FirsthitError for a knob that the method does not have, and what `run` raises.
+        """
         variant = plugin.variant(knobs)
         program = method_program(plugin.method, plugin.folder, variant, case.surface, precision, self.language, "rays")
         return validated(self.run(program, case.rays), case.surface.domain, case.rays)
@@ -87,38 +101,49 @@ class Bench:
 
 @dataclass(frozen=True)
 class Finding:
-    """One check's outcome. It holds where `value <= limit`, so that NaN, of which nothing is known, never holds."""
+    """Holds one check's outcome.
+
+    The check holds where `value <= limit`, and so never where the value is NaN, of which nothing is known.
+
+    value, limit: what was measured, in the words of `rule`, and the largest value that holds
+    rule: what is measured, and why it is limited
+    detail: what else was seen: counts, and the worst ray
+    advice: what to do where the check does not hold
+    unchecked: why nothing could be measured, which is not a pass; None where something was
+    """
 
     check: str
-    value: float  # what was measured, in the words of `rule`
-    limit: float  # the largest value that holds
-    rule: str  # what is measured and why it is bounded
-    detail: str = ""  # what else was seen: counts, the worst ray
-    advice: str = ""  # what to do where it does not hold
-    unchecked: str | None = None  # why nothing could be measured; then it is no pass
+    value: float
+    limit: float
+    rule: str
+    detail: str = ""
+    advice: str = ""
+    unchecked: str | None = None
 
     @property
     def holds(self) -> bool:
-        """False where nothing was measured."""
+        """Tell whether the check holds; false where nothing was measured."""
         return self.unchecked is None and self.value <= self.limit
 
     @property
     def fails(self) -> bool:
+        """Tell whether the check does not hold; false where nothing was measured."""
         return self.unchecked is None and not self.holds
 
 
 def not_checked(check: str, reason: str) -> Finding:
+    """Make the finding of a check for which nothing could be measured."""
     return Finding(check, np.nan, np.nan, "", unchecked=reason)
 
 
-def some(whole: Any, part: slice | NDArray[Any]) -> Any:
-    """The rays of `part` of a Truth or of Hits."""
+def some(whole: T, part: slice | NDArray[np.bool_]) -> T:
+    """Return the truth or the hits of those rays that `part` selects."""
     return type(whole)(**{name: values[part] for name, values in vars(whole).items()})
 
 
 @cache
 def view_case(surface: Surface, name: str = OUTSIDE) -> Case:
-    """One of VIEWS of a surface."""
+    """Make the case of one of VIEWS of a surface. Raises KeyError for a name that is not one of these."""
     view, size = VIEWS[name]
     if name == INSIDE:
         view = dataclasses.replace(view, distance=INSIDE_SHARE * _way_out(surface, view))
@@ -137,12 +162,12 @@ def _way_out(surface: Surface, view: View) -> float:
 
 @cache
 def views_case(surface: Surface) -> Case:
-    """All VIEWS of a surface in one list of rays, so that they cost a program no more than one."""
+    """Make one case of all VIEWS of a surface, so that a program casts them in one launch."""
     return joined([view_case(surface, name) for name in VIEWS])
 
 
 def joined(cases: list[Case]) -> Case:
-    """Cases of one surface as one."""
+    """Join cases of one surface to one case."""
     truths: list[Mapping[str, NDArray[Any]]] = [vars(case.truth) for case in cases]
     truth = Truth(**{name: np.concatenate([truth[name] for truth in truths]) for name in truths[0]})
     views = tuple(view for case in cases for view in case.views)
@@ -151,7 +176,10 @@ def joined(cases: list[Case]) -> Case:
 
 @cache
 def touch_cases() -> tuple[Case, ...]:
-    """Rays that touch without crossing: a sphere and a torus from outside, exactly; a squared plane at 45° to 60°."""
+    """Make cases of rays that touch a surface without crossing it, as the oracle proves.
+
+    They touch a sphere and a torus from outside, exactly, and meet a squared plane at 45° to 60°.
+    """
     import surfaces
     from harness import hardcases
 
@@ -173,7 +201,7 @@ def touch_cases() -> tuple[Case, ...]:
 
 
 def refusal(plugin: Plugin, surface: Surface, precision: Precision, bench: Bench) -> str | None:
-    """Why the method is not to be checked here, or None."""
+    """Say why the method is not to be checked here; None where it is."""
     from harness.kernels.functions import unsupported
 
     if precision not in plugin.method.precisions:

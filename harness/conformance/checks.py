@@ -1,4 +1,4 @@
-"""A function for each check of a method's answers on a case, which returns what it measured, its limit and its rule."""
+"""Check a method's answers on a case: each function measures one thing, and returns it with its limit and its rule."""
 
 from __future__ import annotations
 
@@ -16,21 +16,19 @@ from harness.plugins import Plugin
 
 MOST_UNDECIDED = 0.01  # of the rays that hit or may: a pass needs decided hits
 MOST_WRONG = 0.002  # of a typical surface's clear rays
-MOST_WRONG_INSIDE = 0.01  # of these where the eye is inside the domain: the papers start their rays outside
-MOST_WRONG_ELSEWHERE = 0.1  # of any other surface's: beyond its paper's surfaces a method may be weak, never useless
-MOST_WRONG_ELSEWHERE_INSIDE = 0.25  # of these where the eye is inside the domain, and so maybe inside the surface
-MOST_EXHAUSTED_ELSEWHERE = 0.5  # of these: it may give up, as long as it says so and answers most rays
-MOST_EXHAUSTED_OF_A_SETTING = (
-    0.65  # from outside: toledo2007's Newton as printed turns back in dips of the Barth sextic
-)
+MOST_WRONG_INSIDE = 0.01  # the same where the eye is inside the domain: the papers start their rays outside
+MOST_WRONG_ELSEWHERE = 0.1  # of any other surface's: beyond its paper's surfaces a method may be weak, but not useless
+MOST_WRONG_ELSEWHERE_INSIDE = 0.25  # the same where the eye is inside the domain, and so perhaps inside the surface
+MOST_EXHAUSTED_ELSEWHERE = 0.5  # of such a surface's: a method may give up, as long as it says so and answers most rays
+MOST_EXHAUSTED_OF_A_SETTING = 0.65  # from outside; toledo2007's Newton as printed turns back in the Barth sextic's dips
 MOST_ERROR = 1e-3  # radii, of 99 of 100 right hits on a typical surface
 MOST_ERROR_ELSEWHERE = 1e-2  # the same on any other surface, and at a paper's own setting, which may be coarse
-ROUNDINGS = 64.0  # of condition × roundoff × radius: what an error may have beside its tolerance
-SAME_ROOT = 1e-6  # radii: roots nearer to each other are not told apart, as no t in float32 tells them
+ROUNDINGS = 64.0  # times condition × unit roundoff × radius: what rounding may add to an error
+SAME_ROOT = 1e-6  # radii: roots nearer to each other count as one, since no t in float32 tells them apart
 
 
 def decided(case: Case) -> Finding:
-    """The oracle decides nearly all rays that hit or may, and some hit."""
+    """Check that the oracle decides nearly all rays that hit or may hit, and that some hit."""
     hits, open_ = int(case.there.sum()), int((case.truth.status == TruthStatus.UNDECIDED).sum())
     return Finding(
         "truth",
@@ -43,7 +41,7 @@ def decided(case: Case) -> Finding:
 
 
 def answers(hits: Hits, case: Case) -> Finding:
-    """A hit has a finite t inside the domain, nothing else has one, and evaluations are counted."""
+    """Check that a hit has a finite t inside the domain and nothing else has one, and that evaluations are counted."""
     bad = validated(hits, case.surface.domain, case.rays).status == RayStatus.INVALID
     return Finding(
         "answers",
@@ -56,7 +54,7 @@ def answers(hits: Hits, case: Case) -> Finding:
 
 
 def same_bits(hits: Hits, again: Hits) -> Finding:
-    """Cast twice, every answer is the same to the last bit."""
+    """Check that the answers of two casts are the same to the last bit."""
     differs = hits.t.view(np.uint64) != again.t.view(np.uint64)
     differs |= (hits.status != again.status) | (hits.evaluations != again.evaluations)
     return Finding(
@@ -70,26 +68,25 @@ def same_bits(hits: Hits, again: Hits) -> Finding:
 
 
 def agreement(hits: Hits, case: Case, precision: Precision, setting: str = "") -> Iterator[Finding]:
-    """On clear rays, neither grazing nor drowned, nearly every answer is right, and right hits are near their roots.
+    """Check view by view that on clear rays nearly every answer is right, and that right hits are near their roots.
 
-    View by view.
-
-    `setting` is the name of the paper's setting that the answers are of: it may be weaker than the default.
+    `setting` names the paper's setting that the answers are of, which may be weaker than the default, "".
     """
     for view, part, answered in case.parts(hits):
         yield from _agreement(f", view {view}" if view else "", part, answered, precision, setting)
 
 
 def _agreement(view: str, case: Case, hits: Hits, precision: Precision, setting: str) -> Iterator[Finding]:
+    """Check one view; `view` is ", view " and its name, or "", as the names of findings end."""
     verdicts = case.judged(hits, precision)
     clear = case.clear(verdicts)
-    if not clear.any():  # a thin torus, whose every ray is near to missing it; a surface that is only touched
+    if not clear.any():  # as of a thin torus, where every ray nearly misses, or a surface that is only touched
         yield not_checked(f"right answers{view}", "no ray is clear")
         return
     typical = case.surface.name in TYPICAL and not setting
     wrong = np.where(clear, verdicts.wrong, Wrong.RIGHT)
     gave_up = wrong == Wrong.EXHAUSTED
-    nowhere = clear & case.there & (wrong == Wrong.RIGHT) & ~np.isfinite(verdicts.error)  # no number shows them right
+    nowhere = clear & case.there & (wrong == Wrong.RIGHT) & ~np.isfinite(verdicts.error)  # right by no measured error
     wrongly = nowhere | (wrong != Wrong.RIGHT if typical else (wrong != Wrong.RIGHT) & ~gave_up)
     limits = (MOST_WRONG, MOST_WRONG_INSIDE) if typical else (MOST_WRONG_ELSEWHERE, MOST_WRONG_ELSEWHERE_INSIDE)
     counts = ", ".join(f"{(wrong == kind).sum()} {name}" for kind, name in NAMES.items() if (wrong == kind).any())
@@ -118,7 +115,7 @@ def _agreement(view: str, case: Case, hits: Hits, precision: Precision, setting:
 
 
 def _near_roots(view: str, errors: NDArray[np.float64], limit: float, whose: str) -> Finding:
-    """`errors` of right hits, in scene radii."""
+    """Check the errors, in scene radii, of right hits."""
     p99 = float(np.quantile(errors, 0.99)) if len(errors) else np.nan
     return Finding(
         f"error{view}",
@@ -131,7 +128,7 @@ def _near_roots(view: str, errors: NDArray[np.float64], limit: float, whose: str
 
 
 def _first(bad: NDArray[np.bool_], hits: Hits, case: Case) -> str:
-    """Where to look: the first bad ray, and what was answered."""
+    """Describe the first bad ray and its answer, so that one knows where to look; "" where no ray is bad."""
     if not bad.any():
         return ""
     row = int(np.argmax(bad))
@@ -148,38 +145,42 @@ def _first(bad: NDArray[np.bool_], hits: Hits, case: Case) -> str:
 
 
 def _passed(hits: Hits, case: Case) -> NDArray[np.bool_]:
-    """bool[n]: first roots that were answered as a miss, by something later or by nothing that is an answer.
+    """Return bool[n]: true where a ray has a first root and its answer is a miss, a later hit or impossible.
 
-    A hit before the root passes none, whatever else is wrong with it; nor does a ray that gave up.
+    A hit before the root does not pass the root, whatever else is wrong with it. Nor does a ray that gave up.
     """
     between = case.truth.upper + np.fmax(0.5 * (case.truth.following - case.truth.upper), SAME_ROOT * case.radius)
     found = (hits.status == RayStatus.HIT) & (hits.t <= np.fmin(between, case.truth.upper + FAR * case.radius))
-    found &= hits.t >= -FAR * case.radius  # what lies behind the ray's start is no place that it could stop at
+    found &= hits.t >= -FAR * case.radius  # a ray cannot stop behind its start
     return np.asarray(case.there & ~found & (hits.status != RayStatus.EXHAUSTED))
 
 
 def no_missed_root(_plugin: Plugin, hits: Hits, case: Case, _precision: Precision, _knobs: Knobs) -> Finding:
+    """Check the claim that no first root is missed or passed, near tangency too."""
     rule = "roots that were missed or passed, also near tangency"
     return _claim("no_missed_root", _passed(hits, case), case.there, rule, hits, case)
 
 
 def conservative_bound(_plugin: Plugin, hits: Hits, case: Case, precision: Precision, _knobs: Knobs) -> Finding:
+    """Check the claim that no first root of a clear ray is missed or passed."""
     there = case.there & case.clear(case.judged(hits, precision))
     rule = "roots that were missed or passed, on clear rays"
     return _claim("conservative_bound", _passed(hits, case) & there, there, rule, hits, case)
 
 
 def no_false_hit(_plugin: Plugin, hits: Hits, case: Case, precision: Precision, _knobs: Knobs) -> Finding:
+    """Check the claim that no clear ray hits where the oracle proves a miss."""
     misses = (case.truth.status == TruthStatus.MISS) & case.clear(case.judged(hits, precision))
     false = misses & ~np.isin(hits.status, (RayStatus.MISS, RayStatus.EXHAUSTED))
     return _claim("no_false_hit", false, misses, "hits where the oracle proves a miss, on clear rays", hits, case)
 
 
 def rounding_adds(case: Case, precision: Precision) -> NDArray[np.float64]:
-    """float64[n], scene units: what rounding may add to a right hit's error; NaN without a root.
+    """Return float64[n], scene units: how much rounding may add to a right hit's error; NaN without a root.
 
-    ROUNDINGS of the root's condition, or what kernels may be off in f's value over f's slope there, where that is more:
-    with forty terms of degree 20, or an expansion along the ray whose terms are larger than f's own.
+    It is the larger of two numbers. One is ROUNDINGS times the root's condition × unit roundoff × radius. The other is
+    the error that a kernel's f may have there, over f's slope: it is the larger one for forty terms of degree 20, or
+    where f is expanded along the ray with terms that are larger than its own.
     """
     conditioned = ROUNDINGS * np.fmax(case.truth.condition, 1.0) * case.surface.domain.radius
     kernels = root_shift(case.surface, case.rays.astype(np.float64), case.truth.lower)
@@ -187,6 +188,7 @@ def rounding_adds(case: Case, precision: Precision) -> NDArray[np.float64]:
 
 
 def error_below_tolerance(plugin: Plugin, hits: Hits, case: Case, precision: Precision, knobs: Knobs) -> Finding:
+    """Check the claim that a right hit on a clear ray is off its root by at most Method.tolerance and rounding."""
     assert plugin.method.tolerance
     tolerance = plugin.method.tolerance(case.surface, dict(plugin.variant(knobs).parameters))
     verdicts = case.judged(hits, precision)
@@ -205,6 +207,7 @@ def error_below_tolerance(plugin: Plugin, hits: Hits, case: Case, precision: Pre
 
 
 def finds_touch(hits: Hits, case: Case) -> Finding:
+    """Check the claim that every ray which touches the surface hits it there; `case` is one of touch_cases."""
     near = np.abs(hits.t - case.truth.lower) < FAR * case.radius
     found = (hits.status == RayStatus.HIT) & near
     everywhere = np.ones(len(found), bool)
@@ -214,6 +217,7 @@ def finds_touch(hits: Hits, case: Case) -> Finding:
 def _claim(
     name: str, broken: NDArray[np.bool_], asked: NDArray[np.bool_], rule: str, hits: Hits, case: Case
 ) -> Finding:
+    """Make the finding of a claim about the rays `asked`, bool[n], which the rays `broken`, bool[n], contradict."""
     if not asked.any():
         return not_checked(name, "no ray asks for it here")
     detail = f"of {asked.sum()}{_first(broken, hits, case)}"

@@ -1,9 +1,9 @@
-"""Dense random polynomials of every degree that a method may accept, and rays at them, as cases of conformance.
+"""Make cases of dense random polynomials, of every degree that a method may accept, and rays at them.
 
-Catalogs hold few degrees, and formulas that mathematicians like: sparse, even, symmetric. What a fit, a table or a
-compiler does at degree 18 with forty terms shows on none of them. A polynomial here is TERMS random monomials of
-degrees up to its own, with coefficients in [-1, 1], and 0.8 x^degree, so that its degree is what it says; and a
-constant that makes it zero at a point within, so that rays meet it.
+A catalog has few degrees, and formulas that mathematicians like: sparse, even and symmetric ones. None of them shows
+what a fit, a table or a compiler does at degree 18 with forty terms. A polynomial here is the sum of TERMS random
+monomials of degrees up to its own, with coefficients in [-1, 1], of 0.8 x^degree, so that it has that degree, and of a
+constant that makes it zero at a point inside the domain, so that rays meet it.
 """
 
 from __future__ import annotations
@@ -23,12 +23,12 @@ DEGREES = range(1, 21)
 DOMAIN = "sphere:1.1"
 TERMS = 40
 COUNT = 500  # rays of one polynomial in `firsthit conform`
-FAR_AWAY = 4.0  # of an origin outside the domain, in its radii
-INNER = 0.9  # of the domain's radius: what rays are aimed at lies within
+FAR_AWAY = 4.0  # domain radii: how far an origin outside the domain is from its centre
+INNER = 0.9  # domain radii: the points that rays are aimed at are nearer to the centre
 
 
 def formula(degree: int, rng: np.random.Generator) -> str:
-    """A random polynomial in x, y, z of that degree, in the formula language."""
+    """Return a random polynomial of that degree in x, y and z, in the formula language."""
     terms = []
     for _ in range(TERMS):
         powers = rng.multinomial(rng.integers(0, degree + 1), [1 / 3] * 3)
@@ -39,7 +39,7 @@ def formula(degree: int, rng: np.random.Generator) -> str:
 
 @cache
 def surface_of(degree: int, seed: int) -> Surface:
-    """The polynomial of a degree and a seed, on DOMAIN, through a random point of the domain's inner half."""
+    """Return the polynomial of a degree and a seed, on DOMAIN, which is zero at a random point near the centre."""
     import surfaces
 
     rng = np.random.default_rng(seed)
@@ -51,7 +51,7 @@ def surface_of(degree: int, seed: int) -> Surface:
 
 
 def aimed_rays(surface: Surface, count: int, rng: np.random.Generator) -> NDArray[np.float32]:
-    """float32[count, 6]: every other ray starts in the domain, the rest outside it; all are aimed at points in it."""
+    """Return rays float32[count, 6] at points in the domain; the even ones start outside it, the odd ones inside."""
     radius, center = surface.domain.radius, np.array(surface.domain.center)
 
     def points() -> NDArray[np.float64]:
@@ -68,20 +68,22 @@ def aimed_rays(surface: Surface, count: int, rng: np.random.Generator) -> NDArra
 
 @cache
 def case_of(degree: int, seed: int, count: int) -> Case:
-    """A polynomial, `count` rays at it and their certified answers."""
+    """Make the case of a polynomial, with `count` rays at it and their certified answers."""
     surface = surface_of(degree, seed)
     rays = aimed_rays(surface, count, np.random.default_rng([seed, degree]))
     return Case(surface, rays, first_hits(surface, rays))
 
 
 def seed_of(degree: int) -> int:
-    """The seed of the polynomial that `firsthit conform` takes for a degree."""
+    """Return the seed of the polynomial that `firsthit conform` takes for a degree."""
     return 100 * degree + 1
 
 
 def cases(bench: Bench, plugin: Plugin, count: int = COUNT) -> Iterator[tuple[str, Case, Precision]]:
-    """A polynomial of each degree that the method accepts on the bench, in both precisions: where, case, precision, for
-    conformance.examine. Each is one more program to compile."""
+    """Yield what is checked, the case and the precision, for each degree that the method accepts on the bench.
+
+    Each of these is one more program to compile.
+    """
     for degree in DEGREES:
         surface = surface_of(degree, seed_of(degree))
         for precision in PRECISIONS:

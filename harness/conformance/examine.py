@@ -1,9 +1,11 @@
-"""All checks of a method on a device, part by part; a new kind of check is one more function in EXAMINATIONS."""
+"""Go through all checks of a method on a bench, part by part.
+
+A new kind of check is one more function in EXAMINATIONS.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from typing import Any
 
 from harness.conformance.cases import (
     OUTSIDE,
@@ -18,18 +20,18 @@ from harness.conformance.cases import (
 )
 from harness.conformance.checks import CLAIM_CHECKS, agreement, answers, decided, finds_touch, same_bits
 from harness.conformance.knobs import settings_of, swept
-from harness.contract import PRECISIONS, FirsthitError, Precision, Surface
+from harness.contract import PRECISIONS, Precision, Surface
 from harness.plugins import Plugin
 
-SWEPT = ("torus", "barth_sextic", "sphere", "plane_squared")  # a knob is swept on the first that its method accepts
+SWEPT = ("torus", "barth_sextic", "sphere", "plane_squared")  # knobs are turned on the first that the method accepts
 Located = tuple[str, Iterator[Finding]]  # what is checked there, and its findings, made as they are asked for
 
 
 def examine(bench: Bench, plugin: Plugin, case: Case, precision: Precision, setting: str = "") -> Iterator[Finding]:
-    """Every check of one method's answers on one case, its claims among them.
+    """Yield every check of a method's answers on one case, its claims among them.
 
-    `setting` names one of the paper's own settings; "" is the default. A setting is held to the same claims, and
-    beside these to the limits that checks.py states for settings.
+    `setting` names one of the paper's own settings; "" is the default. A setting is held to the same claims as the
+    default, and to the limits that checks.py states for settings. Raises what casting on the bench raises.
     """
     knobs = plugin.method.settings[setting] if setting else {}
     hits, again = (bench.cast(plugin, case, precision, **knobs) for _ in range(2))
@@ -42,7 +44,7 @@ def examine(bench: Bench, plugin: Plugin, case: Case, precision: Precision, sett
 
 
 def examine_touches(bench: Bench, plugin: Plugin, precision: Precision) -> Iterator[Finding]:
-    """The claim finds_touch, where it is stated."""
+    """Yield the checks of the claim finds_touch; none where the method does not state it."""
     if "finds_touch" not in plugin.method.claims:
         return
     for case in touch_cases():
@@ -51,9 +53,10 @@ def examine_touches(bench: Bench, plugin: Plugin, precision: Precision) -> Itera
 
 
 def examine_knobs(bench: Bench, plugin: Plugin) -> Iterator[Finding]:
-    """Each knob that says which way it is finer, in float32: the error never grows on the way there, and falls.
+    """Yield for each knob that says which way it is finer whether the error falls on the way there, and never grows.
 
-    Other such knobs stand at their coarsest, so that what one knob does is not hidden by what another mends.
+    This is in float32. The other such knobs stand at their coarsest values, since a fine one could hide what the knob
+    does.
     """
     import surfaces
 
@@ -70,7 +73,7 @@ def examine_knobs(bench: Bench, plugin: Plugin) -> Iterator[Finding]:
 
 
 def _on_surfaces(bench: Bench, plugin: Plugin, chosen: Sequence[Surface]) -> Iterator[Located]:
-    """Default and settings of the papers on every view of the chosen surfaces."""
+    """Examine the default and the papers' settings on every view of the chosen surfaces."""
     for surface in chosen:
         for precision in PRECISIONS:
             where = f"{surface.name} {precision}"
@@ -83,13 +86,13 @@ def _on_surfaces(bench: Bench, plugin: Plugin, chosen: Sequence[Surface]) -> Ite
 
 
 def own_settings(plugin: Plugin) -> list[str]:
-    """The papers' settings that are not the default under another name."""
+    """List the papers' settings that are not the default under another name."""
     default = plugin.variant({}).parameters
     return [name for name in plugin.method.settings if plugin.setting(name).parameters != default]
 
 
 def _on_dense(bench: Bench, plugin: Plugin, _: Sequence[Surface]) -> Iterator[Located]:
-    """Dense random polynomials of every degree that the method accepts."""
+    """Examine the default on dense random polynomials of every degree that the method accepts."""
     from harness.conformance import dense
 
     for where, case, precision in dense.cases(bench, plugin):
@@ -97,11 +100,13 @@ def _on_dense(bench: Bench, plugin: Plugin, _: Sequence[Surface]) -> Iterator[Lo
 
 
 def _on_touches(bench: Bench, plugin: Plugin, _: Sequence[Surface]) -> Iterator[Located]:
+    """Examine the default on rays that touch a surface, in each precision."""
     for precision in PRECISIONS:
         yield f"touches {precision}", examine_touches(bench, plugin, precision)
 
 
 def _on_knobs(bench: Bench, plugin: Plugin, _: Sequence[Surface]) -> Iterator[Located]:
+    """Examine the method's knobs."""
     yield "float32", examine_knobs(bench, plugin)
 
 
@@ -111,10 +116,3 @@ EXAMINATIONS: list[Callable[[Bench, Plugin, Sequence[Surface]], Iterator[Located
     _on_touches,
     _on_knobs,
 ]
-
-
-def rotation(pairs: list[Any], places: list[Any]) -> list[tuple[Any, Any]]:
-    """Each pair with one place, in turn, so that every place is used and the choice never changes by chance."""
-    if not places:
-        raise FirsthitError("no usable device; `firsthit devices` says why", exit_code=3)
-    return [(pair, places[i % len(places)]) for i, pair in enumerate(pairs)]

@@ -1,4 +1,4 @@
-"""A knob that says which way it is finer moves the error that way."""
+"""Check that a knob which says which way it is finer moves the error that way."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from harness.plugins import Plugin
 
 COARSER = (4096.0, 64.0, 1.0)  # times the default of a knob that is finer downwards and names no sweep
 FEWER = (64, 8, 4, 2, 1)  # parts of the default of a knob that is finer upwards and names no sweep
-FLOOR_ROUNDINGS = 4.0  # of mean condition × roundoff × radius: where float32 ends, and a finer knob changes nothing
-GROWTH = 1.1  # from one setting to the next finer one, that is no growth
-FALL = 0.75  # from the coarsest setting to the finest, that is a fall
+FLOOR_ROUNDINGS = 4.0  # times mean condition × unit roundoff × radius: the error that no finer knob can bring down
+GROWTH = 1.1  # from one setting to the next finer one: an error that grows by less has not grown
+FALL = 0.75  # from the coarsest setting to the finest: an error of at most this part of the first has fallen
 
 
 def settings_of(parameter: Parameter) -> list[float]:
-    """A knob's values, coarse to fine, the default among them."""
+    """Return a knob's values from coarse to fine, the default among them."""
     if parameter.sweep:
         return sorted({*parameter.sweep, parameter.default}, reverse=parameter.finer == "down")
     if parameter.finer == "down":
@@ -33,11 +33,11 @@ def settings_of(parameter: Parameter) -> list[float]:
 def swept(
     bench: Bench, plugin: Plugin, case: Case, parameter: Parameter, others: Mapping[str, float | int]
 ) -> Iterator[Finding]:
-    """Two findings: the error grows at no step towards finer, and falls from the coarsest to the finest.
+    """Yield two findings: the error grows at no step towards finer, and falls from the coarsest to the finest value.
 
-    Errors are means in scene radii over clear rays that meet the surface, a wrong answer counting
-    FAR. A ray that no setting answers rightly tells nothing of this knob and is left out. What lies under the floor of
-    float32 has neither grown nor stayed.
+    `others` are values of the method's other knobs. An error is the mean over clear rays that meet the surface, in
+    scene radii; a wrong answer counts as FAR. A ray that no value answers rightly says nothing about this knob, and is
+    left out. Errors below the limit of float32 pass both checks.
     """
     values = settings_of(parameter)
     answered = [bench.cast(plugin, case, "float32", **{**others, parameter.name: value}) for value in values]

@@ -8,7 +8,7 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 from harness.contract import DeviceInfo
-from harness.devices import kept
+from harness.devices import kept_answers
 from harness.devices.executor import START_SECONDS, CellError, LocalExecutor
 from harness.devices.interface import INSTALL, device_named, working
 
@@ -45,10 +45,10 @@ def known_devices(again: bool = False) -> Known:
     """Return every device, from kept answers where these still hold: to tell of devices, never to make rows.
 
     With `again` all backends are looked at anew. A kept answer still names a device that was taken out since, if
-    nothing has changed that `harness.devices.kept` can see.
+    nothing has changed that `harness.devices.kept_answers` can see.
     """
     backends = _installed()
-    held = {name: answer for name in backends if not again and (answer := kept.recall(name))}
+    held = {name: answer for name in backends if not again and (answer := kept_answers.recall(name))}
     looked = _look([name for name in backends if name not in held])
     of_held = [info for answer in held.values() for info in answer.devices]
     devices = sorted([*of_held, *looked], key=lambda info: backends.index(info.name.partition(":")[0]))
@@ -74,5 +74,5 @@ def _find(backend: str) -> list[DeviceInfo]:
         found = [DeviceInfo(f"{backend}:none", "none", "none", "none", None, False, "wall", (), problem)]
     finally:
         executor.close()
-    kept.keep(backend, found, ran)
+    kept_answers.keep(backend, found, ran)
     return found

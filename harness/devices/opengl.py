@@ -1,6 +1,6 @@
 """Open the OpenGL device through moderngl, without a window (EGL), and run compute shaders on it.
 
-harness.devices.opengl_frames draws its frames of triangles.
+harness.devices.opengl_raster draws its frames of triangles.
 """
 
 from __future__ import annotations
@@ -17,9 +17,9 @@ from typing import Any
 import numpy as np
 
 from harness.contract import DeviceInfo, FirsthitError, Program, source
-from harness.devices.frames import Batch, Rasteriser, RasterLaunch
 from harness.devices.interface import GPU_RESIDENT, Array, BuildError, Built, Device, Launch, Reserved, Step, Timing
-from harness.devices.opengl_frames import OpenGLRasterLaunch
+from harness.devices.opengl_raster import OpenGLRasterLaunch
+from harness.devices.raster import Batch, Rasteriser, RasterLaunch
 from harness.kernels.assemble import explain_log
 
 SHORT = ("llvmpipe", "softpipe", "nvidia", "geforce", "radeon", "intel", "apple")

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 from harness.contract import DeviceInfo, Program
 from harness.devices.interface import Built, Device, Launch, Timing, find_devices, open_device
 from harness.devices.messages import Answer, Check, Checked, Frame, Warmed
-from harness.devices.trial import trial_launch
+from harness.devices.trial_launch import trial_launch
 
 if TYPE_CHECKING:
     from harness.devices.probes import Probes

@@ -8,10 +8,10 @@ import typing
 from pathlib import Path
 from typing import Any
 
-from harness.experiment import file
+from harness.experiment import toml_file
 from harness.experiment.config import Config, Experiment
-from harness.experiment.file import ConfigFile, Where
 from harness.experiment.resolving import resolve
+from harness.experiment.toml_file import ConfigFile, Where
 from harness.limits import Limit, is_finite
 from harness.plugins import Catalog
 from surfaces.words import suggestion
@@ -21,7 +21,7 @@ WORDS = {float: "a number", int: "a whole number", str: "a text in quotes", bool
 
 def load(path: Path, catalog: Catalog) -> Experiment:
     """Read a config and resolve its names. Raises FirsthitError with file and line for anything wrong in it."""
-    read = file.read(path)
+    read = toml_file.read(path)
     config: Config = _table(Config, read.table, (), read)
     return resolve(config, read, catalog)
 

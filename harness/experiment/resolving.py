@@ -7,7 +7,7 @@ from collections.abc import Mapping
 
 from harness.contract import FirsthitError, Stage, Surface, Variant, View
 from harness.experiment.config import Config, Experiment, MethodChoice, SurfaceChoice
-from harness.experiment.file import ConfigFile, Where
+from harness.experiment.toml_file import ConfigFile, Where
 from harness.limits import Distinct, Known
 from harness.plugins import Catalog
 from harness.scenes.choice import cut, scenes_of

@@ -12,7 +12,7 @@ from harness.accuracy.scene_truth import hits_of
 from harness.contract import FirsthitError, Origin, Proxy, Variant
 from harness.devices.discovery import discover_devices
 from harness.devices.executor import CellError, LocalExecutor
-from harness.devices.frames import RasterCheck, RasterFrame
+from harness.devices.raster import RasterCheck, RasterFrame
 from harness.experiment.kinds import draws
 from harness.experiment.targets import able
 from harness.kernels.raster import fill_program

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from harness.contract import Box, FirsthitError, Proxy, Surface
-from harness.devices.frames import RECORD
+from harness.devices.raster import RECORD
 from harness.kernels.raster import PROXY_SIDES
 from harness.scenes.model import Group, Scene, bounding_radius
 

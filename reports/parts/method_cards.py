@@ -12,6 +12,7 @@ import pandas as pd
 from matplotlib.figure import Figure as Drawing
 
 from harness.contract import CLAIMS
+from harness.results.figures import BROKEN_BY
 from reports import wording
 from reports.claims import Claim, Outcome, Verdict
 from reports.claims.model import where
@@ -109,11 +110,6 @@ def _default(told: Mapping[str, Any], rows: pd.DataFrame) -> pd.DataFrame:
     return rows[bound.map(lambda knobs: defaults | knobs == defaults).astype(bool)]
 
 
-_BROKEN_BY = {  # the counts that contradict a claim; only the first is about grazing and drowned rays too
-    "no_missed_root": [f"{kind}{name}" for name in ("misses", "invalid") for kind in ("", "grazing_", "drowned_")],
-    "conservative_bound": ["misses", "invalid"],
-    "no_false_hit": ["false_hits", "invalid"],
-}
 _PASSED = {  # the counts that hold later roots, which contradict a claim, among other wrong roots, which do not
     "no_missed_root": [f"{kind}wrong_root" for kind in ("", "grazing_", "drowned_")],
     "conservative_bound": ["wrong_root"],
@@ -136,7 +132,7 @@ def _claims(method: str, stated: list[str], rows: pd.DataFrame) -> str:
 
 def _held(method: str, name: str, rows: pd.DataFrame) -> str:
     """Say whether the counts of `rows` contradict one claim."""
-    columns = _BROKEN_BY.get(name)
+    columns = list(BROKEN_BY.get(name, ()))
     known = rows[rows["accuracy_rays"].notna()] if columns else rows.head(0)
     if known.empty or not columns:
         return f"Not counted in this run; `firsthit conform --method {method}` checks it."

@@ -21,7 +21,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from harness.contract import MeshRecipe, Method, Normal, Origin, Program, Proxy, Variant
-from harness.devices.frames import Batch
+from harness.devices.raster import Batch
 from harness.experiment.kinds.casts import of_method
 from harness.experiment.kinds.model import Drawing
 from harness.plugins import Catalog

@@ -21,8 +21,8 @@ from harness.accuracy.judge import Deviations, Verdicts
 from harness.accuracy.scene_truth import Seen, hits_of, scene_truth
 from harness.contract import Program, Truth
 from harness.devices.executor import LocalExecutor
-from harness.devices.frames import Picture, RasterCheck, RasterFrame
 from harness.devices.messages import Frame
+from harness.devices.raster import Picture, RasterCheck, RasterFrame
 from harness.experiment.cells import Cell
 from harness.experiment.kinds.draws import Draw, draws, identity, refusal, too_many
 from harness.experiment.kinds.model import Asked, Casting, Kind, ViewCasting

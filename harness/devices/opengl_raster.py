@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from harness.devices.frames import Batch, Picture, RasterLaunch
 from harness.devices.interface import Array, Built, Timing
+from harness.devices.raster import Batch, Picture, RasterLaunch
 
 GL_DEPTH_CLAMP = 0x864F  # a proxy may reach in front of the near plane, though the surface in it does not
 

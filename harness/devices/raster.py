@@ -1,6 +1,6 @@
 """Say what a device draws by rasterisation, and what a check reads of the picture.
 
-Devices without a rasteriser refuse such frames. harness.devices.opengl_frames draws them.
+Devices without a rasteriser refuse such frames. harness.devices.opengl_raster draws them.
 """
 
 from __future__ import annotations

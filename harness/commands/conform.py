@@ -1,4 +1,4 @@
-"""conform: a method against the oracle, its own claims and itself, as the tests check ours."""
+"""Offer `firsthit conform`: hold a method against the oracle and its own claims, as the tests check ours."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from harness.devices.discovery import usable_devices
 from harness.devices.executor import LocalExecutor
 from harness.plugins import find_methods
 
-WIDTH = 100
+WIDTH = 100  # characters of a line
 
 
 def add_parsers(add: Add) -> None:
@@ -65,7 +65,7 @@ def _conform(options: argparse.Namespace) -> int:
 
 
 def told(device: str, found: Iterable[tuple[str, str, Finding]], verbose: bool) -> str:
-    """What is printed of one method on one device: a line for all that holds, a block for each check that fails."""
+    """Say what was found of one method on one device: a line for all that holds, a block for each check that fails."""
     found = list(found)
     name = found[0][0] if found else "none"
     checked = [finding for *_, finding in found if not finding.unchecked]
@@ -95,8 +95,10 @@ def _outcome(finding: Finding) -> str:
 
 
 def _number(value: float) -> str:
+    """Write a number with three digits; NaN, where nothing was measured, is `nothing`."""
     return "nothing" if math.isnan(value) else f"{value:.3g}"
 
 
 def _wrapped(head: str, text: str) -> str:
+    """Break a text into lines, which are indented as far as `head` reaches."""
     return textwrap.fill(text, WIDTH, initial_indent=head, subsequent_indent=" " * len(head), break_long_words=False)

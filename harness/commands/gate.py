@@ -1,4 +1,4 @@
-"""gate, bless: a config held against a blessed baseline."""
+"""Offer `firsthit gate` and `bless`: hold a config against its blessed baseline, and make that baseline."""
 
 from __future__ import annotations
 
@@ -54,6 +54,7 @@ def _add_shared(parser: argparse.ArgumentParser) -> None:
 
 
 def _path(options: argparse.Namespace) -> Path:
+    """Return the baseline's file: the one given, else that of the config's name in the folder `baselines` beside it."""
     path: Path = options.baseline or options.config.parent / "baselines" / options.config.name
     return path
 
@@ -79,8 +80,9 @@ def _gate(options: argparse.Namespace) -> int:
 
 
 def _tell(options: argparse.Namespace, checked: Checked, judged: list[Judged], path: Path, code: int) -> None:
+    """Write the files that are asked for, and then print the table."""
     title = checked.experiment.name
-    if options.junit:  # files before the table, whose reader may go away
+    if options.junit:  # files come first, since the table's reader may go away
         write_atomically(options.junit, outputs.junit(judged, title).encode())
     if options.markdown:
         write_atomically(options.markdown, outputs.markdown(judged, title, path, code).encode())

@@ -1,4 +1,4 @@
-"""recommend: the fastest variant that keeps an error."""
+"""Offer `firsthit recommend`: the fastest variant within an error."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from harness.plugins import find_methods
 from harness.recommend.search import HEADROOM, QUANTILES, Fallen, Recommendation, Wish, named, recommend
 
 NOTHING_HOLDS = 1
-REASON = 110  # characters of a reason
+REASON = 110  # characters of a reason that are printed
 
 
 def add_parsers(add: Add) -> None:
@@ -69,6 +69,7 @@ def _tell(line: str) -> None:
 
 
 def _answer(found: Recommendation, wish: Wish) -> str:
+    """Say what was recommended, how fast and how sure that is, and why the other variants fell."""
     device = found.device
     bound = f"a {wish.quantile} error of {wish.error:.2g}"
     if not found.contenders:
@@ -106,7 +107,7 @@ def _answer(found: Recommendation, wish: Wish) -> str:
 
 
 def _undecided(found: Recommendation) -> str:
-    """What the oracle could not decide, where there was anything."""
+    """Say how many hits the oracle could not decide; "" where it decided all."""
     if not found.undecided:
         return ""
     return (
@@ -115,7 +116,7 @@ def _undecided(found: Recommendation) -> str:
 
 
 def _fallen(found: Recommendation) -> str:
-    """A line for each variant; one for all variants of a method that fell for the same reason."""
+    """Write a line for each variant that fell; one line for all variants of a method that fell for the same reason."""
     grouped: dict[tuple[str, str, str], list[Fallen]] = {}
     for fallen in found.fallen:
         grouped.setdefault((fallen.variant.method, fallen.precision, fallen.why), []).append(fallen)
