@@ -86,7 +86,7 @@ def run_files() -> set[str]:
 
 
 def test_every_module_that_a_run_imports_decides_its_row(run_files):
-    assert {"harness/oracle/classify.py", "surfaces/evaluation.py", "harness/devices/opengl_frames.py"} <= run_files
+    assert {"harness/oracle/classify.py", "surfaces/evaluation.py", "harness/devices/opengl_raster.py"} <= run_files
     assert not uncovered(run_files)
 
 

@@ -50,7 +50,7 @@ def test_every_entry_is_tried_over_one_item(entry):
 
 def test_an_entry_that_nobody_knows_how_to_try_is_told_with_the_file_to_mend():
     unknown = dataclasses.replace(program("rays"), entry="tiles")
-    with pytest.raises(NotImplementedError, match=r"harness/devices/trial\.py .* tiles program"):
+    with pytest.raises(NotImplementedError, match=r"harness/devices/trial_launch\.py .* tiles program"):
         trial_launch(Recording(), unknown, None)
 
 

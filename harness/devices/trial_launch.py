@@ -31,5 +31,7 @@ def trial_launch(device: Device, program: Program, built: Built) -> Launch:
         buffers = [camera, *answer, Reserved(PARENT, np.int32), Reserved(LEVELS, np.int32)]
         numbers = {"size": 1, "level": -1, "last": 0, "source": -1, "target": 0}
     else:
-        raise NotImplementedError(f"harness/devices/trial.py does not say how a {program.entry} program is launched")
+        raise NotImplementedError(
+            f"harness/devices/trial_launch.py does not say how a {program.entry} program is launched"
+        )
     return device.launch_steps(buffers, (), [Step(built, tuple(range(len(buffers))), (1, 1), numbers)])
