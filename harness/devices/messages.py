@@ -2,7 +2,7 @@
 
 A message holds programs and buffers only, and knows how a device launches them. So a worker has no case for each way of
 casting. The messages of rays are here; those of other kinds are beside their launches, in `beams`, `narrowed` and
-`frames`. Messages travel between processes: they hold what can be pickled.
+`raster`. Messages travel between processes: they hold what can be pickled.
 """
 
 from __future__ import annotations
