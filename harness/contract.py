@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 
 Precision = Literal["float32", "float64"]
 Stage = Literal["compute", "rays", "raster"]
+Language = Literal["glsl", "cl"]
 Casts = Literal["rays", "beams", "quadtree", "mesh"]
 Proxy = Literal["box", "sphere", "tetrahedron"]
 Normal = Literal["distance", "gradient", "core_circle"]
@@ -225,7 +226,7 @@ class Program:
     optimised: False: built without optimisation, to compare its answers with the other's; OpenCL compilers only
     """
 
-    language: Literal["glsl", "cl"]
+    language: Language
     precision: Precision
     entry: str
     sections: tuple[Section, ...]

@@ -27,11 +27,11 @@ from harness.contract import (
     Surface,
     Variant,
 )
+from harness.contract import Language as Language
 
 ROOT = Path(__file__).parents[2]
 KERNELS = Path(__file__).parent / "glsl"
 AFTER_TABLES = ("fit_samples", "fit_whole")  # libraries that read a method's tables, and so come after them
-Language = Literal["glsl", "cl"]
 Entry = Literal["rays", "camera", "beams"]  # as what a method's program is started
 ROOMS: dict[Entry, str] = {"rays": "rays", "camera": "rays", "beams": "beams"}  # the folder of glsl/ that holds it
 

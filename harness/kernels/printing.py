@@ -9,15 +9,14 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
-from typing import Literal
 
 import numpy as np
 
 from harness.contract import FirsthitError, Precision
+from harness.contract import Language as Language
 from surfaces.lowering import enclosures
 from surfaces.tape import LEAVES, UNARY, Op, Tape
 
-Language = Literal["glsl", "cl"]
 _TYPES: dict[Precision, type[np.floating]] = {"float32": np.float32, "float64": np.float64}
 
 
