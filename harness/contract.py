@@ -38,13 +38,11 @@ Prepass = Literal["none", "beams"]
 Origin = Literal["nearest", "entry", "eye"]
 Coordinate = Annotated[float, POSITION]
 Point = tuple[Coordinate, Coordinate, Coordinate]
-PREPASSES: tuple[Prepass, ...] = ("none", "beams")
 ORIGINS: tuple[Origin, ...] = ("nearest", "entry", "eye")
 PROXIES: tuple[Proxy, ...] = ("box", "sphere", "tetrahedron")
 NORMALS: tuple[Normal, ...] = ("distance", "gradient", "core_circle")
 PRECISIONS: tuple[Precision, ...] = ("float32", "float64")
 UNIT_ROUNDOFF: dict[Precision, float] = {"float32": 2.0**-24, "float64": 2.0**-53}
-STAGES: tuple[Stage, ...] = ("compute", "rays", "raster")
 BASELINE = "ray_march"  # the method that speed-ups are over where a config names nothing else
 
 

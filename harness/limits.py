@@ -67,6 +67,16 @@ class Known:
 
 
 @dataclass(frozen=True)
+class Named:
+    """A name that is known, or none: an empty text. `names` is called when a config is read."""
+
+    names: Callable[[], Iterable[str]]
+
+    def broken(self, value: str) -> str | None:
+        return Known(self.names).broken([value]) if value else None
+
+
+@dataclass(frozen=True)
 class Distinct:
     """A list that holds nothing twice. `names` gives what must differ, where it is not the items themselves."""
 

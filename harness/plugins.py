@@ -10,11 +10,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from harness import ROOT as ROOT
 from harness.contract import CLAIMS, FirsthitError, Method, Variant
 from harness.limits import is_finite
 from surfaces.words import suggestion
 
-BUILT_IN = Path(__file__).parent.parent / "methods"
+BUILT_IN = ROOT / "methods"
 ENTRY_POINTS = "firsthit.methods"
 
 AS_PRINTED = "as printed"  # a setting of every method that has a knob whose default is ours

@@ -63,8 +63,7 @@ def get(name: str, **parameters: str | float) -> Surface:
     if not form:
         return surface
     if form not in FORMS.get(name, {}):
-        known = ", ".join(forms_of(name)) or "none"
-        raise FirsthitError(f"surface {name!r} has no form {form!r}; its forms: {known}")
+        raise FirsthitError(f"surface {name!r} has no form {form!r}; {suggestion(form, FORMS.get(name, {}))}")
     title, written = f"{surface.title}, {form}", FORMS[name][form]
     return replace(surface, name=f"{name}{SEPARATOR}{form}", title=title, formula=written)
 
@@ -80,8 +79,8 @@ def _as_printed(name: str, parameters: Mapping[str, str | float]) -> Surface:
     known = FAMILIES[name][2] if name in FAMILIES else {}
     for key in parameters:
         if key not in known:
-            has = f"has only {', '.join(known)}" if known else "takes no parameters"
-            raise FirsthitError(f"surface {name!r} has no parameter {key!r}: it {has}")
+            told = suggestion(key, known) if known else "it takes none"
+            raise FirsthitError(f"surface {name!r} has no parameter {key!r}; {told}")
     if name not in FAMILIES:
         return next(surface for surface in FIXED if surface.name == name)
     title, make, defaults = FAMILIES[name]

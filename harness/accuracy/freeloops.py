@@ -1,8 +1,8 @@
 """Tell whether a kernel ends only because its device's compiler removes loops that do not end.
 
 A compiler may remove a loop that nothing depends on, whether it ends or not: Mesa's does. The programs that are checked
-keep all loops (kernels/kept_loops.glsl), and those that are timed do not. If a checked program gives rays up, the same
-program with its loops left to the compiler casts them again. If that one answers more than DOUBTFUL of them, the
+keep all loops (harness/kernels/glsl/kept_loops.glsl), and those that are timed do not. If a checked program gives rays
+up, the same program with its loops left to the compiler casts them again. If that one answers more than DOUBTFUL of them, the
 program that would be timed does not do what its kernel says. OpenCL C compilers are left alone: they keep such loops,
 and the step times out.
 

@@ -128,7 +128,7 @@ def grid(experiment: Experiment, catalog: Catalog, found: list[DeviceInfo]) -> l
 
     Raises FirsthitError as `plan` does.
     """
-    devices = devices_of(experiment, found)
+    devices = devices_of(experiment, found, kinds.only_rasters(experiment))
     casters = list(_casters(experiment, catalog, list(devices)))
     cells = itertools.chain(
         _views_of_surfaces(experiment, catalog, casters),

@@ -35,14 +35,13 @@ def able(info: DeviceInfo) -> bool:
     return info.name.partition(":")[0] in RASTERISES
 
 
-def devices_of(experiment: Experiment, found: list[DeviceInfo]) -> dict[str, DeviceInfo | None]:
-    """Return the devices that a config's cells run on; `any` is one that rasterises if all cells are rasterised.
+def devices_of(experiment: Experiment, found: list[DeviceInfo], rasterises: bool) -> dict[str, DeviceInfo | None]:
+    """Return the devices that a config's cells run on; with `rasterises`, `any` is one that draws triangles.
 
     Raises FirsthitError if none of the devices that the config names is among those `found`.
     """
-    drawn_only = not experiment.config.families and (not experiment.surfaces or set(experiment.stages) == {"raster"})
     wanted = experiment.config.devices
-    chosen = choose_devices(wanted, found, drawn_only)
+    chosen = choose_devices(wanted, found, rasterises)
     if not any(chosen.values()):
         if not set(wanted) <= {"all", "any"}:
             raise no_device(", ".join(wanted), (info.name for info in found))

@@ -15,6 +15,7 @@ from functools import cache
 from pathlib import Path
 from typing import Literal
 
+from harness import ROOT as ROOT
 from harness.contract import (
     Box,
     FirsthitError,
@@ -28,8 +29,8 @@ from harness.contract import (
     Variant,
 )
 from harness.contract import Language as Language
+from surfaces.words import suggestion
 
-ROOT = Path(__file__).parents[2]
 KERNELS = Path(__file__).parent / "glsl"
 AFTER_TABLES = ("fit_samples", "fit_whole")  # libraries that read a method's tables, and so come after them
 Entry = Literal["rays", "camera", "beams"]  # as what a method's program is started
@@ -60,8 +61,8 @@ def _library(name: str) -> Section:
     """Return a file of glsl/lib as a section; raises FirsthitError if there is none of that name."""
     path = KERNELS / "lib" / f"{name}.glsl"
     if not path.exists():
-        known = ", ".join(sorted(p.stem for p in path.parent.glob("*.glsl")))
-        raise FirsthitError(f"there is no kernel library {name!r}; there are {known}")
+        known = sorted(p.stem for p in path.parent.glob("*.glsl"))
+        raise FirsthitError(f"there is no kernel library {name!r}; {suggestion(name, known)}")
     return file_section(path)
 
 

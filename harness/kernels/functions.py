@@ -36,6 +36,7 @@ from collections.abc import Callable, Iterable, Mapping
 from fractions import Fraction
 from pathlib import Path
 
+from harness import ROOT as ROOT
 from harness.contract import Box, FirsthitError, Precision, Section, Surface
 from harness.kernels.printing import IntervalPrinter, Language, RealPrinter, functions_used, table
 from harness.kernels.reach import safe_reach
@@ -43,10 +44,10 @@ from surfaces.evaluation import tape_of
 from surfaces.formula import parse
 from surfaces.lowering import coefficients_along, gradient, hessian_product, real_tape, tangent
 from surfaces.tape import Tape
+from surfaces.words import suggestion
 
 MAX_EXPANDED_DEGREE = 4
 MAX_FITTED_DEGREE = 20
-_ROOT = Path(__file__).parents[2]
 _LIB = Path(__file__).parent / "glsl" / "lib"
 _EXP_LOG = _LIB / "interval_exp_log.glsl"  # only in programs that call them: its first lines say why
 _FIT_SAMPLES = _LIB / "fit_samples.glsl"  # reads tables, and so comes after them
@@ -87,7 +88,7 @@ def _closure(surface: Surface | None, needs: Iterable[str]) -> list[str]:
 
     def want(name: str) -> None:
         if name not in _REQUIRES:
-            raise FirsthitError(f"there is no generated function {name!r}; there are {', '.join(FUNCTIONS)}")
+            raise FirsthitError(f"there is no generated function {name!r}; {suggestion(name, FUNCTIONS)}")
         wanted.add(name)
         for other in _REQUIRES[name]:
             want(other)
@@ -147,10 +148,10 @@ def surface_sections(
     sections = [Section(f"generated: surface {surface.name}, {name}", make()) for name, make in makers.items()]
     if "surface_polynomial_along" in wanted and not expands(surface):
         at = 1 + list(makers).index("surface_value")
-        fit = Section(_FIT_SAMPLES.relative_to(_ROOT).as_posix(), _FIT_SAMPLES.read_text(encoding="utf-8"))
+        fit = Section(_FIT_SAMPLES.relative_to(ROOT).as_posix(), _FIT_SAMPLES.read_text(encoding="utf-8"))
         sections[at:at] = [*_fit_tables(surface, precision, language), fit]
     if "surface_range" in wanted and {"exp", "log"} & set(functions_used(tape_of(surface))):
-        sections.insert(0, Section(_EXP_LOG.relative_to(_ROOT).as_posix(), _EXP_LOG.read_text(encoding="utf-8")))
+        sections.insert(0, Section(_EXP_LOG.relative_to(ROOT).as_posix(), _EXP_LOG.read_text(encoding="utf-8")))
     return tuple(sections)
 
 

@@ -14,12 +14,12 @@ from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
+from harness import ROOT as ROOT
 from harness.contract import FirsthitError, digest
 
-ROOT = Path(__file__).parents[2]
 DECIDING = ("harness", "surfaces")
 NOT_DECIDING = {
-    "harness/__init__.py": "holds the version's number, which a row does not depend on",
+    "harness/__init__.py": "holds the version's number and says where the project is, which no row depends on",
     "harness/running/batch.py": "chooses which cells are run, and leaves running them to the runner",
     "harness/running/due.py": "chooses which cells are run, by what is stored",
     "harness/running/picture.py": "draws a picture to look at, and stores no row",

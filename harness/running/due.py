@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Literal
 
+from harness import studies
 from harness.contract import CellStatus
 from harness.experiment.plan import Planned
 from harness.results.store import Row, Store
@@ -31,6 +33,11 @@ def due(planned: Sequence[Planned], store: Store, again: Again = "nothing") -> D
     stored = {p.key: store.read(p.key) for p in planned}
     kept = {key: row for key, row in stored.items() if row and not _is_wanted_again(row, again)}
     return Due([p for p in planned if p.key not in kept], kept)
+
+
+def studies_due(names: Iterable[str], folder: Path, again: Again = "nothing") -> list[str]:
+    """Return the studies that must be computed: those that a run's folder does not hold as they stand now, or all."""
+    return [name for name in names if again == "everything" or not studies.is_done(name, folder)]
 
 
 def _is_wanted_again(row: Row, again: Again) -> bool:

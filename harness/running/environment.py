@@ -11,6 +11,7 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
+from harness import ROOT as ROOT
 from harness import __version__
 from harness.contract import DeviceInfo, FirsthitError, digest
 from harness.devices import host
@@ -19,7 +20,6 @@ from harness.devices.probes import BELIEVABLE, Probes
 from harness.results import sources
 from harness.results.writing import write_atomically
 
-ROOT = Path(__file__).parents[2]
 PACKAGES = ("numpy", "sympy", "python-flint", "moderngl", "pyopencl")
 
 

@@ -6,7 +6,7 @@ Nothing is printed here. A Watcher is told what happens, and may print it.
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from datetime import UTC, datetime
@@ -18,7 +18,7 @@ from harness.contract import CellStatus, DeviceInfo, FirsthitError
 from harness.devices.discovery import discover_devices
 from harness.devices.executor import LocalExecutor
 from harness.devices.probes import Probes
-from harness.experiment import plan, reading, targets
+from harness.experiment import kinds, plan, reading, targets
 from harness.experiment.config import Experiment
 from harness.experiment.plan import Planned
 from harness.experiment.shipped import located
@@ -26,7 +26,7 @@ from harness.hardcases import groups
 from harness.plugins import Catalog, find_methods
 from harness.results.store import Row, Store
 from harness.running.cards import card
-from harness.running.due import UNFINISHED, Again, due, estimate_seconds
+from harness.running.due import UNFINISHED, Again, due, estimate_seconds, studies_due
 from harness.running.environment import describe, probed
 from harness.running.runner import Runner
 
@@ -184,7 +184,7 @@ def _run_part(part: Experiment, loaded: Loaded, runs: Path, command: str, again:
     store, environment = Store(runs / part.name), describe()
     executor = LocalExecutor(part.config.budget.timeout)
     try:
-        chosen = targets.devices_of(part, loaded.devices) if part.variants else {}
+        chosen = targets.devices_of(part, loaded.devices, kinds.only_rasters(part)) if part.variants else {}
         with hears.doing(_announced(part, loaded.catalog, chosen)):
             tried = [probed(executor, info, store.folder / "probes") for info in chosen.values() if info]
             planned = plan.plan(part, loaded.catalog, [info for info, _ in tried]) if part.variants else []
@@ -229,10 +229,11 @@ def _named(part: Experiment, planned: Sequence[Planned], catalog: Catalog) -> di
     }
 
 
-def _run_studies(names: Iterable[str], folder: Path, force: bool, hears: Watcher) -> None:
+def _run_studies(names: Sequence[str], folder: Path, force: bool, hears: Watcher) -> None:
     """Run the studies that are not done yet in a folder; all of them with `force`."""
+    todo = studies_due(names, folder, "everything" if force else "nothing")
     for name in names:
-        if force or not studies.is_done(name, folder):
+        if name in todo:
             done = studies.run(name, folder)
             hears.told(f"study {name}: {len(done['rows'])} rows, {console.duration(done['seconds'])}")
         else:

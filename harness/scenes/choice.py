@@ -11,8 +11,8 @@ from typing import Annotated
 import numpy as np
 
 from harness.contract import FirsthitError, Point, Surface, Variant, View
-from harness.limits import AZIMUTH, DISTANCE, ELEVATION, FIELD_OF_VIEW, SEED, SHARE, Distinct, Within
-from harness.scenes.generate import GENERATORS, generate
+from harness.limits import AZIMUTH, DISTANCE, ELEVATION, FIELD_OF_VIEW, SEED, SHARE, Distinct, Named, Within
+from harness.scenes.generate import COUNT, GENERATORS, generate
 from harness.scenes.model import COLOUR, Floats, Group, Scene
 
 Angle = Annotated[float, Within(-360.0, 360.0)]  # degrees
@@ -49,8 +49,8 @@ class SceneChoice:
 
     title: str = ""
     placed: list[PlacedChoice] = field(default_factory=list)
-    generate: str = ""
-    counts: Annotated[list[Annotated[int, Within(1, 10_000_000)]], Distinct()] = field(default_factory=lambda: [100])
+    generate: Annotated[str, Named(lambda: GENERATORS)] = ""
+    counts: Annotated[list[Annotated[int, COUNT]], Distinct()] = field(default_factory=lambda: [100])
     seed: Annotated[int, SEED] = 1
     azimuth: Annotated[float, AZIMUTH] = 30.0
     elevation: Annotated[float, ELEVATION] = 30.0
@@ -67,14 +67,12 @@ def scenes_of(
     """Return the scenes that a table describes.
 
     `surface_of` and `variant_of` look up the surface and the variant of an instance. Raises FirsthitError if the table
-    has neither instances nor a generator, both, an unknown generator, or a scale that is not positive.
+    has neither instances nor a generator, or both.
     """
     view = View(name, choice.azimuth, choice.elevation, choice.fov, choice.distance)
     if bool(choice.placed) == bool(choice.generate):
         raise FirsthitError(f"scene {name!r} needs instances in `placed`, or a way to `generate` them, and not both")
     if choice.generate:
-        if choice.generate not in GENERATORS:
-            raise FirsthitError(f"scene {name!r}: generate is one of {', '.join(GENERATORS)}, not {choice.generate!r}")
         return [generate(choice.generate, count, choice.seed, view) for count in choice.counts]
     groups = []
     for one in choice.placed:

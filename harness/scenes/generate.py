@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from harness.contract import Box, FirsthitError, Surface, Variant, View
+from harness.limits import Within
 from harness.scenes.model import Floats, Group, Scene
 
 Cell = NDArray[np.int64]  # [3], a cell of a lattice, or a step from one to a neighbour
@@ -211,6 +212,7 @@ def _frame(axis: Cell) -> Floats:
     return np.stack([other, np.cross(axis, other), axis.astype(float)], axis=1)
 
 
+COUNT = Within(1, 1_000_000, "a scene has 1 to 1,000,000 parts, not {value}")
 GENERATORS: dict[str, Callable[[int, int, View], Scene]] = {
     "lattice": lattice,
     "scattered": scattered,
@@ -220,7 +222,7 @@ GENERATORS: dict[str, Callable[[int, int, View], Scene]] = {
 
 
 def generate(kind: str, count: int, seed: int, view: View) -> Scene:
-    """Return the scene of a kind in GENERATORS. Raises FirsthitError if the count is out of range."""
-    if not 1 <= count <= 1_000_000:
-        raise FirsthitError(f"a scene has 1 to 1,000,000 parts, not {count}")
+    """Return the scene of a kind in GENERATORS. Raises FirsthitError if the count is not within COUNT."""
+    if wrong := COUNT.broken(count):
+        raise FirsthitError(f"count: {wrong}")
     return GENERATORS[kind](count, seed, view)

@@ -28,7 +28,7 @@ from harness.experiment.kinds.model import NOT_RASTERED, Asked, Casting, Kind, M
 from harness.experiment.kinds.narrowed import Narrowed
 from harness.experiment.kinds.raster import Raster
 
-__all__ = ["Asked", "Casting", "Kind", "MethodKind", "Outcome", "of_cell", "of_method", "rasterings"]
+__all__ = ["Asked", "Casting", "Kind", "MethodKind", "Outcome", "of_cell", "of_method", "only_rasters", "rasterings"]
 
 FAMILY, RASTER, NARROWED = Family(), Raster(), Narrowed()
 
@@ -40,6 +40,11 @@ def of_cell(cell: Cell, method: Method) -> Kind:
     if cell.stage == "raster":
         return RASTER
     return WAYS[method.casts].cells if cell.prepass == "none" else NARROWED
+
+
+def only_rasters(experiment: Experiment) -> bool:
+    """Tell whether all cells of an experiment are rasterised."""
+    return not experiment.config.families and (not experiment.surfaces or set(experiment.stages) == {"raster"})
 
 
 def rasterings(stage: Stage, method: Method, experiment: Experiment) -> list[Rastering]:
