@@ -205,7 +205,7 @@ def test_parameters_bind_and_are_checked() -> None:
     for name, parameters, reason in (
         ("toras", {}, "did you mean torus"),
         ("qqqq", {}, "list surfaces"),
-        ("torus", {"Q": "1"}, "it has only R, r"),
+        ("torus", {"Q": "1"}, "known: R, r"),
         ("barth_sextic", {"w": "1"}, "takes no parameters"),
         ("torus", {"R": "0"}, "must be positive"),
         ("torus", {"R": "nan"}, "parameter R: 'nan' is not a decimal number"),

@@ -156,7 +156,7 @@ def test_rotations_turn_about_x_then_y_then_z():
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ('generate = "latice"', "generate is one of lattice"),
+        ('generate = "latice"', "generate: unknown 'latice'; did you mean 'lattice'?"),
         ("counts = [5]", "needs instances in `placed`"),
         ('placed = [{ surface = "torus", scale = 0.0 }]', "a scale is positive"),
         ('placed = [{ surface = "tours" }]', "did you mean torus"),

@@ -2,9 +2,9 @@
 
 A compiler may remove a loop that nothing depends on, whether it ends or not: Mesa's does. The programs that are checked
 keep all loops (harness/kernels/glsl/kept_loops.glsl), and those that are timed do not. If a checked program gives rays
-up, the same program with its loops left to the compiler casts them again. If that one answers more than DOUBTFUL of them, the
-program that would be timed does not do what its kernel says. OpenCL C compilers are left alone: they keep such loops,
-and the step times out.
+up, the same program with its loops left to the compiler casts them again. If that one answers more than DOUBTFUL of
+them, the program that would be timed does not do what its kernel says. OpenCL C compilers are left alone: they keep
+such loops, and the step times out.
 
 **What this cannot see** It does not see such a loop on DOUBTFUL of the rays or fewer, which are told as exhausted; one
 that no checked ray enters; and one whose condition is an undefined value, since the compiler may take it as ended.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from typing import Annotated
 
@@ -17,6 +17,11 @@ from harness.scenes.model import COLOUR, Floats, Group, Scene
 
 Angle = Annotated[float, Within(-360.0, 360.0)]  # degrees
 Intensity = Annotated[float, SHARE]  # of a colour
+
+
+def _generators() -> Iterable[str]:
+    """List the ways to generate a scene; Annotated types call this by its name."""
+    return GENERATORS
 
 
 @dataclass(frozen=True)
@@ -49,7 +54,7 @@ class SceneChoice:
 
     title: str = ""
     placed: list[PlacedChoice] = field(default_factory=list)
-    generate: Annotated[str, Named(lambda: GENERATORS)] = ""
+    generate: Annotated[str, Named(_generators)] = ""
     counts: Annotated[list[Annotated[int, COUNT]], Distinct()] = field(default_factory=lambda: [100])
     seed: Annotated[int, SEED] = 1
     azimuth: Annotated[float, AZIMUTH] = 30.0
