@@ -206,7 +206,7 @@ def test_parameters_bind_and_are_checked() -> None:
         ("toras", {}, "did you mean torus"),
         ("qqqq", {}, "list surfaces"),
         ("torus", {"Q": "1"}, "known: R, r"),
-        ("barth_sextic", {"w": "1"}, "takes no parameters"),
+        ("barth_sextic", {"w": "1"}, "it takes none"),
         ("torus", {"R": "0"}, "must be positive"),
         ("torus", {"R": "nan"}, "parameter R: 'nan' is not a decimal number"),
         ("torus", {"R": float("inf")}, "parameter R: 'inf' is not"),

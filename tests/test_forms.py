@@ -82,8 +82,8 @@ def test_a_form_follows_its_parameters() -> None:
 @pytest.mark.parametrize(
     ("name", "reason"),
     [
-        ("chmutov:nestd", "no form 'nestd'; its forms: chmutov:nested, chmutov:factored"),
-        ("heart:nested", "its forms: none"),
+        ("chmutov:nestd", "no form 'nestd'; did you mean 'nested'?"),
+        ("heart:nested", "known: none"),
         ("chmutow:nested", "did you mean chmutov"),
     ],
 )
