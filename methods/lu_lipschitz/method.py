@@ -1,16 +1,16 @@
 """Lipschitz tracing along the ray by LU or control-point bounds of the fitted derivative.
 
 The kernel fits f along the ray by a polynomial in Bernstein form, and bounds the slope of f from the coefficients of
-its derivative. It then marches from the near end. A step is |f| over that bound, so it cannot pass a root. When f has
-changed its sign, one secant step gives the hit.
+its derivative. It then marches from the near end. A step is |f| over that bound, or TOLERANCE if that is longer; only
+the latter can pass a root. When f has changed its sign, one secant step gives the hit.
 
 **Source** szente, section 3 (equations 2 and 5 to 8) and Table 5; the fit of section 2.1, in the Bernstein basis.
 
 **Theory** Where f falls towards 0 by no more than L per unit of length, it has no root within |f| / L, so a step of
 this length passes none. Let f be positive at the ray's start (otherwise -f is used). Then -L is a lower bound of the
 derivative of the fitted polynomial. There are two such bounds: the least control point (equation 2, BOUND = 0), and the
-minimum of the lower LU function (equation 5, BOUND = 1). The latter is nowhere above the polynomial, and its minimum is
-known in closed form (equation 8). Where the same kind of bound keeps f itself away from 0 on the whole ray, the ray is
+minimum of the lower LU function (equation 5, BOUND = 1). The LU function lies nowhere above the derivative, and its
+minimum is known in closed form (equation 8). Where the same kind of bound keeps f itself away from 0 on the whole ray, the ray is
 a miss at once (CULL = 1). The shortest step is TOLERANCE. Such a step passes the root at last, so two roots that are
 closer to each other than TOLERANCE can be missed.
 
@@ -27,11 +27,12 @@ closer to each other than TOLERANCE can be missed.
 - SIDES: until its first root f keeps its sign, so only the slope towards 0 counts (SIDES = 1). The paper takes the
   larger magnitude of both slopes.
 - MATRIX: as in eft_yuksel.
-- TRUST: the bounds are moved by what their coefficients may be off by; as printed (TRUST = 0) by nothing. This has two
-  parts. The first is f's rounding errors in the samples (harness/kernels/rounding.py, as in bernstein), times what the
+- TRUST: the bounds are widened by the error that their coefficients can have; the paper widens nothing (TRUST = 0).
+  This has two parts. The first is f's rounding errors in the samples (harness/kernels/rounding.py, as in bernstein), times what the
   fit makes of them on a piece as long as the window (GROWTH, SLOPE_GROWTH). The second is the rounding errors of the
-  fit and of de Casteljau's algorithm. Of f's rounding errors TRUST of the worst case is counted: 1/16, where the
-  largest seen on random rays is 1/26 of it. tests/test_error_bounds.py checks the stated bounds against exact
+  fit and of de Casteljau's algorithm. Of f's rounding errors the share TRUST of the worst case is counted. TRUST is
+  1/16; the largest error seen on random rays was 1/26 of the worst case. So the claim conservative_bound holds for
+  rounding errors up to that share, and for all steps but the shortest one. tests/test_error_bounds.py checks the stated bounds against exact
   coefficients. The value of f at each step is taken as computed, so a pair of roots between which |f| stays below its
   own rounding errors can be passed.
 - The paper gives no shortest step and does not say what counts as a hit. Here a change of sign does, never a small |f|,
@@ -82,8 +83,8 @@ evaluations than the printed setting on all four surfaces, but computes the powe
                                                             the default, as this is the LU method
     equation 8's root by Halley's iteration that ends when  pow takes 1.2 times as long in all with LOCAL = 1;  yes
       it has converged, over the language's pow             in the printed setting it takes as long
-    starting where the LU function of f reaches 0, by       1.2 on the sphere, within 5 % elsewhere, for 20     no
-      Newton's method on a convex curve                     more lines
+    starting where the LU function of f reaches 0, by       1.2 times as fast on the sphere, within 5 %         no
+      Newton's method on a convex curve                     elsewhere, for 20 more lines
     windows of 1.5, 3 or 4 times the last step              as many evaluations                                 no
     bisections after the change of sign                     4 of 12 evaluations, no better error                no
 """
