@@ -10,9 +10,9 @@ the latter can pass a root. When f has changed its sign, one secant step gives t
 this length passes none. Let f be positive at the ray's start (otherwise -f is used). Then -L is a lower bound of the
 derivative of the fitted polynomial. There are two such bounds: the least control point (equation 2, BOUND = 0), and the
 minimum of the lower LU function (equation 5, BOUND = 1). The LU function lies nowhere above the derivative, and its
-minimum is known in closed form (equation 8). Where the same kind of bound keeps f itself away from 0 on the whole ray, the ray is
-a miss at once (CULL = 1). The shortest step is TOLERANCE. Such a step passes the root at last, so two roots that are
-closer to each other than TOLERANCE can be missed.
+minimum is known in closed form (equation 8). Where the same kind of bound keeps f itself away from 0 on the whole ray,
+the ray is a miss at once (CULL = 1). The shortest step is TOLERANCE. Such a step passes the root at last, so two roots
+that are closer to each other than TOLERANCE can be missed.
 
 **Changes against the paper**
 - LOCAL: the paper uses one bound for the whole ray (LOCAL = 0). Its section 3 ends with the remark that a curve whose
@@ -28,10 +28,10 @@ closer to each other than TOLERANCE can be missed.
   larger magnitude of both slopes.
 - MATRIX: as in eft_yuksel.
 - TRUST: the bounds are widened by the error that their coefficients can have; the paper widens nothing (TRUST = 0).
-  This has two parts. The first is f's rounding errors in the samples (harness/kernels/rounding.py, as in bernstein), times what the
-  fit makes of them on a piece as long as the window (GROWTH, SLOPE_GROWTH). The second is the rounding errors of the
-  fit and of de Casteljau's algorithm. Of f's rounding errors the share TRUST of the worst case is counted. TRUST is
-  1/16; the largest error seen on random rays was 1/26 of the worst case. So the claim conservative_bound holds for
+  This has two parts. The first is f's rounding errors in the samples (harness/kernels/rounding.py, as in bernstein),
+  times what the fit makes of them on a piece as long as the window (GROWTH, SLOPE_GROWTH). The second is the rounding
+  errors of the fit and of de Casteljau's algorithm. Of f's rounding errors the share TRUST of the worst case is counted.
+  TRUST is 1/16; the largest error seen on random rays was 1/26 of the worst case. So the claim conservative_bound holds for
   rounding errors up to that share, and for all steps but the shortest one. tests/test_error_bounds.py checks the stated bounds against exact
   coefficients. The value of f at each step is taken as computed, so a pair of roots between which |f| stays below its
   own rounding errors can be passed.
@@ -83,8 +83,8 @@ evaluations than the printed setting on all four surfaces, but computes the powe
                                                             the default, as this is the LU method
     equation 8's root by Halley's iteration that ends when  pow takes 1.2 times as long in all with LOCAL = 1;  yes
       it has converged, over the language's pow             in the printed setting it takes as long
-    starting where the LU function of f reaches 0, by       1.2 times as fast on the sphere, within 5 %         no
-      Newton's method on a convex curve                     elsewhere, for 20 more lines
+    starting where the LU function of f reaches 0, by       factor 1.2 on the sphere, within 5 % elsewhere,     no
+      Newton's method on a convex curve                     for 20 more lines
     windows of 1.5, 3 or 4 times the last step              as many evaluations                                 no
     bisections after the change of sign                     4 of 12 evaluations, no better error                no
 """
