@@ -30,11 +30,11 @@ that are closer to each other than TOLERANCE can be missed.
 - TRUST: the bounds are widened by the error that their coefficients can have; the paper widens nothing (TRUST = 0).
   This has two parts. The first is f's rounding errors in the samples (harness/kernels/rounding.py, as in bernstein),
   times what the fit makes of them on a piece as long as the window (GROWTH, SLOPE_GROWTH). The second is the rounding
-  errors of the fit and of de Casteljau's algorithm. Of f's rounding errors the share TRUST of the worst case is counted.
-  TRUST is 1/16; the largest error seen on random rays was 1/26 of the worst case. So the claim conservative_bound holds for
-  rounding errors up to that share, and for all steps but the shortest one. tests/test_error_bounds.py checks the stated bounds against exact
-  coefficients. The value of f at each step is taken as computed, so a pair of roots between which |f| stays below its
-  own rounding errors can be passed.
+  errors of the fit and of de Casteljau's algorithm. Of f's rounding errors the share TRUST of the worst case is
+  counted. TRUST is 1/16; the largest error seen on random rays was 1/26 of the worst case. So the claim
+  conservative_bound holds for rounding errors up to that share, and for all steps but the shortest one.
+  tests/test_error_bounds.py checks the stated bounds against exact coefficients. The value of f at each step is taken
+  as computed, so a pair of roots between which |f| stays below its own rounding errors can be passed.
 - The paper gives no shortest step and does not say what counts as a hit. Here a change of sign does, never a small |f|,
   so that near misses do not become hits. A secant step then ends the search. The authors' code takes the tolerance
   1e-5, and steps that are 1.6 times as long as the bound allows; the paper prints no such factor.
