@@ -110,6 +110,7 @@ def test_a_run_is_loaded_as_a_table_and_reused(tmp_path, first_device):
     done = firsthit.run(config, runs=tmp_path / "runs", tell=told.append)
     assert isinstance(done, firsthit.Run) and done.folder == tmp_path / "runs/mine"
     assert len(done.rows) == 2 and not done.reused and done.counts[firsthit.CellStatus.OK] == 2
+    assert repr(done) == f"Run({str(done.folder)!r}: 2 run, 0 reused; 2 ok)"
     assert told[0].startswith("2 cells to run") and sum(" left" in line for line in told) == 2
     table = firsthit.load(done.folder)
     assert set(table.columns) == {field.name for field in (*SCHEMA, *DERIVED)}

@@ -49,6 +49,11 @@ class Run:
     rows: tuple[Row, ...]  # of the cells that were run now, in the order in which they ended
     reused: tuple[Row, ...] = ()  # of the cells that were already finished
 
+    def __repr__(self) -> str:
+        """Return one line: the folder, and how many cells ended how."""
+        told = ", ".join(f"{count} {status}" for status, count in self.counts.items() if count)
+        return f"Run({str(self.folder)!r}: {len(self.rows)} run, {len(self.reused)} reused; {told or 'no cells'})"
+
     @property
     def counts(self) -> dict[CellStatus, int]:
         """Return how many rows have each status; every status is a key."""
