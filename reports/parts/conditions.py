@@ -44,7 +44,7 @@ EXPLANATION = (
 
 @dataclass(frozen=True, eq=False)
 class Cloud:
-    """The rays of one row that hit the right root."""
+    """Hold the rays of one row that hit the right root."""
 
     method: str
     variant: str
@@ -54,7 +54,7 @@ class Cloud:
 
     @property
     def excess(self) -> float:
-        """The largest ratio of an error to the error that the problem allows there."""
+        """Return the largest ratio of a ray's error to the error that the problem allows at the ray's condition."""
         return float((self.error / allowed(self.condition, self.precision)).max())
 
 
@@ -126,7 +126,11 @@ def _figure(name: str, clouds: list[Cloud], marks: Mapping[str, Mark], row: Any)
 
 
 def _spread(cloud: Cloud, edges: NDArray[np.float64]) -> tuple[NDArray[Any], NDArray[np.float64], NDArray[np.float64]]:
-    """Return the indices of the bins that hold rays, and the largest and the median error in each, [bins] each."""
+    """Return the indices of the bins that hold rays, and the largest and the median error in each.
+
+    `edges` float64[n + 1] bound n bins in the decimal logarithm of the condition. The result is intp[k], float64[k],
+    float64[k] for the k bins that hold rays.
+    """
     bins = np.clip(np.searchsorted(edges, np.log10(cloud.condition), side="right") - 1, 0, len(edges) - 2)
     order = np.lexsort((cloud.error, bins))
     errors = cloud.error[order]
@@ -159,7 +163,7 @@ def _dress(axes: Axes, edges: NDArray[np.float64], axis: ErrorAxis, precision: s
 
 
 def _caption(clouds: list[Cloud], radius: str) -> str:
-    """Name in each precision the variants furthest above the line and those least above it.
+    """Name in each precision the variants farthest above the line of what the problem allows, and those least above it.
 
     Variants whose printed figure is the same are named together.
     """
