@@ -54,6 +54,10 @@ def share_exceeds(count: int, of: int, limit: float) -> bool | None:
 
 
 def _decided(count: int, of: int, share: float, level: float) -> bool | None:
+    """Tell whether `count` successes in `of` trials are more than chances of `share` explain; False for fewer.
+
+    None where the chance of so many and that of so few are both above `level`.
+    """
     if at_least_by_chance(count, of, share) <= level:
         return True
     return False if at_most_by_chance(count, of, share) <= level else None
