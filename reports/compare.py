@@ -69,7 +69,10 @@ def paired(a: Run, b: Run) -> tuple[pd.DataFrame, list[str]]:
 
 
 def _scenes(frame: pd.DataFrame) -> pd.Series:
-    """Return the rows' comparisons without the run's name, which a collection of runs puts before them."""
+    """Return the rows' comparisons without the run's name, which a collection of runs puts before them.
+
+    Returns texts with the index of `frame`.
+    """
     return frame["comparison"].str.replace(r"^[^:]*: ", "", regex=True)
 
 

@@ -19,7 +19,7 @@ Field = Callable[[np.ndarray], np.ndarray]  # [n, 3] → [n]
 
 @dataclass(frozen=True)
 class Shape:
-    """Hold a distance function twice: as the text of a formula, and as a function in numpy."""
+    """Hold a distance function twice: as a formula's text, and as a function in numpy from points [n, 3] to [n]."""
 
     text: str
     field: Field

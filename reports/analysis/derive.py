@@ -133,9 +133,10 @@ def floor_rows(timed: pd.DataFrame, keys: Sequence[str] = GROUP) -> pd.DataFrame
 
 
 def _floor_ms(frame: pd.DataFrame, timed: pd.DataFrame) -> pd.Series:
-    """Return for each row the time in ms of its group's null method; NaN where none was timed.
+    """Return for each row the time in ms of its group's null method.
 
-    It is the null method with rays of the row's own origin where that was timed, else any null method of the group.
+    The index is that of `frame`; NaN where no null method was timed. It is the null method with rays of the row's own
+    origin where that was timed, else any null method of the group.
     """
     own, other = (
         frame.join(floor_rows(timed, keys).set_index(keys)["median_ms"].rename("null_ms"), on=keys)["null_ms"]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 from dataclasses import replace
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 import pandas as pd
@@ -109,7 +109,7 @@ def _slow_near_grazing(evidence: Evidence) -> Verdict | None:
     return verdict(at_least((a - a_reach) / (b + b_reach), (a + a_reach) / (b - b_reach), SLOWER), figure)
 
 
-def _mean(values: NDArray[Any]) -> tuple[float, float]:
+def _mean(values: NDArray[np.int32]) -> tuple[float, float]:
     """Return the mean of values [n] and half its 99 % interval; NaN for fewer than two values."""
     if len(values) < 2:
         return math.nan, math.nan

@@ -219,7 +219,12 @@ def _name(variant: str) -> str:
 
 
 def _map(
-    axes: Axes, sphere: Sphere, values: NDArray[Any], limits: Limits, cmap: str, wrong: NDArray[np.float64]
+    axes: Axes,
+    sphere: Sphere,
+    values: NDArray[np.float64],
+    limits: Limits,
+    cmap: str,
+    wrong: NDArray[np.float64],
 ) -> None:
     """Draw one map: `values` [n] of the directions, as decimal exponents, by colour between `limits`.
 
@@ -246,12 +251,12 @@ def _map(
 
 
 def _told_times(rows: pd.DataFrame, ratio: NDArray[np.float64]) -> str:
-    """Write the mean time per ray, and the least and the largest time over that mean."""
+    """Write the mean time per ray; of `ratio` [n], the rows' times over that mean, write the least and the largest."""
     return f"mean {wording.number(1e3 * rows['us_per_ray'].mean())} ns, {ratio.min():.2f} to {ratio.max():.2f}"
 
 
 def _told_errors(rows: pd.DataFrame, wrong: NDArray[np.float64]) -> str:
-    """Write the least and the largest of the rows' largest errors, and the number of wrong rays."""
+    """Write the least and the largest of the rows' largest errors, and the sum of `wrong` [n], the rows' wrong rays."""
     if not rows["answers"].iloc[0]:
         return "finds nothing"
     error = rows["error_max"].astype("float64")

@@ -125,7 +125,9 @@ def _figure(name: str, clouds: list[Cloud], marks: Mapping[str, Mark], row: Any)
     )
 
 
-def _spread(cloud: Cloud, edges: NDArray[np.float64]) -> tuple[NDArray[Any], NDArray[np.float64], NDArray[np.float64]]:
+def _spread(
+    cloud: Cloud, edges: NDArray[np.float64]
+) -> tuple[NDArray[np.intp], NDArray[np.float64], NDArray[np.float64]]:
     """Return the indices of the bins that hold rays, and the largest and the median error in each.
 
     `edges` float64[n + 1] bound n bins in the decimal logarithm of the condition. The result is intp[k], float64[k],
@@ -139,7 +141,10 @@ def _spread(cloud: Cloud, edges: NDArray[np.float64]) -> tuple[NDArray[Any], NDA
 
 
 def _draw(axes: Axes, cloud: Cloud, edges: NDArray[np.float64], shift: float, axis: ErrorAxis, mark: Mark) -> None:
-    """Draw one cloud, its marks moved by `shift` from the middle of their bin."""
+    """Draw one cloud, its marks moved by `shift` from the middle of their bin.
+
+    `edges` [n + 1] are those of the n bins.
+    """
     filled, largest, median = _spread(cloud, edges)
     x = (edges[filled] + edges[filled + 1]) / 2 + shift
     top, middle = axis.position(largest), axis.position(median)
@@ -149,7 +154,10 @@ def _draw(axes: Axes, cloud: Cloud, edges: NDArray[np.float64], shift: float, ax
 
 
 def _dress(axes: Axes, edges: NDArray[np.float64], axis: ErrorAxis, precision: str) -> None:
-    """Set the axes of one panel, and draw the line of what the problem allows."""
+    """Set the axes of one panel, and draw the line of what the problem allows.
+
+    `edges` [n + 1] are those of the n bins.
+    """
     axis.dress(axes, "y")
     low, high = float(edges[0]), float(edges[-1])
     axes.set_xlim(low - 0.03 * (high - low), high + 0.03 * (high - low))

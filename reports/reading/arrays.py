@@ -22,7 +22,7 @@ class Arrays:
 
     truth: NDArray[np.uint8]  # TruthStatus
     error: NDArray[np.float32]  # |t − t*| in scene units; NaN where not both hit
-    wrong: NDArray[np.uint8]  # 0 right, else the code of a style.Class
+    wrong: NDArray[np.uint8]  # 0 right, else the code of a style.Kind
     grazing: NDArray[np.bool_]
     shade: NDArray[np.float32]  # cosine towards the camera; NaN on background
     condition: NDArray[np.float32] | None = None  # of the first root; NaN without one; None in older runs
@@ -58,7 +58,7 @@ def read(path: Path) -> Arrays:
     return Arrays(**named, samples=_whole_pixels(samples, shapes.pop()))
 
 
-def _whole_pixels(samples: NDArray[Any] | None, shape: tuple[int, ...]) -> NDArray[Any] | None:
+def _whole_pixels(samples: NDArray[np.float32] | None, shape: tuple[int, ...]) -> NDArray[np.float32] | None:
     """Return `samples` [s h, s w] as they are; `shape` is (h, w), and s at most MOST_SAMPLES.
 
     Raises ValueError where `samples` have another shape. None stays None.
