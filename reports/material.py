@@ -29,13 +29,13 @@ class Material:
 
     @cached_property
     def marks(self) -> Mapping[str, Mark]:
-        """Return the mark of each variant, by its name."""
+        """Return the mark of each variant, by the variant's name."""
         variants = pd.concat([of[["method", "variant"]] for of in (self.frame, self.run.families)])
         return style.variant_marks(variants.drop_duplicates().itertuples(index=False, name=None))
 
     @cached_property
     def listed(self) -> pd.DataFrame:
-        """Return the rows of `frame` that belong into tables which list scenes one by one.
+        """Return the rows of `frame` for tables that list scenes one by one.
 
         Of a large set of views only the first view is kept, and of a surface in several forms only the printed one.
         """

@@ -22,7 +22,7 @@ def found() -> str | None:
 
 
 def _as_pipe(to_read: int, to_write: int) -> None:
-    """Make two file descriptors, in the child process, those at which chromium looks for its pipe: 3 and 4."""
+    """Give the two pipe ends, in the child process, the descriptors 3 and 4, at which chromium looks for its pipe."""
     os.dup2(to_read, 3)
     os.dup2(to_write, 4)
 

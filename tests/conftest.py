@@ -30,8 +30,8 @@ def usable_devices() -> tuple[DeviceInfo, ...]:
 def devices_found_once() -> Iterator[None]:
     """Let commands that run in this process find its devices at once.
 
-    Each command else looks for them in a process of its own, which takes longer than what most tests are about; tests
-    that run commands in processes of their own still do it. What the user's cache folder holds of devices is left
+    Otherwise each command looks for them in a process of its own, which takes longer than what most tests are about.
+    Tests that run commands in processes of their own still do so. What the user's cache folder holds of devices is left
     alone.
     """
     with pytest.MonkeyPatch.context() as patched:

@@ -20,7 +20,7 @@ _CALLS = {
 def _closed_form(device, degree, coefficients, precision="float64"):
     """Return the real roots of monic polynomials, float64[n, 4], sorted, with inf where there is no root.
 
-    `coefficients` are [n, k], lowest power first; quartics are given without their cubic term.
+    `coefficients` are [n, k], lowest power first, without the leading 1; quartics have no cubic term.
     """
     text = (
         f"#define INPUTS {max(coefficients.shape[1], 3)}\n#define OUTPUTS 4\n"

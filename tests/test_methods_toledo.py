@@ -58,7 +58,8 @@ def hits_of(method, surface, rays, precision="float32", folder=None, **knobs):
 class Outcome:
     """Hold how rays outside the grazing class were answered.
 
-    `wrong` is the share of them, `later_roots` counts hits of a later root, and `errors` are those of right hits.
+    `wrong` is the share of them that is answered wrongly, `later_roots` counts hits of a later root, and `errors` are
+    those of right hits.
     """
 
     rays: int

@@ -54,9 +54,9 @@ def share_exceeds(count: int, of: int, limit: float) -> bool | None:
 
 
 def _decided(count: int, of: int, share: float, level: float) -> bool | None:
-    """Tell whether `count` successes in `of` trials are more than chances of `share` explain; False for fewer.
+    """Tell whether each of `of` trials succeeds with a chance above `share` (True) or below it (False).
 
-    None where the chance of so many and that of so few are both above `level`.
+    `count` is the number of successes. None where neither is proved at `level`.
     """
     if at_least_by_chance(count, of, share) <= level:
         return True

@@ -119,7 +119,7 @@ def _baseline_ms(timed: pd.DataFrame) -> pd.Series:
 
 
 def baseline_of(frame: pd.DataFrame) -> str:
-    """Name what the speed-ups of these rows are over."""
+    """Name the method or variant that the speed-ups of these rows are over; several are joined by "or"."""
     return " or ".join(dict.fromkeys(map(str, frame["baseline"]))) or BASELINE
 
 

@@ -35,8 +35,8 @@ _WORDS: Mapping[Origin, str] = {
 class Pick:
     """Name a method with some of its knobs at stated values.
 
-    `words` name the pick in texts. `origin` is where its rays begin; None stands for where the rays of the judged paper
-    begin.
+    `words` name the pick in texts. `origin` is where its rays begin; None stands for the origin of the judged paper's
+    rays.
     """
 
     words: str

@@ -86,9 +86,9 @@ def both(*held: bool | None) -> bool | None:
 
 
 def at_least(low: float, high: float, limit: float) -> bool | None:
-    """Tell whether a value between `low` and `high` is at least `limit`.
+    """Tell whether a value that lies between `low` and `high` is at least `limit`.
 
-    None where `limit` is above `low` and not above `high`, or where an end that would decide is NaN.
+    True where `low` is at least `limit`, False where `high` is below it, else None. An end that is NaN decides nothing.
     """
     return True if low >= limit else False if high < limit else None
 

@@ -181,7 +181,7 @@ def _mean_of_roots(evidence: Evidence) -> Verdict | None:
 
 
 def _pays(piece: Pick, without: Pick, surfaces: tuple[str, ...]) -> Judge:
-    """Make a judge of "`piece` is faster than `without`"; its figure has both's evaluations and wrong rays too."""
+    """Make a judge of "`piece` is faster than `without`"; the figure adds the evaluations and wrong rays of each."""
 
     def decide(evidence: Evidence) -> Verdict | None:
         ratios = evidence.ratios(without, piece, surfaces)

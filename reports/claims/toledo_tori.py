@@ -42,7 +42,7 @@ def tori(evidence: Evidence) -> pd.DataFrame:
     """Return the timed rows of Figure 6's techniques and of ours on lattices, with the column `technique`.
 
     They are of the first device that has them and, where a run draws each lattice in several pictures, of the first
-    picture. Without any row of a mesh there is no row: the lattices are then of another experiment.
+    picture. Where no row is of polygons, none is returned: the lattices are then of another experiment.
     """
     rows = pd.concat([evidence.rows(pick).assign(technique=pick.words) for pick in (*PICKS, OURS)])
     rows = rows[(rows["scene"] == "lattice") & ~(rows["pixel_tolerance"] > 0.0)].dropna(subset=["median_ms"])

@@ -84,7 +84,10 @@ _LINES = ("-", "--", ":", "-.")
 
 
 def variant_marks(variants: Iterable[tuple[str, str]]) -> dict[str, Mark]:
-    """Return a mark for each variant of pairs (method, variant): its method's mark, with the variant's dashes."""
+    """Return a mark for each variant of the pairs (method, variant), by the variant's name.
+
+    It is the method's mark; the variants of a method have different dashes, as long as there are enough.
+    """
     pairs = list(dict.fromkeys(variants))
     own = marks(method for method, _ in pairs)
     seen: Counter[str] = Counter()

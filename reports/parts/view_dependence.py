@@ -118,10 +118,9 @@ def dependence_table(of: ViewSet) -> Table:
 
 
 def _name(of: ViewSet) -> str:
-    """Return what the views of a set are called.
+    """Return what the views of a set are called: “projection angles”, “directions” or “named views”.
 
-    They are “projection angles”, “directions” or “named views”; those of any other set are “views of the set” with its
-    name.
+    Those of any other set are “views of the set” with its name.
     """
     named = {viewstats.ANGLES: "projection angles", viewstats.DIRECTIONS: "directions"}.get(of.kind, of.kind)
     return (
