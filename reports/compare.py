@@ -40,11 +40,11 @@ def build(a: Path, b: Path) -> Path:
 
 
 def paired(a: Run, b: Run) -> tuple[pd.DataFrame, list[str]]:
-    """Return the cells of both runs, the columns of A ending in _a and of B in _b, and the columns that match them.
+    """Return the cells that both runs have, a row for each, and the names of the columns by which they match.
 
-    `ratio` is B's time over A's; `ratio_low` and `ratio_high` are its ends by the intervals of both medians, NaN where
-    one has too few samples for an interval. Raises FirsthitError if no cell matches, or if the runs share no device
-    and one has several.
+    A column of A ends in _a, one of B in _b. `ratio` is B's time over A's; `ratio_low` and `ratio_high` are its ends by
+    the intervals of both medians, NaN where one has too few samples for an interval. Raises FirsthitError if no cell
+    matches, or if the runs share no device and one has several.
     """
     frames = [derive.derive(run.frame).assign(scene=_scenes(run.frame)) for run in (a, b)]
     devices = [set(frame["device"]) for frame in frames]
@@ -69,12 +69,15 @@ def paired(a: Run, b: Run) -> tuple[pd.DataFrame, list[str]]:
 
 
 def _scenes(frame: pd.DataFrame) -> pd.Series:
-    """Return the comparisons without the run's name, which a collection of runs puts before them."""
+    """Return the rows' comparisons without the run's name, which a collection of runs puts before them.
+
+    Returns texts with the index of `frame`.
+    """
     return frame["comparison"].str.replace(r"^[^:]*: ", "", regex=True)
 
 
 def report(a: Run, b: Run) -> Document:
-    """Make the report on what changed from A to B."""
+    """Make the report on what changed from A to B. Raises FirsthitError as `paired` does."""
     both, by = paired(a, b)
     timed = both[both["ratio"].notna()]
     faster = timed[(timed["ratio_high"] < 1.0) & ~(_error_change(timed) > 0)]
@@ -111,7 +114,7 @@ def report(a: Run, b: Run) -> Document:
 
 
 def _error_change(both: pd.DataFrame) -> pd.Series:
-    """Return by how many more rays B answers wrongly than A; 0 where one does not tell."""
+    """Return for each row how many more rays B answers wrongly than A, as float64; 0 where one does not tell."""
     return (both["wrong_rays_b"].astype("float64") - both["wrong_rays_a"].astype("float64")).fillna(0.0)
 
 

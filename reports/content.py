@@ -1,4 +1,4 @@
-"""What a report consists of, independent of the format: sections of text, code, tables, figures and pictures.
+"""Define what a report consists of, whatever its format: sections of text, code, tables, figures and pictures.
 
 All strings are plain text; a renderer escapes what its format requires. A table's cells keep their values, and their
 column formats them, so that a renderer can sort by value.
@@ -15,7 +15,7 @@ from reports import wording
 
 @dataclass(frozen=True)
 class Text:
-    """A paragraph; a `strong` one is set in bold."""
+    """Hold a paragraph; a `strong` one is set in bold."""
 
     text: str
     strong: bool = False
@@ -23,7 +23,7 @@ class Text:
 
 @dataclass(frozen=True)
 class Code:
-    """A text to copy: a command or a config."""
+    """Hold a text to copy: a command or a config."""
 
     text: str
     language: str = "sh"
@@ -31,10 +31,10 @@ class Code:
 
 @dataclass(frozen=True)
 class Column:
-    """A column of a table: its title, and how its values are written.
+    """Hold a column of a table: its title, and how its values are written.
 
-    A line break in the title marks where a renderer may break it. Adjacent columns with the same `over` share that
-    text as a common heading.
+    A line break in the title marks where a renderer may break it. Adjacent columns with the same `over` share that text
+    as a common heading.
     """
 
     title: str
@@ -46,7 +46,7 @@ class Column:
 
 @dataclass(frozen=True)
 class Table:
-    """A table: the title says what it is, the caption what to look for in it.
+    """Hold a table: the title says what it is, the caption what to look for in it.
 
     Rows are sorted into groups by their first `group` columns; a renderer may print a repeated value of these once.
     """
@@ -60,7 +60,7 @@ class Table:
 
 @dataclass(frozen=True)
 class Figure:
-    """A drawing as SVG text. `description` tells readers who cannot see it what it shows."""
+    """Hold a drawing as SVG text. `description` tells readers who cannot see it what it shows."""
 
     name: str
     svg: str
@@ -71,7 +71,7 @@ class Figure:
 
 @dataclass(frozen=True)
 class Picture:
-    """An image as a PNG file's bytes. `description` tells readers who cannot see it what it shows."""
+    """Hold an image as a PNG file's bytes. `description` tells readers who cannot see it what it shows."""
 
     name: str
     png: bytes
@@ -80,7 +80,7 @@ class Picture:
 
 @dataclass(frozen=True)
 class Panel:
-    """Pictures side by side with one title above and one note below."""
+    """Hold pictures to be set side by side, with one title above and one note below."""
 
     title: str
     pictures: tuple[Picture, ...]
@@ -89,7 +89,7 @@ class Panel:
 
 @dataclass(frozen=True)
 class Gallery:
-    """Panels of pictures with one caption, and one legend of their colours if they need one."""
+    """Hold panels of pictures with one caption, and one legend of their colours if they need one."""
 
     panels: tuple[Panel, ...]
     caption: str
@@ -101,7 +101,7 @@ Block = Text | Code | Table | Figure | Gallery
 
 @dataclass(frozen=True)
 class Section:
-    """A titled part of a report. A `wide` section is set on landscape pages."""
+    """Hold a titled part of a report. A `wide` section is set on landscape pages."""
 
     title: str
     blocks: tuple[Block, ...]
@@ -110,7 +110,7 @@ class Section:
 
 @dataclass(frozen=True)
 class Document:
-    """A whole report."""
+    """Hold a whole report."""
 
     title: str
     subtitle: str

@@ -1,4 +1,4 @@
-"""The first page: which method wins where, at which error, and what that costs."""
+"""Make the first page: which method wins where, at which error, and what that costs."""
 
 from __future__ import annotations
 
@@ -90,7 +90,7 @@ def _verdict(frame: pd.DataFrame) -> str:
 def _gain(won: pd.DataFrame) -> str:
     """Say how many times as fast as the baseline the winner is in the rows `won`, and how exact.
 
-    Only rows count whose baseline is right too. "" where there are none or where the winner is the baseline.
+    Only rows count whose baseline is right too. "" where there are none, or where the winner is the baseline.
     """
     baseline = derive.baseline_of(won)
     told = won[won["speedup"].notna()]
@@ -109,7 +109,7 @@ def _gain(won: pd.DataFrame) -> str:
 
 
 def _bound(rows: pd.DataFrame) -> str:
-    """Say below what a time is floor-bound, with the floors of these rows."""
+    """Say below which time a row is floor-bound, with the floors of these rows."""
     floors = rows.loc[rows["floor_bound"].astype(bool), "floor_ms"]
     low, high = wording.number(floors.min()), wording.number(floors.max())
     span = f"{low} ms" if low == high else f"{low} to {high} ms"

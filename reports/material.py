@@ -1,4 +1,4 @@
-"""What every part of a report is made from."""
+"""Hold what every part of a report is made from."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from reports.reading.run import Run
 
 @dataclass(frozen=True, eq=False)
 class Material:
-    """A run, its rows with the derived columns, and what several parts compute from them."""
+    """Hold a run, its rows with the derived columns, and what several parts compute from them."""
 
     run: Run
     frame: pd.DataFrame  # what analysis.derive returns
@@ -29,21 +29,21 @@ class Material:
 
     @cached_property
     def marks(self) -> Mapping[str, Mark]:
-        """The mark of each variant."""
+        """Return the mark of each variant, by the variant's name."""
         variants = pd.concat([of[["method", "variant"]] for of in (self.frame, self.run.families)])
         return style.variant_marks(variants.drop_duplicates().itertuples(index=False, name=None))
 
     @cached_property
     def listed(self) -> pd.DataFrame:
-        """The rows of `frame` for tables that list scenes one by one.
+        """Return the rows of `frame` for tables that list scenes one by one.
 
-        Of a large set of views it has the first alone, and of a surface in several forms the one as printed.
+        Of a large set of views only the first view is kept, and of a surface in several forms only the printed one.
         """
         return surface_names.printed_alone(viewstats.one_view_of_each(self.frame))
 
     @cached_property
     def error_scale(self) -> tuple[int, int]:
-        """The decades of the one colour scale of errors that all pictures and maps of the report share."""
+        """Return the first and the last decade of the one colour scale that all pictures and maps of errors share."""
         rows = [shown.in_galleries(self.listed), shown.in_evaluation_maps(self.frame)]
         rows += [figures.rows_of(figure, self.evidence) for figure in figures.FIGURES]
         every = pd.concat(rows).drop_duplicates(["run", "key"])
@@ -53,10 +53,10 @@ class Material:
 
     @cached_property
     def evidence(self) -> Evidence:
-        """The run as evidence for and against the papers' claims."""
+        """Return the run as evidence for and against the papers' claims."""
         return Evidence(self.frame, self.run.studies, self.shelf)
 
     @cached_property
     def judged(self) -> list[tuple[Claim, Verdict]]:
-        """Every claim of the papers with its verdict by this run, in the papers' order."""
+        """Judge every claim of the papers by this run; return claims and verdicts in the papers' order."""
         return [(claim, claims.judge(claim, self.evidence)) for claim in claims.CLAIMS]

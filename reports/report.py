@@ -19,11 +19,11 @@ from reports.rendering import document, html
 
 
 def build(run: Path, baseline: str | None = None) -> Path:
-    """Write report.pdf, report.html, results.csv and results.parquet into the folder `run`; returns the PDF's path.
+    """Write report.pdf, report.html, results.csv and results.parquet into the folder `run`; return the PDF's path.
 
     A run with families of hard rays also gets stability.csv, with a line for each rung. No older file is replaced
-    before all new ones are complete. Speed-ups are over `baseline`, a method or variant of the run; None takes the
-    one that the run's config names.
+    before all new ones are complete. Speed-ups are over `baseline`, a method or variant of the run; None takes the one
+    that the run's config names.
 
     Raises FirsthitError if `run` is no run folder, holds no finished cell, has no such baseline or cannot be written
     to.
@@ -44,7 +44,10 @@ def build(run: Path, baseline: str | None = None) -> Path:
 
 
 def report(run: Run, frame: pd.DataFrame, rungs: pd.DataFrame) -> Document:
-    """Make the whole report; `frame` and `rungs` are the run's with the columns of analysis.derive and breaks."""
+    """Make the whole report.
+
+    `frame` is what analysis.derive.derive returns for the run, `rungs` what analysis.breaks.derive returns.
+    """
     material = Material(run, frame, rungs, Shelf(run.folders))
     sections = tuple(parts.sections(material))
     return Document(run.plan.title or run.plan.name, _subtitle(run), first_page.section(material), sections)

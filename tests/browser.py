@@ -1,4 +1,4 @@
-"""A real browser for tests: Debian's chromium, spoken to over a pipe in its DevTools protocol. Needs no package."""
+"""Drive a real browser in tests: Debian's chromium, by its DevTools protocol over a pipe. No package is needed."""
 
 from __future__ import annotations
 
@@ -17,20 +17,25 @@ SECONDS = 120.0  # that one answer may take on a busy machine
 
 
 def found() -> str | None:
-    """The path of a chromium, if there is one."""
+    """Return the path of a chromium; None where there is none."""
     return next(filter(None, map(shutil.which, NAMES)), None)
 
 
 def _as_pipe(to_read: int, to_write: int) -> None:
-    """In the child: the file descriptors at which chromium looks for its pipe."""
+    """Give the two pipe ends, in the child process, the descriptors 3 and 4, at which chromium looks for its pipe."""
     os.dup2(to_read, 3)
     os.dup2(to_write, 4)
 
 
 class Browser:
-    """One headless tab. `problems` holds what the page's console called an error, and uncaught exceptions."""
+    """Hold one headless tab, and drive it.
+
+    `problems` lists what the page's console called an error or a warning, and uncaught exceptions; `requests` lists the
+    addresses that the page asked for.
+    """
 
     def __init__(self, profile: Path) -> None:
+        """Start chromium with `profile` as its folder, and open an empty page. Fails where there is no chromium."""
         command = found()
         assert command
         to_read, self._write = os.pipe()
@@ -59,6 +64,7 @@ class Browser:
             self.call(f"{domain}.enable")
 
     def close(self) -> None:
+        """End chromium."""
         self._process.kill()
         self._process.wait()
         os.close(self._read)
@@ -66,7 +72,10 @@ class Browser:
         self._log.close()
 
     def call(self, method: str, **parameters: Any) -> Any:
-        """The answer to one command; events that come before it are noted."""
+        """Send one command and return its answer. Fails where the answer is an error.
+
+        Events that come before the answer are noted.
+        """
         self._number += 1
         number = self._number
         message: dict[str, Any] = {"id": number, "method": method, "params": parameters}
@@ -80,6 +89,7 @@ class Browser:
                 return answer["result"]
 
     def open(self, page: Path) -> None:
+        """Open a file, and wait until it is loaded. Fails after SECONDS."""
         self.call("Page.navigate", url=page.as_uri())
         end = time.monotonic() + SECONDS
         while self.run("document.readyState") != "complete" or self.run("location.protocol") != "file:":
@@ -87,33 +97,37 @@ class Browser:
             time.sleep(0.05)
 
     def run(self, script: str) -> Any:
-        """The value of a JavaScript expression in the page."""
+        """Return the value of a JavaScript expression in the page. Fails where the page raises an exception."""
         result = self.call("Runtime.evaluate", expression=script, returnByValue=True)
         assert "exceptionDetails" not in result, result["exceptionDetails"]
         return result["result"].get("value")
 
     def point(self, element: str) -> tuple[float, float]:
-        """The middle of an element (a JavaScript expression) in the window, after it is scrolled there."""
+        """Scroll an element, given as a JavaScript expression, into view; return its middle (x, y) in the window."""
         self.run(f"{element}.scrollIntoView({{block: 'center'}})")
         box = self.run(f"(b => [b.x + b.width / 2, b.y + b.height / 2])({element}.getBoundingClientRect())")
         return box[0], box[1]
 
     def hover(self, element: str) -> None:
+        """Move the pointer onto the middle of an element."""
         x, y = self.point(element)
         self.call("Input.dispatchMouseEvent", type="mouseMoved", x=x - 1, y=y)
         self.call("Input.dispatchMouseEvent", type="mouseMoved", x=x, y=y)
 
     def click(self, element: str) -> None:
+        """Click on the middle of an element."""
         self.hover(element)
         x, y = self.point(element)
         for kind in ("mousePressed", "mouseReleased"):
             self.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", clickCount=1)
 
     def type(self, element: str, text: str) -> None:
+        """Click on an element, and type `text` into it."""
         self.click(element)
         self.call("Input.insertText", text=text)
 
     def _next(self) -> dict[str, Any]:
+        """Read the next message, note it if it is an event, and return it. Fails where chromium ends or is silent."""
         while b"\0" not in self._pending:
             ready, _, _ = select.select([self._read], [], [], SECONDS)
             assert ready, "the browser does not answer"
@@ -126,6 +140,7 @@ class Browser:
         return message
 
     def _note(self, method: str, told: dict[str, Any]) -> None:
+        """Keep what an event says of errors and requests."""
         if method == "Runtime.exceptionThrown":
             self.problems.append(json.dumps(told["exceptionDetails"]))
         elif method == "Runtime.consoleAPICalled" and told["type"] in ("error", "warning", "assert"):

@@ -1,4 +1,4 @@
-"""What tests share: the machine's usable devices, opened once each, and small rays."""
+"""Share among tests the machine's usable devices, opened once each, and a generator of random numbers."""
 
 from __future__ import annotations
 
@@ -22,14 +22,18 @@ def _found(backend: str) -> list[DeviceInfo]:
 
 @cache
 def usable_devices() -> tuple[DeviceInfo, ...]:
+    """Return the devices of this machine that have no problem, looked for once."""
     return tuple(info for backend in INSTALL for info in _found(backend) if not info.problem)
 
 
 @pytest.fixture(scope="module")
 def devices_found_once() -> Iterator[None]:
-    """Commands run in this process find its devices at once, instead of in a process of their own each time: that takes
-    longer than what most tests are about, and tests that run commands in processes of their own do it still. What the
-    user's cache folder holds of devices is left alone."""
+    """Let commands that run in this process find its devices at once.
+
+    Otherwise each command looks for them in a process of its own, which takes longer than what most tests are about.
+    Tests that run commands in processes of their own still do so. What the user's cache folder holds of devices is left
+    alone.
+    """
     with pytest.MonkeyPatch.context() as patched:
         patched.setattr(kept_answers, "_place", lambda: None)
         patched.setattr(LocalExecutor, "find", lambda _, backend: _found(backend))
@@ -39,17 +43,19 @@ def devices_found_once() -> Iterator[None]:
 def rotation(pairs: list[tuple[Any, ...]], places: list[tuple[str, str]]) -> list[tuple[Any, tuple[str, str]]]:
     """Join each pair with one place, in turn, so that every place is used and no choice is by chance.
 
-    Without places there is nothing to join.
+    Returns [] where there are no places.
     """
     return [(pair, places[i % len(places)]) for i, pair in enumerate(pairs)] if places else []
 
 
 @cache
 def opened(name: str) -> Device:
+    """Open the device of this name, once for all tests."""
     return open_device(name)
 
 
 def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
+    """Run a test that takes `device` on each usable device; skip it where there is none."""
     if "device" in metafunc.fixturenames:
         names = [info.name for info in usable_devices()]
         nothing = [pytest.param(None, marks=pytest.mark.skip("no device"))]
@@ -58,9 +64,11 @@ def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
 
 @pytest.fixture
 def device(request: pytest.FixtureRequest) -> Device:
+    """Return the open device that the test runs on."""
     return opened(request.param)
 
 
 @pytest.fixture
 def rng() -> np.random.Generator:
+    """Return a generator of random numbers that starts the same in every test."""
     return np.random.default_rng(7)

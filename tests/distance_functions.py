@@ -1,4 +1,4 @@
-"""Random distance functions as formulas, the same ones in numpy, and rays that meet their kinks; a marcher to check by.
+"""Make random distance functions as formulas and in numpy, and rays that meet their kinks; march to check answers by.
 
 Every function here is 1-Lipschitz, so no root lies within |f| of a point: marching by that much proves where there is
 none. The numpy side shares nothing with formulas, lowering or oracle.
@@ -19,7 +19,7 @@ Field = Callable[[np.ndarray], np.ndarray]  # [n, 3] → [n]
 
 @dataclass(frozen=True)
 class Shape:
-    """A distance function, twice."""
+    """Hold a distance function twice: as a formula's text, and as a function in numpy from points [n, 3] to [n]."""
 
     text: str
     field: Field
@@ -27,14 +27,17 @@ class Shape:
 
 
 def _eighths(pick: random.Random, low: int, high: int) -> float:
+    """Return a random multiple of 1/8 from low/8 to high/8."""
     return pick.randint(low, high) / 8
 
 
 def _moved(name: str, by: float) -> str:
+    """Write the coordinate `name` relative to `by`."""
     return f"({name} - ({by!r}))" if by else name
 
 
 def sphere(pick: random.Random) -> Shape:
+    """Make a random sphere."""
     c, r = tuple(_eighths(pick, -4, 4) for _ in range(3)), _eighths(pick, 2, 5)
     x, y, z = (_moved(n, v) for n, v in zip("xyz", c, strict=True))
     return Shape(
@@ -45,7 +48,7 @@ def sphere(pick: random.Random) -> Shape:
 
 
 def box(pick: random.Random) -> Shape:
-    """Exact inside and outside, as it is written for shaders; sometimes rounded."""
+    """Make a random box as shaders write it, whose distance is exact inside and outside; some are rounded."""
     c, b = tuple(_eighths(pick, -4, 4) for _ in range(3)), tuple(_eighths(pick, 2, 5) for _ in range(3))
     r = pick.choice([0.0, 0.0, 0.125])
     x, y, z = (f"(abs({_moved(n, v)}) - {h!r})" for n, v, h in zip("xyz", c, b, strict=True))
@@ -60,6 +63,7 @@ def box(pick: random.Random) -> Shape:
 
 
 def plain_box(pick: random.Random) -> Shape:
+    """Make a random box as the largest of three distances, which is not the exact distance outside."""
     c, b = tuple(_eighths(pick, -4, 4) for _ in range(3)), tuple(_eighths(pick, 2, 5) for _ in range(3))
     x, y, z = (f"(abs({_moved(n, v)}) - {h!r})" for n, v, h in zip("xyz", c, b, strict=True))
     corner = tuple(u + v for u, v in zip(c, b, strict=True))
@@ -67,6 +71,7 @@ def plain_box(pick: random.Random) -> Shape:
 
 
 def torus(pick: random.Random) -> Shape:
+    """Make a random torus about one of the axes."""
     c, big, r = tuple(_eighths(pick, -3, 3) for _ in range(3)), _eighths(pick, 4, 6), _eighths(pick, 1, 3)
     a, b, k = pick.choice([(0, 1, 2), (1, 2, 0), (0, 2, 1)])
     names = [_moved(n, v) for n, v in zip("xyz", c, strict=True)]
@@ -83,6 +88,7 @@ def torus(pick: random.Random) -> Shape:
 
 
 def capsule(pick: random.Random) -> Shape:
+    """Make a random capsule along one of the axes."""
     c, h, r = tuple(_eighths(pick, -4, 4) for _ in range(3)), _eighths(pick, 1, 5), _eighths(pick, 1, 4)
     k = pick.randrange(3)
     names = [_moved(n, v) for n, v in zip("xyz", c, strict=True)]
@@ -100,7 +106,7 @@ def capsule(pick: random.Random) -> Shape:
 
 
 def cone(pick: random.Random) -> Shape:
-    """With its tip up and a flat base: the intersection of an endless cone and a half space."""
+    """Make a random cone with its tip up and a flat base: the intersection of an endless cone and a half space."""
     c, h = tuple(_eighths(pick, -4, 4) for _ in range(3)), _eighths(pick, 4, 8)
     x, y, z = (_moved(n, v) for n, v in zip("xyz", c, strict=True))
     text = f"max(0.8*sqrt({x}^2 + {y}^2) + 0.6*{z}, -{z} - {h!r})"
@@ -116,6 +122,7 @@ PRIMITIVES = (sphere, box, plain_box, torus, capsule, cone)
 
 
 def joined(pick: random.Random, a: Shape, b: Shape) -> Shape:
+    """Join two shapes by a random operation: union, intersection, difference or smooth union."""
     marks = a.marks + b.marks
     match pick.choice(["union", "union", "intersection", "difference", "smooth"]):
         case "union":
@@ -133,7 +140,7 @@ def joined(pick: random.Random, a: Shape, b: Shape) -> Shape:
 
 
 def random_shape(pick: random.Random, parts: int) -> Shape:
-    """A tree of `parts` primitives; now and then hollowed, or grown by a sixteenth."""
+    """Make a random tree of `parts` primitives; some of its nodes are hollowed, or grown by a sixteenth."""
     if parts == 1:
         return pick.choice(PRIMITIVES)(pick)
     left = pick.randint(1, parts - 1)
@@ -147,7 +154,11 @@ def random_shape(pick: random.Random, parts: int) -> Shape:
 
 
 def rays_for(shape: Shape, count: int, seed: int) -> np.ndarray:
-    """float32[count, 6]: from outside and inside, along axes and diagonals through marks, towards marks, any way."""
+    """Return rays float32[count, 6] that meet the kinks of `shape`.
+
+    They begin outside and inside. Some go along axes and diagonals through marks, some towards marks, some begin at
+    marks, and some go any way.
+    """
     rng = np.random.default_rng(seed)
     origins = rng.normal(size=(count, 3)) * rng.choice([0.4, 2.0], size=(count, 1))
     directions = rng.uniform(-0.8, 0.8, size=(count, 3)) - origins
@@ -176,7 +187,10 @@ def rays_for(shape: Shape, count: int, seed: int) -> np.ndarray:
 
 
 def march(shape: Shape, rays: np.ndarray, start: np.ndarray, stop: np.ndarray, steps: int = 4000) -> np.ndarray:
-    """float64[n]: t up to which no root is proved from `start` on, at most `stop`, by steps of |f| / |direction|."""
+    """Return the t, float64[n], up to which marching proves that no root lies from `start` on; at most `stop`.
+
+    `rays` are [n, 6], `start` and `stop` [n]. A step is |f| over the length of the direction.
+    """
     o, d = rays[:, :3].astype(float), rays[:, 3:].astype(float)
     length = np.linalg.norm(d, axis=1)
     t = start.copy()
@@ -190,7 +204,10 @@ def march(shape: Shape, rays: np.ndarray, start: np.ndarray, stop: np.ndarray, s
 
 
 def clip(domain: Sphere | Box, rays: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """t where each ray enters (0 or more) and leaves the domain, float64[n]; a miss enters behind where it leaves."""
+    """Return the t, float64[n] each, where rays [n, 6] enter the domain, 0 or more, and where they leave it.
+
+    A ray that misses the domain enters behind where it leaves.
+    """
     o, d = rays[:, :3].astype(float), rays[:, 3:].astype(float)
     with np.errstate(all="ignore"):
         if isinstance(domain, Box):
@@ -207,7 +224,10 @@ def clip(domain: Sphere | Box, rays: np.ndarray) -> tuple[np.ndarray, np.ndarray
 
 
 def contradictions(shape: Shape, domain: Sphere | Box, rays: np.ndarray, truth: Truth) -> list[tuple[int, str]]:
-    """Rays whose answer float64 marching refutes beyond its own rounding, with the reason."""
+    """Return the indices of rays whose answer float64 marching refutes beyond its own rounding, with the reasons.
+
+    `rays` are [n, 6], `truth` has the answer to each.
+    """
     o, d = rays[:, :3].astype(float), rays[:, 3:].astype(float)
     length = np.linalg.norm(d, axis=1)
     enter, leave = clip(domain, rays)

@@ -1,4 +1,4 @@
-"""The gallery of tests/data/gallery.toml, and rays that look for what is hard on a surface."""
+"""Read the gallery of tests/data/gallery.toml, and make rays that look for what is hard on a surface."""
 
 from __future__ import annotations
 
@@ -20,24 +20,29 @@ FLATTEST = 0.02  # share of the surface's points that count as its tails
 
 @cache
 def entries() -> dict[str, tuple[str, str, str]]:
-    """Each surface's formula, domain and source."""
+    """Return the formula, the domain and the source of each surface, by its name."""
     data = tomllib.loads(FILE.read_text(encoding="utf-8"))
     return {name: (text, domain, data["sources"][source]) for name, (text, domain, source) in data["surface"].items()}
 
 
 @cache
 def surface_named(name: str) -> Surface:
+    """Make the surface of this name. Raises KeyError where the gallery has none."""
     text, domain, _ = entries()[name]
     return surfaces.from_formula(text, domain, name=name)
 
 
 def view_rays(surface: Surface, size: int) -> np.ndarray:
+    """Return the rays float32[size * size, 6] of an oblique view of `surface`."""
     return rays_of(camera_for(View("oblique", azimuth=30, elevation=35), surface), size)
 
 
 @cache
 def tails(surface: Surface) -> np.ndarray:
-    """Points float64[k, 3] on the surface or nearly, where f is flattest: thin tails, singular points and curves."""
+    """Return points float64[k, 3] on the surface or near it where f is flattest.
+
+    There lie thin tails, singular points and singular curves.
+    """
     rng = np.random.default_rng(3)
     radius, center = surface.domain.radius, np.array(surface.domain.center)
     points = rng.uniform(-radius, radius, (CANDIDATES, 3)) + center
@@ -53,7 +58,10 @@ def tails(surface: Surface) -> np.ndarray:
 
 
 def aimed(surface: Surface, targets: np.ndarray, count: int, rng: np.random.Generator) -> np.ndarray:
-    """Rays float32[count, 6] from two to five radii away past `targets`, at distances from 1e-4 to 0.1 radii."""
+    """Return rays float32[count, 6] that begin two to five radii away and pass points of `targets`, float64[k, 3].
+
+    They pass them at distances from about 1e-4 to 0.1 radii.
+    """
     radius, center = surface.domain.radius, np.array(surface.domain.center)
     away = rng.normal(size=(count, 3))
     away *= rng.uniform(2.0, 5.0, (count, 1)) / np.linalg.norm(away, axis=1)[:, None]
@@ -65,7 +73,7 @@ def aimed(surface: Surface, targets: np.ndarray, count: int, rng: np.random.Gene
 
 
 def anywhere(surface: Surface, count: int, rng: np.random.Generator) -> np.ndarray:
-    """Rays float32[count, 6] from outside past points of the domain."""
+    """Return rays float32[count, 6] that begin outside the domain and pass near random points of it."""
     points = rng.normal(size=(count, 3))
     points *= rng.uniform(0, 1, (count, 1)) ** (1 / 3) / np.linalg.norm(points, axis=1)[:, None]
     return aimed(surface, points * surface.domain.radius + surface.domain.center, count, rng)

@@ -1,4 +1,4 @@
-"""Says where a ladder of rungs breaks, straight from its verdicts: what reports are held against."""
+"""Tell from a ladder's verdicts alone where it breaks, which is what reports are held against."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from harness.accuracy.rungs import share_right
 def first_break(
     verdicts: Sequence[Mapping[str, Any]], harder: Literal["smaller", "larger"], share: float = 0.99
 ) -> float | None:
-    """The first parameter, going harder, at which less than `share` of the decided rays are right; None: none.
+    """Return the first parameter, going harder, at which less than `share` of the decided rays are right; else None.
 
     Rungs without decided rays neither break a method nor clear it.
     """

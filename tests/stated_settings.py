@@ -1,6 +1,6 @@
 """Write reports/claims/settings.csv anew from the methods: `python -m tests.stated_settings`.
 
-This imports no claims, which cannot be imported while the file lacks a setting that they name.
+This module imports no claims, because they cannot be imported while the file lacks a setting that they name.
 """
 
 from __future__ import annotations

@@ -1,5 +1,4 @@
-"""Made-up run folders: three surfaces, five variants, four devices, two precisions, families of hard rays, and all
-that goes wrong."""
+"""Make up run folders: surfaces, variants, devices, two precisions, families of hard rays, and all that goes wrong."""
 
 from __future__ import annotations
 
@@ -64,6 +63,7 @@ GRID = 48
 
 
 def plan(cells: list[dict[str, Any]]) -> dict[str, Any]:
+    """Make up the plan of a run of these cells, as plan.json holds it."""
     devices = [
         {
             "name": name,
@@ -105,7 +105,7 @@ def plan(cells: list[dict[str, Any]]) -> dict[str, Any]:
 
 
 def cell(variant: str, surface: str, device: str, precision: str) -> dict[str, Any]:
-    """A finished cell whose figures are made up but hang together."""
+    """Make up a finished cell whose figures agree with each other."""
     rng = random.Random(f"{variant} {surface} {device} {precision}")
     title, degree, coverage = SURFACES[surface]
     slot = f"{variant} {surface} front 256x256x1 {precision} compute {device}"
@@ -170,7 +170,7 @@ def cell(variant: str, surface: str, device: str, precision: str) -> dict[str, A
 
 
 def retime(finished: dict[str, Any], median: float) -> dict[str, Any]:
-    """The same cell, taking `median` ms: its samples and their interval with it."""
+    """Change `finished` so that it takes `median` ms, with its samples and their interval; return it."""
     time = finished["time"]
     factor = median / time["median_ms"]
     time |= {name: factor * time[name] for name in ("median_ms", "lower_ms", "upper_ms")}
@@ -179,7 +179,10 @@ def retime(finished: dict[str, Any], median: float) -> dict[str, Any]:
 
 
 def family_cell(variant: str, family: str, device: str, precision: str) -> dict[str, Any]:
-    """A finished cell of a family: every ray right, but for what BROKEN_FROM says, and double roots undecidable."""
+    """Make up a finished cell of a family of hard rays.
+
+    Every ray is right but for what BROKEN_FROM says, and no double root can be decided.
+    """
     slot = f"{variant} family {family} {precision} {device}"
     made = cell(variant, "torus", device, precision) | {"slot": slot, "key": digest(slot), "family": family}
     made |= {"comparison": f"family {family}", "view": "none", "size": 0, "stage": "rays"}
@@ -198,6 +201,10 @@ def family_cell(variant: str, family: str, device: str, precision: str) -> dict[
 
 
 def rung(parameter: float, wrong: int, kind: str, decided: bool) -> dict[str, Any]:
+    """Make up a rung of 96 rays, of which 90 are decided, or none.
+
+    Of the decided rays `wrong` are answered wrongly, all in the way that `kind` names.
+    """
     counts = {"misses": 0, "false_hits": 0, "exhausted": 0, "wrong_root": 0, "invalid": 0}
     errors = (
         {"max_error": 1e-6 / parameter, "worst_ratio": 2.5 + wrong}
@@ -218,6 +225,10 @@ def rung(parameter: float, wrong: int, kind: str, decided: bool) -> dict[str, An
 
 
 def accuracy(rng: random.Random, method: str, precision: str, coverage: float, exact: bool) -> dict[str, Any]:
+    """Make up a cell's accuracy on GRID × GRID rays, of which half the share `coverage` hit the surface.
+
+    `exact` makes every error 0, and no ray away from silhouettes wrong.
+    """
     top = 0.0 if exact else {"ray_march": 1e-5, "newton": 1e-3, "_odd#": 3e-2}[method] * rng.uniform(0.5, 2.0)
     top *= 1e-4 if precision == "float64" else 1.0
     error = dict(zip(PERCENTILES, (top, top / 3, top / 10, top / 1000), strict=True))
@@ -262,7 +273,10 @@ def accuracy(rng: random.Random, method: str, precision: str, coverage: float, e
 
 
 def arrays(finished: dict[str, Any]) -> dict[str, np.ndarray]:
-    """A ball with an error that grows to its rim and a few wrong rays."""
+    """Make up a finished cell's arrays, [GRID, GRID] each, by name.
+
+    They show a ball with an error that grows to its rim, and a few wrong rays.
+    """
     y, x = np.mgrid[1 : -1 : GRID * 1j, -1 : 1 : GRID * 1j]
     radius = np.hypot(x, y)
     ball = radius < 0.8
@@ -286,7 +300,7 @@ def arrays(finished: dict[str, Any]) -> dict[str, np.ndarray]:
 
 
 def troubled(finished: dict[str, Any]) -> dict[str, Any]:
-    """The same cell, without a result where the story has it so."""
+    """Take the result from `finished` where the story says that the cell fails; return it."""
     status = reason = None
     if finished["precision"] == "float64" and finished["device"] == "opencl:gpu#0_$":
         status, reason = "skipped", "opencl:gpu#0_$ has no float64"
@@ -303,7 +317,10 @@ def troubled(finished: dict[str, Any]) -> dict[str, Any]:
 
 
 def write_run(folder: Path) -> Path:
-    """A run of 120 planned cells: ok, skipped, failed, timed out and crashed ones, two not run, two unreadable."""
+    """Write a run of 120 planned cells into `folder`, and return the folder.
+
+    Cells are ok, skipped, failed, timed out and crashed; two have not run, and two are unreadable.
+    """
     cells = [
         troubled(cell(variant, surface, device, precision))
         for surface in SURFACES
@@ -326,7 +343,10 @@ def write_run(folder: Path) -> Path:
 
 
 def stability_run(folder: Path) -> Path:
-    """Families alone, on two devices that agree; one cell skipped, one not run, one unreadable."""
+    """Write a run of families alone, on two devices that agree, into `folder`, and return the folder.
+
+    One cell is skipped, one has not run, and one is unreadable.
+    """
     cells = [
         family_cell(variant, family, device, precision)
         for family in FAMILIES
@@ -343,7 +363,7 @@ def stability_run(folder: Path) -> Path:
 
 
 def tiny_run(folder: Path, *cells: dict[str, Any]) -> Path:
-    """A run of just these cells, without arrays."""
+    """Write a run of just these cells, without arrays, into `folder`, and return the folder."""
     (folder / "cells").mkdir(parents=True)
     (folder / "plan.json").write_text(json.dumps(plan(list(cells))))
     for finished in cells:
@@ -352,12 +372,13 @@ def tiny_run(folder: Path, *cells: dict[str, Any]) -> Path:
 
 
 def reported(folder: Path) -> tuple[load.Run, content.Document]:
+    """Read the run in `folder`; return it with the report on it."""
     run = load.load(folder)
     return run, report.report(run, derive.derive(run.frame, run.plan.peaks), breaks.derive(run.families, run.rungs))
 
 
 def printed(blocks: tuple[content.Block, ...]) -> str:
-    """All that a section's tables and texts say, cells as a renderer prints them."""
+    """Return all that these blocks' texts, tables and captions say, with cells as a renderer prints them."""
     words = []
     for block in blocks:
         match block:

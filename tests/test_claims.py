@@ -2,31 +2,27 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
 
 from harness.contract import digest
 from harness.plugins import find_methods
-from reports import claims, content, published
+from reports import claims
 from reports.analysis import derive
-from reports.claims import Claim, Outcome, figures, picks
+from reports.claims import Claim, Outcome, picks
 from reports.claims.evidence import Evidence, Pick
-from reports.parts import checklist
-from reports.parts.papers import szente_tables
 from reports.reading import load
 from reports.reading.arrays import Shelf
 from tests import stated_settings
-from tests.synthetic_run import cell, printed, reported, retime, tiny_run
+from tests.synthetic_run import cell, retime, tiny_run
 
 ROOT = Path(__file__).parent.parent
 
 
 def planted(pick: Pick, surface: str, median: float, view: str = "front", **accuracy: Any) -> dict[str, Any]:
-    """A finished cell of `pick` that took `median` ms; of its `accuracy`, what is stated."""
+    """Make a finished cell of `pick` that took `median` ms; `accuracy` replaces what is made up."""
     made = cell("ray_march", "torus", "opencl:intel", "float32")
     slot = f"{pick.words} {pick.method} {surface} {view}"
     made |= {"slot": slot, "key": digest(slot), "method": pick.method, "variant": pick.words, "surface": surface}
@@ -39,11 +35,13 @@ def planted(pick: Pick, surface: str, median: float, view: str = "front", **accu
 
 
 def evidence(folder: Path, *cells: dict[str, Any], studies: dict[str, Any] | None = None) -> Evidence:
+    """Write a run of these cells into `folder`, and return it as evidence with the rows of `studies`."""
     run = load.load(tiny_run(folder, *cells))
     return Evidence(derive.derive(run.frame), studies or {}, Shelf(run.folders))
 
 
 def claim(paper: str, words: str) -> Claim:
+    """Return the one claim of `paper` whose text has these words in it."""
     (found,) = (c for c in claims.CLAIMS if c.paper == paper and words in c.text)
     return found
 
@@ -182,7 +180,7 @@ def test_two_rays_of_thousands_decide_nothing(tmp_path: Path) -> None:
 
 
 def _claims_by_method() -> list[tuple[Claim, dict[str, Any]]]:
-    """Each claim of rays' answers with a row that would confirm or refute it if its figures were there."""
+    """Return claims about rays' answers, each with a row that confirms or refutes it unless figures are missing."""
     return [
         (claim("szente", "No artifacts on any"), planted(picks.FIT, "torus", 1.0)),
         (claim("szente", "misses no surface feature"), planted(picks.LU, "flirt", 1.0)),
@@ -210,7 +208,7 @@ def test_times_whose_intervals_meet_or_are_not_proved_decide_nothing(tmp_path: P
     always = claim("toledo2007", "Two starts")
 
     def spread(made: dict[str, Any], width: float, samples: int = 20) -> dict[str, Any]:
-        """The same cell with samples `width` below and above its median by turns."""
+        """Change `made` so that its samples are `width` below and above its median by turns; return it."""
         median = made["time"]["median_ms"]
         made["time"]["samples_ms"] = [median * (1 + (width if i % 2 else -width)) for i in range(samples)]
         made["time"]["rounds"] = list(range(samples))
@@ -314,18 +312,6 @@ def test_idle_lanes_decide_what_divergence_costs(tmp_path: Path, words: str, bef
         assert outcome("both", (0.4, 0.3), (0.2, 0.21)) is Outcome.UNDECIDED
 
 
-def test_beamcastings_tables_stand_on_the_printed_descent_beside_ours(tmp_path: Path) -> None:
-    times = ((picks.UNIFORM, 6.0, 12.0), (picks.ADAPTIVE, 4.0, 6.0), (picks.ADAPTIVE_OURS, 2.0, 3.0))
-    cells = [planted(pick, "sphere", ms, evaluations_mean=spent) for pick, ms, spent in times]
-    for made in cells:
-        made["size"] = 512
-    _, report = reported(tiny_run(tmp_path / "run", *cells))
-    told = next(printed(s.blocks) for s in report.sections if s.title == "beamcasting, Tables I and II")
-    line = next(line for line in told.splitlines() if line.startswith("512 | 1 | sphere | 167 | 860"))
-    assert line.endswith("| 250 | 1,120 | 1.50× | 1.30× | 1.15× | 2.00× | 3.00×")
-    assert "perspective frustum" in told and "nothing is shaded" in told
-
-
 def test_a_study_decides_and_a_changed_digit_refutes(tmp_path: Path) -> None:
     from harness.studies import condition_numbers
 
@@ -335,84 +321,3 @@ def test_a_study_decides_and_a_changed_digit_refutes(tmp_path: Path) -> None:
     changed = [row | {"condition": row["condition"] + 0.01} for row in rows]
     wrong = evidence(tmp_path / "b", planted(picks.FIT, "sphere", 1.0), studies={"condition_numbers": changed})
     assert claims.judge(claim("szente", "condition numbers of Table 1"), wrong).outcome is Outcome.REFUTED
-
-
-def test_the_checklist_and_the_tables_stand_in_the_report(tmp_path: Path) -> None:
-    cells = [planted(pick, "sphere", ms) for pick, ms in ((picks.MARCH, 38.4), (picks.FIT, 1.0), (picks.NO_EFT, 0.61))]
-    cells += [planted(pick, "sphere", ms) for pick, ms in ((picks.MARCH_OURS, 28.0), (picks.FIT_OURS, 0.4))]
-    cells += [planted(pick, "sphere", 0.5) for pick in picks.FIT_CHANGES[:1]]
-    cells += [planted(pick, "flirt", ms) for pick, ms in ((picks.CONTROL, 3.5), (picks.LU, 2.0), (picks.MARCH, 23.2))]
-    _, report = reported(tiny_run(tmp_path / "run", *cells))
-    by_title = {section.title: printed(section.blocks) for section in report.sections}
-    assert "23.6 times as fast as ray marching, in the mean. | confirmed" in by_title["The papers' claims"]
-    line = next(line for line in by_title["szente, Table 4"].splitlines() if line.startswith("sphere"))
-    assert line.endswith("38.4× | 38.4× | 1.00× | 28.0 | 28.0× | 0.400 | 70.0×"), (
-        "ours, the paper's, their ratio; our best"
-    )
-    assert "| 39 | 39 |" in line, "EFT's share of the time, ours and the paper's"
-    line = next(
-        line for line in by_title["szente, what our changes are worth"].splitlines() if "Newton's steps" in line
-    )
-    assert "| 2.00× | 2.00× | 2.00× |" in line
-    line = next(line for line in by_title["szente, Table 5"].splitlines() if line.startswith("flirt"))
-    assert "1.75× | 1.75× | 1.00× | 11.6× | 11.6×" in line
-
-
-def test_figures_of_the_papers_name_configs_and_surfaces_that_exist() -> None:
-    import surfaces
-
-    for figure in figures.FIGURES:
-        assert (ROOT / "configs" / figure.config).is_file()
-        assert set(figure.surfaces) <= set(surfaces.names())
-    for name in szente_tables._NAMES:
-        assert name in surfaces.names()
-    assert checklist.ORDER < 100
-    assert published.table("szente_table4_runtime").number("speedup", surface="16-Ball") == 3.3
-    assert published.table("szente_table4_runtime").number("speedup", surface="Flirt") is None
-
-
-def test_the_levels_of_beamcastings_figure_1_add_up_to_the_picture(tmp_path: Path) -> None:
-    made = planted(picks.ADAPTIVE, "octdong", 1.0) | {"size": 8, "casts": "quadtree"}
-    made["arrays"] = f"arrays/{made['key']}.npz"
-    folder = tiny_run(tmp_path / "run", made)
-    told = json.loads((folder / "plan.json").read_text()) | {"name": "beamcasting-fig1"}
-    (folder / "plan.json").write_text(json.dumps(told))
-    (folder / "arrays").mkdir()
-    level = np.full((8, 8), 3, np.uint8)
-    level[:4] = 1
-    status = np.zeros((8, 8), np.uint8)
-    status[6:] = 1
-    blank = {"truth": status, "wrong": np.zeros((8, 8), np.uint8), "grazing": np.zeros((8, 8), bool)}
-    blank |= dict.fromkeys(("error", "shade"), np.zeros((8, 8), np.float32))
-    np.savez_compressed(folder / made["arrays"], level=level, status=status, **blank)
-    _, report = reported(folder)
-    (section,) = [section for section in report.sections if section.title == "beamcasting, Figure 1"]
-    (table,) = [block for block in section.blocks if isinstance(block, content.Table)]
-    assert table.rows == [(8, 1, 4, 0.5), (8, 2, 2, 0.0), (8, 3, 1, 0.25), (8, "surface", None, 0.25)]
-    (gallery,) = [block for block in section.blocks if isinstance(block, content.Gallery)]
-    assert [panel.title for panel in gallery.panels] == ["octdong, 8 × 8"]
-
-
-def test_the_front_says_where_our_own_method_is_not_on_it_and_who_wins(tmp_path: Path) -> None:
-    from reports.parts import own_front
-
-    def timed(method: str, surface: str, degree: int, median: float, error: float | None) -> dict[str, Any]:
-        made = planted(Pick(method, method), surface, median)
-        return made | {"degree": degree, "accuracy": made["accuracy"] | {"error": {"max": error}}}
-
-    cells = [timed("bernstein", "decic", 10, 1.0, 1e-6), timed("eft_yuksel", "decic", 10, 6.0, 1e-6)]
-    cells += [timed("bernstein", "ball", 2, 1.0, 1e-6), timed("newton", "ball", 2, 0.5, 1e-7)]
-    cells += [timed("bernstein", "thread", 4, 1.0, None), timed("newton", "thread", 4, 0.5, None)]
-    run = tiny_run(tmp_path / "run", *cells)
-    plan = json.loads((run / "plan.json").read_text())
-    plan["methods"] = {"bernstein": {"source": own_front.OWN}, "newton": {"source": "toledo2007"}}
-    (run / "plan.json").write_text(json.dumps(plan))
-    _, report = reported(run)
-    told = next(printed(section.blocks) for section in report.sections if section.title == "bernstein on the front")
-    assert (
-        "on the front in 1 of 2 comparisons; it is not at degree 2; there newton wins. 1 more comparison without"
-        in told
-    )
-    lines = [line for line in told.splitlines() if " | " in line]
-    assert [line.split(" | ")[3] for line in lines] == ["no", "yes"]
-    assert lines[0].endswith("0.500×") and lines[1].endswith("6.00×")

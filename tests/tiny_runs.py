@@ -1,6 +1,6 @@
-"""Small configs that run every kind of cell for real: each way of casting, families, what is skipped and what fails.
+"""Run small configs with every kind of cell: each way of casting, families, what is skipped and what fails.
 
-They are named after configs of the papers, so that the parts of a report that read only those read these.
+The configs are named after those of the papers, so that the parts of a report that read only those read these.
 """
 
 from __future__ import annotations
@@ -123,9 +123,9 @@ PARTS = {"beamcasting-tables": CAST, "szente-table5": SEEN, "toledo-table1": DRA
 
 
 def make(folder: Path, opencl: str, opengl: str) -> Path:
-    """Run all of it on two devices, families and origins on the first alone; the run's folder, which collects three.
+    """Run all configs on two devices, families and origins on the first alone; return the collecting run's folder.
 
-    Cells fail on purpose, so that the command ends with 3.
+    Cells fail on purpose, so that the command ends with 3. Fails where the command ends otherwise.
     """
     method = folder / "plugins" / "uncompiled"
     method.mkdir(parents=True)

@@ -19,8 +19,9 @@ ALL_DEVICES = "all devices"
 
 
 def derive(families: pd.DataFrame, rungs: pd.DataFrame) -> pd.DataFrame:
-    """Return one row for each rung: its cell's columns, its own, and `share_right` of its decided rays (else NaN).
+    """Return one row for each rung: its cell's columns, its own, and `share_right`.
 
+    `share_right` is the share of the rung's decided rays that are answered rightly; NaN where none is decided.
     `families` has a row for each cell, `rungs` the rungs of all cells; methods that answer nothing are left out.
     """
     told = ["key", "slot", "family", "method", "variant", "parameters", "origin", "precision", "device"]
@@ -42,9 +43,10 @@ def by_device(rungs: pd.DataFrame) -> dict[str, pd.DataFrame]:
 
 
 def verdicts(rungs: pd.DataFrame) -> pd.DataFrame:
-    """Sum up one device's rungs in a row for each ladder: COUNTS over it, `share_right`, `worst_ratio`, `breaks_at`.
+    """Return a row for each ladder (family, precision and variant) of one device's `rungs`.
 
-    `breaks_at` is the parameter of the first rung, in order of growing difficulty, that breaks the variant; NaN where
+    A row has `method`, `device`, the sums of COUNTS over the ladder, `share_right`, the largest `worst_ratio`, and
+    `breaks_at`: the parameter of the first rung, in order of growing difficulty, that breaks the variant; NaN where
     none does.
     """
     ladders = rungs.groupby(LADDER, sort=False)
@@ -55,5 +57,6 @@ def verdicts(rungs: pd.DataFrame) -> pd.DataFrame:
 
 
 def _share(part: pd.Series, whole: pd.Series) -> pd.Series:
+    """Return `part` over `whole`, float64 with the index of both; NaN where `whole` is not above 0."""
     total = whole.astype("float64")
     return part.astype("float64") / total.where(total > 0, np.nan)

@@ -54,6 +54,10 @@ def share_exceeds(count: int, of: int, limit: float) -> bool | None:
 
 
 def _decided(count: int, of: int, share: float, level: float) -> bool | None:
+    """Tell whether each of `of` trials succeeds with a chance above `share` (True) or below it (False).
+
+    `count` is the number of successes. None where neither is proved at `level`.
+    """
     if at_least_by_chance(count, of, share) <= level:
         return True
     return False if at_most_by_chance(count, of, share) <= level else None

@@ -67,12 +67,18 @@ def contenders(frame: pd.DataFrame) -> pd.DataFrame:
 
 
 def all_right(frame: pd.DataFrame) -> pd.Series:
-    """Tell for each row whether it answers every ray that is neither grazing nor drowned rightly."""
+    """Tell for each row whether every ray that is neither grazing nor drowned is right.
+
+    Returns bool with the index of `frame`.
+    """
     return (frame["wrong_rays"] == 0).fillna(False).astype(bool)
 
 
 def nearly_all_right(rows: pd.DataFrame) -> pd.Series:
-    """Tell for each row whether at most 1 in 1,000 rays is wrong among those neither grazing nor drowned."""
+    """Tell for each row whether at most 1 in 1,000 of its rays that are neither grazing nor drowned is wrong.
+
+    Returns bool with the index of `rows`. Both counts are over all rays of the accuracy check.
+    """
     return rows["wrong_rays"].astype("float64") <= 1e-3 * rows["accuracy_rays"].astype("float64")
 
 
@@ -99,17 +105,21 @@ def baseline_rows(timed: pd.DataFrame) -> pd.DataFrame:
 
 
 def casters(rows: pd.DataFrame) -> pd.Series:
-    """Return the rows' variants without the words for where their rays begin."""
+    """Return the rows' variants without the words for where rays begin: texts, with the index of `rows`."""
     named = zip(rows["variant"], rows["origin"].fillna("nearest"), strict=True)
     return pd.Series([str(v).removesuffix(FROM_ORIGIN[o]) for v, o in named], rows.index, dtype=object)
 
 
 def _baseline_ms(timed: pd.DataFrame) -> pd.Series:
+    """Return the median time of each group's baseline in ms, indexed by GROUP.
+
+    A group whose baseline is missing or not right is left out.
+    """
     return baseline_rows(timed).set_index(GROUP)["median_ms"].rename("baseline_ms")
 
 
 def baseline_of(frame: pd.DataFrame) -> str:
-    """Name what the speed-ups of these rows are over."""
+    """Name the method or variant that the speed-ups of these rows are over; several are joined by "or"."""
     return " or ".join(dict.fromkeys(map(str, frame["baseline"]))) or BASELINE
 
 
@@ -123,7 +133,11 @@ def floor_rows(timed: pd.DataFrame, keys: Sequence[str] = GROUP) -> pd.DataFrame
 
 
 def _floor_ms(frame: pd.DataFrame, timed: pd.DataFrame) -> pd.Series:
-    """Return for each row the time of its group's null method: with rays of the same origin if timed so, else any."""
+    """Return for each row the time in ms of its group's null method.
+
+    The index is that of `frame`; NaN where no null method was timed. It is the null method with rays of the row's own
+    origin where that was timed, else any null method of the group.
+    """
     own, other = (
         frame.join(floor_rows(timed, keys).set_index(keys)["median_ms"].rename("null_ms"), on=keys)["null_ms"]
         for keys in ([*GROUP, "origin"], GROUP)
@@ -132,14 +146,20 @@ def _floor_ms(frame: pd.DataFrame, timed: pd.DataFrame) -> pd.Series:
 
 
 def _peak_share(frame: pd.DataFrame, peaks: Mapping[str, float]) -> pd.Series:
-    """Return the operations per second of f's evaluations over the device's peak, which is known in float32 only."""
+    """Return for each row the operations per second of f's evaluations over the device's peak.
+
+    NaN where the peak is not known, as in every precision but float32. The index is that of `frame`.
+    """
     peak = frame["device"].map(peaks).astype("float64").where(frame["precision"] == "float32") * 1e9
     operations = frame["evaluation_operations"].astype("float64") * frame["evaluations_mean"]
     return operations * frame["mrays_per_s"] * 1e6 / peak
 
 
 def _front(frame: pd.DataFrame) -> pd.Series:
-    """Tell for each row with all rays right whether no other such row of its group is both faster and more exact."""
+    """Tell for each row with all rays right whether no other such row of its group is both faster and more exact.
+
+    Returns boolean with the index of `frame`; False for the other rows.
+    """
     rows = contenders(frame)
     rows = rows[all_right(rows) & rows["error_max"].notna()].sort_values([*GROUP, "median_ms", "error_max"])
     smallest_so_far = rows.groupby(GROUP)["error_max"].cummin()

@@ -16,7 +16,7 @@ FEWEST = 3  # different x that a fit needs
 
 @dataclass(frozen=True)
 class Refusal:
-    """Why `points` points give no exponent."""
+    """Hold why `points` points give no exponent."""
 
     points: int
     reason: str
@@ -24,7 +24,7 @@ class Refusal:
 
 @dataclass(frozen=True)
 class Power:
-    """The law y = factor · x ** exponent.
+    """Hold the law y = factor · x ** exponent.
 
     If errors are normal, the exponent is known to ± `half_width` at 95 %.
     """
@@ -75,7 +75,7 @@ def power_law(x: ArrayLike, y: ArrayLike) -> Power | Refusal:
 def student(freedom: int, share: float = 0.975) -> float:
     """Return the quantile of Student's distribution with `freedom` degrees of freedom at `share` > 1/2.
 
-    It is found by bisection on the integrated density.
+    The quantile is found by bisection on the integrated density.
     """
     constant = math.exp(math.lgamma((freedom + 1) / 2) - math.lgamma(freedom / 2)) / math.sqrt(freedom * math.pi)
     # t = √freedom · tan φ makes the density's integral one of cos^(freedom − 1) over a bounded range

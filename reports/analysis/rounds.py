@@ -21,7 +21,7 @@ _RATIO = ["ratio", "ratio_low", "ratio_high"]
 
 
 def ratio(row: Any, other: Any) -> Ratio | None:
-    """Return `row`'s time over `other`'s, round by round; None unless both were timed in one interleaved run."""
+    """Return `row`'s time over `other`'s, round by round; None unless both were timed in the rounds of one run."""
     if wording.absent(row.session) or row.session != other.session:
         return None
     if any(wording.absent(one.rounds) or not one.samples_ms for one in (row, other)):
@@ -36,9 +36,10 @@ def times_over(row: Any, other: Any) -> float:
 
 
 def ratios(both: pd.DataFrame, suffix: str) -> list[Ratio | None]:
-    """Return for each line of `both`, a join of two rows, the time of the one over the time of the other.
+    """Return for each line of `both`, a join of two rows, the time of the one row over the time of the other.
 
-    The columns of the dividend end in `suffix`, those of the divisor have no ending.
+    The columns of the dividend end in `suffix`, those of the divisor have no ending. None stands for a pair that was
+    not timed in the rounds of one run.
     """
     other = both[[f"{name}{suffix}" for name in COLUMNS]].set_axis(COLUMNS, axis=1)
     return [ratio(a, b) for a, b in zip(other.itertuples(), both[COLUMNS].itertuples(), strict=True)]
@@ -88,5 +89,8 @@ def over(slow: pd.DataFrame, fast: pd.DataFrame, keys: list[str]) -> pd.DataFram
 
 
 def proved(samples: pd.Series) -> pd.Series:
-    """Tell for each list of times whether it is long enough for the interval of its median."""
+    """Tell for each list of times whether it is long enough for an interval of its median.
+
+    Returns bool with the index of `samples`.
+    """
     return samples.map(lambda own: timings.proves(len(own or ()))).astype(bool)

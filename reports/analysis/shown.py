@@ -19,8 +19,8 @@ def _pictured(rows: pd.DataFrame) -> pd.DataFrame:
 def of_surface(rows: pd.DataFrame, per_method: int = 1) -> pd.DataFrame:
     """Select at most `per_method` variants of each method and precision from the rows of one surface.
 
-    They are of its fullest scene, on the device with most rows there, and the first of their method in the plan's
-    order, so that they are the same for every precision where that can be.
+    They are of the surface's fullest scene, on the device with most rows there. Of each method they are the first in
+    the plan's order, so that every precision shows the same variants where that can be.
     """
     rows = _pictured(rows)
     if rows.empty:

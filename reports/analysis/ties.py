@@ -1,6 +1,6 @@
-"""Decide whether the times of two variants differ: by the rounds that timed both.
+"""Decide whether the times of two variants differ, by the rounds that timed both.
 
-Only rows that share no round are told apart by the intervals of their two medians.
+Only rows that share no round are compared by the intervals of their two medians.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ RULE = (
 
 
 def verdict(of: Ratio) -> str:
-    """Return SLOWER, FASTER, ALIKE, TORN, or a text that there were too few rounds, with how many are needed."""
+    """Return SLOWER, FASTER, ALIKE or TORN; where there were too few rounds, a text that tells how many are needed."""
     if of.pairs < NEEDED:
         least = wording.short(ranks.least_chance(of.pairs))
         return f"too few rounds: {of.pairs} can at best give a chance of {least}; needs {NEEDED}"
@@ -52,7 +52,7 @@ def best(rows: pd.DataFrame) -> Any:
     """Return the fastest of `rows`, as a named tuple of the columns of _TOLD.
 
     `rows` are in order of their medians, fastest first; there is at least one. A median is over all rounds of its row.
-    So a row that is faster than the first in the rounds that both have takes its place.
+    So a row takes the place of the first where it is faster in the rounds that timed both.
     """
     return _best(list(rows[_TOLD].itertuples()))
 
@@ -95,8 +95,8 @@ def _groups(rows: pd.DataFrame) -> list[list[Any]]:
 def leaders(frame: pd.DataFrame) -> pd.DataFrame:
     """Return the fastest row with every ray right of each group that has one, with two more columns.
 
-    `tied` has the variants of other methods that it is not told apart from, `methods` the number of methods timed
-    in the group.
+    `tied` lists the variants of other methods that are not proved slower, of each method its fastest. `methods` is the
+    number of methods timed in the group.
     """
     rows = derive.contenders(frame)
     methods = rows.groupby(derive.GROUP)["method"].nunique().rename("methods")

@@ -20,24 +20,24 @@ RATES = {"cast": "rays cast", "inside": "rays in the domain", "covered": "rays t
 
 @dataclass(frozen=True, eq=False)
 class ViewSet:
-    """The finished rows of one surface, device, precision and size, over one set of views."""
+    """Hold the finished rows of one surface, device, precision, size and stage, over one set of views."""
 
     rows: pd.DataFrame  # with the columns of `_with_rates`, and the projection angle in degrees as `angle`
     views: tuple[str, ...]  # in the plan's order
 
     @property
     def first(self) -> Any:
-        """The first row, as a named tuple."""
+        """Return the first row, as a named tuple."""
         return next(self.rows.head(1).itertuples())
 
     @property
     def kind(self) -> str:
-        """ANGLES, DIRECTIONS, NAMED or the name that a config gives its set."""
+        """Return the kind of the set: ANGLES, DIRECTIONS, NAMED, or the name that a config gives it."""
         return str(self.first.view_set)
 
     @property
     def place(self) -> str:
-        """Surface, device, precision, size and stage, as people read them."""
+        """Return surface, device, precision, size and stage as one text for readers."""
         row = self.first
         return f"{row.surface_title}, {row.device}, {row.precision}, {picture_size(row)}, {row.stage}"
 

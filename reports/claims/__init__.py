@@ -1,4 +1,4 @@
-"""The papers' qualitative claims as data: what is claimed, what decides it, and a function from rows to a verdict.
+"""State the papers' qualitative claims as data: the claim, what decides it, and a function from rows to a verdict.
 
 CLAIMS are in the order of the papers. A claim is judged by the rows that a run has. Without the rows it needs it is not
 testable, and the checklist names the config that makes them.

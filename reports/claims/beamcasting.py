@@ -57,7 +57,10 @@ def _always(evidence: Evidence) -> Verdict | None:
 
 
 def _grows(evidence: Evidence, by: str, kept: str, told_there: str) -> Verdict | None:
-    """Judge whether the gain grows with the column `by`, at each value of `kept`; `told_there` is the paper's."""
+    """Judge whether the gain grows with the column `by`, at each value of the column `kept`.
+
+    `told_there` is what the paper prints.
+    """
     ratios = _ratios(evidence)
     table = ratios.pivot_table(index=["device", "surface", kept], columns=by, values="ratio").dropna()
     if table.shape[1] < 2 or table.empty:

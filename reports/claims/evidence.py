@@ -1,4 +1,4 @@
-"""What decides the papers' claims: rows picked by method and knobs, and ratios of times taken in the same rounds."""
+"""Hold what decides the papers' claims: rows by method and knobs, and ratios of times taken in the same rounds."""
 
 from __future__ import annotations
 
@@ -33,9 +33,10 @@ _WORDS: Mapping[Origin, str] = {
 
 @dataclass(frozen=True)
 class Pick:
-    """A method with some of its knobs at stated values.
+    """Name a method with some of its knobs at stated values.
 
-    `words` name it in texts. `origin` is where its rays begin; None means where the rays of the judged paper do.
+    `words` name the pick in texts. `origin` is where its rays begin; None stands for the origin of the judged paper's
+    rays.
     """
 
     words: str
@@ -46,9 +47,10 @@ class Pick:
 
 @dataclass(frozen=True, eq=False)
 class Evidence:
-    """What a run holds that claims can be judged by: the cells that ended well and were checked against the oracle.
+    """Hold the rows of a run that claims are judged by, and select from them.
 
-    Rows whose rays begin at different origins are never mixed: a pick states its origin, or takes `origin`.
+    Only cells that ended well and were checked against the oracle count. Rows whose rays begin at different origins are
+    never mixed: a pick states its origin, or takes `origin`.
     """
 
     frame: pd.DataFrame  # with the columns of analysis.derive
@@ -59,44 +61,59 @@ class Evidence:
 
     @cached_property
     def finished(self) -> pd.DataFrame:
-        """The rows of cells that ended well, answer, and were checked against the oracle."""
+        """Return the rows of cells that ended well, answer, and were checked against the oracle."""
         frame = self.frame
         return frame[(frame["status"] == CellStatus.OK) & frame["answers"] & frame["accuracy_rays"].notna()]
 
     def of(self, config: str) -> Evidence:
-        """Return the evidence of the run of `config` alone, if this one collects several runs with it; else of all."""
+        """Return the evidence that the claims of `config` are judged by.
+
+        Where this evidence is collected from several runs, and that of `config` is among them, it is the rows of that
+        run alone. Else it is all rows.
+        """
         if config not in self._judged:
             self._judged[config] = replace(self._runs.get(run_of(config), self), config=config)
         return self._judged[config]
 
     @cached_property
     def _judged(self) -> dict[str, Evidence]:
+        """Return the evidence that `of` has made so far, by config."""
         return {}
 
     @cached_property
     def origin(self) -> Origin:
-        """Where rays begin: as in the paper if there are such rows, else at the first of ORIGINS that rows have."""
+        """Return the origin of the rays that claims are judged by.
+
+        It is the origin that the paper's rays have, if any finished row has it. Else it is the first of ORIGINS that
+        any finished row has. Where no row has an origin, it is the paper's.
+        """
         there = set(self.finished["origin"].dropna())
         return next((origin for origin in (self._stated, *ORIGINS) if origin in there), self._stated)
 
     @property
     def _stated(self) -> Origin:
+        """Return the origin of the judged paper's rays; "nearest" for a paper that RAYS_BEGIN does not name."""
         return RAYS_BEGIN.get(run_of(self.config).partition("-")[0], "nearest")
 
     @property
     def note(self) -> str:
-        """Where rays begin, in words, if not as in the paper; else ""."""
+        """Return a phrase for verdicts that are by rays of another origin than the paper's.
+
+        The phrase names both origins. It is "" where the rays begin as in the paper.
+        """
         if self.origin == self._stated:
             return ""
         return f"of rays that begin at {_WORDS[self.origin]}, where the paper's begin at {_WORDS[self._stated]}"
 
     @cached_property
     def _runs(self) -> dict[str, Evidence]:
+        """Return the evidence of each run alone, by the run's name; {} unless there are several runs."""
         runs = self.frame.groupby("run", sort=False)
         return {str(run): replace(self, frame=rows) for run, rows in runs} if runs.ngroups > 1 else {}
 
     @cached_property
     def _methods(self) -> dict[str, pd.DataFrame]:
+        """Return the finished rows of each method, by its name."""
         return {str(method): rows for method, rows in self.finished.groupby("method", sort=False)}
 
     def rows(
@@ -104,8 +121,9 @@ class Evidence:
     ) -> pd.DataFrame:
         """Return the finished rows of `pick` from one origin, one for each scene, device and precision.
 
-        Where the pick's knobs leave several rows, it is the first. Beams and triangles have no origin, so that their
-        rows go with those of any origin. `precision` None takes all precisions, `surfaces` None all surfaces.
+        Where several rows of one scene have the knobs of the pick, the first is taken. Beams and triangles have no
+        origin, so that their rows go with those of any origin. `precision` None takes all precisions, `surfaces` None
+        all surfaces.
         """
         rows = self._methods.get(pick.method, self.finished.head(0))
         rows = rows[rows["origin"].isna() | (rows["origin"] == (pick.origin or self.origin))]
@@ -133,7 +151,7 @@ class Evidence:
         return self.over(a, b, derive.GROUP)
 
     def over(self, slow: pd.DataFrame, fast: pd.DataFrame, keys: list[str]) -> pd.DataFrame:
-        """Do what `rounds.over` does, and add the pairs that it leaves out to `apart`."""
+        """Return what `rounds.over` returns, and add the pairs of rows that it leaves out to `apart`."""
         found = rounds.over(slow, fast, keys)
         pairs = fast[[*keys, "key"]].merge(slow[[*keys, "key"]], on=keys, suffixes=("", "_slow"))
         every, kept = (set(zip(of["key_slow"], of["key"], strict=True)) for of in (pairs, found))
@@ -141,7 +159,7 @@ class Evidence:
         return found
 
     def arrays(self, row: Any) -> Arrays | None:
-        """Return the arrays of a row; None where its file is damaged or gone."""
+        """Return the arrays of a row of the frame; None where its file is damaged or missing."""
         return self.shelf.get(row)
 
 

@@ -1,4 +1,4 @@
-"""The papers' figures that are pictures: which settings on which surfaces they show."""
+"""Describe the papers' figures that are pictures: which settings on which surfaces they show."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from reports.claims.evidence import Evidence, Pick, run_of
 
 @dataclass(frozen=True)
 class Figure:
-    """A figure of a paper that shows pictures, and how ours of it are made."""
+    """Describe a figure of a paper that shows pictures, and how ours of it are made."""
 
     title: str
     told: str  # what the paper's figure shows, and how ours is made
@@ -100,7 +100,7 @@ FIGURES = (
 
 
 def rows_of(figure: Figure, evidence: Evidence) -> pd.DataFrame:
-    """Return the rows that a figure shows, in its order and of the first device, with the column `setting`."""
+    """Return the rows that `figure` shows, of the first device, in the figure's order, with the column `setting`."""
     found = []
     for pick in figure.settings:
         rows = evidence.of(figure.config).rows(pick, figure.surfaces)

@@ -1,4 +1,4 @@
-"""What a claim and a verdict are, and the judgements that many claims share."""
+"""Define claims and verdicts, and the judgements that many claims share."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from reports.claims.evidence import Evidence, Pick
 
 
 class Outcome(StrEnum):
-    """How a claim fares in a run; the values are what reports print."""
+    """Name the outcomes of a claim in a run; reports print the values."""
 
     CONFIRMED = "confirmed"
     REFUTED = "refuted"
@@ -25,7 +25,7 @@ class Outcome(StrEnum):
 
 @dataclass(frozen=True)
 class Verdict:
-    """The outcome of a claim, and the figures that decide it."""
+    """Hold the outcome of a claim, and the figures that decide it."""
 
     outcome: Outcome
     figure: str  # what was measured, in words and numbers
@@ -36,7 +36,7 @@ Judge = Callable[[Evidence], Verdict | None]  # None where the rows that it need
 
 @dataclass(frozen=True)
 class Claim:
-    """A claim of a paper, and what decides it."""
+    """Hold a claim of a paper, and what decides it."""
 
     paper: str  # as the papers are cited: toledo2007, szente, beamcasting
     section: str
@@ -67,7 +67,7 @@ def judge(claim: Claim, evidence: Evidence) -> Verdict:
 
 
 def untestable(_: Evidence) -> Verdict | None:
-    """Judge a claim that nothing here can decide."""
+    """Return None, which stands for "no verdict", since nothing here can decide the claim."""
     return None
 
 
@@ -79,19 +79,25 @@ def verdict(confirmed: bool | None, figure: str) -> Verdict:
 
 
 def both(*held: bool | None) -> bool | None:
-    """Tell whether all hold: False where one does not; else None where one is not decided or there is none."""
+    """Tell whether all of `held` are True: False if any is False; else None if any is None or none is given."""
     if any(one is False for one in held):
         return False
     return True if held and all(one is True for one in held) else None
 
 
 def at_least(low: float, high: float, limit: float) -> bool | None:
-    """Tell whether a value from `low` to `high` is at least `limit`; None where the limit is within or one is NaN."""
+    """Tell whether a value that lies between `low` and `high` is at least `limit`.
+
+    True where `low` is at least `limit`, False where `high` is below it, else None. An end that is NaN decides nothing.
+    """
     return True if low >= limit else False if high < limit else None
 
 
 def mean_ratio(ratios: pd.DataFrame, limit: float) -> bool | None:
-    """Tell whether the mean of ratios of times is at least `limit`, by the means of their intervals' ends."""
+    """Tell whether the mean of ratios of times is at least `limit`.
+
+    It is judged by the mean of the intervals' lower ends and that of their upper ends; None where these do not decide.
+    """
     low, high = (float(ratios[name].mean(skipna=False)) for name in ("ratio_low", "ratio_high"))
     return at_least(low, high, limit)
 
@@ -99,7 +105,7 @@ def mean_ratio(ratios: pd.DataFrame, limit: float) -> bool | None:
 def each_mean(readings: list[pd.DataFrame], limit: float) -> bool | None:
     """Tell whether the mean ratio is at least `limit` in every reading of one comparison; None where they disagree.
 
-    Readings without rows do not count.
+    Readings without rows do not count; None where no reading has rows.
     """
     held = {mean_ratio(ratios, limit) for ratios in readings if len(ratios)}
     return held.pop() if len(held) == 1 else None
@@ -216,7 +222,7 @@ def lost(ratios: pd.DataFrame) -> str:
 
 
 def beside(printed: Judge, ours: Judge, whose: str) -> Judge:
-    """Make a judge that decides by `printed` alone, and whose figure ends with the figure and outcome of `ours`.
+    """Make a judge that decides by `printed` alone; its figure ends with the figure and the outcome of `ours`.
 
     `printed` judges a method as its paper prints it, `ours` the same method at our best; `whose` names the change.
     """

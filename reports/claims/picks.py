@@ -1,4 +1,4 @@
-"""The settings of methods that claims are about: the papers' own, ours, and those that differ in one knob.
+"""Name the settings of methods that claims are about: the papers' own, ours, and those that differ in one knob.
 
 What the methods state is not repeated here: `printed` takes a paper's setting by its name, `ours` takes defaults.
 """

@@ -1,4 +1,4 @@
-"""What the methods state of their knobs: the papers' own settings by name, and the defaults, which are our values.
+"""Read what the methods state of their knobs: the papers' settings by name, and the defaults, which are our values.
 
 The methods' descriptions are the source. settings.csv is a copy of them, because reports import no methods and must
 judge stored runs too. A test fails where the two differ; `python -m tests.stated_settings` writes the copy anew.
@@ -26,11 +26,11 @@ def _read() -> dict[tuple[str, str], dict[str, float]]:
 
 
 def printed(method: str, setting: str) -> dict[str, float]:
-    """Return the knobs of one of the papers' settings; a KeyError where the method does not state it."""
+    """Return the knobs of one of the papers' settings. Raises KeyError where the method does not state it."""
     return dict(_read()[method, setting])
 
 
 def ours(method: str, knobs: Iterable[str]) -> dict[str, float]:
-    """Return the defaults of `knobs`; a KeyError where the method has no such knob."""
+    """Return the defaults of `knobs`. Raises KeyError where the method has no such knob."""
     defaults = _read()[method, ""]
     return {knob: defaults[knob] for knob in knobs}

@@ -93,8 +93,8 @@ def _no_artifacts(evidence: Evidence) -> Verdict | None:
 def over_marching(printed: Pick, best: Pick, surfaces: tuple[str, ...], factor: float, told: str) -> Judge:
     """Make a judge of "`printed` is at least `factor` times as fast as ray marching, in the mean".
 
-    It is judged by two marches, the paper's step by step and ours in blocks; the figure also tells our march over
-    `best`, the same method at our best. `told` is what the paper has.
+    It is judged by two marches, the paper's step by step and ours in blocks. The figure also has our march's time over
+    that of `best`, the same method at our best. `told` is what the paper prints.
     """
 
     def decide(evidence: Evidence) -> Verdict | None:
@@ -125,7 +125,10 @@ def _values_suffice(evidence: Evidence) -> Verdict | None:
 
 
 def _share(part: Pick, most: float, paper: str) -> Judge:
-    """Make a judge of "`part`, the fit without one of its steps, saves at most the share `most` of the whole time"."""
+    """Make a judge of "`part`, the fit without one of its steps, saves at most the share `most` of the whole time".
+
+    `paper` is what the paper prints.
+    """
 
     def decide(evidence: Evidence) -> Verdict | None:
         ratios = evidence.ratios(part, picks.FIT, picks.TABLE_4)

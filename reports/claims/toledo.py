@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 from dataclasses import replace
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 import pandas as pd
@@ -44,7 +44,10 @@ SLOWER = 1.5  # the least ratio of evaluations on grazing rays and on others tha
 
 
 def _sturm_depends_on_the_view(evidence: Evidence) -> Verdict | None:
-    """Judge by rays that begin where the paper's do; the figure also tells those from the eye, another reading of o."""
+    """Judge by rays that begin where the paper's do.
+
+    The figure adds rays from the eye, which is another reading of the paper's o.
+    """
     found, other = (_uneven(evidence, pick) for pick in (picks.STURM, picks.STURM_FROM_EYE))
     if found is None or other is None:
         return found
@@ -106,7 +109,7 @@ def _slow_near_grazing(evidence: Evidence) -> Verdict | None:
     return verdict(at_least((a - a_reach) / (b + b_reach), (a + a_reach) / (b - b_reach), SLOWER), figure)
 
 
-def _mean(values: NDArray[Any]) -> tuple[float, float]:
+def _mean(values: NDArray[np.int32]) -> tuple[float, float]:
     """Return the mean of values [n] and half its 99 % interval; NaN for fewer than two values."""
     if len(values) < 2:
         return math.nan, math.nan
@@ -114,7 +117,7 @@ def _mean(values: NDArray[Any]) -> tuple[float, float]:
 
 
 def _more_precise(evidence: Evidence) -> Verdict | None:
-    """Judge by the picks FINE, view by view; the figure also tells the coarser settings of Table 1."""
+    """Judge by the picks FINE, view by view; the figure adds the errors of the coarser settings of Table 1."""
     closed, planes = (evidence.rows(pick, picks.TORUS) for pick in (picks.LOOP_BLINN, picks.BETWEEN_PLANES))
     told, held = [f"{picks.LOOP_BLINN.words} {wording.error(largest(closed, 'feature_error_max'))} r"], []
     if len(planes):

@@ -109,7 +109,7 @@ def _quadratic(coarse: Pick, fine: Pick) -> Judge:
 def _step_bound(loose: Pick, bound: Pick) -> Judge:
     """Make a judge of "fewer rays vanish with the bound, at no less than 0.9 of the speed".
 
-    A ray vanishes that is a miss or finds a later root. The figure also tells exhausted rays, which stay in a dip.
+    A ray vanishes where it is a miss or finds a later root. The figure also counts exhausted rays, which stay in a dip.
     """
 
     def decide(evidence: Evidence) -> Verdict | None:

@@ -35,7 +35,7 @@ SEARCHED = (*picks.CUBICS, *picks.TORUS)
 
 @dataclass(frozen=True)
 class Piece:
-    """A piece of a method that the paper has or that we added, and the picks without it and with it."""
+    """Hold a piece of a method, the paper's or ours, and the picks without it and with it."""
 
     title: str
     whose: str
@@ -87,7 +87,11 @@ def _cubics_are_slower(evidence: Evidence) -> Verdict | None:
 
 
 def by_proxy(evidence: Evidence) -> pd.DataFrame:
-    """Return Newton's rows of Table 1's views in each proxy; `waste` is the share of fragments without a hit."""
+    """Return Newton's rows of Table 1's views in each proxy, on the first device.
+
+    There is no row unless there are several proxies. The column `waste` is the share of a row's fragments that have no
+    hit.
+    """
     rows = evidence.rows(picks.NEWTON_3, picks.TORUS).iloc[:0]
     found = evidence.finished
     found = found[found["method"].eq(picks.NEWTON_3.method) & found["stage"].eq("raster")]
@@ -117,7 +121,10 @@ def _tetrahedron_wastes(evidence: Evidence) -> Verdict | None:
 
 
 def by_normal(evidence: Evidence) -> pd.DataFrame:
-    """Return Newton's rows of the torus shaded by each normal, on the first device; none unless there are several."""
+    """Return Newton's rows of the torus shaded by each normal, on the first device.
+
+    There is no row unless there are several normals.
+    """
     found = evidence.finished
     found = found[found["method"].eq(picks.NEWTON_3.method) & found["surface"].isin(picks.TORUS)]
     found = found[found["proxy"].eq("box")].dropna(subset=["median_ms", "normal"])
@@ -127,7 +134,10 @@ def by_normal(evidence: Evidence) -> pd.DataFrame:
 
 
 def shaded(rows: pd.DataFrame, slow: str, fast: str) -> pd.DataFrame:
-    """Divide the times of frames shaded by the normal `slow` by those shaded by `fast`, view by view."""
+    """Divide the times of frames shaded by the normal `slow` by those shaded by `fast`, view by view.
+
+    Returns what `rounds.over` returns.
+    """
     long, short = (rows[rows["normal"] == name] for name in (slow, fast))
     return rounds.over(long, short, ["comparison", "device"])
 
@@ -171,7 +181,7 @@ def _mean_of_roots(evidence: Evidence) -> Verdict | None:
 
 
 def _pays(piece: Pick, without: Pick, surfaces: tuple[str, ...]) -> Judge:
-    """Make a judge of "`piece` is faster than `without`"; its figure also tells the evaluations and wrong rays."""
+    """Make a judge of "`piece` is faster than `without`"; the figure adds the evaluations and wrong rays of each."""
 
     def decide(evidence: Evidence) -> Verdict | None:
         ratios = evidence.ratios(without, piece, surfaces)

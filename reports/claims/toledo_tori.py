@@ -41,7 +41,8 @@ INTERACTIVE_MS = 20.0  # 50 frames per second
 def tori(evidence: Evidence) -> pd.DataFrame:
     """Return the timed rows of Figure 6's techniques and of ours on lattices, with the column `technique`.
 
-    Of the first device that has them, and of the first picture where a run draws each lattice in several.
+    They are of the first device that has them and, where a run draws each lattice in several pictures, of the first
+    picture. Where no row is of polygons, none is returned: the lattices are then of another experiment.
     """
     rows = pd.concat([evidence.rows(pick).assign(technique=pick.words) for pick in (*PICKS, OURS)])
     rows = rows[(rows["scene"] == "lattice") & ~(rows["pixel_tolerance"] > 0.0)].dropna(subset=["median_ms"])
@@ -52,15 +53,16 @@ def tori(evidence: Evidence) -> pd.DataFrame:
 
 
 def curve(rows: pd.DataFrame, pick: Pick) -> pd.Series:
-    """Return a technique's milliseconds by the number of tori, ascending."""
+    """Return a technique's median times in ms, indexed by the number of tori, ascending."""
     own = rows[rows["technique"] == pick.words]
     return own.set_index(own["instances"].astype(int))["median_ms"].sort_index()
 
 
 def crossing(fast: pd.Series, slow: pd.Series) -> float | None:
-    """Return the number of tori from which on `fast` is faster; 1 if it always is, None if not at the end.
+    """Return the number of tori from which on `fast` is faster; 1 if it always is.
 
-    Between two counts that both have it is interpolated, on logarithmic axes.
+    None if it is not faster at the largest number that both have, or if they have none in common. Between two counts
+    that both have it is interpolated, on logarithmic axes.
     """
     both = sorted(fast.index.intersection(slow.index))
     lead = [math.log(slow[n] / fast[n]) for n in both]
@@ -96,7 +98,7 @@ def _fastest_for_many(newton: Pick) -> Judge:
 
 
 def _against(rows: pd.DataFrame, pick: Pick, newton: Pick) -> pd.DataFrame:
-    """Divide `pick`'s times by `newton`'s, for each number of tori that both drew."""
+    """Divide `pick`'s times by `newton`'s for each number of tori that both drew, as `rounds.over` does."""
     slow, fast = (rows[rows["technique"] == of.words] for of in (pick, newton))
     return rounds.over(slow, fast, ["comparison", "device"])
 
@@ -158,13 +160,16 @@ def _less_memory(evidence: Evidence) -> Verdict | None:
 
 
 def _bytes(rows: pd.DataFrame, pick: Pick) -> pd.Series:
-    """Return a technique's bytes by the number of tori, ascending."""
+    """Return a technique's bytes on the device, indexed by the number of tori, ascending."""
     own = rows[rows["technique"] == pick.words] if len(rows) else rows
     return own.set_index(own["instances"].astype(int))["bytes"].astype("float64").dropna().sort_index()
 
 
 def detail(evidence: Evidence) -> pd.DataFrame:
-    """Divide the times of Sturm with 18 halvings by those at DETAIL pixels, for each number of tori."""
+    """Divide the times of Sturm with 18 halvings by those at DETAIL pixels, for each number of tori.
+
+    Returns what `rounds.over` returns.
+    """
     rows = evidence.finished[evidence.finished["method"].eq(picks.STURM.method)]
     rows = rows[rows["scene"].eq("lattice")].dropna(subset=["median_ms"])
     whole, seen = (rows[rows["pixel_tolerance"].sub(size).abs() < 1e-9] for size in (0.0, DETAIL))

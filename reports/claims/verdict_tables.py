@@ -1,4 +1,4 @@
-"""The table of verdicts that ends a paper's section."""
+"""Make the table of verdicts that ends a paper's section."""
 
 from __future__ import annotations
 

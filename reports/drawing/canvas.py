@@ -1,4 +1,4 @@
-"""What all drawings share: their settings, their key, how they become SVG, and an axis of errors that can show zero.
+"""Give all drawings the same settings, key and SVG, and an axis of errors that can show zero.
 
 The axis of errors is logarithmic, and broken below its smallest decade, where an error of exactly zero is drawn.
 Positions on it are decimal exponents.
@@ -55,7 +55,7 @@ WIDE, NARROW = 10.4, 7.0  # the width of the text on a landscape page and on an 
 
 @dataclass(frozen=True)
 class ErrorAxis:
-    """A logarithmic axis from decade `lowest` to decade `highest`, and below them the place of zero."""
+    """Place errors on a logarithmic axis from decade `lowest` to decade `highest`, and zero below them."""
 
     lowest: int
     highest: int
@@ -72,15 +72,19 @@ class ErrorAxis:
 
     @property
     def zero(self) -> float:
-        """The position of an error of exactly zero."""
+        """Return the position of an error of exactly zero, in decades."""
         return self.lowest - max(1.0, 0.18 * (self.highest - self.lowest))
 
     def position(self, errors: ArrayLike) -> NDArray[np.float64]:
-        """Return where to draw each error [n], as float64[n]."""
+        """Return the position of each error [n] in decades, as float64[n].
+
+        An error that is not positive has the position of zero.
+        """
         values = np.asarray(errors, np.float64)
         return np.asarray(np.where(values > 0, np.log10(np.where(values > 0, values, 1.0)), self.zero))
 
     def _label(self, position: float, _: object) -> str:
+        """Write the label of a position, as matplotlib asks for it: a power of ten, or 0."""
         return wording.power_of_ten(round(position)) if position > self.zero else "0"
 
     def dress(self, axes: Axes, which: Literal["x", "y"] = "x") -> None:
@@ -98,7 +102,7 @@ class ErrorAxis:
 
 @dataclass(frozen=True)
 class Key:
-    """A key above the panels of a drawing, in as few lines as its labels need."""
+    """Draw a key above the panels of a drawing, in as few lines as its labels need."""
 
     handles: Sequence[Artist]
     labels: list[str]
@@ -106,7 +110,10 @@ class Key:
 
     @property
     def _columns(self) -> int:
-        """The most columns that fit; labels fill one after the other. A letter takes 0.056 inches, a handle 0.5."""
+        """Return the largest number of columns of labels that fit into the width; at least 1.
+
+        Labels fill one column after the other. A letter takes 0.056 inches, a handle 0.5.
+        """
         letters = [len(label) for label in self.labels]
         for columns in range(len(letters), 1, -1):
             longest = [max(column) for column in np.array_split(letters, columns)]
@@ -116,7 +123,7 @@ class Key:
 
     @property
     def height(self) -> float:
-        """The height in inches."""
+        """Return the height in inches."""
         return 0.02 + 0.14 * -(-len(self.labels) // self._columns)
 
     def draw(self, drawing: Drawing) -> None:

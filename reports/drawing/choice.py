@@ -1,4 +1,4 @@
-"""The table of which method to take for which surface, at which error, and what that costs."""
+"""Make the table of which method to take for which surface, at which error, and what that costs."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def _usable(rows: pd.DataFrame, error: float) -> pd.DataFrame:
 
 
 def table(frame: pd.DataFrame) -> Table | None:
-    """Make a line for each surface; None where nothing was timed."""
+    """Make a line for each surface: its fastest row at each of ERRORS; None where nothing was timed."""
     rows = _fullest_scenes(frame)
     if rows.empty:
         return None
@@ -78,7 +78,7 @@ def table(frame: pd.DataFrame) -> Table | None:
 
 
 def _shared(rows: pd.DataFrame) -> str:
-    """Write the view and the size of the scenes where all share them; the scenes' names tell what differs."""
+    """Write the view and the size where all scenes share them; what differs is in the names of the scenes."""
     told = [f"view {rows['view'].iloc[0]}"] if rows["view"].nunique() == 1 else []
     sizes = {picture_size(row) for row in rows.itertuples()}
     told += sizes if len(sizes) == 1 else []
@@ -87,6 +87,9 @@ def _shared(rows: pd.DataFrame) -> str:
 
 
 def _named(row: Any, own: pd.DataFrame, error: float) -> str:
-    """Write the variant of a row, and those of other methods that it is not told apart from."""
+    """Write the variant of `row`, and behind it the variants of other methods that are not proved slower.
+
+    The other variants are those of `own`, the rows of the scene, that answer rightly within `error`.
+    """
     name = f"{row.variant}, {row.precision}" if own["precision"].nunique() > 1 else str(row.variant)
     return " ≈ ".join([name, *ties.tied(_usable(own, error), row)])

@@ -87,14 +87,14 @@ def _panel(row: Any, arrays: Arrays, scale: tuple[int, int], prefix: str, titled
 
 
 def wrong_apart(row: Any) -> str:
-    """Write how many grazing and drowned rays of a row are wrong, for the end of a note; "" where none are."""
+    """Write how many grazing and drowned rays of a row are wrong, to end a note with; "" where none are wrong."""
     counts = {"grazing": row.grazing_wrong_rays, "drowned": row.drowned_wrong_rays}
     told = (f" · {wording.count(n)} wrong at {name}" for name, n in counts.items() if not wording.absent(n) and n > 0)
     return "".join(told)
 
 
 def _caption(row: Any) -> str:
-    """Explain the gallery of one surface, whose rows share all but the method with `row`."""
+    """Write the caption of one surface's gallery; `row` is one of its rows, which are all of one scene and device."""
     return (
         f"{row.surface_title} on {row.device}, view {row.view}: what each method drew, and its error beside it. Dark "
         "blue to yellow is a growing |t − t*| on one logarithmic scale for all pictures of this report, whose end "
@@ -144,7 +144,7 @@ def _rgb(color: str) -> NDArray[np.float64]:
 
 
 def png(image: NDArray[np.float64]) -> bytes:
-    """Write an image [h, w, 3] in 0…1 as a PNG file, its pixels repeated as PIXELS says."""
+    """Return an image float64[h, w, 3] in 0…1 as the bytes of a PNG file, its pixels repeated as PIXELS says."""
     times = max(1, -(-PIXELS // max(image.shape[:2])))
     pixels = np.round(255 * image).astype(np.uint8).repeat(times, axis=0).repeat(times, axis=1)
     buffer = io.BytesIO()

@@ -37,7 +37,10 @@ def level_map(level: NDArray[np.uint8], hit: NDArray[np.bool_]) -> NDArray[np.fl
 
 
 def panel(row: Any, arrays: Arrays, prefix: str = "") -> Panel:
-    """Show the levels of a row whose arrays store them; `prefix` sets its picture apart from others of the row."""
+    """Show the levels of a row whose arrays hold `level` and `status`.
+
+    `prefix` begins the picture's name, so that it differs from other pictures of the row.
+    """
     assert arrays.level is not None and arrays.status is not None
     level, hit = arrays.level, arrays.status == RayStatus.HIT
     name = f"{row.surface_title}, {picture_size(row)}"

@@ -53,7 +53,8 @@ def speed_against_error(rows: pd.DataFrame, marks: Mapping[str, Mark], name: str
 def overview(frame: pd.DataFrame, marks: Mapping[str, Mark], titles: Mapping[str, str]) -> Figure | None:
     """Draw the speed of each method's fastest variant with no wrong ray, scene by scene.
 
-    `marks` are by method, `titles` by comparison. None where there is nothing to draw or more devices than fit.
+    `marks` are by method, `titles` by comparison. Returns None where there is nothing to draw, or where there are more
+    devices than PANELS_ACROSS.
     """
     rows = derive.contenders(frame)
     rows = rows[derive.all_right(rows) & np.isfinite(rows["mrays_per_s"])].drop_duplicates([*derive.GROUP, "method"])
@@ -108,7 +109,7 @@ def _bound_marks(rows: pd.DataFrame) -> str:
 
 
 def _methods(rows: pd.DataFrame) -> list[str]:
-    """Return the methods of rows by name."""
+    """Return the names of the methods of `rows`, sorted."""
     return sorted(set(rows["method"]))
 
 

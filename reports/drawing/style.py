@@ -1,4 +1,4 @@
-"""How things look: a colour and a marker for each method, dashes for its variants, a colour for a kind of wrong ray.
+"""Define how things look: a colour and marker for each method, dashes for variants, a colour for a kind of wrong ray.
 
 The colours are Okabe and Ito's, which colour-blind readers can tell apart. There are more methods than colours. So each
 method of the suite has a marker that no other has, which tells them apart in greyscale too.
@@ -23,7 +23,10 @@ _PURPLE, _SKY, _YELLOW, _GREY = "#CC79A7", "#56B4E9", "#B8A800", "#777777"  # th
 
 @dataclass(frozen=True)
 class Mark:
-    """How a method is drawn, or a variant, which has its method's colour and marker. Values are matplotlib's."""
+    """Hold how a method or a variant is drawn, in matplotlib's values.
+
+    A variant has its method's colour and marker, and a line of its own.
+    """
 
     color: str
     marker: str | tuple[int, Literal[0, 1, 2], int]
@@ -81,7 +84,10 @@ _LINES = ("-", "--", ":", "-.")
 
 
 def variant_marks(variants: Iterable[tuple[str, str]]) -> dict[str, Mark]:
-    """Return a mark for each variant of pairs (method, variant): its method's, with other dashes for each variant."""
+    """Return a mark for each variant of the pairs (method, variant), by the variant's name.
+
+    It is the method's mark; the variants of a method have different dashes, as long as there are enough.
+    """
     pairs = list(dict.fromkeys(variants))
     own = marks(method for method, _ in pairs)
     seen: Counter[str] = Counter()
@@ -94,7 +100,7 @@ def variant_marks(variants: Iterable[tuple[str, str]]) -> dict[str, Mark]:
 
 @dataclass(frozen=True)
 class Kind:
-    """A kind of wrong ray; `code` is its value in the `wrong` array of a run."""
+    """Hold a kind of wrong ray; `code` is its value in the `wrong` array of a run."""
 
     code: int
     title: str

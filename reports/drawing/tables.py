@@ -1,4 +1,4 @@
-"""What the tables of several parts share: how long they are, headings, and sentences of captions."""
+"""Hold what the tables of several parts share: how long they are, headings, and sentences of captions."""
 
 from __future__ import annotations
 
@@ -27,9 +27,9 @@ def speedup(rows: pd.DataFrame) -> str:
 
 
 def worth_printing(finished: pd.DataFrame) -> pd.DataFrame:
-    """Return all finished rows if there are at most ROW_LIMIT of them.
+    """Return all `finished` rows if there are at most ROW_LIMIT of them.
 
-    Else only those on a front, those of the baseline and those of null methods.
+    Else return those on a front, those of the baseline and those of null methods.
     """
     if len(finished) <= ROW_LIMIT:
         return finished

@@ -86,7 +86,7 @@ def over_angle(of: ViewSet, marks: Mapping[str, Mark], name: str) -> Figure:
 
 @dataclass(frozen=True, eq=False)
 class Sphere:
-    """The sphere of directions in Mollweide's equal-area projection, for n directions.
+    """Hold the map of n directions over their sphere, in Mollweide's equal-area projection.
 
     Each pixel of the map belongs to the nearest direction.
     """
@@ -97,7 +97,7 @@ class Sphere:
 
     @classmethod
     def of(cls, azimuth: NDArray[np.float64], elevation: NDArray[np.float64]) -> Sphere:
-        """Project directions given in degrees, [n] each; azimuth 0 is in the middle of the map, the z axis up."""
+        """Project directions in degrees, float64[n] each; azimuth 0 is in the middle of the map, the z axis up."""
         height, width = MAP_PIXELS
         y = 1 - (2 * np.arange(height) + 1) / height
         x = (4 * np.arange(width) + 2) / width - 2
@@ -119,10 +119,10 @@ def _unit(azimuth: NDArray[np.float64], elevation: NDArray[np.float64]) -> NDArr
 def mollweide(
     azimuth: NDArray[np.float64], elevation: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Project directions in degrees, [n] each, to x in [-2, 2] and y in [-1, 1].
+    """Return x in [-2, 2] and y in [-1, 1], float64[n] each, of directions in degrees, float64[n] each.
 
-    By J. P. Snyder, Map Projections: A Working Manual, 1987, equations (31-1) to (31-3), divided by the square root
-    of 2.
+    The projection is that of J. P. Snyder, Map Projections: A Working Manual, 1987, equations (31-1) to (31-3), divided
+    by the square root of 2.
     """
     longitude, latitude = np.radians((azimuth + 180.0) % 360.0 - 180.0), np.radians(elevation)
     low, high = np.full(latitude.shape, -np.pi / 2), np.full(latitude.shape, np.pi / 2)
@@ -135,7 +135,7 @@ def mollweide(
 
 @dataclass(frozen=True)
 class Scales:
-    """The ends of the two colour scales that all maps of a report share."""
+    """Hold the ends of the two colour scales that all maps of a report share."""
 
     times: Limits  # of the time per ray over the variant's mean
     errors: Limits  # of the largest error in scene units
@@ -219,7 +219,12 @@ def _name(variant: str) -> str:
 
 
 def _map(
-    axes: Axes, sphere: Sphere, values: NDArray[Any], limits: Limits, cmap: str, wrong: NDArray[np.float64]
+    axes: Axes,
+    sphere: Sphere,
+    values: NDArray[np.float64],
+    limits: Limits,
+    cmap: str,
+    wrong: NDArray[np.float64],
 ) -> None:
     """Draw one map: `values` [n] of the directions, as decimal exponents, by colour between `limits`.
 
@@ -246,12 +251,12 @@ def _map(
 
 
 def _told_times(rows: pd.DataFrame, ratio: NDArray[np.float64]) -> str:
-    """Write the mean time per ray, and the range of times over it."""
+    """Write the mean time per ray; of `ratio` [n], the rows' times over that mean, write the least and the largest."""
     return f"mean {wording.number(1e3 * rows['us_per_ray'].mean())} ns, {ratio.min():.2f} to {ratio.max():.2f}"
 
 
 def _told_errors(rows: pd.DataFrame, wrong: NDArray[np.float64]) -> str:
-    """Write the range of largest errors, and the number of wrong rays."""
+    """Write the least and the largest of the rows' largest errors, and the sum of `wrong` [n], the rows' wrong rays."""
     if not rows["answers"].iloc[0]:
         return "finds nothing"
     error = rows["error_max"].astype("float64")

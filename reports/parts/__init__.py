@@ -1,4 +1,4 @@
-"""The parts of a report. Every module in this folder is one, and no list names them.
+"""Collect the parts of a report. Every module in this folder is one, and no list names them.
 
 A part has ORDER, a whole number that places it, and `sections(material)`, which returns its sections: [] where the run
 has nothing for it. In the report of a run that collects others, parts with LEADS come first, because the run collects
@@ -17,17 +17,17 @@ from reports.material import Material
 
 
 class Part(Protocol):
-    """A module that makes sections of a report."""
+    """Describe a module that makes sections of a report."""
 
     ORDER: int
     __name__: str
 
     def sections(self, material: Material, /) -> list[Section]:
-        """Make the sections of this part."""
+        """Make the sections of this part; [] where the run has nothing for it."""
 
 
 def found(package: str, folders: Iterable[str]) -> list[Part]:
-    """Import every module in the folders of `package`, and return them by ORDER."""
+    """Import every module in the `folders` of `package`, and return them in the order of their ORDER."""
     names = (module.name for module in pkgutil.iter_modules(folders))
     parts = [cast(Part, importlib.import_module(f"{package}.{name}")) for name in names]
     return sorted(parts, key=lambda part: (part.ORDER, part.__name__))

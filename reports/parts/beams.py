@@ -44,7 +44,7 @@ def _casters(shelf: Shelf, frame: pd.DataFrame) -> list[Section]:
 
 
 def _table(rows: pd.DataFrame) -> Table:
-    """Make a line for each row: how many of its hits are hits of rays, and how many are not."""
+    """Make a line for each row: how many of its hits are also hits of rays, and how many are not."""
     named = scene_names(rows)
     bad = "invalid" in derive.kinds(rows)
     body = []

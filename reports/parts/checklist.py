@@ -1,4 +1,4 @@
-"""Each claim of the papers, with its verdict."""
+"""List the claims of the papers, each with its verdict."""
 
 from __future__ import annotations
 

@@ -44,7 +44,7 @@ EXPLANATION = (
 
 @dataclass(frozen=True, eq=False)
 class Cloud:
-    """The rays of one row that hit the right root."""
+    """Hold the rays of one row that hit the right root."""
 
     method: str
     variant: str
@@ -54,7 +54,7 @@ class Cloud:
 
     @property
     def excess(self) -> float:
-        """The largest ratio of an error to the error that the problem allows there."""
+        """Return the largest ratio of a ray's error to the error that the problem allows at the ray's condition."""
         return float((self.error / allowed(self.condition, self.precision)).max())
 
 
@@ -125,8 +125,14 @@ def _figure(name: str, clouds: list[Cloud], marks: Mapping[str, Mark], row: Any)
     )
 
 
-def _spread(cloud: Cloud, edges: NDArray[np.float64]) -> tuple[NDArray[Any], NDArray[np.float64], NDArray[np.float64]]:
-    """Return the indices of the bins that hold rays, and the largest and the median error in each, [bins] each."""
+def _spread(
+    cloud: Cloud, edges: NDArray[np.float64]
+) -> tuple[NDArray[np.intp], NDArray[np.float64], NDArray[np.float64]]:
+    """Return the indices of the bins that hold rays, and the largest and the median error in each.
+
+    `edges` float64[n + 1] bound n bins in the decimal logarithm of the condition. The result is intp[k], float64[k],
+    float64[k] for the k bins that hold rays.
+    """
     bins = np.clip(np.searchsorted(edges, np.log10(cloud.condition), side="right") - 1, 0, len(edges) - 2)
     order = np.lexsort((cloud.error, bins))
     errors = cloud.error[order]
@@ -135,7 +141,10 @@ def _spread(cloud: Cloud, edges: NDArray[np.float64]) -> tuple[NDArray[Any], NDA
 
 
 def _draw(axes: Axes, cloud: Cloud, edges: NDArray[np.float64], shift: float, axis: ErrorAxis, mark: Mark) -> None:
-    """Draw one cloud, its marks moved by `shift` from the middle of their bin."""
+    """Draw one cloud, its marks moved by `shift` from the middle of their bin.
+
+    `edges` [n + 1] are those of the n bins.
+    """
     filled, largest, median = _spread(cloud, edges)
     x = (edges[filled] + edges[filled + 1]) / 2 + shift
     top, middle = axis.position(largest), axis.position(median)
@@ -145,7 +154,10 @@ def _draw(axes: Axes, cloud: Cloud, edges: NDArray[np.float64], shift: float, ax
 
 
 def _dress(axes: Axes, edges: NDArray[np.float64], axis: ErrorAxis, precision: str) -> None:
-    """Set the axes of one panel, and draw the line of what the problem allows."""
+    """Set the axes of one panel, and draw the line of what the problem allows.
+
+    `edges` [n + 1] are those of the n bins.
+    """
     axis.dress(axes, "y")
     low, high = float(edges[0]), float(edges[-1])
     axes.set_xlim(low - 0.03 * (high - low), high + 0.03 * (high - low))
@@ -159,7 +171,7 @@ def _dress(axes: Axes, edges: NDArray[np.float64], axis: ErrorAxis, precision: s
 
 
 def _caption(clouds: list[Cloud], radius: str) -> str:
-    """Name in each precision the variants furthest above the line and those least above it.
+    """Name in each precision the variants farthest above the line of what the problem allows, and those least above it.
 
     Variants whose printed figure is the same are named together.
     """

@@ -1,4 +1,4 @@
-"""Where a method's default differs from what its source prints, and what each difference is worth."""
+"""Tell where a method's default differs from what its source prints, and what each difference is worth."""
 
 from __future__ import annotations
 

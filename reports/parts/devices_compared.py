@@ -1,4 +1,4 @@
-"""The same variant on every device: how much faster each device is, and what the harness adds to its time."""
+"""Compare devices by the same variant: how much faster each device is, and what the harness adds to its time."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def sections(material: Material) -> list[Section]:
 
 
 def _table(timed: pd.DataFrame) -> Table | None:
-    """Make a line for each scene, precision and variant that several devices timed; None without any."""
+    """Make a line for each scene, precision and variant that several devices timed; None where there is none."""
     devices = list(dict.fromkeys(timed["device"]))
     named = scene_names(timed)
     body: list[tuple[Any, ...]] = []

@@ -57,7 +57,7 @@ def devices_table(plan: Plan) -> Table:
 
 
 def _two_digits(value: Any) -> str:
-    """Write two significant digits without an exponent."""
+    """Write two significant digits without an exponent; a dash for a missing value."""
     return wording.NONE if wording.absent(value) else f"{float(f'{value:.1e}'):,g}"
 
 

@@ -1,4 +1,4 @@
-"""Every cell that has no result, and why."""
+"""List every cell that has no result, and why."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def _troubles(frame: pd.DataFrame, families: pd.DataFrame, facts: Mapping[str, F
 
 
 def _unreadable(files: Sequence[Unreadable]) -> Table | None:
-    """Make a line for each file that could not be read; None without any."""
+    """Make a line for each file that could not be read; None where there is none."""
     if not files:
         return None
     body = [(file.file, wording.excerpt(file.problem, REASON_LIMIT)) for file in files[: tables.ROW_LIMIT]]
@@ -73,7 +73,10 @@ def _unreadable(files: Sequence[Unreadable]) -> Table | None:
 
 
 def _not_run(slots: Sequence[str]) -> Table | None:
-    """Count for each device, the last word of a slot, the cells that have not run; None without any."""
+    """Count the cells of each device that have not run; None where all have run.
+
+    The last word of a slot is its device.
+    """
     if not slots:
         return None
     counted = Counter(slot.rpartition(" ")[2] for slot in slots)

@@ -1,4 +1,4 @@
-"""How a formula is written: the same surface in several forms, by range, work, time and error."""
+"""Compare the forms of a formula: the same surface written in several ways, by range, work, time and error."""
 
 from __future__ import annotations
 
@@ -205,7 +205,8 @@ def _by_variant(
 ) -> tuple[tuple[Column, ...], list[tuple[Any, ...]]]:
     """Return columns and lines of a table with a line for each form and two columns for each variant.
 
-    `told` returns the two values of a row, given that row and the one of the form as printed, or None.
+    `told` returns the two values of a cell; it is given the row, and the row of the same variant with the form as
+    printed, or None without one.
     """
     variants = list(dict.fromkeys(rows["variant"]))
     body: list[tuple[Any, ...]] = []
@@ -222,9 +223,11 @@ def _by_variant(
 
 
 def _by_name(rows: Iterable[Any]) -> dict[str, Any]:
+    """Return the rows as named tuples, by the name of their variant."""
     return {str(row.variant): row for row in rows}
 
 
 def _where(rows: pd.DataFrame) -> str:
+    """Write device, precision and size of rows of one picture."""
     first = rows.iloc[0]
     return f"{first['device']}, {first['precision']}, {first['size']} × {first['size']}."

@@ -1,4 +1,4 @@
-"""How cost grows: time against pixels, degree and instances, with fitted exponents."""
+"""Show how cost grows: time against pixels, degree and instances, with fitted exponents."""
 
 from __future__ import annotations
 
@@ -32,7 +32,10 @@ ACROSS = 3  # panels beside each other
 
 @dataclass(frozen=True)
 class Axis:
-    """A quantity that cost grows with. Rows with the same values of `fixed` differ in nothing else."""
+    """Define a quantity that cost grows with.
+
+    Rows with the same values in the columns `fixed` differ in nothing else.
+    """
 
     name: str
     unit: str
@@ -83,7 +86,7 @@ TITLES = {axis.name: f"Cost against {axis.name}" for axis in AXES}
 
 @dataclass(frozen=True, eq=False)
 class Curve:
-    """The times of one variant along one axis, all else fixed."""
+    """Hold the times of one variant along one axis, all else fixed."""
 
     place: tuple[Any, ...]  # the values of the axis's `fixed`, in their order
     variant: str
@@ -93,7 +96,7 @@ class Curve:
 
 
 def _points(frame: pd.DataFrame, axis: Axis) -> tuple[pd.DataFrame, dict[str, int]]:
-    """Return the rows that become points, with `x` and `ms`, and how many rows are left out for which reason.
+    """Return the rows that become points, with `x` and `ms`, and for each reason how many rows are left out.
 
     Only rows of lines that have at least FEWEST places are counted.
     """
@@ -121,7 +124,10 @@ def _points(frame: pd.DataFrame, axis: Axis) -> tuple[pd.DataFrame, dict[str, in
 
 
 def _over_floor(rows: pd.DataFrame, axis: Axis) -> pd.Series | None:
-    """Return by how many ms each row takes longer than its group's null method; None where none is subtracted."""
+    """Return by how many ms each row takes longer than its group's null method, float64 with the index of `rows`.
+
+    NaN where the two share no round. None where no null method is subtracted.
+    """
     floors = derive.floor_rows(rows)
     if not axis.above_floor or floors.empty:
         return None
@@ -177,7 +183,7 @@ def sections(material: Material) -> list[Section]:
 
 
 def _of_run(axis: Axis, frame: pd.DataFrame) -> Axis:
-    """Return the axis as this run has it: without a null method nothing is subtracted."""
+    """Return the axis as this run has it: in a run without a null method nothing is subtracted."""
     return axis if bool((~frame["answers"].astype(bool)).any()) else replace(axis, above_floor=False)
 
 
@@ -304,7 +310,7 @@ def _figure(
 
 
 def _apart(ticks: list[float]) -> list[float]:
-    """Drop those of the growing `ticks` whose labels would touch the one before on a logarithmic axis."""
+    """Keep of the ascending `ticks` those whose labels do not touch the label before, on a logarithmic axis."""
     kept: list[float] = []
     for tick in ticks:
         if not kept or np.log(tick / kept[-1]) > 0.07 * np.log(ticks[-1] / ticks[0]):

@@ -108,6 +108,7 @@ def _outcome(verdict: Any) -> str | float:
 
 
 def _written(value: str | float) -> str:
+    """Write an outcome: a text as it is, a parameter as `wording.level` does."""
     return value if isinstance(value, str) else wording.level(value)
 
 

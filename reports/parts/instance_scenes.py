@@ -38,7 +38,10 @@ def sections(material: Material) -> list[Section]:
 
 
 def _equal_error(rows: pd.DataFrame) -> Table | None:
-    """Make a line for each scene and each of ERRORS: the fastest ray caster and tessellation that keep it."""
+    """Make a line for each scene and each of ERRORS: the fastest ray caster and the fastest mesh that keep the error.
+
+    None where there is no such line.
+    """
     body: list[tuple[Any, ...]] = []
     for _, own in rows.groupby(PLACE, sort=False):
         usable = own[derive.nearly_all_right(own)]
@@ -81,12 +84,12 @@ def _equal_error(rows: pd.DataFrame) -> Table | None:
 
 
 def _fastest(rows: pd.DataFrame) -> pd.Series | None:
-    """Return the row with the smallest median time; None of none."""
+    """Return the row with the smallest median time; None where there is no row."""
     return None if rows.empty else rows.loc[rows["median_ms"].idxmin()]
 
 
 def _each(rows: pd.DataFrame) -> Table | None:
-    """Make a line for each row; None of none."""
+    """Make a line for each row; None where there is no row."""
     if rows.empty:
         return None
     body = [
@@ -131,7 +134,7 @@ def _each(rows: pd.DataFrame) -> Table | None:
 
 
 def _detail(rows: pd.DataFrame) -> Table | None:
-    """Make a line for each row with a tolerance in pixels, beside the same without; None without such pairs."""
+    """Make a line for each row with a tolerance in pixels, beside the same without it; None without such pairs."""
     body = list(_savings(rows))
     if not body:
         return None
@@ -162,7 +165,7 @@ def _detail(rows: pd.DataFrame) -> Table | None:
 
 
 def _savings(rows: pd.DataFrame) -> Iterator[tuple[Any, ...]]:
-    """Yield the lines of `_detail`."""
+    """Yield the lines of the table that `_detail` makes."""
     loose = rows[rows["pixel_tolerance"] > 0.0]
     for row in loose.itertuples():
         own = rows[

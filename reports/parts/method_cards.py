@@ -1,4 +1,4 @@
-"""A card for each method: what it is, what it claims, and whether its claims held."""
+"""Make a card for each method: what it is, what it claims, and whether its claims held."""
 
 from __future__ import annotations
 
@@ -63,12 +63,15 @@ def _card(name: str, told: Mapping[str, Any], rows: pd.DataFrame, judged: list[t
 
 
 def _is_caption(part: str, text: str, tables: list[Mapping[str, Any]]) -> bool:
-    """Whether a part's text is one paragraph and the part has a table, whose caption it then is."""
+    """Tell whether a part's text becomes the caption of a table: it is one paragraph, and the part has a table."""
     return "\n" not in text and any(table["part"] == part for table in tables)
 
 
 def _table(name: str, told: Mapping[str, Any], text: str) -> Table:
-    """A table of the method's page. Columns of long text share the width by the length of what they hold."""
+    """Make a table of the method's page.
+
+    Its columns of long text share the width by the length of their longest cell.
+    """
     cells = list(zip(told["header"], *told["rows"], strict=True))
     longest = [max(map(len, column)) for column in cells]
     columns = tuple(
@@ -80,13 +83,13 @@ def _table(name: str, told: Mapping[str, Any], text: str) -> Table:
 
 
 def _knob(knob: Mapping[str, Any]) -> str:
-    """Write a knob: its name, default and meaning, and its value as printed if that is another."""
+    """Write a knob: its name, its default and its meaning, and its printed value if that is not the default."""
     printed = "" if knob.get("printed") is None else f"; as printed {knob['printed']:g}"
     return f"{knob['name']} = {knob['default']:g} ({knob['meaning']}{printed})"
 
 
 def _points(text: str) -> str:
-    """Fold a text to a line for each paragraph and point; a point begins with "- "."""
+    """Write each paragraph and each point of a text on a line of its own; a point begins with "- "."""
     return "\n".join(wording.excerpt(re.sub("^- ", "• ", line), TEXT_LIMIT) for line in text.split("\n"))
 
 

@@ -1,4 +1,4 @@
-"""Where rays begin: wrong rays, errors and times of the same method with rays from several origins."""
+"""Compare origins of rays: wrong rays, errors and times of the same method with rays that begin at several places."""
 
 from __future__ import annotations
 
@@ -45,7 +45,8 @@ def paired(frame: pd.DataFrame) -> pd.DataFrame:
 def _costs(rows: pd.DataFrame) -> pd.Series:
     """Return each row's time over that of the same rays from the eye, in the rounds that timed both.
 
-    NaN without common rounds, or where one of the two answers a ray away from silhouettes wrongly.
+    Returns float64 with the index of the rows that are right or answer nothing. NaN for the rows from the eye, for rows
+    without common rounds, and where the row from the eye answers a ray away from silhouettes wrongly.
     """
     keys = [*derive.GROUP, "caster"]
     rows = rows[derive.all_right(rows) | ~rows["answers"].astype(bool)]
@@ -70,7 +71,7 @@ def sections(material: Material) -> list[Section]:
 
 
 def _mean(ratios: pd.Series) -> float:
-    """Return the geometric mean of the ratios that are not NaN; NaN of none."""
+    """Return the geometric mean of the ratios that are not NaN; NaN where there is none."""
     known = ratios.dropna().astype("float64")
     return float(np.exp(np.log(known).mean())) if len(known) else float("nan")
 
@@ -117,7 +118,10 @@ def conclusions(rows: pd.DataFrame) -> list[str]:
 
 
 def _price(cost: float, gains: bool, harms: bool) -> str:
-    """Say whether what the shift gains is worth the factor `cost` of a frame's time, NaN where that is not known."""
+    """Say whether what the shift gains is worth its cost.
+
+    `cost` is the factor of a frame's time; NaN where it is not known.
+    """
     if np.isnan(cost):
         return (
             "No variant answers every ray away from silhouettes rightly from both origins: what that costs is not told."
@@ -167,7 +171,10 @@ def _changed(
 
 
 def _errors(before: pd.DataFrame, after: pd.DataFrame) -> pd.Series:
-    """Return the largest error before over that after, for each scene and variant."""
+    """Return the largest error before over that after, float64 with a value for each scene and variant.
+
+    Scenes and variants whose error after is 0 or not known are left out.
+    """
     keys = [*derive.GROUP, "caster"]
     both = before.merge(after[[*keys, _ERROR]], on=keys, suffixes=("", "_after"))
     return (both[_ERROR] / both[f"{_ERROR}_after"].where(both[f"{_ERROR}_after"] > 0)).astype("float64").dropna()
@@ -201,7 +208,7 @@ def _columns(origins: Sequence[str]) -> tuple[Column, ...]:
 
 
 def by_variant(rows: pd.DataFrame) -> Table:
-    """Make a line for each variant, over its scenes that have a row from every origin that the run has."""
+    """Make a line for each variant, over those of its scenes that have a row from every origin of the run."""
     origins = _present(rows)
     rows = _from_all(rows, origins)
     several = [name for name in ("device", "precision") if rows[name].nunique() > 1]
@@ -235,8 +242,8 @@ def by_scene(rows: pd.DataFrame) -> Table:
 def families_held(rungs: pd.DataFrame, facts: Mapping[str, Facts]) -> Table | None:
     """Count the families of hard rays that each variant holds from each origin.
 
-    Names those that it holds from the eye alone and from the nearest point alone. None unless some variant's rays
-    began at both.
+    The table also names those that a variant holds from the eye alone and from the nearest point alone. None unless
+    some variant's rays began at both.
     """
     rungs = rungs[rungs["origin"].notna()] if len(rungs) else rungs
     if rungs.empty or rungs["origin"].nunique() < 2:

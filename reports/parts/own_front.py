@@ -1,4 +1,4 @@
-"""Where the suite's own methods are on the front of speed against error, and who wins where they are not."""
+"""Tell where the suite's own methods are on the front of speed against error, and who wins where they are not."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def _of(method: str, frame: pd.DataFrame) -> list[Section]:
 
 
 def _line(method: str, group: pd.DataFrame) -> tuple[Any, ...]:
-    """Make the line of one comparison, and as its last item whether the rival is proved faster.
+    """Make the line of one comparison; its last item tells whether the rival is proved faster.
 
     The rows of `group` are fastest first.
     """

@@ -1,4 +1,4 @@
-"""Variants compared round by round: each one's time over that of the fastest variant with every ray right."""
+"""Compare variants round by round: each one's time over that of the fastest variant with every ray right."""
 
 from __future__ import annotations
 

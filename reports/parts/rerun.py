@@ -1,4 +1,4 @@
-"""How to run the same again."""
+"""Say how to run the same again."""
 
 from __future__ import annotations
 
@@ -36,7 +36,10 @@ def sections(material: Material) -> list[Section]:
 
 
 def _plugins(material: Material) -> str:
-    """Name the methods from outside the project, which the commit does not hold, with the hashes of their files."""
+    """Name the methods from outside the project, which the commit does not hold, with the hashes of their files.
+
+    "" where there are none.
+    """
     plan = material.run.plan
     outside = {name: told["outside"] for name, told in plan.methods.items() if told.get("outside")}
     if not outside:
@@ -61,7 +64,7 @@ def _files(frame: pd.DataFrame, method: str) -> str:
 
 
 def _config(plan: Plan) -> str:
-    """Say that a config outside the project is no part of the commit; "" of one inside."""
+    """Say that a config outside the project is no part of the commit; "" for a config inside the project."""
     if not PurePath(plan.config).is_absolute():
         return ""
     return f"The config {plan.config} is no part of the commit either; its text is in “Devices, environment, config”."

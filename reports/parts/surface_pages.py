@@ -1,4 +1,4 @@
-"""A page for each surface: speed against error, pictures, and every figure of its rows."""
+"""Make a page for each surface: speed against error, pictures, and every figure of its rows."""
 
 from __future__ import annotations
 

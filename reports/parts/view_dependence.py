@@ -118,7 +118,10 @@ def dependence_table(of: ViewSet) -> Table:
 
 
 def _name(of: ViewSet) -> str:
-    """Name the views of a set: 6 of them are of “projection angles”, say."""
+    """Return what the views of a set are called: “projection angles”, “directions” or “named views”.
+
+    Those of any other set are “views of the set” with its name.
+    """
     named = {viewstats.ANGLES: "projection angles", viewstats.DIRECTIONS: "directions"}.get(of.kind, of.kind)
     return (
         named if of.kind in (viewstats.ANGLES, viewstats.DIRECTIONS, viewstats.NAMED) else f"views of the set “{named}”"

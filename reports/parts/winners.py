@@ -1,4 +1,4 @@
-"""Who wins in every group of rows."""
+"""Tell who wins in every group of rows."""
 
 from __future__ import annotations
 

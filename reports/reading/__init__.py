@@ -1,1 +1,1 @@
-"""Reads run folders as rows, arrays and plans, and writes rows as CSV and Parquet."""
+"""Read run folders as rows, arrays and plans, and write rows as CSV and Parquet."""

@@ -1,4 +1,4 @@
-"""Reads a cell's answers ray by ray, as a run stores them on the grid of its accuracy check."""
+"""Read a cell's answers ray by ray, as a run stores them on the grid of its accuracy check."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ from reports.reading.run import Unreadable
 
 @dataclass(frozen=True, eq=False)
 class Arrays:
-    """Holds one cell's answers; every array is [h, w] with row 0 at the top, unless it says otherwise."""
+    """Hold one cell's answers; every array is [h, w] with row 0 at the top, unless it says otherwise."""
 
     truth: NDArray[np.uint8]  # TruthStatus
     error: NDArray[np.float32]  # |t − t*| in scene units; NaN where not both hit
-    wrong: NDArray[np.uint8]  # 0 right, else the code of a style.Class
+    wrong: NDArray[np.uint8]  # 0 right, else the code of a style.Kind
     grazing: NDArray[np.bool_]
     shade: NDArray[np.float32]  # cosine towards the camera; NaN on background
     condition: NDArray[np.float32] | None = None  # of the first root; NaN without one; None in older runs
@@ -58,8 +58,11 @@ def read(path: Path) -> Arrays:
     return Arrays(**named, samples=_whole_pixels(samples, shapes.pop()))
 
 
-def _whole_pixels(samples: NDArray[Any] | None, shape: tuple[int, ...]) -> NDArray[Any] | None:
-    """Return `samples`, if any. Raises ValueError where they are not as many on each side of every pixel of `shape`."""
+def _whole_pixels(samples: NDArray[np.float32] | None, shape: tuple[int, ...]) -> NDArray[np.float32] | None:
+    """Return `samples` [s h, s w] as they are; `shape` is (h, w), and s at most MOST_SAMPLES.
+
+    Raises ValueError where `samples` have another shape. None stays None.
+    """
     if samples is None or any(samples.shape == tuple(s * side for side in shape) for s in range(1, MOST_SAMPLES + 1)):
         return samples
     raise ValueError(f"its samples {samples.shape} do not fill pixels {shape}")
@@ -67,13 +70,16 @@ def _whole_pixels(samples: NDArray[Any] | None, shape: tuple[int, ...]) -> NDArr
 
 @dataclass(frozen=True)
 class Shelf:
-    """Gives the arrays of a run or several, and notes files that could not be used as it meets them."""
+    """Read the arrays of one run or several, and note the files that could not be used."""
 
     folders: Mapping[str, Path]  # by the name of the run
     damaged: dict[str, Unreadable] = field(default_factory=dict)  # by file
 
     def get(self, row: Any) -> Arrays | None:
-        """Return the arrays of a row of the frame; None where its file is damaged or gone."""
+        """Return the arrays of a row of the frame.
+
+        None where its file is damaged or missing, which `damaged` then notes.
+        """
         file = f"arrays/{row.key}.npz"
         try:
             return read(self.folders[row.run] / file)

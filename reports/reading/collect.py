@@ -1,4 +1,4 @@
-"""Joins several runs to one: what the report of a config that includes others is about.
+"""Join several runs to one, which the report of a config that includes others is about.
 
 Each run keeps its rows apart: rows are compared only with rows of the same run, since only those were timed in turns.
 """

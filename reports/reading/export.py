@@ -1,4 +1,4 @@
-"""Makes tables of rows: the pandas frame that a report works on, and its CSV and Parquet files."""
+"""Make tables of rows: the pandas frame that a report works on, and its CSV and Parquet files."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Says what a run folder holds: its plan, its finished cells as rows, and which files could not be read."""
+"""Define what a run folder holds: its plan, its finished cells as rows, and which files could not be read."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from harness.contract import BASELINE
 
 @dataclass(frozen=True)
 class Facts:
-    """Says what a family of hard rays is: rays that get harder as one parameter grows or shrinks."""
+    """Hold what a family of hard rays is: rays that get harder as one parameter grows or shrinks."""
 
     title: str
     parameter: str  # what the number means, with its unit
@@ -25,7 +25,7 @@ class Facts:
 
 @dataclass(frozen=True)
 class Plan:
-    """Holds plan.json: what the run set out to do, where, and by which command."""
+    """Hold plan.json: what the run set out to do, where, and by which command."""
 
     name: str
     title: str
@@ -52,7 +52,7 @@ class Plan:
 
 @dataclass(frozen=True)
 class Unreadable:
-    """Names a file of the run that could not be used, and says why."""
+    """Name a file of the run that could not be used, and say why."""
 
     file: str  # below the run folder
     problem: str
@@ -60,7 +60,7 @@ class Unreadable:
 
 @dataclass(frozen=True, eq=False)
 class Run:
-    """Holds what the plan's finished cells say, in the plan's order."""
+    """Hold what the plan's finished cells say, in the plan's order."""
 
     folder: Path
     plan: Plan

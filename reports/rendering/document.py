@@ -43,7 +43,7 @@ def write_pdf(document: Document, folder: Path, pdf: Path, created: str) -> None
 
 
 def _timestamp(created: str) -> int | None:
-    """Return the seconds since 1970 of a date by ISO 8601; None where it is none."""
+    """Return the date `created`, by ISO 8601, as seconds since 1970; None where the text is no such date."""
     try:
         return int(datetime.fromisoformat(created).timestamp())
     except ValueError:
@@ -71,7 +71,7 @@ def _block(block: Block, folder: Path) -> dict[str, Any]:
 
 
 def _table(table: Table) -> dict[str, Any]:
-    """Write the cells; a value of a grouping column that repeats the row above is left blank."""
+    """Return a table as the template reads it; a grouping value that repeats the row above is left blank."""
     rows = []
     above: tuple[Any, ...] = ()
     for row in table.rows:
@@ -96,6 +96,7 @@ def _table(table: Table) -> dict[str, Any]:
 
 
 def _figure(figure: Figure, folder: Path) -> dict[str, Any]:
+    """Return a figure as the template reads it; its drawing goes into `folder`. Raises ValueError as `_write` does."""
     file = f"{figure.name}.svg"
     _write(folder / file, figure.svg.encode())
     told = {"title": figure.title, "caption": figure.caption, "description": figure.description}
@@ -103,13 +104,14 @@ def _figure(figure: Figure, folder: Path) -> dict[str, Any]:
 
 
 def _write(path: Path, made: bytes) -> None:
-    """Write a picture's file; a ValueError where another picture of the report has this name."""
+    """Write a picture's file. Raises ValueError where another picture of the report has this name."""
     if path.exists() and path.read_bytes() != made:
         raise ValueError(f"two figures of one report are named {path.stem}")
     path.write_bytes(made)
 
 
 def _gallery(gallery: Gallery, folder: Path) -> dict[str, Any]:
+    """Return a gallery as the template reads it; its pictures go into `folder`. Raises ValueError as `_write` does."""
     panels = []
     for panel in gallery.panels:
         for picture in panel.pictures:

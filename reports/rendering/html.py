@@ -27,12 +27,15 @@ _NAMED = re.compile(f'<g id="{re.escape(SERIES)}([^"]*)"')
 
 
 def write_html(document: Document, marks: Mapping[str, Mark], path: Path) -> None:
-    """Write `document` as the file `path`; a click on a method of `marks` fades the others."""
+    """Write `document` as the file `path`; a click on a method of `marks` fades the others.
+
+    Raises OSError where the file cannot be written.
+    """
     path.write_text(page(document, marks), encoding="utf-8", errors="replace")
 
 
 def page(document: Document, marks: Mapping[str, Mark]) -> str:
-    """Return the page of `document`; see write_html."""
+    """Return the page of `document` as HTML; a click on a method of `marks` fades the others."""
     sections = [document.summary, *document.sections]
     links = "".join(f'<li><a href="#s{i}">{_e(section.title)}</a></li>' for i, section in enumerate(sections))
     chips = "".join(
@@ -60,6 +63,7 @@ def _e(text: str) -> str:
 
 
 def _section(section: Section, number: int) -> str:
+    """Write a section as HTML; `number` is in the ids within it."""
     blocks = "".join(_block(block, f"b{number}-{i}") for i, block in enumerate(section.blocks))
     return f"<h2>{_e(section.title)}</h2>{blocks}"
 
@@ -117,6 +121,7 @@ def _cells(columns: Sequence[Column], row: tuple[Any, ...]) -> str:
 
 
 def _figure(figure: Figure, name: str) -> str:
+    """Write a figure as HTML; `name` begins the ids within its drawing."""
     return (
         f'<figure class="drawing" role="img" aria-label="{_e(figure.description)}">{_svg(figure.svg, name)}'
         f"<figcaption>{_caption(figure.title, figure.caption)}</figcaption></figure>"
@@ -124,7 +129,7 @@ def _figure(figure: Figure, name: str) -> str:
 
 
 def _svg(svg: str, name: str) -> str:
-    """Make a drawing part of the page: its ids get a prefix, and its series data attributes."""
+    """Return a drawing as a part of the page: `name` begins its ids, and its series become data attributes."""
     own = svg[svg.index("<svg") :]
     own = _NAMED.sub(lambda found: f'<g class="series" data-series="{found[1]}"', own)
     own = _ID.sub(rf'id="{name}-\1"', own)
@@ -132,11 +137,13 @@ def _svg(svg: str, name: str) -> str:
 
 
 def _picture(picture: Picture) -> str:
+    """Write a picture as an HTML image that holds its bytes."""
     data = base64.b64encode(picture.png).decode()
     return f'<img alt="{_e(picture.description)}" src="data:image/png;base64,{data}">'
 
 
 def _panel(panel: Panel) -> str:
+    """Write a panel as HTML: its title, its pictures and its note."""
     pictures = "".join(_picture(picture) for picture in panel.pictures)
     return (
         f'<div class="panel" data-title="{_e(panel.title)}"><strong>{_e(panel.title)}</strong>'

@@ -1,4 +1,4 @@
-"""How long commands take to start: `make bench` prints it, beside what they should take on an idle machine.
+"""Measure how long commands take to start. `make bench` prints it, beside what they should take on an idle machine.
 
 Every time is of a whole process. They are taken in turns, since a machine's speed drifts, and nothing is asserted.
 """
@@ -25,7 +25,10 @@ QUICK = ("run", "configs/quick.toml")
 
 @dataclass(frozen=True)
 class Start:
-    """A command, and what ends the time of its start: the process's end, or the first output with `until` in it."""
+    """Hold a command and what ends the time of its start.
+
+    That is the end of its process or, if `until` is given, the first output that has `until` in it.
+    """
 
     what: str
     arguments: tuple[str, ...]
@@ -45,7 +48,7 @@ STARTS = (
 
 
 def seconds_of(start: Start, environment: Mapping[str, str]) -> float:
-    """Start the command once, with its results in a folder of its own; seconds until it has started.
+    """Start the command once, with its results in a folder of its own; return the seconds until it has started.
 
     Raises RuntimeError where it fails, or ends without the output that is waited for.
     """
@@ -80,7 +83,7 @@ def seconds_of(start: Start, environment: Mapping[str, str]) -> float:
 
 
 def _read(handle: int, until: bytes | None) -> bytes:
-    """What comes from `handle` until it holds `until`, or all of it."""
+    """Read from the file descriptor `handle` until the output holds `until`, or to its end; return what was read."""
     said = b""
     while until is None or until not in said:
         try:
@@ -94,7 +97,7 @@ def _read(handle: int, until: bytes | None) -> bytes:
 
 
 def table(starts: Sequence[Start], times: Mapping[str, Sequence[float]]) -> str:
-    """A line for each start: the median of its times, the slowest, its limit, and whether the median keeps it."""
+    """Write a line for each start: the median of its times, the slowest, its limit, and whether the median keeps it."""
     rows = []
     for start in starts:
         median, slowest = statistics.median(times[start.what]), max(times[start.what])
@@ -105,7 +108,10 @@ def table(starts: Sequence[Start], times: Mapping[str, Sequence[float]]) -> str:
 
 
 def measure(starts: Sequence[Start], runs: int) -> dict[str, list[float]]:
-    """Seconds of `runs` starts of each command, in turns, where answers about devices were kept before."""
+    """Return the seconds of `runs` starts of each command, by its name.
+
+    The commands start in turns, after one start of each that is not counted. Raises RuntimeError as `seconds_of` does.
+    """
     times: dict[str, list[float]] = {start.what: [] for start in starts}
     with tempfile.TemporaryDirectory(prefix="firsthit-bench-", ignore_cleanup_errors=True) as cache:
         environment = os.environ | {"XDG_CACHE_HOME": cache, "PYTHONPATH": str(ROOT)}
@@ -118,6 +124,7 @@ def measure(starts: Sequence[Start], runs: int) -> dict[str, list[float]]:
 
 
 def main() -> None:
+    """Print the start-up times of as many processes as the first argument says, else of RUNS."""
     runs = int(sys.argv[1]) if sys.argv[1:] else RUNS
     load = f", beside other programs: load {os.getloadavg()[0]:.1f}" if os.getloadavg()[0] > 0.5 else ""
     times = measure(STARTS, runs)

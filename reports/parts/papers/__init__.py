@@ -1,4 +1,4 @@
-"""The papers' tables and figures, ours beside theirs. Every module in this folder makes some, and no list names them.
+"""Compare the papers' tables and figures with ours. Every module in this folder makes some, and no list names them.
 
 Such a module is made like a part of the report. Each section ends with the verdicts on the claims that the rows of its
 config decide.

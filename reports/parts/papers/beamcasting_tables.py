@@ -37,7 +37,7 @@ _TOLD = (
 
 
 def _tables(material: Material) -> list[Section]:
-    """Hold the speeds of both methods against the paper's."""
+    """Compare the speeds of both methods with the paper's; [] where the two were not timed in the same rounds."""
     evidence = material.evidence.of("beamcasting-tables.toml")
     ratios = evidence.ratios(picks.UNIFORM, picks.ADAPTIVE, picks.BEAM_SURFACES)
     if ratios.empty:
@@ -97,7 +97,7 @@ def _tables(material: Material) -> list[Section]:
 
 
 def _figure_1(material: Material) -> list[Section]:
-    """Show the levels at which boxes are eliminated, by the rows of the figure's own config."""
+    """Show the levels at which boxes are eliminated, by the rows of the figure's own config; [] without any."""
     rows = material.evidence.rows(picks.ADAPTIVE, ("octdong",))
     rows = rows[rows["run"] == run_of("beamcasting-fig1.toml")].sort_values("size", kind="stable")
     found = [(row, arrays) for row in rows.itertuples() if (arrays := material.shelf.get(row)) is not None]
@@ -143,7 +143,10 @@ _IDLE = (
 
 
 def _divergence(material: Material) -> list[Section]:
-    """Tell how many lanes wait: of whole frames by setting, and level by level on the surface of Figure 1."""
+    """Tell how many lanes wait: of whole frames by setting, and level by level on the surface of Figure 1.
+
+    [] where no row stores its levels.
+    """
     config = "beamcasting-divergence.toml"
     evidence = material.evidence.of(config)
     rows = [(pick, row) for pick in _SETTINGS for row in evidence.rows(pick, picks.BEAM_SURFACES).itertuples()]

@@ -1,4 +1,4 @@
-"""The papers' pictures: what each setting drew, its errors, and how many rays it got wrong."""
+"""Show the papers' pictures: what each setting drew, its errors, and how many rays it got wrong."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def sections(material: Material) -> list[Section]:
 
 
 def _section(material: Material, figure: Figure) -> Section | None:
-    """Make the section of one figure; None where no row of it is there."""
+    """Make the section of one figure; None where the run has no row of it."""
     rows = figures.rows_of(figure, material.evidence)
     if rows.empty:
         return None

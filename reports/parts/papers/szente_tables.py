@@ -37,7 +37,7 @@ def sections(material: Material) -> list[Section]:
 
 
 def _table_1_and_2(material: Material) -> Section | None:
-    """Make the section of the two studies."""
+    """Make the section of the two studies; None where neither was run."""
     ours = condition(material.evidence)
     blocks: list[Block] = []
     if not ours.empty:
@@ -55,7 +55,7 @@ def _table_1_and_2(material: Material) -> Section | None:
 
 
 def _table_1(ours: pd.DataFrame) -> Table:
-    """Hold our condition numbers against the paper's."""
+    """Compare our condition numbers with the paper's."""
     paper = published.table("szente_table1_condition")
     body: list[tuple[Any, ...]] = []
     for basis, row in ours.iterrows():
@@ -81,15 +81,17 @@ def _table_1(ours: pd.DataFrame) -> Table:
 
 
 def _exact(value: Any) -> str:
+    """Write two decimals; a dash for a missing value."""
     return wording.NONE if wording.absent(value) else f"{value:,.2f}"
 
 
 def _small(value: Any) -> str:
+    """Write a sign and four decimals; a dash for a missing value."""
     return wording.NONE if wording.absent(value) else wording.minus(f"{value:+.4f}")
 
 
 def _table_2(figures: pd.DataFrame) -> Table:
-    """Hold our errors of bounds, by each reading of the paper, against the paper's."""
+    """Compare our errors of bounds, by each reading of the paper, with the paper's."""
     paper = published.table("szente_table2_bounds")
     columns = (
         Column("what was run", stretch=1),
@@ -122,11 +124,12 @@ def _table_2(figures: pd.DataFrame) -> Table:
 
 
 def _percent(value: Any) -> str:
+    """Write two decimals, with no sign before a zero; a dash for a missing value."""
     return wording.NONE if wording.absent(value) else wording.minus(f"{value:z.2f}")
 
 
 def _table_4(material: Material) -> Section | None:
-    """Hold the times of the fit and of ray marching against the paper's."""
+    """Compare the times of the fit and of ray marching with the paper's; None without common rounds."""
     evidence = material.evidence.of("szente-table4.toml")
     march = evidence.ratios(picks.MARCH, picks.FIT, picks.TABLE_4)
     if march.empty:
@@ -191,7 +194,7 @@ def _table_4(material: Material) -> Section | None:
 
 
 def _changes(material: Material) -> Section | None:
-    """Tell what each of our changes is worth when it is made alone."""
+    """Tell what each of our changes is worth when it is made alone; None where none was timed."""
     evidence = material.evidence.of("szente-changes.toml")
     body = [
         row
@@ -240,7 +243,7 @@ def _change(evidence: Evidence, printed: Pick, change: Pick) -> tuple[Any, ...] 
 
 
 def _table_5(material: Material) -> Section | None:
-    """Hold the times of Lipschitz tracing by two bounds against the paper's."""
+    """Compare the times of Lipschitz tracing by two bounds with the paper's; None without common rounds."""
     evidence = material.evidence.of("szente-table5.toml")
     ratios = evidence.ratios(picks.CONTROL, picks.LU, picks.TABLE_5)
     if ratios.empty:
@@ -302,6 +305,7 @@ def _both(over: str, show: Callable[[Any], str]) -> tuple[Column, Column]:
 
 
 def _whole(value: Any) -> str:
+    """Write no decimals, with no sign before a zero; a dash for a missing value."""
     return wording.NONE if wording.absent(value) else wording.minus(f"{value:z.0f}")
 
 

@@ -84,7 +84,7 @@ def _crossings(rows: pd.DataFrame) -> Table:
 
 
 def _told(at: float | None) -> str:
-    """Write what `crossing` returns."""
+    """Write the number of tori that `crossing` returns."""
     if at is None:
         return "nowhere measured"
     return (

@@ -50,7 +50,7 @@ def table_rows(evidence: Evidence) -> pd.DataFrame:
 
 
 def _column(view: str) -> str:
-    """Return the column of a view in the paper's tables."""
+    """Return the name that the paper's tables give the column of a view."""
     return view.replace("angle ", "angle_")
 
 
@@ -60,9 +60,10 @@ def _title(view: str) -> str:
 
 
 def _pixels(rows: pd.DataFrame, angles: list[str]) -> Table:
-    """Hold our counts of pixels against the paper's.
+    """Compare our counts of pixels with the paper's.
 
-    Ours are counted on the device, of the ray caster with the fewest wrong rays, because lost rays are lost pixels.
+    Ours are counted on the device. They are of the ray caster with the fewest wrong rays, because lost rays are lost
+    pixels.
     """
     cast = rows[rows["casts"] == "rays"]
     wrong = (
@@ -105,16 +106,17 @@ def _pixels(rows: pd.DataFrame, angles: list[str]) -> Table:
 
 
 def _one_digit(value: Any) -> str:
+    """Write one decimal; a dash for a missing value."""
     return wording.NONE if wording.absent(value) else wording.minus(f"{value:,.1f}")
 
 
 def _of(rows: pd.DataFrame, pick: Pick) -> pd.DataFrame:
-    """Return one technique's rows by view."""
+    """Return one technique's rows, indexed by view."""
     return rows[rows["technique"] == pick.words].set_index("view")
 
 
 def _frames(rows: pd.DataFrame, angles: list[str]) -> Table:
-    """Hold our frames per second against the paper's."""
+    """Compare our frames per second with the paper's."""
     paper, body = published.table("toledo2007_table1_fps"), []
     reference = _of(rows, REFERENCE)["frames_per_s"].mean()
     theirs_reference = paper.number("average", technique=REFERENCE.words)
@@ -145,7 +147,7 @@ def _frames(rows: pd.DataFrame, angles: list[str]) -> Table:
 
 
 def _rates(rows: pd.DataFrame) -> Table:
-    """Hold our pixels per second, and their spread over the views, against the paper's."""
+    """Compare our pixels per second, and their spread over the views, with the paper's."""
     paper, body = published.table("toledo2007_table1_megapixels"), []
     for pick in (*picks.TABLE_1, *picks.OURS_OF_TABLE_1):
         own = _of(rows, pick)
@@ -176,7 +178,7 @@ def _rates(rows: pd.DataFrame) -> Table:
 
 
 def _errors(rows: pd.DataFrame) -> Table:
-    """Hold our errors against the paper's."""
+    """Compare our errors with the paper's."""
     paper, body = published.table("toledo2007_table1_fps"), []
     for pick in PICKS:
         own = _of(rows, pick)
@@ -217,7 +219,7 @@ def _errors(rows: pd.DataFrame) -> Table:
 
 
 def _meshes(measured: list[dict[str, Any]]) -> Table:
-    """Hold the measured errors of polygonal tori against the formulas; `measured` has the study's rows."""
+    """Compare the measured errors of polygonal tori with the formulas; `measured` has the study's rows."""
     paper = published.table("toledo2007_table1_fps")
     body = []
     for row in measured:
