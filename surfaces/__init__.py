@@ -1,4 +1,4 @@
-"""Defines implicit surfaces: the catalog, formulas of one's own, and what is derived from them.
+"""Define implicit surfaces: the catalog, formulas of one's own, and what is derived from them.
 
     import surfaces
     torus = surfaces.get("torus", R="0.5")
@@ -31,6 +31,8 @@ __all__ = ["evaluate", "expression", "forms_of", "from_formula", "get", "gradien
 
 def __getattr__(name: str) -> Any:
     """Return a function of surfaces.evaluation, which is imported when it is first asked for.
+
+    Raises AttributeError for any other name.
 
     It needs numpy; harness.contract, and with it every command, imports this package for surfaces.model alone.
     """

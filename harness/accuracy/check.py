@@ -24,7 +24,7 @@ from harness.scenes.camera import meets, scene_radius
 
 @dataclass(frozen=True, eq=False)
 class Certified:
-    """Holds the oracle's answers for the rays of a cast; a kind that asks it for more derives from this class."""
+    """Hold the oracle's answers for the rays of a cast; a kind that asks it for more derives from this class."""
 
     truth: Truth
 

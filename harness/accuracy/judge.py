@@ -24,7 +24,7 @@ class Wrong(IntEnum):
     """Name what is wrong with one answer.
 
     WRONG_ROOT: the hit is at a later root, or at a place that is no root at all
-    INVALID: the answer can be none, whatever the truth (harness.accuracy.answers)
+    INVALID: the answer is impossible, whatever the truth (harness.accuracy.answers)
     """
 
     RIGHT = 0

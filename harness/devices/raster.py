@@ -93,7 +93,7 @@ class Picture:
 
 
 class Rasteriser(ABC):
-    """State what a device that draws triangles can do beside the rest."""
+    """Define what a device that draws triangles can do in addition to a `Device`."""
 
     @abstractmethod
     def launch_raster(

@@ -1,4 +1,4 @@
-"""Ball arithmetic on float64 arrays: a midpoint and a radius that provably hold the exact value.
+"""Compute with balls on float64 arrays: a midpoint and a radius that provably hold the exact value.
 
 **Theory.** Rounding to nearest gives fl(a∘b) = (a∘b)(1 + e) + n with |e| <= u = 2^-53 and |n| <= 2^-1074 for + − × ÷ √
 (IEEE 754; n = 0 for + and −). A radius is computed from at most eight sums and products of non-negative floats, so that
@@ -27,7 +27,9 @@ ELEMENTARY = 2.0**-46
 
 
 class Balls:
-    """Balls, as arrays of midpoints and radii or as one number each.
+    """Hold balls: arrays of midpoints and radii of one shape [...], or one number each.
+
+    Operations go number by number, as numpy's do; their results have the shape to which numpy broadcasts the operands.
 
     The result of every operation holds the exact results for all members of its operands.
     """
@@ -55,7 +57,10 @@ class Balls:
         return Balls(mid, (spread + UNIT * np.abs(mid)) * GROW + TINY)
 
     def __truediv__(self, other: Balls) -> Balls:
-        """Return the quotient, by |a/b − ma/mb| <= (ra + |ma/mb| rb) / (|mb| − rb); its radius is NaN if b may be 0."""
+        """Return the quotient [...]; its radius is NaN where the divisor's ball holds 0.
+
+        The radius follows from |a/b − ma/mb| <= (ra + |ma/mb| rb) / (|mb| − rb).
+        """
         mid = self.mid / other.mid
         room = np.abs(other.mid) * (1.0 - 2.0**-50) - other.rad
         spread = (self.rad + np.abs(mid) * other.rad * GROW) / np.where(room > 0.0, room, np.nan)
@@ -73,12 +78,12 @@ class Balls:
 
     @property
     def sign(self) -> NDArray[np.int8]:
-        """Return +1 or −1 where the whole ball has that sign, else 0."""
+        """Return int8[...]: +1 or −1 where the whole ball has that sign, else 0."""
         return np.asarray(self.mid > self.rad).astype(np.int8) - np.asarray(self.mid < -self.rad).astype(np.int8)
 
     @property
     def excludes_zero(self) -> NDArray[np.bool_]:
-        """Return where the ball does not hold 0."""
+        """Return bool[...]: whether the ball does not hold 0."""
         return np.asarray(np.abs(self.mid) > self.rad)
 
 
@@ -89,13 +94,13 @@ def hull(lower: Any, upper: Any) -> Balls:
 
 
 def sqrt(a: Balls) -> Balls:
-    """Enclose the square roots of the members that are not negative; NaN where all are negative."""
+    """Enclose the square roots, [...], of the members that are not negative; NaN where all are negative."""
     lower, upper = np.sqrt(np.maximum(a.lower, 0.0)), np.sqrt(a.upper)
     return hull(lower * (1.0 - UNIT), upper * (1.0 + UNIT))
 
 
 def length(*parts: Balls) -> Balls:
-    """Enclose the square root of the sum of the squares."""
+    """Enclose the square root, [...], of the sum of the squares."""
     total = parts[0] * parts[0]
     for part in parts[1:]:
         total = total + part * part
@@ -114,7 +119,7 @@ def log(a: Balls) -> Balls:
 
 
 def _bounded(mid: Any, rad: Any) -> Balls:
-    """Return a value of sin or cos, whose slope and size are at most 1."""
+    """Return balls [...] about values `mid` of sin or cos, whose slope and size are at most 1."""
     return Balls(mid, np.minimum((rad + ELEMENTARY * np.abs(mid)) * GROW + TINY, 2.0))
 
 
@@ -135,7 +140,7 @@ def absolute(a: Balls) -> Balls:
 
 
 def minimum(a: Balls, b: Balls) -> Balls:
-    """Enclose the lesser of two numbers, by |min(a, b) − min(ma, mb)| <= max(ra, rb)."""
+    """Enclose the lesser of two numbers, [...], by |min(a, b) − min(ma, mb)| <= max(ra, rb)."""
     return Balls(np.minimum(a.mid, b.mid), _radius_of_one(b - a, a, b))
 
 
@@ -150,7 +155,7 @@ def _radius_of_one(ahead: Balls, a: Balls, b: Balls) -> Any:
 
 
 def pick(sign: Balls, a: Balls, b: Balls) -> Balls:
-    """Return `a` where `sign` is 1, `b` where it is −1, else a ball that holds both."""
+    """Return balls [...]: `a` where `sign` is 1, `b` where it is −1, else a ball that holds both."""
     open_ = sign.rad > 0.0
     both = hull(np.minimum(a.lower, b.lower), np.maximum(a.upper, b.upper))
     first = sign.mid > 0.0

@@ -1,4 +1,4 @@
-"""Isolates first roots of polynomials along many rays by Bernstein coefficients in float64, with rigorous error bounds.
+"""Isolate first roots of polynomials along many rays by Bernstein coefficients in float64, with rigorous error bounds.
 
 **Theory.** f is evaluated in ball arithmetic at degree + 1 dyadic nodes of the clip interval. The coefficients are M·f,
 where M is the exact inverse of the Bernstein collocation matrix, rounded once. A dot product of length m, in any order,
@@ -43,7 +43,7 @@ def _collocation(degree: int) -> tuple[Floats, Floats]:
 
 
 class BernsteinIsolator:
-    """Isolates the first roots of a polynomial along rays."""
+    """Isolate the first roots of a polynomial along rays."""
 
     def __init__(self, f: Enclosure) -> None:
         self.f = f

@@ -1,4 +1,4 @@
-"""Computes ranges of f and its slope on pieces of rays separately for both sides of a kink.
+"""Compute ranges of f and its slope on pieces of rays separately for both sides of a kink.
 
 **Theory.** A kink is a place where the argument u of an abs, min or max changes its sign. If that sign is not known on
 a piece, f is one function where u >= 0 and another where u <= 0. Almost everywhere its slope is that of one of the two.
@@ -27,7 +27,7 @@ def _is_zero(a: Dual) -> Mask:
 
 
 def _where(first: Mask, a: Balls, b: Balls) -> Balls:
-    """Return `a` where `first` holds, else `b`."""
+    """Return balls [...]: `a` where `first`, bool[...], holds, else `b`."""
     return Balls(np.where(first, a.mid, b.mid), np.where(first, a.rad, b.rad))
 
 
@@ -37,7 +37,7 @@ def _signs(side: Signs) -> Balls:
 
 
 class Branch:
-    """The functions of one run of a program in which each piece's first open kink lies on `side`, 1 or −1."""
+    """Define the functions of one run of a program in which each piece's first open kink lies on `side`, 1 or −1."""
 
     def __init__(self, side: int, shape: tuple[int, ...]) -> None:
         self.side = side

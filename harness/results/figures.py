@@ -1,4 +1,7 @@
-"""The figures of a row that are gated: those that the same program on the same device gives again to the last digit."""
+"""Read from a row the figures that are gated.
+
+The same program on the same device gives these figures again to the last digit.
+"""
 
 from __future__ import annotations
 
@@ -17,7 +20,7 @@ Value = float | int | None
 
 @dataclass(frozen=True)
 class Figure:
-    """Says of one gated figure which way is better, and by how much it may get worse before that counts.
+    """State which way one gated figure is better, and by how much it may get worse before that counts.
 
     It may get worse by `absolute` + `relative` × the baseline's. `read` finds it in a view's accuracy and `add_up` in a
     family's rungs; None where these do not have it. `unsaid` is the value that a baseline has which was blessed before
@@ -67,7 +70,7 @@ def _within(kind: str) -> Callable[[dict[str, Any]], Value]:
 
 
 def _invalid(found: dict[str, Any]) -> Value:
-    """Count the answers that can be none, in all classes."""
+    """Count the impossible answers, in all classes."""
     return int(sum(found.get(f"{kind}invalid", 0) for kind in ("", "grazing_", "drowned_")))
 
 
@@ -76,7 +79,7 @@ FIGURES: tuple[Figure, ...] = (
     _count("false_hits", "clear rays that hit nothing"),
     _count("exhausted", "clear rays that ran out of evaluations"),
     _count("wrong_root", "clear rays that hit a later root, or no root"),
-    Figure("invalid", "lower", 0.0, 0.0, "rays whose answer can be none, of whatever class",
+    Figure("invalid", "lower", 0.0, 0.0, "rays whose answer is impossible, of whatever class",
            _invalid, lambda rungs: sum(rung["invalid"] for rung in rungs), 0),
     _count("undecided", "rays that the oracle leaves undecided"),
     Figure("grazing_wrong", "lower", 2.0, 0.1, "wrong answers in the grazing class",
@@ -120,7 +123,7 @@ def figures(row: Row, claims: Iterable[str]) -> dict[str, Value]:
 def _disproved(claim: str, row: Row) -> bool:
     """Say whether this row contradicts the claim; one that no row can contradict stands for as long as it is stated.
 
-    An answer that can be none contradicts what is claimed of its ray, whatever the truth.
+    An impossible answer contradicts what is claimed of its ray, whatever the truth.
     """
     counts = [row["accuracy"]] if row["accuracy"] else row["rungs"]
     broken_by = BROKEN_BY.get(claim, ())

@@ -1,4 +1,4 @@
-"""Generates scenes of any number of instances: the same count and seed give the same scene everywhere."""
+"""Generate scenes of any number of instances: the same count and seed give the same scene everywhere."""
 
 from __future__ import annotations
 
@@ -136,7 +136,7 @@ def elbow(radius: str) -> Surface:
 
 @dataclass
 class _Assembly:
-    """Parts of pipes in the cells of a cubic lattice with `side` cells a side, `count` of them at most."""
+    """Hold parts of pipes in the cells of a cubic lattice with `side` cells a side, `count` of them at most."""
 
     count: int
     side: int

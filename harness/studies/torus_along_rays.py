@@ -1,4 +1,4 @@
-"""Computes the torus's quartic T along rays, and tests what toledo2007 says of it (section 4.2, equations 2 and 3).
+"""Compute the torus's quartic T along rays, and test what toledo2007 says of it (section 4.2, equations 2 and 3).
 
 The paper prints T's coefficients, says that T has "at most two local maximum and at most one local minimum", and splits
 a ray at t_M = -(o·v), the mean of the roots of T'. Here, one ray is computed for each shape of T that Figure 3 draws

@@ -116,12 +116,18 @@ class MethodKind(ABC):
     @property
     @abstractmethod
     def unlisted(self) -> str | None:
-        """Say why listed rays cannot be cast, in what follows the method's name in a sentence; None if they can."""
+        """Say why listed rays cannot be cast; None if they can.
+
+        The reason continues a sentence that begins with the method's name.
+        """
 
     @property
     @abstractmethod
     def undrawn(self) -> str | None:
-        """Say why stage raster cannot draw by the method, in what follows its name in a sentence; None if it can."""
+        """Say why stage raster cannot draw by the method; None if it can.
+
+        The reason continues a sentence that begins with the method's name.
+        """
 
     def stage_refusal(self, stage: Stage) -> str | None:
         """Say why the method cannot cast in a stage other than raster; None if it can."""
@@ -164,9 +170,10 @@ class MethodKind(ABC):
         return None
 
     def shot_refusal(self, camera: NDArray[np.float32] | None) -> str | None:
-        """Say why the method cannot cast a shot, in what follows its name in a sentence; None if it can.
+        """Say why the method cannot cast a shot; None if it can.
 
-        `camera`, float32[12], is the image's; None if the rays are of no camera.
+        The reason continues a sentence that begins with the method's name. `camera`, float32[12], is the camera whose
+        image the shot is; None if the rays are listed ones.
         """
         return self.unlisted if camera is None else None
 
@@ -180,7 +187,7 @@ class MethodKind(ABC):
 
     @abstractmethod
     def validated(self, hits: Hits, surface: Surface, shot: Shot) -> Hits:
-        """Mark those answers INVALID that can be none (harness.accuracy.answers); `hits` are of all rays of a shot."""
+        """Mark impossible answers INVALID (harness.accuracy.answers); `hits` [n] are of all rays of a shot."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -248,7 +255,7 @@ class Kind(ABC):
         return None
 
     def unable(self, asked: Asked) -> str | None:
-        """Say what only this kind refuses, whatever the surface; None if that is nothing."""
+        """Say why this kind refuses the cell, whatever the surface; None if it does not."""
         return None
 
     @abstractmethod

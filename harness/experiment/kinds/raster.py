@@ -120,6 +120,7 @@ class RasterCasting(ViewCasting):
         return None
 
     def with_programs(self, checked: Program | None, timed: Program) -> ViewCasting:
+        """Raise NotImplementedError: `not_raced` says why the frame is not timed against another revision's."""
         raise NotImplementedError(self.not_raced)
 
 
