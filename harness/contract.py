@@ -52,7 +52,7 @@ class RayStatus(IntEnum):
     """Name a method's answers for one ray.
 
     EXHAUSTED: the method gave up when its budget was spent; this is never reported as a miss
-    INVALID: what was read back is no answer (harness.accuracy.answers); a kernel never gives this status itself
+    INVALID: the answer is impossible (harness.accuracy.answers); a kernel never gives this status itself
     """
 
     MISS = 0

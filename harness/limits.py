@@ -82,7 +82,7 @@ class Distinct:
 
 
 def is_finite(value: float) -> bool:
-    """Say whether a number is one that a float can hold, of whole numbers too."""
+    """Tell whether a number is finite; a whole number that is too large for a float is not."""
     try:
         return math.isfinite(value)
     except OverflowError:  # a whole number of more than 308 digits

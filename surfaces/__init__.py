@@ -121,7 +121,7 @@ def from_formula(
 
 
 def _decimals(values: Mapping[str, str | float]) -> dict[str, str]:
-    """Return parameters as exact decimals. Raises FirsthitError for a text that is none."""
+    """Return parameters as exact decimals. Raises FirsthitError for a text that is no decimal."""
     from surfaces import formula
 
     texts = {name: value.strip() if isinstance(value, str) else repr(value) for name, value in values.items()}

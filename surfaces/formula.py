@@ -52,7 +52,7 @@ def __getattr__(name: str) -> Any:
 
 
 def exact(text: str) -> Fraction:
-    """Return a decimal number exactly. Raises FirsthitError if it is none, or past the range of float64."""
+    """Return a decimal number exactly. Raises FirsthitError for other text, and past the range of float64."""
     match = _NUMBER.fullmatch(text)
     if match is None or len(text) > 300:
         raise FirsthitError(f"{text[:40]!r} is not a decimal number")

@@ -120,7 +120,7 @@ class Builder:
         return self._known[key]
 
     def _split(self, index: int) -> tuple[Fraction, int | None]:
-        """Return a factor and the rest whose product an operation is; the rest is None for a rational constant."""
+        """Split an operation into a rational factor and the rest; the rest is None for a rational constant."""
         op = self.ops[index]
         if op.name == "const":
             return op.args[0], None
@@ -155,14 +155,14 @@ class Builder:
         return self.emit("neg", a)
 
     def _offset(self, index: int) -> tuple[int, Fraction]:
-        """Return rest and constant of a sum that ends in a rational constant; for others themselves and 0."""
+        """Split a sum that ends in a rational constant into the rest and the constant; others into themselves and 0."""
         op = self.ops[index]
         if op.name in ("add", "sub") and (offset := self.value(op.args[1])) is not None:
             return op.args[0], offset if op.name == "add" else -offset
         return index, Fraction(0)
 
     def _shifted(self, a: int, offset: Fraction) -> int:
-        """Return a + offset, merged with a constant that a already ends in."""
+        """Return a + offset, where a constant at the end of a and the offset become one constant."""
         rest, known = self._offset(a)
         total = known + offset
         if total == 0:

@@ -6,10 +6,10 @@ is not cut off, and it rounds t. So the domain is taken wider here by SLACK of i
 centre from the origin), and t may be off by as much; if rays are clipped at the eye, also by SLACK_OF_T of the eye's
 distance.
 
-These answers are INVALID: a hit elsewhere, a status that is none, a count of evaluations outside 0 … MOST_EVALUATIONS
-(the kernels' packing tells these two), and a hit without an evaluation. INVALID is a wrong answer of its own kind,
-whatever the truth. A count of 0 is allowed otherwise: a ray that passes the domain by spends none, and beams share
-theirs among pixels.
+These answers are INVALID: a hit elsewhere, a status that does not exist, a count of evaluations outside 0 …
+MOST_EVALUATIONS (the kernels' packing tells these two), and a hit without an evaluation. INVALID is a wrong answer of
+its own kind, whatever the truth. A count of 0 is allowed otherwise: a ray that passes the domain by spends none, and
+beams share theirs among pixels.
 """
 
 from __future__ import annotations

@@ -77,7 +77,7 @@ def case_of(degree: int, seed: int, count: int) -> Case:
 
 
 def seed_of(degree: int) -> int:
-    """Return the seed of the polynomial that `firsthit conform` takes for a degree."""
+    """Return the seed of the polynomial of a degree that `firsthit conform` takes."""
     return 100 * degree + 1
 
 

@@ -100,7 +100,10 @@ class LocalExecutor:
         return timing
 
     def release(self, device: str, key: str) -> None:
-        """Free what the frame under `key` holds on its device; does nothing if no frame is kept there."""
+        """Free what the frame under `key` holds on its device; do nothing if no frame is kept there.
+
+        Raises CellError if that fails.
+        """
         if self._warm.pop(key, None):
             self._call(device, "release", key)
 

@@ -163,8 +163,8 @@ def hits_from(outputs: Sequence[Array]) -> Hits:
 def unpacked(t: Array, word: Array, status: Array, evaluations: Array) -> Hits:
     """Return the answers [n] that are packed in `word`, int32[n].
 
-    `word` is negative if the kernel's status or count was none. `status` and `evaluations`, int32[n], are its parts
-    otherwise.
+    `word` is negative if the kernel gave a status that does not exist, or a count out of range. Otherwise `status` and
+    `evaluations`, int32[n], are the parts of `word`.
     """
     status = np.where(word < 0, RayStatus.INVALID, status).astype(np.uint8)
     spent = np.where(status == RayStatus.INVALID, 0, evaluations).astype(np.int32)

@@ -68,12 +68,12 @@ class Balls:
 
     @property
     def lower(self) -> Any:
-        """Return floats that are not above any member."""
+        """Return float64[...] that is not above any member."""
         return (self.mid - self.rad) - (np.abs(self.mid) + self.rad) * UNIT
 
     @property
     def upper(self) -> Any:
-        """Return floats that are not below any member."""
+        """Return float64[...] that is not below any member."""
         return (self.mid + self.rad) + (np.abs(self.mid) + self.rad) * UNIT
 
     @property

@@ -56,7 +56,7 @@ class Surd:
         return Surd(self.a * other.a + d * self.b * other.b, self.a * other.b + self.b * other.a, d)
 
     def __truediv__(self, other: Surd) -> Surd:
-        """Divide by a constant. Raises NotExact for a divisor that is none."""
+        """Divide by a constant. Raises NotExact for any other divisor."""
         if other.a.degree() > 0 or other.b.degree() > 0:
             raise NotExact("division by a polynomial")
         norm = (other.a * other.a - other.d * other.b * other.b)[0]

@@ -23,8 +23,8 @@ class Figure:
     """State which way one gated figure is better, and by how much it may get worse before that counts.
 
     It may get worse by `absolute` + `relative` × the baseline's. `read` finds it in a view's accuracy and `add_up` in a
-    family's rungs; None where these do not have it. `unsaid` is the value that a baseline has which was blessed before
-    the figure was counted; None: then it is not compared.
+    family's rungs; each is None where the figure is not found there. `unsaid` stands for the figure in a baseline that
+    was blessed before the figure existed; if it is None, such a baseline is not compared by this figure.
     """
 
     name: str
@@ -64,7 +64,10 @@ BROKEN_BY = {  # by claim, the counts that contradict it; only the first claim i
 
 
 def _within(kind: str) -> Callable[[dict[str, Any]], Value]:
-    """Make what adds up the wrong answers to `kind` rays; None for a row that is older than that class."""
+    """Make the function that adds up the wrong answers to rays of the class `kind`.
+
+    The function returns None for a row that is older than the class.
+    """
     names = [f"{kind}_{name}" for name in KINDS if name != "invalid"]
     return lambda found: sum(found[name] for name in names) if names[0] in found else None
 
@@ -121,7 +124,7 @@ def figures(row: Row, claims: Iterable[str]) -> dict[str, Value]:
 
 
 def _disproved(claim: str, row: Row) -> bool:
-    """Say whether this row contradicts the claim; one that no row can contradict stands for as long as it is stated.
+    """Tell whether this row contradicts a claim. A claim that no row can contradict holds while its method states it.
 
     An impossible answer contradicts what is claimed of its ray, whatever the truth.
     """

@@ -194,14 +194,14 @@ def _exactly(kind: type) -> Callable[[Any], Any]:
 
 
 def _real(value: Any) -> float:
-    """Read a number as a float. Raises TypeError where it is no number."""
+    """Read a number as a float. Raises TypeError for anything else."""
     if type(value) not in (int, float):
         raise TypeError
     return float(value)
 
 
 def _whole(value: Any) -> int:
-    """Read a whole number. Raises TypeError where it is none, and OverflowError where 64 bits cannot hold it."""
+    """Read a whole number. Raises TypeError for anything else, and OverflowError where 64 bits cannot hold it."""
     if type(value) is not int:
         raise TypeError
     if abs(value) >= 2**63:
@@ -210,7 +210,7 @@ def _whole(value: Any) -> int:
 
 
 def _reals(value: Any) -> list[float]:
-    """Read a list of numbers as floats. Raises TypeError where it is none."""
+    """Read a list of numbers as floats. Raises TypeError for anything else."""
     if type(value) is not list or not {float, int}.issuperset(map(type, value)):
         raise TypeError
     return list(map(float, value))

@@ -70,7 +70,7 @@ def bootstrap_interval(samples: Sequence[float], seed: int) -> tuple[float, floa
 
 
 def is_narrow(samples: Sequence[float], share: float) -> bool:
-    """Say whether the 95 % interval of the median exists and lies within ± `share` of it."""
+    """Tell whether the 95 % interval of the median exists and lies within ± `share` of it."""
     if not samples:
         return False
     median, lower, upper, proved = median_interval(samples)
@@ -78,7 +78,7 @@ def is_narrow(samples: Sequence[float], share: float) -> bool:
 
 
 def proves(count: int) -> bool:
-    """Say whether `count` samples are enough for a 95 % interval of their median."""
+    """Tell whether `count` samples are enough for a 95 % interval of their median."""
     return count > 0 and _rank(count) is not None
 
 

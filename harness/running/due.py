@@ -24,7 +24,7 @@ class Due:
 
 
 def due(planned: Sequence[Planned], store: Store, again: Again = "nothing") -> Due:
-    """Tell the cells that must run from those whose stored row is kept.
+    """Separate the cells that must run from those whose stored row is kept.
 
     A row that cannot be read counts as none; `store.unreadable` then says why.
     """

@@ -145,7 +145,7 @@ class _Assembly:
     total: int = 0
 
     def put(self, kind: str, at: Floats, turn: Directions, colour: Floats) -> None:
-        """Place a part at a point of the lattice, in cells; does nothing once there are `count` parts."""
+        """Place a part at a point of the lattice, in cells; do nothing once there are `count` parts."""
         if self.total < self.count:
             self.placed.setdefault(kind, []).append((at - 0.5 * (self.side - 1), turn, colour))
             self.total += 1
