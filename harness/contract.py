@@ -208,6 +208,7 @@ class Section:
 
     @property
     def hash(self) -> str:
+        """Return a hash of the text; the origin is no part of it."""
         return digest(self.text)
 
 
@@ -235,10 +236,12 @@ class Program:
 
     @property
     def text(self) -> str:
+        """Return the text that the compiler is given, without that of the vertices."""
         return source(self.sections)
 
     @property
     def hash(self) -> str:
+        """Return a hash of language, precision, entry and all texts, those of the vertices included."""
         texts = [*(s.text for s in self.sections), *(["vertex"] if self.vertex else []), *(s.text for s in self.vertex)]
         return digest(self.language, self.precision, self.entry, *texts, *([] if self.optimised else ["unoptimised"]))
 

@@ -15,6 +15,8 @@ from surfaces.words import suggestion
 
 
 class Limit(Protocol):
+    """Define a limit of a field: what stands beside the type in `Annotated`."""
+
     def broken(self, value: Any) -> str | None:
         """Say why a field cannot hold `value`; None where it can."""
 

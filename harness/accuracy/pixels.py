@@ -63,7 +63,7 @@ def pixels_of(camera: NDArray[np.float32], rays_per_side: int, size: int) -> Pix
 
 
 def along_rays(hits: Hits, pixels: Pixels) -> Hits:
-    """Return the answers of `pixels` with t along the rays that they hold."""
+    """Return the answers [n] of `pixels` with t along the rays that they hold."""
     return dataclasses.replace(hits, t=hits.t * pixels.per_middle)
 
 

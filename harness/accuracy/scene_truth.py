@@ -71,7 +71,7 @@ def scale_of(scene: Scene, picture: Picture) -> NDArray[np.float64]:
 
 
 def hits_of(scene: Scene, picture: Picture, origin: Origin = "nearest") -> Hits:
-    """Return what a frame with reporting programs answered for its n pixels, in world units.
+    """Return the hits [n] that a frame with reporting programs answered for its n pixels, in world units.
 
     Impossible answers are INVALID: the point that is seen has to lie in its surface's domain, or, on a triangle, in
     front of the eye. `origin` is where the fragments' t began.

@@ -90,7 +90,7 @@ class Bench:
     run: Callable[[Program, Rays], Hits]
 
     def cast(self, plugin: Plugin, case: Case, precision: Precision, **knobs: float) -> Hits:
-        """Cast a case's rays by a method with some of its knobs turned; impossible answers are INVALID.
+        """Return the hits [n] of a case's rays by a method with some of its knobs turned; impossible ones are INVALID.
 
         Raises FirsthitError for a knob that the method does not have, and what `run` raises.
         """

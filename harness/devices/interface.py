@@ -149,7 +149,7 @@ def launch_camera(device: Device, program: Program, built: Built, camera: NDArra
 
 
 def hits_from(outputs: Sequence[Array]) -> Hits:
-    """Read what a launch of entry `rays` or `camera` answered.
+    """Read the hits [n] that a launch of entry `rays` or `camera` answered.
 
     t of a listed ray comes in two parts, which are added in float64.
     """

@@ -155,6 +155,7 @@ def info(name: str) -> DeviceInfo:
 
 
 def open(name: str) -> OpenCLDevice:
+    """Open the device of that name, which is one of `names`."""
     return OpenCLDevice(name)
 
 

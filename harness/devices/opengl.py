@@ -111,6 +111,7 @@ def _compiler(renderer: str, version: str) -> str:
 
 
 def open(_name: str) -> OpenGLDevice:
+    """Open the OpenGL device; there is one, whatever the name."""
     return OpenGLDevice()
 
 

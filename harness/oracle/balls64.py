@@ -88,7 +88,7 @@ class Balls:
 
 
 def hull(lower: Any, upper: Any) -> Balls:
-    """Return a ball that holds [lower, upper]."""
+    """Return balls [...] that hold the intervals from `lower` to `upper`, each [...]."""
     mid = 0.5 * (lower + upper)
     return Balls(mid, (np.maximum(upper - mid, mid - lower) + UNIT * np.abs(mid)) * GROW + TINY)
 
@@ -108,11 +108,13 @@ def length(*parts: Balls) -> Balls:
 
 
 def exp(a: Balls) -> Balls:
+    """Enclose the exponentials, [...]."""
     mid = np.exp(a.mid)
     return Balls(mid, mid * (np.expm1(a.rad) * (1.0 + ELEMENTARY) + ELEMENTARY) * GROW + TINY)
 
 
 def log(a: Balls) -> Balls:
+    """Enclose the logarithms, [...]; the radius is NaN or infinite where a member is not positive."""
     lower, upper = np.log(a.lower), np.log(a.upper)
     wide = hull(lower, upper)
     return Balls(wide.mid, (wide.rad + ELEMENTARY * np.maximum(np.abs(lower), np.abs(upper))) * GROW + TINY)
@@ -124,18 +126,22 @@ def _bounded(mid: Any, rad: Any) -> Balls:
 
 
 def sin(a: Balls) -> Balls:
+    """Enclose the sines, [...]."""
     return _bounded(np.sin(a.mid), a.rad)
 
 
 def cos(a: Balls) -> Balls:
+    """Enclose the cosines, [...]."""
     return _bounded(np.cos(a.mid), a.rad)
 
 
 def tan(a: Balls) -> Balls:
+    """Enclose the tangents, [...]; the radius is NaN where the cosine may be 0."""
     return sin(a) / cos(a)
 
 
 def absolute(a: Balls) -> Balls:
+    """Enclose the absolute values, [...]."""
     return Balls(np.abs(a.mid), a.rad)
 
 
@@ -145,6 +151,7 @@ def minimum(a: Balls, b: Balls) -> Balls:
 
 
 def maximum(a: Balls, b: Balls) -> Balls:
+    """Enclose the greater of two numbers, [...], as `minimum` encloses the lesser."""
     return Balls(np.maximum(a.mid, b.mid), _radius_of_one(a - b, a, b))
 
 
@@ -166,7 +173,7 @@ def pick(sign: Balls, a: Balls, b: Balls) -> Balls:
 
 
 def share(part: Balls, whole: Balls) -> Balls:
-    """Enclose part / whole where |part| <= whole is known, so that the result never leaves [−1, 1]."""
+    """Enclose part / whole, [...], where |part| <= whole is known, so that the result never leaves [−1, 1]."""
     quotient = part / whole
     lower, upper = np.fmax(quotient.lower, -1.0), np.fmin(quotient.upper, 1.0)
     lower, upper = np.where(lower <= upper, lower, -1.0), np.where(lower <= upper, upper, 1.0)
@@ -175,12 +182,13 @@ def share(part: Balls, whole: Balls) -> Balls:
 
 
 def sign_range(a: Balls) -> Balls:
-    """Return the generalised derivative of abs: ±1, or [−1, 1] where the sign is not known."""
+    """Return the generalised derivative of abs, balls [...]: ±1, or [−1, 1] where the sign is not known."""
     sign = a.sign
     return Balls(sign.astype(np.float64), np.where(sign == 0, 1.0, 0.0))
 
 
 def half(a: Balls) -> Balls:
+    """Enclose the halves, [...]."""
     return Balls(0.5 * a.mid, 0.5 * a.rad + TINY)
 
 

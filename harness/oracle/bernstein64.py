@@ -26,7 +26,10 @@ NODE_BITS = 20
 
 @cache
 def _collocation(degree: int) -> tuple[Floats, Floats]:
-    """Return dyadic nodes in [0, 1] near the Chebyshev-Lobatto points, and the rounded inverse collocation matrix."""
+    """Return dyadic nodes near the Chebyshev-Lobatto points of [0, 1], and the rounded inverse collocation matrix.
+
+    With n = degree + 1, the nodes are float64[n] and the matrix is float64[n, n].
+    """
     from flint import fmpq, fmpq_mat
 
     count = degree + 1

@@ -22,7 +22,7 @@ Signs = NDArray[np.signedinteger]  # 1, 0 or −1
 
 
 def _is_zero(a: Dual) -> Mask:
-    """Return where a value is exactly 0."""
+    """Return bool[...]: whether a value is exactly 0."""
     return np.asarray((np.asarray(a.value.mid) == 0.0) & (np.asarray(a.value.rad) == 0.0))
 
 
@@ -32,7 +32,7 @@ def _where(first: Mask, a: Balls, b: Balls) -> Balls:
 
 
 def _signs(side: Signs) -> Balls:
-    """Return signs as balls: 1, −1, or [−1, 1] where a sign is 0."""
+    """Return signs int[...] as balls [...]: 1, −1, or [−1, 1] where a sign is 0."""
     return Balls(np.asarray(side, np.float64), np.where(side == 0, 1.0, 0.0))
 
 
@@ -51,19 +51,19 @@ class Branch:
         return {**smooth, "abs": self.absolute, "min": self.minimum, "max": self.maximum, "length": self.length}
 
     def of(self, a: Dual) -> Signs:
-        """Return what is known of the sign of `a`."""
+        """Return int[...]: 1 or −1 where the sign of `a` is known, else 0."""
         sign = np.broadcast_to(a.value.sign, self.free.shape)
         return np.where(sign != 0, sign, self.known[id(a)]) if id(a) in self.known else sign
 
     def settled(self, side: Signs) -> Signs:
-        """Return `side`, replaced by this run's own side in pieces whose first open kink this is."""
+        """Return `side`, int[...], replaced by this run's own side in pieces whose first open kink this is."""
         side = np.broadcast_to(side, self.free.shape)
         first = (side == 0) & self.free
         self.free &= ~first
         return np.where(first, self.side, side)
 
     def settle(self, a: Dual) -> Signs:
-        """Return the sign of `a`, which is chosen if it is not known, and remembered."""
+        """Return int[...], the sign of `a`, which is chosen if it is not known, and remembered."""
         self.known[id(a)] = self.settled(self.of(a))
         return self.known[id(a)]
 

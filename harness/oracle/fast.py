@@ -90,7 +90,10 @@ class FastSolver:
         return FastAnswers(decided, status, lower, upper)
 
     def _narrow(self, rays: Floats, segments: Segments) -> tuple[Floats, Floats]:
-        """Return certified [lower, upper] around each segment's root; NaN where the signs could not be proved."""
+        """Return certified bounds of each segment's root, float64[n] each: the lower and the upper.
+
+        They are NaN where the signs could not be proved.
+        """
         guess = self._guess(rays, segments)
         length = np.sqrt((rays[:, 3:] ** 2).sum(axis=1))
         direction = np.where(segments.rising, 1, -1)
@@ -107,7 +110,7 @@ class FastSolver:
         return lower, upper
 
     def _parity(self, rays: Floats, lower: Floats, upper: Floats) -> tuple[Mask, Mask]:
-        """Return where the root's multiplicity in f itself is odd, and where that is proved.
+        """Return bool[n] each: whether the root's multiplicity in f itself is odd, and whether that is proved.
 
         The interval holds one root of the radical, so that no factor has a second root there. The factors that vanish
         change their sign, and f changes its sign if their multiplicities add up to an odd number.

@@ -45,7 +45,7 @@ class FloatFunction:
         return np.asarray(np.broadcast_to(value, t.shape))
 
     def along(self, rays: Floats, t: Floats) -> Dual:
-        """Return f and df/dt, each in t's shape."""
+        """Return f and df/dt, each float64[n] or [n, k], in t's shape."""
         points = self.points(rays, t)
         return self._dual([Dual(p, _like(rays[:, 3 + k], t)) for k, p in enumerate(points)], t)
 

@@ -41,6 +41,8 @@ class Part:
 
 
 class Camera(TypedDict):
+    """Hold the place from which a view is seen."""
+
     azimuth: Annotated[float, "degrees around the z axis"]
     elevation: Annotated[float, "degrees above the plane z = 0"]
     fov: Annotated[float, "full vertical angle of view, degrees"]
@@ -48,6 +50,8 @@ class Camera(TypedDict):
 
 
 class Time(TypedDict):
+    """Hold the timed repetitions of a cell, and what they say together."""
+
     clock: Annotated[str, "whose clock the times are by: device or wall, the host's"]
     median_ms: Annotated[float, "median of samples_ms: the time of one frame, ms"]
     lower_ms: Annotated[float, "lower end of the median's 95 % order-statistic interval, ms"]
@@ -71,6 +75,8 @@ class Time(TypedDict):
 
 
 class Build(TypedDict):
+    """Hold what preparing a cell cost, apart from running it."""
+
     compile_ms: Annotated[float, "time to compile the timed frame, or the checked programs where none is timed, ms"]
     upload_ms: Annotated[float | None, "time to upload what the frame reads, ms; null where none is timed"]
     readback_ms: Annotated[float | None, "time to read the frame's answers back once, ms; null where none is timed"]
@@ -87,6 +93,8 @@ class Quantiles(TypedDict):
 
 
 class Lane(TypedDict):
+    """Hold what the work items of one level of beams spend, and how long their lanes wait."""
+
     level: Annotated[int, "of the quadtree; 0 is the whole picture"]
     items: Annotated[int, "work items of the level"]
     evaluations: Annotated[int, "evaluations of f that they spend together"]
@@ -99,6 +107,8 @@ KINDS = ("misses", "false_hits", "exhausted", "wrong_root", "invalid")  # of wro
 
 
 class Accuracy(TypedDict):
+    """Hold the accuracy of the answers of a cell that is cast from a view."""
+
     size: Annotated[int, Leaf("rays per side of the checked grid", column="accuracy_size")]
     rays: Annotated[int, Leaf("rays checked", column="accuracy_rays")]
     domain_rays: Annotated[int, "of these, rays that meet the domain"]
@@ -181,6 +191,8 @@ class RungVerdict(TypedDict):
 
 
 class NamedProgram(TypedDict):
+    """Name the program of a cell."""
+
     hash: Annotated[
         str,
         Leaf("names the text of the timed program, or of the checked one where none is timed", column="program_hash"),
@@ -188,6 +200,8 @@ class NamedProgram(TypedDict):
 
 
 class Environment(TypedDict):
+    """State when a row was written, and by which version of the project."""
+
     started: Annotated[str, "when the row was written, ISO 8601"]
     commit: Annotated[str | None, "the project's commit; null without git"]
     dirty: Annotated[bool, Leaf("whether files that git knows were changed since", column=None)]

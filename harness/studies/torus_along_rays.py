@@ -24,7 +24,10 @@ Vector = NDArray[np.float64]
 
 
 def _touching() -> tuple[Vector, Vector]:
-    """Return the ray in the plane y = 0 that touches one of the tube's circles and passes the centre of the other."""
+    """Return origin and direction, float64[3] each, of a ray in the plane y = 0.
+
+    The ray touches one of the tube's circles and passes the centre of the other.
+    """
     slope = TUBE / math.sqrt(4.0 * RING**2 - TUBE**2)
     return np.array([RING, 0.0, 0.0]), np.array([1.0, 0.0, -slope])
 
