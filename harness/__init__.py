@@ -1,4 +1,4 @@
-"""firsthit: which ray caster should draw this implicit surface on this device, and at what error?"""
+"""Answer which ray caster should draw this implicit surface on this device, and at what error?"""
 
 from pathlib import Path
 

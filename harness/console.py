@@ -1,4 +1,4 @@
-"""Prints what commands show: plain aligned tables, a line of progress, and warnings about rows."""
+"""Print what commands show: plain aligned tables, a line of progress, and warnings about rows."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def outcome(row: Row) -> str:
 
 
 class Progress:
-    """Shows how many cells are done, the current cell, and the time left.
+    """Show how many cells are done, the current cell, and the time left.
 
     On a terminal it is one line that is written again and again; elsewhere, a line for each finished cell.
     """

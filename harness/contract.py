@@ -47,10 +47,10 @@ BASELINE = "ray_march"  # the method that speed-ups are over where a config name
 
 
 class RayStatus(IntEnum):
-    """Names a method's answers for one ray.
+    """Name a method's answers for one ray.
 
     EXHAUSTED: the method gave up when its budget was spent; this is never reported as a miss
-    INVALID: what was read back is no answer (harness.accuracy.answers); a kernel never gives this status itself
+    INVALID: the answer is impossible (harness.accuracy.answers); a kernel never gives this status itself
     """
 
     MISS = 0
@@ -60,7 +60,7 @@ class RayStatus(IntEnum):
 
 
 class TruthStatus(IntEnum):
-    """Names the oracle's answers for one ray.
+    """Name the oracle's answers for one ray.
 
     CROSSING, TOUCH: at the first root f changes its sign, or touches zero without a change
     UNDECIDED: the oracle could prove neither of the others
@@ -73,7 +73,7 @@ class TruthStatus(IntEnum):
 
 
 class CellStatus(StrEnum):
-    """Names how a cell ended: measured, refused before it ran, or ended by an error, its time limit or a crash."""
+    """Name how a cell ended: measured, refused before it ran, or ended by an error, its time limit or a crash."""
 
     OK = "ok"
     SKIPPED = "skipped"
@@ -84,7 +84,7 @@ class CellStatus(StrEnum):
 
 @dataclass(frozen=True)
 class Parameter:
-    """Describes a method's knob. Kernels see it as a compile-time constant of this name.
+    """Describe a method's knob. Kernels see it as a compile-time constant of this name.
 
     name: in capitals
     default: its value where none is given; an int makes the knob a whole number
@@ -119,7 +119,7 @@ Tables = Callable[[Surface, Mapping[str, float | int], Precision], Mapping[str, 
 
 @dataclass(frozen=True)
 class Method:
-    """Describes a way to find a ray's first hit; the algorithm itself is `kernel.glsl` in the method's folder.
+    """Describe a way to find a ray's first hit; the algorithm itself is `kernel.glsl` in the method's folder.
 
     source: the paper or book that publishes it
     needs: generated functions that the kernel calls (harness.kernels.functions.FUNCTIONS)
@@ -159,7 +159,7 @@ class Method:
 
 @dataclass(frozen=True)
 class MeshRecipe:
-    """Says how a surface is tessellated: from its parametric form at N × N points, or as its contour on a grid."""
+    """State how a surface is tessellated: from its parametric form at N × N points, or as its contour on a grid."""
 
     kind: Literal["parametric", "contour"]
     resolution: int  # N, or the grid's cells along its longest side
@@ -167,7 +167,7 @@ class MeshRecipe:
 
 @dataclass(frozen=True)
 class Variant:
-    """A method with a value for each of its parameters; `parameters` holds all of them, sorted by name."""
+    """State a method with a value for each of its parameters; `parameters` holds all of them, sorted by name."""
 
     method: str
     parameters: tuple[tuple[str, float | int], ...] = ()
@@ -179,7 +179,7 @@ class Variant:
 
 @dataclass(frozen=True)
 class View:
-    """A perspective camera.
+    """State a perspective camera.
 
     azimuth, elevation: direction from the target to the eye, degrees; elevation 90 looks down the z axis
     fov: the full vertical angle of view, degrees
@@ -199,13 +199,14 @@ class View:
 
 @dataclass(frozen=True)
 class Section:
-    """A piece of program text; `origin` says where it is from: a path below the project, or `generated: …`."""
+    """Hold a piece of program text; `origin` says where it is from: a path below the project, or `generated: …`."""
 
     origin: str
     text: str
 
     @property
     def hash(self) -> str:
+        """Return a hash of the text; the origin is no part of it."""
         return digest(self.text)
 
 
@@ -216,7 +217,7 @@ def source(sections: Sequence[Section]) -> str:
 
 @dataclass(frozen=True)
 class Program:
-    """One program text for one compiler and precision.
+    """Hold one program text for one compiler and precision.
 
     entry: what it is started as: "rays", "camera", "beams", "map", "raster", "mesh" or "fill"
     sections: its text in order; for "raster" and "mesh" that of the fragments
@@ -233,10 +234,12 @@ class Program:
 
     @property
     def text(self) -> str:
+        """Return the text that the compiler is given, without that of the vertices."""
         return source(self.sections)
 
     @property
     def hash(self) -> str:
+        """Return a hash of language, precision, entry and all texts, those of the vertices included."""
         texts = [*(s.text for s in self.sections), *(["vertex"] if self.vertex else []), *(s.text for s in self.vertex)]
         return digest(self.language, self.precision, self.entry, *texts, *([] if self.optimised else ["unoptimised"]))
 
@@ -253,7 +256,7 @@ class Program:
 
 @dataclass(frozen=True)
 class DeviceInfo:
-    """Describes a device as its driver names it.
+    """Describe a device as its driver names it.
 
     name: what commands and rows call it, for example "opencl:intel"
     title: the hardware's own name
@@ -277,7 +280,7 @@ class DeviceInfo:
 
 @dataclass(frozen=True, eq=False)
 class Hits:
-    """Holds what a method answered for n rays."""
+    """Hold what a method answered for n rays."""
 
     t: NDArray[np.float64]  # [n] along the ray as given, scene units; NaN where status is not HIT
     status: NDArray[np.uint8]  # [n] RayStatus
@@ -292,7 +295,7 @@ class Hits:
 
 @dataclass(frozen=True, eq=False)
 class Truth:
-    """Holds the oracle's certified answers for n rays, and what sorts the rays into classes.
+    """Hold the oracle's certified answers for n rays, and what sorts the rays into classes.
 
     `lower`, `upper` and `status` are proved. The others are float64 estimates. They sort rays into classes, and never
     decide by themselves whether an answer is right.

@@ -1,4 +1,4 @@
-"""What a field may hold, stated on the field itself: `size: Annotated[int, Within(1, 4096)] = 128`.
+"""State on a field itself what it may hold: `size: Annotated[int, Within(1, 4096)] = 128`.
 
 A limit's `broken` says what is wrong with a value, or None where nothing is. harness.experiment.reading holds every
 field of a config against its limits, and adds the field's name, the file and the line.
@@ -15,13 +15,18 @@ from surfaces.words import suggestion
 
 
 class Limit(Protocol):
+    """Define a limit of a field: what stands beside the type in `Annotated`."""
+
     def broken(self, value: Any) -> str | None:
         """Say why a field cannot hold `value`; None where it can."""
 
 
 @dataclass(frozen=True)
 class Within:
-    """A number from `low` to `high`, both included. `words` tell a reader so; they may name value, low and high."""
+    """State that a number lies between `low` and `high`, both included.
+
+    `words` is the text of the mistake; it may name {value}, {low} and {high}.
+    """
 
     low: float
     high: float
@@ -35,7 +40,7 @@ class Within:
 
 @dataclass(frozen=True)
 class OneOf:
-    """One of a few values, or a list of such."""
+    """State that a value, or every item of a list, is one of a few values."""
 
     values: tuple[str | int, ...]
     words: str = "{value!r} is not one of {values}"
@@ -49,7 +54,7 @@ class OneOf:
 
 @dataclass(frozen=True)
 class Known:
-    """Names that are known, in a list or as the keys of a table.
+    """State that the names in a list, or the keys of a table, are known.
 
     `names` is called when a config is read, since it may have to import what it lists. With `or_all`, the list may be
     ["all"] instead.
@@ -78,7 +83,7 @@ class Named:
 
 @dataclass(frozen=True)
 class Distinct:
-    """A list that holds nothing twice. `names` gives what must differ, where it is not the items themselves."""
+    """State that a list holds nothing twice. `names` gives what must differ, where it is not the items themselves."""
 
     names: Callable[[Any], Sequence[Any]] = list
 
@@ -89,7 +94,7 @@ class Distinct:
 
 
 def is_finite(value: float) -> bool:
-    """Say whether a number is one that a float can hold, of whole numbers too."""
+    """Tell whether a number is finite; a whole number that is too large for a float is not."""
     try:
         return math.isfinite(value)
     except OverflowError:  # a whole number of more than 308 digits

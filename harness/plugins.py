@@ -23,7 +23,7 @@ AS_PRINTED = "as printed"  # a setting of every method that has a knob whose def
 
 @dataclass(frozen=True)
 class Plugin:
-    """Holds a method and the folder that its kernel is in."""
+    """Hold a method and the folder that its kernel is in."""
 
     method: Method
     folder: Path
@@ -79,7 +79,7 @@ class Plugin:
 
 @dataclass(frozen=True)
 class Catalog:
-    """Holds the methods that were found by name, and why other folders with a method.py could not be loaded."""
+    """Hold the methods that were found by name, and why other folders with a method.py could not be loaded."""
 
     plugins: dict[str, Plugin] = field(default_factory=dict)
     broken: dict[str, str] = field(default_factory=dict)

@@ -1,4 +1,4 @@
-"""Defines implicit surfaces: the catalog, formulas of one's own, and what is derived from them.
+"""Define implicit surfaces: the catalog, formulas of one's own, and what is derived from them.
 
     import surfaces
     torus = surfaces.get("torus", R="0.5")
@@ -31,6 +31,8 @@ __all__ = ["evaluate", "expression", "forms_of", "from_formula", "get", "gradien
 
 def __getattr__(name: str) -> Any:
     """Return a function of surfaces.evaluation, which is imported when it is first asked for.
+
+    Raises AttributeError for any other name.
 
     It needs numpy; harness.contract, and with it every command, imports this package for surfaces.model alone.
     """
@@ -118,7 +120,7 @@ def from_formula(
 
 
 def _decimals(values: Mapping[str, str | float]) -> dict[str, str]:
-    """Return parameters as exact decimals. Raises FirsthitError for a text that is none."""
+    """Return parameters as exact decimals. Raises FirsthitError for a text that is no decimal."""
     from surfaces import formula
 
     texts = {name: value.strip() if isinstance(value, str) else repr(value) for name, value in values.items()}

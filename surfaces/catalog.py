@@ -1,4 +1,4 @@
-"""Holds the catalog's surfaces without parameters: those of the papers, and hard ones with singular points.
+"""Hold the catalog's surfaces without parameters: those of the papers, and hard ones with singular points.
 
 Those with parameters are in `families`. Domains are spheres, as in szente, with a radius that shows all singular
 points; for cubics the cube of toledo2007's Fig. 2; and boxes where a sphere would mostly show tentacles.

@@ -1,4 +1,4 @@
-"""Makes entries of the catalog, with the facts that they may state.
+"""Make entries of the catalog, with the facts that they may state.
 
 A wrong transcription renders plausibly. Everything in `facts` is therefore recomputed by tests/test_catalog.py:
 

@@ -1,4 +1,4 @@
-"""Computes a surface's tape, its exact expression, and its values at numpy points."""
+"""Compute a surface's tape, its exact expression, and its values at numpy points."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ Floats64 = NDArray[np.float64]
 
 
 class Floats(Arithmetic):
-    """Runs a tape in float64 arrays of one shape."""
+    """Run a tape in float64 arrays of one shape."""
 
     def const(self, value: Fraction) -> np.float64:
         return np.float64(value.numerator / value.denominator)

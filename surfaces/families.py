@@ -1,4 +1,4 @@
-"""Holds the catalog's surfaces with parameters: each family makes a surface of exact decimals."""
+"""Hold the catalog's surfaces with parameters: each family makes a surface of exact decimals."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Holds other ways to write surfaces of the catalog: `surfaces.get("chmutov:nested")`.
+"""Hold other ways to write surfaces of the catalog: `surfaces.get("chmutov:nested")`.
 
 The catalog writes a surface as the paper that it is from prints it. A form is the same polynomial written in another
 way. Exact arithmetic cannot tell them apart; rounding and interval extensions can. Name, domain, parameters and facts

@@ -1,4 +1,4 @@
-"""Parses the formula language: turns text into a `Tape`, by a Pratt parser. Nothing is ever evaluated as Python.
+"""Parse the formula language: turn text into a `Tape`, by a Pratt parser. Nothing is ever evaluated as Python.
 
     formula  = numbers, x y z, parameters, constants, + - * / ^ (or **), parentheses, function calls
     constants: pi e phi sqrt2 sqrt3 sqrt5 (sqrt and any whole number)
@@ -40,7 +40,10 @@ _SIGN = 30
 
 
 def __getattr__(name: str) -> Any:
-    """Return X, Y or Z, the sympy symbols of `expression`; sympy is imported when one is first asked for."""
+    """Return X, Y or Z, the sympy symbols of `expression`; sympy is imported when one is first asked for.
+
+    Raises AttributeError for any other name.
+    """
     if name in ("X", "Y", "Z"):
         import sympy
 
@@ -49,7 +52,7 @@ def __getattr__(name: str) -> Any:
 
 
 def exact(text: str) -> Fraction:
-    """Return a decimal number exactly. Raises FirsthitError if it is none, or past the range of float64."""
+    """Return a decimal number exactly. Raises FirsthitError for other text, and past the range of float64."""
     match = _NUMBER.fullmatch(text)
     if match is None or len(text) > 300:
         raise FirsthitError(f"{text[:40]!r} is not a decimal number")
@@ -125,7 +128,7 @@ class _Token:
 
 
 class _Parser:
-    """Parses one formula by precedence climbing. The values of its methods are operations of one `Builder`.
+    """Parse one formula by precedence climbing. The values of its methods are operations of one `Builder`.
 
     Raises FirsthitError for a formula that is too long, and for a parameter's name that is no word or has a meaning.
     """

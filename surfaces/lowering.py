@@ -1,4 +1,4 @@
-"""Turns tapes into other tapes: with folded constants and powers by squaring, derivatives, coefficients along a ray.
+"""Turn tapes into other tapes: with folded constants and powers by squaring, derivatives, coefficients along a ray.
 
 Every pass is exact in exact arithmetic. Each keeps the written order of operations where it can, since the order
 decides rounding.
@@ -42,7 +42,7 @@ def enclosures(tape: Tape) -> dict[int, Enclosure]:
 
 
 class _Squaring(Builder):
-    """Builds whole powers as squares and products, so that powers of one base share them."""
+    """Build whole powers as squares and products, so that powers of one base share them."""
 
     def powi(self, a: int, n: int) -> int:
         if n <= 2:
@@ -61,7 +61,10 @@ def real_tape(tape: Tape) -> Tape:
 
 
 def _partials(b: Builder, op: Op, value: int) -> tuple[int, ...]:
-    """Return the derivatives of an operation by each of its inputs; `value` is the operation's own index."""
+    """Return the derivatives of an operation by each of its inputs; `value` is the operation's own index.
+
+    Raises ValueError for an operation that has none.
+    """
     a = op.args[0]
     one = b.const(1)
     match op.name:
@@ -151,7 +154,7 @@ def hessian_product(tape: Tape) -> Tape:
 
 
 class _Coefficients:
-    """The number system of polynomials in t over a builder's operations: coefficients, the lowest power first."""
+    """Define the number system of polynomials in t: lists of a builder's operations, the lowest power first."""
 
     def __init__(self, builder: Builder) -> None:
         self.b = builder

@@ -1,4 +1,4 @@
-"""Defines what a surface is: a formula in a domain. Imports nothing of ours.
+"""Define what a surface is: a formula in a domain. This module imports nothing else of the project.
 
 Lengths are in scene units, the surface's own coordinates.
 """
@@ -12,7 +12,10 @@ from typing import Any
 
 
 class FirsthitError(Exception):
-    """A problem the user can act on, in one line; `exit_code` 2 is usage or config, 3 a failure while running."""
+    """Report, in one line, a problem that the user can act on.
+
+    `exit_code` is 2 for mistakes of usage or config, and 3 for failures while running.
+    """
 
     def __init__(self, message: str, exit_code: int = 2) -> None:
         super().__init__(message)
@@ -26,7 +29,7 @@ def as_float32(value: float) -> float:
 
 @dataclass(frozen=True)
 class Sphere:
-    """A ball. Its numbers are rounded to float32, so that kernels and oracle clip by the same domain.
+    """Define a ball. Its numbers are rounded to float32, so that kernels and oracle clip by the same domain.
 
     Raises FirsthitError unless the radius is positive and the centre finite.
     """
@@ -43,9 +46,10 @@ class Sphere:
 
 @dataclass(frozen=True)
 class Box:
-    """An axis-aligned box. Its numbers are rounded to float32, so that kernels and oracle clip by the same domain.
+    """Define an axis-aligned box.
 
-    Raises FirsthitError unless lower < upper on every axis, all finite.
+    Its numbers are rounded to float32, so that kernels and oracle clip by the same domain. Raises FirsthitError unless
+    lower < upper on every axis, all finite.
     """
 
     lower: tuple[float, float, float]
@@ -76,7 +80,7 @@ Domain = Sphere | Box
 
 @dataclass(frozen=True)
 class Surface:
-    """An implicit surface f(x, y, z) = 0 in its domain; all else is derived from the formula.
+    """Define an implicit surface f(x, y, z) = 0 in its domain; all else is derived from the formula.
 
     What is stated beside the formula (`degree`, `distance`, `facts`) is recomputed by tests. `bounding_radius` is that
     of a sphere about the domain's centre that holds the surface; None where no better one than the domain's is known.

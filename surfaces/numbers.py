@@ -1,4 +1,4 @@
-"""Defines number systems that run a tape: certified balls, polynomials of balls, and sympy expressions.
+"""Define number systems that run a tape: certified balls, polynomials of balls, and sympy expressions.
 
 Each has a method for each operation of `surfaces.tape`. Balls need python-flint, Symbols need sympy; both are imported
 when they are first used. The system of numpy floats is in `evaluation`, so that parsing a formula needs no numpy. Their
@@ -12,7 +12,7 @@ from typing import Any
 
 
 class Arithmetic:
-    """The operations that number systems with Python operators share."""
+    """Define the operations that number systems with Python operators share."""
 
     def add(self, a: Any, b: Any) -> Any:
         return a + b
@@ -41,7 +41,7 @@ class Arithmetic:
 
 
 class Balls(Arithmetic):
-    """Runs a tape in flint.arb, at the precision of `flint.ctx`.
+    """Run a tape in flint.arb, at the precision of `flint.ctx`.
 
     Every result holds the exact values for all points of its inputs.
     """
@@ -102,7 +102,7 @@ class Balls(Arithmetic):
 
 
 class BallPolynomials(Balls):
-    """Runs a tape in flint.arb_poly; constants stay balls. With x, y, z as polynomials in t it gives f along a ray.
+    """Run a tape in flint.arb_poly; constants stay balls. With x, y, z as polynomials in t it gives f along a ray.
 
     It is only for tapes that are built as polynomials (`surfaces.formula.is_polynomial`).
     """
@@ -115,7 +115,7 @@ class BallPolynomials(Balls):
 
 
 class Symbols(Arithmetic):
-    """Runs a tape in sympy expressions. abs, min and max stay unevaluated: simplifying them can take forever."""
+    """Run a tape in sympy expressions. abs, min and max stay unevaluated: simplifying them can take forever."""
 
     def __init__(self) -> None:
         import sympy
@@ -174,7 +174,10 @@ def fractions_of(ball: Any) -> tuple[Fraction, Fraction]:
 
 
 def _bound(exact: Any, outward: int) -> Fraction:
-    """Return an exact flint.arb as a fraction, rounded away from zero to the side `outward` if it is tiny."""
+    """Return an exact flint.arb as a fraction, rounded to the side `outward`, −1 or 1, if it is tiny.
+
+    Raises OverflowError past 2^1100.
+    """
     mantissa, exponent = (int(part) for part in exact.man_exp())
     size = mantissa.bit_length() + exponent
     if size > 1100:

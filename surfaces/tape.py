@@ -1,4 +1,4 @@
-"""Defines straight-line programs. A surface is one `Tape`; every number system runs it by the same operation names.
+"""Define straight-line programs. A surface is one `Tape`; every number system runs it by the same operation names.
 
 The operations are `const` (a Fraction), `pi`, `e`, `var` (a name); `neg sqr sqrt exp log sin cos tan abs`; `powi` (a
 value and a whole exponent of 3 or more); `add sub mul div min max`. Derivatives of abs, min and max use two more:
@@ -19,7 +19,10 @@ UNARY = ("sqrt", "exp", "log", "sin", "cos", "tan")  # the functions that a form
 
 @dataclass(frozen=True, slots=True)
 class Op:
-    """One operation. `args` are indices of earlier ones, but const has (Fraction,), var (name,), powi (index, n)."""
+    """Hold one operation.
+
+    `args` are indices of earlier operations, except that const has (Fraction,), var (name,) and powi (index, n).
+    """
 
     name: str
     args: tuple[Any, ...] = ()
@@ -34,7 +37,7 @@ class Op:
 
 @dataclass(frozen=True)
 class Tape:
-    """Operations, each after its inputs, and the indices of those that are the results."""
+    """Hold operations, each after its inputs, and the indices of those that are the results."""
 
     ops: tuple[Op, ...]
     outputs: tuple[int, ...]
@@ -82,7 +85,7 @@ def walk(tape: Tape, numbers: Any, variables: Mapping[str, Number] | Callable[[s
 
 
 class Builder:
-    """The number system whose numbers are indices of operations, by which tapes are built.
+    """Build tapes: a number system whose numbers are the indices of operations that it has recorded.
 
     Equal subexpressions become one operation, and rational constants are folded. Operations stay in the order written,
     since it decides rounding; only sums and products with exact constants are rearranged.
@@ -98,11 +101,11 @@ class Builder:
         return Tape(tuple(self.ops), outputs).pruned()
 
     def is_constant(self, index: int) -> bool:
-        """Return whether an operation depends on no variable."""
+        """Tell whether an operation depends on no variable."""
         return self._constant[index]
 
     def value(self, index: int) -> Fraction | None:
-        """Return the rational number that an operation is, or None if it is none."""
+        """Return the rational number of a constant operation; None for any other operation."""
         op = self.ops[index]
         return op.args[0] if op.name == "const" else None
 
@@ -117,7 +120,7 @@ class Builder:
         return self._known[key]
 
     def _split(self, index: int) -> tuple[Fraction, int | None]:
-        """Return a factor and the rest whose product an operation is; the rest is None for a rational constant."""
+        """Split an operation into a rational factor and the rest; the rest is None for a rational constant."""
         op = self.ops[index]
         if op.name == "const":
             return op.args[0], None
@@ -152,14 +155,14 @@ class Builder:
         return self.emit("neg", a)
 
     def _offset(self, index: int) -> tuple[int, Fraction]:
-        """Return rest and constant of a sum that ends in a rational constant; for others themselves and 0."""
+        """Split a sum that ends in a rational constant into the rest and the constant; others into themselves and 0."""
         op = self.ops[index]
         if op.name in ("add", "sub") and (offset := self.value(op.args[1])) is not None:
             return op.args[0], offset if op.name == "add" else -offset
         return index, Fraction(0)
 
     def _shifted(self, a: int, offset: Fraction) -> int:
-        """Return a + offset, merged with a constant that a already ends in."""
+        """Return a + offset, where a constant at the end of a and the offset become one constant."""
         rest, known = self._offset(a)
         total = known + offset
         if total == 0:
@@ -214,6 +217,7 @@ class Builder:
         return self.sqr(a) if a == b else self.emit("mul", a, b)
 
     def div(self, a: int, b: int) -> int:
+        """Return the quotient of two operations. Raises ZeroDivisionError if the divisor is the constant 0."""
         divisor = self.value(b)
         if divisor == 0:
             raise ZeroDivisionError("division by zero")

@@ -1,4 +1,4 @@
-"""Proves by ball arithmetic on boxes that f is defined all over its domain, or refuses the formula."""
+"""Prove by ball arithmetic on boxes that f is defined all over its domain, or refuse the formula."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The words by which a mistaken name is answered."""
+"""Make the words by which a mistaken name is answered."""
 
 from __future__ import annotations
 

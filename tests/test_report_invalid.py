@@ -1,4 +1,4 @@
-"""Answers that can be none, and hits that nobody decided, in a report."""
+"""Impossible answers, and hits that nobody decided, in a report."""
 
 from __future__ import annotations
 

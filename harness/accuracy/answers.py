@@ -1,4 +1,4 @@
-"""Mark the answers of a kernel that can be no answers, where they are read back and the surface is known.
+"""Mark the impossible answers of a kernel, where they are read back and the surface is known.
 
 A hit must have a finite t inside the interval that its ray spends in the domain, from t_min on. The kernel knows that
 interval to float32 only. It widens the domain by a few roundings, so that a surface that touches the domain's boundary
@@ -6,10 +6,10 @@ is not cut off, and it rounds t. So the domain is taken wider here by SLACK of i
 centre from the origin), and t may be off by as much; if rays are clipped at the eye, also by SLACK_OF_T of the eye's
 distance.
 
-These answers are INVALID: a hit elsewhere, a status that is none, a count of evaluations outside 0 … MOST_EVALUATIONS
-(the kernels' packing tells these two), and a hit without an evaluation. INVALID is a wrong answer of its own kind,
-whatever the truth. A count of 0 is allowed otherwise: a ray that passes the domain by spends none, and beams share
-theirs among pixels.
+These answers are INVALID: a hit elsewhere, a status that does not exist, a count of evaluations outside 0 …
+MOST_EVALUATIONS (the kernels' packing tells these two), and a hit without an evaluation. INVALID is a wrong answer of
+its own kind, whatever the truth. A count of 0 is allowed otherwise: a ray that passes the domain by spends none, and
+beams share theirs among pixels.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ def validated(
     counts: bool = True,
     origin: Origin = "nearest",
 ) -> Hits:
-    """Return the answers for rays float32[n, 6], with those that can be none marked INVALID, and their t NaN.
+    """Return the answers for rays float32[n, 6], with impossible answers marked INVALID, and their t NaN.
 
     With `counts` a ray that hits must have spent an evaluation of its own. Rays behind a prepass need not, since the
     prepass shares its evaluations among the rays of a tile. `origin` is where the program's t began.
@@ -66,7 +66,7 @@ def reachable(
 def _within(
     domain: Domain, rays: NDArray[np.float32], t: NDArray[np.float64], t_min: float, off: float
 ) -> NDArray[np.bool_]:
-    """Return what `reachable` does, if the domain's ends and t may be off by `off`, in scene units."""
+    """Return bool[n] as `reachable` does, where the domain's ends and t may be off by `off`, in scene units."""
     reach = clip_many(_widened(domain, off), rays.astype(np.float64))
     lower, upper = np.maximum(reach.enter_lower, t_min) - off, reach.leave_upper + off
     return np.asarray(~reach.missed & (lower <= t) & (t <= upper))

@@ -6,6 +6,7 @@ same for every kind: truth, verdicts, the figures of the row, its pictures, and 
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, cast
@@ -18,13 +19,13 @@ from harness.accuracy.judge import Deviations, Verdicts
 from harness.accuracy.pictures import pictures_of
 from harness.contract import Hits, Precision, Surface, Truth
 from harness.oracle import cached_first_hits
-from harness.results.row import Accuracy
+from harness.results.row import Accuracy, Lane
 from harness.scenes.camera import meets, scene_radius
 
 
 @dataclass(frozen=True, eq=False)
 class Certified:
-    """Holds the oracle's answers for the rays of a cast; a kind that asks it for more derives from this class."""
+    """Hold the oracle's answers for the rays of a cast; a kind that asks it for more derives from this class."""
 
     truth: Truth
 
@@ -47,7 +48,7 @@ class Cast:
     rays: NDArray[np.float32]
     hits: Hits
     compile_ms: float
-    facts: dict[str, Any]
+    facts: Mapping[str, int | float | list[Lane] | None]
     pictures: dict[str, NDArray[Any]]
 
     def certified(self, folder: Path, margin: float) -> Certified:
@@ -95,7 +96,7 @@ def figures(
     )
     inside = int(meets(surface.domain, answered.rays).sum())
     pictures = pictures_of(surface, answered.rays, answered.hits, truth, verdicts, size)
-    found = {"size": size, "domain_rays": inside} | summary | corrected | answered.facts
+    found = {"size": size, "domain_rays": inside, **summary, **corrected, **answered.facts}
     return cast(Accuracy, found), pictures | answered.pictures
 
 

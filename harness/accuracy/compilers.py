@@ -201,5 +201,5 @@ def _stay(domain: Domain, rays: NDArray[np.float32], t_min: float) -> tuple[Floa
 
 
 def _some(hits: Hits, index: Index) -> Hits:
-    """Return the hits of the rays at the places `index`."""
+    """Return the hits [k] of the rays at the places `index`, int[k]."""
     return Hits(hits.t[index], hits.status[index], hits.evaluations[index])

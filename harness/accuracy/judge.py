@@ -24,7 +24,7 @@ class Wrong(IntEnum):
     """Name what is wrong with one answer.
 
     WRONG_ROOT: the hit is at a later root, or at a place that is no root at all
-    INVALID: the answer can be none, whatever the truth (harness.accuracy.answers)
+    INVALID: the answer is impossible, whatever the truth (harness.accuracy.answers)
     """
 
     RIGHT = 0
@@ -103,10 +103,10 @@ def judged(truth: Truth, verdicts: Verdicts) -> NDArray[np.bool_]:
 
 
 def undecided_hits(truth_hits: int, undecided: int, most: float, what: str = "hits") -> str | None:
-    """Say why a truth with so many decided and undecided hits measures no error; None if it does.
+    """Say why a truth with so many undecided hits cannot tell the accuracy; None if it can.
 
-    `most` is the share of undecided ones, of both together, that is allowed. If all rays are proved to miss, they are
-    judged by their misses.
+    `truth_hits` counts the decided hits. `most` is the largest share of undecided hits that is allowed, of both
+    together. If all rays are proved to miss, they are judged by their misses.
     """
     both = truth_hits + undecided
     if undecided <= most * both:

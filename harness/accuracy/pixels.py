@@ -63,14 +63,14 @@ def pixels_of(camera: NDArray[np.float32], rays_per_side: int, size: int) -> Pix
 
 
 def along_rays(hits: Hits, pixels: Pixels) -> Hits:
-    """Return the answers of `pixels` with t along the rays that they hold."""
+    """Return the answers [n] of `pixels` with t along the rays that they hold."""
     return dataclasses.replace(hits, t=hits.t * pixels.per_middle)
 
 
 def set_apart(verdicts: Verdicts, hits: Hits, truth: Truth, pixels: Pixels) -> tuple[Verdicts, NDArray[np.bool_]]:
-    """Call those answers right whose surface only the beam can see, and return bool[n], which these are.
+    """Count as right the hits of beams on surface that the beam meets and its ray passes by.
 
-    `hits` are along the rays.
+    Returns the verdicts, and bool[n]: the hits that were wrong before. `hits` are along the rays.
     """
     with np.errstate(invalid="ignore"):
         seen = truth.margin <= pixels.reach * hits.t

@@ -18,8 +18,7 @@ formula.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from typing import Any, TypeVar
+from typing import TypeVar
 
 import numpy as np
 
@@ -97,6 +96,6 @@ def _part(whole: PerRay, part: slice) -> PerRay:
     return type(whole)(**{name: values[part] for name, values in vars(whole).items()})
 
 
-def share_right(verdict: Mapping[str, Any]) -> float | None:
+def share_right(verdict: RungVerdict) -> float | None:
     """Return the share of decided rays answered rightly; None where there are none, so that nothing can be said."""
     return verdict["right"] / verdict["decided"] if verdict["decided"] else None

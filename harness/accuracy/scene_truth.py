@@ -71,10 +71,10 @@ def scale_of(scene: Scene, picture: Picture) -> NDArray[np.float64]:
 
 
 def hits_of(scene: Scene, picture: Picture, origin: Origin = "nearest") -> Hits:
-    """Return what a frame with reporting programs answered for its n pixels, in world units.
+    """Return the hits [n] that a frame with reporting programs answered for its n pixels, in world units.
 
-    A pixel whose answer can be none is INVALID: what is seen has to lie in its surface's domain, a triangle in front of
-    the eye. `origin` is where the fragments' t began.
+    Impossible answers are INVALID: the point that is seen has to lie in its surface's domain, or, on a triangle, in
+    front of the eye. `origin` is where the fragments' t began.
     """
     possible = picture.in_world & (picture.t >= 0.0)
     for number, group in enumerate(scene.groups):
@@ -115,7 +115,10 @@ def scene_truth(scene: Scene, rays: NDArray[np.float32], picture: Picture, folde
 
 
 def _candidates(group: Group, rays: NDArray[np.float64], margin: float) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Return the pairs (ray, instance) whose ray passes the instance's bounding sphere within `margin`."""
+    """Find the pairs of a ray and an instance whose bounding sphere the ray meets, or passes within `margin`.
+
+    Returns the numbers of the rays and of the instances, int[k] each; `rays` is float64[n, 6], `margin` in world units.
+    """
     origins, directions = rays[:, :3], rays[:, 3:]
     pixels, instances = [], []
     step = max(1, CHUNK // len(rays))

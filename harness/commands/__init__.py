@@ -39,7 +39,7 @@ GROUPS: dict[str, dict[str, str]] = {
 
 
 class Add(Protocol):
-    """Adds the parser of a command of GROUPS.
+    """Add the parser of a command of GROUPS.
 
     Its help is what GROUPS says of the command, and so is its description where none is given.
     """

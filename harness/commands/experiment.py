@@ -86,7 +86,7 @@ def _state(planned: Planned, row: Row | None) -> str:
 
 
 class _Printer(Watcher):
-    """Prints what a run does: progress and warnings on standard error, results on standard output."""
+    """Print what a run does: progress and warnings on standard error, results on standard output."""
 
     def __init__(self) -> None:
         self._progress = console.Progress(0, 0.0)
@@ -160,6 +160,7 @@ def _why_again(row: Row, catalog: Catalog) -> None:
 
 
 def _report(options: argparse.Namespace) -> int:
+    """Build a report. Raises FirsthitError if a package is missing, or if --baseline is given with two runs."""
     try:
         from reports import compare, report
 

@@ -54,7 +54,7 @@ def _add_shared(parser: argparse.ArgumentParser) -> None:
 
 
 def _path(options: argparse.Namespace) -> Path:
-    """Return the baseline's file: the one given, else that of the config's name in the folder `baselines` beside it."""
+    """Return the path of the baseline's file: --baseline if it is given, else baselines/NAME.toml beside NAME.toml."""
     path: Path = options.baseline or options.config.parent / "baselines" / options.config.name
     return path
 
@@ -96,6 +96,7 @@ def _tell(options: argparse.Namespace, checked: Checked, judged: list[Judged], p
 
 
 def _bless(options: argparse.Namespace) -> int:
+    """Run the config's cells, and keep their rows as the baseline. Raises FirsthitError if the reason is empty."""
     if not options.reason.strip():
         raise FirsthitError("--reason: say why the results are as they should be")
     options.config = located(options.config)

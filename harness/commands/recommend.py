@@ -69,7 +69,7 @@ def _tell(line: str) -> None:
 
 
 def _answer(found: Recommendation, wish: Wish) -> str:
-    """Say what was recommended, how fast and how sure that is, and why the other variants fell."""
+    """Say which variant is recommended, how fast and how certain it is, and why the other variants were dropped."""
     device = found.device
     bound = f"a {wish.quantile} error of {wish.error:.2g}"
     if not found.contenders:

@@ -44,6 +44,7 @@ def _chosen(scenes: tuple[Scene, ...], name: str | None, path: Path) -> Scene:
 
 
 def _scene(options: argparse.Namespace) -> int:
+    """Draw a config's scene into a file. Raises FirsthitError for a size that no image has."""
     need_pillow()
     from PIL import Image
 

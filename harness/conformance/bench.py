@@ -25,7 +25,7 @@ def bench_on(executor: LocalExecutor, info: DeviceInfo) -> Bench:
     """Make the bench that runs kernels in the executor's worker for a device. Its `run` raises CellError."""
 
     def run(program: Program, rays: Rays) -> Hits:
-        """Build a program of listed rays and cast these."""
+        """Build a program of listed rays, cast the rays float32[n, 6], and return the hits [n]."""
         return executor.check(info.name, ListedCheck(program, rays)).answer
 
     return Bench(info.name, LANGUAGES[info.name.partition(":")[0]], info.float64, run)

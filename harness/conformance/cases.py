@@ -40,7 +40,7 @@ T = TypeVar("T", Truth, Hits)
 
 @dataclass(frozen=True, eq=False)
 class Case:
-    """Holds a surface, rays float32[n, 6] at it, and their certified answers.
+    """Hold a surface, rays float32[n, 6] at it, and their certified answers.
 
     `views` holds name and count of each part of the rays, in their order; it is empty where they are of no view.
     """
@@ -82,7 +82,7 @@ class Case:
 
 @dataclass(frozen=True, eq=False)
 class Bench:
-    """Runs kernels on one device: `run` builds a program of listed rays and casts float32[n, 6]."""
+    """Run kernels on one device: `run` builds a program of listed rays and casts float32[n, 6]."""
 
     device: str
     language: Language
@@ -90,7 +90,7 @@ class Bench:
     run: Callable[[Program, Rays], Hits]
 
     def cast(self, plugin: Plugin, case: Case, precision: Precision, **knobs: float) -> Hits:
-        """Cast a case's rays by a method with some of its knobs turned; impossible answers are INVALID.
+        """Return the hits [n] of a case's rays by a method with some of its knobs turned; impossible ones are INVALID.
 
         Raises FirsthitError for a knob that the method does not have, and what `run` raises.
         """
@@ -101,7 +101,7 @@ class Bench:
 
 @dataclass(frozen=True)
 class Finding:
-    """Holds one check's outcome.
+    """Hold one check's outcome.
 
     The check holds where `value <= limit`, and so never where the value is NaN, of which nothing is known.
 

@@ -68,9 +68,10 @@ def same_bits(hits: Hits, again: Hits) -> Finding:
 
 
 def agreement(hits: Hits, case: Case, precision: Precision, setting: str = "") -> Iterator[Finding]:
-    """Check view by view that on clear rays nearly every answer is right, and that right hits are near their roots.
+    """Check, in each view, that nearly all answers on clear rays are right, and that right hits are near their roots.
 
-    `setting` names the paper's setting that the answers are of, which may be weaker than the default, "".
+    `setting` is the name of the paper's setting by which the method answered, or "" for the method's default. A setting
+    of a paper may be weaker than the default, and has looser limits.
     """
     for view, part, answered in case.parts(hits):
         yield from _agreement(f", view {view}" if view else "", part, answered, precision, setting)

@@ -1,9 +1,11 @@
-"""Make cases of dense random polynomials, of every degree that a method may accept, and rays at them.
+"""Make test cases from dense random polynomials of every degree that a method may accept.
 
-A catalog has few degrees, and formulas that mathematicians like: sparse, even and symmetric ones. None of them shows
-what a fit, a table or a compiler does at degree 18 with forty terms. A polynomial here is the sum of TERMS random
-monomials of degrees up to its own, with coefficients in [-1, 1], of 0.8 x^degree, so that it has that degree, and of a
-constant that makes it zero at a point inside the domain, so that rays meet it.
+The surfaces of the catalog have few different degrees, and their formulas are sparse, even or symmetric. None of them
+shows what a fit, a table or a compiler does at degree 18 with forty terms. A polynomial of this module is the sum of
+
+- TERMS random monomials of degrees up to its own, with coefficients in [-1, 1],
+- 0.8 x^degree, so that the polynomial has that degree, and
+- a constant that makes it zero at a point inside the domain, so that rays meet the surface.
 """
 
 from __future__ import annotations
@@ -75,7 +77,7 @@ def case_of(degree: int, seed: int, count: int) -> Case:
 
 
 def seed_of(degree: int) -> int:
-    """Return the seed of the polynomial that `firsthit conform` takes for a degree."""
+    """Return the seed of the polynomial of a degree that `firsthit conform` takes."""
     return 100 * degree + 1
 
 

@@ -69,12 +69,12 @@ class LocalExecutor:
         return sorted({Path(fields[5]) for fields in mapped if len(fields) == 6 and "x" in fields[1]})
 
     def probe(self, device: str) -> Probes:
-        """Probe a device's arithmetic and clock, as harness.devices.probes does."""
+        """Probe a device's arithmetic and clock, as harness.devices.probes does. Raises CellError if that fails."""
         probes: Probes = self._call(device, "probe")
         return probes
 
     def build(self, device: str, program: Program) -> float:
-        """Compile a program, do nothing else, and return the milliseconds that it took."""
+        """Compile a program, and return the milliseconds that it took. Raises CellError if that fails."""
         compile_ms: float = self._call(device, "build", program)
         return compile_ms
 
@@ -84,7 +84,7 @@ class LocalExecutor:
         return checked
 
     def warm(self, device: str, key: str, frame: Frame) -> Warmed:
-        """Build a frame and keep it under `key`, ready for `sample`."""
+        """Build a frame and keep it under `key`, ready for `sample`. Raises CellError if that fails."""
         warmed: Warmed = self._call(device, "warm", key, frame)
         self._warm[key] = device
         return warmed
@@ -92,7 +92,7 @@ class LocalExecutor:
     def sample(self, device: str, key: str, frame: Frame, batch: int) -> Timing:
         """Time one repetition: `batch` runs of the frame that is kept under `key`.
 
-        If its worker has been restarted since, the frame is warmed again first.
+        If its worker has been restarted since, the frame is warmed again first. Raises CellError if either fails.
         """
         if key not in self._warm:
             self.warm(device, key, frame)
@@ -100,7 +100,10 @@ class LocalExecutor:
         return timing
 
     def release(self, device: str, key: str) -> None:
-        """Free what the frame under `key` holds on its device; does nothing if no frame is kept there."""
+        """Free what the frame under `key` holds on its device; do nothing if no frame is kept there.
+
+        Raises CellError if that fails.
+        """
         if self._warm.pop(key, None):
             self._call(device, "release", key)
 
@@ -129,6 +132,10 @@ class LocalExecutor:
             return stopped.process.wait()
 
     def _call(self, device: str, operation: str, *arguments: Any) -> Any:
+        """Ask the worker of `device` for an operation, and return its result.
+
+        The worker is started if none runs. Raises CellError if the operation fails, takes too long or ends the worker.
+        """
         fresh = device not in self._processes
         worker = self._start(device)
         limit = self._timeout + (START_SECONDS if fresh else 0.0)

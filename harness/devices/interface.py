@@ -67,7 +67,7 @@ class Reserved:
     fill: int | None = None
 
     def filled(self) -> Array:
-        """Return what the buffer starts with; `fill` must be given."""
+        """Return what the buffer starts with, [max(1, count)] of the type `kind`; `fill` must be given."""
         assert self.fill is not None
         return np.full(max(1, self.count), self.fill, self.kind)
 
@@ -89,10 +89,11 @@ class Launch(ABC):
 
     @abstractmethod
     def read(self) -> list[Array]:
-        """Read back the outputs, in the order in which they were asked for."""
+        """Read back the outputs, in the order in which they were asked for: each is one-dimensional, [count]."""
 
     @abstractmethod
-    def release(self) -> None: ...
+    def release(self) -> None:
+        """Free the buffers on the device. The launch cannot be run or read afterwards."""
 
 
 class Device(ABC):
@@ -148,7 +149,7 @@ def launch_camera(device: Device, program: Program, built: Built, camera: NDArra
 
 
 def hits_from(outputs: Sequence[Array]) -> Hits:
-    """Read what a launch of entry `rays` or `camera` answered.
+    """Read the hits [n] that a launch of entry `rays` or `camera` answered.
 
     t of a listed ray comes in two parts, which are added in float64.
     """
@@ -162,8 +163,8 @@ def hits_from(outputs: Sequence[Array]) -> Hits:
 def unpacked(t: Array, word: Array, status: Array, evaluations: Array) -> Hits:
     """Return the answers [n] that are packed in `word`, int32[n].
 
-    `word` is negative if the kernel's status or count was none. `status` and `evaluations`, int32[n], are its parts
-    otherwise.
+    `word` is negative if the kernel gave a status that does not exist, or a count out of range. Otherwise `status` and
+    `evaluations`, int32[n], are the parts of `word`.
     """
     status = np.where(word < 0, RayStatus.INVALID, status).astype(np.uint8)
     spent = np.where(status == RayStatus.INVALID, 0, evaluations).astype(np.int32)
@@ -171,7 +172,7 @@ def unpacked(t: Array, word: Array, status: Array, evaluations: Array) -> Hits:
 
 
 def same_values(a: NDArray[Any], b: NDArray[Any]) -> NDArray[np.bool_]:
-    """Return bool of the arrays' shape: where two arrays of one shape and type have the same bits.
+    """Return bool[...], of the arrays' own shape: where two arrays of one shape and type have the same bits.
 
     Every NaN is the same.
     """

@@ -106,7 +106,7 @@ def spent_by_items(
 
 
 def _all_cells(tree: Tree) -> tuple[Whole, Whole]:
-    """Return column and row of each work item's cell at the first level."""
+    """Return column and row, int[items] each, of each work item's cell at the first level."""
     items = np.arange(4**tree.first)
     if not tree.grouped:
         return items & ((1 << tree.first) - 1), items >> tree.first

@@ -96,7 +96,7 @@ class HitsCheck(Check[Answer]):
 
     @abstractmethod
     def hits(self, outputs: Sequence[Array]) -> Hits:
-        """Read the hits in a launch's outputs, all that two runs must agree in."""
+        """Read the hits [n] in a launch's outputs. Two runs must give the same hits, to the last bit."""
 
     @abstractmethod
     def answer(self, first: FirstRun) -> Answer:

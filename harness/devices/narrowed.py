@@ -86,7 +86,8 @@ class NarrowedCheck(HitsCheck[NarrowedAnswer]):
 def _prepass(device: Device, program: Program, built: Built, size: int) -> tuple[list[Step], list[Array | Reserved]]:
     """Return the prepass's steps over a size × size image, and its buffers behind the camera.
 
-    The buffers hold the tiles' spans of depth, the evaluations that tiles spent, the queue, and its counts.
+    The buffers are, with m tiles: their spans of depth, real[2 m]; the evaluations that tiles spent, int32[2 m]; the
+    queue; and its counts, int32[LEVELS].
     """
     last = last_level(size)
     stop = max(0, last - prepass.TILE_BITS)

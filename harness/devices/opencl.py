@@ -155,6 +155,7 @@ def info(name: str) -> DeviceInfo:
 
 
 def open(name: str) -> OpenCLDevice:
+    """Open the device of that name, which is one of `names`."""
     return OpenCLDevice(name)
 
 
@@ -172,6 +173,7 @@ class OpenCLDevice(Device):
         self._queue = cl.CommandQueue(self._context, properties=cl.command_queue_properties.PROFILING_ENABLE)
 
     def build(self, program: Program) -> Built:
+        """Compile a program, for launches of this device only. Raises BuildError if the driver's compiler refuses."""
         cl = _binding()
         source = cl.Program(self._context, program.text)
         options = [*self._options[program.precision], *([] if program.optimised else UNOPTIMISED)]

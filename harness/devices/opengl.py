@@ -111,6 +111,7 @@ def _compiler(renderer: str, version: str) -> str:
 
 
 def open(_name: str) -> OpenGLDevice:
+    """Open the OpenGL device; there is one, whatever the name."""
     return OpenGLDevice()
 
 
@@ -125,6 +126,10 @@ class OpenGLDevice(Device, Rasteriser):
         self.most_groups = _most_groups(self._context)  # of one launch
 
     def build(self, program: Program) -> Built:
+        """Compile a program, for launches of this device only.
+
+        Raises BuildError if the driver's compiler refuses, or if the program is to be built without optimisation.
+        """
         import moderngl
 
         if not program.optimised:

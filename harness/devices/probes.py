@@ -64,13 +64,14 @@ class Probes:
 
 
 def _pairs(precision: Precision) -> NDArray[np.float64]:
+    """Return float64[CASES, 2]: pairs of random numbers that the precision holds, the same in every run."""
     generator = np.random.default_rng(1)
     pairs = generator.standard_normal((CASES, 2)) * 2.0 ** generator.integers(-10, 10, (CASES, 2))
     return pairs if precision == "float64" else pairs.astype(np.float32).astype(np.float64)
 
 
 def probe(device: Device) -> Probes:
-    """Run the probes in float32: the host's float64 sums and products of such pairs are exact."""
+    """Run the probes in float32, and compare with the host: its float64 sums and products of such pairs are exact."""
     program = map_program(file_section(KERNELS / "map/probe.glsl"), "float32", device.language)
     pairs = _pairs("float32")
     sums, sum_errors, products, product_errors, fma_errors, quotients = map_rows(device, program, pairs, 6).T.astype(
@@ -93,6 +94,7 @@ def probe(device: Device) -> Probes:
 
 
 def _rounded(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return float64[...]: the values rounded to float32."""
     return values.astype(np.float32).astype(np.float64)
 
 
@@ -110,10 +112,10 @@ class _Peak:
 
 
 def _peak(device: Device) -> _Peak:
-    """Find the best rate of many launches of the best shapes; whatever slows a launch is no part of a peak.
+    """Measure the peak rate: that of the fastest of many launches, of the fastest shapes of the program.
 
-    The median launch of the same shape is told beside it. If that is far below, the machine was busy, and the best rate
-    is luck.
+    The fastest launch is taken because other work on the machine can only slow a launch. The median rate of the same
+    shape is returned beside it. If the median is far below, the machine was busy, and the peak depends on chance.
     """
     tried = [(_rate(device, shape, tries=2), shape) for shape in PEAK_SHAPES]
     tried.sort(key=lambda pair: -pair[0].gflops)

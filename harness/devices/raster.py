@@ -54,7 +54,7 @@ class Picture:
     fragment_hits: those with a hit, seen or hidden
     exhausted: those that gave up
     evaluations: spent by all of them
-    invalid: those that gave no answer
+    invalid: those whose answer is impossible
     """
 
     colours: NDArray[np.uint8]
@@ -74,8 +74,8 @@ class Picture:
         """Return the pixels' answers with t in world units; `scale` float64[n] is that of the instance that is seen.
 
         A pixel where nothing is seen is exhausted if one of its fragments gave up, and a miss otherwise. It is invalid
-        if one of its fragments gave no answer, since that one may have been in front, and also if a fragment has a hit
-        and yet nothing is seen.
+        if one of its fragments gave an impossible answer, since that one may have been in front, and also if a fragment
+        has a hit and yet nothing is seen.
         """
         gave_up = np.where(self.exhausted > 0, RayStatus.EXHAUSTED, RayStatus.MISS)
         status = np.where(self.batch >= 0, RayStatus.HIT, gave_up)
@@ -93,7 +93,7 @@ class Picture:
 
 
 class Rasteriser(ABC):
-    """State what a device that draws triangles can do beside the rest."""
+    """Define what a device that draws triangles can do in addition to a `Device`."""
 
     @abstractmethod
     def launch_raster(

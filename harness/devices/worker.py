@@ -101,6 +101,6 @@ class Worker:
         return self._frames[key].run(batch)
 
     def release(self, key: str) -> None:
-        """Free what the frame under `key` holds on the device; does nothing if no frame is kept there."""
+        """Free what the frame under `key` holds on the device; do nothing if no frame is kept there."""
         if frame := self._frames.pop(key, None):
             frame.release()

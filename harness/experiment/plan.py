@@ -140,7 +140,7 @@ def grid(experiment: Experiment, catalog: Catalog, found: list[DeviceInfo]) -> l
 
 @dataclass(frozen=True)
 class _Caster:
-    """State who casts: all of a cell that does not depend on what is cast at."""
+    """State how rays are cast: the settings of a cell that do not depend on its surface, scene or family."""
 
     variant: Variant
     prepass: Prepass
@@ -183,7 +183,7 @@ def _families(experiment: Experiment, casters: list[_Caster]) -> Iterator[Cell]:
 
 
 def _cell(caster: _Caster, cell: Cell, raster: Rastering = NOT_RASTERED) -> Cell:
-    """Return `cell`, which says what is cast at, with the settings of `caster` and of the way to rasterise."""
+    """Return `cell`, which states surface, scene or family, with the settings of `caster` and the way to rasterise."""
     proxy, pixels, normal = raster
     return dataclasses.replace(
         cell,

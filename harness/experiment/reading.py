@@ -54,7 +54,8 @@ def _value(kind: Any, value: Any, where: Where, source: ConfigFile) -> Any:
 def _limited(stated: tuple[Any, ...], value: Any, where: Where, source: ConfigFile) -> Any:
     """Read the value of an Annotated kind.
 
-    A mistake in a single value is told with the value's whole path, one in a collection with the collection's own name.
+    Raises FirsthitError for a value outside its limits. The message names a single value by its whole path, and a
+    collection by its own name.
     """
     kind, limits = stated[0], typing.cast(tuple[Limit, ...], stated[1:])
     read = _value(kind, value, where, source)
@@ -66,7 +67,10 @@ def _limited(stated: tuple[Any, ...], value: Any, where: Where, source: ConfigFi
 
 
 def _word(known: tuple[str, ...], value: Any, where: Where, source: ConfigFile) -> str:
-    """Read one of the `known` words. If an item of a list is unknown, the mistake is told with the list's name."""
+    """Read one of the `known` words.
+
+    Raises FirsthitError for an unknown one. If it is an item of a list, the message names the list.
+    """
     word: str = _scalar(str, value, where, source)
     if word not in known:
         place = where[:-1] if isinstance(where[-1], int) else where
@@ -75,7 +79,7 @@ def _word(known: tuple[str, ...], value: Any, where: Where, source: ConfigFile) 
 
 
 def _list(kind: Any, value: Any, where: Where, source: ConfigFile) -> list[Any]:
-    """Read a list. One item may stand without brackets."""
+    """Read a list. One item may stand without brackets. Raises FirsthitError for an empty list."""
     items = value if isinstance(value, list) else [value]
     if not items:
         raise source.error(where, f"{_path(where)} is empty; give at least one")
@@ -83,6 +87,7 @@ def _list(kind: Any, value: Any, where: Where, source: ConfigFile) -> list[Any]:
 
 
 def _tuple(kinds: tuple[Any, ...], value: Any, where: Where, source: ConfigFile) -> tuple[Any, ...]:
+    """Read a fixed number of values. Raises FirsthitError for any other number."""
     if not isinstance(value, list) or len(value) != len(kinds):
         raise source.error(where, f"{_path(where)} needs {len(kinds)} numbers, not {value!r}")
     return tuple(
@@ -91,14 +96,17 @@ def _tuple(kinds: tuple[Any, ...], value: Any, where: Where, source: ConfigFile)
 
 
 def _names(kind: Any, value: Any, where: Where, source: ConfigFile) -> dict[str, Any]:
-    """Read a table whose keys are names that the writer chose."""
+    """Read a table whose keys are names that the writer chose. Raises FirsthitError for anything but a table."""
     if not isinstance(value, dict):
         raise source.error(where, f"{_path(where)} is a table of names, not {value!r}")
     return {key: _value(kind, item, (*where, key), source) for key, item in value.items()}
 
 
 def _table(kind: type[Any], value: Any, where: Where, source: ConfigFile) -> Any:
-    """Read a table as the dataclass `kind`, whose fields are its keys."""
+    """Read a table as the dataclass `kind`, whose fields are its keys.
+
+    Raises FirsthitError for anything but a table, for an unknown key, and for a missing one.
+    """
     if not isinstance(value, dict):
         raise source.error(where, f"{_path(where)} is a table, not {value!r}")
     hints = typing.get_type_hints(kind, include_extras=True)
@@ -114,7 +122,10 @@ def _table(kind: type[Any], value: Any, where: Where, source: ConfigFile) -> Any
 
 
 def _scalar(kind: type, value: Any, where: Where, source: ConfigFile) -> Any:
-    """Read a text, a switch or a finite number. Parameters keep whole numbers as they are written."""
+    """Read a text, a switch or a finite number. Parameters keep whole numbers as they are written.
+
+    Raises FirsthitError for a value of another kind, and for a number that is not finite.
+    """
     whole = isinstance(value, int) and not isinstance(value, bool)
     number = isinstance(value, float) or (kind is float and whole)
     if number and not is_finite(value):

@@ -42,7 +42,10 @@ def resolve(config: Config, file: ConfigFile, catalog: Catalog) -> Experiment:
 
 
 def _collection(config: Config, file: ConfigFile) -> Experiment:
-    """Make the experiment of a config that includes others, whose paths are relative to its own folder."""
+    """Make the experiment of a config that includes others, whose paths are relative to its own folder.
+
+    Raises FirsthitError where it states more than a title beside them, or where there is no such config.
+    """
     if more := [key for key in file.table if key not in ("title", "include")]:
         message = f"{more[0]} cannot stand beside include; put it into one of the configs included"
         raise file.error((more[0],), message)
@@ -70,6 +73,7 @@ def _with_all_families(config: Config) -> Config:
 
 
 def _check_that_something_is_asked(config: Config, file: ConfigFile) -> None:
+    """Raise FirsthitError where the config names nothing to draw or compute, or no method to draw by."""
     if not (config.surfaces or config.scene or config.families or config.studies):
         message = "name surfaces to draw, or scenes, or families of hard rays, or studies, or some of each"
         raise file.error((), message)
@@ -80,7 +84,11 @@ def _check_that_something_is_asked(config: Config, file: ConfigFile) -> None:
 def _variants(
     config: Config, file: ConfigFile, catalog: Catalog
 ) -> tuple[list[Variant], dict[Variant, tuple[Stage, ...]]]:
-    """Bind every method's knobs: all variants, and the stages of those that have their own."""
+    """Bind every method's knobs.
+
+    Returns all variants, and the stages of those that have their own. Raises FirsthitError for an unknown method or
+    knob, and where a variant is named twice.
+    """
     variants: list[Variant] = []
     own_stages: dict[Variant, tuple[Stage, ...]] = {}
     for i, choice in enumerate(config.method):
@@ -108,7 +116,7 @@ def _variants_of(choice: MethodChoice, catalog: Catalog) -> list[Variant]:
 
 
 def _grid(parameters: Mapping[str, list[float]]) -> list[dict[str, float]]:
-    """Return every combination of the knobs' values; one without any where no knob is given."""
+    """Return every combination of the knobs' values; if no knob is given, a single one, which is empty."""
     grid: list[dict[str, float]] = [{}]
     for name, values in parameters.items():
         grid = [{**point, name: value} for point in grid for value in values]
@@ -116,7 +124,10 @@ def _grid(parameters: Mapping[str, list[float]]) -> list[dict[str, float]]:
 
 
 def _check_baseline(config: Config, file: ConfigFile, catalog: Catalog, variants: list[Variant]) -> None:
-    """Raise FirsthitError where the config names a baseline that is no method or variant of its own that answers."""
+    """Raise FirsthitError where the config's baseline is none of its own methods and variants.
+
+    A method that finds nothing, and measures the harness, cannot be a baseline.
+    """
     answering = [variant for variant in variants if catalog.get(variant.method).method.answers]
     known = dict.fromkeys([*(variant.method for variant in answering), *map(str, answering)])
     problem = Known(lambda: known).broken([config.baseline])
@@ -125,6 +136,7 @@ def _check_baseline(config: Config, file: ConfigFile, catalog: Catalog, variants
 
 
 def _surfaces(config: Config, file: ConfigFile) -> list[Surface]:
+    """Return the surfaces that the config names. Raises FirsthitError for an unknown one and for a bad formula."""
     import surfaces
 
     chosen: list[Surface] = []
@@ -149,6 +161,7 @@ def _surface(name: str, parameters: Mapping[str, float], config: Config) -> Surf
 
 
 def _scenes(config: Config, file: ConfigFile, catalog: Catalog) -> list[Scene]:
+    """Make the scenes that the config states. Raises FirsthitError, with the scene's line, if one cannot be made."""
     scenes: list[Scene] = []
     for name, choice in config.scene.items():
         try:

@@ -57,10 +57,11 @@ def compare(
     executor: LocalExecutor,
     truth: Path,
 ) -> list[Judged]:
-    """Judge each timed cell by the ratio of its frame's time now over that of its program in `former`, by slot.
+    """Judge each timed cell by the time of its frame now, over the time of its frame at the other revision.
 
-    A cell is incomparable where its answers at either revision fail the check against the oracle, whose certified
-    answers are kept in the folder `truth`. A failure while running is a verdict too, so that nothing is raised for it.
+    `former` holds the other revision's programs by the cell's slot. A cell is incomparable where its answers at either
+    revision fail the check against the oracle, whose certified answers are kept in the folder `truth`. A failure while
+    running is a verdict too, and raises nothing.
     """
     return [_judged(p, former.get(p.cell.slot), experiment, tolerance, executor, truth) for p in planned if p.timed]
 

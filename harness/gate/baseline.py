@@ -26,7 +26,7 @@ Entry = dict[str, Any]  # status, scene (a hash of what was asked), program (its
 
 @dataclass(frozen=True)
 class Baseline:
-    """Holds the entries of rows by the device's key and by slot, and each device's facts by its key.
+    """Hold the entries of rows by the device's key and by slot, and each device's facts by its key.
 
     A slot is that of `entries.slot_of`, without the device.
     """

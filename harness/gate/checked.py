@@ -26,7 +26,7 @@ from harness.running.environment import describe
 
 @dataclass(frozen=True, eq=False)
 class Checked:
-    """Holds a config's cells and their rows, and what a baseline keeps of them."""
+    """Hold a config's cells and their rows, and what a baseline keeps of them."""
 
     experiment: Experiment
     catalog: Catalog

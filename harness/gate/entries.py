@@ -1,4 +1,4 @@
-"""Make of a config's rows what a baseline keeps of them."""
+"""Turn a config's rows into the entries of a baseline, and say by which slot a row is found there."""
 
 from __future__ import annotations
 

@@ -33,7 +33,7 @@ def _module(names: tuple[str, ...]) -> Any:
 
 
 def _json(program: Program) -> dict[str, Any]:
-    """Return the parts of a program that `harness.gate.revision` makes it of again."""
+    """Return the parts of a program, from which `harness.gate.revision` makes the program again."""
     sections = [[section.origin, section.text] for section in program.sections]
     return {"language": program.language, "precision": program.precision, "entry": program.entry, "sections": sections}
 

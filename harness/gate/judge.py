@@ -16,7 +16,7 @@ from harness.results.figures import GATED, Better
 
 
 class Verdict(StrEnum):
-    """Names what became of a row, the worst first.
+    """Name what became of a row, the worst first.
 
     INCOMPARABLE: nothing can be said of the row, so that this is no pass
     MISSING: the row was blessed, and its cell is no longer in the config
@@ -36,7 +36,7 @@ Value = float | int | str  # of a figure; a text for a status, and for a figure 
 
 @dataclass(frozen=True)
 class Tolerance:
-    """Says how much a figure may change: by absolute + relative * |before|, for the worse, and still pass.
+    """State how much a figure may change: by absolute + relative * |before|, for the worse, and still pass.
 
     A figure that is better by more than that is improved. One that is NaN is regressed.
     """
@@ -59,7 +59,7 @@ class Tolerance:
 
 @dataclass(frozen=True)
 class Change:
-    """Holds what became of one gated figure of a row, or of its status."""
+    """Hold what became of one gated figure of a row, or of its status."""
 
     figure: str
     before: Value
@@ -80,7 +80,7 @@ class Change:
 
 @dataclass(frozen=True)
 class Judged:
-    """Holds a row's verdict, which is the worst of its figures', and the reason where it follows from no figure."""
+    """Hold a row's verdict, which is the worst of its figures', and the reason where it follows from no figure."""
 
     slot: str
     device: str

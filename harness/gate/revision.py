@@ -21,7 +21,7 @@ EXPORT = Path(__file__).with_name("export.py")
 
 @dataclass(frozen=True)
 class Former:
-    """Holds one cell's programs at the other revision.
+    """Hold one cell's programs at the other revision.
 
     check, timed: the programs that are checked and timed; None where there is none
     skip: why the cell is skipped there; None where it is not

@@ -1,4 +1,4 @@
-"""Makes hard cases: families of hard rays, at which methods break.
+"""Make hard cases: families of hard rays, at which methods break.
 
 A *family* of hard rays varies one number, its parameter, and keeps everything else. The parameter's values, in order of
 rising difficulty, are the family's *ladder*; each value, with its surface and its rays, is a *rung*. These are all the
@@ -53,7 +53,7 @@ FAMILIES: dict[str, Family] = {
 
 
 def names() -> tuple[str, ...]:
-    """Return all families' names: first those of how ray and surface touch, last those of how large numbers are."""
+    """Return the names of all families, in the order of FAMILIES."""
     return tuple(FAMILIES)
 
 

@@ -1,4 +1,4 @@
-"""A family of hard rays as a cell casts it: its rungs grouped by surface, and what identifies and describes it."""
+"""Prepare a family of hard rays for a cell: group its rungs by surface, identify the family and describe it."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from harness.hardcases import Rung
 
 @dataclass(frozen=True, eq=False)
 class Group:
-    """Neighbouring rungs of a ladder that share one surface, so that one program and one launch serve them all."""
+    """Hold neighbouring rungs of a ladder that share one surface, so that one program and one launch serve them all."""
 
     surface: Surface
     rungs: tuple[Rung, ...]

@@ -1,4 +1,4 @@
-"""Defines what a family of hard rays is, and the decorator that makes one of a function."""
+"""Define what a family of hard rays is, and the decorator that makes one of a function."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ Build = Callable[[float, np.random.Generator], tuple[Surface, Rays]]
 
 @dataclass(frozen=True, eq=False)
 class Rung:
-    """One value of a family's parameter, with its surface and its rays.
+    """Hold one value of a family's parameter, with its surface and its rays.
 
     `rays` is float32[n, 6]: origins, and directions whose length is 1 to float32 rounding.
     """
@@ -32,7 +32,7 @@ class Rung:
 
 @dataclass(frozen=True)
 class Family:
-    """Rays that get harder as one parameter changes; everything else stays the same from rung to rung."""
+    """Describe rays that get harder as one parameter changes; everything else stays the same from rung to rung."""
 
     name: str
     title: str

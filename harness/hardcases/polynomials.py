@@ -1,4 +1,4 @@
-"""Defines families of hard rays along which the polynomial f(o + t d) is hard.
+"""Define families of hard rays along which the polynomial f(o + t d) is hard.
 
 Its degree falls, its roots lie close together, its coefficients are tiny or huge, or it is flat.
 """

@@ -1,4 +1,4 @@
-"""Makes float32 rays that lie exactly where a rung says, with the same bytes on every machine.
+"""Make float32 rays that lie exactly where a rung says, with the same bytes on every machine.
 
 Only +, -, *, / and sqrt are used, which IEEE 754 rounds in the same way everywhere: no libm, no BLAS, no reordered
 sums. Points and directions are float64[..., 3] until `rounded` or `settled` makes rays of them.

@@ -1,4 +1,4 @@
-"""Defines families of hard rays near singular points: a double plane, double points, nodes, a cusp and a double line.
+"""Define families of hard rays near singular points: a double plane, double points, nodes, a cusp and a double line.
 
 The coordinates of the singular points are dyadic numbers, so that neither the surface nor a ray is rounded.
 """

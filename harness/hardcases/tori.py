@@ -1,4 +1,4 @@
-"""Defines families of hard rays at tori: near tangency, near the axis, with four hits, from origins on the torus, at
+"""Define families of hard rays at tori: near tangency, near the axis, with four hits, from origins on the torus, at
 thin tori, and from far away.
 
 The torus is that of toledo2007 with R = 0.7 and r = 0.3, unless a family says otherwise. Its domain is a ball larger

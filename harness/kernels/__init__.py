@@ -1,4 +1,4 @@
-"""Makes the text of programs: whole files below `glsl/` and sections generated for a surface, in order.
+"""Make the text of programs: whole files below `glsl/` and sections generated for a surface, in order.
 
 `assemble` makes the programs of compute shaders, `raster` those of stage raster, `prepass` the one of a prepass.
 `functions` generates the functions of a surface that kernels may call, and `printing` turns their operations into

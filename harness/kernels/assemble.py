@@ -1,4 +1,4 @@
-"""Makes programs: puts whole kernel files and generated sections in order.
+"""Make programs: put whole kernel files and generated sections in order.
 
 Kernel files are never edited. What differs from program to program is which files and sections it holds, and the
 constants that generated sections define. The last section is a program's entry point.
@@ -58,7 +58,7 @@ def files(*names: str) -> list[Section]:
 
 
 def _library(name: str) -> Section:
-    """Return a file of glsl/lib as a section; raises FirsthitError if there is none of that name."""
+    """Return a file of glsl/lib as a section. Raises FirsthitError if there is none of that name."""
     path = KERNELS / "lib" / f"{name}.glsl"
     if not path.exists():
         known = sorted(p.stem for p in path.parent.glob("*.glsl"))

@@ -1,4 +1,4 @@
-"""Counts the arithmetic operations of one evaluation: those of the generated function that a method evaluates.
+"""Count the arithmetic operations of one evaluation: those of the generated function that a method evaluates.
 
 Additions, multiplications, divisions, minima, maxima, roots and functions count as one each. Signs, comparisons and
 constants are free. What a method computes beside its evaluations is not counted.

@@ -1,4 +1,4 @@
-"""Computes the tables by which the kernel library `fit` turns a polynomial's values at Chebyshev nodes into
+"""Compute the tables by which the kernel library `fit` turns a polynomial's values at Chebyshev nodes into
 coefficients.
 
 Source: szente, section 2.1. The nodes on x in [-1, 1] are -cos(i pi / n), ascending. The Bernstein basis is that of

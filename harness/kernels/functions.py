@@ -1,4 +1,4 @@
-"""Generates kernel text for a surface: its constants, and functions of fixed names that kernels call.
+"""Generate kernel text for a surface: its constants, and functions of fixed names that kernels call.
 
 FUNCTIONS holds the names that a method may need, and `Method.needs` those that it does:
 
@@ -87,6 +87,7 @@ def _closure(surface: Surface | None, needs: Iterable[str]) -> list[str]:
     wanted: set[str] = set()
 
     def want(name: str) -> None:
+        """Add a function and all that it calls. Raises FirsthitError for an unknown name."""
         if name not in _REQUIRES:
             raise FirsthitError(f"there is no generated function {name!r}; {suggestion(name, FUNCTIONS)}")
         wanted.add(name)
@@ -156,7 +157,7 @@ def surface_sections(
 
 
 def _fit_tables(surface: Surface, precision: Precision, language: Language) -> list[Section]:
-    """Return the tables that fit_samples.glsl reads; raises FirsthitError if the surface has no degree from 1 to 20."""
+    """Return the tables that fit_samples.glsl reads. Raises FirsthitError if the surface has no degree from 1 to 20."""
     from harness.kernels.fitting import fit_tables
 
     if surface.degree is None or not 1 <= surface.degree <= MAX_FITTED_DEGREE:
@@ -179,7 +180,7 @@ def _function(head: str, lines: list[str], *last: str) -> str:
 
 
 class _Writer:
-    """Writes a surface's functions: each method that is named in FUNCTIONS returns the text of that function."""
+    """Write a surface's functions: each method that is named in FUNCTIONS returns the text of that function."""
 
     def __init__(self, surface: Surface, precision: Precision, language: Language, free: bool) -> None:
         self.surface = surface
@@ -247,7 +248,7 @@ class _Writer:
         return _function("vec3 surface_hessian_product(vec3 p, vec3 v)", lines, f"return vec3({', '.join(values)});")
 
     def _distance(self, needed_by: str) -> Tape:
-        """Return the distance function that the surface states; raises FirsthitError if it states none."""
+        """Return the distance function that the surface states. Raises FirsthitError if it states none."""
         if self.surface.distance is None:
             raise FirsthitError(f"{self.surface.name} states no distance function, which {needed_by} needs")
         return real_tape(parse(self.surface.distance, dict(self.surface.parameters), self.free))
@@ -287,6 +288,7 @@ class _Writer:
         )
 
     def surface_coefficients_along(self) -> str:
+        """Return the text of the function. Raises FirsthitError for a surface whose degree is not expanded."""
         if not expands(self.surface):
             known = f"surface_coefficients_along expands degrees 1 to {MAX_EXPANDED_DEGREE}"
             raise FirsthitError(f"{self.surface.name} is {_degree_of(self.surface)}; {known}")

@@ -1,6 +1,7 @@
-"""The prepass: casts beams over tiles of the image, which tell each ray between which depths it may meet the surface.
+"""Make the prepass: beams over tiles of the image tell each ray between which depths it may meet the surface.
 
-It works before every method that casts rays, in stage `compute`; the check casts its rays in the same spans of depth.
+The prepass works before every method that casts rays, in stage `compute`. The check casts its rays in the same spans of
+depth.
 
 A span holds every root of every ray of its tile, which is tested on every surface. A method that finds the first root
 of the interval it is given therefore loses none. A method that iterates may answer otherwise than without the prepass,

@@ -1,4 +1,4 @@
-"""Prints tapes as shader source: one statement per operation, in reals or in intervals.
+"""Print tapes as shader source: one statement per operation, in reals or in intervals.
 
 Literals have every digit. A real constant is the nearest number of its precision; an interval constant has as its ends
 the nearest numbers below and above.
@@ -72,7 +72,7 @@ def table(name: str, values: Sequence[float], precision: Precision, language: La
 
 
 class RealPrinter:
-    """Prints a real tape as statements `real NAME = …;`. `variables` gives the text of each of the tape's variables."""
+    """Print a real tape as statements `real NAME = …;`. `variables` gives the text of each of the tape's variables."""
 
     def __init__(self, variables: Mapping[str, str], precision: Precision, language: Language) -> None:
         self.variables = variables
@@ -126,7 +126,7 @@ BOUNDED = frozenset({"add", "sub", "mul", "scale", "sqr", "powi"})  # operations
 
 
 class IntervalPrinter:
-    """Prints a parsed tape, with exact constants and whole powers, as statements `Interval NAME = …;`.
+    """Print a parsed tape, with exact constants and whole powers, as statements `Interval NAME = …;`.
 
     `variables` gives the text of each of the tape's variables. If `bounded`, nothing in it can overflow, and operations
     do not look for that.

@@ -1,4 +1,4 @@
-"""Makes the programs of stage raster: proxies whose fragments cast rays, triangles of a mesh, and every pixel's ray.
+"""Make the programs of stage raster: proxies whose fragments cast rays, triangles of a mesh, and every pixel's ray.
 
 They are in GLSL and float32. The programs of vertices are in `Program.vertex`.
 """

@@ -1,4 +1,4 @@
-"""Computes how large a box may be for a surface's interval extension to overflow nowhere.
+"""Compute how large a box may be for a surface's interval extension to overflow nowhere.
 
 Ball arithmetic over the whole box bounds the result of every operation on any part of it. If all these bounds are far
 below the precision's largest number, generated code tests the box once in place of every operation.

@@ -1,4 +1,4 @@
-"""Bounds the rounding errors of evaluating f over balls about the domain's centre, and how they grow in coefficients.
+"""Bound the rounding errors of evaluating f over balls about the domain's centre, and how they grow in coefficients.
 
 **Theory** Running error analysis (Higham 2002, section 3.3): to first order, the error of an operation's result is the
 propagated errors of its operands, plus one unit roundoff of the result's own magnitude. A fused multiply-add has a
@@ -27,7 +27,7 @@ Estimate = tuple[Numbers, Numbers]  # a value, and its error in unit roundoffs
 
 @dataclass(frozen=True, eq=False)
 class _Errors:
-    """Runs a real tape on pairs of a value and its error in unit roundoffs; `own` is the error of each operation."""
+    """Run a real tape on pairs of a value and its error in unit roundoffs; `own` is the error of each operation."""
 
     own: float
 

@@ -1,4 +1,4 @@
-"""Certifies first hits of rays with implicit surfaces: proves that an interval holds the first root, or that none
+"""Certify first hits of rays with implicit surfaces: prove that an interval holds the first root, or that none
 exists.
 
 `first_hits` sends all rays through a fast path in float64, which accepts only what a rigorous error bound certifies
@@ -101,7 +101,7 @@ def checked_t_min(t_min: float) -> float:
 
 
 class _Solver:
-    """A surface's fast and slow paths, built once."""
+    """Hold a surface's fast and slow paths, which are built once."""
 
     def __init__(self, surface: Surface) -> None:
         import surfaces

@@ -1,4 +1,4 @@
-"""Ball arithmetic on float64 arrays: a midpoint and a radius that provably hold the exact value.
+"""Compute with balls on float64 arrays: a midpoint and a radius that provably hold the exact value.
 
 **Theory.** Rounding to nearest gives fl(a∘b) = (a∘b)(1 + e) + n with |e| <= u = 2^-53 and |n| <= 2^-1074 for + − × ÷ √
 (IEEE 754; n = 0 for + and −). A radius is computed from at most eight sums and products of non-negative floats, so that
@@ -27,7 +27,9 @@ ELEMENTARY = 2.0**-46
 
 
 class Balls:
-    """Balls, as arrays of midpoints and radii or as one number each.
+    """Hold balls: arrays of midpoints and radii of one shape [...], or one number each.
+
+    Operations go number by number, as numpy's do; their results have the shape to which numpy broadcasts the operands.
 
     The result of every operation holds the exact results for all members of its operands.
     """
@@ -55,7 +57,10 @@ class Balls:
         return Balls(mid, (spread + UNIT * np.abs(mid)) * GROW + TINY)
 
     def __truediv__(self, other: Balls) -> Balls:
-        """Return the quotient, by |a/b − ma/mb| <= (ra + |ma/mb| rb) / (|mb| − rb); its radius is NaN if b may be 0."""
+        """Return the quotient [...]; its radius is NaN where the divisor's ball holds 0.
+
+        The radius follows from |a/b − ma/mb| <= (ra + |ma/mb| rb) / (|mb| − rb).
+        """
         mid = self.mid / other.mid
         room = np.abs(other.mid) * (1.0 - 2.0**-50) - other.rad
         spread = (self.rad + np.abs(mid) * other.rad * GROW) / np.where(room > 0.0, room, np.nan)
@@ -63,39 +68,39 @@ class Balls:
 
     @property
     def lower(self) -> Any:
-        """Return floats that are not above any member."""
+        """Return float64[...] that is not above any member."""
         return (self.mid - self.rad) - (np.abs(self.mid) + self.rad) * UNIT
 
     @property
     def upper(self) -> Any:
-        """Return floats that are not below any member."""
+        """Return float64[...] that is not below any member."""
         return (self.mid + self.rad) + (np.abs(self.mid) + self.rad) * UNIT
 
     @property
     def sign(self) -> NDArray[np.int8]:
-        """Return +1 or −1 where the whole ball has that sign, else 0."""
+        """Return int8[...]: +1 or −1 where the whole ball has that sign, else 0."""
         return np.asarray(self.mid > self.rad).astype(np.int8) - np.asarray(self.mid < -self.rad).astype(np.int8)
 
     @property
     def excludes_zero(self) -> NDArray[np.bool_]:
-        """Return where the ball does not hold 0."""
+        """Return bool[...]: whether the ball does not hold 0."""
         return np.asarray(np.abs(self.mid) > self.rad)
 
 
 def hull(lower: Any, upper: Any) -> Balls:
-    """Return a ball that holds [lower, upper]."""
+    """Return balls [...] that hold the intervals from `lower` to `upper`, each [...]."""
     mid = 0.5 * (lower + upper)
     return Balls(mid, (np.maximum(upper - mid, mid - lower) + UNIT * np.abs(mid)) * GROW + TINY)
 
 
 def sqrt(a: Balls) -> Balls:
-    """Enclose the square roots of the members that are not negative; NaN where all are negative."""
+    """Enclose the square roots, [...], of the members that are not negative; NaN where all are negative."""
     lower, upper = np.sqrt(np.maximum(a.lower, 0.0)), np.sqrt(a.upper)
     return hull(lower * (1.0 - UNIT), upper * (1.0 + UNIT))
 
 
 def length(*parts: Balls) -> Balls:
-    """Enclose the square root of the sum of the squares."""
+    """Enclose the square root, [...], of the sum of the squares."""
     total = parts[0] * parts[0]
     for part in parts[1:]:
         total = total + part * part
@@ -103,43 +108,50 @@ def length(*parts: Balls) -> Balls:
 
 
 def exp(a: Balls) -> Balls:
+    """Enclose the exponentials, [...]."""
     mid = np.exp(a.mid)
     return Balls(mid, mid * (np.expm1(a.rad) * (1.0 + ELEMENTARY) + ELEMENTARY) * GROW + TINY)
 
 
 def log(a: Balls) -> Balls:
+    """Enclose the logarithms, [...]; the radius is NaN or infinite where a member is not positive."""
     lower, upper = np.log(a.lower), np.log(a.upper)
     wide = hull(lower, upper)
     return Balls(wide.mid, (wide.rad + ELEMENTARY * np.maximum(np.abs(lower), np.abs(upper))) * GROW + TINY)
 
 
 def _bounded(mid: Any, rad: Any) -> Balls:
-    """Return a value of sin or cos, whose slope and size are at most 1."""
+    """Return balls [...] about values `mid` of sin or cos, whose slope and size are at most 1."""
     return Balls(mid, np.minimum((rad + ELEMENTARY * np.abs(mid)) * GROW + TINY, 2.0))
 
 
 def sin(a: Balls) -> Balls:
+    """Enclose the sines, [...]."""
     return _bounded(np.sin(a.mid), a.rad)
 
 
 def cos(a: Balls) -> Balls:
+    """Enclose the cosines, [...]."""
     return _bounded(np.cos(a.mid), a.rad)
 
 
 def tan(a: Balls) -> Balls:
+    """Enclose the tangents, [...]; the radius is NaN where the cosine may be 0."""
     return sin(a) / cos(a)
 
 
 def absolute(a: Balls) -> Balls:
+    """Enclose the absolute values, [...]."""
     return Balls(np.abs(a.mid), a.rad)
 
 
 def minimum(a: Balls, b: Balls) -> Balls:
-    """Enclose the lesser of two numbers, by |min(a, b) − min(ma, mb)| <= max(ra, rb)."""
+    """Enclose the lesser of two numbers, [...], by |min(a, b) − min(ma, mb)| <= max(ra, rb)."""
     return Balls(np.minimum(a.mid, b.mid), _radius_of_one(b - a, a, b))
 
 
 def maximum(a: Balls, b: Balls) -> Balls:
+    """Enclose the greater of two numbers, [...], as `minimum` encloses the lesser."""
     return Balls(np.maximum(a.mid, b.mid), _radius_of_one(a - b, a, b))
 
 
@@ -150,7 +162,7 @@ def _radius_of_one(ahead: Balls, a: Balls, b: Balls) -> Any:
 
 
 def pick(sign: Balls, a: Balls, b: Balls) -> Balls:
-    """Return `a` where `sign` is 1, `b` where it is −1, else a ball that holds both."""
+    """Return balls [...]: `a` where `sign` is 1, `b` where it is −1, else a ball that holds both."""
     open_ = sign.rad > 0.0
     both = hull(np.minimum(a.lower, b.lower), np.maximum(a.upper, b.upper))
     first = sign.mid > 0.0
@@ -161,7 +173,7 @@ def pick(sign: Balls, a: Balls, b: Balls) -> Balls:
 
 
 def share(part: Balls, whole: Balls) -> Balls:
-    """Enclose part / whole where |part| <= whole is known, so that the result never leaves [−1, 1]."""
+    """Enclose part / whole, [...], where |part| <= whole is known, so that the result never leaves [−1, 1]."""
     quotient = part / whole
     lower, upper = np.fmax(quotient.lower, -1.0), np.fmin(quotient.upper, 1.0)
     lower, upper = np.where(lower <= upper, lower, -1.0), np.where(lower <= upper, upper, 1.0)
@@ -170,12 +182,13 @@ def share(part: Balls, whole: Balls) -> Balls:
 
 
 def sign_range(a: Balls) -> Balls:
-    """Return the generalised derivative of abs: ±1, or [−1, 1] where the sign is not known."""
+    """Return the generalised derivative of abs, balls [...]: ±1, or [−1, 1] where the sign is not known."""
     sign = a.sign
     return Balls(sign.astype(np.float64), np.where(sign == 0, 1.0, 0.0))
 
 
 def half(a: Balls) -> Balls:
+    """Enclose the halves, [...]."""
     return Balls(0.5 * a.mid, 0.5 * a.rad + TINY)
 
 

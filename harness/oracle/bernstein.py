@@ -1,4 +1,4 @@
-"""Isolates real roots of a polynomial on [0, 1] by Bernstein subdivision in exact integers.
+"""Isolate real roots of a polynomial on [0, 1] by Bernstein subdivision in exact integers.
 
 **Theory.** A polynomial has at most as many roots in (u, v), counted with multiplicity, as its Bernstein coefficients
 on [u, v] have sign changes, and the two numbers differ by an even number (Descartes' rule in Bernstein form; Lane and
@@ -20,12 +20,12 @@ SPLITS = ((1, 1), (5, 3), (11, 4), (19, 5), (45, 6))  # a and k of the split poi
 
 
 class Undecidable(Exception):
-    """Says that numbers are not known well enough to decide; more precision may help."""
+    """Report that numbers are not known well enough to decide; more precision may help."""
 
 
 @dataclass(frozen=True)
 class Bracket:
-    """The open interval (lower, upper) / 2^exponent, which holds one simple root and no other; no end is a root."""
+    """State an open interval (lower, upper) / 2^exponent that holds one simple root and no other; no end is a root."""
 
     lower: int
     upper: int

@@ -1,4 +1,4 @@
-"""Isolates first roots of polynomials along many rays by Bernstein coefficients in float64, with rigorous error bounds.
+"""Isolate first roots of polynomials along many rays by Bernstein coefficients in float64, with rigorous error bounds.
 
 **Theory.** f is evaluated in ball arithmetic at degree + 1 dyadic nodes of the clip interval. The coefficients are M·f,
 where M is the exact inverse of the Bernstein collocation matrix, rounded once. A dot product of length m, in any order,
@@ -26,7 +26,10 @@ NODE_BITS = 20
 
 @cache
 def _collocation(degree: int) -> tuple[Floats, Floats]:
-    """Return dyadic nodes in [0, 1] near the Chebyshev-Lobatto points, and the rounded inverse collocation matrix."""
+    """Return dyadic nodes near the Chebyshev-Lobatto points of [0, 1], and the rounded inverse collocation matrix.
+
+    With n = degree + 1, the nodes are float64[n] and the matrix is float64[n, n].
+    """
     from flint import fmpq, fmpq_mat
 
     count = degree + 1
@@ -43,7 +46,7 @@ def _collocation(degree: int) -> tuple[Floats, Floats]:
 
 
 class BernsteinIsolator:
-    """Isolates the first roots of a polynomial along rays."""
+    """Isolate the first roots of a polynomial along rays."""
 
     def __init__(self, f: Enclosure) -> None:
         self.f = f

@@ -1,4 +1,4 @@
-"""Computes ranges of f and its slope on pieces of rays separately for both sides of a kink.
+"""Compute ranges of f and its slope on pieces of rays separately for both sides of a kink.
 
 **Theory.** A kink is a place where the argument u of an abs, min or max changes its sign. If that sign is not known on
 a piece, f is one function where u >= 0 and another where u <= 0. Almost everywhere its slope is that of one of the two.
@@ -22,22 +22,22 @@ Signs = NDArray[np.signedinteger]  # 1, 0 or −1
 
 
 def _is_zero(a: Dual) -> Mask:
-    """Return where a value is exactly 0."""
+    """Return bool[...]: whether a value is exactly 0."""
     return np.asarray((np.asarray(a.value.mid) == 0.0) & (np.asarray(a.value.rad) == 0.0))
 
 
 def _where(first: Mask, a: Balls, b: Balls) -> Balls:
-    """Return `a` where `first` holds, else `b`."""
+    """Return balls [...]: `a` where `first`, bool[...], holds, else `b`."""
     return Balls(np.where(first, a.mid, b.mid), np.where(first, a.rad, b.rad))
 
 
 def _signs(side: Signs) -> Balls:
-    """Return signs as balls: 1, −1, or [−1, 1] where a sign is 0."""
+    """Return signs int[...] as balls [...]: 1, −1, or [−1, 1] where a sign is 0."""
     return Balls(np.asarray(side, np.float64), np.where(side == 0, 1.0, 0.0))
 
 
 class Branch:
-    """The functions of one run of a program in which each piece's first open kink lies on `side`, 1 or −1."""
+    """Define the functions of one run of a program in which each piece's first open kink lies on `side`, 1 or −1."""
 
     def __init__(self, side: int, shape: tuple[int, ...]) -> None:
         self.side = side
@@ -51,19 +51,19 @@ class Branch:
         return {**smooth, "abs": self.absolute, "min": self.minimum, "max": self.maximum, "length": self.length}
 
     def of(self, a: Dual) -> Signs:
-        """Return what is known of the sign of `a`."""
+        """Return int[...]: 1 or −1 where the sign of `a` is known, else 0."""
         sign = np.broadcast_to(a.value.sign, self.free.shape)
         return np.where(sign != 0, sign, self.known[id(a)]) if id(a) in self.known else sign
 
     def settled(self, side: Signs) -> Signs:
-        """Return `side`, replaced by this run's own side in pieces whose first open kink this is."""
+        """Return `side`, int[...], replaced by this run's own side in pieces whose first open kink this is."""
         side = np.broadcast_to(side, self.free.shape)
         first = (side == 0) & self.free
         self.free &= ~first
         return np.where(first, self.side, side)
 
     def settle(self, a: Dual) -> Signs:
-        """Return the sign of `a`, which is chosen if it is not known, and remembered."""
+        """Return int[...], the sign of `a`, which is chosen if it is not known, and remembered."""
         self.known[id(a)] = self.settled(self.of(a))
         return self.known[id(a)]
 

@@ -1,4 +1,4 @@
-"""Stores truth on disk, in files named by the rays and the surface that they answer for."""
+"""Store truth on disk, in files named by the rays and the surface that they answer for."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Estimates what sorts rays into classes: the next root, the first root's condition, and how near another answer is.
+"""Estimate what sorts rays into classes: the next root, the first root's condition, and how near another answer is.
 
 It is computed in plain float64 from samples along the ray. Nothing is proved, and nothing here decides whether a
 method's answer is right.
@@ -74,7 +74,7 @@ def classify(
 
 @dataclass(frozen=True)
 class _Extrema:
-    """Local minima of |g| on the rays `rows`; all arrays are [k]."""
+    """Hold local minima of |g| on the rays `rows`; all arrays are [k]."""
 
     rows: Indices
     lower: Floats  # t before the minimum, where g has the sign `side`
@@ -85,7 +85,7 @@ class _Extrema:
 
 
 class _Block:
-    """Some rays, with their origins moved near the domain, and the samples of f and g along them."""
+    """Hold some rays, with their origins moved near the domain, and the samples of f and g along them."""
 
     def __init__(
         self,
@@ -152,7 +152,7 @@ class _Block:
         )
 
     def _parted(self, following: Floats) -> Floats:
-        """Return `following`, with roots added that are too close to the first root to be found.
+        """Return `following`, float64[n], with roots added that are too close to the first root to be found.
 
         If f has the same sign before and behind a crossing, another root lies there. If none was found, it is within
         the blur of the first root.
@@ -166,7 +166,9 @@ class _Block:
         return following
 
     def _faintest(self, noise: NoiseAlong) -> tuple[Indices, Floats]:
-        """Return rays and, for each, t of the sample before the first root where |f| is least over its rounding errors.
+        """Return rays int[k], and float64[k]: t of the sample where |f| is least over its rounding errors.
+
+        Only samples before the first root count.
 
         Samples are left out that belong to the first root itself, where |f| is more than half of what the slope at that
         root gives. A ray without other samples is not among the result.
@@ -218,7 +220,7 @@ class _Block:
         self.change = np.where(change.any(axis=1), change.argmax(axis=1), last)  # the column before g's change
 
     def _interpolated(self) -> Floats:
-        """Return a polynomial's values at all samples, interpolated from degree + 1 of them.
+        """Return a polynomial's values at all samples, float64[n, samples], interpolated from degree + 1 of them.
 
         Values that are lost in the rounding errors of interpolation are evaluated one by one.
         """
@@ -291,11 +293,14 @@ class _Block:
         return _Extrema(rows, lower, t, side, np.sqrt(2.0 * np.maximum(depth, 0.0) / bend), crossed)
 
     def _proved(self, rows: Indices, t: Floats) -> NDArray[np.bool_]:
-        """Return where float64 balls prove that f is not 0."""
+        """Return bool[k]: whether float64 balls prove that f is not 0 on the rays `rows` at t float64[k]."""
         return np.asarray(self.enclosure.along(self.given[rows], t + self.shift[rows]).sign != 0)
 
     def _following(self, found: _Extrema) -> Floats:
-        """Return the first change of g's sign behind the first root, sampled or at a minimum, or inf."""
+        """Return float64[n]: t of the first change of g's sign behind the first root; inf where there is none.
+
+        A change is seen between samples, or at a minimum.
+        """
         last = self.t.shape[1] - 1
         everyone = np.arange(len(self.hit))
         end = np.minimum(self.change + 1, last)
@@ -312,7 +317,10 @@ class _Block:
         return following
 
     def _root(self, rows: Indices, lower: Floats, upper: Floats, side: Floats) -> Floats:
-        """Return the root of g in each bracket, by safeguarded Newton; at the upper end g has the sign `side`."""
+        """Return the root of g in each bracket, float64[k], by safeguarded Newton.
+
+        At the upper end of a bracket g has the sign `side`, [k].
+        """
         t = 0.5 * (lower + upper)
         enough = LAST_STEP * self.domain.radius / self.length[rows]
         moved = upper - lower
@@ -332,7 +340,7 @@ class _Block:
         return t
 
     def _deflated(self, rows: Indices, t: Floats) -> tuple[Floats, Floats]:
-        """g and dg/dt on `rows`; NaN or infinite at t1."""
+        """Return g and dg/dt on the rays `rows`, each float64[k] for t float64[k]; NaN or infinite at t1."""
         f = self.f.along(self.rays[rows], t)
         order = self.order[rows]
         gap = np.where(order > 0.0, t - self.first[rows], 1.0)
@@ -340,7 +348,10 @@ class _Block:
         return f.value / power, (f.slope - order * f.value / gap) / power
 
     def _deepest(self, following: Floats) -> Floats:
-        """t where |f| is largest between the first root and the next, or the clip end: how deep the ray dips."""
+        """Return t float64[n] where |f| is largest between the first root and the next one, or the clip's end.
+
+        |f| there tells how deep the ray dips.
+        """
         stop = np.minimum(following, self.leave)
         between = (self.t > self.first[:, None]) & (self.t < stop[:, None])
         size = np.where(between, np.abs(self.values), -1.0)
@@ -360,7 +371,7 @@ class _Block:
         return np.asarray(self.domain.radius - np.sqrt((offset**2).sum(axis=1)))
 
     def _gap(self) -> Floats:
-        """Return the margins of rays that miss the domain: their distance from it.
+        """Return float64[n]: the margins of rays that miss the domain, which are their distances from it.
 
         If the surface is farther from the ray's nearest point, that distance is taken.
         """

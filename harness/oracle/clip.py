@@ -1,4 +1,4 @@
-"""Computes clip intervals, the parts of rays in a surface's domain: exactly for one ray, enclosed for many."""
+"""Compute clip intervals, the parts of rays in a surface's domain: exactly for one ray, enclosed for many."""
 
 from __future__ import annotations
 
@@ -18,7 +18,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class End:
-    """One exact end of a clip interval: a rational t, or the root (−b + side·√(b² − a·c)) / a of a t² + 2 b t + c."""
+    """Hold one exact end of a clip interval.
+
+    It is a rational t, or the root (−b + side·√(b² − a·c)) / a of a t² + 2 b t + c.
+    """
 
     value: Any = None  # fmpq, or None
     quadratic: tuple[Any, Any, Any] = (None, None, None)
@@ -90,7 +93,7 @@ def _clip_by_sphere(center: Sequence[Any], radius: Any, ray: Sequence[Any], t_mi
 
 @dataclass(frozen=True)
 class Clip:
-    """Enclosures of the clip intervals of n rays; all arrays are [n].
+    """Hold enclosures of the clip intervals of n rays; all arrays are [n].
 
     Where `missed`, it is proved that the interval is empty. Elsewhere, if it is not empty, enter_lower <= t_enter <=
     enter_upper and leave_lower <= t_leave <= leave_upper; ends of which nothing is known are infinite.
@@ -119,7 +122,7 @@ def clip_many(domain: Domain, rays: Floats, t_min: float = 0.0) -> Clip:
 
 
 def _slabs(domain: Box, rays: Floats) -> tuple[Balls, Balls, NDArray[np.bool_]]:
-    """Return both ends of the clip intervals by a box, and which rays are proved to miss it."""
+    """Return both ends of the clip intervals by a box, balls [n], and which rays are proved to miss it, bool[n]."""
     origins, directions = rays[:, :3], rays[:, 3:]
     lower, upper = np.asarray(domain.lower), np.asarray(domain.upper)
     parallel = directions == 0.0
@@ -135,9 +138,9 @@ def _slabs(domain: Box, rays: Floats) -> tuple[Balls, Balls, NDArray[np.bool_]]:
 
 
 def _chords(domain: Sphere, rays: Floats) -> tuple[Balls, Balls, NDArray[np.bool_]]:
-    """Return both ends of the clip intervals by a ball, and which rays are proved to miss it.
+    """Return both ends of the clip intervals by a ball, balls [n], and which rays are proved to miss it, bool[n].
 
-    They are computed from the point nearest to the centre, so that a distant origin costs no digits.
+    The ends are computed from the point nearest to the centre, so that a distant origin costs no digits.
     """
     middle = nearest(np.asarray(domain.center), rays)
     offset = [point - Balls(c) for point, c in zip(points_at(rays, middle), domain.center, strict=True)]

@@ -1,4 +1,4 @@
-"""Values with their derivative along a ray, over any number system: balls of arb or of float64, and plain floats."""
+"""Compute values with their derivative along a ray in any number system: balls of arb or float64, and plain floats."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from harness.oracle.program import Functions
 
 
 class Dual:
-    """A value and its derivative. In a number system of ranges, both are ranges over the whole range of t."""
+    """Hold a value and its derivative. In a number system of ranges, both are ranges over the whole range of t."""
 
     __slots__ = ("slope", "value")
 

@@ -1,4 +1,4 @@
-"""Encloses f along rays in float64 balls."""
+"""Enclose f along rays in float64 balls."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ DUAL_FUNCTIONS = dual_functions(balls64.FUNCTIONS)
 
 
 class Enclosure:
-    """A program with its constants as float64 balls."""
+    """Hold a program with its constants as float64 balls."""
 
     def __init__(self, program: Program) -> None:
         self.program = program
@@ -26,7 +26,7 @@ class Enclosure:
         self.duals = [Dual(c, Balls(0.0)) for c in self.constants]
 
     def of(self, points: Sequence[Balls]) -> Balls:
-        """Enclose f at points x, y, z."""
+        """Enclose f, [...], at points whose coordinates x, y and z are balls [...]."""
         f: Balls = self.program.run(points, self.constants, balls64.FUNCTIONS)
         return f
 
@@ -42,7 +42,7 @@ class Enclosure:
 
 
 def _ball(constant: Any) -> Balls:
-    """Return a float64 ball that holds a constant, which is given as a flint.arb; zero stays exact."""
+    """Return the float64 ball, [], that holds a constant, which is given as a flint.arb; zero stays exact."""
     if constant == 0:
         return Balls(0.0)
     mid = float(constant.mid())

@@ -1,4 +1,4 @@
-"""Finds first hits of many rays at once in float64, and accepts only those that a rigorous error bound certifies.
+"""Find first hits of many rays at once in float64, and accept only those that a rigorous error bound certifies.
 
 **Theory.** A ray is cut into segments along the outer clip interval [a, b], whose ends enclose the exact ones. Each
 segment is proved to have no root, or to have exactly one, a simple one with opposite proved signs at the segment's ends
@@ -41,7 +41,7 @@ WIDTHS = (2.0**-44, 2.0**-42, 2.0**-41)  # the widths of certified intervals tha
 
 @dataclass(frozen=True)
 class FastAnswers:
-    """Answers for n rays; those that are `decided` are certified."""
+    """Hold answers for n rays; those that are `decided` are certified."""
 
     decided: NDArray[np.bool_]
     status: NDArray[np.uint8]
@@ -50,7 +50,7 @@ class FastAnswers:
 
 
 class FastSolver:
-    """Finds first hits by float64 ball arithmetic on all rays at once."""
+    """Find first hits by float64 ball arithmetic on all rays at once."""
 
     def __init__(self, expr: sympy.Expr, domain: Domain) -> None:
         self.domain = domain
@@ -90,7 +90,10 @@ class FastSolver:
         return FastAnswers(decided, status, lower, upper)
 
     def _narrow(self, rays: Floats, segments: Segments) -> tuple[Floats, Floats]:
-        """Return certified [lower, upper] around each segment's root; NaN where the signs could not be proved."""
+        """Return certified bounds of each segment's root, float64[n] each: the lower and the upper.
+
+        They are NaN where the signs could not be proved.
+        """
         guess = self._guess(rays, segments)
         length = np.sqrt((rays[:, 3:] ** 2).sum(axis=1))
         direction = np.where(segments.rising, 1, -1)
@@ -107,7 +110,7 @@ class FastSolver:
         return lower, upper
 
     def _parity(self, rays: Floats, lower: Floats, upper: Floats) -> tuple[Mask, Mask]:
-        """Return where the root's multiplicity in f itself is odd, and where that is proved.
+        """Return bool[n] each: whether the root's multiplicity in f itself is odd, and whether that is proved.
 
         The interval holds one root of the radical, so that no factor has a second root there. The factors that vanish
         change their sign, and f changes its sign if their multiplicities add up to an odd number.
@@ -121,9 +124,9 @@ class FastSolver:
         return odd, proved
 
     def _guess(self, rays: Floats, segments: Segments) -> Floats:
-        """Return each segment's root in plain float64.
+        """Return float64[n]: each segment's root, in plain float64.
 
-        It is computed from the segment's lower end, so that a distant origin costs no digits.
+        A root is computed from the segment's lower end, so that a distant origin costs no digits.
         """
         near = recentred(rays, segments.lower)
         length = segments.upper - segments.lower

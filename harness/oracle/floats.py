@@ -1,4 +1,4 @@
-"""Evaluates f along rays in plain float64: fast and with unknown errors, and so only for guesses and estimates."""
+"""Evaluate f along rays in plain float64: fast and with unknown errors, and so only for guesses and estimates."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ DUAL_FUNCTIONS = dual_functions(FUNCTIONS)
 
 
 class FloatFunction:
-    """f at points o + t·d of rays float64[n, 6], for t float64[n] or [n, k]."""
+    """Evaluate f at points o + t·d of rays float64[n, 6], for t float64[n] or [n, k]."""
 
     def __init__(self, program: Program, constants: list[float]) -> None:
         self.program = program
@@ -40,17 +40,17 @@ class FloatFunction:
         self.duals = [Dual(c, np.float64(0.0)) for c in self.constants]
 
     def values(self, rays: Floats, t: Floats) -> Floats:
-        """Return f in t's shape."""
+        """Return f float64[n] or [n, k], in t's shape."""
         value: Floats | np.float64 = self.program.run(self.points(rays, t), self.constants, FUNCTIONS)
         return np.asarray(np.broadcast_to(value, t.shape))
 
     def along(self, rays: Floats, t: Floats) -> Dual:
-        """Return f and df/dt, each in t's shape."""
+        """Return f and df/dt, each float64[n] or [n, k], in t's shape."""
         points = self.points(rays, t)
         return self._dual([Dual(p, _like(rays[:, 3 + k], t)) for k, p in enumerate(points)], t)
 
     def steepness(self, rays: Floats, t: Floats) -> Floats:
-        """Return |grad f| in t's shape."""
+        """Return |grad f| float64[n] or [n, k], in t's shape."""
         points = self.points(rays, t)
         squares = [
             self._dual([Dual(p, np.float64(k == axis)) for k, p in enumerate(points)], t).slope ** 2
@@ -76,7 +76,7 @@ class FloatFunction:
 
     @staticmethod
     def points(rays: Floats, t: Floats) -> list[Floats]:
-        """Return x, y and z of o + t·d, each in t's shape."""
+        """Return x, y and z of o + t·d, each float64[n] or [n, k], in t's shape."""
         return [_like(rays[:, k], t) + t * _like(rays[:, 3 + k], t) for k in range(3)]
 
 
@@ -86,7 +86,7 @@ def _like(column: Floats, t: Floats) -> Floats:
 
 
 class _Sized:
-    """A value and the sum of its terms' magnitudes, which is how far relative errors of 1 would move it."""
+    """Hold a value and the sum of its terms' magnitudes, which is how far relative errors of 1 would move it."""
 
     __slots__ = ("size", "value")
 
@@ -128,7 +128,7 @@ SIZED_FUNCTIONS = {name: _sized(name) for name in FUNCTIONS}
 
 
 def majorant(f: FloatFunction, rays: Floats, t: Floats) -> Floats:
-    """Return the sum of |terms of f| at o + t·d, in t's shape."""
+    """Return the sum of |terms of f| at o + t·d, float64[n] or [n, k], in t's shape."""
     inputs = [_Sized(p, np.abs(p)) for p in f.points(rays, t)]
     result: _Sized = f.program.run(inputs, [_Sized(c, np.abs(c)) for c in f.constants], SIZED_FUNCTIONS)
     return np.asarray(np.broadcast_to(result.size, t.shape))

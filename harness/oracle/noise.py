@@ -1,4 +1,4 @@
-"""Bounds the rounding errors of f's value in kernels at points of rays, in unit roundoffs of the kernel's arithmetic.
+"""Bound the rounding errors of f's value in kernels at points of rays, in unit roundoffs of the kernel's arithmetic.
 
 **Theory.** Running error analysis, as in harness.kernels.rounding, but at given points instead of over balls, and for
 every formula. The bound covers one rounding each of the moved origin, of t·d and of their sum in every coordinate; one
@@ -31,7 +31,7 @@ MOST_EXPANDED = 4  # the degree up to which kernels may expand f along the ray
 
 
 class RunningErrors:
-    """Runs a tape in pairs of a value and its error in unit roundoffs; see surfaces.tape for the names."""
+    """Run a tape in pairs of a value and its error in unit roundoffs; see surfaces.tape for the names."""
 
     def const(self, value: Fraction) -> Estimate:
         number = value.numerator / value.denominator
@@ -112,7 +112,7 @@ class RunningErrors:
 
 
 class Noise:
-    """Bounds the rounding errors of one surface's f in kernels."""
+    """Bound the rounding errors of one surface's f in kernels."""
 
     def __init__(self, surface: Surface) -> None:
         import surfaces
@@ -129,7 +129,7 @@ class Noise:
 
 
 class NoiseAlong:
-    """Bounds rounding errors on some rays; what depends on the ray alone is computed once."""
+    """Bound rounding errors on some rays; what depends on the ray alone is computed once."""
 
     def __init__(self, noise: Noise, rays: Floats) -> None:
         self._noise = noise
@@ -162,7 +162,7 @@ class NoiseAlong:
         return np.asarray(np.maximum(by_tape, error))
 
     def by_tape(self, rows: Rows, t: Floats) -> Floats:
-        """Return bounds as `bound` does, of values that are evaluated from the point alone."""
+        """Return bounds float64[k] as `bound` does, of values that are evaluated from the point alone."""
         inputs = {}
         for k, axis in enumerate("xyz"):
             origin = self._rays[rows, k]

@@ -1,4 +1,4 @@
-"""Decides first hits exactly on short pieces of a ray, for f made of polynomials, quotients, square roots and kinks.
+"""Decide first hits exactly on short pieces of a ray, for f made of polynomials, quotients, square roots and kinks.
 
 **Theory.** A piece is cut into cells at every number where the argument of a kink or of a square root, or f itself, may
 be 0; these are roots of rational polynomials (`tower`). Inside a cell every kink is on one side, f is one element of a
@@ -37,7 +37,7 @@ ONE = constant(1)
 
 
 class _Cut(Exception):
-    """Says that something that must not vanish inside a cell has `roots` there."""
+    """Report that something that must not vanish inside a cell has `roots` there."""
 
     def __init__(self, roots: list[Point]) -> None:
         super().__init__()
@@ -45,7 +45,7 @@ class _Cut(Exception):
 
 
 class _Undefined(Undecidable):
-    """Says that f has no value in the cell."""
+    """Report that f has no value in the cell."""
 
 
 def exact_program(expr: sympy.Expr) -> Program | None:
@@ -64,7 +64,7 @@ def _is_exact(leaf: sympy.Expr) -> bool:
 
 @dataclass
 class _Cell:
-    """An open interval between two points, with f and its `sign` inside; None if f has no value there."""
+    """Hold an open interval between two points, with f and its `sign` inside; None if f has no value there."""
 
     first: Point
     last: Point
@@ -74,7 +74,7 @@ class _Cell:
 
 
 class PiecewiseSolver:
-    """Decides first hits on pieces of one ray, which is given as six fmpq."""
+    """Decide first hits on pieces of one ray, which is given as six fmpq."""
 
     def __init__(self, program: Program, ray: Sequence[Any], ends: tuple[End, End], t_min: float) -> None:
         self.program = program
@@ -120,7 +120,10 @@ class PiecewiseSolver:
         return cell.sign * following.sign <= 0 or cell.tower.vanishes_at(cell.f, cell.last)
 
     def cells(self, first: Point, last: Point) -> list[_Cell]:
-        """Return the cells from `first` to `last`. Outside the clip interval, f may have no value in a cell."""
+        """Return the cells from `first` to `last`. Outside the clip interval, f may have no value in a cell.
+
+        Raises Undecidable if there are too many cells, and _Undefined if f has no value in one inside the interval.
+        """
         inside = [p for p in (self.enter, self.leave) if p.compare(first) > 0 and p.compare(last) < 0]
         if len(inside) == 2 and not inside[0].compare(inside[1]):
             inside.pop()
@@ -154,7 +157,7 @@ ZERO: Quotient = ({}, ONE)
 
 
 class _Run:
-    """Runs the program on one cell, in quotients of a tower's elements."""
+    """Run the program on one cell, in quotients of a tower's elements."""
 
     def __init__(self, program: Program, ray: Sequence[Any], first: Point, last: Point) -> None:
         self.program = program

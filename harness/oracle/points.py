@@ -1,4 +1,4 @@
-"""Exact real algebraic numbers: rationals, and roots of rational polynomials, each in a bracket."""
+"""Compute with exact real algebraic numbers: rationals, and roots of rational polynomials, each in a bracket."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def polynomial(*coefficients: Any) -> Any:
 
 @dataclass(eq=False)
 class Point:
-    """A number in [lower, upper], which is lower itself if both are equal, else the only root of `p` between them.
+    """Hold a number in [lower, upper], which is lower itself if both are equal, else the only root of `p` between them.
 
     `p` is a square-free fmpq_poly with opposite signs at the two ends, which are fmpq. Refining narrows the bracket of
     this very object.

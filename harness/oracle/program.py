@@ -1,4 +1,4 @@
-"""Compiles a surface's expression to a straight-line program that runs in any number system with Python operators.
+"""Compile a surface's expression to a straight-line program that runs in any number system with Python operators.
 
 The oracle compiles the exact sympy expression itself. It shares nothing with the lowering that prints kernels, so that
 an error there cannot hide here. Constants stay symbolic until a number system converts them.
@@ -23,7 +23,7 @@ FUNCTIONS = {"exp": "exp", "log": "log", "sin": "sin", "cos": "cos", "tan": "tan
 
 @dataclass(frozen=True)
 class Instruction:
-    """The operation `name` on the results numbered `args`; an `input` or `constant` has an `index` instead."""
+    """Hold the operation `name` on the results numbered `args`; an `input` or `constant` has an `index` instead."""
 
     name: str
     args: tuple[int, ...] = ()
@@ -32,7 +32,7 @@ class Instruction:
 
 @dataclass(frozen=True)
 class Program:
-    """Instructions in order, of which the last one's result is f."""
+    """Hold instructions in order, of which the last one's result is f."""
 
     instructions: tuple[Instruction, ...]
     constants: tuple[sympy.Expr, ...]
@@ -90,7 +90,7 @@ class Program:
 
 
 class _Compiler:
-    """Compiles a sympy tree in post-order; equal subtrees are computed once."""
+    """Compile a sympy tree in post-order; equal subtrees are computed once."""
 
     def __init__(self, fold: bool, lengths: bool) -> None:
         self.fold = fold  # whether a constant subtree becomes one constant

@@ -1,4 +1,4 @@
-"""Isolates first roots along many rays by ranges of f and its slope in float64 balls, if f is no polynomial.
+"""Isolate first roots along many rays by ranges of f and its slope in float64 balls, if f is no polynomial.
 
 **Theory.** A piece has no root if the range of f excludes 0, directly or by the mean value form
 f(m) + f'(piece)·(piece − m). It has exactly one root, a crossing, if the range of f' excludes 0 and f has opposite
@@ -22,7 +22,7 @@ DEPTH = 36
 
 
 class RangeIsolator:
-    """Isolates the first roots of a function along rays."""
+    """Isolate the first roots of a function along rays."""
 
     def __init__(self, f: Enclosure) -> None:
         self.f = f
@@ -58,7 +58,7 @@ class RangeIsolator:
         return Verdict(empty, single, rising, (middle <= pieces.lower) | (middle >= pieces.upper))
 
     def _narrowed(self, whole: Dual, inputs: list[Dual]) -> Balls:
-        """Return the slopes of f on pieces.
+        """Enclose the slopes of f on p pieces, balls [p].
 
         Where all kinks together leave the slope's sign open, the two sides of a kink are enclosed separately.
         """
@@ -78,7 +78,7 @@ class RangeIsolator:
 
 
 def _rows(balls: Balls, rows: NDArray[np.intp]) -> Balls:
-    """Return some rows of balls, whose radius may be one number for all."""
+    """Return the balls [k] of the rows int[k], from balls [n] whose radius may be one number for all."""
     return Balls(balls.mid[rows], balls.rad[rows] if np.ndim(balls.rad) else balls.rad)
 
 

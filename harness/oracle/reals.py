@@ -1,4 +1,4 @@
-"""Real numbers as balls of python-flint: conversions, and elementary functions at the current precision."""
+"""Compute with reals as balls of python-flint: conversions, and elementary functions at the current precision."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Samples functions at Chebyshev's points, and searches between samples."""
+"""Sample functions at Chebyshev's points, and search between samples."""
 
 from __future__ import annotations
 
@@ -17,7 +17,10 @@ def lobatto(degree: int) -> Floats:
 
 @cache
 def interpolation(degree: int, finer: int) -> Floats:
-    """Return the matrix that turns a polynomial's values at lobatto(degree) into those at lobatto(degree * finer)."""
+    """Return the matrix, float64[degree * finer + 1, degree + 1], that refines a polynomial's samples.
+
+    It turns the values at lobatto(degree) into the values at lobatto(degree * finer).
+    """
     weight = np.where(np.arange(degree + 1) % degree == 0, 0.5, 1.0) if degree > 1 else np.full(2, 0.5)
     order = np.arange(degree + 1)
     at_nodes = np.cos(np.pi / degree * np.outer(order, order)) * np.outer(weight, weight) * 2.0 / degree
@@ -26,7 +29,10 @@ def interpolation(degree: int, finer: int) -> Floats:
 
 
 def least_of_cubic(a: Floats, b: Floats, low: Floats, high: Floats, fall: Floats, climb: Floats) -> Floats:
-    """Return where a cubic is least: its values at a and b are `low` and `high`, its slopes `fall` and `climb`."""
+    """Return where cubics are least between a and b; all arrays are float64[k].
+
+    The values of a cubic at a and b are `low` and `high`, its slopes `fall` and `climb`.
+    """
     width = b - a
     bend = fall + climb - 3.0 * (high - low) / width
     root = np.sqrt(bend * bend - fall * climb)

@@ -1,4 +1,4 @@
-"""Cuts many rays at once into pieces that are proved to hold no root or exactly one."""
+"""Cut many rays at once into pieces that are proved to hold no root or exactly one."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ MOST_PIECES = 64  # of one ray on one level of halving; a ray that needs more st
 
 @dataclass(frozen=True)
 class Segments:
-    """For each ray the first segment that is proved to hold exactly one root, a crossing; all arrays are [n]."""
+    """Hold for each ray the first segment that is proved to hold exactly one root, a crossing; all arrays are [n]."""
 
     lower: Floats  # inside the segment, at or behind its lower end; NaN where not found
     upper: Floats
@@ -31,7 +31,7 @@ class Segments:
 
 @dataclass(frozen=True)
 class Pieces:
-    """p intervals [lower, upper] of rays numbered `ray`, with data of the isolator; all arrays are [p, ...]."""
+    """Hold p intervals [lower, upper] of rays numbered `ray`, with data of the isolator; all arrays are [p, ...]."""
 
     ray: NDArray[np.intp]
     lower: Floats
@@ -45,7 +45,7 @@ class Pieces:
 
 @dataclass(frozen=True)
 class Verdict:
-    """What is proved about p pieces; all arrays are [p]. Where all are false, cutting the piece may help."""
+    """Hold what is proved about p pieces; all arrays are [p]. Where all are false, cutting the piece may help."""
 
     empty: Mask  # there is no root in the closed piece
     single: Mask  # there is exactly one root, strictly inside, with opposite signs of f at the ends

@@ -1,4 +1,4 @@
-"""Finds the first hit of one ray with an algebraic surface.
+"""Find the first hit of one ray with an algebraic surface.
 
 Balls of 128 bits are tried first. What they leave open is decided by exact arithmetic if that applies, else by balls of
 up to 4096 bits.
@@ -29,7 +29,7 @@ PRECISIONS = (FIRST_PRECISION, 512, 2048, 4096)  # of balls if it does not apply
 
 @dataclass(frozen=True)
 class FirstHit:
-    """An answer for one ray: lower <= t* <= upper, or NaN if there is no hit; `status` is as in the contract."""
+    """Hold an answer for one ray: lower <= t* <= upper, or NaN if there is no hit; `status` is as in the contract."""
 
     status: TruthStatus
     lower: float = nan
@@ -47,7 +47,7 @@ UNDECIDED = FirstHit(TruthStatus.UNDECIDED)
 
 @dataclass
 class AlgebraicSolver:
-    """Finds first hits of single rays with one polynomial surface. Constants are converted once for each precision."""
+    """Find first hits of single rays with one polynomial surface. Constants are converted once for each precision."""
 
     program: Program
     domain: Domain
@@ -165,7 +165,7 @@ def _integers(p: Any, bits: int) -> tuple[list[int], int]:
 
 
 class _Line:
-    """A polynomial in s, where t = start + width·s, whose roots are returned as balls of t."""
+    """Hold a polynomial in s, where t = start + width·s, whose roots are returned as balls of t."""
 
     def __init__(self, p: Any, start: float, width: float, reach: float, exact: Any = None) -> None:
         self.p = p

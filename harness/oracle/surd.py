@@ -1,7 +1,8 @@
-"""Exact polynomials in t over Q(√d): a + b·√d with a, b in Q[t] and d a square-free integer (0 for plain rationals).
+"""Compute with exact polynomials in t over Q(√d): a + b·√d, with a and b in Q[t], and d a square-free integer or 0.
 
-They serve every surface whose coefficients are rational or lie in one quadratic field, such as Barth's with the golden
-ratio or Endraß's with √2. Other constants raise NotExact; the oracle then uses balls.
+d is 0 for plain rationals. These polynomials serve every surface whose coefficients are rational or lie in one
+quadratic field, such as Barth's with the golden ratio or Endraß's with √2. Other constants raise NotExact; the oracle
+then uses balls.
 """
 
 from __future__ import annotations
@@ -20,11 +21,11 @@ ZERO = fmpq_poly(0)
 
 
 class NotExact(Exception):
-    """Says that a number does not lie in one quadratic field."""
+    """Report that a number does not lie in one quadratic field."""
 
 
 class Surd:
-    """A polynomial a + b·√d; `a` and `b` are fmpq_poly."""
+    """Hold a polynomial a + b·√d; `a` and `b` are fmpq_poly."""
 
     __slots__ = ("a", "b", "d")
 
@@ -55,7 +56,7 @@ class Surd:
         return Surd(self.a * other.a + d * self.b * other.b, self.a * other.b + self.b * other.a, d)
 
     def __truediv__(self, other: Surd) -> Surd:
-        """Divide by a constant. Raises NotExact for a divisor that is none."""
+        """Divide by a constant. Raises NotExact for any other divisor."""
         if other.a.degree() > 0 or other.b.degree() > 0:
             raise NotExact("division by a polynomial")
         norm = (other.a * other.a - other.d * other.b * other.b)[0]
@@ -113,7 +114,9 @@ FUNCTIONS: Functions = {
 
 @dataclass(frozen=True)
 class Split:
-    """An exact polynomial p = g·q, g rational and q coprime to its conjugate, in the form in which roots are isolated.
+    """Hold an exact polynomial p = g·q in the form in which roots are isolated.
+
+    g is rational, and q is coprime to its conjugate.
 
     `carrier` is square-free over Q. It vanishes at every root of p, and perhaps at roots of the conjugate of q.
     """

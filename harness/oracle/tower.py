@@ -1,4 +1,4 @@
-"""Exact functions of t built from rational polynomials by square roots: sums of polynomials times products of roots.
+"""Compute with exact functions of t, built from rational polynomials by sums, products and square roots.
 
 **Theory.** A tower is a list of radicals r_k = √g_k, where g_k is written in rational polynomials of t and earlier
 radicals. An element can be written as e = a + b·r_k, where r_k is the last radical that it holds. e times its conjugate
@@ -58,7 +58,7 @@ def parted(x: Element) -> tuple[Element, Element, int]:
 
 
 class Tower:
-    """The radicals on one cell, and exact answers about elements there."""
+    """Hold the radicals on one cell, and answer exactly about elements there."""
 
     def __init__(self, first: Point, last: Point) -> None:
         self.first = first

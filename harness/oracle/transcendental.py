@@ -1,4 +1,4 @@
-"""Finds the first hit of one ray with a surface that is no polynomial: by ranges in ball arithmetic, then exactly.
+"""Find the first hit of one ray with a surface that is no polynomial: by ranges in ball arithmetic, then exactly.
 
 Crossings and misses are proved as in `range64`, with rising precision. Touches, hits at kinks or where a square root's
 argument is 0, and hits exactly at a clip end are decided by `piecewise` on the short pieces that ranges leave open, if
@@ -36,7 +36,7 @@ NARROW = 2.0**-50  # the width of certified intervals, in domain radii
 
 @dataclass
 class SmoothSolver:
-    """Finds first hits of single rays with the surface `expr` = 0."""
+    """Find first hits of single rays with the surface `expr` = 0."""
 
     expr: sympy.Expr
     domain: Domain
@@ -68,7 +68,7 @@ class SmoothSolver:
 
 
 class _Search:
-    """The search on one ray at one precision; `scale` is the domain's radius in units of t."""
+    """Hold the search on one ray at one precision; `scale` is the domain's radius in units of t."""
 
     def __init__(
         self, program: Program, constants: list[Any], ray: Sequence[float], scale: float, t_min: float

@@ -1,1 +1,1 @@
-"""What a cell leaves behind: its row, the files that rows are kept in, and the figures that are read from it."""
+"""Declare what a cell leaves behind: its row, the files that keep rows, and the figures that are read from a row."""

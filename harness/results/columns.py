@@ -1,4 +1,4 @@
-"""Prints docs/columns.md, which lists every leaf of a stored row and every column of a report's tables:
+"""Print docs/columns.md, which lists every leaf of a stored row and every column of a report's tables:
 
 python -m harness.results.columns > docs/columns.md
 """

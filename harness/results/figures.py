@@ -1,4 +1,7 @@
-"""The figures of a row that are gated: those that the same program on the same device gives again to the last digit."""
+"""Read from a row the figures that are gated.
+
+The same program on the same device gives these figures again to the last digit.
+"""
 
 from __future__ import annotations
 
@@ -17,11 +20,11 @@ Value = float | int | None
 
 @dataclass(frozen=True)
 class Figure:
-    """Says of one gated figure which way is better, and by how much it may get worse before that counts.
+    """State which way one gated figure is better, and by how much it may get worse before that counts.
 
     It may get worse by `absolute` + `relative` × the baseline's. `read` finds it in a view's accuracy and `add_up` in a
-    family's rungs; None where these do not have it. `unsaid` is the value that a baseline has which was blessed before
-    the figure was counted; None: then it is not compared.
+    family's rungs; each is None where the figure is not found there. `unsaid` stands for the figure in a baseline that
+    was blessed before the figure existed; if it is None, such a baseline is not compared by this figure.
     """
 
     name: str
@@ -61,13 +64,16 @@ BROKEN_BY = {  # by claim, the counts that contradict it; only the first claim i
 
 
 def _within(kind: str) -> Callable[[dict[str, Any]], Value]:
-    """Make what adds up the wrong answers to `kind` rays; None for a row that is older than that class."""
+    """Make the function that adds up the wrong answers to rays of the class `kind`.
+
+    The function returns None for a row that is older than the class.
+    """
     names = [f"{kind}_{name}" for name in KINDS if name != "invalid"]
     return lambda found: sum(found[name] for name in names) if names[0] in found else None
 
 
 def _invalid(found: dict[str, Any]) -> Value:
-    """Count the answers that can be none, in all classes."""
+    """Count the impossible answers, in all classes."""
     return int(sum(found.get(f"{kind}invalid", 0) for kind in ("", "grazing_", "drowned_")))
 
 
@@ -76,7 +82,7 @@ FIGURES: tuple[Figure, ...] = (
     _count("false_hits", "clear rays that hit nothing"),
     _count("exhausted", "clear rays that ran out of evaluations"),
     _count("wrong_root", "clear rays that hit a later root, or no root"),
-    Figure("invalid", "lower", 0.0, 0.0, "rays whose answer can be none, of whatever class",
+    Figure("invalid", "lower", 0.0, 0.0, "rays whose answer is impossible, of whatever class",
            _invalid, lambda rungs: sum(rung["invalid"] for rung in rungs), 0),
     _count("undecided", "rays that the oracle leaves undecided"),
     Figure("grazing_wrong", "lower", 2.0, 0.1, "wrong answers in the grazing class",
@@ -118,9 +124,9 @@ def figures(row: Row, claims: Iterable[str]) -> dict[str, Value]:
 
 
 def _disproved(claim: str, row: Row) -> bool:
-    """Say whether this row contradicts the claim; one that no row can contradict stands for as long as it is stated.
+    """Tell whether this row contradicts a claim. A claim that no row can contradict holds while its method states it.
 
-    An answer that can be none contradicts what is claimed of its ray, whatever the truth.
+    An impossible answer contradicts what is claimed of its ray, whatever the truth.
     """
     counts = [row["accuracy"]] if row["accuracy"] else row["rungs"]
     broken_by = BROKEN_BY.get(claim, ())

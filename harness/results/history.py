@@ -11,7 +11,7 @@ from harness.results.store import Row, Store
 
 @dataclass(frozen=True, eq=False)
 class Past:
-    """Holds a row, and the rows of the same slot that were run last before it and first after it; None without one."""
+    """Hold a row, and the rows of the same slot that were run last before it and first after it; None without one."""
 
     row: Row
     before: Row | None

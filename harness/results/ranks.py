@@ -1,4 +1,4 @@
-"""Rank tests: whether two sets of timings differ, whatever their distribution. Two-sided; ties share a rank.
+"""Test by ranks whether two sets of timings differ, whatever their distribution. Two-sided; ties share a rank.
 
 Sources: F. Wilcoxon, Individual comparisons by ranking methods, 1945; H. B. Mann, D. R. Whitney, On a test of whether
 one of two random variables is stochastically larger than the other, 1947; normal form with the correction for ties:

@@ -1,4 +1,4 @@
-"""Every leaf of a stored row, cells/<key>.json: its place, type and meaning, and its column in CSV and Parquet.
+"""Declare every leaf of a stored row, cells/<key>.json: its place, type and meaning, and its column in a report.
 
 This is the one declaration of a row. What writes a row is typed by it, harness/results/schema.py makes the columns of
 reports from it, and docs/columns.md is printed from it. A new leaf is a new line here; tests/test_row.py then fails
@@ -21,7 +21,7 @@ SAME_NAME = "the same name"
 
 @dataclass(frozen=True)
 class Leaf:
-    """Says what a value means, where a text alone does not do.
+    """State the meaning of a value, with what a text alone cannot state.
 
     `column` is its column's name, None where it has none. `always`: rows of every version have it, so that a row
     without it is damaged; any other leaf may be missing from a row that an older version wrote.
@@ -34,13 +34,15 @@ class Leaf:
 
 @dataclass(frozen=True)
 class Part:
-    """Says what an object means, the columns of whose leaves begin with `prefix`."""
+    """State the meaning of an object. The columns of its leaves begin with `prefix`."""
 
     meaning: str
     prefix: str
 
 
 class Camera(TypedDict):
+    """Hold the place from which a view is seen."""
+
     azimuth: Annotated[float, "degrees around the z axis"]
     elevation: Annotated[float, "degrees above the plane z = 0"]
     fov: Annotated[float, "full vertical angle of view, degrees"]
@@ -48,6 +50,8 @@ class Camera(TypedDict):
 
 
 class Time(TypedDict):
+    """Hold the timed repetitions of a cell, and what they say together."""
+
     clock: Annotated[str, "whose clock the times are by: device or wall, the host's"]
     median_ms: Annotated[float, "median of samples_ms: the time of one frame, ms"]
     lower_ms: Annotated[float, "lower end of the median's 95 % order-statistic interval, ms"]
@@ -71,6 +75,8 @@ class Time(TypedDict):
 
 
 class Build(TypedDict):
+    """Hold what preparing a cell cost, apart from running it."""
+
     compile_ms: Annotated[float, "time to compile the timed frame, or the checked programs where none is timed, ms"]
     upload_ms: Annotated[float | None, "time to upload what the frame reads, ms; null where none is timed"]
     readback_ms: Annotated[float | None, "time to read the frame's answers back once, ms; null where none is timed"]
@@ -78,7 +84,7 @@ class Build(TypedDict):
 
 
 class Quantiles(TypedDict):
-    """Each is null where there is nothing to take it of."""
+    """Hold quantiles of a row's rays; each is null where no ray has a value."""
 
     max: Annotated[float | None, "the largest"]
     p999: Annotated[float | None, "the 99.9th percentile"]
@@ -87,6 +93,8 @@ class Quantiles(TypedDict):
 
 
 class Lane(TypedDict):
+    """Hold what the work items of one level of beams spend, and how long their lanes wait."""
+
     level: Annotated[int, "of the quadtree; 0 is the whole picture"]
     items: Annotated[int, "work items of the level"]
     evaluations: Annotated[int, "evaluations of f that they spend together"]
@@ -99,6 +107,8 @@ KINDS = ("misses", "false_hits", "exhausted", "wrong_root", "invalid")  # of wro
 
 
 class Accuracy(TypedDict):
+    """Hold the accuracy of the answers of a cell that is cast from a view."""
+
     size: Annotated[int, Leaf("rays per side of the checked grid", column="accuracy_size")]
     rays: Annotated[int, Leaf("rays checked", column="accuracy_rays")]
     domain_rays: Annotated[int, "of these, rays that meet the domain"]
@@ -122,17 +132,17 @@ class Accuracy(TypedDict):
     false_hits: Annotated[int, "clear rays that hit nothing and were answered by a hit"]
     exhausted: Annotated[int, "clear rays that the method gave up"]
     wrong_root: Annotated[int, "clear rays that were answered by a later root, or by a place that is no root"]
-    invalid: Annotated[int, "clear rays whose answer can be none, whatever the truth"]
+    invalid: Annotated[int, "clear rays whose answer is impossible, whatever the truth"]
     grazing_misses: Annotated[int, "grazing rays whose hit was missed"]
     grazing_false_hits: Annotated[int, "grazing rays that hit nothing and were answered by a hit"]
     grazing_exhausted: Annotated[int, "grazing rays that the method gave up"]
     grazing_wrong_root: Annotated[int, "grazing rays that were answered by a later root, or by no root"]
-    grazing_invalid: Annotated[int, "grazing rays whose answer can be none"]
+    grazing_invalid: Annotated[int, "grazing rays whose answer is impossible"]
     drowned_misses: Annotated[int, "drowned rays whose hit was missed"]
     drowned_false_hits: Annotated[int, "drowned rays that hit nothing and were answered by a hit"]
     drowned_exhausted: Annotated[int, "drowned rays that the method gave up"]
     drowned_wrong_root: Annotated[int, "drowned rays that were answered by a later root, or by no root"]
-    drowned_invalid: Annotated[int, "drowned rays whose answer can be none"]
+    drowned_invalid: Annotated[int, "drowned rays whose answer is impossible"]
     error: Annotated[Quantiles, Part("the errors |t − t*| of clear rays that hit the right root", "error_")]
     relative_error: Annotated[Quantiles, Part("the errors over scene_radius", "relative_error_")]
     feature_error: Annotated[
@@ -162,7 +172,7 @@ class Accuracy(TypedDict):
 
 
 class RungVerdict(TypedDict):
-    """One step of a family of hard rays; rays = decided + undecidable + undecided."""
+    """Hold the counts and errors of one rung of a family of hard rays; rays = decided + undecidable + undecided."""
 
     parameter: Annotated[float, Leaf("the family's parameter, which makes the rays harder", always=True)]
     rays: Annotated[int, Leaf("rays of the rung", always=True)]
@@ -172,7 +182,7 @@ class RungVerdict(TypedDict):
     false_hits: Annotated[int, Leaf("decided rays that hit nothing and were answered by a hit", always=True)]
     exhausted: Annotated[int, Leaf("decided rays that the method gave up", always=True)]
     wrong_root: Annotated[int, Leaf("decided rays that were answered by a later root, or by no root", always=True)]
-    invalid: Annotated[int, "decided rays whose answer can be none, whatever the truth"]
+    invalid: Annotated[int, "decided rays whose answer is impossible, whatever the truth"]
     undecidable: Annotated[int, Leaf("rays that no arithmetic of the precision can decide", always=True)]
     undecidable_right: Annotated[int, Leaf("of these, rays answered as the oracle does", always=True)]
     undecided: Annotated[int, Leaf("rays that the oracle leaves undecided", always=True)]
@@ -181,6 +191,8 @@ class RungVerdict(TypedDict):
 
 
 class NamedProgram(TypedDict):
+    """Name the program of a cell."""
+
     hash: Annotated[
         str,
         Leaf("names the text of the timed program, or of the checked one where none is timed", column="program_hash"),
@@ -188,13 +200,15 @@ class NamedProgram(TypedDict):
 
 
 class Environment(TypedDict):
+    """State when a row was written, and by which version of the project."""
+
     started: Annotated[str, "when the row was written, ISO 8601"]
     commit: Annotated[str | None, "the project's commit; null without git"]
     dirty: Annotated[bool, Leaf("whether files that git knows were changed since", column=None)]
 
 
 class CellRow(TypedDict):
-    """What a cell left behind, as the runner builds it."""
+    """Hold what a cell left behind, as the runner builds it."""
 
     key: Annotated[str, Leaf("names the cell and all that decides its result; its file's name", always=True)]
     slot: Annotated[str, Leaf("the cell's place in the experiment, for people", always=True)]
@@ -202,7 +216,7 @@ class CellRow(TypedDict):
     method: Annotated[str, Leaf("the method's name", always=True)]
     variant: Annotated[str, Leaf("the method with the knobs and whatever else sets its rows apart", always=True)]
     parameters: Annotated[dict[str, float], "every knob of the method, by name"]
-    surface: Annotated[str, Leaf("the surface's name; of a scene, what its instances are told by", always=True)]
+    surface: Annotated[str, Leaf("the surface's name; where the cell draws a scene, the scene's name", always=True)]
     surface_title: Annotated[str, Leaf("the surface's title", always=True)]
     formula: Annotated[str, "f, whose zeros are the surface"]
     degree: Annotated[int | None, "of f in x, y, z together; null where f is no polynomial"]
@@ -245,6 +259,6 @@ class CellRow(TypedDict):
 
 
 class StoredRow(CellRow):
-    """A row in its file."""
+    """Hold a row as its file does: with the version of this declaration."""
 
     format: Annotated[int, Leaf("the version of this declaration that the row was written by", column=None)]

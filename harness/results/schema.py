@@ -1,4 +1,4 @@
-"""The flat rows: which columns a report makes of a stored row, what they are called and of which kind they are.
+"""Turn stored rows into flat rows: state each column's name, kind and meaning, and read its value.
 
 A column is a leaf of harness/results/row.py. CSV, Parquet and every table use these names;
 `reports.analysis.derive` and `reports.analysis.breaks` add the columns that follow from them.
@@ -25,8 +25,11 @@ Kind = Literal["text", "real", "whole", "flag", "json", "reals"]
 
 @dataclass(frozen=True)
 class Field:
-    """One leaf and its column. `path` leads to its value in a cell's file; a value that is null or absent is None in
-    the flat row, and an error where the field is `required`."""
+    """State a leaf of a stored row, and its column.
+
+    `path` leads to the leaf's value in a cell's file. A value that is null or absent is None in the flat row, and an
+    error where the field is `required`.
+    """
 
     name: str  # the column's; empty where there is none
     kind: Kind
@@ -36,15 +39,15 @@ class Field:
 
     @cached_property
     def inside(self) -> tuple[str, ...]:
-        """The path of the object that holds the value."""
+        """Return the path of the object that holds the value."""
         return self.path[:-1]
 
 
 def fields_of(declared: Any, path: tuple[str, ...] = (), within: str = "", prefix: str = "") -> Iterator[Field]:
-    """Yield the leaves of a TypedDict of harness/results/row.py in its order, those of its objects where these stand.
+    """Yield the leaves of a TypedDict of harness/results/row.py, in the order in which they are declared.
 
-    A list of objects is a leaf, and the leaves of its items follow it without columns.
-    `within` says what the object at `path` is, `prefix` begins the names of its columns.
+    In place of an object its own leaves are yielded. A list of objects is a leaf, and the leaves of its items follow
+    it, without columns. `within` is the meaning of the object at `path`; the names of its columns begin with `prefix`.
     """
     for name, hint in typing.get_type_hints(declared, include_extras=True).items():
         annotated = typing.get_args(hint)[0] if typing.get_origin(hint) is NotRequired else hint
@@ -63,7 +66,7 @@ def fields_of(declared: Any, path: tuple[str, ...] = (), within: str = "", prefi
 
 
 def _without_none(kind: Any) -> Any:
-    """`kind` where it is one type or None: the type."""
+    """Return the type T of a union `T | None`, and any other type as it is."""
     if typing.get_origin(kind) not in (types.UnionType, typing.Union):
         return kind
     (alone,) = (part for part in typing.get_args(kind) if part is not types.NoneType)
@@ -71,7 +74,10 @@ def _without_none(kind: Any) -> Any:
 
 
 def _kind(kind: Any) -> Kind:
-    """How a column holds values of a type: numbers and texts as they are, lists of reals as lists, all else as JSON."""
+    """Return the kind of the column that holds values of a type.
+
+    Columns hold texts, numbers, truth values and lists of reals as such, and everything else as JSON.
+    """
     if typing.get_origin(kind) is Literal:
         return "text"
     return _KINDS.get(kind, "json")
@@ -81,6 +87,7 @@ _KINDS: dict[Any, Kind] = {str: "text", float: "real", int: "whole", bool: "flag
 
 
 def _of_plan(name: str, meaning: str, required: bool = False) -> Field:
+    """Make a column of texts that the plan states, not the row."""
     return Field(name, "text", (name,), meaning, required)
 
 
@@ -94,6 +101,7 @@ SCHEMA: tuple[Field, ...] = (RUN, *_COLUMNS[:_AFTER], BASELINE, *_COLUMNS[_AFTER
 
 
 def _derived(kind: Kind, **meanings: str) -> Iterator[Field]:
+    """Make columns of one kind that reports derive, by their names."""
     return (Field(name, kind, (name,), meaning) for name, meaning in meanings.items())
 
 
@@ -120,7 +128,7 @@ DERIVED: tuple[Field, ...] = (
 
 
 def _leaf(name: str) -> Field:
-    """The leaf `name` of the row itself, as a column."""
+    """Return the leaf `name` of the row itself, as a column of that name."""
     (found,) = (field for field in LEAVES if field.path == (name,))
     return replace(found, name=name)
 
@@ -136,13 +144,20 @@ RUNG: tuple[Field, ...] = (
 
 
 def flatten(fields: Sequence[Field], document: dict[str, Any]) -> tuple[Any, ...]:
-    """The values of `fields`, in their order; a ValueError names the first that is missing or of another kind."""
+    """Return the values of `fields` in a stored row, in the order of the fields.
+
+    A value that is null or absent is None. Raises ValueError, which names the field, for the first value that is of
+    another kind, and for the first required one that is missing.
+    """
     around: dict[tuple[str, ...], Any] = {(): document}  # what was found on the way is shared by neighbouring fields
     return tuple(_value(field, around) for field in fields)
 
 
 def _object(path: tuple[str, ...], around: dict[tuple[str, ...], Any]) -> Any:
-    """The object at `path`, or None; found and checked once."""
+    """Return the object at `path`, or None where there is none; `around` keeps what was found.
+
+    Raises ValueError where something other than an object stands there.
+    """
     if path not in around:
         outer = _object(path[:-1], around)
         value = None if outer is None else outer.get(path[-1])
@@ -153,6 +168,7 @@ def _object(path: tuple[str, ...], around: dict[tuple[str, ...], Any]) -> Any:
 
 
 def _value(field: Field, around: dict[tuple[str, ...], Any]) -> Any:
+    """Return a field's value. Raises ValueError where it is of another kind, or required and missing."""
     found = _object(field.inside, around)
     value = None if found is None else found.get(field.path[-1])
     if value is None:
@@ -166,7 +182,10 @@ def _value(field: Field, around: dict[tuple[str, ...], Any]) -> Any:
 
 
 def _exactly(kind: type) -> Callable[[Any], Any]:
+    """Make the reader of values that are of one type exactly."""
+
     def read(value: Any) -> Any:
+        """Return the value. Raises TypeError where it is of another type."""
         if type(value) is not kind:
             raise TypeError
         return value
@@ -175,12 +194,14 @@ def _exactly(kind: type) -> Callable[[Any], Any]:
 
 
 def _real(value: Any) -> float:
+    """Read a number as a float. Raises TypeError for anything else."""
     if type(value) not in (int, float):
         raise TypeError
     return float(value)
 
 
 def _whole(value: Any) -> int:
+    """Read a whole number. Raises TypeError for anything else, and OverflowError where 64 bits cannot hold it."""
     if type(value) is not int:
         raise TypeError
     if abs(value) >= 2**63:
@@ -189,6 +210,7 @@ def _whole(value: Any) -> int:
 
 
 def _reals(value: Any) -> list[float]:
+    """Read a list of numbers as floats. Raises TypeError for anything else."""
     if type(value) is not list or not {float, int}.issuperset(map(type, value)):
         raise TypeError
     return list(map(float, value))

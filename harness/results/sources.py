@@ -1,4 +1,4 @@
-"""Hashes the project's own files by whole folders: what decides a row, a truth file, a mesh or a study.
+"""Hash the project's own files by whole folders: what decides a row, a truth file, a mesh or a study.
 
 A folder counts with everything in it, so that a new module is covered on the day it appears. What is left out stands in
 NOT_DECIDING with its reason. tests/test_identity.py walks the imports of a run and fails where it reaches one of them.

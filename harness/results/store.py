@@ -1,4 +1,4 @@
-"""Keeps results as files below runs/<config>/, written whole or not at all, and named by what decides them.
+"""Keep results as files below runs/<config>/, written whole or not at all, and named by what decides them.
 
 plan.json            the experiment as last run: which cells it names, on which devices
 cells/<key>.json     one row
@@ -22,7 +22,7 @@ Row = dict[str, Any]  # as it was read, of this or an older version; harness/res
 
 
 class Store:
-    """Holds one experiment's folder, to which only one process writes."""
+    """Hold one experiment's folder, to which only one process writes."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder

@@ -1,4 +1,4 @@
-"""What repeated timings say: the median with its interval, drift, noise, and one variant's time over another's.
+"""Compute what timings say: the median with its interval, drift, noise, and one variant's time over another's.
 
 Two intervals stand beside each other. The order-statistic interval assumes nothing of the distribution, and from 6
 samples on it covers the median at least 95 times in 100: it decides. The bootstrap interval is what papers print. With
@@ -70,7 +70,7 @@ def bootstrap_interval(samples: Sequence[float], seed: int) -> tuple[float, floa
 
 
 def is_narrow(samples: Sequence[float], share: float) -> bool:
-    """Say whether the 95 % interval of the median exists and lies within ± `share` of it."""
+    """Tell whether the 95 % interval of the median exists and lies within ± `share` of it."""
     if not samples:
         return False
     median, lower, upper, proved = median_interval(samples)
@@ -78,7 +78,7 @@ def is_narrow(samples: Sequence[float], share: float) -> bool:
 
 
 def proves(count: int) -> bool:
-    """Say whether `count` samples are enough for a 95 % interval of their median."""
+    """Tell whether `count` samples are enough for a 95 % interval of their median."""
     return count > 0 and _rank(count) is not None
 
 
@@ -132,7 +132,7 @@ def steadiness(samples: Sequence[float]) -> dict[str, Any]:
 
 @dataclass(frozen=True)
 class Ratio:
-    """Holds one variant's time over another's, from `pairs` rounds that timed both; `proved` as in median_interval.
+    """Hold one variant's time over another's, from `pairs` rounds that timed both; `proved` as in median_interval.
 
     `chance` is how often chance alone parts equally fast variants so (signed_rank of the logarithms).
     """

@@ -1,4 +1,4 @@
-"""Files that somebody keeps are written whole or not at all: whoever is stopped half-way leaves the old file.
+"""Write files that somebody keeps, whole or not at all: a process that is stopped half-way leaves the old file.
 
 Everything goes to a temporary file in the same folder first, is flushed to the disk, and then takes the place of the
 file of its name, which a file system does in one step.

@@ -17,7 +17,7 @@ from harness.plugins import Plugin
 
 @dataclass(eq=False)
 class Compiled:
-    """Holds what compiling led to.
+    """Hold what compiling led to.
 
     built: for each device the time in ms that each program took, and which program it is
     failed: a line for each case that could not be compiled, with the compiler's message

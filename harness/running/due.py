@@ -19,14 +19,14 @@ PREPARING = 0.3  # seconds to build and check a cell: the mean of 4,392 of confi
 
 @dataclass(frozen=True, eq=False)
 class Due:
-    """Holds a plan's cells that must run, and the rows of the others."""
+    """Hold a plan's cells that must run, and the rows of the others."""
 
     todo: list[Planned]  # in the plan's order
     kept: dict[str, Row]  # the other cells' rows by their keys, in the plan's order
 
 
 def due(planned: Sequence[Planned], store: Store, again: Again = "nothing") -> Due:
-    """Tell the cells that must run from those whose stored row is kept.
+    """Separate the cells that must run from those whose stored row is kept.
 
     A row that cannot be read counts as none; `store.unreadable` then says why.
     """

@@ -19,7 +19,7 @@ from harness.results.row import Accuracy, Build, CellRow, RungVerdict, Time
 
 @dataclass(eq=False)
 class Samples:
-    """Holds the timed repetitions of one cell in the order in which they were taken; times are in ms for one frame."""
+    """Hold the timed repetitions of one cell in the order in which they were taken; times are in ms for one frame."""
 
     clock: str  # the device's clock that is to be believed: "device" or "wall"
     wall_ms: list[float] = field(default_factory=list)
@@ -46,7 +46,7 @@ class Samples:
 
 @dataclass(frozen=True, eq=False)
 class Left:
-    """Holds the parts of a row that a cell which was tried left behind; None for a part that it did not get to."""
+    """Hold the parts of a row that a cell which was tried left behind; None for a part that it did not get to."""
 
     build: Build
     seconds: float  # of checking, building and timing

@@ -33,7 +33,7 @@ from harness.running.runner import Runner
 
 @dataclass(frozen=True, eq=False)
 class Loaded:
-    """Holds a config, and all that is needed to plan and run it here."""
+    """Hold a config, and all that is needed to plan and run it here."""
 
     whole: Experiment
     parts: tuple[Experiment, ...]  # the config itself, or those that it includes
@@ -43,7 +43,7 @@ class Loaded:
 
 @dataclass(frozen=True, eq=False)
 class Run:
-    """Holds what a run left behind: the folder that reports read, and the row of every cell that its config names."""
+    """Hold what a run left behind: the folder that reports read, and the row of every cell that its config names."""
 
     folder: Path
     rows: tuple[Row, ...]  # of the cells that were run now, in the order in which they ended
@@ -67,7 +67,7 @@ class Run:
 
 
 class Watcher:
-    """Is told what a run does, and does nothing about it. A caller overrides the methods that it wants to hear by."""
+    """Hear what a run does, and do nothing about it. A caller overrides the methods that it needs."""
 
     def doing(self, what: str) -> AbstractContextManager[None]:
         """Hear what goes on while a block runs that takes long."""
@@ -91,7 +91,7 @@ class Watcher:
 
 
 class Teller(Watcher):
-    """Tells what a run does to a function that takes a line of text."""
+    """Tell what a run does to a function that takes a line of text."""
 
     def __init__(self, tell: Callable[[str], None]) -> None:
         self._tell, self._left = tell, 0

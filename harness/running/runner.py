@@ -33,7 +33,7 @@ UNCHECKED = Outcome(0.0)
 
 @dataclass(eq=False)
 class _Live:
-    """Holds the state of a cell that is being run."""
+    """Hold the state of a cell that is being run."""
 
     planned: Planned
     frame: Frame | None
@@ -45,7 +45,7 @@ class _Live:
 
 
 class Runner:
-    """Runs cells and stores their rows.
+    """Run cells and store their rows.
 
     `report` is called with a cell's slot and None when the cell is worked on, and with its slot and row when the row is
     stored. `environment` is stored in every row.
@@ -116,7 +116,10 @@ class Runner:
             state.preparing = time.perf_counter() - start
 
     def _time(self, live: dict[str, _Live]) -> list[Row]:
-        """Time cells in interleaved rounds, each of which visits every unfinished cell once, in random order."""
+        """Time cells in interleaved rounds, each of which visits every unfinished cell once, in random order.
+
+        Returns their rows. A cell whose frame fails gets a row too.
+        """
         rows: list[Row] = []
         self._session = uuid.uuid4().hex[:16]
         for round_number in itertools.count():

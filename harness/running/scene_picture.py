@@ -24,7 +24,7 @@ from harness.scenes.records import depth_map
 
 @dataclass(frozen=True, eq=False)
 class ScenePicture:
-    """Holds a scene's picture, and what drawing it took; each pixel is the mean of four samples."""
+    """Hold a scene's picture, and what drawing it took; each pixel is the mean of four samples."""
 
     pixels: NDArray[np.uint8]  # [size, size, 3], row 0 at the top, on white
     drawn: float  # the share of the samples that show an instance

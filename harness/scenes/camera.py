@@ -1,4 +1,4 @@
-"""Turns views into cameras, and cameras into rays.
+"""Turn views into cameras, and cameras into rays.
 
 The rays of an accuracy check are made here, once, in float32; every device is given the same list.
 """

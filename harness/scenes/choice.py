@@ -1,4 +1,4 @@
-"""Makes scenes of what a config states in its tables [scene.NAME]."""
+"""Make scenes of what a config states in its tables [scene.NAME]."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def _generators() -> Iterable[str]:
 
 @dataclass(frozen=True)
 class PlacedChoice:
-    """One instance, as a config states it: world = at + scale · turn · local.
+    """State one instance of a config: world = at + scale · turn · local.
 
     `turn` is in degrees about x, then y, then z. `domain` cuts out a part: a quarter torus is a torus in a box that
     begins at 0. If `method` is given, it draws this instance with its knobs, whatever methods the experiment compares;
@@ -46,7 +46,7 @@ class PlacedChoice:
 
 @dataclass(frozen=True)
 class SceneChoice:
-    """A scene, as a config states it: instances, and one view.
+    """State a scene of a config: instances, and one view.
 
     Instances are `placed` one by one, or made by `generate` (lattice, scattered, pipes or molecule), which gives a
     scene for each of `counts`.

@@ -1,4 +1,4 @@
-"""Generates scenes of any number of instances: the same count and seed give the same scene everywhere."""
+"""Generate scenes of any number of instances: the same count and seed give the same scene everywhere."""
 
 from __future__ import annotations
 
@@ -137,7 +137,7 @@ def elbow(radius: str) -> Surface:
 
 @dataclass
 class _Assembly:
-    """Parts of pipes in the cells of a cubic lattice with `side` cells a side, `count` of them at most."""
+    """Hold parts of pipes in the cells of a cubic lattice with `side` cells a side, `count` of them at most."""
 
     count: int
     side: int
@@ -146,7 +146,7 @@ class _Assembly:
     total: int = 0
 
     def put(self, kind: str, at: Floats, turn: Directions, colour: Floats) -> None:
-        """Place a part at a point of the lattice, in cells; does nothing once there are `count` parts."""
+        """Place a part at a point of the lattice, in cells; do nothing once there are `count` parts."""
         if self.total < self.count:
             self.placed.setdefault(kind, []).append((at - 0.5 * (self.side - 1), turn, colour))
             self.total += 1

@@ -1,4 +1,4 @@
-"""Tessellates surfaces with pyvista, and keeps the meshes on disk. No other module imports pyvista."""
+"""Tessellate surfaces with pyvista, and keep the meshes on disk. No other module imports pyvista."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ PARAMETRIC = {  # the formulas whose parametric form is known here
 
 @dataclass(frozen=True, eq=False)
 class Mesh:
-    """Triangles, counterclockwise as seen from outside; positions are in the surface's own units."""
+    """Hold triangles, counterclockwise as seen from outside; positions are in the surface's own units."""
 
     vertices: NDArray[np.float32]  # [v, 6] position and unit normal
     triangles: NDArray[np.uint32]  # [f, 3]

@@ -1,4 +1,4 @@
-"""Defines scenes and their groups of instances. Instances that share a formula form a group, which one call draws."""
+"""Define scenes and their groups of instances. Instances that share a formula form a group, which one call draws."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ COLOUR = (0.36, 0.58, 0.82)
 
 @dataclass(frozen=True, eq=False)
 class Group:
-    """n instances of one formula: world = place + scale · turn · local.
+    """Hold n instances of one formula: world = place + scale · turn · local.
 
     `surfaces` holds one surface for all instances, or one for each; these differ in parameters and domain alone. Raises
     FirsthitError if the shapes do not agree, the formulas differ, or a scale is not positive.
@@ -80,7 +80,7 @@ class Group:
 
 @dataclass(frozen=True, eq=False)
 class Scene:
-    """Groups of instances, as `view` sees them."""
+    """Hold groups of instances, as `view` sees them."""
 
     name: str
     title: str

@@ -1,4 +1,4 @@
-"""Instances as a device wants them: records of 32 numbers, their proxies' triangles, and the depth buffer's map."""
+"""Make what a device reads of instances: records of 32 numbers, proxies' triangles, and the depth buffer's map."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Makes sets of views, which a config names in a line or two. Reports show by set how a method depends on the view."""
+"""Make sets of views, which a config names in a line or two. Reports show by set how a method depends on the view."""
 
 from __future__ import annotations
 
@@ -16,7 +16,9 @@ GOLDEN_TURN = 180.0 * (3.0 - math.sqrt(5.0))  # degrees between neighbours of a 
 
 @dataclass(frozen=True)
 class AngleChoice:
-    """Projection angles as in toledo2007, Table 1: 0° looks down the z axis, 90° from the side (elevation 90° − angle).
+    """State projection angles as in toledo2007, Table 1: 0° looks down the z axis, 90° looks from the side.
+
+    A view's elevation is 90° minus its angle.
 
     Azimuth, field of view and distance are as for a View, and the same for all angles. From azimuth 0 the torus's box
     covers as many pixels as the paper prints. From other azimuths the box is seen turned, and covers more.
@@ -32,7 +34,7 @@ class AngleChoice:
 
 @dataclass(frozen=True)
 class DirectionChoice:
-    """`count` directions spread evenly over the sphere, all turned by one random rotation, which `seed` decides."""
+    """State `count` directions, spread evenly over the sphere. `seed` decides one random rotation of all of them."""
 
     count: Annotated[int, Within(1, 10_000)] = 24
     seed: Annotated[int, SEED] = 1

@@ -1,4 +1,4 @@
-"""Runs studies: computations on the host that a paper tabulates beside its pictures. They need no device and no rays.
+"""Run studies: computations on the host that a paper tabulates beside its pictures. They need no device and no rays.
 
 Each module here is one study. Its docstring says what the paper states and what is computed, TITLE names it, and
 `compute()` returns its rows. A config names studies in `studies = [...]`; `firsthit run` stores each as
@@ -23,7 +23,7 @@ NAMES = ("condition_numbers", "extrema_bounds", "form_ranges", "mesh_errors", "t
 
 
 class Study(Protocol):
-    """What a module of this folder holds."""
+    """State what a module of this folder holds."""
 
     TITLE: str
 

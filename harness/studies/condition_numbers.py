@@ -1,4 +1,4 @@
-"""Computes L² condition numbers of the fitting matrices H (szente, Table 1).
+"""Compute L² condition numbers of the fitting matrices H (szente, Table 1).
 
 The nodes are cos(iπ/n), i = 0 … n, on [-1, 1] for the monomial basis and mapped to [0, 1] for the Bernstein basis. With
 this reading every digit that the paper prints comes out. The monomial basis on [0, 1], which the paper says is worse,

@@ -1,4 +1,4 @@
-"""Computes how far bounds of a random Bézier function's extrema are from the extrema (szente, section 3 and Table 2).
+"""Compute how far bounds of a random Bézier function's extrema are from the extrema (szente, section 3 and Table 2).
 
 The paper describes "curves with random coefficients in [0, 1], averaging the statistics over 100 curves" and errors
 "normalised by the magnitude of the extremum". That recipe does not give its figures: the LU bound is exact at degree 2,
@@ -29,7 +29,7 @@ Curve = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Reading:
-    """One way to understand the paper's description."""
+    """Hold one way to understand the paper's description."""
 
     words: str
     draw: Callable[[np.random.Generator, int], Curve]

@@ -1,4 +1,4 @@
-"""Measures by how much the natural interval extension of each form of a surface overestimates f's range over boxes.
+"""Measure by how much the natural interval extension of each form of a surface overestimates f's range over boxes.
 
 beamcasting, section III.A: the natural extension replaces every operation of the expression by its interval
 counterpart, and so depends on how the expression is written. Boxes are cubes with random centres in the domain's box,
@@ -31,7 +31,7 @@ Row = dict[str, str | int | float | None]
 
 
 class Intervals(Arithmetic):
-    """Runs a tape in intervals; it has the operations that the papers' formulas need."""
+    """Run a tape in intervals; it has the operations that the papers' formulas need."""
 
     def const(self, value: Fraction) -> Interval:
         return np.asarray(float(value)), np.asarray(float(value))

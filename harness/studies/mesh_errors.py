@@ -1,4 +1,4 @@
-"""Computes how far a polygonal torus is from the torus (toledo2007, Table 1, last columns).
+"""Compute how far a polygonal torus is from the torus (toledo2007, Table 1, last columns).
 
 The paper prints 1 - cos(π/N) as a share of R + r, which is the error of a polygon along the ring. The polygon around
 the tube has an error too. At the centres of facets near the outer equator both add up to (R + 2 r) (1 - cos(π/N)). Both

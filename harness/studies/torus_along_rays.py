@@ -1,4 +1,4 @@
-"""Computes the torus's quartic T along rays, and tests what toledo2007 says of it (section 4.2, equations 2 and 3).
+"""Compute the torus's quartic T along rays, and test what toledo2007 says of it (section 4.2, equations 2 and 3).
 
 The paper prints T's coefficients, says that T has "at most two local maximum and at most one local minimum", and splits
 a ray at t_M = -(o·v), the mean of the roots of T'. Here, one ray is computed for each shape of T that Figure 3 draws
@@ -24,7 +24,10 @@ Vector = NDArray[np.float64]
 
 
 def _touching() -> tuple[Vector, Vector]:
-    """Return the ray in the plane y = 0 that touches one of the tube's circles and passes the centre of the other."""
+    """Return origin and direction, float64[3] each, of a ray in the plane y = 0.
+
+    The ray touches one of the tube's circles and passes the centre of the other.
+    """
     slope = TUBE / math.sqrt(4.0 * RING**2 - TUBE**2)
     return np.array([RING, 0.0, 0.0]), np.array([1.0, 0.0, -slope])
 

@@ -76,6 +76,7 @@ from harness.contract import Method, Parameter, Surface
 
 
 def accepts(surface: Surface) -> str | None:
+    """Say why the surface has no closed form; None if it has one."""
     if surface.degree is None:
         return "no polynomial, so it has no closed form"
     return None if 1 <= surface.degree <= 4 else f"degree {surface.degree} has no closed form"

@@ -77,6 +77,7 @@ def leads_positively(surface: Surface) -> bool:
 
 
 def accepts(surface: Surface) -> str | None:
+    """Say why the surface is refused; None for a quartic whose leading coefficient is positive along every ray."""
     if surface.degree != 4:
         return "no quartic"
     return None if leads_positively(surface) else "its leading coefficient is not positive along every ray"

@@ -18,6 +18,7 @@ from harness.contract import MeshRecipe, Method, Parameter, Surface
 
 
 def accepts(surface: Surface) -> str | None:
+    """Say why the surface has no parametric mesh; None if it has one."""
     from harness.scenes.meshes import parametric_refusal
 
     return parametric_refusal(surface)

@@ -57,6 +57,7 @@ from harness.contract import Method, Parameter, Surface
 
 
 def accepts(surface: Surface) -> str | None:
+    """Say why the surface is refused; None if it states a distance."""
     return None if surface.distance else "the surface states no distance; sphere_tracing_lipschitz needs none"
 
 

@@ -81,6 +81,7 @@ MAX_DEGREE = 16
 
 
 def accepts(surface: Surface) -> str | None:
+    """Say why the surface has no Sturm chain here; None if it has one."""
     if surface.degree is None:
         return "no polynomial, so it has no Sturm chain"
     return None if 1 <= surface.degree <= MAX_DEGREE else f"degree {surface.degree}: the chain is for 1 to {MAX_DEGREE}"

@@ -97,7 +97,7 @@ class BeamCasting(ViewCasting):
 def beam_hits(
     hits: Hits, pixels: Pixels, surface: Surface, rays: NDArray[np.float32], camera: NDArray[np.float32]
 ) -> Hits:
-    """Bring the answers of beams to the rays float32[n, 6] that they hold, and mark those INVALID that can be none.
+    """Turn the answers of beams into answers for the rays float32[n, 6] that they hold; mark impossible ones INVALID.
 
     `camera` is float32[12].
     """

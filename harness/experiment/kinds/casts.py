@@ -16,7 +16,7 @@ from harness.experiment.kinds.rays import RayMethods, Rays
 
 @dataclass(frozen=True)
 class Way:
-    """Hold the kind of the methods that cast in one way, and the kind of their cells in stages compute and rays."""
+    """State one way to cast: the kind of its methods, and the kind of their cells in stages compute and rays."""
 
     methods: MethodKind
     cells: Kind

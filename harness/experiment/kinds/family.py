@@ -14,7 +14,7 @@ from harness.devices.executor import LocalExecutor
 from harness.devices.messages import Frame, ListedCheck
 from harness.experiment.cells import Cell
 from harness.experiment.config import AccuracyChoice, Config
-from harness.experiment.kinds.model import Asked, Casting, Kind, Outcome
+from harness.experiment.kinds.model import Asked, Casting, Kind, KindFacts, Outcome
 from harness.experiment.kinds.narrowed import REFUSAL as NO_PREPASS
 from harness.hardcases import groups
 from harness.oracle import cached_first_hits
@@ -57,7 +57,7 @@ class Family(Kind):
     def unable(self, asked: Asked) -> str | None:
         return None if asked.cell.prepass == "none" else NO_PREPASS
 
-    def facts(self, cell: Cell) -> dict[str, Any]:
+    def facts(self, cell: Cell) -> KindFacts:
         return {"camera": None, "proxy": None, "normal": None, "pixel_tolerance": None}
 
     def question(self, cell: Cell, config: Config, timed: bool) -> dict[str, Any]:

@@ -47,12 +47,15 @@ class MeshMethods(MethodKind):
         return 'draws triangles, in stage raster: name it in a config with stages = ["raster"]'
 
     def shot(self, program: Program, shot: Shot, index: NDArray[np.intp]) -> Check[Any]:
+        """Raise NotImplementedError: `shot_refusal` refuses every shot."""
         raise NotImplementedError("a mesh casts no shot: ask shot_refusal first")
 
     def shot_hits(self, answer: Any) -> Hits:
+        """Raise NotImplementedError: `shot_refusal` refuses every shot."""
         raise NotImplementedError("a mesh casts no shot: ask shot_refusal first")
 
     def validated(self, hits: Hits, surface: Surface, shot: Shot) -> Hits:
+        """Raise NotImplementedError: `shot_refusal` refuses every shot."""
         raise NotImplementedError("a mesh casts no shot: ask shot_refusal first")
 
 
@@ -60,4 +63,5 @@ class Mesh(Kind):
     """Stand for triangles outside stage raster, where MeshMethods.stage_refusal refuses every cell."""
 
     def casting(self, asked: Asked) -> Casting:
+        """Raise NotImplementedError: `refusal` refuses every cell."""
         raise NotImplementedError("a mesh is drawn by stage raster: ask refusal first")

@@ -15,7 +15,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, TypedDict
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,12 +32,21 @@ from harness.experiment.config import AccuracyChoice, Config, Experiment
 from harness.kernels.assemble import Entry, Language, method_program, with_free_loops
 from harness.kernels.functions import unsupported
 from harness.plugins import Catalog, Plugin
-from harness.results.row import Accuracy, RungVerdict
+from harness.results.row import Accuracy, Camera, RungVerdict
 from harness.scenes.camera import camera_for, distance_of, pixel_footprint, rays_of
 from harness.scenes.model import Group
 
 Rastering = tuple[Proxy, float, Normal]  # proxy, tolerance in pixels, normal: of stage raster only
 NOT_RASTERED: Rastering = ("box", 0.0, "distance")
+
+
+class KindFacts(TypedDict):
+    """Hold the leaves of a cell's row that depend on its kind; see `Kind.facts`."""
+
+    camera: Camera | None
+    proxy: Proxy | None
+    normal: Normal | None
+    pixel_tolerance: float | None
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,7 +109,8 @@ class MethodKind(ABC):
     """State what follows from what a method's kernel casts.
 
     Kinds state the four properties as class attributes. A shot is an image, or listed rays, that `firsthit show` and
-    `firsthit trace` cast once.
+    `firsthit trace` cast once. What `unlisted`, `undrawn` and `shot_refusal` say continues a sentence that begins with
+    the method's name.
     """
 
     @property
@@ -116,12 +126,12 @@ class MethodKind(ABC):
     @property
     @abstractmethod
     def unlisted(self) -> str | None:
-        """Say why listed rays cannot be cast, in what follows the method's name in a sentence; None if they can."""
+        """Say why listed rays cannot be cast; None if they can."""
 
     @property
     @abstractmethod
     def undrawn(self) -> str | None:
-        """Say why stage raster cannot draw by the method, in what follows its name in a sentence; None if it can."""
+        """Say why stage raster cannot draw by the method; None if it can."""
 
     def stage_refusal(self, stage: Stage) -> str | None:
         """Say why the method cannot cast in a stage other than raster; None if it can."""
@@ -164,9 +174,9 @@ class MethodKind(ABC):
         return None
 
     def shot_refusal(self, camera: NDArray[np.float32] | None) -> str | None:
-        """Say why the method cannot cast a shot, in what follows its name in a sentence; None if it can.
+        """Say why the method cannot cast a shot; None if it can.
 
-        `camera`, float32[12], is the image's; None if the rays are of no camera.
+        `camera`, float32[12], is the camera whose image the shot is; None if the rays are listed ones.
         """
         return self.unlisted if camera is None else None
 
@@ -180,7 +190,7 @@ class MethodKind(ABC):
 
     @abstractmethod
     def validated(self, hits: Hits, surface: Surface, shot: Shot) -> Hits:
-        """Mark those answers INVALID that can be none (harness.accuracy.answers); `hits` are of all rays of a shot."""
+        """Mark impossible answers INVALID (harness.accuracy.answers); `hits` [n] are of all rays of a shot."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -248,21 +258,21 @@ class Kind(ABC):
         return None
 
     def unable(self, asked: Asked) -> str | None:
-        """Say what only this kind refuses, whatever the surface; None if that is nothing."""
+        """Say why this kind refuses the cell, whatever the surface; None if it does not."""
         return None
 
     @abstractmethod
     def casting(self, asked: Asked) -> Casting:
         """Make the cell's programs; `refusal` was asked before. Raises FirsthitError if they cannot be made."""
 
-    def facts(self, cell: Cell) -> dict[str, Any]:
+    def facts(self, cell: Cell) -> KindFacts:
         """Return the leaves of the cell's row that depend on the kind.
 
         `camera` is the view's angles in degrees and its distance from the target in scene units, also if the view
         leaves that to the surface. `proxy`, `normal` and `pixel_tolerance` are of stage raster, and None elsewhere.
         """
         view, distance = cell.view, distance_of(cell.view, cell.surface)
-        pose = {"azimuth": view.azimuth, "elevation": view.elevation, "fov": view.fov, "distance": distance}
+        pose: Camera = {"azimuth": view.azimuth, "elevation": view.elevation, "fov": view.fov, "distance": distance}
         return {"camera": pose, "proxy": None, "normal": None, "pixel_tolerance": None}
 
     def question(self, cell: Cell, config: Config, timed: bool) -> dict[str, Any]:

@@ -54,6 +54,7 @@ class NarrowedCasting(ViewCasting):
         return listed_again(self.asked, executor, cast)
 
     def with_programs(self, checked: Program | None, timed: Program) -> ViewCasting:
+        """Raise NotImplementedError: `not_raced` says why the frame is not timed against another revision's."""
         raise NotImplementedError(self.not_raced)
 
 

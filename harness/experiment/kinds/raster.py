@@ -11,7 +11,6 @@ import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,7 +24,7 @@ from harness.devices.messages import Frame
 from harness.devices.raster import Picture, RasterCheck, RasterFrame
 from harness.experiment.cells import Cell
 from harness.experiment.kinds.draws import Draw, draws, identity, refusal, too_many
-from harness.experiment.kinds.model import Asked, Casting, Kind, ViewCasting
+from harness.experiment.kinds.model import Asked, Casting, Kind, KindFacts, ViewCasting
 from harness.experiment.kinds.narrowed import REFUSAL as NO_PREPASS
 from harness.experiment.targets import able
 from harness.kernels.assemble import with_free_loops
@@ -105,7 +104,7 @@ class RasterCasting(ViewCasting):
         pictures = {} if alone else {"shade": shade}
         return SceneCast(surface, picture.rays, hits, checked.compile_ms, facts, pictures, self.scene, picture, alone)
 
-    def _fragments(self, executor: LocalExecutor) -> dict[str, Any]:
+    def _fragments(self, executor: LocalExecutor) -> dict[str, int]:
         """Count the fragments of the frame that is timed; they are leaves of the row's accuracy."""
         whole = RasterCheck(self._frame(self.samples, reports=True), fill_program(), twice=False)
         picture = executor.check(self.cell.device, whole).answer
@@ -120,6 +119,7 @@ class RasterCasting(ViewCasting):
         return None
 
     def with_programs(self, checked: Program | None, timed: Program) -> ViewCasting:
+        """Raise NotImplementedError: `not_raced` says why the frame is not timed against another revision's."""
         raise NotImplementedError(self.not_raced)
 
 
@@ -139,9 +139,9 @@ class Raster(Kind):
             scene, cell.variant, asked.catalog, asked.most_triangles
         )
 
-    def facts(self, cell: Cell) -> dict[str, Any]:
-        own = {"proxy": cell.proxy, "normal": cell.normal, "pixel_tolerance": cell.tolerance}
-        return super().facts(cell) | own
+    def facts(self, cell: Cell) -> KindFacts:
+        own: KindFacts = super().facts(cell)
+        return {**own, "proxy": cell.proxy, "normal": cell.normal, "pixel_tolerance": cell.tolerance}
 
     def casting(self, asked: Asked) -> Casting:
         cell = asked.cell

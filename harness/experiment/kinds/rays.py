@@ -56,6 +56,7 @@ class RayMethods(MethodKind):
         return f"{variant} has tables of its surface, and the group's surfaces differ in {group.differ_in}"
 
     def draw_programs(self, plugin: Plugin, drawing: Drawing) -> tuple[Program, Program]:
+        """Make the timed and the reporting program. Raises FirsthitError if instances differ in too many parameters."""
         group, surface = drawing.group, drawing.group.distinct[0]
         if group.varies and len(surface.parameters) > MOST_PARAMETERS:
             raise FirsthitError(f"instances of {surface.name} cannot differ: it has over {MOST_PARAMETERS} parameters")
