@@ -14,6 +14,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import cache
 from numbers import Integral
+from pathlib import Path
 from typing import Any, Protocol
 
 from surfaces.model import FirsthitError, is_number
@@ -97,7 +98,7 @@ def hold(record: Any) -> None:
 
     Numbers of numpy become numbers of Python. Raises FirsthitError, which names the field.
     """
-    for name, kind in _kinds(type(record)).items():
+    for name, kind in _kinds(record.__class__).items():
         object.__setattr__(record, name, held(name, getattr(record, name), kind))
 
 
@@ -126,26 +127,46 @@ def held(name: str, value: Any, kind: Any) -> Any:
         return _word(name, value, parts)
     if origin is tuple:
         if not isinstance(value, Sequence) or isinstance(value, str) or len(value) != len(parts):
-            raise FirsthitError(f"{name} needs {len(parts)} numbers, not {value!r}")
+            raise FirsthitError(f"{name} needs {len(parts)} numbers, not {_shown(value)}")
         return tuple(held(name, item, part) for item, part in zip(value, parts, strict=True))
     if kind in (float, int):
         return _plain(name, value, whole=kind is int)
     if not isinstance(value, kind):
-        raise FirsthitError(f"{name} is a {'text' if kind is str else kind.__name__}, not {value!r}")
+        raise FirsthitError(f"{name} is a {'text' if kind is str else kind.__name__}, not {_shown(value)}")
     return value
+
+
+def checked_path(name: str, given: Any) -> Path:
+    """Return the path that a caller gave. Raises FirsthitError, which names the argument, where it is none."""
+    if not isinstance(given, str | Path):
+        raise FirsthitError(f"{name} is a path, as a text or a pathlib.Path, not {_shown(given)}")
+    return Path(given)
+
+
+def checked_names(name: str, given: Any) -> list[str]:
+    """Return the names that a caller gave. Raises FirsthitError, which names the argument, for anything else."""
+    if not isinstance(given, list | tuple) or not all(isinstance(one, str) for one in given):
+        raise FirsthitError(f"{name} is a list of names, not {_shown(given)}")
+    return list(given)
 
 
 def _word(name: str, value: Any, known: tuple[str, ...]) -> str:
     if not isinstance(value, str):
-        raise FirsthitError(f"{name} is one of the texts {', '.join(map(repr, known))}, not {value!r}")
+        raise FirsthitError(f"{name} is one of the texts {', '.join(map(repr, known))}, not {_shown(value)}")
     if value not in known:
         raise FirsthitError(f"unknown {name} {value!r}; {suggestion(value, known)}")
     return value
 
 
+def _shown(value: object) -> str:
+    """Write a value for a message, shortened where it is long."""
+    text = repr(value)
+    return text if len(text) <= 60 else f"{text[:57]}..."
+
+
 def _plain(name: str, value: Any, whole: bool) -> float | int:
     if not is_number(value):
-        raise FirsthitError(f"{name} is a {'whole ' if whole else ''}number, not {value!r}")
+        raise FirsthitError(f"{name} is a {'whole ' if whole else ''}number, not {_shown(value)}")
     if not isinstance(value, Integral) and whole:
         raise FirsthitError(f"{name} is a whole number, not {value}")
     return int(value) if isinstance(value, Integral) else float(value)

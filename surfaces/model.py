@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 import struct
+from collections.abc import Iterable
 from dataclasses import dataclass
 from numbers import Real
 from typing import Any, TypeGuard
@@ -42,10 +43,9 @@ def _rounded(value: object, what: str) -> float:
 
 def _point(values: object, what: str) -> tuple[float, float, float]:
     """Round three coordinates to float32. Raises FirsthitError where `values` is anything else."""
-    try:
-        x, y, z = values  # type: ignore[misc]
-    except (TypeError, ValueError):
-        raise FirsthitError(f"{what} is three numbers, as in (0, 0, 1), not {values!r}") from None
+    if isinstance(values, str) or not isinstance(values, Iterable) or len(numbers := tuple(values)) != 3:
+        raise FirsthitError(f"{what} is three numbers, as in (0, 0, 1), not {values!r}")
+    x, y, z = numbers
     return _rounded(x, f"{what}'s x"), _rounded(y, f"{what}'s y"), _rounded(z, f"{what}'s z")
 
 
