@@ -20,7 +20,7 @@ import re
 import warnings
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import surfaces as surfaces
 from harness import __version__ as __version__
@@ -45,6 +45,8 @@ from harness.contract import (
     Variant,
     View,
 )
+from harness.limits import PICTURE, PIXELS, checked_names, checked_path, held
+from surfaces.words import COORDINATES
 
 if TYPE_CHECKING:
     import numpy as np
@@ -92,7 +94,7 @@ __all__ = [
 AnySurface = str | Surface
 AnyPath = str | Path
 _LATE = {"Run": "harness.running.run", "Recommendation": "harness.recommend.search"}  # imported where they are used
-_COORDINATE = re.compile(r"\b[xyz]\b")
+_NAME = re.compile("[A-Za-z0-9_:]+")
 
 
 def __getattr__(name: str) -> Any:
@@ -106,12 +108,12 @@ def __getattr__(name: str) -> Any:
 def methods(plugins: AnyPath | None = None) -> dict[str, Method]:
     """Return every method by its name: ours, those of installed packages, and those in the folder `plugins`.
 
-    A folder whose method.py cannot be loaded is left out; `trace` says why when it is named. Raises FirsthitError where
-    `plugins` is no folder or two methods have one name.
+    A folder whose method.py cannot be loaded, or states what makes no sense, is left out; `trace` says why when it is
+    named. Raises FirsthitError where `plugins` is no folder or two methods have one name.
     """
     from harness.plugins import find_methods
 
-    return {name: plugin.method for name, plugin in sorted(find_methods(_path(plugins)).plugins.items())}
+    return {name: plugin.method for name, plugin in sorted(find_methods(_folder(plugins)).plugins.items())}
 
 
 def devices() -> list[DeviceInfo]:
@@ -125,11 +127,12 @@ def rays_of(view: View, surface: AnySurface, size: int) -> NDArray[np.float32]:
     """Return the rays through the pixels' middles of a square picture: float32[size², 6], row by row from the top left.
 
     A view without a distance stands where the surface's bounding sphere just fills its field of view. Raises
-    FirsthitError for a surface that there is not.
+    FirsthitError for a surface that there is not, for what is no View, and for a size that no picture has.
     """
     from harness.scenes import camera
 
-    return camera.rays_of(camera.camera_for(view, _surface(surface)), size)
+    held("view", view, View)
+    return camera.rays_of(camera.camera_for(view, _surface(surface)), held("size", size, Annotated[int, PIXELS]))
 
 
 def trace(
@@ -153,7 +156,7 @@ def trace(
     answers.
 
     Raises FirsthitError for rays, names and numbers that make no sense, where the method refuses the surface, and with
-    exit_code 3 where the device, its compiler or the method's kernel fails.
+    exit_code 3 where the device is not here, or it, its compiler or the method's kernel fails.
     """
     from harness.running.trace import cast, checked_rays
 
@@ -189,14 +192,16 @@ def render(
 ) -> NDArray[np.uint8]:
     """Draw a surface by a method and return the picture, uint8[size, size, 3] in RGB, row 0 at the top.
 
-    `view` is a View, or its azimuth and elevation. The light is at the eye, the ground is white; rays that the method
-    gave up are orange, answers that can be none magenta. The other arguments, and what is raised, are those of `trace`.
+    `view` is a View, or its azimuth and elevation in degrees. The light is at the eye, the ground is white; rays that
+    the method gave up are orange, answers that can be none magenta. The other arguments, and what is raised, are those
+    of `trace`.
     """
-    from harness.running.picture import picture
+    from harness.running.picture import picture, shown_by
 
-    shown = view if isinstance(view, View) else View("shown", azimuth=view[0], elevation=view[1])
+    held("size", size, Annotated[int, PICTURE])
+    chosen, shown = _surface(surface), shown_by(view)
     caster = _caster(method, device, knobs, precision, origin, plugins, timeout)
-    return picture(caster, _surface(surface), shown, size, _warn)[0]
+    return picture(caster, chosen, shown, size, _warn)[0]
 
 
 def run(
@@ -222,11 +227,12 @@ def run(
 
     from harness.running import run as running
 
-    loaded = running.load(config, _path(plugins), devices)
+    checked_path("config", config)
+    folder = checked_path("runs", runs)
+    loaded = running.load(config, _folder(plugins), checked_names("devices", devices))
     words = ["firsthit", *(["--plugins", str(plugins)] if plugins else []), "run", str(config), "--runs", str(runs)]
     command = shlex.join([*words, *(word for name in devices for word in ("--device", name))])
-    watcher = running.Teller(tell) if tell else None
-    return running.run(loaded, Path(runs), command, force=force, retry_failed=retry_failed, watcher=watcher)
+    return running.run(loaded, folder, command, force=force, retry_failed=retry_failed, watcher=running.teller(tell))
 
 
 def load(folder: AnyPath) -> pd.DataFrame:
@@ -241,7 +247,7 @@ def load(folder: AnyPath) -> pd.DataFrame:
     except ModuleNotFoundError as error:
         message = f"a table of results needs the package {error.name}: pip install 'firsthit[report]'"
         raise FirsthitError(message, exit_code=3) from None
-    found = read(Path(folder))
+    found = read(checked_path("folder", folder))
     return derive(found.frame, found.plan.peaks)
 
 
@@ -267,14 +273,14 @@ def recommend(
     The bound is on a quantile of the errors ("max", "p999" or "p99") on `rays`² rays of each of `views` views, chosen
     by `seed`, and of half as many views held out. Pictures of `size`² pixels are timed for `seconds` a variant and
     view; under `fps` frames a second a variant falls. Without a precision float64 is tried where no float32 holds.
-    Rows are kept below `runs`; `tell` is called with a line as the search goes on.
+    Rows are kept below `runs`; `tell` is called with a line of text for each step and whatever ends.
 
     `contenders` of the answer is empty where nothing holds, and `fallen` says why. Raises FirsthitError for names and
-    numbers that make no sense, and with exit_code 3 where the device is not here.
+    numbers that make no sense, and with exit_code 3 where the device is not here or a row cannot be written.
     """
     from harness.plugins import find_methods
     from harness.recommend import search
-    from harness.running.trace import ignore
+    from harness.running.run import teller
 
     wish = search.Wish(
         surface=_surface(surface),
@@ -283,22 +289,26 @@ def recommend(
         fps=fps,
         size=size,
         precision=precision,
-        tuning_views=views,
-        held_out_views=max(2, views // 2),
-        accuracy_size=rays,
+        views=views,
+        rays=rays,
         seed=seed,
         seconds=seconds,
     )
-    return search.recommend(wish, find_methods(_path(plugins)), device, Path(runs), tell or ignore)
+    return search.recommend(wish, find_methods(_folder(plugins)), device, checked_path("runs", runs), teller(tell))
 
 
 def _surface(given: AnySurface) -> Surface:
-    """The surface itself, the formula's where x, y or z is a word of the text, or else the catalog's of that name."""
+    """Return a Surface as it is, and for a text the surface that it names or describes.
+
+    A text of letters, digits, _ and : alone is a name of the catalog, but for x, y and z; any other is a formula.
+    Raises FirsthitError for a name that the catalog does not have, and for a formula with a mistake in it.
+    """
     if isinstance(given, Surface):
         return given
     if not isinstance(given, str):
         raise FirsthitError(f"a surface is a name, a formula or a Surface, not {type(given).__name__}")
-    return surfaces.from_formula(given) if _COORDINATE.search(given) else surfaces.get(given)
+    named = _NAME.fullmatch(given) and given not in COORDINATES
+    return surfaces.get(given) if named else surfaces.from_formula(given)
 
 
 def _caster(
@@ -313,16 +323,13 @@ def _caster(
     from harness.plugins import find_methods
     from harness.running.trace import Caster, usable_device
 
-    plugin = find_methods(_path(plugins)).get(method)
-    for name, value in (knobs or {}).items():
-        if not isinstance(value, int | float):
-            raise FirsthitError(f"{method}: {name} is a number, not {value!r}")
-    variant = plugin.variant(knobs or {})
-    return Caster(plugin, variant, device or usable_device().name, precision, origin, timeout)
+    plugin = find_methods(_folder(plugins)).get(method)
+    variant = plugin.variant({} if knobs is None else knobs)
+    return Caster(plugin, variant, usable_device().name if device is None else device, precision, origin, timeout)
 
 
-def _path(given: AnyPath | None) -> Path | None:
-    return None if given is None else Path(given)
+def _folder(plugins: AnyPath | None) -> Path | None:
+    return None if plugins is None else checked_path("plugins", plugins)
 
 
 def _warn(line: str) -> None:

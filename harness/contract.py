@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 from enum import IntEnum, StrEnum
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-from harness.limits import AZIMUTH, DISTANCE, ELEVATION, FIELD_OF_VIEW, POSITION
+from harness.limits import AZIMUTH, DISTANCE, ELEVATION, FIELD_OF_VIEW, POSITION, hold
 from surfaces.model import Box as Box
 from surfaces.model import Domain as Domain
 from surfaces.model import FirsthitError as FirsthitError
@@ -186,6 +186,8 @@ class View:
     distance: from the eye to the target, scene units; None: the domain's bounding sphere just fits the field of view
     target: the point in the middle of the image, scene units; None: the domain's centre
     set: views of one set are compared with each other: "angles", "directions" or a name of your own; None: no set
+
+    Raises FirsthitError for a value that is no number, or outside the limits that harness/limits.py states.
     """
 
     name: str
@@ -195,6 +197,9 @@ class View:
     distance: Annotated[float, DISTANCE] | None = None
     target: Point | None = None
     set: str | None = None
+
+    def __post_init__(self) -> None:
+        hold(self)
 
 
 @dataclass(frozen=True)

@@ -1,16 +1,23 @@
 """State on a field itself what it may hold: `size: Annotated[int, Within(1, 4096)] = 128`.
 
 A limit's `broken` says what is wrong with a value, or None where nothing is. harness.experiment.reading holds every
-field of a config against its limits, and adds the field's name, the file and the line.
+field of a config against its limits, and adds the field's name, the file and the line. What a caller of the Python
+package or of a command states is held to the same limits by `hold` and `held`.
 """
 
 from __future__ import annotations
 
 import math
+import types
+import typing
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from functools import cache
+from numbers import Integral
+from pathlib import Path
 from typing import Any, Protocol
 
+from surfaces.model import FirsthitError, is_number
 from surfaces.words import suggestion
 
 
@@ -101,6 +108,85 @@ def is_finite(value: float) -> bool:
         return False
 
 
+def hold(record: Any) -> None:
+    """Hold each field of a dataclass to the kind and the limits that its annotation states, and make it plain.
+
+    Numbers of numpy become numbers of Python. Raises FirsthitError, which names the field.
+    """
+    for name, kind in _kinds(record.__class__).items():
+        object.__setattr__(record, name, held(name, getattr(record, name), kind))
+
+
+@cache
+def _kinds(record: type[Any]) -> dict[str, Any]:
+    return typing.get_type_hints(record, include_extras=True)
+
+
+def held(name: str, value: Any, kind: Any) -> Any:
+    """Return `value` as a plain value of a kind.
+
+    A kind is float, int, str, any other class, a Literal of words, a tuple of kinds, a union of one with None, or any
+    of these Annotated with limits. A whole number may stand for a float, and stays whole. Raises FirsthitError, whose
+    text begins with `name`, for a value of another kind or past its limits.
+    """
+    origin, parts = typing.get_origin(kind), typing.get_args(kind)
+    if origin is typing.Annotated:
+        plain = held(name, value, parts[0])
+        for limit in parts[1:]:
+            if problem := limit.broken(plain):
+                raise FirsthitError(f"{name}: {problem}")
+        return plain
+    if origin in (types.UnionType, typing.Union):
+        return None if value is None else held(name, value, next(k for k in parts if k is not type(None)))
+    if origin is typing.Literal:
+        return _word(name, value, parts)
+    if origin is tuple:
+        if not isinstance(value, Sequence) or isinstance(value, str) or len(value) != len(parts):
+            raise FirsthitError(f"{name} needs {len(parts)} numbers, not {_shown(value)}")
+        return tuple(held(name, item, part) for item, part in zip(value, parts, strict=True))
+    if kind in (float, int):
+        return _plain(name, value, whole=kind is int)
+    if not isinstance(value, kind):
+        raise FirsthitError(f"{name} is a {'text' if kind is str else kind.__name__}, not {_shown(value)}")
+    return value
+
+
+def checked_path(name: str, given: Any) -> Path:
+    """Return the path that a caller gave. Raises FirsthitError, which names the argument, where it is none."""
+    if not isinstance(given, str | Path):
+        raise FirsthitError(f"{name} is a path, as a text or a pathlib.Path, not {_shown(given)}")
+    return Path(given)
+
+
+def checked_names(name: str, given: Any) -> list[str]:
+    """Return the names that a caller gave. Raises FirsthitError, which names the argument, for anything else."""
+    if not isinstance(given, list | tuple) or not all(isinstance(one, str) for one in given):
+        raise FirsthitError(f"{name} is a list of names, not {_shown(given)}")
+    return list(given)
+
+
+def _word(name: str, value: Any, known: tuple[str, ...]) -> str:
+    if not isinstance(value, str):
+        raise FirsthitError(f"{name} is one of the texts {', '.join(map(repr, known))}, not {_shown(value)}")
+    if value not in known:
+        raise FirsthitError(f"unknown {name} {value!r}; {suggestion(value, known)}")
+    return value
+
+
+def _shown(value: object) -> str:
+    """Write a value for a message, shortened where it is long."""
+    text = repr(value)
+    return text if len(text) <= 60 else f"{text[:57]}..."
+
+
+def _plain(name: str, value: Any, whole: bool) -> float | int:
+    if not is_number(value):
+        raise FirsthitError(f"{name} is a {'whole ' if whole else ''}number, not {_shown(value)}")
+    if not isinstance(value, Integral) and whole:
+        raise FirsthitError(f"{name} is a whole number, not {value}")
+    return int(value) if isinstance(value, Integral) else float(value)
+
+
 AZIMUTH = Within(-360.0, 360.0)  # degrees
 ELEVATION = Within(-90.0, 90.0)  # degrees
 FIELD_OF_VIEW = Within(1e-3, 179.0)  # degrees
@@ -108,3 +194,8 @@ DISTANCE = Within(1e-6, 1e9)  # scene units
 POSITION = Within(-1e9, 1e9)  # scene units
 SEED = Within(0, 2**63 - 1)
 SHARE = Within(0.0, 1.0)
+PIXELS = Within(1, 16384)  # per side of a frame that is timed, and rays per side of a view
+PICTURE = Within(1, 8192, "an image has {low} to {high} pixels per side, not {value}")
+RAYS = Within(1, 4096)  # per side of a view whose answers are checked
+SECONDS = Within(0.0, 1e5)  # of timing
+TIMEOUT = Within(1e-3, 1e6)  # seconds

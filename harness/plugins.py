@@ -5,18 +5,25 @@ from __future__ import annotations
 import dataclasses
 import importlib.metadata
 import importlib.util
+import re
 import sys
+import typing
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from harness import ROOT as ROOT
-from harness.contract import CLAIMS, FirsthitError, Method, Variant
+from harness.contract import CLAIMS, PRECISIONS, Casts, FirsthitError, Method, Variant
 from harness.limits import is_finite
+from surfaces.model import is_number
 from surfaces.words import suggestion
 
 BUILT_IN = ROOT / "methods"
 ENTRY_POINTS = "firsthit.methods"
+
+NAME = re.compile("[A-Za-z][A-Za-z0-9_]*")  # of a method: a Python module's, and a part of files' names
+KNOB = re.compile("[A-Z][A-Z0-9_]*")  # a constant's name in GLSL and in OpenCL C
+CASTS = typing.get_args(Casts)
 
 AS_PRINTED = "as printed"  # a setting of every method that has a knob whose default is ours
 
@@ -31,9 +38,11 @@ class Plugin:
     def variant(self, given: Mapping[str, float | int]) -> Variant:
         """Give every knob of the method a value: the `given` one, else its default.
 
-        Raises FirsthitError for a knob that the method does not have, for a value that is not finite, and for a
+        Raises FirsthitError for a knob that the method does not have, for a value that is no finite number, and for a
         fraction where the knob's values are whole numbers.
         """
+        if not isinstance(given, Mapping):
+            raise FirsthitError(f'{self.method.name}: knobs are values by name, as in {{"N": 3}}, not {given!r}')
         defaults = {parameter.name: parameter.default for parameter in self.method.parameters}
         for name in given:
             if name not in defaults:
@@ -46,6 +55,8 @@ class Plugin:
 
     def _bound(self, name: str, value: float, default: float) -> float | int:
         """Return a knob's value as a number of its default's kind. Raises FirsthitError where it cannot be one."""
+        if not is_number(value):
+            raise FirsthitError(f"{self.method.name}: {name} is a number, not {value!r}")
         if not is_finite(value):
             raise FirsthitError(f"{self.method.name}: {name} is a finite number, not {str(value)[:40]}")
         if isinstance(default, int) and value != int(value):
@@ -86,6 +97,8 @@ class Catalog:
 
     def get(self, name: str) -> Plugin:
         """Return a method by name. Raises FirsthitError if there is none, or if it could not be loaded."""
+        if not isinstance(name, str):
+            raise FirsthitError(f"a method's name is a text, as in 'newton', not {name!r}")
         if name in self.plugins:
             return self.plugins[name]
         if name in self.broken:
@@ -118,7 +131,32 @@ def _load(folder: Path) -> Method:
         raise FirsthitError(f"{path} claims error_below_tolerance; that needs tolerance=..., see harness/contract.py")
     if method.name != folder.name:
         raise FirsthitError(f"{path} names its method {method.name!r}, its folder {folder.name!r}; they must agree")
+    if problem := _problem(method):
+        raise FirsthitError(f"{path}: {problem}")
     return method
+
+
+def _problem(method: Method) -> str | None:
+    """Say what in a method's statement can mean nothing, and what to write; None where all of it makes sense."""
+    if not NAME.fullmatch(method.name):
+        return f"the name {method.name!r} must be letters, digits and _, and begin with a letter; rename the folder too"
+    stated = (("casts", (method.casts,), CASTS), ("precisions", method.precisions, PRECISIONS))
+    for what, values, known in stated:
+        for value in values:
+            if value not in known:
+                return f"{what}: unknown {value!r}; known: {', '.join(known)}"
+    names = [parameter.name for parameter in method.parameters]
+    for parameter in method.parameters:
+        name = parameter.name
+        if not KNOB.fullmatch(name):
+            return f"the knob {name!r} must be capitals, digits and _, and begin with a capital, since kernels read it"
+        if names.count(name) > 1:
+            return f"the knob {name} is stated twice; keep one of the two"
+        numbers = (parameter.default, *parameter.sweep, *([] if parameter.printed is None else [parameter.printed]))
+        for number in numbers:
+            if not is_number(number) or not is_finite(number):
+                return f"the knob {name} has the value {number!r}; give it a finite number"
+    return None
 
 
 def _folders(directory: Path) -> list[Path]:

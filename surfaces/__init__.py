@@ -20,7 +20,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from surfaces.forms import FORMS, SEPARATOR
-from surfaces.model import Box, Domain, FirsthitError, Sphere, Surface
+from surfaces.model import Box, Domain, FirsthitError, Sphere, Surface, is_number
 from surfaces.words import suggestion
 
 if TYPE_CHECKING:
@@ -57,9 +57,12 @@ def forms_of(name: str) -> tuple[str, ...]:
 def get(name: str, **parameters: str | float) -> Surface:
     """Return a surface of the catalog, or one of its forms, with the parameters given: `get("torus", R="0.5")`.
 
-    A parameter that is a float is taken as the decimal that it prints. Raises FirsthitError for an unknown name, with
-    the nearest names, and for an unknown form or parameter or a value that is no decimal.
+    A parameter that is a number, of Python's or numpy's kinds, is taken as the decimal that it prints. Raises
+    FirsthitError for an unknown name, with the nearest names, and for an unknown form or parameter or a value that is
+    no decimal.
     """
+    if not isinstance(name, str):
+        raise FirsthitError(f"a surface's name is a text, as in 'torus', not {name!r}")
     name, _, form = name.partition(SEPARATOR)
     surface = _as_printed(name, parameters)
     if not form:
@@ -91,16 +94,18 @@ def _as_printed(name: str, parameters: Mapping[str, str | float]) -> Surface:
 
 def from_formula(
     text: str,
-    domain_text: str = "sphere:1.5",
+    domain: str | Domain = "sphere:1.5",
     name: str = "formula",
     parameters: Mapping[str, str | float] | None = None,
 ) -> Surface:
     """Return the surface of a formula in the language of surfaces.formula.
 
-    `domain_text` is "sphere:R", "box:a,b,c" with half extents, or "box:x0,y0,z0:x1,y1,z1". Raises FirsthitError if the
-    text is no formula or no domain, if f does not depend on x, y and z, or if it cannot be shown to be defined all over
-    the domain.
+    `domain` is "sphere:R", "box:a,b,c" with half extents, "box:x0,y0,z0:x1,y1,z1", a Sphere or a Box. Raises
+    FirsthitError if the text is no formula, the domain is none or a parameter no decimal, if f does not depend on x, y
+    and z, or if it cannot be shown to be defined all over the domain.
     """
+    if not isinstance(text, str):
+        raise FirsthitError(f"a formula is a text, as in 'x^2 + y^2 + z^2 - 1', not {text!r}")
     from surfaces import formula
     from surfaces.validity import check
 
@@ -110,7 +115,7 @@ def from_formula(
         name=name,
         title=text if len(text) <= 60 else text[:57] + "...",
         formula=text,
-        domain=_domain(domain_text),
+        domain=_domain(domain),
         source="given as a formula",
         degree=degree,
         parameters=tuple(sorted(bound.items())),
@@ -120,32 +125,36 @@ def from_formula(
 
 
 def _decimals(values: Mapping[str, str | float]) -> dict[str, str]:
-    """Return parameters as exact decimals. Raises FirsthitError for a text that is no decimal."""
+    """Return parameters as exact decimals. Raises FirsthitError for a value that is none."""
     from surfaces import formula
 
-    texts = {name: value.strip() if isinstance(value, str) else repr(value) for name, value in values.items()}
-    for name, text in texts.items():
+    texts = {}
+    for name, value in values.items():
+        if not isinstance(value, str) and not is_number(value):
+            raise FirsthitError(f"parameter {name} is a number or the text of a decimal, not {value!r}")
+        texts[name] = str(value).strip()
         try:
-            formula.exact(text)
+            formula.exact(texts[name])
         except FirsthitError as error:
             raise FirsthitError(f"parameter {name}: {error}") from None
     return texts
 
 
-def _domain(text: str) -> Domain:
-    """Return the domain that a text describes. Raises FirsthitError if it describes none."""
+def _domain(text: str | Domain) -> Domain:
+    """Return a domain, or the one that a text describes. Raises FirsthitError if it describes none."""
     from surfaces import formula
 
+    if isinstance(text, Domain):
+        return text
+    if not isinstance(text, str):
+        raise FirsthitError(f"a domain is a text, as in 'sphere:1.5', a Sphere or a Box, not {text!r}")
     kind, *groups = (part.strip() for part in text.split(":"))
     numbers = [[float(formula.exact(item.strip())) for item in group.split(",")] for group in groups]
-    try:
-        match kind, numbers:
-            case "sphere", [[radius]]:
-                return Sphere(radius)
-            case "box", [[a, b, c]]:
-                return Box((-a, -b, -c), (a, b, c))
-            case "box", [[x0, y0, z0], [x1, y1, z1]]:
-                return Box((x0, y0, z0), (x1, y1, z1))
-    except OverflowError:
-        raise FirsthitError(f"domain {text!r} is past the range of float32") from None
+    match kind, numbers:
+        case "sphere", [[radius]]:
+            return Sphere(radius)
+        case "box", [[a, b, c]]:
+            return Box((-a, -b, -c), (a, b, c))
+        case "box", [[x0, y0, z0], [x1, y1, z1]]:
+            return Box((x0, y0, z0), (x1, y1, z1))
     raise FirsthitError(f"domain {text!r}: write sphere:R, box:a,b,c or box:x0,y0,z0:x1,y1,z1")

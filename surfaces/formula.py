@@ -20,13 +20,12 @@ from typing import Any, NoReturn
 from surfaces.model import FirsthitError
 from surfaces.numbers import BallPolynomials, Symbols
 from surfaces.tape import UNARY, Builder, Tape, walk
-from surfaces.words import suggestion
+from surfaces.words import COORDINATES, suggestion
 
 MAX_LENGTH = 4000  # characters of a formula
 MAX_DEPTH = 60  # of parentheses, calls, signs and exponents inside one another
 MAX_DEGREE = 64  # a polynomial of this degree in three variables has 47,905 terms
 MAX_BITS = 1000  # of a rational constant's numerator and denominator, which keeps it inside float64's range
-COORDINATES = ("x", "y", "z")
 FUNCTIONS = (*UNARY, "abs", "min", "max")
 CONSTANTS = ("pi", "e", "phi", "sqrt2", "sqrt3", "sqrt5")
 

@@ -7,8 +7,10 @@ from __future__ import annotations
 
 import math
 import struct
+from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Any
+from numbers import Real
+from typing import Any, TypeGuard
 
 
 class FirsthitError(Exception):
@@ -27,19 +29,42 @@ def as_float32(value: float) -> float:
     return float(struct.unpack("<f", struct.pack("<f", value))[0])
 
 
+def is_number(value: object) -> TypeGuard[float]:
+    """Say whether a value is a real number, of Python's or of numpy's kinds. True and False are none."""
+    return isinstance(value, Real) and not isinstance(value, bool)
+
+
+def _rounded(value: object, what: str) -> float:
+    """Round a number of a domain to float32. Raises FirsthitError for what is none, or past the range of float32."""
+    if not is_number(value):
+        raise FirsthitError(f"{what} is a number, not {value!r}")
+    try:
+        return as_float32(float(value))
+    except OverflowError:
+        raise FirsthitError(f"{what} {str(value)[:40]} is past the range of float32; scale the formula") from None
+
+
+def _point(values: object, what: str) -> tuple[float, float, float]:
+    """Round three coordinates to float32. Raises FirsthitError where `values` is anything else."""
+    if isinstance(values, str) or not isinstance(values, Iterable) or len(numbers := tuple(values)) != 3:
+        raise FirsthitError(f"{what} is three numbers, as in (0, 0, 1), not {values!r}")
+    x, y, z = numbers
+    return _rounded(x, f"{what}'s x"), _rounded(y, f"{what}'s y"), _rounded(z, f"{what}'s z")
+
+
 @dataclass(frozen=True)
 class Sphere:
     """Define a ball. Its numbers are rounded to float32, so that kernels and oracle clip by the same domain.
 
-    Raises FirsthitError unless the radius is positive and the centre finite.
+    Raises FirsthitError unless the radius is positive and the centre three numbers, all within the range of float32.
     """
 
     radius: float
     center: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "radius", as_float32(self.radius))
-        object.__setattr__(self, "center", tuple(as_float32(c) for c in self.center))
+        object.__setattr__(self, "radius", _rounded(self.radius, "a sphere's radius"))
+        object.__setattr__(self, "center", _point(self.center, "a sphere's centre"))
         if not (math.isfinite(self.radius) and self.radius > 0.0 and all(map(math.isfinite, self.center))):
             raise FirsthitError(f"a sphere domain needs a positive radius and a finite centre, not {self}")
 
@@ -49,15 +74,15 @@ class Box:
     """Define an axis-aligned box.
 
     Its numbers are rounded to float32, so that kernels and oracle clip by the same domain. Raises FirsthitError unless
-    lower < upper on every axis, all finite.
+    lower < upper on every axis, all within the range of float32.
     """
 
     lower: tuple[float, float, float]
     upper: tuple[float, float, float]
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "lower", tuple(as_float32(c) for c in self.lower))
-        object.__setattr__(self, "upper", tuple(as_float32(c) for c in self.upper))
+        object.__setattr__(self, "lower", _point(self.lower, "a box's lower corner"))
+        object.__setattr__(self, "upper", _point(self.upper, "a box's upper corner"))
         if not all(
             math.isfinite(a) and math.isfinite(b) and a < b for a, b in zip(self.lower, self.upper, strict=True)
         ):

@@ -5,6 +5,8 @@ from __future__ import annotations
 import difflib
 from collections.abc import Iterable
 
+COORDINATES = ("x", "y", "z")  # the variables of a formula
+
 
 def suggestion(name: str, known: Iterable[str], most: int = 1, otherwise: str = "") -> str:
     """Return what to say of an unknown `name`: "did you mean 'torus'?", or "known: sphere, torus" where none is near.

@@ -125,6 +125,7 @@ def test_bad_rays_are_one_line_and_leave_no_file(tmp_path, capsys, name, words, 
         ({"--method": "newtn"}, 2, "did you mean 'newton'"),
         ({"--device": "opencl:none"}, 3, "there is no device 'opencl:none'"),
         ({"--device": "none"}, 3, "there is no device 'none' here; known: open"),
+        ({"--device": ""}, 3, "there is no device '' here; known: open"),
         ({"--knob": "EPSILN=1"}, 2, "did you mean 'EPSILON'"),
         ({"--knob": "EPSILON"}, 2, "NAME=VALUE"),
         ({"--knob": "EPSILON=big"}, 2, "not a number"),
@@ -158,9 +159,8 @@ def test_a_configs_name_that_is_none_is_one_line_with_the_nearest(capsys, comman
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (("--size", "0"), "1 to 8192"),
         (("--view", "up"), "azimuth,elevation"),
-        (("--fov", "180"), "0 and 180"),
+        (("--view", "nan,0"), "azimuth: nan is outside"),
     ],
 )
 def test_show_refuses_what_is_no_picture(tmp_path, capsys, arguments, words):
@@ -169,6 +169,47 @@ def test_show_refuses_what_is_no_picture(tmp_path, capsys, arguments, words):
     )
     assert code == 2
     assert words in err
+
+
+TRACE = ("trace", "--surface", "sphere", "--method", "newton", "--rays", "none.npy", "-o", "none.npz")
+ORACLE = ("oracle", "--surface", "sphere", "--rays", "none.npy", "-o", "none.npz")
+SHOW = ("show", "--surface", "sphere", "--method", "newton", "-o", "none.png")
+SHEET = ("sheet", "--method", "newton", "-o", "none.png")
+SCENE = ("scene", "pipes", "--method", "newton", "-o", "none.png")
+RECOMMEND = ("recommend", "--surface", "sphere", "--error", "1")
+NUMBERS = {
+    TRACE: ("--timeout", "--t-min"),
+    ORACLE: ("--t-min",),
+    SHOW: ("--timeout", "--size", "--fov"),
+    SHEET: ("--timeout", "--size", "--columns"),
+    SCENE: ("--timeout", "--size"),
+    ("conform",): ("--timeout",),
+    RECOMMEND: ("--error", "--fps", "--size", "--views", "--rays", "--seconds", "--seed"),
+}
+MAY_BE_NOTHING = ("--t-min", "--fps", "--seconds", "--seed")
+
+
+def test_every_option_that_is_a_number_is_held_against_its_limits():
+    parsers = build_parser()._subparsers._group_actions[0].choices
+    numbers = {
+        (name, option.option_strings[0])
+        for name, parser in parsers.items()
+        for option in parser._actions
+        if option.type is not None and option.type.__module__ != "pathlib"
+    }
+    assert numbers == {(command[0], option) for command, options in NUMBERS.items() for option in options}
+
+
+@pytest.mark.parametrize(
+    ("command", "option"), [(command, option) for command, options in NUMBERS.items() for option in options]
+)
+def test_numbers_out_of_range_are_refused_before_anything_is_done(command, option, capsys):
+    for text in ("nan", "inf", "-1", "1e400", "much", *(() if option in MAY_BE_NOTHING else ("0",))):
+        with pytest.raises(SystemExit) as caught:
+            main([*command, f"{option}={text}"])
+        assert caught.value.code == 2
+        err = capsys.readouterr().err
+        assert f"error: argument {option}: " in err and "Traceback" not in err
 
 
 def test_show_draws_the_sphere_in_the_middle(tmp_path, capsys):

@@ -48,6 +48,34 @@ def test_a_broken_plugin_is_listed_with_its_reason_and_harms_no_other(tmp_path, 
         catalog.get("mine")
 
 
+STATED = "from firsthit import Method, Parameter\nMETHOD = Method('mine', 't', {})\n"
+
+
+@pytest.mark.parametrize(
+    ("stated", "words"),
+    [
+        ("casts='foo'", "casts: unknown 'foo'; known: rays, beams, quadtree, mesh"),
+        ("precisions=('half',)", "precisions: unknown 'half'; known: float32, float64"),
+        ("parameters=(Parameter('N', 1, 'n'), Parameter('N', 2, 'n'))", "the knob N is stated twice"),
+        ("parameters=(Parameter('n', 1, 'n'),)", "the knob 'n' must be capitals"),
+        ("parameters=(Parameter('N M', 1, 'n'),)", "the knob 'N M' must be capitals"),
+        ("parameters=(Parameter('N', float('nan'), 'n'),)", "the knob N has the value nan; give it a finite number"),
+        ("parameters=(Parameter('N', True, 'n'),)", "the knob N has the value True"),
+        ("parameters=(Parameter('N', 1.0, 'n', sweep=(0.5, float('inf'))),)", "the knob N has the value inf"),
+        ("parameters=(Parameter('N', 1.0, 'n', printed='2'),)", "the knob N has the value '2'"),
+    ],
+)
+def test_a_method_that_states_what_cannot_be_is_listed_with_the_reason(tmp_path, stated, words):
+    _plugin(tmp_path / "mine", text=STATED.format(stated))
+    broken = find_methods(tmp_path).broken["mine"]
+    assert broken.startswith(str(tmp_path / "mine/method.py")) and broken.count(words) == 1
+
+
+def test_a_name_that_is_no_word_is_refused(tmp_path):
+    _plugin(tmp_path / "bad name!", "bad name!")
+    assert "'bad name!' must be letters, digits and _" in find_methods(tmp_path).broken["bad name!"]
+
+
 def test_a_folder_without_a_kernel_says_so(tmp_path):
     _plugin(tmp_path / "mine")
     (tmp_path / "mine" / "kernel.glsl").unlink()

@@ -11,6 +11,7 @@ from collections.abc import Iterable
 
 from harness import conformance, console
 from harness.commands import Add
+from harness.commands.options import add_timeout
 from harness.conformance import Finding
 from harness.devices.discovery import usable_devices
 from harness.devices.executor import LocalExecutor
@@ -31,7 +32,7 @@ def add_parsers(add: Add) -> None:
         help=f"may be repeated; all: every one (default: {', '.join(conformance.TYPICAL)})",
     )
     parser.add_argument("--device", action="append", metavar="NAME", help="may be repeated (default: every usable one)")
-    parser.add_argument("--timeout", type=float, default=60.0, metavar="SECONDS", help="for one step (default: 60)")
+    add_timeout(parser)
     parser.add_argument("--verbose", action="store_true", help="print every check, also those that hold")
     parser.set_defaults(run=_conform)
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 import argparse
 import shlex
 import sys
-from contextlib import AbstractContextManager
 from pathlib import Path
 
 from harness import console
 from harness.commands import Add
+from harness.commands.printer import Printer
 from harness.contract import DeviceInfo, FirsthitError
 from harness.experiment import config, identity, plan
 from harness.experiment.plan import Planned
@@ -17,7 +17,7 @@ from harness.plugins import Catalog, find_methods
 from harness.results.history import past_of
 from harness.results.store import Row, Store
 from harness.running.due import due, estimate_seconds
-from harness.running.run import Loaded, Run, Watcher, load, run
+from harness.running.run import Loaded, load, run
 
 
 def add_parsers(add: Add) -> None:
@@ -56,7 +56,7 @@ def _add_config(parser: argparse.ArgumentParser) -> None:
 
 
 def _load(options: argparse.Namespace) -> Loaded:
-    return load(options.config, options.plugins, getattr(options, "device", None) or (), _Printer())
+    return load(options.config, options.plugins, getattr(options, "device", None) or (), Printer())
 
 
 def _plan(options: argparse.Namespace) -> int:
@@ -85,39 +85,10 @@ def _state(planned: Planned, row: Row | None) -> str:
     return f"skip: {planned.skip}" if planned.skip else "to run"
 
 
-class _Printer(Watcher):
-    """Print what a run does: progress and warnings on standard error, results on standard output."""
-
-    def __init__(self) -> None:
-        self._progress = console.Progress(0, 0.0)
-
-    def doing(self, what: str) -> AbstractContextManager[None]:
-        return console.doing(what)
-
-    def told(self, line: str) -> None:
-        print(line)
-
-    def warned(self, line: str) -> None:
-        print(f"firsthit: {line}", file=sys.stderr)
-
-    def starts(self, cells: int, seconds: float) -> None:
-        self._progress = console.Progress(cells, seconds)
-
-    def cell(self, slot: str, row: Row | None) -> None:
-        self._progress(slot, row)
-
-    def ended(self, part: Run) -> None:
-        told = ", ".join(f"{count} {status}" for status, count in part.counts.items() if count)
-        if told:
-            print(f"{part.folder}: {len(part.rows)} cells run, {len(part.reused)} reused; {told}")
-        for line in (*console.undecided((*part.rows, *part.reused)), *console.warnings(part.rows)):
-            self.warned(line)
-
-
 def _run(options: argparse.Namespace) -> int:
     command = shlex.join(["firsthit", *sys.argv[1:]])
     retry = options.retry == "failed"
-    found = run(_load(options), options.runs, command, force=options.force, retry_failed=retry, watcher=_Printer())
+    found = run(_load(options), options.runs, command, force=options.force, retry_failed=retry, watcher=Printer())
     return 3 if found.unfinished else 0
 
 

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from harness.commands import Add
 from harness.commands.options import writable
+from harness.commands.printer import Printer
 from harness.contract import FirsthitError
 from harness.experiment.shipped import located
 from harness.gate import against, baseline, outputs
@@ -60,7 +61,7 @@ def _path(options: argparse.Namespace) -> Path:
 
 
 def _check(options: argparse.Namespace) -> Checked:
-    return check(options.config, options.plugins, options.device or (), options.runs, options.force)
+    return check(options.config, options.plugins, options.device or (), options.runs, Printer(), options.force)
 
 
 def _gate(options: argparse.Namespace) -> int:

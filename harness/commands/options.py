@@ -4,11 +4,41 @@ from __future__ import annotations
 
 import argparse
 import sys
+from collections.abc import Callable
 from pathlib import Path
+from typing import TypeVar
 
 from harness.contract import ORIGINS, PRECISIONS, FirsthitError, Surface, Variant
+from harness.limits import TIMEOUT, Limit
 from harness.plugins import Catalog, find_methods
 from harness.running.trace import Caster, usable_device
+
+N = TypeVar("N", int, float)
+
+
+def number(limit: Limit) -> Callable[[str], float]:
+    """Make the type of an option whose value is a number within a limit, as argparse takes it."""
+    return lambda text: _within(_read(text, float, "a number"), limit)
+
+
+def whole(limit: Limit) -> Callable[[str], int]:
+    """Make the type of an option whose value is a whole number within a limit, as argparse takes it."""
+    return lambda text: _within(_read(text, int, "a whole number"), limit)
+
+
+def _read(text: str, kind: Callable[[str], N], name: str) -> N:
+    """Read a number. Raises ArgumentTypeError, to which argparse adds the option's name, where the text is none."""
+    try:
+        return kind(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text[:40]!r} is not {name}") from None
+
+
+def _within(value: N, limit: Limit) -> N:
+    """Return a number that is within a limit. Raises ArgumentTypeError for one that is not."""
+    if problem := limit.broken(value):
+        raise argparse.ArgumentTypeError(problem)
+    return value
 
 
 def add_surface(parser: argparse.ArgumentParser) -> None:
@@ -27,7 +57,13 @@ def add_method(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--device", metavar="NAME", help="see `firsthit list devices`; default: the first usable one")
     parser.add_argument("--precision", choices=PRECISIONS, default="float32")
     add_origin(parser)
-    parser.add_argument("--timeout", type=float, default=60.0, metavar="SECONDS", help="give up after (default: 60)")
+    add_timeout(parser)
+
+
+def add_timeout(parser: argparse.ArgumentParser) -> None:
+    """Add the option that says how long one step may take, such as compiling or casting all rays."""
+    help_ = "for one step, which is given up after so long (default: 60)"
+    parser.add_argument("--timeout", type=number(TIMEOUT), default=60.0, metavar="SECONDS", help=help_)
 
 
 def add_origin(parser: argparse.ArgumentParser) -> None:
@@ -84,7 +120,7 @@ def caster_of(options: argparse.Namespace) -> Caster:
     """
     catalog = find_methods(options.plugins)
     variant = given_variant(options, catalog)
-    device = options.device or usable_device().name
+    device = usable_device().name if options.device is None else options.device
     plugin = catalog.get(options.method)
     return Caster(plugin, variant, device, options.precision, options.origin, options.timeout)
 

@@ -12,8 +12,18 @@ import numpy as np
 
 from harness.accuracy.answers import invalid
 from harness.commands import Add
-from harness.commands.options import add_method, add_surface, caster_of, surface_of, tell, writable_png
+from harness.commands.options import (
+    add_method,
+    add_surface,
+    caster_of,
+    number,
+    surface_of,
+    tell,
+    whole,
+    writable_png,
+)
 from harness.contract import FirsthitError, RayStatus, View
+from harness.limits import FIELD_OF_VIEW, PICTURE, Within
 from harness.results.writing import write_atomically
 from harness.running.picture import picture
 
@@ -21,26 +31,29 @@ if TYPE_CHECKING:
     from PIL.Image import Image
 
 
+COLUMNS = Within(1, 1000)
+
+
 def add_parsers(add: Add) -> None:
     parser = add("show", "firsthit show --surface torus --method newton -o a.png")
     add_surface(parser)
     add_method(parser)
     parser.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help=".png file to write")
-    parser.add_argument("--size", type=int, default=512, help="pixels per side (default: 512)")
+    parser.add_argument("--size", type=whole(PICTURE), default=512, help="pixels per side (default: 512)")
     parser.add_argument("--view", default="30,30", metavar="AZ,EL", help="angles in degrees (default: 30,30)")
-    parser.add_argument("--fov", type=float, default=30.0, help="full vertical angle in degrees (default: 30)")
+    parser.add_argument("--fov", type=number(FIELD_OF_VIEW), default=30.0, help="full vertical angle (default: 30)")
     parser.set_defaults(run=_show)
 
     parser = add("sheet", "firsthit sheet --method ray_march -o sheet.png")
     add_method(parser)
     parser.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help=".png file to write")
-    parser.add_argument("--size", type=int, default=160, help="pixels per side of each picture (default: 160)")
-    parser.add_argument("--columns", type=int, default=8, help="pictures side by side (default: 8)")
+    parser.add_argument("--size", type=whole(PICTURE), default=160, help="pixels per side of each (default: 160)")
+    parser.add_argument("--columns", type=whole(COLUMNS), default=8, help="pictures side by side (default: 8)")
     parser.set_defaults(run=_sheet, view="30,30", fov=30.0)
 
 
 def _view(options: argparse.Namespace) -> View:
-    """Return the view that the options name. Raises FirsthitError for angles or a size that no picture has."""
+    """Return the view that the options name. Raises FirsthitError for a text that is no two angles of a view."""
     try:
         azimuth, elevation = (float(part) for part in options.view.split(","))
     except ValueError:
@@ -84,7 +97,7 @@ def _sheet(options: argparse.Namespace) -> int:
     import surfaces
 
     view, output, names, caster = _view(options), writable_png(options.output), surfaces.names(), caster_of(options)
-    label, columns = 14, max(1, options.columns)
+    label, columns = 14, options.columns
     width, height = options.size, options.size + label
     sheet = Image.new("RGB", (columns * width, math.ceil(len(names) / columns) * height), "white")
     draw = ImageDraw.Draw(sheet)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import math
 import sys
 from pathlib import Path
 
@@ -12,11 +11,14 @@ from numpy.typing import NDArray
 
 from harness.accuracy.judge import undecided_too_many
 from harness.commands import Add
-from harness.commands.options import add_method, add_surface, caster_of, surface_of, tell, writable
+from harness.commands.options import add_method, add_surface, caster_of, number, surface_of, tell, writable
 from harness.contract import FirsthitError, RayStatus, TruthStatus
 from harness.experiment.config import AccuracyChoice
+from harness.limits import Within
 from harness.results.writing import savez_atomically
 from harness.running.trace import cast, checked_rays
+
+T_MIN = Within(0.0, sys.float_info.max, "{value} is not a distance along the ray: it must be finite and not under 0")
 
 
 def add_parsers(add: Add) -> None:
@@ -48,18 +50,7 @@ def _add_files(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--rays", type=Path, required=True, metavar="FILE", help=".npy file, float32[n, 6]")
     parser.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help=".npz file to write")
     told = "where rays begin: only hits at T or beyond count (default: 0)"
-    parser.add_argument("--t-min", type=_distance, default=0.0, metavar="T", help=told)
-
-
-def _distance(text: str) -> float:
-    """Read a finite number that is not negative. Raises ArgumentTypeError for anything else."""
-    try:
-        value = float(text)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a number") from None
-    if not 0.0 <= value < math.inf:
-        raise argparse.ArgumentTypeError(f"{text} is not a distance along the ray: it must be finite and not under 0")
-    return value
+    parser.add_argument("--t-min", type=number(T_MIN), default=0.0, metavar="T", help=told)
 
 
 def load_rays(path: Path) -> NDArray[np.float32]:

@@ -3,15 +3,27 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from pathlib import Path
 
 from harness import console
 from harness.commands import Add
-from harness.commands.options import add_surface, surface_of
+from harness.commands.options import add_surface, number, surface_of, whole
+from harness.commands.printer import Printer
 from harness.contract import PRECISIONS
+from harness.limits import PIXELS, RAYS, SECONDS, SEED
 from harness.plugins import find_methods
-from harness.recommend.search import HEADROOM, QUANTILES, Fallen, Recommendation, Wish, named, recommend
+from harness.recommend.search import (
+    ERROR,
+    FPS,
+    HEADROOM,
+    QUANTILES,
+    VIEWS,
+    Fallen,
+    Recommendation,
+    Wish,
+    named,
+    recommend,
+)
 
 NOTHING_HOLDS = 1
 REASON = 110  # characters of a reason that are printed
@@ -26,21 +38,23 @@ def add_parsers(add: Add) -> None:
         "Exit codes: 0 a variant is recommended, 1 none holds, 2 usage, 3 something failed while running.",
     )
     add_surface(parser)
-    parser.add_argument("--error", type=float, required=True, metavar="E", help="largest |t - t*|, scene units")
+    parser.add_argument("--error", type=number(ERROR), required=True, metavar="E", help="largest |t - t*|, scene units")
     parser.add_argument(
         "--quantile",
         choices=QUANTILES,
         default="max",
         help=f"of the errors that must keep E; max leaves a factor {HEADROOM:g} for rays not sampled (default: max)",
     )
-    parser.add_argument("--fps", type=float, default=0.0, metavar="N", help="frames per second at least")
-    parser.add_argument("--size", type=int, default=512, help="pixels per side of what is timed (default: 512)")
+    parser.add_argument("--fps", type=number(FPS), default=0.0, metavar="N", help="frames per second at least")
+    parser.add_argument("--size", type=whole(PIXELS), default=512, help="pixels per side that are timed (default: 512)")
     parser.add_argument("--precision", choices=PRECISIONS, help="default: float32, and float64 where none holds")
     parser.add_argument("--device", metavar="NAME", help="see `firsthit list devices`; default: the first usable one")
-    parser.add_argument("--views", type=int, default=5, metavar="N", help="views to choose by (default: 5)")
-    parser.add_argument("--rays", type=int, default=64, metavar="N", help="rays per side checked a view (default: 64)")
-    parser.add_argument("--seconds", type=float, default=1.0, metavar="S", help="of timing a variant and view")
-    parser.add_argument("--seed", type=int, default=1, help="of the views (default: 1)")
+    parser.add_argument("--views", type=whole(VIEWS), default=5, metavar="N", help="views to choose by (default: 5)")
+    rays = "rays per side checked a view (default: 64)"
+    parser.add_argument("--rays", type=whole(RAYS), default=64, metavar="N", help=rays)
+    seconds = "of timing a variant and view (default: 1)"
+    parser.add_argument("--seconds", type=number(SECONDS), default=1.0, metavar="S", help=seconds)
+    parser.add_argument("--seed", type=whole(SEED), default=1, help="of the views (default: 1)")
     parser.add_argument("--runs", type=Path, default=Path("runs"), metavar="DIR", help="rows go here (default: runs)")
     parser.set_defaults(run=_recommend)
 
@@ -53,19 +67,21 @@ def _recommend(options: argparse.Namespace) -> int:
         fps=options.fps,
         size=options.size,
         precision=options.precision,
-        tuning_views=options.views,
-        held_out_views=max(2, options.views // 2),
-        accuracy_size=options.rays,
+        views=options.views,
+        rays=options.rays,
         seed=options.seed,
         seconds=options.seconds,
     )
-    found = recommend(wish, find_methods(options.plugins), options.device, options.runs, _tell)
+    found = recommend(wish, find_methods(options.plugins), options.device, options.runs, _Printer())
     print(_answer(found, wish))
     return 0 if found.contenders else NOTHING_HOLDS
 
 
-def _tell(line: str) -> None:
-    print(f"firsthit: {line}", file=sys.stderr)
+class _Printer(Printer):
+    """Prints the search's steps on standard error, since standard output has the recommendation alone."""
+
+    def told(self, line: str) -> None:
+        self.warned(line)
 
 
 def _answer(found: Recommendation, wish: Wish) -> str:
@@ -77,7 +93,7 @@ def _answer(found: Recommendation, wish: Wish) -> str:
         return "\n".join([head, _fallen(found), *([told] if (told := _undecided(found)) else [])])
     best = found.contenders[0]
     speed = f"{best.ms:.3g} ms a frame, {1e3 / best.ms:.3g} frames/s at {wish.size}x{wish.size}"
-    views = f"{wish.tuning_views} views to choose by and {wish.held_out_views} held out"
+    views = f"{wish.views} views to choose by and {wish.held_out_views} held out"
     columns = ("variant", "precision", "ms", "times", f"{wish.quantile} error", "evaluations")
     rows = [
         (

@@ -6,11 +6,12 @@ import argparse
 from pathlib import Path
 
 from harness.commands import Add
-from harness.commands.options import add_origin, given_variant, writable_png
+from harness.commands.options import add_origin, add_timeout, given_variant, whole, writable_png
 from harness.commands.pictures import need_pillow, save
 from harness.contract import PROXIES, FirsthitError
 from harness.experiment import reading
 from harness.experiment.shipped import located
+from harness.limits import PICTURE
 from harness.plugins import find_methods
 from harness.running.scene_picture import draw_scene
 from harness.scenes.model import Scene
@@ -27,8 +28,8 @@ def add_parsers(add: Add) -> None:
     parser.add_argument("--knob", action="append", default=[], metavar="NAME=VALUE", help="a parameter of the method")
     parser.add_argument("--proxy", choices=PROXIES, default="box", help="what triggers fragments (default: box)")
     add_origin(parser)
-    parser.add_argument("--size", type=int, default=512, help="pixels per side (default: 512)")
-    parser.add_argument("--timeout", type=float, default=60.0, metavar="SECONDS", help="give up after (default: 60)")
+    parser.add_argument("--size", type=whole(PICTURE), default=512, help="pixels per side (default: 512)")
+    add_timeout(parser)
     parser.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help=".png file to write")
     parser.set_defaults(run=_scene)
 
@@ -48,8 +49,6 @@ def _scene(options: argparse.Namespace) -> int:
     need_pillow()
     from PIL import Image
 
-    if not 1 <= options.size <= 8192:
-        raise FirsthitError(f"--size {options.size}: an image has 1 to 8192 pixels per side")
     output, catalog = writable_png(options.output), find_methods(options.plugins)
     path = located(options.config)
     scene = _chosen(reading.load(path, catalog).scenes, options.name, path)

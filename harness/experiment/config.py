@@ -20,7 +20,7 @@ from harness.contract import (
     Variant,
     View,
 )
-from harness.limits import SEED, SHARE, Distinct, Known, OneOf, Within
+from harness.limits import PIXELS, RAYS, SECONDS, SEED, SHARE, TIMEOUT, Distinct, Known, OneOf, Within
 from harness.results.facts import FACTS
 from harness.scenes.choice import SceneChoice
 from harness.scenes.model import Scene
@@ -106,7 +106,7 @@ class AccuracyChoice:
         a row has no accuracy, and fails
     """
 
-    size: Annotated[int, Within(1, 4096)] = 128
+    size: Annotated[int, RAYS] = 128
     grazing_margin: Annotated[float, SHARE] = 1e-3
     max_wrong_share: Annotated[float, SHARE] = 0.5
     undecided: Annotated[float, SHARE] = 0.01
@@ -125,11 +125,11 @@ class BudgetChoice:
     triangles: a frame of more triangles is skipped
     """
 
-    seconds: Annotated[float, Within(0.0, 1e5)] = 2.0
+    seconds: Annotated[float, SECONDS] = 2.0
     interval: Annotated[float, SHARE] = 0.02
     rounds: Annotated[int, Within(1, 1e6)] = 8
     repetitions: Annotated[int, Within(1, 1e6)] = 200
-    timeout: Annotated[float, Within(1e-3, 1e6)] = 60.0
+    timeout: Annotated[float, TIMEOUT] = 60.0
     triangles: Annotated[int, Within(1, 1e12)] = 1_000_000_000
 
 
@@ -188,7 +188,7 @@ class Config:
     view: Annotated[list[View], Distinct(_names)] = field(default_factory=list)
     angles: Annotated[AngleChoice | None, Distinct(_angles)] = None
     directions: DirectionChoice | None = None
-    sizes: Annotated[list[Annotated[int, Within(1, 16384)]], Distinct()] = field(default_factory=lambda: [256])
+    sizes: Annotated[list[Annotated[int, PIXELS]], Distinct()] = field(default_factory=lambda: [256])
     samples_per_pixel: Annotated[list[int], OneOf((1, 4, 9, 16)), Distinct()] = field(default_factory=lambda: [1])
     precisions: Annotated[list[Precision], Distinct()] = field(default_factory=lambda: ["float32"])
     stages: Annotated[list[Stage], Distinct()] = field(default_factory=lambda: ["compute"])

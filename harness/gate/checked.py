@@ -22,6 +22,7 @@ from harness.results.store import Row
 from harness.running import batch
 from harness.running.due import UNFINISHED
 from harness.running.environment import describe
+from harness.running.run import Watcher
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,11 +72,14 @@ class Checked:
         return dataclasses.replace(self.now, devices=devices)
 
 
-def check(config: Path, plugins: Path | None, devices: Sequence[str], runs: Path, force: bool = False) -> Checked:
+def check(
+    config: Path, plugins: Path | None, devices: Sequence[str], runs: Path, watcher: Watcher, force: bool = False
+) -> Checked:
     """Check the cells of a config that have no finished row yet below `runs`, without timing them.
 
     `plugins` is a folder of further methods; `devices`, where there are any, take the place of those that the config
-    names. With `force` all cells are checked again. Raises FirsthitError where the config cannot be planned.
+    names. With `force` all cells are checked again. `watcher` is told of each cell.
+    Raises FirsthitError where the config cannot be planned.
     """
     catalog = find_methods(plugins)
     experiment = reading.load(config, catalog)
@@ -86,7 +90,7 @@ def check(config: Path, plugins: Path | None, devices: Sequence[str], runs: Path
     folder = runs / f"gate-{experiment.name}"
     executor = LocalExecutor(experiment.config.budget.timeout)
     try:
-        rows = batch.rows_of(planned, experiment, catalog, folder, executor, force)
+        rows = batch.rows_of(planned, experiment, catalog, folder, executor, watcher, force)
     finally:
         executor.close()
     now = baseline_of(planned, rows, catalog, experiment.name, experiment.config.gate.same)

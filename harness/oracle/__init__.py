@@ -31,6 +31,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from harness.contract import FirsthitError, Surface, Truth, TruthStatus, digest
+from surfaces.model import is_number
 
 __all__ = ["cached_first_hits", "first_hits"]
 
@@ -87,7 +88,7 @@ def check_rays(rays: NDArray[np.float32]) -> None:
 
 def checked_t_min(t_min: float) -> float:
     """Return `t_min` as a float64, −0 as 0. Raises FirsthitError if it is negative or no finite number."""
-    if isinstance(t_min, bool) or not isinstance(t_min, int | float | np.integer | np.floating):
+    if not is_number(t_min):
         raise FirsthitError(
             f"t_min must be a number, not {type(t_min).__name__}; give a distance along the ray, 0 or more"
         )

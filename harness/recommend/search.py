@@ -6,17 +6,15 @@ rounds. The fastest are checked once more on held-out views, by which they were 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Literal
+from typing import Annotated, Literal
 
 from harness.accuracy.judge import NAMES
 from harness.contract import (
-    PRECISIONS,
     CellStatus,
     DeviceInfo,
-    FirsthitError,
     Precision,
     Surface,
     Variant,
@@ -26,12 +24,14 @@ from harness.contract import (
 from harness.devices.executor import LocalExecutor
 from harness.experiment import plan
 from harness.experiment.config import AccuracyChoice, BudgetChoice, Config, Experiment, MethodChoice
+from harness.limits import PIXELS, RAYS, SECONDS, SEED, Within, hold
 from harness.plugins import Catalog
 from harness.recommend.candidates import variants, views
 from harness.results.row import Accuracy
 from harness.results.store import Row
 from harness.running import batch
 from harness.running.environment import probed
+from harness.running.run import Watcher
 from harness.running.trace import usable_device
 
 Quantile = Literal["max", "p999", "p99"]
@@ -40,6 +40,9 @@ HEADROOM = 2.0  # of the bound on the largest error: rays that were not sampled 
 CONTENDERS = 6  # timed on every view and checked on held-out ones
 HOPELESS = 2.0  # times the fastest in a first, short timing of a small picture: not timed further
 STEP_SECONDS = 60.0  # for one step of a candidate; then it falls
+ERROR = Within(1e-30, 1e30)  # scene units; no variant keeps an error of 0
+FPS = Within(0.0, 1e6)
+VIEWS = Within(1, 1000)
 SMALL = 128  # pixels per side of that picture, at most
 
 
@@ -52,41 +55,32 @@ class Wish:
     fps: frames per second at least; 0 for any
     size: pixels per side of the frames that are timed
     precision: None for float32, and float64 only where no float32 variant holds
-    tuning_views, held_out_views: how many views variants are chosen by, and how many the chosen are checked on
-    accuracy_size: rays per side that are checked on each view
+    views: how many views variants are chosen by; on half as many others, two at least, the chosen are checked
+    rays: per side of those that are checked on each view
     seed: of the views
     seconds: of timing for each contender and view
 
-    Raises FirsthitError for a number that is out of range, and for an unknown quantile or precision.
+    Raises FirsthitError for a value that is no number or outside its limits, and for an unknown quantile or precision.
     """
 
     surface: Surface
-    error: float
+    error: Annotated[float, ERROR]
     quantile: Quantile = "max"
-    fps: float = 0.0
-    size: int = 512
+    fps: Annotated[float, FPS] = 0.0
+    size: Annotated[int, PIXELS] = 512
     precision: Precision | None = None
-    tuning_views: int = 5
-    held_out_views: int = 3
-    accuracy_size: int = 64
-    seed: int = 1
-    seconds: float = 1.0
+    views: Annotated[int, VIEWS] = 5
+    rays: Annotated[int, RAYS] = 64
+    seed: Annotated[int, SEED] = 1
+    seconds: Annotated[float, SECONDS] = 1.0
 
     def __post_init__(self) -> None:
-        limits = (
-            ("error", self.error, 0.0, 1e30),
-            ("fps", self.fps, 0.0, 1e6),
-            ("size", self.size, 1, 16384),
-            ("views", self.tuning_views, 1, 1000),
-            ("rays", self.accuracy_size, 4, 4096),
-            ("seconds", self.seconds, 0.0, 1e5),
-        )
-        for name, value, low, high in limits:
-            if not low <= value <= high:
-                raise FirsthitError(f"{name} {value:g} is outside [{low:g}, {high:g}]")
-        for name, given, known in (("quantile", self.quantile, QUANTILES), ("precision", self.precision, PRECISIONS)):
-            if given is not None and given not in known:
-                raise FirsthitError(f"unknown {name} {given!r}; there are: {', '.join(known)}")
+        hold(self)
+
+    @property
+    def held_out_views(self) -> int:
+        """Return how many views the chosen variants are checked on, by which they were not chosen."""
+        return max(2, self.views // 2)
 
     @property
     def target(self) -> float:
@@ -137,25 +131,24 @@ class Recommendation:
     undecided: int = 0
 
 
-def recommend(
-    wish: Wish, catalog: Catalog, device: str | None, runs: Path, tell: Callable[[str], None]
-) -> Recommendation:
+def recommend(wish: Wish, catalog: Catalog, device: str | None, runs: Path, watcher: Watcher) -> Recommendation:
     """Search among all methods for the fastest variant that keeps the wish, on a device or the first usable one.
 
-    Rows go below `runs`, where a later search finds them again; `tell` is called with a line as the search goes on.
-    Raises FirsthitError where there is no such device.
+    Rows go below `runs`, where a later search finds them again; `watcher` is told of each step and cell. Raises
+    FirsthitError where `device` is no text and, with exit code 3, where there is no such device or a row cannot be
+    stored.
     """
     folder = runs / f"recommend-{wish.surface.name}-{digest(wish.surface.identity)[:8]}"
     executor = LocalExecutor(STEP_SECONDS)
     try:
         info, _ = probed(executor, usable_device(device), folder / "probes")
-        return Search(wish, catalog, info, executor, folder, tell).run()
+        return Search(wish, catalog, info, executor, folder, watcher).run()
     finally:
         executor.close()
 
 
 class Search:
-    """Searches on one device; `tell` is called with a line as the search goes on. Rows are stored in `folder`."""
+    """Searches on one device; `watcher` is told of each step and cell. Rows are stored in `folder`."""
 
     def __init__(
         self,
@@ -164,13 +157,13 @@ class Search:
         device: DeviceInfo,
         executor: LocalExecutor,
         folder: Path,
-        tell: Callable[[str], None],
+        watcher: Watcher,
     ) -> None:
         self._wish, self._catalog, self._device = wish, catalog, device
-        self._executor, self._folder, self._tell = executor, folder, tell
-        sampled = views(wish.tuning_views + wish.held_out_views, wish.seed)
+        self._executor, self._folder, self._watcher = executor, folder, watcher
+        sampled = views(wish.views + wish.held_out_views, wish.seed)
         self._truth: dict[str, tuple[int, int, int]] = {}  # judged rays, decided and undecided hits, by view
-        self._tuning, self._held_out = sampled[: wish.tuning_views], sampled[wish.tuning_views :]
+        self._tuning, self._held_out = sampled[: wish.views], sampled[wish.views :]
 
     def run(self) -> Recommendation:
         """Search in the wished precision or, without one, in float32 and then, where no variant holds, in float64."""
@@ -212,7 +205,7 @@ class Search:
         for view in on:
             if not alive:
                 break
-            self._tell(f"{precision}: {len(alive)} variants on view {view.name}{where}")
+            self._watcher.told(f"{precision}: {len(alive)} variants on view {view.name}{where}")
             rows = self._rows(alive, precision, view, self._wish.size)
             for variant in list(alive):
                 row = rows[variant]
@@ -253,7 +246,7 @@ class Search:
         """
         if not alive:
             return {}
-        self._tell(f"{precision}: timing {len(alive)} variants shortly")
+        self._watcher.told(f"{precision}: timing {len(alive)} variants shortly")
         small = min(SMALL, self._wish.size)
         short = self._medians(alive, precision, self._tuning[0], small, self._wish.seconds / 4.0)
         order = sorted(short, key=lambda variant: short[variant])
@@ -263,7 +256,7 @@ class Search:
                 why = f"{times:.3g} times the time of {named(order[0])}, {short[variant]:.3g} ms at {small}x{small}"
                 found.fallen.append(Fallen(variant, precision, why))
         chosen = [v for v in order[:CONTENDERS] if short[v] <= HOPELESS * short[order[0]]]
-        self._tell(f"{precision}: timing {len(chosen)} variants on {len(self._tuning)} views")
+        self._watcher.told(f"{precision}: timing {len(chosen)} variants on {len(self._tuning)} views")
         by_view = [self._medians(chosen, precision, view, self._wish.size, self._wish.seconds) for view in self._tuning]
         means = {v: sum(times[v] for times in by_view) / len(by_view) for v in chosen if all(v in t for t in by_view)}
         for variant, ms in list(means.items()):
@@ -295,14 +288,14 @@ class Search:
             precisions=[precision],
             devices=[self._device.name],
             seed=wish.seed,
-            accuracy=AccuracyChoice(size=wish.accuracy_size, max_wrong_share=0.0),
+            accuracy=AccuracyChoice(size=wish.rays, max_wrong_share=0.0),
             budget=BudgetChoice(seconds=seconds or 0.0),
         )
         named = Experiment(
             self._folder.name, self._folder, "", config, tuple(of), (wish.surface,), (precision,), ("compute",)
         )
         planned = plan.plan(named, self._catalog, [self._device], timed=seconds is not None)
-        rows = batch.rows_of(planned, named, self._catalog, self._folder, self._executor)
+        rows = batch.rows_of(planned, named, self._catalog, self._folder, self._executor, self._watcher)
         return {p.cell.variant: rows[p.key] for p in planned}
 
 

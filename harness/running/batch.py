@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from harness import console
 from harness.devices.executor import LocalExecutor
 from harness.experiment.config import Experiment
 from harness.experiment.plan import Planned
@@ -12,6 +11,7 @@ from harness.plugins import Catalog
 from harness.results.store import Row, Store
 from harness.running.due import due
 from harness.running.environment import describe
+from harness.running.run import Watcher
 from harness.running.runner import Runner
 
 
@@ -21,15 +21,17 @@ def rows_of(
     catalog: Catalog,
     folder: Path,
     executor: LocalExecutor,
+    watcher: Watcher,
     force: bool = False,
 ) -> dict[str, Row]:
     """Return each planned cell's row by its key.
 
     A cell is run now where `folder` has no row of it, where its row says that it did not finish and, with `force`, in
-    any case. Raises FirsthitError where a row cannot be stored.
+    any case; `watcher` is told of each. Raises FirsthitError where a row cannot be stored.
     """
     store = Store(folder)
     found = due(planned, store, "everything" if force else "unfinished")
-    progress = console.Progress(len(found.todo), 1.0 * len(found.todo))
-    rows = Runner(experiment.config, catalog, store, executor, describe(), progress).run(found.todo)
+    if found.todo:
+        watcher.starts(len(found.todo), 1.0 * len(found.todo))
+    rows = Runner(experiment.config, catalog, store, executor, describe(), watcher.cell).run(found.todo)
     return found.kept | {row["key"]: row for row in rows}

@@ -2,19 +2,33 @@
 
 from __future__ import annotations
 
+from typing import Annotated
+
 import numpy as np
 from numpy.typing import NDArray
 
 from harness.accuracy.pictures import headlight
 from harness.contract import FirsthitError, Hits, RayStatus, Surface, View
+from harness.limits import PICTURE, held
 from harness.running.trace import Caster, Tell, cast, ignore
 from harness.scenes.camera import camera_for, rays_of
 
-MOST_PIXELS = 8192  # a side
 BACKGROUND = np.array([1.0, 1.0, 1.0])
 LIT = np.array([0.36, 0.58, 0.82])
 EXHAUSTED = np.array([0.84, 0.37, 0.0])
 INVALID = np.array([1.0, 0.0, 1.0])
+
+
+def shown_by(given: View | tuple[float, float]) -> View:
+    """Return a View as it is, and for a pair of its azimuth and elevation, degrees, the view from there.
+
+    Raises FirsthitError for anything else.
+    """
+    if isinstance(given, View):
+        return given
+    if not isinstance(given, tuple | list) or len(given) != 2:
+        raise FirsthitError(f"view is a View or its azimuth and elevation, as in (30, 30), not {given!r}")
+    return View("shown", azimuth=given[0], elevation=given[1])
 
 
 def picture(
@@ -23,13 +37,10 @@ def picture(
     """Draw a surface with a light at the eye, on white: uint8[size, size, 3], row 0 at the top, and the hits.
 
     Each pixel is the mean of four rays, so there are 4 · size² hits. Rays that the method gave up are orange, answers
-    that can be none magenta. Raises FirsthitError for a size or a field of view that no picture has, and where `cast`
+    that can be none magenta. Raises FirsthitError for a size that is outside harness.limits.PICTURE, and where `cast`
     does.
     """
-    if not 1 <= size <= MOST_PIXELS:
-        raise FirsthitError(f"size {size}: an image has 1 to {MOST_PIXELS} pixels per side")
-    if not 0.0 < view.fov < 180.0:
-        raise FirsthitError(f"fov {view.fov:g}: the angle lies between 0 and 180 degrees")
+    size = held("size", size, Annotated[int, PICTURE])
     camera = camera_for(view, surface)
     rays = rays_of(camera, 2 * size)
     hits = cast(caster, surface, rays, camera, tell=tell)

@@ -116,6 +116,11 @@ class Teller(Watcher):
             self._tell(line)
 
 
+def teller(tell: Callable[[str], None] | None) -> Watcher:
+    """Make a watcher that calls `tell` with lines of text; without a function it does nothing."""
+    return Watcher() if tell is None else Teller(tell)
+
+
 def load(
     name: str | Path, plugins: Path | None = None, devices: Sequence[str] = (), watcher: Watcher | None = None
 ) -> Loaded:

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import NDArray
 
 from harness.accuracy import compilers
 from harness.contract import (
-    ORIGINS,
-    PRECISIONS,
     CellStatus,
     DeviceInfo,
     FirsthitError,
@@ -28,9 +27,9 @@ from harness.devices.interface import LANGUAGES, no_device
 from harness.experiment.kinds import of_method
 from harness.experiment.kinds.model import Shot
 from harness.kernels.assemble import Language, method_program
+from harness.limits import TIMEOUT, held, hold
 from harness.oracle import checked_t_min
 from harness.plugins import Plugin
-from surfaces.words import suggestion
 
 UNIT_LENGTH = 1e-5  # by how much the length of a ray's direction may differ from 1
 
@@ -45,8 +44,9 @@ def ignore(_line: str) -> None:
 class Caster:
     """Holds a method with values for its knobs, and says where and how it casts.
 
-    `timeout` is in seconds and for one step, such as compiling or casting all rays. Raises FirsthitError for a device,
-    precision or origin that does not exist.
+    `timeout` is in seconds and for one step, such as compiling or casting all rays. Raises FirsthitError for a
+    precision or an origin that does not exist and for a timeout that is outside its limits and, with exit code 3, for a
+    device of a kind that does not exist.
     """
 
     plugin: Plugin
@@ -54,18 +54,12 @@ class Caster:
     device: str
     precision: Precision = "float32"
     origin: Origin = "nearest"
-    timeout: float = 60.0
+    timeout: Annotated[float, TIMEOUT] = 60.0
 
     def __post_init__(self) -> None:
+        hold(self)
         if self.device.partition(":")[0] not in LANGUAGES:
             raise no_device(self.device, (info.name for info in discover_devices()))
-        given: list[tuple[str, str, tuple[str, ...]]] = [
-            ("precision", self.precision, PRECISIONS),
-            ("origin", self.origin, ORIGINS),
-        ]
-        for name, value, known in given:
-            if value not in known:
-                raise FirsthitError(f"unknown {name} {value!r}; {suggestion(value, known)}")
 
     @property
     def language(self) -> Language:
@@ -74,8 +68,11 @@ class Caster:
 
 
 def usable_device(name: str | None = None) -> DeviceInfo:
-    """Find the device of that name, or the first one that works where `name` is None; raises FirsthitError if none."""
-    return usable_devices([name] if name else [])[0]
+    """Find the device of that name, or the first one that works where `name` is None.
+
+    Raises FirsthitError where `name` is no text and, with exit code 3, where there is no such device or none works.
+    """
+    return usable_devices([] if name is None else [held("device", name, str)])[0]
 
 
 def checked_rays(rays: object, what: str = "rays") -> NDArray[np.float32]:
