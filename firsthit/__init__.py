@@ -271,9 +271,9 @@ def recommend(
     """Search for the fastest variants whose certified |t - t*| stays within `error`, in the surface's units.
 
     The bound is on a quantile of the errors ("max", "p999" or "p99") on `rays`² rays of each of `views` views, chosen
-    by `seed`, and of half as many views held out, two at least. Pictures of `size`² pixels are timed for `seconds` a variant and
-    view; under `fps` frames a second a variant falls. Without a precision float64 is tried where no float32 holds.
-    Rows are kept below `runs`; `tell` is called with a line of text for each step and whatever ends.
+    by `seed`, and of half as many views held out, two at least. Pictures of `size`² pixels are timed for `seconds` a
+    variant and view; under `fps` frames a second a variant falls. Without a precision float64 is tried where no float32
+    holds. Rows are kept below `runs`; `tell` is called with a line of text for each step and whatever ends.
 
     `contenders` of the answer is empty where nothing holds, and `fallen` says why. Raises FirsthitError for names and
     numbers that make no sense, and with exit_code 3 where the device is not here or a row cannot be written.
