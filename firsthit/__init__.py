@@ -220,8 +220,8 @@ def run(
     place of those that it names. Finished cells are reused; `force` runs them again, `retry_failed` runs those again
     that failed, timed out or crashed. `tell` is called with a line of text for whatever ends; `print` will do.
 
-    A cell that fails is a row that says why. Raises FirsthitError, with file and line, for a mistake in the config, and
-    with exit_code 3 where none of its devices is here or a row cannot be written.
+    A cell that fails is a row that says why. Raises FirsthitError for an argument that makes no sense, with file and
+    line for a mistake in the config, and with exit_code 3 where none of its devices is here or a row cannot be written.
     """
     import shlex
 
@@ -239,7 +239,7 @@ def load(folder: AnyPath) -> pd.DataFrame:
     """Return a run's cells as a table: a row each, with the columns of results.csv, as `median_ms` and `error_max`.
 
     `folder` is a Run's, or any that `firsthit run` made. Families of hard rays are not among the rows. Raises
-    FirsthitError where it is no such folder or no cell is finished, and with exit_code 3 where pandas is missing.
+    FirsthitError where it is no such folder or no cell is finished and, with exit_code 3, where pandas is missing.
     """
     try:
         from reports.analysis.derive import derive
@@ -271,9 +271,9 @@ def recommend(
     """Search for the fastest variants whose certified |t - t*| stays within `error`, in the surface's units.
 
     The bound is on a quantile of the errors ("max", "p999" or "p99") on `rays`² rays of each of `views` views, chosen
-    by `seed`, and of half as many views held out. Pictures of `size`² pixels are timed for `seconds` a variant and
-    view; under `fps` frames a second a variant falls. Without a precision float64 is tried where no float32 holds.
-    Rows are kept below `runs`; `tell` is called with a line of text for each step and whatever ends.
+    by `seed`, and of half as many views held out, two at least. Pictures of `size`² pixels are timed for `seconds` a
+    variant and view; under `fps` frames a second a variant falls. Without a precision float64 is tried where no float32
+    holds. Rows are kept below `runs`; `tell` is called with a line of text for each step and whatever ends.
 
     `contenders` of the answer is empty where nothing holds, and `fallen` says why. Raises FirsthitError for names and
     numbers that make no sense, and with exit_code 3 where the device is not here or a row cannot be written.

@@ -12,9 +12,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from harness import ROOT as ROOT
-from harness.contract import CLAIMS, PRECISIONS, Casts, FirsthitError, Method, Variant
-from harness.limits import is_finite
+from harness import ROOT
+from harness.contract import CLAIMS, PRECISIONS, Casts, FirsthitError, Method, Parameter, Variant
+from harness.limits import Distinct, is_finite
 from surfaces.model import is_number
 from surfaces.words import suggestion
 
@@ -125,19 +125,28 @@ def _load(folder: Path) -> Method:
     method = getattr(module, "METHOD", None)
     if not isinstance(method, Method):
         raise FirsthitError(f"{path} does not define METHOD = Method(...)")
+    if problem := _problem(method):
+        raise FirsthitError(f"{path}: {problem}")
     for claim in sorted(method.claims - CLAIMS.keys()):
         raise FirsthitError(f"{path} claims {claim!r}, which no test knows; {suggestion(claim, sorted(CLAIMS))}")
     if "error_below_tolerance" in method.claims and method.tolerance is None:
         raise FirsthitError(f"{path} claims error_below_tolerance; that needs tolerance=..., see harness/contract.py")
+    for setting, values in method.settings.items():
+        try:
+            Plugin(method, folder).variant(values)
+        except FirsthitError as error:
+            raise FirsthitError(f"{path}: setting {setting!r}: {error}") from None
     if method.name != folder.name:
         raise FirsthitError(f"{path} names its method {method.name!r}, its folder {folder.name!r}; they must agree")
-    if problem := _problem(method):
-        raise FirsthitError(f"{path}: {problem}")
     return method
 
 
 def _problem(method: Method) -> str | None:
     """Say what in a method's statement can mean nothing, and what to write; None where all of it makes sense."""
+    kinds = ("name", str), ("parameters", tuple | list), ("precisions", tuple | list), ("claims", set | frozenset)
+    for field_name, kind in (*kinds, ("settings", Mapping)):
+        if not isinstance(getattr(method, field_name), kind):
+            return f"{field_name} is {getattr(method, field_name)!r}; see class Method in harness/contract.py"
     if not NAME.fullmatch(method.name):
         return f"the name {method.name!r} must be letters, digits and _, and begin with a letter; rename the folder too"
     stated = (("casts", (method.casts,), CASTS), ("precisions", method.precisions, PRECISIONS))
@@ -145,17 +154,23 @@ def _problem(method: Method) -> str | None:
         for value in values:
             if value not in known:
                 return f"{what}: unknown {value!r}; known: {', '.join(known)}"
-    names = [parameter.name for parameter in method.parameters]
-    for parameter in method.parameters:
-        name = parameter.name
-        if not KNOB.fullmatch(name):
-            return f"the knob {name!r} must be capitals, digits and _, and begin with a capital, since kernels read it"
-        if names.count(name) > 1:
-            return f"the knob {name} is stated twice; keep one of the two"
-        numbers = (parameter.default, *parameter.sweep, *([] if parameter.printed is None else [parameter.printed]))
-        for number in numbers:
-            if not is_number(number) or not is_finite(number):
-                return f"the knob {name} has the value {number!r}; give it a finite number"
+    names = [parameter.name for parameter in method.parameters if isinstance(parameter, Parameter)]
+    if twice := Distinct().broken(names):
+        return f"the knob {twice}; keep one of the two"
+    return next((problem for parameter in method.parameters if (problem := _knob_problem(parameter))), None)
+
+
+def _knob_problem(knob: object) -> str | None:
+    """Say what in the statement of a knob can mean nothing, and what to write; None where all of it makes sense."""
+    if not isinstance(knob, Parameter):
+        return f"parameters has {knob!r}; give it Parameter(...)"
+    if not isinstance(knob.name, str) or not KNOB.fullmatch(knob.name):
+        return f"the knob {knob.name!r} must be capitals, digits and _, and begin with a capital, since kernels read it"
+    if knob.finer not in (None, "up", "down"):
+        return f"the knob {knob.name} is finer {knob.finer!r}; write up, down or None"
+    for number in (knob.default, *knob.sweep, *([] if knob.printed is None else [knob.printed])):
+        if not is_number(number) or not is_finite(number):
+            return f"the knob {knob.name} has the value {number!r}; give it a finite number"
     return None
 
 

@@ -122,6 +122,7 @@ def test_bad_rays_are_one_line_and_leave_no_file(tmp_path, capsys, name, words, 
     ("changed", "code", "words"),
     [
         ({"--surface": "spere"}, 2, "did you mean sphere"),
+        ({"--surface": ""}, 2, "there is no surface ''"),
         ({"--method": "newtn"}, 2, "did you mean 'newton'"),
         ({"--device": "opencl:none"}, 3, "there is no device 'opencl:none'"),
         ({"--device": "none"}, 3, "there is no device 'none' here; known: open"),

@@ -56,7 +56,15 @@ STATED = "from firsthit import Method, Parameter\nMETHOD = Method('mine', 't', {
     [
         ("casts='foo'", "casts: unknown 'foo'; known: rays, beams, quadtree, mesh"),
         ("precisions=('half',)", "precisions: unknown 'half'; known: float32, float64"),
-        ("parameters=(Parameter('N', 1, 'n'), Parameter('N', 2, 'n'))", "the knob N is stated twice"),
+        (
+            "parameters=(Parameter('N', 1, 'n'), Parameter('N', 2, 'n'))",
+            "the knob 'N' is named twice; keep one of the two",
+        ),
+        ("parameters=Parameter('N', 1, 'n')", "; see class Method in harness/contract.py"),
+        ("parameters=('N',)", "parameters has 'N'; give it Parameter(...)"),
+        ("claims='no_missed_root'", "claims is 'no_missed_root'; see class Method"),
+        ("settings=dict(fine=dict(M=1))", "has no parameter 'M'"),
+        ("parameters=(Parameter('N', 1, 'n', finer='less'),)", "is finer 'less'; write up, down or None"),
         ("parameters=(Parameter('n', 1, 'n'),)", "the knob 'n' must be capitals"),
         ("parameters=(Parameter('N M', 1, 'n'),)", "the knob 'N M' must be capitals"),
         ("parameters=(Parameter('N', float('nan'), 'n'),)", "the knob N has the value nan; give it a finite number"),

@@ -28,8 +28,8 @@ def _compile(options: argparse.Namespace) -> int:
 
     catalog = find_methods(options.plugins)
     plugins = [catalog.get(name) for name in options.method or sorted(catalog.plugins)]
-    chosen = [surfaces.get(name) for name in options.surface or (() if options.formula else TYPICAL)]
-    chosen += [surfaces.from_formula(options.formula, options.domain)] if options.formula else []
+    chosen = [surfaces.get(name) for name in options.surface or (TYPICAL if options.formula is None else ())]
+    chosen += [] if options.formula is None else [surfaces.from_formula(options.formula, options.domain)]
     usable = usable_devices()
     done = compile_all(plugins, chosen, usable)
     broken = [f"{name}: {reason}" for name, reason in catalog.broken.items() if not options.method]

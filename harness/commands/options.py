@@ -88,11 +88,12 @@ def surface_of(options: argparse.Namespace) -> Surface:
     import surfaces
 
     parameters = _assignments(options.parameter, "--parameter")
-    if options.surface:
-        if options.domain:
+    if options.surface is not None:
+        if options.domain is not None:
             raise FirsthitError("--domain goes with --formula; a surface of the catalog has its own")
         return surfaces.get(options.surface, **parameters)
-    return surfaces.from_formula(options.formula, options.domain or "sphere:1.5", parameters=parameters)
+    domain = "sphere:1.5" if options.domain is None else options.domain
+    return surfaces.from_formula(options.formula, domain, parameters=parameters)
 
 
 def _number(text: str, name: str) -> float | int:

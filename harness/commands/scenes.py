@@ -41,7 +41,7 @@ def _chosen(scenes: tuple[Scene, ...], name: str | None, path: Path) -> Scene:
     names = {scene.name: scene for scene in scenes}
     if name is not None and name not in names:
         raise FirsthitError(f"{path} has no scene {name!r}; {suggestion(name, names)}")
-    return names[name] if name else scenes[0]
+    return scenes[0] if name is None else names[name]
 
 
 def _scene(options: argparse.Namespace) -> int:
