@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
+from harness import ROOT
 from harness.cli import main
-from harness.results.sources import ROOT
 
 from .conftest import usable_devices
 

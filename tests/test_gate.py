@@ -5,8 +5,8 @@ import sys
 
 import pytest
 
+from harness import ROOT
 from harness.cli import main
-from harness.running.environment import ROOT
 
 from .conftest import usable_devices
 

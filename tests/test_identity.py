@@ -13,12 +13,12 @@ import numpy as np
 import pytest
 
 import surfaces
-from harness import studies
+from harness import ROOT, studies
 from harness.contract import FirsthitError
 from harness.experiment import identity
 from harness.oracle import cache
 from harness.results import sources
-from harness.results.sources import ROOT, TRUTH, files_in, left_out, methodology
+from harness.results.sources import TRUTH, files_in, left_out, methodology
 
 from .conftest import usable_devices
 

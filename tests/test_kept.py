@@ -12,11 +12,10 @@ from pathlib import Path
 
 import pytest
 
-from harness import cli
+from harness import ROOT, cli
 from harness.contract import DeviceInfo, digest
 from harness.devices import discovery, kept_answers
 from harness.devices.executor import LocalExecutor
-from harness.results.sources import ROOT
 from harness.running.environment import probed
 
 from .conftest import usable_devices

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import surfaces
+from harness import ROOT
 from harness.accuracy.freeloops import removed
 from harness.cli import main
 from harness.conformance.cases import view_case
@@ -17,7 +18,6 @@ from harness.devices.interface import BuildError, hits_from, launch_rays
 from harness.kernels.assemble import kept_loops, method_program, with_free_loops
 from harness.kernels.raster import raster_program
 from harness.plugins import find_methods
-from harness.results.sources import ROOT
 from harness.scenes.camera import camera_for, meets, rays_of
 
 from .conftest import opened, usable_devices

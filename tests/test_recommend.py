@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import surfaces
+from harness import ROOT
 from harness.accuracy.judge import Wrong, judge
 from harness.cli import main
 from harness.contract import View
@@ -14,7 +15,6 @@ from harness.oracle import first_hits
 from harness.plugins import Catalog, find_methods
 from harness.recommend import candidates
 from harness.recommend.search import Search, Wish, certified_error
-from harness.running.environment import ROOT
 from harness.running.run import Watcher
 from harness.scenes.camera import camera_for, rays_of, scene_radius
 

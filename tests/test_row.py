@@ -14,12 +14,12 @@ from typing import Any, NotRequired
 import pyarrow.parquet as pq
 import pytest
 
+from harness import ROOT
 from harness.accuracy.judge import NAMES
 from harness.contract import Casts
 from harness.results import columns, row, schema
 from harness.results.row import KINDS, Accuracy, StoredRow
 from harness.results.schema import DERIVED, LEAVES, SCHEMA
-from harness.results.sources import ROOT
 from reports import parts, report
 from reports.analysis import breaks, derive
 from reports.material import Material

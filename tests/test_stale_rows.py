@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from harness.results.sources import ROOT
+from harness import ROOT
 
 from .conftest import usable_devices
 

@@ -12,10 +12,9 @@ import sys
 
 import pytest
 
-from harness import commands, console
+from harness import ROOT, commands, console
 from harness.cli import build_parser
 from harness.commands import GROUPS
-from harness.results.sources import ROOT
 
 from .benchmarks import startup
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from harness import ROOT
 from harness.contract import FirsthitError
-from harness.results.sources import ROOT
 from surfaces.words import suggestion
 
 FOLDER = ROOT / "configs"

@@ -13,8 +13,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from harness import ROOT
 from harness.contract import FirsthitError, Program, Section
-from harness.running.environment import ROOT
 
 EXPORT = Path(__file__).with_name("export.py")
 

@@ -15,7 +15,7 @@ from functools import cache
 from pathlib import Path
 from typing import Literal
 
-from harness import ROOT as ROOT
+from harness import ROOT
 from harness.contract import (
     Box,
     FirsthitError,

@@ -36,7 +36,7 @@ from collections.abc import Callable, Iterable, Mapping
 from fractions import Fraction
 from pathlib import Path
 
-from harness import ROOT as ROOT
+from harness import ROOT
 from harness.contract import Box, FirsthitError, Precision, Section, Surface
 from harness.kernels.printing import IntervalPrinter, Language, RealPrinter, functions_used, table
 from harness.kernels.reach import safe_reach

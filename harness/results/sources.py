@@ -14,7 +14,7 @@ from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
-from harness import ROOT as ROOT
+from harness import ROOT
 from harness.contract import FirsthitError, digest
 
 DECIDING = ("harness", "surfaces")

@@ -11,8 +11,7 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
-from harness import ROOT as ROOT
-from harness import __version__
+from harness import ROOT, __version__
 from harness.contract import DeviceInfo, FirsthitError, digest
 from harness.devices import host
 from harness.devices.executor import CellError, LocalExecutor

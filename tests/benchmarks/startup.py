@@ -16,8 +16,7 @@ import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from harness import console
-from harness.results.sources import ROOT
+from harness import ROOT, console
 
 RUNS = 9
 QUICK = ("run", "configs/quick.toml")
