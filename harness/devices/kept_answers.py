@@ -26,6 +26,7 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
+from harness import ROOT
 from harness.contract import DeviceInfo, FirsthitError, digest
 from harness.devices import host
 from harness.results import sources
@@ -106,7 +107,7 @@ def _place() -> Path | None:
             cache = Path.home() / ".cache"
         except RuntimeError:
             return None
-    return cache / "firsthit" / digest(platform.node(), sys.prefix, str(sources.ROOT))[:8]
+    return cache / "firsthit" / digest(platform.node(), sys.prefix, str(ROOT))[:8]
 
 
 def _base(info: DeviceInfo) -> str:
