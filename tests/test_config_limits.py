@@ -101,7 +101,7 @@ def test_a_list_or_number_of_the_experiment_keeps_its_limits(tmp_path, line, mes
         ("budget", f"seconds = 1{'0' * 400}", "budget.seconds is a finite number, not 1000"),
         ("accuracy", "undecided = 1.5", "accuracy.undecided: 1.5 is outside [0, 1]"),
         ("directions", "seed = -1", "directions.seed: -1 is outside [0, "),
-        ("scene.mine", "counts = [0]", "scene.mine.counts.0: 0 is outside [1, 1e+07]"),
+        ("scene.mine", "counts = [0]", "scene.mine.counts.0: a scene has 1 to 1,000,000 parts, not 0"),
         ("scene.mine", "counts = [8, 8]", "counts: 8 is named twice"),
         ("scene.mine", "seed = -1", "scene.mine.seed: -1 is outside"),
         ("scene.mine", "fov = 180", "scene.mine.fov: 180.0 is outside [0.001, 179]"),
