@@ -7,12 +7,15 @@ import numpy as np
 import pytest
 
 import surfaces
-from harness.contract import Casts
+from harness.contract import Casts, FirsthitError, Variant, View
 from harness.devices.trial_launch import trial_launch
+from harness.experiment.cells import Cell
 from harness.experiment.kinds.casts import WAYS
-from harness.experiment.kinds.model import MethodKind
+from harness.experiment.kinds.model import Asked, Drawing
+from harness.experiment.kinds.shots import ShotKind
 from harness.kernels.assemble import KERNELS, ROOMS, Entry, method_program
 from harness.plugins import find_methods
+from harness.scenes.model import single
 
 BY_ENTRY = {"rays": "newton", "camera": "newton", "beams": "interval_uniform"}
 
@@ -50,16 +53,16 @@ def test_every_entry_is_tried_over_one_item(entry):
 
 def test_an_entry_that_nobody_knows_how_to_try_is_told_with_the_file_to_mend():
     unknown = dataclasses.replace(program("rays"), entry="tiles")
-    with pytest.raises(NotImplementedError, match=r"harness/devices/trial_launch\.py .* tiles program"):
+    with pytest.raises(FirsthitError, match=r"harness/devices/trial_launch\.py .* tiles program"):
         trial_launch(Recording(), unknown, None)
 
 
 @pytest.mark.parametrize("left_out", ["what", "entries", "unlisted", "undrawn", "shot", "shot_hits", "validated"])
 def test_a_kind_of_methods_that_leaves_something_out_cannot_be_made(left_out):
-    stated = dict.fromkeys(MethodKind.__abstractmethods__)
+    stated = dict.fromkeys(ShotKind.__abstractmethods__)
     del stated[left_out]
     with pytest.raises(TypeError, match=left_out):
-        type("Tiles", (MethodKind,), stated)()
+        type("Tiles", (ShotKind,), stated)()
 
 
 def test_a_kind_that_cannot_be_listed_refuses_listed_rays_and_rays_of_no_camera():
@@ -68,4 +71,20 @@ def test_a_kind_that_cannot_be_listed_refuses_listed_rays_and_rays_of_no_camera(
     assert beams.stage_refusal("rays") == f"the method {beams.unlisted}" and beams.stage_refusal("compute") is None
     assert beams.shot_refusal(None) == beams.unlisted and beams.shot_refusal(np.zeros(12, np.float32)) is None
     assert rays.stage_refusal("rays") is None and rays.shot_refusal(None) is None
+    assert all(
+        isinstance(way.methods, ShotKind) or way.methods.shot_refusal(np.zeros(12, np.float32)) for way in WAYS.values()
+    )
     assert WAYS["mesh"].methods.stage_refusal("compute") == "the method draws triangles, in stage raster"
+
+
+def test_what_a_kind_cannot_make_is_refused_with_the_reason():
+    beams, mesh = WAYS["beams"], WAYS["mesh"]
+    group = single(surfaces.get("sphere"), View("v")).groups[0]
+    plugin = find_methods().get("interval_uniform")
+    with pytest.raises(FirsthitError, match=r"interval_uniform casts the beams .* a fragment has one ray"):
+        beams.methods.draw_programs(plugin, Drawing(group, plugin.variant({}), "box"))
+    cell = Cell(Variant("polygon"), surfaces.get("torus"), View("v"), 8, 1, "float32", "compute", "opengl:none")
+    asked = Asked(cell, None, find_methods(), mesh.methods, 1)
+    assert mesh.cells.refusal(asked) == "the method draws triangles, in stage raster"
+    with pytest.raises(FirsthitError, match="the method draws triangles, in stage raster"):
+        mesh.cells.casting(asked)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from harness.contract import Program
+from harness.contract import FirsthitError, Program
 from harness.devices.interface import Array, Built, Device, Launch, Reserved, Step, real_type
 from harness.devices.quadtree import LEVELS, PARENT
 
@@ -14,7 +14,7 @@ AWAY = (0.0, 0.0, 1024.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0)  # a came
 def trial_launch(device: Device, program: Program, built: Built) -> Launch:
     """Upload one ray, pixel or cell that meets no surface, for the program of any method.
 
-    Raises NotImplementedError for a program whose entry is not known here: its buffers are not known either.
+    Raises FirsthitError for a program whose entry is not known here: its buffers are not known either.
     """
     kind = real_type(program)
     camera, ray = np.array(AWAY, np.float32), np.array(AWAY[:6], np.float32)
@@ -32,5 +32,5 @@ def trial_launch(device: Device, program: Program, built: Built) -> Launch:
         numbers = {"size": 1, "level": -1, "last": 0, "source": -1, "target": 0}
     else:
         here = "harness/devices/trial_launch.py"
-        raise NotImplementedError(f"{here} does not say how a {program.entry} program is launched")
+        raise FirsthitError(f"{here} does not say how a {program.entry} program is launched", exit_code=3)
     return device.launch_steps(buffers, (), [Step(built, tuple(range(len(buffers))), (1, 1), numbers)])

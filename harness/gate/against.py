@@ -13,7 +13,7 @@ from harness.contract import CellStatus
 from harness.devices.executor import CellError, LocalExecutor
 from harness.experiment import plan
 from harness.experiment.config import Experiment
-from harness.experiment.kinds.model import ViewCasting
+from harness.experiment.kinds.model import RacedCasting
 from harness.experiment.plan import Planned, shuffled
 from harness.gate.checked import Checked
 from harness.gate.entries import slot_of
@@ -26,7 +26,7 @@ from harness.running.environment import probed
 
 MINIMUM_ROUNDS = 10
 WHEN = {"now": "now", "then": "at the other revision"}
-Sides = Mapping[str, ViewCasting]
+Sides = Mapping[str, RacedCasting]
 
 
 def speeds(checked: Checked, revision: str, config: Path, plugins: Path | None) -> list[Judged]:
@@ -76,7 +76,7 @@ def _judged(
 ) -> Judged:
     base = Judged(f"{slot_of(planned)}: speed", planned.cell.device, planned.cell.variant.method, Verdict.PASS)
     casting = planned.casting
-    if casting is None or casting.not_raced or not isinstance(casting, ViewCasting):
+    if not isinstance(casting, RacedCasting):
         reason = casting.not_raced if casting else planned.skip
         return replace(base, verdict=Verdict.INCOMPARABLE, reason=reason or "it is cast from no view")
     if former is None:

@@ -25,7 +25,7 @@ from harness.devices.discovery import discover_devices, usable_devices
 from harness.devices.executor import CellError, LocalExecutor
 from harness.devices.interface import LANGUAGES, no_device
 from harness.experiment.kinds import of_method
-from harness.experiment.kinds.model import Shot
+from harness.experiment.kinds.shots import Shot, ShotKind
 from harness.kernels.assemble import Language, method_program
 from harness.limits import TIMEOUT, held, hold
 from harness.oracle import checked_t_min
@@ -125,6 +125,7 @@ def cast(
     kind = of_method(method)
     if reason := kind.shot_refusal(camera):
         raise FirsthitError(f"{caster.variant} {reason}")
+    assert isinstance(kind, ShotKind)  # shot_refusal refuses all others
     shot = Shot(rays, camera, dict(caster.variant.parameters), t_min, caster.origin)
     where = f"{caster.variant} on {caster.device}"
     executor = LocalExecutor(caster.timeout)

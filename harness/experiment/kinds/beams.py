@@ -21,13 +21,14 @@ from harness.devices.beams import BeamAnswer, BeamCheck, BeamFrame
 from harness.devices.executor import LocalExecutor
 from harness.devices.messages import Check, Checked, Frame
 from harness.devices.quadtree import layout_of
-from harness.experiment.kinds.model import Asked, Casting, Kind, MethodKind, Shot, ViewCasting
+from harness.experiment.kinds.model import Asked, Casting, Kind, RacedCasting
+from harness.experiment.kinds.shots import Shot, ShotKind
 from harness.kernels.assemble import with_free_loops
 from harness.scenes.camera import rays_of
 
 
 @dataclass(frozen=True)
-class BeamMethods(MethodKind):
+class BeamMethods(ShotKind):
     """State what follows for methods whose kernel answers a cell of the image: `void cast_cell(Work, Cell)`."""
 
     quadtree: bool
@@ -64,7 +65,7 @@ class BeamCast(Cast):
         return verdicts, {"beam_only": int(beam_only.sum())}
 
 
-class BeamCasting(ViewCasting):
+class BeamCasting(RacedCasting):
     """Cast the beams of a camera's image, or a quadtree of them."""
 
     def __init__(self, asked: Asked, check: Program, timed: Program, quadtree: bool) -> None:
@@ -90,7 +91,7 @@ class BeamCasting(ViewCasting):
         pictures = {"level": answer.levels.reshape(size, size)}
         return BeamCast(surface, rays, hits, checked.compile_ms, facts, pictures, pixels)
 
-    def with_programs(self, checked: Program | None, timed: Program) -> ViewCasting:
+    def with_programs(self, checked: Program | None, timed: Program) -> RacedCasting:
         return BeamCasting(self.asked, checked or timed, timed, self.quadtree)
 
 

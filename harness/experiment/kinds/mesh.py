@@ -5,14 +5,11 @@ Only stage raster draws them; kinds/raster.py makes its castings.
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
 
-from harness.contract import Hits, Method, Program, Stage, Surface, Variant
-from harness.devices.messages import Check
-from harness.experiment.kinds.model import Asked, Casting, Drawing, Kind, MethodKind, Shot
+from harness.contract import FirsthitError, Method, Program, Stage, Surface, Variant
+from harness.experiment.kinds.model import Asked, Casting, Drawing, Kind, MethodKind
 from harness.kernels.raster import mesh_program
 from harness.plugins import Plugin
 from harness.scenes import meshes
@@ -27,7 +24,7 @@ class MeshMethods(MethodKind):
     unlisted = "draws triangles, and listed rays meet none"
     undrawn = None
 
-    def stage_refusal(self, stage: Stage) -> str | None:
+    def stage_refusal(self, stage: Stage) -> str:
         return "the method draws triangles, in stage raster"
 
     def draw_refusal(self, method: Method, variant: Variant, group: Group) -> str | None:
@@ -46,22 +43,10 @@ class MeshMethods(MethodKind):
     def shot_refusal(self, camera: NDArray[np.float32] | None) -> str | None:
         return 'draws triangles, in stage raster: name it in a config with stages = ["raster"]'
 
-    def shot(self, program: Program, shot: Shot, index: NDArray[np.intp]) -> Check[Any]:
-        """Raise NotImplementedError: `shot_refusal` refuses every shot."""
-        raise NotImplementedError("a mesh casts no shot: ask shot_refusal first")
-
-    def shot_hits(self, answer: Any) -> Hits:
-        """Raise NotImplementedError: `shot_refusal` refuses every shot."""
-        raise NotImplementedError("a mesh casts no shot: ask shot_refusal first")
-
-    def validated(self, hits: Hits, surface: Surface, shot: Shot) -> Hits:
-        """Raise NotImplementedError: `shot_refusal` refuses every shot."""
-        raise NotImplementedError("a mesh casts no shot: ask shot_refusal first")
-
 
 class Mesh(Kind):
     """Stand for triangles outside stage raster, where MeshMethods.stage_refusal refuses every cell."""
 
     def casting(self, asked: Asked) -> Casting:
-        """Raise NotImplementedError: `refusal` refuses every cell."""
-        raise NotImplementedError("a mesh is drawn by stage raster: ask refusal first")
+        """Raise FirsthitError, as `refusal` says for every cell."""
+        raise FirsthitError(MeshMethods().stage_refusal(asked.cell.stage))

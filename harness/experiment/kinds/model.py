@@ -23,10 +23,22 @@ from numpy.typing import NDArray
 from harness.accuracy import check, freeloops
 from harness.accuracy.compilers import SecondBuild, doubts_about
 from harness.accuracy.pictures import headlight
-from harness.contract import DeviceInfo, Hits, Method, Normal, Origin, Program, Proxy, Section, Stage, Surface, Variant
+from harness.contract import (
+    DeviceInfo,
+    FirsthitError,
+    Method,
+    Normal,
+    Origin,
+    Program,
+    Proxy,
+    Section,
+    Stage,
+    Surface,
+    Variant,
+)
 from harness.devices.executor import LocalExecutor
 from harness.devices.interface import LANGUAGES
-from harness.devices.messages import Check, Frame
+from harness.devices.messages import Frame
 from harness.experiment.cells import Cell
 from harness.experiment.config import AccuracyChoice, Config, Experiment
 from harness.kernels.assemble import Entry, Language, method_program, with_free_loops
@@ -164,7 +176,7 @@ class MethodKind(ABC):
 
         Raises FirsthitError if the method cannot draw the group.
         """
-        raise NotImplementedError(f"{plugin.method.name} draws nothing: ask draw_refusal first")
+        raise FirsthitError(f"{drawing.variant} {self.undrawn}")
 
     def compiled_drawing(self, plugin: Plugin, surface: Surface) -> Program | None:
         """Make the reporting program of stage raster, for `firsthit compile`; None if the method draws nothing.
@@ -179,35 +191,6 @@ class MethodKind(ABC):
         `camera`, float32[12], is the camera whose image the shot is; None if the rays are listed ones.
         """
         return self.unlisted if camera is None else None
-
-    @abstractmethod
-    def shot(self, program: Program, shot: Shot, index: NDArray[np.intp]) -> Check[Any]:
-        """Make the check that casts the rays `index`, int[k], of a shot. `program` has the entry `entries[0]`."""
-
-    @abstractmethod
-    def shot_hits(self, answer: Any) -> Hits:
-        """Read the hits [k], with t along the rays, from what the check of `shot` answered."""
-
-    @abstractmethod
-    def validated(self, hits: Hits, surface: Surface, shot: Shot) -> Hits:
-        """Mark impossible answers INVALID (harness.accuracy.answers); `hits` [n] are of all rays of a shot."""
-
-
-@dataclass(frozen=True, eq=False)
-class Shot:
-    """Hold rays that are cast once, to be looked at: for `firsthit trace` and `firsthit show`.
-
-    rays: float32[n, 6]
-    camera: float32[12], of the square image whose rays these are, row by row; None if they are of no image
-    knobs: of the method's variant
-    t_min: where the rays begin, in units of t
-    """
-
-    rays: NDArray[np.float32]
-    camera: NDArray[np.float32] | None
-    knobs: Mapping[str, float | int]
-    t_min: float = 0.0
-    origin: Origin = "nearest"
 
 
 @dataclass(frozen=True, eq=False)
@@ -390,9 +373,10 @@ class ViewCasting(Casting):
             reason = check.too_wrong(summary, choice.max_wrong_share) if framed else None
         return Outcome(cast.compile_ms, reason, summary, pictures)
 
-    @abstractmethod
-    def with_programs(self, checked: Program | None, timed: Program) -> ViewCasting:
-        """Return the same casting by another revision's programs; without `checked`, the timed one is checked.
 
-        Raises NotImplementedError for a kind that is `not_raced`.
-        """
+class RacedCasting(ViewCasting):
+    """State how to cast a cell whose frame can be timed against another revision's."""
+
+    @abstractmethod
+    def with_programs(self, checked: Program | None, timed: Program) -> RacedCasting:
+        """Return the same casting by another revision's programs; without `checked`, the timed one is checked."""

@@ -53,10 +53,6 @@ class NarrowedCasting(ViewCasting):
     def second_build(self, executor: LocalExecutor, cast: Cast) -> SecondBuild | None:
         return listed_again(self.asked, executor, cast)
 
-    def with_programs(self, checked: Program | None, timed: Program) -> ViewCasting:
-        """Raise NotImplementedError: `not_raced` says why the frame is not timed against another revision's."""
-        raise NotImplementedError(self.not_raced)
-
 
 class Narrowed(Kind):
     """Make castings of rays behind a prepass, in stage compute."""

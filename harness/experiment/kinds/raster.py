@@ -118,10 +118,6 @@ class RasterCasting(ViewCasting):
     def samples_shade(self, executor: LocalExecutor, size: int) -> NDArray[np.float32] | None:
         return None
 
-    def with_programs(self, checked: Program | None, timed: Program) -> ViewCasting:
-        """Raise NotImplementedError: `not_raced` says why the frame is not timed against another revision's."""
-        raise NotImplementedError(self.not_raced)
-
 
 class Raster(Kind):
     """Make castings of scenes, or of one surface alone, in stage raster."""

@@ -15,7 +15,8 @@ from harness.contract import FirsthitError, Hits, Method, Origin, Program, Surfa
 from harness.devices.executor import LocalExecutor
 from harness.devices.messages import CameraFrame, Check, Frame, ListedCheck, ListedFrame
 from harness.experiment.config import Experiment
-from harness.experiment.kinds.model import Asked, Casting, Drawing, Kind, MethodKind, Rastering, Shot, ViewCasting
+from harness.experiment.kinds.model import Asked, Casting, Drawing, Kind, RacedCasting, Rastering
+from harness.experiment.kinds.shots import Shot, ShotKind
 from harness.kernels.assemble import with_free_loops
 from harness.kernels.raster import raster_program
 from harness.plugins import Plugin
@@ -24,7 +25,7 @@ from harness.scenes.model import Group
 from harness.scenes.records import MOST_PARAMETERS
 
 
-class RayMethods(MethodKind):
+class RayMethods(ShotKind):
     """State what follows for methods whose kernel answers one ray: `Hit first_hit(Ray, real t0, real t1)`."""
 
     what = "rays"
@@ -90,7 +91,7 @@ class RayMethods(MethodKind):
         return validated(hits, surface.domain, shot.rays, shot.t_min, origin=shot.origin)
 
 
-class RayCasting(ViewCasting):
+class RayCasting(RacedCasting):
     """Cast rays of a camera's image, or the same rays listed."""
 
     def __init__(self, asked: Asked, check: Program, timed: Program) -> None:
@@ -111,7 +112,7 @@ class RayCasting(ViewCasting):
     def second_build(self, executor: LocalExecutor, cast: Cast) -> SecondBuild | None:
         return listed_again(self.asked, executor, cast)
 
-    def with_programs(self, checked: Program | None, timed: Program) -> ViewCasting:
+    def with_programs(self, checked: Program | None, timed: Program) -> RacedCasting:
         assert checked  # a revision that casts rays has a program of listed ones
         return OtherRays(self.asked, checked, timed)
 
