@@ -15,6 +15,8 @@ from harness import ROOT, __version__
 from harness.contract import DeviceInfo, FirsthitError, digest
 from harness.devices import host
 from harness.devices.executor import CellError, LocalExecutor
+from harness.devices.fingerprint import Fingerprint
+from harness.devices.host_arithmetic import host_arithmetic
 from harness.devices.probes import BELIEVABLE, Probes
 from harness.results import sources
 from harness.results.writing import write_atomically
@@ -92,6 +94,43 @@ def kept_probes(info: DeviceInfo, cache: Path) -> tuple[Probes | None, float]:
         return None, 0.0
     fields = {field.name for field in dataclasses.fields(Probes)}
     return (Probes(**found), since) if isinstance(found, dict) and found.keys() == fields else (None, 0.0)
+
+
+def fingerprinted(executor: LocalExecutor, info: DeviceInfo, cache: Path | None = None) -> Fingerprint:
+    """Return the fingerprint of a device.
+
+    With a folder `cache` it is kept there, as what `probed` finds is; a damaged file counts as nothing. What is of the
+    host is found anew each time, in this process, since that is where rays are made and errors computed. Raises
+    FirsthitError for a device with a problem, and where the fingerprint cannot be taken.
+    """
+    if info.problem:
+        raise FirsthitError(f"device {info.name!r} has no fingerprint, since it cannot be used: {info.problem}", 3)
+    file = _fingerprint_file(info, cache) if cache else None
+    found = _kept_fingerprint(file) if file else None
+    if found is None:
+        try:
+            found = executor.fingerprint(info.name)
+        except CellError as error:
+            raise FirsthitError(f"the fingerprint of device {info.name!r} cannot be taken: {error}", 3) from None
+        if file:
+            with contextlib.suppress(FirsthitError):
+                write_atomically(file, json.dumps({"found": found, "digest": digest(found)}).encode())
+    return found | {"host": host_arithmetic()}
+
+
+def _kept_fingerprint(file: Path) -> Fingerprint | None:
+    """Return what is kept in the file; None if there is nothing, or if it is damaged."""
+    try:
+        kept = json.loads(file.read_text(encoding="utf-8"))
+        found: Fingerprint = kept["found"]
+        return found if kept["digest"] == digest(found) else None
+    except (OSError, ValueError, LookupError, TypeError):
+        return None
+
+
+def _fingerprint_file(info: DeviceInfo, cache: Path) -> Path:
+    """Return the file of a device's fingerprint, which is named by all that decides it."""
+    return _probes_file(info, cache).with_suffix(".fingerprint")
 
 
 def _probes_file(info: DeviceInfo, cache: Path) -> Path:
