@@ -11,16 +11,10 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from harness.devices.bits import hash_of, words
+from harness.devices.bits import even_numbers, hash_of
 
 Floats = NDArray[np.float64]
 COUNT = 1023  # of numbers for each function: no multiple of any vector's width
-
-
-def _numbers(seed: int, scale: float) -> Floats:
-    """Return float64[COUNT] from -scale to scale, which are multiples of scale / 2^52."""
-    whole = (words(COUNT, seed) >> np.uint64(11)).astype(np.int64) - 2**52
-    return whole.astype(np.float64) * (scale * 2.0**-52)
 
 
 def _each(function: Callable[[float], float], values: Floats) -> Floats:
@@ -29,8 +23,12 @@ def _each(function: Callable[[float], float], values: Floats) -> Floats:
 
 def host_arithmetic() -> dict[str, str]:
     """Return part → hash: a camera's angles and rays, a surface's functions, and the sums and products of vectors."""
-    angles, wide, positive = _numbers(1, 4.0), _numbers(2, 1000.0), np.abs(_numbers(3, 100.0)) + 2.0**-20
-    a, b = (np.stack([_numbers(seed + k, 8.0) for k in range(3)], axis=1) for seed in (10, 20))
+
+    def numbers(seed: int, limit: float) -> Floats:
+        return even_numbers(COUNT, 100 + seed, "float64", limit)
+
+    angles, wide, positive = numbers(1, 4.0), numbers(2, 1024.0), np.abs(numbers(3, 128.0)) + 2.0**-20
+    a, b = (np.stack([numbers(seed + k, 8.0) for k in range(3)], axis=1) for seed in (10, 20))
     turned = np.stack([a, b, a - b], axis=1)
     parts = {
         "camera": [_each(function, angles) for function in (math.sin, math.cos, math.tan)],
@@ -45,4 +43,4 @@ def host_arithmetic() -> dict[str, str]:
         "products": [np.einsum("ij,ij->i", a, b), np.einsum("nij,nj->ni", turned, a), np.cross(a, b)],
         "matmul": [a @ b[:7].T, turned @ turned[0], (turned[0] @ turned[1])],
     }
-    return {part: hash_of(np.concatenate([np.ravel(v) for v in values])) for part, values in parts.items()}
+    return {part: hash_of(*values) for part, values in parts.items()}
