@@ -96,6 +96,9 @@ WORKING = Text(
 )
 
 
+TEXTS = (ARITHMETIC, FUNCTIONS, WORKING)
+
+
 def fingerprint(device: Device) -> Fingerprint:
     """Return the fingerprint of a device and of this host.
 
@@ -103,7 +106,7 @@ def fingerprint(device: Device) -> Fingerprint:
     """
     precisions: tuple[Precision, ...] = ("float32", "float64") if device.info.float64 else ("float32",)
     try:
-        found: Fingerprint = {precision: _parts(device, precision) for precision in precisions}
+        found: Fingerprint = {precision: parts(device, precision) for precision in precisions}
         if isinstance(device, Rasteriser):
             found["raster"] = raster_arithmetic(device)
     except BuildError as error:
@@ -111,14 +114,14 @@ def fingerprint(device: Device) -> Fingerprint:
     return found | {"host": host_arithmetic()}
 
 
-def _parts(device: Device, precision: Precision) -> dict[str, str]:
+def parts(device: Device, precision: Precision) -> dict[str, str]:
     """Return part → hash of all texts that a device has in a precision: GLSL lacks functions in float64."""
     no_functions = device.language == "glsl" and precision == "float64"
-    texts = (ARITHMETIC, WORKING) if no_functions else (ARITHMETIC, FUNCTIONS, WORKING)
-    return {part: found for text in texts for part, found in _answers(device, precision, text).items()}
+    texts = [text for text in TEXTS if not (no_functions and text is FUNCTIONS)]
+    return {part: found for text in texts for part, found in answers(device, precision, text).items()}
 
 
-def _answers(device: Device, precision: Precision, text: Text) -> dict[str, str]:
+def answers(device: Device, precision: Precision, text: Text) -> dict[str, str]:
     """Run a text over its rows, and return for each of its parts a hash of what it answers in all launches."""
     sections = files(*(f"map/{name}" for name in text.files))
     program = map_program(sections, precision, device.language, text.libraries)

@@ -96,40 +96,45 @@ def kept_probes(info: DeviceInfo, cache: Path) -> tuple[Probes | None, float]:
     return (Probes(**found), since) if isinstance(found, dict) and found.keys() == fields else (None, 0.0)
 
 
-def fingerprinted(executor: LocalExecutor, info: DeviceInfo, cache: Path | None = None) -> Fingerprint:
+def fingerprinted(
+    executor: LocalExecutor, info: DeviceInfo, cache: Path | None = None, again: bool = False
+) -> Fingerprint:
     """Return the fingerprint of a device.
 
-    With a folder `cache` it is kept there, as what `probed` finds is; a damaged file counts as nothing. What is of the
-    host is found anew each time, in this process, since that is where rays are made and errors computed. Raises
-    FirsthitError for a device with a problem, and where the fingerprint cannot be taken.
+    With a folder `cache` it is kept there as what `probed` finds is, and taken anew with `again`. What is of the host
+    is found each time, in this process, since that is where rays are made and errors computed. Raises FirsthitError for
+    a device with a problem, and where the fingerprint cannot be taken.
     """
     if info.problem:
-        raise FirsthitError(f"device {info.name!r} has no fingerprint, since it cannot be used: {info.problem}", 3)
-    file = _fingerprint_file(info, cache) if cache else None
-    found = _kept_fingerprint(file) if file else None
+        raise FirsthitError(f"{info.name} has no fingerprint, since it cannot be used: {info.problem}", exit_code=3)
+    found, _ = kept_fingerprint(info, cache) if cache and not again else (None, 0.0)
     if found is None:
         try:
             found = executor.fingerprint(info.name)
         except CellError as error:
-            raise FirsthitError(f"the fingerprint of device {info.name!r} cannot be taken: {error}", 3) from None
-        if file:
+            raise FirsthitError(f"the fingerprint of {info.name} cannot be taken: {error}", exit_code=3) from None
+        if cache:
+            kept = {"fingerprint": found, "digest": digest(found)}
             with contextlib.suppress(FirsthitError):
-                write_atomically(file, json.dumps({"found": found, "digest": digest(found)}).encode())
+                write_atomically(_fingerprint_file(info, cache), json.dumps(kept).encode())
     return found | {"host": host_arithmetic()}
 
 
-def _kept_fingerprint(file: Path) -> Fingerprint | None:
-    """Return what is kept in the file; None if there is nothing, or if it is damaged."""
+def kept_fingerprint(info: DeviceInfo, cache: Path) -> tuple[Fingerprint | None, float]:
+    """Return what `fingerprinted` kept of a device, and when, in seconds since 1970; None and 0 where nothing was kept.
+
+    A damaged file counts as nothing.
+    """
+    file = _fingerprint_file(info, cache)
     try:
-        kept = json.loads(file.read_text(encoding="utf-8"))
-        found: Fingerprint = kept["found"]
-        return found if kept["digest"] == digest(found) else None
+        kept, since = json.loads(file.read_text(encoding="utf-8")), file.stat().st_mtime
+        return (kept["fingerprint"], since) if kept["digest"] == digest(kept["fingerprint"]) else (None, 0.0)
     except (OSError, ValueError, LookupError, TypeError):
-        return None
+        return None, 0.0
 
 
 def _fingerprint_file(info: DeviceInfo, cache: Path) -> Path:
-    """Return the file of a device's fingerprint, which is named by all that decides it."""
+    """Return the file of a device's fingerprint, which is decided by what decides its probes."""
     return _probes_file(info, cache).with_suffix(".fingerprint")
 
 

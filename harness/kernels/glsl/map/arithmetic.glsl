@@ -29,7 +29,8 @@ void map_item(IN real x[INPUTS], OUT real y[OUTPUTS]) {
     y[8] = sqrt(a);
     y[9] = sqrt(fabs(b));
     y[10] = 1.0 / sqrt(fabs(c));
-    // conversions: 4; a float is made of an int by what both languages allow
+    // conversions: 4
+    // a float is made of an int by what both languages allow
     int whole = int(within(a, real(1073741824)));
     int any = int(within(b, real(1048576)) * 1024.0);
     float narrow = any;
@@ -37,7 +38,7 @@ void map_item(IN real x[INPUTS], OUT real y[OUTPUTS]) {
     y[12] = real(any);
     y[13] = real(any - whole / 3);
     y[14] = narrow;
-    // denormals: 5, as results and as operands
+    // denormals: 5
     real small = within(a, real(4)) * (REAL_TINY * 0.0625);
     real smaller = within(b, real(4)) * (REAL_TINY * 0.0009765625);
     y[15] = small;
@@ -62,7 +63,7 @@ void map_item(IN real x[INPUTS], OUT real y[OUTPUTS]) {
     y[30] = a + b + c;
     y[31] = a * c + b * c;
     y[32] = (a + b) - a;
-    // exact: 6, with PRECISE
+    // exact: 6
     PRECISE real product = a * b;
     PRECISE real sum = product + c;
     PRECISE real three = a + b;

@@ -94,7 +94,7 @@ void map_item(IN real x[INPUTS], OUT real y[OUTPUTS]) {
     y[9] = n.x;
     y[10] = n.y * n.z;
     y[11] = max(inner_product(n, own.direction), real(0));
-    // roots: 5
+    // roots of polynomials: 5
     real q[COEFFICIENTS];
     real ends[COEFFICIENTS];
     for (int j = 0; j <= LEVEL; j++) {
