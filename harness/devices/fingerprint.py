@@ -122,7 +122,7 @@ def parts(device: Device, precision: Precision) -> dict[str, str]:
 
 
 def answers(device: Device, precision: Precision, text: Text) -> dict[str, str]:
-    """Run a text over its rows, and return for each of its parts a hash of what it answers in all launches."""
+    """Run a text over its rows, and return for each of its parts a hash of what it answers."""
     sections = files(*(f"map/{name}" for name in text.files))
     program = map_program(sections, precision, device.language, text.libraries)
     rows, outputs = text.rows(precision), sum(text.parts.values())
@@ -153,8 +153,8 @@ def unlike(a: Fingerprint, b: Fingerprint, precision: Precision, raster: bool) -
         if not first or not second:
             found.append(f"{of} (not known)")
         else:
-            parts = dict.fromkeys((*first, *second))
-            found += [f"{of} {part}" for part in parts if first.get(part) != second.get(part)]
+            either = dict.fromkeys((*first, *second))
+            found += [f"{of} {part}" for part in either if first.get(part) != second.get(part)]
     return found
 
 
