@@ -161,7 +161,7 @@ class _Backends:
     def __init__(self, monkeypatch, driver: Path) -> None:
         from harness.devices.probes import Probes
 
-        self.devices, self.looks, self.probes = [DEVICE], 0, 0
+        self.devices, self.looks, self.probes, self.fingerprints = [DEVICE], 0, 0, 0
 
         def find(_, __):
             self.looks += 1
@@ -171,10 +171,15 @@ class _Backends:
             self.probes += 1
             return Probes(**PROBES)
 
+        def fingerprint(_, __):
+            self.fingerprints += 1
+            return {"float32": {"sums": "a1"}}
+
         monkeypatch.setattr(discovery, "_installed", lambda: ["opencl"])
         monkeypatch.setattr(LocalExecutor, "find", find)
         monkeypatch.setattr(LocalExecutor, "running_files", lambda _, __: [driver])
         monkeypatch.setattr(LocalExecutor, "probe", probe)
+        monkeypatch.setattr(LocalExecutor, "fingerprint", fingerprint)
 
 
 @pytest.fixture
@@ -187,7 +192,7 @@ def test_devices_are_found_and_measured_once_and_again_on_request(backends, caps
     for arguments in (["devices"], ["devices"], ["devices", "--again"]):
         assert cli.main(arguments) == 0
         told.append(capsys.readouterr().out)
-    assert (backends.looks, backends.probes) == (2, 2)
+    assert (backends.looks, backends.probes, backends.fingerprints) == (2, 2, 2)
     assert told[0] == told[2] and told[1].startswith(told[0])
     assert "was found on" in told[1] and "--again" in told[1] and "found on" not in told[0]
     assert told[0].splitlines()[1].endswith("  100"), "a peak of 143.5, known to one digit"

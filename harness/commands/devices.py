@@ -4,21 +4,26 @@ from __future__ import annotations
 
 import argparse
 import contextlib
+import dataclasses
 from datetime import UTC, datetime
+from pathlib import Path
 
 from harness import console
 from harness.commands import Add
-from harness.contract import DeviceInfo
+from harness.contract import DeviceInfo, FirsthitError
 from harness.devices import kept_answers
 from harness.devices.discovery import known_devices
 from harness.devices.executor import START_SECONDS, LocalExecutor
+from harness.devices.fingerprint import Fingerprint, digests
 from harness.devices.probes import Probes
-from harness.running.environment import kept_probes, probed
+from harness.running.environment import fingerprinted, kept_fingerprint, kept_probes, probed
 
 HEADER = (
     *("name", "title", "driver", "units", "float64", "clock"),
     *("two_sum", "two_prod fma", "two_prod split", "nearest", "division", "GFLOP/s"),
 )
+# Digests of fingerprints: where two are equal, the devices answer alike, to the last bit
+ALIKE = ("arithmetic", "float32", "float64", "raster")
 SHARES = ("two_sum", "two_prod_fma", "two_prod_split", "round_to_nearest", "division")
 
 
@@ -50,6 +55,39 @@ def _row(info: DeviceInfo, found: Probes | None) -> tuple[str, ...]:
     return (*head, info.clock, *(_share(getattr(found, name)) for name in SHARES), _peak(found.peak_gflops))
 
 
+def _alike(devices: dict[str, Fingerprint]) -> list[tuple[str, ...]]:
+    """Return the rows under ALIKE: a digest for each precision, and the first device above that has the same one."""
+    first: dict[tuple[str, str], str] = {}
+    rows = []
+    for name, found in devices.items():
+        short, cells = digests(found), []
+        for of in ALIKE[1:]:
+            same = first.setdefault((of, short[of]), name) if of in short else name
+            cells.append(short.get(of, "-") + ("" if same == name else f" (as {same})"))
+        rows.append((name, *cells))
+    return rows
+
+
+def _kept(info: DeviceInfo, folder: Path | None, again: bool) -> list[float]:
+    """Return when what is kept of a device was found: of its probes and of its fingerprint, where they are kept."""
+    if folder is None or again:
+        return []
+    return [when for found, when in (kept_probes(info, folder), kept_fingerprint(info, folder)) if found]
+
+
+def _look(
+    executor: LocalExecutor, info: DeviceInfo, folder: Path | None, again: bool
+) -> tuple[DeviceInfo, Probes | None, Fingerprint | None]:
+    """Return a device, its probes and its fingerprint; if one of them cannot be had, the device's problem says why."""
+    info, probes = probed(executor, info, folder, again)
+    if info.problem:
+        return info, probes, None
+    try:
+        return info, probes, fingerprinted(executor, info, folder, again)
+    except FirsthitError as error:
+        return dataclasses.replace(info, problem=str(error)), probes, None
+
+
 def _devices(options: argparse.Namespace) -> int:
     """Print the devices, measured now or before; the exit code is 3 where none is usable."""
     with console.doing("looking for devices"):
@@ -58,17 +96,19 @@ def _devices(options: argparse.Namespace) -> int:
     folder, executor = kept_answers.probes_folder(), LocalExecutor(START_SECONDS)
     try:
         for info in known.devices:
-            before, when = kept_probes(info, folder) if folder and not options.again else (None, 0.0)
-            since += [when] if before else []
-            with contextlib.nullcontext() if before or info.problem else console.doing(f"measuring {info.name}"):
-                tried.append(probed(executor, info, folder, options.again))
+            since += (before := _kept(info, folder, options.again))
+            all_is_kept = len(before) == 2 or info.problem
+            with contextlib.nullcontext() if all_is_kept else console.doing(f"measuring {info.name}"):
+                tried.append(_look(executor, info, folder, options.again))
     finally:
         executor.close()
-    print(console.table(HEADER, [_row(info, found) for info, found in tried]))
-    for info, _ in tried:
+    print(console.table(HEADER, [_row(info, probes) for info, probes, _ in tried]))
+    if devices := {info.name: found for info, _, found in tried if found}:
+        print("\n" + console.table(ALIKE, _alike(devices)))
+    for info, _, _ in tried:
         if info.problem:
             print(f"{info.name}: {info.problem}")
     if ages := [age for age in since if age is not None]:
         oldest = datetime.fromtimestamp(min(ages), UTC).strftime("%Y-%m-%d %H:%M UTC")
         print(f"Some of this was found on {oldest}, and kept; `firsthit devices --again` finds all of it anew.")
-    return 0 if any(not info.problem for info, _ in tried) else 3
+    return 0 if any(not info.problem for info, _, _ in tried) else 3

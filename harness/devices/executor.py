@@ -11,13 +11,16 @@ import subprocess
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from harness.contract import CellStatus, DeviceInfo, Program
 from harness.devices import serving
 from harness.devices.interface import Timing
 from harness.devices.messages import Answer, Check, Checked, Frame, Warmed
 from harness.devices.probes import Probes
+
+if TYPE_CHECKING:
+    from harness.devices.fingerprint import Fingerprint
 
 START_SECONDS = 60.0  # for a worker to start and a driver to load
 STOP_SECONDS = 0.5  # for a worker to end by itself once its connection is closed
@@ -72,6 +75,11 @@ class LocalExecutor:
         """Probe a device's arithmetic and clock, as harness.devices.probes does. Raises CellError if that fails."""
         probes: Probes = self._call(device, "probe")
         return probes
+
+    def fingerprint(self, device: str) -> Fingerprint:
+        """Take the fingerprint of a device, as harness.devices.fingerprint does. Raises CellError if that fails."""
+        found: Fingerprint = self._call(device, "fingerprint")
+        return found
 
     def build(self, device: str, program: Program) -> float:
         """Compile a program, and return the milliseconds that it took. Raises CellError if that fails."""

@@ -12,9 +12,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from harness.contract import FirsthitError, Hits, Program, RayStatus
+from harness.contract import FirsthitError, Hits, Program, Proxy, RayStatus
 from harness.devices.interface import Built, Device, Launch, same_values
 from harness.devices.messages import Check, Frame, need_steady
+from harness.kernels.raster import PROXY_SIDES
 
 RECORD = 32  # float32 of an instance, see harness/kernels/glsl/raster/instance.glsl
 
@@ -90,6 +91,17 @@ class Picture:
             same = same_values(values, getattr(other, name))
             differs |= ~same.reshape(len(differs), -1).all(axis=1)
         return differs
+
+
+def corners(proxy: Proxy) -> NDArray[np.uint32]:
+    """Return a proxy's k triangles, uint32[3 k]: the numbers of its corners, counterclockwise as seen from outside."""
+    if proxy == "sphere":
+        fan = [(0, k, k + 1) for k in range(1, PROXY_SIDES - 1)]
+        return np.array(fan, np.uint32).ravel()
+    if proxy == "tetrahedron":
+        return np.array([(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)], np.uint32).ravel()
+    sides = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
+    return np.array([(a, b, c, a, c, d) for a, b, c, d in sides], np.uint32).ravel()
 
 
 class Rasteriser(ABC):

@@ -18,6 +18,7 @@ from harness.devices.messages import Answer, Check, Checked, Frame, Warmed
 from harness.devices.trial_launch import trial_launch
 
 if TYPE_CHECKING:
+    from harness.devices.fingerprint import Fingerprint
     from harness.devices.probes import Probes
 
 ENOUGH_MS = 2.0  # a sample lasts at least about this long; shorter launches are repeated within it
@@ -50,6 +51,12 @@ class Worker:
         from harness.devices.probes import probe
 
         return probe(self._device)
+
+    def fingerprint(self) -> Fingerprint:
+        """Take the fingerprint of the device's arithmetic and of this host's."""
+        from harness.devices.fingerprint import fingerprint
+
+        return fingerprint(self._device)
 
     def build(self, program: Program) -> float:
         """Compile a program; return the milliseconds that it took, with what the driver leaves to the first launch."""

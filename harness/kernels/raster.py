@@ -114,6 +114,15 @@ def mesh_program(folder: Path, reports: bool) -> Program:
     return Program("glsl", "float32", "mesh", tuple(sections), vertex)
 
 
+def proof_program(proxy: Proxy) -> Program:
+    """Return the program of a fingerprint that draws a proxy, and casts a ray at a fixed torus for every fragment."""
+    sections = head_sections("glsl", "float32", ())
+    names = ("map/torus.glsl", *RAY_OF_PIXEL, "raster/fragment.glsl", "raster/shade.glsl", "raster/report.glsl")
+    sections += files(*names, "map/proxy.frag.glsl")
+    sections.insert(1, kept_loops())
+    return Program("glsl", "float32", "raster", tuple(sections), _proxy_sections(proxy, False, 0.0))
+
+
 def fill_program() -> Program:
     """Return the program that reports the ray of every pixel, and draws nothing."""
     head = head_sections("glsl", "float32", ())

@@ -9,15 +9,19 @@ import platform
 import subprocess
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from harness import ROOT, __version__
 from harness.contract import DeviceInfo, FirsthitError, digest
 from harness.devices import host
 from harness.devices.executor import CellError, LocalExecutor
+from harness.devices.host_arithmetic import host_arithmetic
 from harness.devices.probes import BELIEVABLE, Probes
 from harness.results import sources
 from harness.results.writing import write_atomically
+
+if TYPE_CHECKING:
+    from harness.devices.fingerprint import Fingerprint
 
 PACKAGES = ("numpy", "sympy", "python-flint", "moderngl", "pyopencl")
 
@@ -92,6 +96,48 @@ def kept_probes(info: DeviceInfo, cache: Path) -> tuple[Probes | None, float]:
         return None, 0.0
     fields = {field.name for field in dataclasses.fields(Probes)}
     return (Probes(**found), since) if isinstance(found, dict) and found.keys() == fields else (None, 0.0)
+
+
+def fingerprinted(
+    executor: LocalExecutor, info: DeviceInfo, cache: Path | None = None, again: bool = False
+) -> Fingerprint:
+    """Return the fingerprint of a device.
+
+    With a folder `cache` it is kept there as what `probed` finds is, and taken anew with `again`. What is of the host
+    is found each time, in this process, since that is where rays are made and errors computed. Raises FirsthitError for
+    a device with a problem, and where the fingerprint cannot be taken.
+    """
+    if info.problem:
+        raise FirsthitError(f"{info.name} has no fingerprint, since it cannot be used: {info.problem}", exit_code=3)
+    found, _ = kept_fingerprint(info, cache) if cache and not again else (None, 0.0)
+    if found is None:
+        try:
+            found = executor.fingerprint(info.name)
+        except CellError as error:
+            raise FirsthitError(f"the fingerprint of {info.name} cannot be taken: {error}", exit_code=3) from None
+        if cache:
+            kept = {"fingerprint": found, "digest": digest(found)}
+            with contextlib.suppress(FirsthitError):
+                write_atomically(_fingerprint_file(info, cache), json.dumps(kept).encode())
+    return found | {"host": host_arithmetic()}
+
+
+def kept_fingerprint(info: DeviceInfo, cache: Path) -> tuple[Fingerprint | None, float]:
+    """Return what `fingerprinted` kept of a device, and when, in seconds since 1970; None and 0 where nothing was kept.
+
+    A damaged file counts as nothing.
+    """
+    file = _fingerprint_file(info, cache)
+    try:
+        kept, since = json.loads(file.read_text(encoding="utf-8")), file.stat().st_mtime
+        return (kept["fingerprint"], since) if kept["digest"] == digest(kept["fingerprint"]) else (None, 0.0)
+    except (OSError, ValueError, LookupError, TypeError):
+        return None, 0.0
+
+
+def _fingerprint_file(info: DeviceInfo, cache: Path) -> Path:
+    """Return the file of a device's fingerprint, which is decided by what decides its probes."""
+    return _probes_file(info, cache).with_suffix(".fingerprint")
 
 
 def _probes_file(info: DeviceInfo, cache: Path) -> Path:

@@ -1,13 +1,12 @@
-"""Make what a device reads of instances: records of 32 numbers, proxies' triangles, and the depth buffer's map."""
+"""Make what a device reads of instances: records of 32 numbers, and the depth buffer's map."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
 
-from harness.contract import Box, FirsthitError, Proxy, Surface
+from harness.contract import Box, FirsthitError, Surface
 from harness.devices.raster import RECORD
-from harness.kernels.raster import PROXY_SIDES
 from harness.scenes.model import Group, Scene, bounding_radius
 
 Floats = NDArray[np.float64]
@@ -60,17 +59,6 @@ def _box_of(surface: Surface, tight: bool = True) -> tuple[Floats, Floats]:
         return lower, upper
     radius = bounding_radius(surface)
     return np.maximum(lower, center - radius), np.minimum(upper, center + radius)
-
-
-def corners(proxy: Proxy) -> NDArray[np.uint32]:
-    """Return a proxy's k triangles, uint32[3 k]: the numbers of its corners, counterclockwise as seen from outside."""
-    if proxy == "sphere":
-        fan = [(0, k, k + 1) for k in range(1, PROXY_SIDES - 1)]
-        return np.array(fan, np.uint32).ravel()
-    if proxy == "tetrahedron":
-        return np.array([(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)], np.uint32).ravel()
-    sides = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
-    return np.array([(a, b, c, a, c, d) for a, b, c, d in sides], np.uint32).ravel()
 
 
 def depth_map(scene: Scene, camera: NDArray[np.float32]) -> tuple[float, float]:
