@@ -69,7 +69,8 @@ def _history(options: argparse.Namespace) -> int:
     if listed:
         print(console.table(("step", "figure", "cell", "device", "", "commit", ""), listed))
     more = f", {len(steps) - SHOWN} of them not listed here" if len(steps) > SHOWN else ""
-    print(f"{output / 'index.html'}: {len(kept)} kept runs, {len(steps)} steps{more}")
+    runs, found = _counted(len(kept), "kept run"), _counted(len(steps), "step")
+    print(f"{output / 'index.html'}: {runs}, {found}{more}")
     return 0
 
 
@@ -100,11 +101,14 @@ def _draw(
     return draw.build(kept, line, told, output)
 
 
+def _counted(count: int, what: str) -> str:
+    return f"{count} {what}{'' if count == 1 else 's'}"
+
+
 def _meaning(name: str, tolerance: Tolerance) -> str:
     """Say what a figure is, which way it is better, and what change of it makes a step."""
-    parts = [
-        f"{tolerance.absolute:g}" if tolerance.absolute else "",
-        f"{tolerance.relative:.4g}" if tolerance.relative else "",
-    ]
-    slack = " + ".join(filter(None, (parts[0], f"{parts[1]} × the value before" if parts[1] else "")))
-    return f"{GATED[name].meaning}; {tolerance.better} is better. A step is a change by more than {slack or 'nothing'}."
+    absolute = f"{tolerance.absolute:g}" if tolerance.absolute else ""
+    relative = f"{tolerance.relative:.4g} × the value before" if tolerance.relative else ""
+    slack = " + ".join(filter(None, (absolute, relative)))
+    change = f"a change by more than {slack}" if slack else "any change"
+    return f"{GATED[name].meaning}; {tolerance.better} is better. A step is {change}."

@@ -49,7 +49,8 @@ def build(kept: Sequence[Kept], line: Sequence[str] | None, told: Told, folder: 
         )
         for name, own in by_figure.items():
             ends = f"{places[0].commit.date[:10]} to {places[-1].commit.date[:10]}"
-            below = f"{history.commits} commits, {ends}; {len(own)} rows; {meanings.get(name, '')}"
+            counted = f"{history.commits} commits on the line, {ends}; {len(own)} graphs"
+            below = (meanings.get(name, ""), f"{counted}; ▲ a step for the worse, ▼ for the better, ○ apart")
             multiples.write(own, history.commits, f"{told.title}: {name}", below, made / f"{name}.png")
     return steps
 
@@ -59,8 +60,10 @@ def _notes(places: Sequence[series.Place]) -> list[str]:
     on = sum(not place.apart for place in places)
     notes = []
     if on < 2:
-        notes.append(f"{on} commit is on the line: a step needs two. Keep the next one too.")
+        notes.append(
+            f"{'One commit is' if on else 'No commit is'} on the line; a step needs two: keep the next ones too."
+        )
     for apart in (series.DIRTY, series.ASIDE):
         if count := sum(place.apart == apart for place in places):
-            notes.append(f"Rings: {count} kept {apart}; they are on no line and make no step.")
+            notes.append(f"Rings are commits {apart} ({count} kept so): they are on no line and make no step.")
     return notes

@@ -21,16 +21,16 @@ from reports.history.series import Graph
 
 DPI = 110
 PANEL, PLOT = (3.5, 1.02), (2.75, 0.5)  # width and height of a panel and of the plot in it, inches
-LEFT, BELOW, HEAD, FOOT = 0.62, 0.12, 0.62, 0.3
+LEFT, BELOW, HEAD, FOOT = 0.62, 0.12, 0.72, 0.15
 COLUMNS, LETTERS = 3, 62
 WORSE, BETTER, OWN = "#B34100", "#00704F", "#0067A0"
 
 
-def write(graphs: Sequence[Graph], commits: int, heading: str, below: str, path: Path) -> None:
+def write(graphs: Sequence[Graph], commits: int, heading: str, below: Sequence[str], path: Path) -> None:
     """Draw the graphs of one figure, of which there is at least one, as the PNG file `path`.
 
     Graphs with steps come first, and those that never change last. `commits` are on the line; `heading` stands above,
-    and `below` says what it is of. Raises OSError where the file cannot be written.
+    and the lines `below` it. Raises OSError where the file cannot be written.
     """
     ordered = sorted(graphs, key=lambda graph: (graph.flat, -len(graph.steps)))
     columns = min(COLUMNS, len(ordered))
@@ -42,7 +42,8 @@ def write(graphs: Sequence[Graph], commits: int, heading: str, below: str, path:
         for i, graph in enumerate(ordered):
             panels.add(graph, PANEL[0] * (i % columns), height - HEAD - PANEL[1] * (i // columns + 1))
         panels.text(0.12, height - 0.24, heading, size=9, weight="bold")
-        panels.text(0.12, height - 0.42, below, color=style.FAINT)
+        said = "\n".join(line for text in below for line in textwrap.wrap(text, int(width * 16)))
+        panels.text(0.12, height - 0.34, said, color=style.FAINT, va="top")
         panels.finish()
         drawing.savefig(path, format="png", metadata={"Software": None})
 

@@ -121,7 +121,8 @@ def _steps(history: History, of_step: Mapping[int, str]) -> str:
     )
     worse = sum(step.worse for step in history.steps)
     better = len(history.steps) - worse
-    said = f"{worse} for the worse, {better} for the better; the worst first, by how far they are beyond tolerance."
+    said = f"{worse} for the worse, {better} for the better; the worst first, by how far they are beyond tolerance. "
+    said += "The graphs mark them with ▲ and ▼."
     return f'<h2 id="steps">Steps</h2><p class="faint">{said}</p><ol class="steps">{first}</ol>{more}'
 
 
@@ -286,7 +287,7 @@ def _flat(history: History, graphs: Sequence[Graph], opened: bool) -> str:
     """Write the graphs that never change as a table with a small drawing in each line."""
     if not graphs:
         return ""
-    scale, rows = WIDTH / max(history.commits, 1), []
+    rows = []
 
     def x(at: float) -> float:
         return LEFT + WIDTH * across(at, history.commits)
@@ -296,14 +297,14 @@ def _flat(history: History, graphs: Sequence[Graph], opened: bool) -> str:
         value, count = graph.said(graph.values[0]), len(points)
         title = _title(graph, Span(tuple(points), False))
         drawn = f"{_paths(graph.spans, x, lambda _: 6.0, history.commits)}{_apart(graph, x, lambda _: 6.0)}"
-        svg = f'<svg viewBox="{LEFT - scale:.0f} 0 {WIDTH + 2 * scale:.0f} 12" role="img">{title}{drawn}</svg>'
+        svg = f'<svg viewBox="{LEFT:.0f} 0 {WIDTH:.0f} 12" role="img">{title}{drawn}</svg>'
         rows.append(
             f'<tr><td>{_e(graph.slot)}</td><td>{_e(graph.device)}</td><td class="n">{_e(value)}</td>'
             f'<td class="n">{count}</td><td>{svg}</td></tr>'
         )
     head = (
         '<tr><th scope="col">row</th><th scope="col">device</th><th scope="col" class="n">value</th>'
-        '<th scope="col" class="n">commits</th><th scope="col">over commits</th></tr>'
+        '<th scope="col" class="n">kept</th><th scope="col">over commits</th></tr>'
     )
     many = f"{len(graphs)} rows" if len(graphs) > 1 else "1 row"
     return (

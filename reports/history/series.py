@@ -232,29 +232,43 @@ def _steps(figure: str, slot: str, device: str, points: Sequence[Point], rule: R
             last, gone = None, False
         found = None
         if last and point.value is None and not gone and point.row["status"] == last.row["status"]:
-            gone, found = True, (GONE, True, math.inf)
+            gone, found = True, (True, math.inf)
         elif last and last.value is not None and point.value is not None:
             found = _found(last.value, point.value, rule)
         if last and found:
-            said = repr(last.value) if rule else STATUSES[int(last.value or 0)]
-            change = (said, found[0], last.place.commit, point.place.commit, point.place.at, *found[1:])
-            yield Step(figure, slot, device, *change, _notes(last, point))
+            before, now = _told(last.value, point.value, rule is None)
+            since, place = last.place.commit, point.place
+            worse, size = found
+            notes = _notes(last, point)
+            yield Step(figure, slot, device, before, now, since, place.commit, place.at, worse, size, notes)
         if point.value is not None:
             last, gone = point, False
 
 
-def _found(before: Value, now: Value, rule: Rule | None) -> tuple[str, bool, float] | None:
-    """Say of a change beyond the tolerance what came, whether it is worse, and how large it is; None for any other.
+def _found(before: Value, now: Value, rule: Rule | None) -> tuple[bool, float] | None:
+    """Say of a change beyond the tolerance whether it is worse, and how large it is; None for any other.
 
     Without a rule the values are statuses, of which a later one is worse. Sizes compare as the gate's do: by how far
     the value is beyond what is allowed, over the value before.
     """
     if rule is None:
-        return (STATUSES[int(now)], now > before, math.inf) if before != now else None
+        return (now > before, math.inf) if before != now else None
     verdict = rule.verdict(before, now)
     if verdict == "pass":
         return None
-    return repr(now), verdict == "regressed", abs(now - rule.allowed(before)) / max(abs(before), 1e-300)
+    return verdict == "regressed", abs(now - rule.allowed(before)) / max(abs(before), 1e-300)
+
+
+def _told(before: Value | None, now: Value | None, statuses: bool) -> tuple[str, str]:
+    """Write both values of a step with six digits, or with all where six do not tell them apart."""
+    values = [value for value in (before, now) if value is not None]
+    if statuses:
+        texts = [STATUSES[int(value)] for value in values]
+    else:
+        texts = [f"{value:.6g}" if isinstance(value, float) else str(value) for value in values]
+    if len(set(texts)) < len(texts):
+        texts = [repr(value) for value in values]
+    return texts[0], texts[1] if len(texts) > 1 else GONE
 
 
 def _notes(before: Point, now: Point) -> tuple[str, ...]:
