@@ -1,5 +1,6 @@
 """The history of kept runs: its steps and their order, and the command with real gate runs."""
 
+import json
 import random
 import re
 from collections import Counter
@@ -83,7 +84,8 @@ def test_a_status_is_drawn_where_it_changes_and_explains_why_figures_are_gone():
     all_runs = [kept(i, {SLOT: one, "other": row(misses=0)}) for i, one in enumerate(rows)]
     assert stepped(all_runs, figure="status") == [("ok", "failed", True, 1), ("failed", "ok", False, 2)]
     assert stepped(all_runs) == [("0", "1", True, 2)]
-    assert {graph.slot for graph in graphs(all_runs, figure="status")} == {SLOT}
+    [graph] = graphs(all_runs, figure="status")
+    assert (graph.slot, graph.steps[0].notes) == (SLOT, ("no",))
 
 
 def test_devices_and_arithmetics_are_lines_of_their_own():
@@ -226,6 +228,13 @@ def test_real_gate_runs_of_six_commits_give_the_steps_that_were_planted(project)
     committed(top, "not kept either")
     better = committed(top, "mine looks once again")
     assert project("gate", "--keep")[0] == 0
+    _plant(top, "return missed(hit);", "return mised(hit);")
+    assert project("gate", "--keep", "--history", top / "elsewhere")[0] == 1
+    [failed] = (top / "elsewhere" / "tiny").iterdir()
+    [entry] = json.loads(failed.read_text())["rows"].values()
+    assert entry["status"] == "failed"
+    assert 0 < len(entry["reason"]) <= 300
+    _plant(top, "return mised(hit);", "return missed(hit);")
     folder = top / "history" / "tiny"
     assert len(list(folder.iterdir())) == 5
     code, out, _ = project("history", "-o", project.out)

@@ -47,6 +47,8 @@ def test_a_clean_tree_replaces_its_commit_and_a_dirty_one_stands_beside_it(tmp_p
         ('"dirty": false', '"dirty": 0', "'0' is no bool"),
         ('"hash": "01', '"hash": "zz', "names no commit"),
         ("2026-03-01T12", "some day", "damaged"),
+        ("12:00:00+00:00", "12:00:00+02:00", "dates are in UTC"),
+        ("12:00:00+00:00", "12:00:00", "dates are in UTC"),
         ('"format": 1', '"format": 2', "not of this version's format (2, not 1)"),
         ('"commit": {', '"comit": {', "it lacks 'commit'"),
     ],

@@ -7,11 +7,14 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from harness.contract import FirsthitError
+from harness.gate.baseline import Entry
 from harness.gate.checked import Checked
 from harness.gate.repository import changed, commit_of, holding
 from harness.results import commits
 from harness.results.commits import Commit, Kept
 from harness.running.environment import describe
+
+REASON = 300  # characters of a reason that are kept
 
 
 @dataclass(frozen=True)
@@ -29,12 +32,19 @@ class Keeping:
         """
         environment = describe()
         harness = {"version": environment["firsthit"], "commit": environment["commit"], "dirty": environment["dirty"]}
-        return [
-            commits.write(
-                self.folder, Kept(checked.experiment.name, self.commit, checked.now.devices[key], rows, harness), key
-            )
-            for key, rows in checked.now.rows.items()
-        ]
+        written = []
+        for key, entries in checked.now.rows.items():
+            rows = {slot: _short(entry) for slot, entry in entries.items()}
+            kept = Kept(checked.experiment.name, self.commit, checked.now.devices[key], rows, harness)
+            written.append(commits.write(self.folder, kept, key))
+        return written
+
+
+def _short(entry: Entry) -> Entry:
+    """Shorten the reason of an entry, which may be a compiler's whole log, to one line of REASON characters."""
+    if "reason" not in entry:
+        return entry
+    return entry | {"reason": " ".join(str(entry["reason"]).split())[:REASON]}
 
 
 def keeping(plugins: Path | None, config: Path, folder: Path, written: Collection[Path]) -> Keeping:

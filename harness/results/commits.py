@@ -15,7 +15,7 @@ import math
 import re
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
-from datetime import datetime
+from datetime import datetime, timedelta
 from pathlib import Path
 from typing import Any
 
@@ -53,7 +53,8 @@ class Kept:
     """Hold what one device gave at one commit.
 
     device: its facts, as a baseline holds them; `arithmetic`, its fingerprint, where it is known
-    rows: by slot the status, `scene` (a hash of what was asked), `program` (its hash), and the gated figures
+    rows: by slot the status, `scene` (a hash of what was asked), `program` (its hash), the gated figures and, of a row
+        that did not end well, the `reason`
     harness: version and commit of firsthit, which may be another repository's than `commit`
     """
 
@@ -113,8 +114,8 @@ def _read(path: Path) -> Kept:
         given = stored["commit"]
         name, date, subject = (_of(given[part], str) for part in ("hash", "date", "subject"))
         commit = Commit(name, date, subject, _of(given["dirty"], bool))
-        if not _HASH.fullmatch(commit.hash) or datetime.fromisoformat(commit.date).tzinfo is None:
-            raise ValueError(f"{commit.hash!r} of {commit.date!r} names no commit")
+        if not _HASH.fullmatch(commit.hash) or datetime.fromisoformat(commit.date).utcoffset() != timedelta(0):
+            raise ValueError(f"{commit.hash!r} of {commit.date!r} names no commit; dates are in UTC")
         device, rows, harness = (_of(stored[name], dict) for name in ("device", "rows", "firsthit"))
         _of(device["name"], str)
         for slot, row in rows.items():

@@ -272,8 +272,8 @@ def _told(before: Value | None, now: Value | None, statuses: bool) -> tuple[str,
 
 
 def _notes(before: Point, now: Point) -> tuple[str, ...]:
-    """Say what a step is not, or not only, due to: the row's program, and another firsthit."""
-    notes = []
+    """Say why a row did not end well, and what a step is not, or not only, due to: its program, and firsthit."""
+    notes = [str(now.row["reason"])] if now.row.get("reason") else []
     if "program" in now.row and now.row["program"] == before.row.get("program"):
         notes.append("the row's program is the same")
     then, later = (" ".join(str(point.harness.get(name)) for name in ("version", "commit")) for point in (before, now))
