@@ -111,6 +111,11 @@ def test_dirty_trees_and_other_branches_are_drawn_apart_and_make_no_step():
     line = [commit(0).hash, commit(2).hash]
     assert stepped(branch, line) == []
     assert [(p.place.at, p.place.apart) for p in graphs(branch, line)[0].apart] == [(0.5, series.ASIDE)]
+    again = kept(2, {SLOT: row(misses=7)}, dirty=True)
+    backwards = [commit(i).hash for i in (2, 1, 0)]
+    assert graphs([*runs_of(0, 0, 0), again], backwards)[0].apart[0].place.at == 0.5, "beside its own commit"
+    late = graphs(runs_of(0, 0, 7, 0), [commit(i).hash for i in (0, 1, 3)])[0].apart
+    assert [p.place.at for p in late] == [1.5], "behind the last commit of the line that is no newer"
     assert len(stepped(branch)) == 2, "without a line all clean commits are on it"
 
 

@@ -14,13 +14,14 @@ from tests import browser
 from .kept_runs import SLOT, commit, kept, row
 
 RULES = tolerances_of({})
+LONG = "_and_no_place_to_break" * 5
 
 
 @pytest.fixture(scope="module")
 def drawn(tmp_path_factory):
     """The folder of a drawn history: six commits, two rows, three devices' worth of trouble in the texts."""
-    told = draw.Told("tiny", RULES, {"misses": "clear rays & more"}, ["A <note>."], ["x.json is damaged"])
-    rows = [{SLOT: row(misses=m, error_max=e), "a <b> & c": row(misses=0)} for m, e in _PLANTED]
+    told = draw.Told(f"tiny{LONG}", RULES, {"misses": "clear rays & more"}, ["A <note>."], ["x.json is damaged"])
+    rows = [{SLOT: row(misses=m, error_max=e), f"a <b> & c{LONG}": row(misses=0)} for m, e in _PLANTED]
     all_runs = [kept(i, one) for i, one in enumerate(rows)]
     object.__setattr__(all_runs[3].commit, "subject", '<script>alert("x")</script> & é')
     all_runs.append(kept(4, {SLOT: row(misses=9)}, dirty=True))
@@ -124,7 +125,9 @@ def test_a_history_of_many_changes_lists_some_and_says_how_many_more(tmp_path):
     assert len(steps) == 60 * 29
     assert f"<summary>{1000 - LISTED} more</summary>" in text
     assert "740 smaller ones are marked in the graphs alone." in text
-    assert _Page(text).opened == []
+    page = _Page(text)
+    assert page.opened == []
+    assert {link[1:] for link in page.links if link.startswith("#")} <= set(page.ids)
     assert len(text) < 1_200_000
 
 
@@ -145,6 +148,7 @@ def tab(drawn, tmp_path_factory):
 def test_the_page_fits_a_telephone_and_a_screen_by_day_and_by_night(tab, width, scheme):
     tab.call("Emulation.setDeviceMetricsOverride", width=width, height=900, deviceScaleFactor=1, mobile=width < 500)
     tab.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": scheme}])
+    tab.run("document.querySelectorAll('details').forEach(d => d.open = true)")
     assert tab.run("document.documentElement.scrollWidth") <= width
     paper = [int(c) for c in re.findall(r"\d+", tab.run("getComputedStyle(document.body).backgroundColor"))][:3]
     ink = [int(c) for c in re.findall(r"\d+", tab.run("getComputedStyle(document.body).color"))][:3]
@@ -165,6 +169,7 @@ def test_every_step_and_table_is_reached_by_the_keyboard(tab):
 
 
 def test_a_step_leads_to_its_graph_and_back_and_nothing_is_fetched(tab, drawn):
+    tab.run("document.querySelectorAll('details').forEach(d => d.open = false)")
     tab.click("document.querySelector('#s0 a')")
     assert tab.run("document.querySelector('figure:target').id") == tab.run("location.hash").lstrip("#")
     tab.click("document.querySelector('figure:target summary')")

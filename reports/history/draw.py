@@ -9,6 +9,7 @@ from pathlib import Path
 from harness.results.commits import Kept
 from harness.results.writing import replacing_together
 from reports.history import page, series
+from reports.history.axes import counted
 from reports.history.page import History
 from reports.history.series import Graph, Rule, Step
 
@@ -49,8 +50,8 @@ def build(kept: Sequence[Kept], line: Sequence[str] | None, told: Told, folder: 
         )
         for name, own in by_figure.items():
             ends = f"{places[0].commit.date[:10]} to {places[-1].commit.date[:10]}"
-            counted = f"{history.commits} commits on the line, {ends}; {len(own)} graphs"
-            below = (meanings.get(name, ""), f"{counted}; ▲ a step for the worse, ▼ for the better, ○ apart")
+            many = f"{counted(history.commits, 'commit')} on the line, {ends}; {counted(len(own), 'graph')}"
+            below = (meanings.get(name, ""), f"{many}; ▲ a step for the worse, ▼ for the better, ○ apart")
             multiples.write(own, history.commits, f"{told.title}: {name}", below, made / f"{name}.png")
     return steps
 

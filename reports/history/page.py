@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from harness.results.commits import Commit
-from reports.history.axes import Scale, across, labels
+from reports.history.axes import Scale, across, counted, labels
 from reports.history.series import Graph, Place, Point, Span, Step
 
 HERE = Path(__file__).parent
@@ -90,7 +90,7 @@ def _subtitle(history: History) -> str:
     dates = sorted(place.commit.date[:10] for place in history.places)
     apart = len(history.places) - history.commits
     more = f", {apart} drawn apart" if apart else ""
-    return f"{history.commits} commits{more}, {dates[0]} to {dates[-1]}"
+    return f"{counted(history.commits, 'commit')}{more}, {dates[0]} to {dates[-1]}"
 
 
 def _most(lengths: Sequence[int]) -> int:
@@ -152,7 +152,7 @@ def _figure_section(
     meaning = _e(history.meanings.get(name, ""))
     return (
         f'<section><h2 id="{name}">{name}</h2><p class="faint">{meaning} <a href="{_e(picture)}">as a picture</a></p>'
-        f"{grid}{_flat(history, flat, opened=not changed and len(flat) <= LISTED)}</section>"
+        f"{grid}{_flat(history, flat, opened=not changed and (len(flat) <= LISTED or history.commits < 2))}</section>"
     )
 
 
@@ -306,7 +306,7 @@ def _flat(history: History, graphs: Sequence[Graph], opened: bool) -> str:
         '<tr><th scope="col">row</th><th scope="col">device</th><th scope="col" class="n">value</th>'
         '<th scope="col" class="n">kept</th><th scope="col">over commits</th></tr>'
     )
-    many = f"{len(graphs)} rows" if len(graphs) > 1 else "1 row"
+    many = counted(len(graphs), "row")
     return (
         f"<details{' open' if opened else ''}><summary>{many} with the same value at every commit</summary>"
         f'<div class="scroll" tabindex="0"><table><thead>{head}</thead><tbody>{"".join(rows)}</tbody></table></div>'
