@@ -134,7 +134,7 @@ def test_a_repository_that_git_will_not_read_is_told_and_not_passed_over(tree):
 
 
 def _changed(tree):
-    written = [tree / "history" / "tiny", tree / "runs"]
+    written = [tree / "history" / "tiny", tree / "runs", tree / "plugins" / "mine" / "runs"]
     state = repository.commit_of(tree, tree / "plugins", tree / "tiny.toml", written)
     changed = repository.changed(tree, tree / "plugins", tree / "tiny.toml", written)
     assert state.dirty == bool(changed)
@@ -144,7 +144,7 @@ def _changed(tree):
 
 def test_a_tree_is_dirty_where_what_decides_a_row_is_not_as_committed(tree):
     assert _changed(tree) == []
-    for name in ("history/tiny/a.json", "runs/x.json", "notes.txt"):
+    for name in ("history/tiny/a.json", "runs/x.json", "plugins/mine/runs/x.json", "notes.txt"):
         (tree / name).parent.mkdir(parents=True, exist_ok=True)
         (tree / name).write_text("new")
     assert _changed(tree) == [], "what commands write, and what no run reads, does not count"
