@@ -3,6 +3,7 @@
 import json
 import random
 import re
+import sys
 from collections import Counter
 
 import pytest
@@ -274,6 +275,21 @@ def test_keeping_outside_any_repository_ends_before_anything_runs(project, monke
     assert (code, out) == (2, "")
     assert "in no git repository" in err
     assert "[1/1]" not in err
+
+
+def test_where_nothing_can_be_drawn_the_command_says_what_to_do(tmp_path, monkeypatch, capsys):
+    config = tmp_path / "tiny.toml"
+    config.write_text('title = "t"\nsurfaces = ["torus"]\n[[method]]\nname = "newton"\n')
+    commits.write(tmp_path / "history" / "tiny", kept(0, {SLOT: row(misses=0)}), "one")
+    (tmp_path / "file").write_text("")
+    assert main(["history", str(config), "-o", str(tmp_path / "file")]) == 2
+    assert "cannot write the history into" in capsys.readouterr().err
+    for name in [name for name in sys.modules if name.startswith(("reports.history", "reports.drawing"))]:
+        monkeypatch.delitem(sys.modules, name)
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    assert main(["history", str(config), "-o", str(tmp_path / "out")]) == 3
+    assert "needs the package matplotlib: pip install 'firsthit[report]'" in capsys.readouterr().err
+    assert not (tmp_path / "out").exists()
 
 
 def test_a_tolerance_of_the_config_decides_what_a_step_is():

@@ -30,7 +30,7 @@ SUBJECT = 50  # letters of a commit's subject
 def add_parsers(add: Add) -> None:
     parser = add(
         "history",
-        "firsthit history configs/gate.toml -o history",
+        "firsthit history configs/gate.toml",
         "Draw each gated figure over the commits whose runs `firsthit gate --keep` kept, as index.html and a PNG for "
         "each figure, with every step beyond the gate's tolerance marked and listed, the worst first. Runs nothing.",
     )

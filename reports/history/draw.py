@@ -6,9 +6,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from harness.contract import FirsthitError
 from harness.results.commits import Kept
 from harness.results.writing import replacing_together
-from reports.history import page, series
+from reports.history import multiples, page, series
 from reports.history.axes import counted
 from reports.history.page import History
 from reports.history.series import Graph, Rule, Step
@@ -29,11 +30,8 @@ def build(kept: Sequence[Kept], line: Sequence[str] | None, told: Told, folder: 
     """Write the history of `kept`, at least one run, into `folder`, and return its steps, the worst first.
 
     line: hashes of the commits that follow each other, the oldest first; None takes all clean commits by their dates
-    No older file is replaced before all new ones are complete. Raises FirsthitError where they cannot be written, and
-    ModuleNotFoundError where matplotlib is missing.
+    No older file is replaced before all new ones are complete. Raises FirsthitError where they cannot be written.
     """
-    from reports.history import multiples
-
     graphs = series.graphs(kept, line, told.rules)
     places = sorted(series.places(kept, line).values(), key=lambda place: place.at)
     steps = series.steps(graphs)
@@ -43,7 +41,10 @@ def build(kept: Sequence[Kept], line: Sequence[str] | None, told: Told, folder: 
     by_figure: dict[str, list[Graph]] = {}
     for graph in graphs:
         by_figure.setdefault(graph.figure, []).append(graph)
-    folder.mkdir(parents=True, exist_ok=True)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise FirsthitError(f"cannot write the history into {folder}: {error.strerror or error}") from None
     with replacing_together(folder, "the history") as made:
         (made / "index.html").write_text(
             page.page(history, {name: f"{name}.png" for name in by_figure}), encoding="utf-8", errors="replace"
