@@ -13,7 +13,7 @@ from .conftest import usable_devices
 pytestmark = pytest.mark.usefixtures("devices_found_once")
 
 COMMANDS = ("devices", "list", "plan", "run", "why", "report", "show", "sheet", "trace", "oracle", "compile")
-COMMANDS += ("gate", "bless", "recommend")
+COMMANDS += ("gate", "bless", "history", "recommend")
 
 
 @pytest.fixture

@@ -22,6 +22,7 @@ GROUPS: dict[str, dict[str, str]] = {
         "gate": "fail where a config's results are worse than its blessed baseline",
         "bless": "make a config's present results the baseline of its gate",
     },
+    "history": {"history": "draw a config's gated figures over the commits whose runs are kept, with their steps"},
     "recommend": {
         "recommend": "the fastest variant whose certified error stays within a bound, and why the others fell",
     },

@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 from harness.commands import Add
-from harness.commands.options import writable
+from harness.commands.options import add_history, history_of, tell, writable
 from harness.commands.printer import Printer
 from harness.contract import FirsthitError
 from harness.experiment.shipped import located
@@ -15,6 +15,7 @@ from harness.gate import against, baseline, outputs
 from harness.gate.baseline import Baseline
 from harness.gate.checked import Checked, check
 from harness.gate.judge import Judged, Verdict, exit_code, rank
+from harness.gate.keep import Keeping, keeping
 from harness.results.writing import write_atomically
 
 
@@ -31,6 +32,8 @@ def add_parsers(add: Add) -> None:
     parser.add_argument("--markdown", type=Path, metavar="FILE", help="write a summary as Markdown")
     parser.add_argument("--github", action="store_true", help="print annotations for GitHub Actions")
     parser.add_argument("--against", metavar="REV", help="also time every cell against this git revision's program")
+    parser.add_argument("--keep", action="store_true", help="keep the figures by commit, for `firsthit history`")
+    add_history(parser)
     parser.set_defaults(run=_gate)
 
     parser = add(
@@ -70,7 +73,10 @@ def _gate(options: argparse.Namespace) -> int:
         writable(path)
     path = _path(options)
     before = baseline.read(path)
+    kept = _keeping(options, path) if options.keep else None
     checked = _check(options)
+    if kept:
+        _keep(kept, checked)
     judged = checked.judged(before)
     if options.against:
         judged += against.speeds(checked, options.against, options.config, options.plugins)
@@ -78,6 +84,22 @@ def _gate(options: argparse.Namespace) -> int:
     code = exit_code(judged, checked.unfinished)
     _tell(options, checked, judged, path, code)
     return code
+
+
+def _keeping(options: argparse.Namespace, path: Path) -> Keeping:
+    """Say which commit the rows will be kept by. Raises FirsthitError, before anything runs, where there is none."""
+    folder = history_of(options, options.config)
+    return keeping(options.plugins, options.config, folder, [path, options.runs])
+
+
+def _keep(kept: Keeping, checked: Checked) -> None:
+    """Keep the rows, and say where and, of a dirty tree, why they will be drawn apart."""
+    for path in kept.keep(checked):
+        tell(f"firsthit: kept {path}")
+    if kept.because:
+        more = f" and {len(kept.because) - 1} more" if len(kept.because) > 1 else ""
+        reason = f"{kept.because[0]}{more} not as committed"
+        tell(f"firsthit: kept apart from the commits' line, since the tree has {reason}")
 
 
 def _tell(options: argparse.Namespace, checked: Checked, judged: list[Judged], path: Path, code: int) -> None:

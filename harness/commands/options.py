@@ -126,6 +126,18 @@ def caster_of(options: argparse.Namespace) -> Caster:
     return Caster(plugin, variant, device, options.precision, options.origin, options.timeout)
 
 
+def add_history(parser: argparse.ArgumentParser) -> None:
+    """Add the option that says where kept runs lie, which `history_of` reads."""
+    help_ = "kept runs are in DIR/NAME (default: history/NAME beside the config NAME.toml)"
+    parser.add_argument("--history", type=Path, metavar="DIR", help=help_)
+
+
+def history_of(options: argparse.Namespace, config: Path) -> Path:
+    """Return the folder of a config's kept runs."""
+    folder: Path = options.history or config.parent / "history"
+    return folder / config.stem
+
+
 def tell(line: str) -> None:
     """Print a line that is not a result, on standard error."""
     print(line, file=sys.stderr)

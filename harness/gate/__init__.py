@@ -2,5 +2,6 @@
 
 `checked` runs a config's cells without timing them. `entries` makes of their rows what a baseline keeps. `baseline`
 reads and writes the file. `judge` compares the two, and `outputs` tells people and CI servers of it. `against` compares
-speed with another git revision, whose programs `revision` gets by running `export` there.
+speed with another git revision, whose programs `revision` gets by running `export` there. `keep` keeps what `checked`
+found by commit, which `repository` names.
 """

@@ -34,6 +34,7 @@ NOT_DECIDING = {
     "harness/console.py": "prints tables and progress",
     "harness/gate": "judges finished rows",
     "harness/recommend": "chooses among finished rows",
+    "harness/results/commits.py": "keeps the figures of finished rows",
     "harness/results/columns.py": "prints a page of the documentation",
     "harness/results/schema.py": "says which columns reports make of finished rows",
     "harness/studies": "are no cells; each has a key of its own, see harness/studies/__init__.py",
