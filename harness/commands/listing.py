@@ -7,6 +7,7 @@ import tomllib
 
 from harness import console
 from harness.commands import Add
+from harness.commands.options import tell
 from harness.contract import CLAIMS
 from harness.experiment import shipped
 from harness.plugins import find_methods
@@ -27,6 +28,8 @@ def _list(options: argparse.Namespace) -> int:
 def _methods(options: argparse.Namespace) -> str:
     """Write tables of the methods, of what their claims mean, and of their parameters."""
     catalog = find_methods(options.plugins)
+    for note in catalog.notes:
+        tell(f"firsthit: {note}")
     rows = []
     for name, plugin in sorted(catalog.plugins.items()):
         method = plugin.method

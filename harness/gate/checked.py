@@ -82,6 +82,8 @@ def check(
     Raises FirsthitError where the config cannot be planned.
     """
     catalog = find_methods(plugins)
+    for line in catalog.warnings:
+        watcher.warned(line)
     experiment = reading.load(config, catalog)
     if devices:
         chosen = dataclasses.replace(experiment.config, devices=list(devices))

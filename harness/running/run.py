@@ -129,7 +129,9 @@ def load(
     `plugins` is a folder of further methods; `devices` take the place of those that the config names. Raises
     FirsthitError where there is no such config, something in it is wrong, or it includes configs that include others.
     """
-    catalog = find_methods(plugins)
+    catalog, hears = find_methods(plugins), watcher or Watcher()
+    for line in catalog.warnings:
+        hears.warned(line)
     whole = reading.load(located(name), catalog)
     parts = [reading.load(path, catalog) for path in whole.included] or [whole]
     if nested := [part.path for part in parts if part.included and part is not whole]:
@@ -140,7 +142,7 @@ def load(
         chosen = list(devices)
         parts = [dataclasses.replace(p, config=dataclasses.replace(p.config, devices=chosen)) for p in parts]
     named = {device for part in parts for device in part.config.devices}
-    with (watcher or Watcher()).doing(f"{whole.path}: looking for devices"):
+    with hears.doing(f"{whole.path}: looking for devices"):
         found = discover_devices(named)
     return Loaded(whole, tuple(parts), catalog, found)
 
