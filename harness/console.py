@@ -89,7 +89,7 @@ def _write(text: str) -> None:
 def outcome(row: Row) -> str:
     """Say how a cell ended: its median time and what is to be known of it, or its status and the reason."""
     if not row["time"]:
-        return f"{row['status']}: {row['reason']}" if row["reason"] else str(row["status"])
+        return f"{row['status']}: {row['reason'].splitlines()[0]}" if row["reason"] else str(row["status"])
     warnings = [text.partition(":")[0] for text in row["time"]["warnings"]]
     return ", ".join([f"{row['time']['median_ms']:.3g} ms", *warnings])
 
@@ -103,6 +103,7 @@ class Progress:
     def __init__(self, total: int, estimate: float) -> None:
         self._total, self._estimate = total, estimate
         self._done = 0
+        self._told: set[str] = set()  # what was said of cells so far; a reason is said once
         self._start = time.perf_counter()
         self._live = sys.stderr.isatty()
 
@@ -114,7 +115,11 @@ class Progress:
                 _write(f"{CLEAR}{self._head(elapsed)} {slot}"[:WIDEST])
             return
         self._done += 1
-        line = f"{self._head(elapsed)} {slot}: {outcome(row)}"
+        told = outcome(row)
+        if row["reason"] and told in self._told:
+            told = f"{row['status']}, as above"
+        self._told.add(told)
+        line = f"{self._head(elapsed)} {slot}: {told}"
         _write(f"{CLEAR}{line}\n" if self._live else f"{line}\n")
 
     def _head(self, elapsed: float) -> str:

@@ -152,7 +152,7 @@ def _load(folder: Path) -> Method:
     if not isinstance(method, Method):
         raise FirsthitError(f"{path} does not define METHOD = Method(...)")
     if problem := problem_of(method):
-        raise FirsthitError(f"{path}:{line_of(path, problem.split()[0])}: {problem}")
+        raise FirsthitError(f"{path}:{line_of(path, problem.split()[0].rstrip(':'))}: {problem}")
     for claim in sorted(method.claims - CLAIMS.keys()):
         raise FirsthitError(f"{path} claims {claim!r}, which no test knows; {suggestion(claim, sorted(CLAIMS))}")
     if "error_below_tolerance" in method.claims and method.tolerance is None:

@@ -11,17 +11,20 @@ import sys
 import threading
 import traceback
 import typing
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from harness.contract import PRECISIONS, Casts, FirsthitError, Method, Parameter
+from harness import ROOT
+from harness.contract import GENERATED, PRECISIONS, Casts, FirsthitError, Method, Parameter
 from harness.limits import Distinct, is_finite
 from surfaces.model import is_number
+from surfaces.words import suggestion
 
 NAME = re.compile("[A-Za-z][A-Za-z0-9_]*")  # of a method: a Python module's, and a part of files' names
 KNOB = re.compile("[A-Z][A-Z0-9_]*")  # a constant's name in GLSL and in OpenCL C
 CASTS = typing.get_args(Casts)
+LIBRARIES = ROOT / "harness" / "kernels" / "glsl" / "lib"
 
 # What the fields of a Method are, and what to write where they are something else.
 FUNCTIONS = ("accepts", "tolerance", "tables", "mesh")
@@ -109,15 +112,29 @@ def guarded(method: Method, path: Path) -> Method:
                 raise
             except Exception as error:  # a plugin may fail in any way
                 raise FirsthitError(f"{_told(path, error)}, in {name}=...", exit_code=3) from error
-            if name == "accepts" and not isinstance(answer, str | None):
-                words = "return None for a surface that it can be used on, else a text that says why not"
-                raise FirsthitError(f"{path}:{line_of(path, name)}: accepts returned {answer!r}; {words}", exit_code=3)
+            if wrong := _wrong_answer(name, answer):
+                raise FirsthitError(f"{path}:{line_of(path, name)}: {name} returned {wrong}", exit_code=3)
             return answer
 
         return call
 
     functions: dict[str, Any] = {name: one(name) for name in FUNCTIONS}
     return dataclasses.replace(method, **functions)
+
+
+def _wrong_answer(name: str, answer: Any) -> str | None:
+    """Say what a method's function answered that it may not, and what it returns; None where its answer makes sense."""
+    if name == "accepts" and not isinstance(answer, str | None):
+        return f"{answer!r}; return None for a surface that it can be used on, else a text that says why not"
+    if name == "tolerance" and not (is_number(answer) and is_finite(answer)):
+        return f"{answer!r}; return the largest error, a finite number of scene units"
+    if name == "tables":
+        if not isinstance(answer, Mapping):
+            return f"{answer!r}; return tables by name, as in {{'NODES': [0.0, 0.5, 1.0]}}"
+        for table, values in answer.items():
+            if len(values) == 0 or not all(is_number(value) and is_finite(value) for value in values):
+                return f"a table {table} that is empty or holds what is no finite number"
+    return None
 
 
 def problem_of(method: Method) -> str | None:
@@ -129,15 +146,21 @@ def problem_of(method: Method) -> str | None:
         return problem
     if not NAME.fullmatch(method.name):
         return f"name {method.name!r} must be letters, digits and _, and begin with a letter; rename the folder too"
-    stated = (("casts", (method.casts,), CASTS), ("precisions", method.precisions, PRECISIONS))
-    for what, values, known in stated:
-        for value in values:
-            if value not in known:
-                return f"{what}: unknown {value!r}; known: {', '.join(known)}"
+    libraries = tuple(sorted(path.stem for path in LIBRARIES.glob("*.glsl")))
+    named: tuple[tuple[str, str, Sequence[str], Iterable[str]], ...] = (
+        ("casts", "way of casting", (method.casts,), CASTS),
+        ("precisions", "precision", method.precisions, PRECISIONS),
+        ("needs", "generated function", method.needs, GENERATED),
+        ("libraries", "kernel library", method.libraries, libraries),
+    )
+    for field, what, names, known in named:
+        for name in names:
+            if name not in known:
+                return f"{field}: there is no {what} {name!r}; {suggestion(name, known)}"
     if not method.precisions:
         return f"precisions is empty; write {LISTS['precisions']}, or leave it out for both"
-    names = [parameter.name for parameter in method.parameters if isinstance(parameter, Parameter)]
-    if twice := Distinct().broken(names):
+    knobs = [parameter.name for parameter in method.parameters if isinstance(parameter, Parameter)]
+    if twice := Distinct().broken(knobs):
         return f"parameters: the knob {twice}; keep one of the two"
     problems = (_knob_problem(parameter) for parameter in method.parameters)
     return next((f"parameters: {problem}" for problem in problems if problem), None)

@@ -54,8 +54,8 @@ STATED = "from firsthit import Method, Parameter\nMETHOD = Method('mine', 't', {
 @pytest.mark.parametrize(
     ("stated", "words"),
     [
-        ("casts='foo'", "casts: unknown 'foo'; known: rays, beams, quadtree, mesh"),
-        ("precisions=('half',)", "precisions: unknown 'half'; known: float32, float64"),
+        ("casts='foo'", "casts: there is no way of casting 'foo'; known: rays, beams, quadtree, mesh"),
+        ("precisions=('half',)", "precisions: there is no precision 'half'; known: float32, float64"),
         (
             "parameters=(Parameter('N', 1, 'n'), Parameter('N', 2, 'n'))",
             "the knob 'N' is named twice; keep one of the two",

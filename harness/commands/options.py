@@ -115,8 +115,14 @@ def given_variant(options: argparse.Namespace, catalog: Catalog) -> Variant:
 
 
 def methods_of(options: argparse.Namespace) -> Catalog:
-    """Find the methods, those of --plugins among them, and say what the user should know of them on standard error."""
+    """Find the methods, those of --plugins among them, and say what the user should know of them on standard error.
+
+    Raises FirsthitError where a method that --method names is not there, or cannot be loaded.
+    """
     catalog = find_methods(options.plugins)
+    named = getattr(options, "method", None) or []
+    for name in [named] if isinstance(named, str) else named:
+        catalog.get(name)
     for line in catalog.warnings:
         tell(f"firsthit: {line}")
     return catalog

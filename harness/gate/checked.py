@@ -82,9 +82,9 @@ def check(
     Raises FirsthitError where the config cannot be planned.
     """
     catalog = find_methods(plugins)
+    experiment = reading.load(config, catalog)
     for line in catalog.warnings:
         watcher.warned(line)
-    experiment = reading.load(config, catalog)
     if devices:
         chosen = dataclasses.replace(experiment.config, devices=list(devices))
         experiment = dataclasses.replace(experiment, config=chosen)
@@ -95,5 +95,6 @@ def check(
         rows = batch.rows_of(planned, experiment, catalog, folder, executor, watcher, force)
     finally:
         executor.close()
+    watcher.failed([row for row in rows.values() if row["status"] in UNFINISHED])
     now = baseline_of(planned, rows, catalog, experiment.name, experiment.config.gate.same)
     return Checked(experiment, catalog, planned, rows, now, folder)

@@ -140,11 +140,11 @@ def _first_of_each(found: Sequence[Complaint]) -> list[Complaint]:
     kept: list[Complaint] = []
     again: dict[str, list[int]] = {}
     for complaint in found:
-        if any(one.words == complaint.words for one in kept):
-            again.setdefault(complaint.words, []).append(complaint.line)
+        if same := next((one for one in kept if one.words == complaint.words), None):
+            again.setdefault(complaint.words, []).extend([complaint.line] if complaint.line != same.line else [])
         elif all((one.file, one.line) != (complaint.file, complaint.line) for one in kept):
             kept.append(complaint)
-    lines = {words: ", ".join(map(str, dict.fromkeys(numbers))) for words, numbers in again.items()}
+    lines = {words: ", ".join(map(str, dict.fromkeys(numbers))) for words, numbers in again.items() if numbers}
     return [replace(c, words=f"{c.words}; also in line {lines[c.words]}") if c.words in lines else c for c in kept]
 
 

@@ -92,9 +92,12 @@ def _paragraph(members: Sequence[Failure], what: str) -> str:
     if told:
         head, parts = _compilers(told)
     else:
-        head, parts = [f"{members[0].method}: {members[0].text.strip()}"], []
+        texts = list(dict.fromkeys(failure.text.strip() for failure in members))
+        head, parts = [f"{members[0].method}: {texts[0]}"], [("also", first_line(text)) for text in texts[1 : MOST + 1]]
+        if len(texts) > MOST + 1:
+            parts.append(("also", f"{len(texts) - MOST - 1} more that differ in numbers only"))
         if advice := ADVICE.get(members[0].status):
-            parts = [("do", advice)]
+            parts.append(("do", advice))
     parts.append(("where", _places(members, what)))
     lines = [_wrapped("", head[0]), *head[1:]]
     return "\n".join([*lines, *(_wrapped(f"    {word:<7}", text) for word, text in parts)])
@@ -107,10 +110,13 @@ def _compilers(told: Sequence[tuple[str, Complaint]]) -> tuple[list[str], list[t
     head = [f"{first.place}: {first.words}", *(f"    | {line}" for line in first.shown)]
     seen, also = {(first.line, _family(device))}, []
     for other, complaint in sorted(told, key=lambda one: one[1].line):
-        if (complaint.line, _family(other)) in seen or complaint.words == first.words:
+        key = (complaint.line, _family(other) if complaint.line == first.line else "")
+        if key in seen or complaint.words == first.words:
             continue
-        seen.add((complaint.line, _family(other)))
-        also.append(f"line {complaint.line}, {other}: {complaint.words}")
+        seen.add(key)
+        also.append(
+            textwrap.shorten(f"line {complaint.line}, {other}: {complaint.words}", WIDTH - 11, placeholder=" …")
+        )
     parts = [("also", text) for text in also[:MOST]]
     if len(also) > MOST:
         parts.append(("also", f"{len(also) - MOST} more, in lines that follow"))
@@ -126,8 +132,14 @@ def _family(device: str) -> str:
 def _places(members: Sequence[Failure], what: str) -> str:
     """Say on which devices, in which precisions and on which surfaces something failed, and how often."""
     lists = ([getattr(m, name) for m in members] for name in ("device", "precision", "surface"))
-    places = ["; ".join(", ".join(dict.fromkeys(filter(None, values))) for values in lists)]
-    return f"{places[0]}: {len(members)} {what}" if len(members) > 1 else places[0]
+    places = "; ".join(filter(None, (_listed(list(dict.fromkeys(filter(None, values)))) for values in lists)))
+    return f"{places}: {len(members)} {what}" if len(members) > 1 else places
+
+
+def _listed(names: Sequence[str]) -> str:
+    """Write names in a row; of many only the first."""
+    more = f" and {len(names) - MOST} more" if len(names) > MOST + 1 else ""
+    return ", ".join(names[:MOST] if more else names) + more
 
 
 def _wrapped(head: str, text: str) -> str:
