@@ -116,6 +116,12 @@ def test_a_log_of_no_known_form_is_told_whole_but_for_drivers_talk():
             'add "interval" to libraries',
         ),
         (
+            KERNEL.replace("real b = surface_value(a)", "Interval b"),
+            f"1:{AT + 1}:5: error: use of undeclared identifier 'Interval'",
+            3,
+            'add "interval" to libraries',
+        ),
+        (
             KERNEL.replace("surface_value", "f").replace("first_hit", "frist_hit"),
             f"1:{_line('cast.glsl', 2)}:11: error: use of undeclared identifier 'first_hit'",
             1,

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import argparse
+import sys
 import tomllib
 
 from harness import console
 from harness.commands import Add
-from harness.commands.options import tell
 from harness.contract import CLAIMS
 from harness.experiment import shipped
 from harness.plugins import find_methods
@@ -29,7 +29,7 @@ def _methods(options: argparse.Namespace) -> str:
     """Write tables of the methods, of what their claims mean, and of their parameters."""
     catalog = find_methods(options.plugins)
     for note in catalog.notes:
-        tell(f"firsthit: {note}")
+        print(f"firsthit: {note}", file=sys.stderr)
     rows = []
     for name, plugin in sorted(catalog.plugins.items()):
         method = plugin.method

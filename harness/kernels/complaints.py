@@ -208,8 +208,8 @@ def _calls(text: str, name: str) -> bool:
 def _advice_for(name: str, program: Program) -> str:
     """Say what a name that the compiler does not know may be: a library's function, or a knob's name misspelt."""
     for path in sorted(LIBRARIES.glob("*.glsl")):
-        if re.search(rf"(?m)^\w+ {name}\s*\(", path.read_text(encoding="utf-8")):
-            return f'add "{path.stem}" to libraries in method.py: {name} is a function of it'
+        if re.search(rf"(?m)^(\w+ {name}\s*\(|.*\bstruct {name}\b)", path.read_text(encoding="utf-8")):
+            return f'add "{path.stem}" to libraries in method.py: {name} is of it'
     knobs = [
         knob
         for section in program.sections
