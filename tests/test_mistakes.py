@@ -175,8 +175,9 @@ def test_mistakes_of_two_methods_and_of_two_kinds_stay_apart():
     ]
     died = [Failure("mine", "a", "opencl:pocl", "float32", "torus", "the worker died: SIGSEGV", CellStatus.CRASHED)]
     other = [Failure("other", f.program, f.device, f.precision, f.surface, f.text) for f in _failures()]
-    told = mistakes([*_failures(), *hung, *died, *other], "cells")
+    told = mistakes([*_failures()[:2], *hung, *died, *other, *_failures()[2:]], "cells")
     assert len(told) == 4
+    assert told[1].startswith("mine/kernel.glsl: check took longer")
     assert "look for a loop" in told[1] and ": 4 cells" in told[1]
     assert "past its end" in told[2]
 

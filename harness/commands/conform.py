@@ -92,7 +92,7 @@ def told(device: str, found: Iterable[tuple[str, str, Finding]], verbose: bool) 
     checked = [finding for *_, finding in found if not finding.unchecked]
     failing = [(where, finding) for _, where, finding in found if finding.fails]
     ended = sum(finding.ended is not None for *_, finding in found)
-    beside = f"; {ended} cases did not run to their end, see below" if ended else ""
+    beside = f"; {ended} {'case' if ended == 1 else 'cases'} did not run to the end, see below" if ended else ""
     lines = [f"{name} on {device}: {len(checked) - len(failing)} of {len(checked)} checks hold{beside}"]
     if verbose:
         rows = [

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from harness.contract import CellStatus
-from harness.kernels.complaints import Complaint, complaints_in
+from harness.kernels.complaints import KERNEL, Complaint, complaints_in
 from harness.results.store import Row
 
 WIDTH = 100  # characters of a line
@@ -64,11 +64,18 @@ def mistakes(failures: Iterable[Failure], what: str) -> list[str]:
     """
     groups: list[tuple[set[tuple[str, ...]], list[Failure]]] = []
     for failure in failures:
-        keys, members = _keys(failure), [failure]
-        for other in [group for group in groups if group[0] & keys]:
+        keys = _keys(failure)
+        joined = [group for group in groups if group[0] & keys]
+        if not joined:
+            groups.append((keys, [failure]))
+            continue
+        first = joined[0]
+        for other in joined[1:]:
             groups.remove(other)
-            keys, members = other[0] | keys, other[1] + members
-        groups.append((keys, members))
+            first[0].update(other[0])
+            first[1].extend(other[1])
+        first[0].update(keys)
+        first[1].append(failure)
     return [_paragraph(members, what) for _, members in groups]
 
 
@@ -93,7 +100,8 @@ def _paragraph(members: Sequence[Failure], what: str) -> str:
         head, parts = _compilers(told)
     else:
         texts = list(dict.fromkeys(failure.text.strip() for failure in members))
-        head, parts = [f"{members[0].method}: {texts[0]}"], [("also", first_line(text)) for text in texts[1 : MOST + 1]]
+        subject = members[0].method + ("/kernel.glsl" if members[0].status in ADVICE else "")
+        head, parts = [f"{subject}: {texts[0]}"], [("also", first_line(text)) for text in texts[1 : MOST + 1]]
         if len(texts) > MOST + 1:
             parts.append(("also", f"{len(texts) - MOST - 1} more that differ in numbers only"))
         if advice := ADVICE.get(members[0].status):
@@ -106,7 +114,7 @@ def _paragraph(members: Sequence[Failure], what: str) -> str:
 def _compilers(told: Sequence[tuple[str, Complaint]]) -> tuple[list[str], list[tuple[str, str]]]:
     """Return the lines that tell of a kernel's first mistake, and what the compilers say besides."""
     # The earliest line comes first: what follows is mostly its consequence. A column comes with the clearer words.
-    device, first = min(told, key=lambda one: (one[1].line, one[1].column is None))
+    device, first = min(told, key=lambda one: (not one[1].file.endswith(KERNEL), one[1].line, one[1].column is None))
     head = [f"{first.place}: {first.words}", *(f"    | {line}" for line in first.shown)]
     seen, also = {(first.line, _family(device))}, []
     for other, complaint in sorted(told, key=lambda one: one[1].line):
