@@ -323,7 +323,10 @@ def _caster(
     from harness.plugins import find_methods
     from harness.running.trace import Caster, usable_device
 
-    plugin = find_methods(_folder(plugins)).get(method)
+    catalog = find_methods(_folder(plugins))
+    for note in catalog.notes:
+        _warn(note)
+    plugin = catalog.get(method)
     variant = plugin.variant({} if knobs is None else knobs)
     return Caster(plugin, variant, usable_device().name if device is None else device, precision, origin, timeout)
 

@@ -14,7 +14,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from harness import __version__
-from harness.commands import GROUPS, adder
+from harness.commands import GROUPS, PLUGINS, adder
 
 INTERRUPTED = 3
 
@@ -27,7 +27,7 @@ def build_parser(arguments: Sequence[str] | None = None) -> argparse.ArgumentPar
         epilog="example: firsthit run configs/quick.toml && firsthit report runs/quick",
     )
     parser.add_argument("--version", action="version", version=f"firsthit {__version__}")
-    parser.add_argument("--plugins", type=Path, metavar="DIR", help="a folder of further methods, one folder each")
+    parser.add_argument("--plugins", type=Path, metavar="DIR", help=PLUGINS)
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
     for module, own in GROUPS.items():
         if arguments is None or own.keys() & set(arguments):

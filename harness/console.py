@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import contextlib
 import sys
+import threading
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -13,6 +14,8 @@ if TYPE_CHECKING:
 
 CLEAR = "\r\x1b[K"  # the line on a terminal
 WIDEST = 200  # characters of a live line
+LIVE_SECONDS = 0.2  # between two states of a live line
+FIRST_SECONDS, NEXT_SECONDS = 2.0, 10.0  # before the first plain line of what goes on, and between two
 
 
 def table(header: Sequence[str], rows: Sequence[Sequence[object]]) -> str:
@@ -41,6 +44,43 @@ def doing(what: str) -> Iterator[None]:
             _write(CLEAR)
 
 
+class Working:
+    """Say what goes on while a block runs that takes longer than a moment: `with Working() as tell: tell("step 1")`.
+
+    On a terminal it is one live line, which is gone afterwards; elsewhere it is a line now and then. Another thread
+    writes it, so that a step that hangs is named too. `tell("")` clears the live line, before something is printed.
+    """
+
+    def __init__(self) -> None:
+        self._live = sys.stderr.isatty()
+        self._now, self._ended, self._lock = "", threading.Event(), threading.Lock()
+        self._thread = threading.Thread(target=self._show, daemon=True)
+
+    def __enter__(self) -> Callable[[str], None]:
+        self._thread.start()
+        return self._tell
+
+    def __exit__(self, *_: object) -> None:
+        self._ended.set()
+        self._thread.join()
+        self._tell("")
+
+    def _tell(self, what: str) -> None:
+        with self._lock:
+            self._now = what
+            if self._live and not what:
+                _write(CLEAR)
+
+    def _show(self) -> None:
+        shown, pause = "", LIVE_SECONDS if self._live else FIRST_SECONDS
+        while not self._ended.wait(pause):
+            with self._lock:
+                if self._now and self._now != shown:
+                    shown = self._now
+                    _write(f"{CLEAR}firsthit: {shown}"[:WIDEST] if self._live else f"firsthit: {shown}\n")
+                    pause = LIVE_SECONDS if self._live else NEXT_SECONDS
+
+
 def _write(text: str) -> None:
     sys.stderr.write(text)
     sys.stderr.flush()
@@ -49,7 +89,7 @@ def _write(text: str) -> None:
 def outcome(row: Row) -> str:
     """Say how a cell ended: its median time and what is to be known of it, or its status and the reason."""
     if not row["time"]:
-        return f"{row['status']}: {row['reason']}" if row["reason"] else str(row["status"])
+        return f"{row['status']}: {row['reason'].splitlines()[0]}" if row["reason"] else str(row["status"])
     warnings = [text.partition(":")[0] for text in row["time"]["warnings"]]
     return ", ".join([f"{row['time']['median_ms']:.3g} ms", *warnings])
 
@@ -63,6 +103,7 @@ class Progress:
     def __init__(self, total: int, estimate: float) -> None:
         self._total, self._estimate = total, estimate
         self._done = 0
+        self._told: set[str] = set()  # what was said of cells so far; a reason is said once
         self._start = time.perf_counter()
         self._live = sys.stderr.isatty()
 
@@ -74,7 +115,11 @@ class Progress:
                 _write(f"{CLEAR}{self._head(elapsed)} {slot}"[:WIDEST])
             return
         self._done += 1
-        line = f"{self._head(elapsed)} {slot}: {outcome(row)}"
+        told = outcome(row)
+        if row["reason"] and told in self._told:
+            told = f"{row['status']}, as above"
+        self._told.add(told)
+        line = f"{self._head(elapsed)} {slot}: {told}"
         _write(f"{CLEAR}{line}\n" if self._live else f"{line}\n")
 
     def _head(self, elapsed: float) -> str:

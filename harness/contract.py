@@ -114,6 +114,24 @@ CLAIMS: dict[str, str] = {
     " drowned is passed",
 }
 
+# The generated functions that a method may need, and those that each one calls: harness/kernels/functions.py
+GENERATED: dict[str, tuple[str, ...]] = {
+    "constants": (),
+    "surface_value": (),
+    "surface_gradient": (),
+    "surface_hessian_product": (),
+    "surface_normal": ("surface_gradient",),
+    "surface_distance": (),
+    "surface_distance_normal": (),
+    "surface_range": (),
+    "surface_range_along": ("surface_range",),
+    "surface_coefficients_along": (),
+    "surface_polynomial_along": (),
+    "surface_along": (),
+    "surface_value_along": ("surface_along",),
+    "surface_dual_along": ("surface_along",),
+}
+
 Tables = Callable[[Surface, Mapping[str, float | int], Precision], Mapping[str, Sequence[float]]]
 
 

@@ -5,25 +5,22 @@ from __future__ import annotations
 import dataclasses
 import importlib.metadata
 import importlib.util
-import re
-import sys
-import typing
+import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from harness import ROOT
-from harness.contract import CLAIMS, PRECISIONS, Casts, FirsthitError, Method, Parameter, Variant
-from harness.limits import Distinct, is_finite
+from harness.contract import CLAIMS, FirsthitError, Method, Variant
+from harness.limits import is_finite
+from harness.stated import NAME, guarded, line_of, problem_of, stated
 from surfaces.model import is_number
 from surfaces.words import suggestion
 
 BUILT_IN = ROOT / "methods"
 ENTRY_POINTS = "firsthit.methods"
 
-NAME = re.compile("[A-Za-z][A-Za-z0-9_]*")  # of a method: a Python module's, and a part of files' names
-KNOB = re.compile("[A-Z][A-Z0-9_]*")  # a constant's name in GLSL and in OpenCL C
-CASTS = typing.get_args(Casts)
+A_METHOD = "a method is a folder with a method.py and a kernel.glsl"
 
 AS_PRINTED = "as printed"  # a setting of every method that has a knob whose default is ours
 
@@ -90,43 +87,72 @@ class Plugin:
 
 @dataclass(frozen=True)
 class Catalog:
-    """Hold the methods that were found by name, and why other folders with a method.py could not be loaded."""
+    """Hold the methods that were found by name, and why other folders with a method.py could not be loaded.
+
+    notes: what the user should know of how the methods were found
+    extra: the folder of --plugins
+    """
 
     plugins: dict[str, Plugin] = field(default_factory=dict)
     broken: dict[str, str] = field(default_factory=dict)
+    notes: list[str] = field(default_factory=list)
+    extra: Path | None = None
 
-    def get(self, name: str) -> Plugin:
-        """Return a method by name. Raises FirsthitError if there is none, or if it could not be loaded."""
+    @property
+    def warnings(self) -> list[str]:
+        """Return a line for each note, and for each method that cannot be loaded."""
+        return [*self.notes, *(f"method {name!r} cannot be loaded: {why}" for name, why in self.broken.items())]
+
+    def get(self, name: str, beside: Path | None = None) -> Plugin:
+        """Return a method by name. `beside` is a folder in which to look for one that --plugins did not name.
+
+        Raises FirsthitError if there is none and, with exit code 3, if it could not be loaded.
+        """
         if not isinstance(name, str):
             raise FirsthitError(f"a method's name is a text, as in 'newton', not {name!r}")
         if name in self.plugins:
             return self.plugins[name]
         if name in self.broken:
-            raise FirsthitError(f"method {name!r} cannot be loaded: {self.broken[name]}")
-        hint = suggestion(name, sorted(self.plugins))
-        raise FirsthitError(f"there is no method {name!r}; {hint}; see `firsthit list methods`")
+            raise FirsthitError(f"method {name!r} cannot be loaded: {self.broken[name]}", exit_code=3)
+        raise FirsthitError(self._absent(name, beside))
+
+    def _absent(self, name: str, beside: Path | None) -> str:
+        """Say that there is no such method, and where it may be."""
+        here = f"there is no method {name!r} here"
+        if self.extra is not None:
+            here += f", nor in --plugins {self.extra}"
+        near = suggestion(name, sorted(self.plugins), otherwise="see `firsthit list methods`")
+        if NAME.fullmatch(name) and (folder := _lying_about(name, beside)):
+            return f"{here}; it is in the folder {_shown(folder)}: give --plugins {_shown(folder.parent)}"
+        return f"{here}; {'' if self.extra else 'is it in a folder for --plugins? '}{near}"
+
+
+def _lying_about(name: str, beside: Path | None) -> Path | None:
+    """Return the folder of a method in the working folder or `beside`, or in a folder of these; None without one."""
+    for place in filter(None, (Path.cwd(), beside)):
+        for folder in (place / name, *sorted(place.glob(f"*/{name}"))):
+            if (folder / "method.py").is_file():
+                return folder
+    return None
+
+
+def _shown(path: Path) -> str:
+    """Write a path as it is typed in the working folder."""
+    return os.path.relpath(path) if path.resolve().is_relative_to(Path.cwd()) else str(path)
 
 
 def _load(folder: Path) -> Method:
     """Return the METHOD that `folder`/method.py states. Raises FirsthitError, with the reason, if it states none."""
     path = folder / "method.py"
+    if not path.exists():
+        raise FirsthitError(f"{folder} has a kernel.glsl but no method.py; {A_METHOD}")
     if not (folder / "kernel.glsl").exists():
-        raise FirsthitError(f"{folder} has a method.py but no kernel.glsl")
-    spec = importlib.util.spec_from_file_location(f"firsthit_method_{folder.name}", path)
-    assert spec and spec.loader
-    module = importlib.util.module_from_spec(spec)
-    writes_bytecode, sys.dont_write_bytecode = sys.dont_write_bytecode, True
-    try:
-        spec.loader.exec_module(module)
-    except Exception as error:  # a plugin may fail in any way; it must cost its own rows only
-        raise FirsthitError(f"{path}: {type(error).__name__}: {error}") from error
-    finally:
-        sys.dont_write_bytecode = writes_bytecode
-    method = getattr(module, "METHOD", None)
+        raise FirsthitError(f"{folder} has a method.py but no kernel.glsl; {A_METHOD}")
+    method = stated(path)
     if not isinstance(method, Method):
         raise FirsthitError(f"{path} does not define METHOD = Method(...)")
-    if problem := _problem(method):
-        raise FirsthitError(f"{path}: {problem}")
+    if problem := problem_of(method):
+        raise FirsthitError(f"{path}:{line_of(path, problem.split()[0].rstrip(':'))}: {problem}")
     for claim in sorted(method.claims - CLAIMS.keys()):
         raise FirsthitError(f"{path} claims {claim!r}, which no test knows; {suggestion(claim, sorted(CLAIMS))}")
     if "error_below_tolerance" in method.claims and method.tolerance is None:
@@ -135,48 +161,34 @@ def _load(folder: Path) -> Method:
         try:
             Plugin(method, folder).variant(values)
         except FirsthitError as error:
-            raise FirsthitError(f"{path}: setting {setting!r}: {error}") from None
+            raise FirsthitError(f"{path}:{line_of(path, 'settings')}: setting {setting!r}: {error}") from None
     if method.name != folder.name:
-        raise FirsthitError(f"{path} names its method {method.name!r}, its folder {folder.name!r}; they must agree")
-    return method
-
-
-def _problem(method: Method) -> str | None:
-    """Say what in a method's statement can mean nothing, and what to write; None where all of it makes sense."""
-    kinds = ("name", str), ("parameters", tuple | list), ("precisions", tuple | list), ("claims", set | frozenset)
-    for field_name, kind in (*kinds, ("settings", Mapping)):
-        if not isinstance(getattr(method, field_name), kind):
-            return f"{field_name} is {getattr(method, field_name)!r}; see class Method in harness/contract.py"
-    if not NAME.fullmatch(method.name):
-        return f"the name {method.name!r} must be letters, digits and _, and begin with a letter; rename the folder too"
-    stated = (("casts", (method.casts,), CASTS), ("precisions", method.precisions, PRECISIONS))
-    for what, values, known in stated:
-        for value in values:
-            if value not in known:
-                return f"{what}: unknown {value!r}; known: {', '.join(known)}"
-    names = [parameter.name for parameter in method.parameters if isinstance(parameter, Parameter)]
-    if twice := Distinct().broken(names):
-        return f"the knob {twice}; keep one of the two"
-    return next((problem for parameter in method.parameters if (problem := _knob_problem(parameter))), None)
-
-
-def _knob_problem(knob: object) -> str | None:
-    """Say what in the statement of a knob can mean nothing, and what to write; None where all of it makes sense."""
-    if not isinstance(knob, Parameter):
-        return f"parameters has {knob!r}; give it Parameter(...)"
-    if not isinstance(knob.name, str) or not KNOB.fullmatch(knob.name):
-        return f"the knob {knob.name!r} must be capitals, digits and _, and begin with a capital, since kernels read it"
-    if knob.finer not in (None, "up", "down"):
-        return f"the knob {knob.name} is finer {knob.finer!r}; write up, down or None"
-    for number in (knob.default, *knob.sweep, *([] if knob.printed is None else [knob.printed])):
-        if not is_number(number) or not is_finite(number):
-            return f"the knob {knob.name} has the value {number!r}; give it a finite number"
-    return None
+        line = line_of(path, "name")
+        raise FirsthitError(
+            f"{path}:{line}: the method is named {method.name!r}, its folder {folder.name!r}; they must agree"
+        )
+    return guarded(method, path)
 
 
 def _folders(directory: Path) -> list[Path]:
-    """Return the folders in a directory that hold a method.py, sorted."""
-    return sorted(path.parent for path in directory.glob("*/method.py"))
+    """Return the folders in a directory that hold a method.py or a kernel.glsl, sorted."""
+    return sorted({path.parent for name in ("method.py", "kernel.glsl") for path in directory.glob(f"*/{name}")})
+
+
+def _extra_folders(extra: Path) -> list[Path]:
+    """Return the folders of methods that --plugins names: those in it, or itself where it is a method's.
+
+    Raises FirsthitError where it is no folder, or no method is in it.
+    """
+    if not extra.is_dir():
+        raise FirsthitError(f"--plugins {extra}: {'it is a file' if extra.exists() else 'no such folder'}; {A_METHOD}")
+    folder = extra if extra.name not in ("", "..") else extra.resolve()
+    own = [folder] if any((folder / name).exists() for name in ("method.py", "kernel.glsl")) else []
+    if found := own + _folders(folder):
+        return found
+    deeper = next((path.parents[1] for path in sorted(folder.glob("*/*/method.py"))), None)
+    hint = f"give --plugins {_shown(deeper)}" if deeper else f"as {extra / 'mine' / 'method.py'}"
+    raise FirsthitError(f"--plugins {extra}: there is no method in it; {A_METHOD}; {hint}")
 
 
 def _entry_point_folders() -> list[Path]:
@@ -192,19 +204,35 @@ def _entry_point_folders() -> list[Path]:
 def find_methods(extra: Path | None = None) -> Catalog:
     """Return the methods of the project, of installed packages (entry point group `firsthit.methods`) and of `extra`.
 
-    A folder that cannot be loaded is listed as broken. Raises FirsthitError where `extra` is not a folder, or two
-    folders have one name.
+    `extra` is a folder of methods, or the folder of one. A folder that cannot be loaded is listed as broken. One of
+    `extra` takes the place of an installed method of its name, and a note says so. Raises FirsthitError where no
+    method is in `extra`, where a method has the name of one of the project, and where two installed ones have one name.
     """
-    if extra is not None and not extra.is_dir():
-        raise FirsthitError(f"--plugins {extra}: no such folder")
-    catalog = Catalog()
-    for folder in (*_folders(BUILT_IN), *_entry_point_folders(), *(_folders(extra) if extra else ())):
-        if folder.name in catalog.plugins:
-            raise FirsthitError(
-                f"two methods are called {folder.name!r}: {catalog.plugins[folder.name].folder} and {folder}"
-            )
+    catalog = Catalog(extra=extra)
+    own, installed = _folders(BUILT_IN), _entry_point_folders()
+    given = [] if extra is None else _extra_folders(extra)
+    found: dict[str, Path] = {}
+    for folder in (*own, *installed, *given):
+        name = folder.name
+        if name in found and found[name].resolve() == folder.resolve():
+            continue
+        if name in found:
+            _check_replaceable(folder, found[name], own, given)
+            catalog.notes.append(f"method {name!r}: {folder} of --plugins is used, and not the installed {found[name]}")
+        found[name] = folder
+    for name, folder in found.items():
         try:
-            catalog.plugins[folder.name] = Plugin(_load(folder), folder)
+            catalog.plugins[name] = Plugin(_load(folder), folder)
         except FirsthitError as error:
-            catalog.broken[folder.name] = str(error)
+            catalog.broken[name] = str(error)
     return catalog
+
+
+def _check_replaceable(folder: Path, other: Path, own: list[Path], given: list[Path]) -> None:
+    """Raise FirsthitError if a method's folder may not take the place of another one of its name."""
+    name = folder.name
+    if other in own:
+        rename = f"rename the folder, and name={name!r} in {folder / 'method.py'}, to my_{name} for example"
+        raise FirsthitError(f"two methods are called {name!r}: {folder} and firsthit's own, which stays; {rename}")
+    if folder not in given:
+        raise FirsthitError(f"two installed methods are called {name!r}: {other} and {folder}; uninstall one")

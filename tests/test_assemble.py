@@ -7,7 +7,8 @@ import pytest
 import surfaces
 from harness.contract import FirsthitError, Program, Section
 from harness.devices.interface import BuildError, map_rows
-from harness.kernels.assemble import KERNELS, explain_log, literal, map_program, method_program, table_section
+from harness.kernels.assemble import KERNELS, literal, map_program, method_program, table_section
+from harness.kernels.complaints import explained
 from harness.plugins import BUILT_IN, find_methods
 
 
@@ -71,7 +72,7 @@ def test_a_compile_error_names_the_sections_own_file_and_line(device):
 
 def test_log_lines_outside_any_section_do_not_break_the_explanation():
     program = Program("glsl", "float32", "map", (Section("a.glsl", "x"),))
-    assert explain_log(program, "0:2(1): error: y\n0:99(1): z") == "a.glsl:1(1): error: y\nend of program:0(1): z"
+    assert explained(program, "0:2(1): error: y\n0:99(1): z") == "a.glsl:1: y\n    | x\nend of program:0: z"
 
 
 def test_an_unknown_library_is_named():

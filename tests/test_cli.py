@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -37,6 +38,30 @@ def test_every_command_explains_itself_with_an_example(command, capsys):
         build_parser().parse_args([command, "--help"])
     assert caught.value.code == 0
     assert f"example: firsthit {command}" in capsys.readouterr().out
+
+
+LEAST = {  # what a command cannot be parsed without
+    "list": ["methods"],
+    "report": ["runs/quick"],
+    "show": ["--surface", "torus", "--method", "newton", "-o", "x.png"],
+    "sheet": ["--method", "newton", "-o", "x.png"],
+    "trace": ["--surface", "torus", "--method", "newton", "--rays", "r.npy", "-o", "x.npz"],
+    "oracle": ["--surface", "torus", "--rays", "r.npy", "-o", "x.npz"],
+    "bless": ["quick", "--reason", "r"],
+    "recommend": ["--surface", "torus", "--error", "1"],
+}
+
+
+@pytest.mark.parametrize("command", [*COMMANDS, "conform"])
+def test_plugins_stand_before_or_after_every_command_and_the_last_ones_count(command):
+    words = [command, *LEAST.get(command, ["quick"] if command in ("plan", "run", "gate", "why") else [])]
+    for line, found in (
+        (words, None),
+        (["--plugins", "a", *words], "a"),
+        ([*words, "--plugins", "b"], "b"),
+        (["--plugins", "a", *words, "--plugins", "b"], "b"),
+    ):
+        assert build_parser().parse_args(line).plugins == (None if found is None else Path(found))
 
 
 def test_usage_mistakes_exit_with_2():
@@ -185,6 +210,7 @@ NUMBERS = {
     SHEET: ("--timeout", "--size", "--columns"),
     SCENE: ("--timeout", "--size"),
     ("conform",): ("--timeout",),
+    ("compile",): ("--timeout",),
     RECOMMEND: ("--error", "--fps", "--size", "--views", "--rays", "--seconds", "--seed"),
 }
 MAY_BE_NOTHING = ("--t-min", "--fps", "--seconds", "--seed")

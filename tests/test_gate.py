@@ -101,6 +101,22 @@ def test_an_unchanged_tree_passes_ten_times_out_of_ten(gated):
         assert (code, out.splitlines()[-1]) == (0, "4 pass")
 
 
+def test_a_plugin_that_cannot_be_loaded_is_no_pass_though_no_row_names_it(gated):
+    assert gated()[0] == 0
+    _copy(gated.plugins, MINE, "unnamed")
+    _plant(gated.plugins, "unnamed", "method.py", "METHOD = Method(", "raise SystemExit(0)\nMETHOD = Method(")
+    code, _, err = gated()
+    assert code == 3
+    assert "method 'unnamed' cannot be loaded" in err and "SystemExit" in err
+
+
+def test_a_config_whose_method_cannot_be_loaded_failed_and_is_no_mistake_of_usage(gated):
+    _plant(gated.plugins, "mine", "method.py", "METHOD = Method(", "nonesuch\nMETHOD = Method(")
+    code, _, err = gated()
+    assert code == 3
+    assert err.count("NameError: name 'nonesuch' is not defined") == 1
+
+
 def test_finished_rows_are_used_again(gated):
     assert "[4/4]" in gated()[2]
     assert "[" not in gated()[2]

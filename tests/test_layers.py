@@ -14,6 +14,7 @@ LAYERS = (  # from the ground up; what stands in one line does not import each o
     ("surfaces",),
     ("harness.limits",),
     ("harness.contract", "harness.__init__"),
+    ("harness.stated",),
     ("harness.plugins", "harness.results"),
     ("harness.console", "harness.hardcases"),
     ("harness.oracle",),

@@ -1,5 +1,10 @@
+import re
+from pathlib import Path
+
 import pytest
 
+import surfaces
+from harness.cli import main
 from harness.contract import FirsthitError
 from harness.plugins import find_methods
 
@@ -54,15 +59,15 @@ STATED = "from firsthit import Method, Parameter\nMETHOD = Method('mine', 't', {
 @pytest.mark.parametrize(
     ("stated", "words"),
     [
-        ("casts='foo'", "casts: unknown 'foo'; known: rays, beams, quadtree, mesh"),
-        ("precisions=('half',)", "precisions: unknown 'half'; known: float32, float64"),
+        ("casts='foo'", "casts: there is no way of casting 'foo'; known: rays, beams, quadtree, mesh"),
+        ("precisions=('half',)", "precisions: there is no precision 'half'; known: float32, float64"),
         (
             "parameters=(Parameter('N', 1, 'n'), Parameter('N', 2, 'n'))",
             "the knob 'N' is named twice; keep one of the two",
         ),
-        ("parameters=Parameter('N', 1, 'n')", "; see class Method in harness/contract.py"),
-        ("parameters=('N',)", "parameters has 'N'; give it Parameter(...)"),
-        ("claims='no_missed_root'", "claims is 'no_missed_root'; see class Method"),
+        ("parameters=Parameter('N', 1, 'n')", "write parameters=(Parameter(...),), with the comma"),
+        ("parameters=('N',)", "parameters: it holds 'N'; give it Parameter(...)"),
+        ("claims='no_missed_root'", "claims is 'no_missed_root'; write claims=frozenset({"),
         ("settings=dict(fine=dict(M=1))", "has no parameter 'M'"),
         ("parameters=(Parameter('N', 1, 'n', finer='less'),)", "is finer 'less'; write up, down or None"),
         ("parameters=(Parameter('n', 1, 'n'),)", "the knob 'n' must be capitals"),
@@ -71,6 +76,18 @@ STATED = "from firsthit import Method, Parameter\nMETHOD = Method('mine', 't', {
         ("parameters=(Parameter('N', True, 'n'),)", "the knob N has the value True"),
         ("parameters=(Parameter('N', 1.0, 'n', sweep=(0.5, float('inf'))),)", "the knob N has the value inf"),
         ("parameters=(Parameter('N', 1.0, 'n', printed='2'),)", "the knob N has the value '2'"),
+        ("needs=('surface_value')", "needs is 'surface_value', which is no tuple; write needs=('surface_value',)"),
+        ("needs=('surface_valu',)", "there is no generated function 'surface_valu'; did you mean 'surface_value'?"),
+        ("needs=(3,)", "needs holds 3; write texts"),
+        ("libraries=('intervall',)", "there is no kernel library 'intervall'; did you mean 'interval'?"),
+        ("precisions='float32'", "precisions is 'float32', which is no tuple; write precisions=('float32',)"),
+        ("precisions=()", "precisions is empty"),
+        ("accepts=None", "accepts is None; give it a function"),
+        ("tables=3", "tables is 3; give it a function"),
+        ("answers='yes'", "answers is 'yes'; write True or False"),
+        ("parameters=(Parameter('N', 1.0, 'n', sweep=0.5),)", "has sweep=0.5; write a tuple"),
+        ("parameters=(Parameter('N', 1, 'n', sweep=(0.5,)),)", "the knob N is a whole number"),
+        ("parameters=(Parameter('N', 1, 2),)", "the knob N has meaning=2; write a text"),
     ],
 )
 def test_a_method_that_states_what_cannot_be_is_listed_with_the_reason(tmp_path, stated, words):
@@ -90,10 +107,114 @@ def test_a_folder_without_a_kernel_says_so(tmp_path):
     assert "no kernel.glsl" in find_methods(tmp_path).broken["mine"]
 
 
-def test_two_methods_of_one_name_are_refused(tmp_path):
+def test_none_takes_the_place_of_a_method_of_ours_and_the_answer_says_what_to_rename(tmp_path):
     _plugin(tmp_path / "newton", "newton")
-    with pytest.raises(FirsthitError, match="two methods are called 'newton'"):
+    with pytest.raises(FirsthitError, match=r"two methods are called 'newton'.* rename the folder, and name='newton'"):
         find_methods(tmp_path)
+
+
+def _installed(folder, name, monkeypatch):
+    _plugin(folder / name, name)
+    info = folder / f"{name}-1.0.dist-info"
+    info.mkdir()
+    (info / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {name}\nVersion: 1.0\n")
+    (info / "entry_points.txt").write_text(f"[firsthit.methods]\n{name} = {name}\n")
+    monkeypatch.syspath_prepend(str(folder))
+
+
+def test_a_folder_takes_the_place_of_an_installed_method_and_says_so_once(tmp_path, monkeypatch, capsys):
+    _installed(tmp_path / "site", "twice_here", monkeypatch)
+    _plugin(tmp_path / "own" / "twice_here", "twice_here")
+    catalog = find_methods(tmp_path / "own")
+    assert catalog.get("twice_here").folder == tmp_path / "own" / "twice_here"
+    assert main(["list", "methods", "--plugins", str(tmp_path / "own")]) == 0
+    err = capsys.readouterr().err
+    assert err.count("firsthit: method 'twice_here'") == 1 and str(tmp_path / "site") in err
+
+
+def test_a_broken_folder_does_not_let_the_installed_method_stand_in(tmp_path, monkeypatch):
+    _installed(tmp_path / "site", "twice_here", monkeypatch)
+    _plugin(tmp_path / "own" / "twice_here", text="METHOD = 3\n")
+    catalog = find_methods(tmp_path / "own")
+    assert "twice_here" in catalog.broken and "twice_here" not in catalog.plugins
+
+
+def test_the_folder_of_one_method_is_enough(tmp_path, monkeypatch):
+    _plugin(tmp_path / "mine")
+    assert find_methods(tmp_path / "mine").get("mine").folder == tmp_path / "mine"
+    monkeypatch.chdir(tmp_path / "mine")
+    assert find_methods(Path()).get("mine").folder.samefile(tmp_path / "mine")
+
+
+@pytest.mark.parametrize("missing", ["method.py", "kernel.glsl"])
+def test_half_a_method_says_which_file_is_missing(tmp_path, missing):
+    _plugin(tmp_path / "mine")
+    (tmp_path / "mine" / missing).unlink()
+    for given in (tmp_path, tmp_path / "mine"):
+        assert f"but no {missing}" in find_methods(given).broken["mine"]
+
+
+def test_where_no_method_is_in_the_folder_it_says_so_and_names_the_one_that_holds_some(tmp_path):
+    with pytest.raises(FirsthitError, match="there is no method in it; a method is a folder with"):
+        find_methods(tmp_path)
+    _plugin(tmp_path / "deep" / "mine")
+    with pytest.raises(FirsthitError, match=rf"there is no method in it.* give --plugins {tmp_path / 'deep'}"):
+        find_methods(tmp_path)
+    with pytest.raises(FirsthitError, match="it is a file"):
+        find_methods(tmp_path / "deep" / "mine" / "method.py")
+
+
+def test_who_forgets_plugins_is_told_of_it_and_of_the_folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(FirsthitError) as caught:
+        find_methods().get("illinois")
+    assert "there is no method 'illinois' here; is it in a folder for --plugins?" in str(caught.value)
+    with pytest.raises(FirsthitError, match=r"is it in a folder for --plugins\? did you mean 'newton'\?"):
+        find_methods().get("newtn")
+    _plugin(tmp_path / "own" / "illinois", "illinois")
+    with pytest.raises(FirsthitError, match=r"it is in the folder own/illinois: give --plugins own$"):
+        find_methods().get("illinois")
+
+
+def test_a_config_beside_the_folder_names_it_with_its_line(tmp_path, capsys):
+    _plugin(tmp_path / "illinois", "illinois")
+    config = tmp_path / "mine.toml"
+    config.write_text('title = "t"\nsurfaces = ["torus"]\nsizes = [16]\n[[method]]\nname = "illinois"\n')
+    assert main(["plan", str(config)]) == 2
+    assert f"mine.toml:5: there is no method 'illinois' here; it is in the folder {tmp_path}" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("ends", ["sys.exit(0)", "raise KeyboardInterrupt", "raise SystemExit"])
+def test_a_method_py_that_ends_the_program_costs_itself_only(tmp_path, ends):
+    _plugin(tmp_path / "mine", text=f"import sys\n{ends}\n")
+    catalog = find_methods(tmp_path)
+    assert f"{tmp_path / 'mine/method.py'}:2: " in catalog.broken["mine"]
+    assert "newton" in catalog.plugins
+
+
+def test_ctrl_c_while_a_method_py_is_run_ends_the_command(tmp_path):
+    _plugin(tmp_path / "mine", text="import os, signal\nos.kill(os.getpid(), signal.SIGINT)\n")
+    with pytest.raises(KeyboardInterrupt):
+        find_methods(tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("stated", "words"),
+    [
+        ("accepts=lambda _: True", "accepts returned True; return None for a surface that it can be used on"),
+        ("accepts=lambda _: 1 / 0", "ZeroDivisionError: division by zero, in accepts=..."),
+    ],
+)
+def test_a_function_of_method_py_that_goes_wrong_is_answered_with_its_line(tmp_path, stated, words):
+    _plugin(tmp_path / "mine", text=STATED.format(stated))
+    with pytest.raises(FirsthitError, match=re.escape(f"method.py:2: {words}")):
+        find_methods(tmp_path).get("mine").method.accepts(surfaces.get("torus"))
+
+
+def test_a_table_without_numbers_is_answered_with_its_line(tmp_path):
+    _plugin(tmp_path / "mine", text=STATED.format("tables=lambda *_: dict(A=[])"))
+    with pytest.raises(FirsthitError, match=r"method\.py:2: tables returned a table A that is empty"):
+        find_methods(tmp_path).get("mine").method.tables(surfaces.get("torus"), {}, "float32")
 
 
 def test_a_plugin_folder_that_is_not_there_is_one_line(tmp_path):

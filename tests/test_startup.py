@@ -7,6 +7,7 @@ import io
 import json
 import os
 import pkgutil
+import shutil
 import subprocess
 import sys
 
@@ -73,7 +74,7 @@ def test_every_command_is_in_the_table_with_the_module_that_adds_it():
 def test_a_folder_of_plugins_may_be_called_as_a_command_is(tmp_path, monkeypatch, capsys):
     from harness.cli import main
 
-    (tmp_path / "run").mkdir()
+    shutil.copytree(ROOT / "methods" / "null", tmp_path / "run" / "mine")  # it does not load, under another name
     monkeypatch.chdir(tmp_path)
     assert main(["--plugins", "run", "list", "methods"]) == 0
     assert "newton" in capsys.readouterr().out

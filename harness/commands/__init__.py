@@ -9,7 +9,10 @@ parsed options and returns the exit code.
 from __future__ import annotations
 
 import argparse
+from pathlib import Path
 from typing import Protocol
+
+PLUGINS = "a folder of further methods, one folder each, or the folder of one; stands before or after the command"
 
 GROUPS: dict[str, dict[str, str]] = {
     "experiment": {
@@ -54,6 +57,9 @@ def adder(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> Add:
 
     def add(name: str, example: str, description: str | None = None) -> argparse.ArgumentParser:
         text, epilog = told[name], f"example: {example}"
-        return commands.add_parser(name, help=text, description=description or text, epilog=epilog)
+        parser = commands.add_parser(name, help=text, description=description or text, epilog=epilog)
+        # Without a default of its own: it is given here, or before the command, or not at all; the last one counts.
+        parser.add_argument("--plugins", type=Path, metavar="DIR", default=argparse.SUPPRESS, help=PLUGINS)
+        return parser
 
     return add

@@ -11,11 +11,12 @@ from collections.abc import Iterable
 
 from harness import conformance, console
 from harness.commands import Add
-from harness.commands.options import add_timeout
+from harness.commands.options import add_timeout, methods_of
 from harness.conformance import Finding
+from harness.contract import PRECISIONS, CellStatus
 from harness.devices.discovery import usable_devices
 from harness.devices.executor import LocalExecutor
-from harness.plugins import find_methods
+from harness.running.failures import Failure, mistakes
 
 WIDTH = 100  # characters of a line
 
@@ -40,7 +41,7 @@ def add_parsers(add: Add) -> None:
 def _conform(options: argparse.Namespace) -> int:
     import surfaces
 
-    catalog = find_methods(options.plugins)
+    catalog = methods_of(options)
     names = options.method or conformance.checkable(catalog)
     plugins = [catalog.get(name) for name in names]
     wanted = surfaces.names() if options.surface == ["all"] else options.surface or conformance.TYPICAL
@@ -48,30 +49,51 @@ def _conform(options: argparse.Namespace) -> int:
     devices = usable_devices(options.device or ())
     executor = LocalExecutor(options.timeout)
     rows: list[tuple[str, str, Finding]] = []
-    failed = 0
+    ended: list[Failure] = []
     try:
-        for plugin, info in itertools.product(plugins, devices):
-            bench = conformance.bench_on(executor, info)
-            found = [(plugin.method.name, *located) for located in conformance.findings(bench, plugin, chosen)]
-            failed += sum(finding.fails for _, _, finding in found)
-            print(told(info.name, found, options.verbose), flush=True)
-            rows += [(name, where, finding) for name, where, finding in found]
+        with console.Working() as tell:
+            for plugin, info in itertools.product(plugins, devices):
+                bench = conformance.bench_on(executor, info)
+                found = []
+                tell(f"conform: {plugin.method.name} on {info.name}")
+                for where, finding in conformance.findings(bench, plugin, chosen):
+                    found.append((plugin.method.name, where, finding))
+                    tell(f"conform: {plugin.method.name} on {info.name}, {where}: {finding.check}")
+                tell("")
+                print(told(info.name, found, options.verbose), flush=True)
+                rows += found
+                ended += [_failure(info.name, *one) for one in found if one[2].ended]
     finally:
         executor.close()
+    for paragraph in mistakes(ended, "cases"):
+        print(paragraph)
+    failed = sum(finding.fails for *_, finding in rows)
     print(f"{sum(not finding.unchecked for *_, finding in rows)} checks, {failed} failed")
     idle = sorted(set(names) - {name for name, _, finding in rows if not finding.unchecked})
     if idle:
         print(f"nothing was checked of {', '.join(idle)}: what is not checked does not conform")
-    return 1 if failed or idle else 0
+    return 1 if failed or idle else 3 if catalog.broken and not options.method else 0
+
+
+def _failure(device: str, method: str, where: str, finding: Finding) -> Failure:
+    """Return the failure of a case whose program did not run to its end."""
+    precision = next((word for word in PRECISIONS if word in where), "")
+    case = where.replace(precision, "").replace(" ,", ",").strip(" ,")
+    return Failure(method, where, device, precision, case, finding.detail, finding.ended or CellStatus.FAILED)
 
 
 def told(device: str, found: Iterable[tuple[str, str, Finding]], verbose: bool) -> str:
-    """Say what was found of one method on one device: a line for all that holds, a block for each check that fails."""
+    """Say what was found of one method on one device: a line for all that holds, a block for each check that fails.
+
+    Cases whose program did not run to its end are only counted here: on other devices they fail for the same reason.
+    """
     found = list(found)
     name = found[0][0] if found else "none"
     checked = [finding for *_, finding in found if not finding.unchecked]
     failing = [(where, finding) for _, where, finding in found if finding.fails]
-    lines = [f"{name} on {device}: {len(checked) - len(failing)} of {len(checked)} checks hold"]
+    ended = sum(finding.ended is not None for *_, finding in found)
+    beside = f"; {ended} {'case' if ended == 1 else 'cases'} did not run to the end, see below" if ended else ""
+    lines = [f"{name} on {device}: {len(checked) - len(failing)} of {len(checked)} checks hold{beside}"]
     if verbose:
         rows = [
             (finding.check, where, _outcome(finding), _number(finding.value), _number(finding.limit))
@@ -84,6 +106,8 @@ def told(device: str, found: Iterable[tuple[str, str, Finding]], verbose: bool) 
             places[f"{finding.check}: {finding.unchecked}"].append(where)
     lines += [_wrapped("  not checked  ", f"{reason} ({'; '.join(where)})") for reason, where in places.items()]
     for where, finding in failing:
+        if finding.ended:
+            continue
         lines.append(f"  FAILS  {finding.check}  ({where})")
         measured = f"{_number(finding.value)}, at most {_number(finding.limit)} allowed"
         parts = {"measured": measured, "rule": finding.rule, "seen": finding.detail, "do": finding.advice}

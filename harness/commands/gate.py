@@ -81,7 +81,7 @@ def _gate(options: argparse.Namespace) -> int:
     if options.against:
         judged += against.speeds(checked, options.against, options.config, options.plugins)
     judged.sort(key=rank)
-    code = exit_code(judged, checked.unfinished)
+    code = exit_code(judged, checked.unfinished) or (3 if checked.catalog.broken else 0)
     _tell(options, checked, judged, path, code)
     return code
 

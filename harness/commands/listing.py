@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import sys
 import tomllib
 
 from harness import console
@@ -27,6 +28,8 @@ def _list(options: argparse.Namespace) -> int:
 def _methods(options: argparse.Namespace) -> str:
     """Write tables of the methods, of what their claims mean, and of their parameters."""
     catalog = find_methods(options.plugins)
+    for note in catalog.notes:
+        print(f"firsthit: {note}", file=sys.stderr)
     rows = []
     for name, plugin in sorted(catalog.plugins.items()):
         method = plugin.method

@@ -114,12 +114,26 @@ def given_variant(options: argparse.Namespace, catalog: Catalog) -> Variant:
     return catalog.get(options.method).variant({name: _number(text, name) for name, text in given.items()})
 
 
+def methods_of(options: argparse.Namespace) -> Catalog:
+    """Find the methods, those of --plugins among them, and say what the user should know of them on standard error.
+
+    Raises FirsthitError where a method that --method names is not there, or cannot be loaded.
+    """
+    catalog = find_methods(options.plugins)
+    named = getattr(options, "method", None) or []
+    for name in [named] if isinstance(named, str) else named:
+        catalog.get(name)
+    for line in catalog.warnings:
+        tell(f"firsthit: {line}")
+    return catalog
+
+
 def caster_of(options: argparse.Namespace) -> Caster:
     """Return the caster that the options of `add_method` name.
 
     Without --device the devices are looked for. Raises FirsthitError for a name that means nothing.
     """
-    catalog = find_methods(options.plugins)
+    catalog = methods_of(options)
     variant = given_variant(options, catalog)
     device = usable_device().name if options.device is None else options.device
     plugin = catalog.get(options.method)

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Sequence
 from contextlib import AbstractContextManager
 
 from harness import console
 from harness.results.store import Row
+from harness.running.failures import failure_of, mistakes
 from harness.running.run import Run, Watcher
 
 
@@ -30,6 +32,10 @@ class Printer(Watcher):
 
     def cell(self, slot: str, row: Row | None) -> None:
         self._progress(slot, row)
+
+    def failed(self, rows: Sequence[Row]) -> None:
+        for paragraph in mistakes(map(failure_of, rows), "cells"):
+            print(paragraph, file=sys.stderr)
 
     def ended(self, part: Run) -> None:
         told = ", ".join(f"{count} {status}" for status, count in part.counts.items() if count)

@@ -7,11 +7,10 @@ from pathlib import Path
 
 from harness import console
 from harness.commands import Add
-from harness.commands.options import add_surface, number, surface_of, whole
+from harness.commands.options import add_surface, methods_of, number, surface_of, whole
 from harness.commands.printer import Printer
 from harness.contract import PRECISIONS
 from harness.limits import PIXELS, RAYS, SECONDS, SEED
-from harness.plugins import find_methods
 from harness.recommend.search import (
     ERROR,
     FPS,
@@ -72,7 +71,7 @@ def _recommend(options: argparse.Namespace) -> int:
         seed=options.seed,
         seconds=options.seconds,
     )
-    found = recommend(wish, find_methods(options.plugins), options.device, options.runs, _Printer())
+    found = recommend(wish, methods_of(options), options.device, options.runs, _Printer())
     print(_answer(found, wish))
     return 0 if found.contenders else NOTHING_HOLDS
 

@@ -6,13 +6,12 @@ import argparse
 from pathlib import Path
 
 from harness.commands import Add
-from harness.commands.options import add_origin, add_timeout, given_variant, whole, writable_png
+from harness.commands.options import add_origin, add_timeout, given_variant, methods_of, whole, writable_png
 from harness.commands.pictures import need_pillow, save
 from harness.contract import PROXIES, FirsthitError
 from harness.experiment import reading
 from harness.experiment.shipped import located
 from harness.limits import PICTURE
-from harness.plugins import find_methods
 from harness.running.scene_picture import draw_scene
 from harness.scenes.model import Scene
 from surfaces.words import suggestion
@@ -49,7 +48,7 @@ def _scene(options: argparse.Namespace) -> int:
     need_pillow()
     from PIL import Image
 
-    output, catalog = writable_png(options.output), find_methods(options.plugins)
+    output, catalog = writable_png(options.output), methods_of(options)
     path = located(options.config)
     scene = _chosen(reading.load(path, catalog).scenes, options.name, path)
     variant = given_variant(options, catalog)

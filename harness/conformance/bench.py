@@ -43,7 +43,8 @@ def findings(bench: Bench, plugin: Plugin, chosen: Sequence[Surface]) -> Iterato
                 yield from ((where, finding) for finding in found)
             except (CellError, FirsthitError) as error:
                 rule = "the program is built and runs to its end"
-                yield where, Finding("runs", math.nan, 0, rule, str(error).splitlines()[0], "see `firsthit compile`")
-                if isinstance(error, CellError) and error.status is CellStatus.TIMEOUT:
+                ended = error.status if isinstance(error, CellError) else CellStatus.FAILED
+                yield where, Finding("runs", math.nan, 0, rule, str(error), ended=ended)
+                if ended is CellStatus.TIMEOUT:
                     yield "the rest", not_checked("all else", "a step before it hung")
                     return

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from harness.accuracy.answers import validated
 from harness.accuracy.judge import Verdicts, judge, judged
-from harness.contract import Box, Hits, Precision, Program, Surface, Truth, TruthStatus, View
+from harness.contract import Box, CellStatus, Hits, Precision, Program, Surface, Truth, TruthStatus, View
 from harness.experiment.kinds import of_method
 from harness.kernels.assemble import Language, method_program
 from harness.oracle import first_hits
@@ -110,6 +110,7 @@ class Finding:
     detail: what else was seen: counts, and the worst ray
     advice: what to do where the check does not hold
     unchecked: why nothing could be measured, which is not a pass; None where something was
+    ended: how the program ended where it did not run to its end, for the reason that `detail` gives; None where it did
     """
 
     check: str
@@ -119,6 +120,7 @@ class Finding:
     detail: str = ""
     advice: str = ""
     unchecked: str | None = None
+    ended: CellStatus | None = None
 
     @property
     def holds(self) -> bool:

@@ -19,7 +19,7 @@ import numpy as np
 
 from harness.contract import DeviceInfo, Program
 from harness.devices.interface import GPU_RESIDENT, Array, BuildError, Built, Device, Launch, Reserved, Step, Timing
-from harness.kernels.assemble import explain_log
+from harness.kernels.complaints import explained
 
 SHORT = {"intel": "intel", "portable": "pocl", "nvidia": "nvidia", "amd": "amd", "rusticl": "rusticl", "apple": "apple"}
 INTEL_LIBRARIES = ("libintlc.so.5", "libimf.so", "libsvml.so", "libirng.so", "libtbb.so.12")
@@ -182,7 +182,7 @@ class OpenCLDevice(Device):
                 warnings.simplefilter("ignore", cl.CompilerWarning)  # some drivers print a greeting, which is no error
                 return source.build(options=options), program.entry
         except cl.Error as error:
-            raise BuildError(f"{self.info.name}: {explain_log(program, str(error))}") from None
+            raise BuildError(explained(program, str(error))) from None
 
     def launch_steps(
         self, buffers: Sequence[Array | Reserved], outputs: Sequence[int], steps: Sequence[Step]

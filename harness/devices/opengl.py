@@ -20,7 +20,7 @@ from harness.contract import DeviceInfo, FirsthitError, Program, source
 from harness.devices.interface import GPU_RESIDENT, Array, BuildError, Built, Device, Launch, Reserved, Step, Timing
 from harness.devices.opengl_raster import OpenGLRasterLaunch
 from harness.devices.raster import Batch, Rasteriser, RasterLaunch
-from harness.kernels.assemble import explain_log
+from harness.kernels.complaints import explained
 
 SHORT = ("llvmpipe", "softpipe", "nvidia", "geforce", "radeon", "intel", "apple")
 SOFTWARE = ("llvmpipe", "softpipe")
@@ -142,7 +142,7 @@ class OpenGLDevice(Device, Rasteriser):
         except moderngl.Error as error:
             log = str(error)
             at = dataclasses.replace(program, sections=program.vertex) if "vertex_shader" in log else program
-            raise BuildError(f"{self.info.name}: {explain_log(at, log)}") from None
+            raise BuildError(explained(at, log)) from None
 
     def launch_raster(
         self,

@@ -9,19 +9,26 @@ from __future__ import annotations
 import contextlib
 import ctypes
 import os
+import re
 import signal
 import subprocess
 import sys
+import threading
 from multiprocessing import Pipe
 from multiprocessing.connection import Connection
+from typing import IO, Any
+
+COUNTED = re.compile(rb"(\d+ (warning|error)s?( and \d+ errors?)? generated\.)?")  # what clang says last
+STREAMS: dict[str, Any] = {"stdin": subprocess.DEVNULL, "stderr": subprocess.PIPE}
 
 
 def start(device: str) -> tuple[subprocess.Popen[bytes], Connection]:
     """Start the worker that holds `device`; return its process, and our end of the connection to it.
 
     The worker looks for modules where this process does (`sys.path`), so that it runs the same harness. It shares
-    standard output and error with this process, where drivers write what they like, and reads no input. Raises
-    FirsthitError if no process can be started.
+    standard output with this process and reads no input. What drivers write on standard error is handed on, but for
+    the lines that count the errors of a compiler's log, which is told elsewhere. Raises FirsthitError if no process can
+    be started.
     """
     ours, theirs = Pipe()
     handle = theirs.fileno()
@@ -31,9 +38,9 @@ def start(device: str) -> tuple[subprocess.Popen[bytes], Connection]:
     try:
         if sys.platform == "win32":
             os.set_handle_inheritable(handle, True)
-            process = subprocess.Popen(command, env=environment, stdin=subprocess.DEVNULL, close_fds=False)
+            process = subprocess.Popen(command, env=environment, **STREAMS, close_fds=False)
         else:
-            process = subprocess.Popen(command, env=environment, stdin=subprocess.DEVNULL, pass_fds=[handle])
+            process = subprocess.Popen(command, env=environment, **STREAMS, pass_fds=[handle])
     except OSError as error:
         from harness.contract import FirsthitError
 
@@ -41,7 +48,17 @@ def start(device: str) -> tuple[subprocess.Popen[bytes], Connection]:
         raise FirsthitError(f"cannot start {sys.executable} as the worker of {device}: {error}", exit_code=3) from None
     finally:
         theirs.close()
+    threading.Thread(target=_hand_on, args=(process.stderr,), daemon=True).start()
     return process, ours
+
+
+def _hand_on(errors: IO[bytes]) -> None:
+    """Write on standard error what a worker writes there, until it ends, without what only counts errors."""
+    with errors:
+        for line in errors:
+            if not COUNTED.fullmatch(line.strip()):
+                with contextlib.suppress(OSError):
+                    os.write(2, line)
 
 
 def _die_with_parent() -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Mapping
+from pathlib import Path
 
 from harness.contract import FirsthitError, Stage, Surface, Variant, View
 from harness.experiment.config import Config, Experiment, MethodChoice, SurfaceChoice
@@ -93,9 +94,9 @@ def _variants(
     own_stages: dict[Variant, tuple[Stage, ...]] = {}
     for i, choice in enumerate(config.method):
         try:
-            chosen = _variants_of(choice, catalog)
+            chosen = _variants_of(choice, catalog, file.path.parent)
         except FirsthitError as error:
-            raise file.error(("method", i, "name"), str(error)) from None
+            raise file.error(("method", i, "name"), str(error), error.exit_code) from None
         variants += chosen
         if choice.stages:
             own_stages |= dict.fromkeys(chosen, tuple(choice.stages))
@@ -105,9 +106,12 @@ def _variants(
     return variants, own_stages
 
 
-def _variants_of(choice: MethodChoice, catalog: Catalog) -> list[Variant]:
-    """Bind one method's knobs: its settings, its deviations, and every combination of the values given."""
-    plugin = catalog.get(choice.name)
+def _variants_of(choice: MethodChoice, catalog: Catalog, beside: Path) -> list[Variant]:
+    """Bind one method's knobs: its settings, its deviations, and every combination of the values given.
+
+    Raises FirsthitError for a method, setting or knob that there is not; a folder in `beside` may be the method's.
+    """
+    plugin = catalog.get(choice.name, beside)
     variants = [plugin.setting(name) for name in choice.settings]
     variants += plugin.deviations() if choice.deviations else []
     if choice.parameters or not variants:
@@ -169,8 +173,8 @@ def _scenes(config: Config, file: ConfigFile, catalog: Catalog) -> list[Scene]:
                 name,
                 choice,
                 lambda placed: cut(_surface(placed.surface, placed.parameters, config), placed.domain),
-                lambda placed: catalog.get(placed.method).variant(placed.knobs),
+                lambda placed: catalog.get(placed.method, file.path.parent).variant(placed.knobs),
             )
         except FirsthitError as error:
-            raise file.error(("scene", name), str(error)) from None
+            raise file.error(("scene", name), str(error), error.exit_code) from None
     return scenes

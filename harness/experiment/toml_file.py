@@ -24,9 +24,9 @@ class ConfigFile:
     text: str
     table: dict[str, Any]
 
-    def error(self, where: Where, message: str) -> FirsthitError:
+    def error(self, where: Where, message: str, exit_code: int = 2) -> FirsthitError:
         """Make the error that says `message` of the value at `where`, with file and line."""
-        return FirsthitError(f"{self.path}:{self._line(where)}: {message}")
+        return FirsthitError(f"{self.path}:{self._line(where)}: {message}", exit_code)
 
     def _line(self, where: Where) -> int:
         """Find the line that sets the value at `where`; if nothing does, the line of its nearest ancestor, or 1.

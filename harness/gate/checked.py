@@ -83,6 +83,8 @@ def check(
     """
     catalog = find_methods(plugins)
     experiment = reading.load(config, catalog)
+    for line in catalog.warnings:
+        watcher.warned(line)
     if devices:
         chosen = dataclasses.replace(experiment.config, devices=list(devices))
         experiment = dataclasses.replace(experiment, config=chosen)
@@ -93,5 +95,6 @@ def check(
         rows = batch.rows_of(planned, experiment, catalog, folder, executor, watcher, force)
     finally:
         executor.close()
+    watcher.failed([row for row in rows.values() if row["status"] in UNFINISHED])
     now = baseline_of(planned, rows, catalog, experiment.name, experiment.config.gate.same)
     return Checked(experiment, catalog, planned, rows, now, folder)

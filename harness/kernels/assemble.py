@@ -7,7 +7,6 @@ constants that generated sections define. The last section is a program's entry 
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
@@ -46,9 +45,11 @@ def _read(path: Path) -> str:
 def file_section(path: Path) -> Section:
     """Return one file as a section.
 
-    Its origin is the path below the project (`methods/newton/kernel.glsl`), or the last three parts of an outer path.
+    Its origin is the path below the project (`methods/newton/kernel.glsl`) or else below the working folder, where
+    editors find it, or the last three parts of an outer path.
     """
-    origin = path.relative_to(ROOT) if path.is_relative_to(ROOT) else Path(*path.parts[-3:])
+    here = next((top for top in (ROOT, Path.cwd()) if path.is_relative_to(top)), None)
+    origin = path.relative_to(here) if here else Path(*path.parts[-3:])
     return Section(origin.as_posix(), _read(path))
 
 
@@ -272,22 +273,3 @@ def map_program(
     items = [item] if isinstance(item, Section) else list(item)
     entry = file_section(KERNELS / f"map/entry_map.{language}")
     return Program(language, precision, "map", (*head_sections(language, precision, libraries), *items, entry))
-
-
-ONE_COUNTER = (
-    "\nin a program that is checked, the head of a `for` loop holds no comma outside brackets: count by one variable"
-)
-_LINE = re.compile(r"(?m)^(?P<head>.*?)(?:\b0:|<kernel>:|\binput\.cl:|\.cl:|\b\d+:)(?P<line>\d+)(?P<tail>[:(].*)$")
-
-
-def explain_log(program: Program, log: str) -> str:
-    """Return a compiler's log with each line number replaced by the file and line that it came from.
-
-    If the log shows that the macro of `for` was given several arguments, the rule of loops' heads is added.
-    """
-
-    def at_home(match: re.Match[str]) -> str:
-        origin, line = program.locate(int(match["line"]))
-        return f"{origin}:{line}{match['tail']}"
-
-    return _LINE.sub(at_home, log).strip() + (ONE_COUNTER if re.search(r"\bmacro\b.{0,20}\bfor\b", log) else "")

@@ -37,7 +37,7 @@ from fractions import Fraction
 from pathlib import Path
 
 from harness import ROOT
-from harness.contract import Box, FirsthitError, Precision, Section, Surface
+from harness.contract import GENERATED, Box, FirsthitError, Precision, Section, Surface
 from harness.kernels.printing import IntervalPrinter, Language, RealPrinter, functions_used, table
 from harness.kernels.reach import safe_reach
 from surfaces.evaluation import tape_of
@@ -52,23 +52,7 @@ _LIB = Path(__file__).parent / "glsl" / "lib"
 _EXP_LOG = _LIB / "interval_exp_log.glsl"  # only in programs that call them: its first lines say why
 _FIT_SAMPLES = _LIB / "fit_samples.glsl"  # reads tables, and so comes after them
 
-_REQUIRES: dict[str, tuple[str, ...]] = {
-    "constants": (),
-    "surface_value": (),
-    "surface_gradient": (),
-    "surface_hessian_product": (),
-    "surface_normal": ("surface_gradient",),
-    "surface_distance": (),
-    "surface_distance_normal": (),
-    "surface_range": (),
-    "surface_range_along": ("surface_range",),
-    "surface_coefficients_along": (),
-    "surface_polynomial_along": (),
-    "surface_along": (),
-    "surface_value_along": ("surface_along",),
-    "surface_dual_along": ("surface_along",),
-}
-FUNCTIONS = tuple(_REQUIRES)
+FUNCTIONS = tuple(GENERATED)
 _POINT = {"x": "p.x", "y": "p.y", "z": "p.z"}
 _RAY = {f"{part}{axis}": f"ray.{name}.{axis}" for part, name in (("o", "origin"), ("d", "direction")) for axis in "xyz"}
 
@@ -88,10 +72,10 @@ def _closure(surface: Surface | None, needs: Iterable[str]) -> list[str]:
 
     def want(name: str) -> None:
         """Add a function and all that it calls. Raises FirsthitError for an unknown name."""
-        if name not in _REQUIRES:
+        if name not in GENERATED:
             raise FirsthitError(f"there is no generated function {name!r}; {suggestion(name, FUNCTIONS)}")
         wanted.add(name)
-        for other in _REQUIRES[name]:
+        for other in GENERATED[name]:
             want(other)
 
     for need in needs:

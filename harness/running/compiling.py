@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
-from harness.contract import PRECISIONS, DeviceInfo, FirsthitError, Precision, Program, Surface
+from harness.contract import PRECISIONS, CellStatus, DeviceInfo, FirsthitError, Precision, Program, Surface
 from harness.devices.executor import START_SECONDS, CellError, LocalExecutor
 from harness.devices.interface import LANGUAGES
 from harness.experiment.kinds import of_method
 from harness.experiment.targets import able
 from harness.kernels.assemble import method_program
 from harness.plugins import Plugin
+from harness.running.failures import Failure
+
+Tell = Callable[[str], None]
 
 
 @dataclass(eq=False)
@@ -20,28 +23,50 @@ class Compiled:
     """Hold what compiling led to.
 
     built: for each device the time in ms that each program took, and which program it is
-    failed: a line for each case that could not be compiled, with the compiler's message
+    failed: each case that could not be compiled, with the compiler's message
+    left_out: how many cases were not tried, since another one of the method did not end on that device
     """
 
     built: dict[str, list[tuple[float, str]]]
-    failed: list[str] = field(default_factory=list)
+    failed: list[Failure] = field(default_factory=list)
+    left_out: int = 0
 
 
-def compile_all(plugins: Iterable[Plugin], surfaces: Iterable[Surface], devices: Sequence[DeviceInfo]) -> Compiled:
-    """Compile every program of each method for each surface, device and precision that it accepts, at its defaults."""
-    executor = LocalExecutor(START_SECONDS)
+def compile_all(
+    plugins: Sequence[Plugin],
+    surfaces: Sequence[Surface],
+    devices: Sequence[DeviceInfo],
+    tell: Tell = lambda _: None,
+    timeout: float = START_SECONDS,
+) -> Compiled:
+    """Compile every program of each method for each surface, device and precision that it accepts, at its defaults.
+
+    Each program is run once over one ray, for which it has `timeout` seconds. After one that does not end nothing more
+    of the method is tried on that device, since each further one would take as long. `tell` hears of each case.
+    """
+    executor = LocalExecutor(timeout)
     done = Compiled({info.name: [] for info in devices})
+    hung: set[tuple[str, str]] = set()
+    cases = list(itertools.product(plugins, surfaces, devices, PRECISIONS))
     try:
-        for plugin, surface, info, precision in itertools.product(plugins, surfaces, devices, PRECISIONS):
+        for number, (plugin, surface, info, precision) in enumerate(cases, 1):
             method = plugin.method
-            if _is_refused(plugin, surface, info, precision):
+            tell(f"compiling [{number}/{len(cases)}] {method.name} {surface.name} {precision} {info.name}")
+            if (method.name, info.name) in hung:
+                done.left_out += 1
                 continue
             try:
+                if _is_refused(plugin, surface, info, precision):
+                    continue
                 for entry, program in _programs(plugin, surface, info, precision).items():
                     took = executor.build(info.name, program)
                     done.built[info.name].append((took, f"{method.name} {surface.name} {precision} {entry}"))
             except (CellError, FirsthitError) as error:
-                done.failed.append(f"{method.name} {surface.name} {precision} {info.name}: {error}")
+                status = error.status if isinstance(error, CellError) else CellStatus.FAILED
+                of = method.name, f"{surface.name} {precision}", info.name, precision, surface.name
+                done.failed.append(Failure(*of, str(error), status))
+                if status is CellStatus.TIMEOUT:
+                    hung.add((method.name, info.name))
     finally:
         executor.close()
     return done

@@ -28,6 +28,7 @@ from harness.results.store import Row, Store
 from harness.running.cards import card
 from harness.running.due import UNFINISHED, Again, due, estimate_seconds, studies_due
 from harness.running.environment import describe, probed
+from harness.running.failures import failure_of, mistakes
 from harness.running.runner import Runner
 
 
@@ -86,6 +87,9 @@ class Watcher:
     def cell(self, slot: str, row: Row | None) -> None:
         """Hear which cell is worked on or, with a `row`, that the cell has ended and what its row is."""
 
+    def failed(self, rows: Sequence[Row]) -> None:
+        """Hear which cells did not finish, once all are done."""
+
     def ended(self, part: Run) -> None:
         """Hear that a config, or one of those that it includes, is done."""
 
@@ -111,6 +115,10 @@ class Teller(Watcher):
             self._left -= 1
             self._tell(f"{slot}: {console.outcome(row)}; {self._left} left")
 
+    def failed(self, rows: Sequence[Row]) -> None:
+        for paragraph in mistakes(map(failure_of, rows), "cells"):
+            self._tell(paragraph)
+
     def ended(self, part: Run) -> None:
         for line in (*console.undecided((*part.rows, *part.reused)), *console.warnings(part.rows)):
             self._tell(line)
@@ -129,18 +137,20 @@ def load(
     `plugins` is a folder of further methods; `devices` take the place of those that the config names. Raises
     FirsthitError where there is no such config, something in it is wrong, or it includes configs that include others.
     """
-    catalog = find_methods(plugins)
+    catalog, hears = find_methods(plugins), watcher or Watcher()
     whole = reading.load(located(name), catalog)
     parts = [reading.load(path, catalog) for path in whole.included] or [whole]
     if nested := [part.path for part in parts if part.included and part is not whole]:
         raise FirsthitError(
             f"{nested[0]} includes configs itself, so {whole.path} cannot include it; name them instead"
         )
+    for line in catalog.warnings:
+        hears.warned(line)
     if devices:
         chosen = list(devices)
         parts = [dataclasses.replace(p, config=dataclasses.replace(p.config, devices=chosen)) for p in parts]
     named = {device for part in parts for device in part.config.devices}
-    with (watcher or Watcher()).doing(f"{whole.path}: looking for devices"):
+    with hears.doing(f"{whole.path}: looking for devices"):
         found = discover_devices(named)
     return Loaded(whole, tuple(parts), catalog, found)
 
@@ -170,6 +180,7 @@ def run(
     ended = []
     for part in loaded.parts:
         ended.append(_run_part(part, loaded, runs, command, again, hears))
+        hears.failed([row for row in (*ended[-1].rows, *ended[-1].reused) if row["status"] in UNFINISHED])
         hears.ended(ended[-1])
     rows, reused = (row for one in ended for row in one.rows), (row for one in ended for row in one.reused)
     return Run(folder, tuple(rows), tuple(reused))
