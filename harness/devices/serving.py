@@ -12,6 +12,7 @@ import os
 import signal
 import subprocess
 import sys
+from collections.abc import Iterator
 from multiprocessing import Pipe
 from multiprocessing.connection import Connection
 
@@ -33,7 +34,8 @@ def start(device: str) -> tuple[subprocess.Popen[bytes], Connection]:
             os.set_handle_inheritable(handle, True)
             process = subprocess.Popen(command, env=environment, stdin=subprocess.DEVNULL, close_fds=False)
         else:
-            process = subprocess.Popen(command, env=environment, stdin=subprocess.DEVNULL, pass_fds=[handle])
+            with _not_interrupted():
+                process = subprocess.Popen(command, env=environment, stdin=subprocess.DEVNULL, pass_fds=[handle])
     except OSError as error:
         from harness.contract import FirsthitError
 
@@ -42,6 +44,16 @@ def start(device: str) -> tuple[subprocess.Popen[bytes], Connection]:
     finally:
         theirs.close()
     return process, ours
+
+
+@contextlib.contextmanager
+def _not_interrupted() -> Iterator[None]:
+    """Keep Ctrl-C from a process that the block starts, even before `main` ignores it, and from nothing else."""
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def _die_with_parent() -> None:
