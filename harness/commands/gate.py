@@ -87,7 +87,7 @@ def _gate(options: argparse.Namespace) -> int:
     judged.sort(key=rank)
     code = exit_code(judged, checked.unfinished)
     shown = telling.drawn(options, checked, judged, blessed_in(before, checked.folder))
-    telling.tell(options, checked, judged, str(path), code, shown)
+    telling.tell(options, checked, judged, str(path), code, telling.about_rows(options, checked, judged, shown))
     if any(j.verdict is Verdict.INCOMPARABLE for j in judged):
         print("firsthit: incomparable is no pass; bless the baseline on this machine and device", file=sys.stderr)
     return code

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from harness.contract import FirsthitError
 from harness.gate import outputs, pictures, servers
-from harness.gate.about import Place, abouts, cell_slot
+from harness.gate.about import About, Place, abouts, cell_slot
 from harness.gate.checked import Checked
 from harness.gate.judge import Judged
 from harness.gate.pictures import Before
@@ -79,19 +79,23 @@ def _command(options: argparse.Namespace, judged: Judged) -> str:
     return shlex.join([*words, "--force"])
 
 
+def about_rows(
+    options: argparse.Namespace, checked: Checked, judged: Sequence[Judged], shown: Mapping[Place, Path]
+) -> dict[Place, About]:
+    """Say of every row what is told beside its verdict; `shown` has the pictures that were drawn."""
+    return abouts(judged, lambda j: _command(options, j), checked.planned, checked.rows, checked.earlier, shown)
+
+
 def tell(
     options: argparse.Namespace,
     checked: Checked,
     judged: Sequence[Judged],
     held: str,
     code: int,
-    shown: Mapping[Place, Path],
+    about: Mapping[Place, About],
 ) -> None:
-    """Write the files that are asked for, and then print the table.
-
-    `held` names what the rows are held against, and `shown` has the pictures that were drawn.
-    """
-    title, about = checked.experiment.name, abouts(checked, judged, lambda j: _command(options, j), shown)
+    """Write the files that are asked for, and then print the table. `held` names what the rows are held against."""
+    title = checked.experiment.name
     if options.junit:  # files come first, since the table's reader may go away
         write_atomically(options.junit, servers.junit(judged, title, about).encode())
     summary = outputs.markdown(judged, title, held, code, about)
@@ -101,7 +105,7 @@ def tell(
         servers.summarize(summary)
     print(outputs.table(judged, shutil.get_terminal_size().columns if sys.stdout.isatty() else None))
     if options.pictures:
-        print(f"{options.pictures}: {len(shown)} pictures of wrong rays")
+        print(f"{options.pictures}: {sum(1 for own in about.values() if own.picture)} pictures of wrong rays")
     if options.github:
         kernels = {name: plugin.folder / "kernel.glsl" for name, plugin in checked.catalog.plugins.items()}
         if written := servers.github(judged, kernels, about):

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from harness.gate.checked import Checked
+from harness.experiment.plan import Planned
 from harness.gate.entries import slot_of
 from harness.gate.judge import Judged
+from harness.results.store import Row
 
-SPEED_ENDS = ": speed"  # of the slot of a row that judges a cell's time, which is not what checking took
+ACCURACY, SPEED = ": accuracy", ": speed"  # end the slots of what a cell is judged by against a revision
 Place = tuple[str, str]  # a row's slot and device
 
 
@@ -32,21 +33,28 @@ class About:
 
 def cell_slot(judged: Judged) -> str:
     """Return the slot of the cell that a row is of."""
-    return judged.slot.removesuffix(SPEED_ENDS)
+    return judged.slot.removesuffix(ACCURACY).removesuffix(SPEED)
 
 
 def abouts(
-    checked: Checked, judged: Iterable[Judged], command: Callable[[Judged], str], pictures: Mapping[Place, Path]
+    judged: Iterable[Judged],
+    command: Callable[[Judged], str],
+    planned: Iterable[Planned],
+    rows: Mapping[str, Row],
+    earlier: Collection[str],
+    pictures: Mapping[Place, Path],
 ) -> dict[Place, About]:
     """Say of every row, by its slot and device, what outputs tell of it.
 
-    `command` returns the command that gates one row anew, and `pictures` holds the files that were drawn.
+    command: returns the command that gates one row anew
+    rows: the rows of the `planned` cells by their keys, of which those in `earlier` are of an earlier run
+    pictures: the files that were drawn
     """
-    rows = {(slot_of(p), p.cell.device): checked.rows[p.key] for p in checked.planned}
+    by_place = {(slot_of(p), p.cell.device): rows[p.key] for p in planned if p.key in rows}
     made = {}
     for j in judged:
+        row = by_place.get((j.slot.removesuffix(ACCURACY), j.device))  # a race took another time than the check
+        when = row["environment"]["started"] if row and row["key"] in earlier else None
         place = (j.slot, j.device)
-        row = rows.get(place)
-        earlier = row["environment"]["started"] if row and row["key"] in checked.earlier else None
-        made[place] = About(command(j), row["seconds"] if row else None, earlier, pictures.get(place))
+        made[place] = About(command(j), row["seconds"] if row else None, when, pictures.get(place))
     return made

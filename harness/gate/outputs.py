@@ -61,18 +61,19 @@ def changed(judged: Judged) -> list[Change]:
 def lines(judged: Sequence[Judged]) -> list[Line]:
     """List what a table says, the worst first.
 
-    Every figure that does not pass has a line. So has a row that does not pass although all of its figures do. Of each
-    verdict SHOWN rows are listed; one more line counts the others.
+    Every figure that does not pass has a line; the row's reason stands in its first one. A row that does not pass
+    although all of its figures do has a line too. Of each verdict SHOWN rows are listed; one more line counts the
+    others.
     """
     listed: list[Line] = []
     for verdict in ORDER[:-1]:
         rows = [j for j in judged if j.verdict is verdict]
         for j in rows[:SHOWN]:
             head, reason = (str(verdict), flat(j.slot), flat(j.device), j.rule), _short(j.reason)
-            for change in changed(j):
+            for i, change in enumerate(changed(j)):
                 better = " (improved)" if change.verdict is Verdict.IMPROVED is not verdict else ""
                 told = (change.figure + better, number(change.before), number(change.now), number(change.allowed))
-                listed.append(Line(*head, *told, reason))
+                listed.append(Line(*head, *told, reason if i == 0 else ""))
             if not changed(j):
                 listed.append(Line(*head, reason=reason))
         if len(rows) > SHOWN:
@@ -107,10 +108,8 @@ def table(judged: Sequence[Judged], width: int | None = None) -> str:
 def _stacked(listed: Sequence[Line], width: int) -> str:
     """Write each row's verdict and cell, and below them where and how it was held, its figures and the reason."""
     text: list[str] = []
-    rows: dict[tuple[str, str, str, str, str], list[Line]] = {}
-    for line in listed:
-        rows.setdefault((line.verdict, line.cell, line.device, line.rule, line.reason), []).append(line)
-    for (verdict, cell, device, rule, reason), own in rows.items():
+    for (verdict, cell, device, rule), own in _rows(listed).items():
+        reason = own[0].reason
         text += _wrapped(f"{verdict}  {cell}", width, "")
         figures = [
             (line.figure, line.baseline, "→", line.now, f"allowed {line.allowed}") for line in own if line.figure
@@ -121,6 +120,14 @@ def _stacked(listed: Sequence[Line], width: int) -> str:
             text += [f"{INDENT}{line}" for line in console.table(figures[0], figures[1:]).splitlines()]
         text += _wrapped(reason, width, INDENT)
     return "\n".join(text)
+
+
+def _rows(listed: Sequence[Line]) -> dict[tuple[str, str, str, str], list[Line]]:
+    """Gather the lines of each row, by its verdict, cell, device and rule."""
+    rows: dict[tuple[str, str, str, str], list[Line]] = {}
+    for line in listed:
+        rows.setdefault((line.verdict, line.cell, line.device, line.rule), []).append(line)
+    return rows
 
 
 def _wrapped(text: str, width: int, indent: str) -> list[str]:

@@ -126,6 +126,22 @@ def blessed_in(baseline: Baseline, folder: Path) -> Before:
     return before
 
 
+def rows_in(rows: Mapping[tuple[str, str], Row], folder: Path, title: str) -> Before:
+    """Make the function that finds the answers of rows that are known: by the cell's slot and device, below `folder`.
+
+    `title` says what they are of, as "at v1.0".
+    """
+
+    def before(judged: Judged, _: Row) -> Side:
+        """Return the answers of the row's cell."""
+        old = rows.get((cell_slot(judged), judged.device))
+        if old is None or not (old["arrays"] or old["rungs"]):
+            return Side(title, told=f"there are no answers {title}" + (f": {old['reason']}" if old else ""))
+        return side_of(old, folder, title)
+
+    return before
+
+
 def _entries(baseline: Baseline, slot: str, device: str) -> Iterator[tuple[Mapping[str, Any], Entry]]:
     """Yield the facts of each blessed device that has a row, and the row; devices of the same name come first."""
     keys = [key for key, rows in baseline.rows.items() if slot in rows]
