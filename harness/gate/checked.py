@@ -94,14 +94,14 @@ def check(
     if devices:
         chosen = dataclasses.replace(experiment.config, devices=list(devices))
         experiment = dataclasses.replace(experiment, config=chosen)
-    planned = plan.plan(experiment, catalog, discover_devices(experiment.config.devices), timed=False)
-    chosen_slots = only.slots({slot_of(p) for p in planned})
-    planned = [p for p in planned if slot_of(p) in chosen_slots]
+    whole = plan.plan(experiment, catalog, discover_devices(experiment.config.devices), timed=False)
+    slots = only.slots(map(slot_of, whole))
+    planned = [p for p in whole if slot_of(p) in slots]
     folder = runs / f"gate-{experiment.name}"
     executor = LocalExecutor(experiment.config.budget.timeout)
     try:
         rows, earlier = batch.rows_of(planned, experiment, catalog, folder, executor, watcher, force)
     finally:
         executor.close()
-    now = baseline_of(planned, rows, catalog, experiment.name, experiment.config.gate.same)
+    now = baseline_of(whole, rows, catalog, experiment.name, experiment.config.gate.same)
     return Checked(experiment, catalog, planned, rows, now, folder, earlier)
