@@ -105,7 +105,8 @@ def tell(
         servers.summarize(summary)
     print(outputs.table(judged, shutil.get_terminal_size().columns if sys.stdout.isatty() else None))
     if options.pictures:
-        print(f"{options.pictures}: {sum(1 for own in about.values() if own.picture)} pictures of wrong rays")
+        count = sum(1 for own in about.values() if own.picture)
+        print(f"{options.pictures}: {count} {'picture' if count == 1 else 'pictures'} of wrong rays")
     if options.github:
         kernels = {name: plugin.folder / "kernel.glsl" for name, plugin in checked.catalog.plugins.items()}
         if written := servers.github(judged, kernels, about):

@@ -106,16 +106,16 @@ def table(judged: Sequence[Judged], width: int | None = None) -> str:
 
 
 def _stacked(listed: Sequence[Line], width: int) -> str:
-    """Write each row's verdict and cell, and below them where and how it was held, its figures and the reason."""
+    """Write each row's verdict, cell, device and rule, and below them its figures and the reason."""
     text: list[str] = []
     for (verdict, cell, device, rule), own in _rows(listed).items():
         reason = own[0].reason
-        text += _wrapped(f"{verdict}  {cell}", width, "")
         figures = [
             (line.figure, line.baseline, "→", line.now, f"allowed {line.allowed}") for line in own if line.figure
         ]
-        place = "".join((f"on {device}" if device else "", f", held by the rule: {rule}" if rule else ""))
-        text += _wrapped(place, width, INDENT)
+        text += _wrapped(
+            f"{verdict}  {cell}" + f" on {device}" * bool(device) + f" (rule: {rule})" * bool(rule), width, ""
+        )
         if figures:
             text += [f"{INDENT}{line}" for line in console.table(figures[0], figures[1:]).splitlines()]
         text += _wrapped(reason, width, INDENT)

@@ -148,7 +148,8 @@ def _view(heading: Sequence[str], halves: list[_Half], evaluations: bool) -> byt
     sheet, y = _headed(heading, wide + 2 * MARGIN, below)
     for i, line in enumerate(shown):
         for x, half in zip((MARGIN, MARGIN + panel + GAP), halves, strict=True):
-            _panel(sheet, x, y, panel, half, line, half.title if i == 0 else line.title)
+            if half.arrays or i == 0:  # why there are no answers is said once
+                _panel(sheet, x, y, panel, half, line, half.title if i == 0 else line.title)
         if i == 0 and ringed:  # around single rays, so that they are found
             look: dict[str, Any] = {"ms": 13, "mfc": "none", "mec": style.INK, "mew": 0.8, "clip_on": False}
             sheet.drawing.axes[-1].plot(fresh[:, 1], fresh[:, 0], "o", **look)
