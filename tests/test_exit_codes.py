@@ -84,10 +84,10 @@ def _members(session):
     return found
 
 
-def _stopped(folder, arguments, reached):
-    """Start a command, wait for a line on stderr that `reached` knows, and type Ctrl-C; its exit code and stderr.
+def _stopped(folder, arguments, reached, begun=lambda: True):
+    """Start a command, wait for a line on stderr that `reached` knows and until it has `begun`, and type Ctrl-C.
 
-    As on a terminal, the signal goes to the workers too. No process of the command may stay behind.
+    Returns its exit code and stderr. As on a terminal, the signal goes to the workers too. No process of the command may stay behind.
     """
     process = subprocess.Popen(
         [*COMMAND, *map(str, arguments)],
@@ -104,7 +104,10 @@ def _stopped(folder, arguments, reached):
             line = process.stderr.readline()
             assert line, f"it ended with {process.wait()}: {told}"
             told += line
-        time.sleep(0.5)  # into the next step
+        while not begun():
+            assert process.poll() is None, "it ended before it was stopped"
+            time.sleep(0.01)
+        time.sleep(0.3)  # into the next step
         os.killpg(process.pid, signal.SIGINT)
         told += process.communicate(timeout=120)[1]
         assert not _members(process.pid)
@@ -134,9 +137,15 @@ def test_ctrl_c_in_a_step_of_a_worker_is_130_and_keeps_what_finished(endless, co
 def test_ctrl_c_while_a_report_is_made_is_130_and_leaves_the_folder_as_it_was(tmp_path):
     write_run(tmp_path / "quick")
     before = sorted(tmp_path.rglob("*"))
-    code, told = _stopped(tmp_path, ["report", "quick"], lambda _: True)
+    code, told = _stopped(tmp_path, ["report", "quick"], lambda _: True, lambda: [*tmp_path.glob("quick/.new-*")])
     assert (code, told.strip()) == (130, "firsthit: stopped")
     assert sorted(tmp_path.rglob("*")) == before
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="looks for processes in /proc")
+def test_ctrl_c_while_devices_are_looked_for_is_130(tmp_path):
+    code, told = _stopped(tmp_path, ["devices", "--again"], lambda told: "looking for devices" in told)
+    assert (code, told.splitlines()[-1]) == (130, "firsthit: stopped")
 
 
 @pytest.mark.parametrize("arguments", [("list", "methods"), ("list", "configs"), ("--help",), ("gate", "--help")])
