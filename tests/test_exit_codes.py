@@ -87,7 +87,8 @@ def _members(session):
 def _stopped(folder, arguments, reached, begun=lambda: True):
     """Start a command, wait for a line on stderr that `reached` knows and until it has `begun`, and type Ctrl-C.
 
-    Returns its exit code and stderr. As on a terminal, the signal goes to the workers too. No process of the command may stay behind.
+    Returns its exit code and stderr. As on a terminal, the signal goes to the workers too. No process of the command
+    may stay behind.
     """
     process = subprocess.Popen(
         [*COMMAND, *map(str, arguments)],
