@@ -1,8 +1,4 @@
-"""Run the `firsthit` command.
-
-Exit codes are 0 where the command did what it was asked for, 1 where a gate failed, 2 where the usage or a config is
-wrong, and 3 where something failed while running.
-"""
+"""Run the `firsthit` command, and say by its exit code how it ended (EXIT_CODES)."""
 
 from __future__ import annotations
 
@@ -10,21 +6,46 @@ import argparse
 import importlib
 import os
 import sys
+import traceback
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from harness import __version__
 from harness.commands import GROUPS, PLUGINS, adder
 
-INTERRUPTED = 3
+if TYPE_CHECKING:
+    from _typeshed import SupportsWrite
+
+FAILED = 3
+INTERRUPTED = 130  # 128 + SIGINT, as a shell says it
+CLOSED_PIPE = 141  # 128 + SIGPIPE
+EXIT_CODES = """exit codes:
+  0    done
+  1    a check, a gate or a bound does not hold
+  2    the command or a config is wrong
+  3    something failed while running, or could not be compared
+  130  stopped by Ctrl-C
+  141  who reads the output went away before its end
+"""
+RUN_CELLS = ("run", "gate", "bless", "recommend")  # commands that store a row as soon as its cell ends
+
+
+class Parser(argparse.ArgumentParser):
+    """Parse a command line, and print help as any other output: argparse's own hides that nobody reads it."""
+
+    def print_help(self, file: SupportsWrite[str] | None = None) -> None:
+        """Print the help. Raises OSError where it cannot be written."""
+        (file or sys.stdout).write(self.format_help())
 
 
 def build_parser(arguments: Sequence[str] | None = None) -> argparse.ArgumentParser:
     """Build the parser of a command line. With its `arguments`, only commands named among them have their options."""
-    parser = argparse.ArgumentParser(
+    parser: argparse.ArgumentParser = Parser(
         prog="firsthit",
         description="Which ray caster should draw this implicit surface on this device, and at what error?",
-        epilog="example: firsthit run configs/quick.toml && firsthit report runs/quick",
+        epilog=f"{EXIT_CODES}\nexample: firsthit run configs/quick.toml && firsthit report runs/quick",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("--version", action="version", version=f"firsthit {__version__}")
     parser.add_argument("--plugins", type=Path, metavar="DIR", help=PLUGINS)
@@ -39,24 +60,64 @@ def build_parser(arguments: Sequence[str] | None = None) -> argparse.ArgumentPar
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run one command and return its exit code. A user's mistake is one line on stderr, and never a traceback."""
-    arguments = sys.argv[1:] if arguments is None else arguments
-    options = build_parser(arguments).parse_args(arguments)
+    """Run one command and return its exit code, which is one of EXIT_CODES.
+
+    A user's mistake is one line on stderr, and never a traceback. Raises SystemExit as argparse does, for --help and
+    where the usage is wrong.
+    """
+    options = argparse.Namespace(command=None, force=False)
+    try:
+        try:
+            return _run(sys.argv[1:] if arguments is None else arguments, options)
+        finally:
+            _flush()  # a pipe that was closed is told here; told at the interpreter's end, it would be lost
+    except KeyboardInterrupt:
+        print(f"\nfirsthit: {_stopped(options)}", file=sys.stderr)
+        return INTERRUPTED
+    except BrokenPipeError:
+        _write_nowhere()
+        return CLOSED_PIPE
+    except Exception:
+        traceback.print_exc()  # a mistake of ours; Python would end with 1, which says that a check does not hold
+        return FAILED
+
+
+def _run(arguments: Sequence[str], options: argparse.Namespace) -> int:
+    """Parse a command line into `options` and run the command; return its exit code."""
+    build_parser(arguments).parse_args(arguments, options)
     from harness.contract import FirsthitError  # imports numpy, which help and usage do without
 
     try:
         code: int = options.run(options)
-        sys.stdout.flush()
         return code
     except FirsthitError as error:
         print(f"firsthit: {error}", file=sys.stderr)
         return error.exit_code
-    except KeyboardInterrupt:
-        print("\nfirsthit: stopped; what was finished is kept, the same command goes on from there", file=sys.stderr)
-        return INTERRUPTED
-    except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return 0
+
+
+def _stopped(options: argparse.Namespace) -> str:
+    """Say what is left of a command that was stopped: cells that ended have rows, whatever else was going on."""
+    if options.command not in RUN_CELLS:
+        return "stopped"
+    same = "the command without --force" if options.force else "the same command"
+    return f"stopped; finished cells are kept, and {same} goes on from there"
+
+
+def _flush() -> None:
+    """Write out what was printed. Raises BrokenPipeError where nobody reads it."""
+    for stream in (sys.stdout, sys.stderr):
+        if stream:  # None where the caller closed it before
+            stream.flush()
+
+
+def _write_nowhere() -> None:
+    """Throw away what is left to be written, which the interpreter would complain of at its end."""
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    for stream in (sys.stdout, sys.stderr):
+        try:
+            stream.flush()
+        except BrokenPipeError:
+            os.dup2(nowhere, stream.fileno())
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import shutil
 import sys
 import threading
 import time
@@ -13,9 +14,9 @@ if TYPE_CHECKING:
     from harness.results.store import Row
 
 CLEAR = "\r\x1b[K"  # the line on a terminal
-WIDEST = 200  # characters of a live line
 LIVE_SECONDS = 0.2  # between two states of a live line
 FIRST_SECONDS, NEXT_SECONDS = 2.0, 10.0  # before the first plain line of what goes on, and between two
+WIDEST = 200  # characters of a live line on a terminal that does not say how wide it is
 
 
 def table(header: Sequence[str], rows: Sequence[Sequence[object]]) -> str:
@@ -36,7 +37,7 @@ def duration(seconds: float) -> str:
 def doing(what: str) -> Iterator[None]:
     """Say what goes on while the block runs: a live line on a terminal, which is gone afterwards; a line elsewhere."""
     live = sys.stderr.isatty()
-    _write(f"{CLEAR}firsthit: {what}"[:WIDEST] if live else f"firsthit: {what}\n")
+    _write(CLEAR + fitting(f"firsthit: {what}") if live else f"firsthit: {what}\n")
     try:
         yield
     finally:
@@ -77,8 +78,17 @@ class Working:
             with self._lock:
                 if self._now and self._now != shown:
                     shown = self._now
-                    _write(f"{CLEAR}firsthit: {shown}"[:WIDEST] if self._live else f"firsthit: {shown}\n")
+                    _write(CLEAR + fitting(f"firsthit: {shown}") if self._live else f"firsthit: {shown}\n")
                     pause = LIVE_SECONDS if self._live else NEXT_SECONDS
+
+
+def fitting(line: str, end: str = "") -> str:
+    """Shorten a line to what a terminal shows in one line; `end` always stands at its end.
+
+    A live line that is wider than the terminal could not be cleared.
+    """
+    room = shutil.get_terminal_size((WIDEST, 24)).columns - 1 - len(end)
+    return (line if len(line) <= room else f"{line[: max(room - 1, 0)]}…") + end
 
 
 def _write(text: str) -> None:
@@ -97,7 +107,8 @@ def outcome(row: Row) -> str:
 class Progress:
     """Show how many cells are done, the current cell, and the time left.
 
-    On a terminal it is one line that is written again and again; elsewhere, a line for each finished cell.
+    On a terminal it is one line that is written again and again, and above it a line for each finished cell; elsewhere,
+    a line for each finished cell, which also tells the time.
     """
 
     def __init__(self, total: int, estimate: float) -> None:
@@ -112,15 +123,18 @@ class Progress:
         elapsed = time.perf_counter() - self._start
         if row is None:
             if self._live:
-                _write(f"{CLEAR}{self._head(elapsed)} {slot}"[:WIDEST])
+                _write(CLEAR + fitting(f"{self._head(elapsed)} {slot}"))
             return
         self._done += 1
         told = outcome(row)
         if row["reason"] and told in self._told:
             told = f"{row['status']}, as above"
         self._told.add(told)
-        line = f"{self._head(elapsed)} {slot}: {told}"
-        _write(f"{CLEAR}{line}\n" if self._live else f"{line}\n")
+        if self._live:  # the live line tells the time
+            line = f"[{self._done}/{self._total}] {slot}"
+            _write(f"{CLEAR}{line}: {told}\n" if row["reason"] else f"{CLEAR}{fitting(line, f': {told}')}\n")
+        else:
+            _write(f"{self._head(elapsed)} {slot}: {told}\n")
 
     def _head(self, elapsed: float) -> str:
         left = elapsed / self._done * (self._total - self._done) if self._done else self._estimate

@@ -1,13 +1,9 @@
-"""Verdicts, exit codes, the baseline's file and what CI is told, of made-up rows."""
-
-import dataclasses
-import xml.etree.ElementTree as ElementTree
-from pathlib import Path
+"""Verdicts, exit codes and the baseline's file, of made-up rows."""
 
 import pytest
 
 from harness.contract import FirsthitError
-from harness.gate import baseline, outputs
+from harness.gate import baseline
 from harness.gate.against import verdict_of
 from harness.gate.baseline import Baseline
 from harness.gate.judge import Judged, Tolerance, Verdict, exit_code, judge, tolerances_of
@@ -192,49 +188,6 @@ def test_speed_regresses_only_where_the_whole_interval_is_beyond_the_tolerance(l
     base = Judged("m a: speed", "opencl:a", "m", Verdict.PASS)
     ratio = Ratio((lower + upper) / 2, lower, upper, proved, 0.001, 12)
     assert verdict_of(base, ratio, Tolerance("lower", 0.0, 0.05)).verdict == expected
-
-
-@pytest.fixture
-def told():
-    rows = {"m a": ENTRY | {"error_max": 1.0}, "m b": ENTRY, "m c|<&>\"'": ENTRY | {"scene": "s2"}}
-    methods = dict.fromkeys(rows, "m")
-    return judge(of(rows), of(dict.fromkeys((*rows, "gone"), ENTRY)), methods, tolerances_of({}))
-
-
-def test_junit_is_xml_with_a_failure_for_each_bad_row(told):
-    suite = ElementTree.fromstring(outputs.junit(told, "t")).find("testsuite")
-    assert (suite.get("tests"), suite.get("failures"), suite.get("errors")) == ("4", "2", "1")
-    cases = {case.get("name"): [child.tag for child in case] for case in suite}
-    assert cases == {"m a": ["failure"], "gone": ["failure"], "m c|<&>\"'": ["error"], "m b": []}
-    assert "error_max 1e-05 → 1" in suite.find("testcase/failure").get("message")
-
-
-def test_markdown_is_a_table_with_the_worst_first(told):
-    text = outputs.markdown(told, "t", Path("b.toml"), 1)
-    assert text.startswith("## Gate t: **failed**\n\n1 regressed, 1 missing, 1 incomparable, 1 pass;")
-    rows = [line for line in text.splitlines() if line.startswith("| ")][2:]
-    assert [row.split(" | ")[0] for row in rows] == ["| regressed", "| missing", "| incomparable"]
-    assert "m c\\|&lt;&>" in rows[2]
-
-
-def test_github_annotations_name_the_kernel_and_escape_what_they_must(told, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    folder = tmp_path / "a,b"
-    folder.mkdir()
-    kernel = folder / "kernel.glsl"
-    kernel.write_text("")
-    first, *others = outputs.github(told, {"m": kernel}).splitlines()
-    assert first.startswith("::error file=a%2Cb/kernel.glsl,title=regressed%3A m a::m a on opencl:a: regressed%0A")
-    assert len(others) == 2
-    assert others[1].startswith("::warning ")
-    assert "file=" not in outputs.github(told, {"m": Path("/elsewhere/kernel.glsl")})
-
-
-def test_the_table_lists_all_that_does_not_pass(told):
-    text = outputs.table(told)
-    assert text.splitlines()[1].startswith("regressed     m a")
-    assert text.splitlines()[-1] == "1 regressed, 1 missing, 1 incomparable, 1 pass"
-    assert outputs.table([dataclasses.replace(told[-1])]) == "1 pass"
 
 
 NAN, INF = float("nan"), float("inf")

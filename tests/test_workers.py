@@ -81,3 +81,14 @@ def test_a_worker_answers_until_its_connection_closes_and_is_not_interrupted():
     finally:
         process.kill()
         process.wait()
+
+
+def test_a_worker_that_has_only_just_started_is_not_interrupted():
+    process, connection = serving.start("opencl")
+    try:
+        process.send_signal(signal.SIGINT)  # before it has imported what ignores it
+        connection.send(("release", ("nothing",)))
+        assert connection.recv() == ("ok", None)
+    finally:
+        process.kill()
+        process.wait()

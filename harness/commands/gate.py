@@ -6,17 +6,19 @@ import argparse
 import sys
 from pathlib import Path
 
-from harness.commands import Add
+from harness.commands import Add, telling
 from harness.commands.options import add_history, history_of, tell, writable
 from harness.commands.printer import Printer
 from harness.contract import FirsthitError
 from harness.experiment.shipped import located
-from harness.gate import against, baseline, outputs
+from harness.gate import against, baseline, chosen
 from harness.gate.baseline import Baseline
 from harness.gate.checked import Checked, check
-from harness.gate.judge import Judged, Verdict, exit_code, rank
+from harness.gate.chosen import ALL, Only
+from harness.gate.entries import slot_of
+from harness.gate.judge import Verdict, exit_code, rank
 from harness.gate.keep import Keeping, keeping
-from harness.results.writing import write_atomically
+from harness.gate.pictures import blessed_in
 
 
 def add_parsers(add: Add) -> None:
@@ -28,9 +30,15 @@ def add_parsers(add: Add) -> None:
         "3 a row could not be run or compared.",
     )
     _add_shared(parser)
-    parser.add_argument("--junit", type=Path, metavar="FILE", help="write the verdicts as JUnit XML")
-    parser.add_argument("--markdown", type=Path, metavar="FILE", help="write a summary as Markdown")
-    parser.add_argument("--github", action="store_true", help="print annotations for GitHub Actions")
+    parser.add_argument(
+        "--only",
+        action="append",
+        default=[],
+        metavar="TEXT",
+        help="judge only rows whose name holds TEXT, in which * stands for any characters; the whole name of a row "
+        "chooses that row alone; may be repeated",
+    )
+    telling.add_outputs(parser)
     parser.add_argument("--against", metavar="REV", help="also time every cell against this git revision's program")
     parser.add_argument("--keep", action="store_true", help="keep the figures by commit, for `firsthit history`")
     add_history(parser)
@@ -63,26 +71,31 @@ def _path(options: argparse.Namespace) -> Path:
     return path
 
 
-def _check(options: argparse.Namespace) -> Checked:
-    return check(options.config, options.plugins, options.device or (), options.runs, Printer(), options.force)
+def _check(options: argparse.Namespace, only: Only = ALL) -> Checked:
+    return check(options.config, options.plugins, options.device or (), options.runs, Printer(), options.force, only)
 
 
 def _gate(options: argparse.Namespace) -> int:
-    options.config = located(options.config)
+    options.typed, options.config = options.config, located(options.config)
     for path in filter(None, (options.junit, options.markdown)):
         writable(path)
+    telling.ready_to_draw(options)
     path = _path(options)
     before = baseline.read(path)
+    only = Only(tuple(options.only), chosen.among(before))
     kept = _keeping(options, path) if options.keep else None
-    checked = _check(options)
+    checked = _check(options, only)
     if kept:
         _keep(kept, checked)
-    judged = checked.judged(before)
+    judged = checked.judged(only.narrowed(before, (slot_of(p) for p in checked.planned)))
     if options.against:
         judged += against.speeds(checked, options.against, options.config, options.plugins)
     judged.sort(key=rank)
     code = exit_code(judged, checked.unfinished) or (3 if checked.catalog.broken else 0)
-    _tell(options, checked, judged, path, code)
+    shown = telling.drawn(options, checked, judged, blessed_in(before, checked.folder))
+    telling.tell(options, checked, judged, str(path), code, telling.about_rows(options, checked, judged, shown))
+    if any(j.verdict is Verdict.INCOMPARABLE for j in judged):
+        print("firsthit: incomparable is no pass; bless the baseline on this machine and device", file=sys.stderr)
     return code
 
 
@@ -100,22 +113,6 @@ def _keep(kept: Keeping, checked: Checked) -> None:
         more = f" and {len(kept.because) - 1} more" if len(kept.because) > 1 else ""
         reason = f"{kept.because[0]}{more} not as committed"
         tell(f"firsthit: kept apart from the commits' line, since the tree has {reason}")
-
-
-def _tell(options: argparse.Namespace, checked: Checked, judged: list[Judged], path: Path, code: int) -> None:
-    """Write the files that are asked for, and then print the table."""
-    title = checked.experiment.name
-    if options.junit:  # files come first, since the table's reader may go away
-        write_atomically(options.junit, outputs.junit(judged, title).encode())
-    if options.markdown:
-        write_atomically(options.markdown, outputs.markdown(judged, title, path, code).encode())
-    print(outputs.table(judged))
-    if options.github:
-        kernels = {name: plugin.folder / "kernel.glsl" for name, plugin in checked.catalog.plugins.items()}
-        if written := outputs.github(judged, kernels):
-            print(written)
-    if any(j.verdict is Verdict.INCOMPARABLE for j in judged):
-        print("firsthit: incomparable is no pass; bless the baseline on this machine and device", file=sys.stderr)
 
 
 def _bless(options: argparse.Namespace) -> int:

@@ -60,12 +60,19 @@ def _installed() -> list[str]:
 
 
 def _look(backends: list[str]) -> list[DeviceInfo]:
+    """Look at backends side by side. Where it is interrupted, their workers are killed and not waited for."""
+    executors = [LocalExecutor(START_SECONDS) for _ in backends]
     with ThreadPoolExecutor() as pool:
-        return [info for found in pool.map(_find, backends) for info in found]
+        try:
+            return [info for found in pool.map(_find, backends, executors) for info in found]
+        except KeyboardInterrupt:
+            for executor in executors:
+                executor.kill()
+            raise
 
 
-def _find(backend: str) -> list[DeviceInfo]:
-    executor, ran = LocalExecutor(START_SECONDS), None
+def _find(backend: str, executor: LocalExecutor) -> list[DeviceInfo]:
+    ran = None
     try:
         found = executor.find(backend)
         ran = executor.running_files(backend)

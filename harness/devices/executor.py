@@ -120,6 +120,11 @@ class LocalExecutor:
         for device in list(self._processes):
             self._stop(device)
 
+    def kill(self) -> None:
+        """Kill all workers, from any thread; a step that is under way in another thread raises CellError."""
+        for worker in list(self._processes.values()):
+            worker.process.kill()
+
     def _start(self, device: str) -> _Process:
         if device not in self._processes:
             self._processes[device] = _Process(*serving.start(device))

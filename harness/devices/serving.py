@@ -14,6 +14,7 @@ import signal
 import subprocess
 import sys
 import threading
+from collections.abc import Iterator
 from multiprocessing import Pipe
 from multiprocessing.connection import Connection
 from typing import IO, Any
@@ -40,7 +41,8 @@ def start(device: str) -> tuple[subprocess.Popen[bytes], Connection]:
             os.set_handle_inheritable(handle, True)
             process = subprocess.Popen(command, env=environment, **STREAMS, close_fds=False)
         else:
-            process = subprocess.Popen(command, env=environment, **STREAMS, pass_fds=[handle])
+            with _not_interrupted():
+                process = subprocess.Popen(command, env=environment, **STREAMS, pass_fds=[handle])
     except OSError as error:
         from harness.contract import FirsthitError
 
@@ -59,6 +61,16 @@ def _hand_on(errors: IO[bytes]) -> None:
             if not COUNTED.fullmatch(line.strip()):
                 with contextlib.suppress(OSError):
                     os.write(2, line)
+
+
+@contextlib.contextmanager
+def _not_interrupted() -> Iterator[None]:
+    """Keep Ctrl-C from a process that the block starts, even before `main` ignores it, and from nothing else."""
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def _die_with_parent() -> None:

@@ -1,7 +1,8 @@
 """Hold a config's rows against a blessed baseline, so that CI fails where a method gets worse.
 
-`checked` runs a config's cells without timing them. `entries` makes of their rows what a baseline keeps. `baseline`
-reads and writes the file. `judge` compares the two, and `outputs` tells people and CI servers of it. `against` compares
-speed with another git revision, whose programs `revision` gets by running `export` there. `keep` keeps what `checked`
-found by commit, which `repository` names.
+`checked` runs a config's cells without timing them, of which `chosen` chooses those that --only names. `entries` makes
+of their rows what a baseline keeps. `baseline` reads and writes the file. `judge` compares the two. `outputs` tells
+people of it and `servers` tells CI servers; `about` says of each row how to get it again, and `pictures` gathers what
+its wrong rays are drawn from. `against` compares speed with another git revision, whose programs `revision` gets by
+running `export` there. `keep` keeps what `checked` found by commit, which `repository` names.
 """

@@ -43,7 +43,9 @@ def speeds(checked: Checked, revision: str, config: Path, plugins: Path | None) 
     executor = LocalExecutor(experiment.config.budget.timeout)
     try:
         infos = [probed(executor, info, checked.folder / "probes")[0] for info in here.values()]
-        answering = [p for p in plan.plan(experiment, checked.catalog, infos) if p.skip is None]
+        wanted = {slot_of(p) for p in checked.planned}
+        planned = plan.plan(experiment, checked.catalog, infos)
+        answering = [p for p in planned if p.skip is None and slot_of(p) in wanted]
         return compare(answering, former, experiment, tolerance, executor, checked.folder / "truth")
     finally:
         executor.close()

@@ -15,6 +15,7 @@ from harness.experiment import plan, reading
 from harness.experiment.config import Experiment
 from harness.experiment.plan import Planned
 from harness.gate.baseline import Baseline
+from harness.gate.chosen import ALL, Only
 from harness.gate.entries import baseline_of, slot_of
 from harness.gate.judge import Judged, Verdict, judge, tolerances_of
 from harness.plugins import Catalog, find_methods
@@ -35,6 +36,7 @@ class Checked:
     rows: dict[str, Row]  # of every planned cell, by its key
     now: Baseline
     folder: Path  # where the rows are stored
+    earlier: frozenset[str] = frozenset()  # keys of the rows that are of an earlier run
 
     @property
     def unfinished(self) -> set[tuple[str, str]]:
@@ -73,13 +75,19 @@ class Checked:
 
 
 def check(
-    config: Path, plugins: Path | None, devices: Sequence[str], runs: Path, watcher: Watcher, force: bool = False
+    config: Path,
+    plugins: Path | None,
+    devices: Sequence[str],
+    runs: Path,
+    watcher: Watcher,
+    force: bool = False,
+    only: Only = ALL,
 ) -> Checked:
     """Check the cells of a config that have no finished row yet below `runs`, without timing them.
 
     `plugins` is a folder of further methods; `devices`, where there are any, take the place of those that the config
-    names. With `force` all cells are checked again. `watcher` is told of each cell.
-    Raises FirsthitError where the config cannot be planned.
+    names. `only` says which cells are checked; with `force` all of these are checked again. `watcher` is told of each
+    cell. Raises FirsthitError where the config cannot be planned.
     """
     catalog = find_methods(plugins)
     experiment = reading.load(config, catalog)
@@ -88,13 +96,15 @@ def check(
     if devices:
         chosen = dataclasses.replace(experiment.config, devices=list(devices))
         experiment = dataclasses.replace(experiment, config=chosen)
-    planned = plan.plan(experiment, catalog, discover_devices(experiment.config.devices), timed=False)
+    whole = plan.plan(experiment, catalog, discover_devices(experiment.config.devices), timed=False)
+    slots = only.slots(map(slot_of, whole))
+    planned = [p for p in whole if slot_of(p) in slots]
     folder = runs / f"gate-{experiment.name}"
     executor = LocalExecutor(experiment.config.budget.timeout)
     try:
-        rows = batch.rows_of(planned, experiment, catalog, folder, executor, watcher, force)
+        rows, earlier = batch.rows_of(planned, experiment, catalog, folder, executor, watcher, force)
     finally:
         executor.close()
     watcher.failed([row for row in rows.values() if row["status"] in UNFINISHED])
-    now = baseline_of(planned, rows, catalog, experiment.name, experiment.config.gate.same)
-    return Checked(experiment, catalog, planned, rows, now, folder)
+    now = baseline_of(whole, rows, catalog, experiment.name, experiment.config.gate.same)
+    return Checked(experiment, catalog, planned, rows, now, folder, earlier)

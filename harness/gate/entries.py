@@ -52,8 +52,9 @@ def baseline_of(
 ) -> Baseline:
     """Make a baseline of the rows of all cells whose device is here.
 
-    `rows` holds each cell's row by its key, `config` is the config's name, and `same` names the facts that tell one
-    device from another. Raises FirsthitError where a row's figure is no finite number.
+    `rows` holds each cell's row by its key; of a cell without one only the device is taken. `config` is the config's
+    name, and `same` names the facts that tell one device from another. Raises FirsthitError where a row's figure is no
+    finite number.
     """
     made = Baseline(config)
     for p in planned:
@@ -62,7 +63,9 @@ def baseline_of(
         facts = facts_of(p.device)
         key = device_key(facts, same)
         made.devices[key] = facts
-        made.rows.setdefault(key, {})[slot_of(p)] = _entry(p, rows[p.key], catalog)
+        entries = made.rows.setdefault(key, {})
+        if p.key in rows:
+            entries[slot_of(p)] = _entry(p, rows[p.key], catalog)
     return made
 
 

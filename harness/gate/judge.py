@@ -80,7 +80,10 @@ class Change:
 
 @dataclass(frozen=True)
 class Judged:
-    """Hold a row's verdict, which is the worst of its figures', and the reason where it follows from no figure."""
+    """Hold a row's verdict, which is the worst of its figures', and the reason where it follows from no figure.
+
+    rule: by what rule its figures were held; "" where no figure was
+    """
 
     slot: str
     device: str
@@ -88,6 +91,7 @@ class Judged:
     verdict: Verdict
     reason: str = ""
     changes: tuple[Change, ...] = ()
+    rule: str = ""
 
     @property
     def worst(self) -> Change | None:

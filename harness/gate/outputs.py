@@ -1,20 +1,37 @@
-"""Write what a gate found as a table for people, JUnit XML for CI servers, Markdown, and GitHub annotations."""
+"""Write what a gate found for people: a table for the terminal, and Markdown. `servers` writes it for CI servers."""
 
 from __future__ import annotations
 
 import re
+import textwrap
 from collections import Counter
-from collections.abc import Sequence
-from pathlib import Path
-from xml.sax.saxutils import escape, quoteattr
+from collections.abc import Mapping, Sequence
+from dataclasses import astuple, dataclass
 
 from harness import console
-from harness.gate.judge import ORDER, Judged, Value, Verdict
+from harness.gate.about import About, Place
+from harness.gate.judge import ORDER, Change, Judged, Value, Verdict
 
 BAD = (Verdict.REGRESSED, Verdict.MISSING, Verdict.INCOMPARABLE)
-HEADER = ("verdict", "cell", "device", "figure", "baseline", "now", "allowed", "")
+HEADER = ("verdict", "cell", "device", "rule", "figure", "baseline", "now", "allowed", "")
 SHOWN = 40  # rows of one kind that a table lists
 REASON = 160  # characters of a reason
+INDENT = " " * 4  # of what stands below a cell's name
+
+
+@dataclass(frozen=True)
+class Line:
+    """Hold one line of a table, under HEADER: one figure of a row, or a row without one."""
+
+    verdict: str
+    cell: str
+    device: str = ""
+    rule: str = ""
+    figure: str = ""
+    baseline: str = ""
+    now: str = ""
+    allowed: str = ""
+    reason: str = ""
 
 
 def number(value: Value) -> str:
@@ -30,27 +47,37 @@ def counted(judged: Sequence[Judged]) -> str:
     return ", ".join(f"{counts[verdict]} {verdict}" for verdict in ORDER if counts[verdict]) or "nothing to judge"
 
 
-def lines(judged: Sequence[Judged]) -> list[tuple[str, ...]]:
-    """List what a table says under HEADER, the worst first.
+def flat(text: str) -> str:
+    """Return a text as one line: nothing in it can begin a line of its own, such as a command for a CI server."""
+    return " ".join("".join(c if c.isprintable() else " " for c in text).split())
 
-    Every figure that does not pass has a line. So has a row that does not pass although all of its figures do. Of each
-    verdict SHOWN rows are listed; one more line counts the others.
+
+def changed(judged: Judged) -> list[Change]:
+    """Return the changes of a row that do not pass, the worst first."""
+    found = [c for c in judged.changes if c.verdict is not Verdict.PASS]
+    return sorted(found, key=lambda c: (ORDER.index(c.verdict), -c.size))
+
+
+def lines(judged: Sequence[Judged]) -> list[Line]:
+    """List what a table says, the worst first.
+
+    Every figure that does not pass has a line; the row's reason stands in its first one. A row that does not pass
+    although all of its figures do has a line too. Of each verdict SHOWN rows are listed; one more line counts the
+    others.
     """
-    listed: list[tuple[str, ...]] = []
+    listed: list[Line] = []
     for verdict in ORDER[:-1]:
         rows = [j for j in judged if j.verdict is verdict]
         for j in rows[:SHOWN]:
-            head = (str(verdict), j.slot, j.device)
-            changed = [c for c in j.changes if c.verdict is not Verdict.PASS]
-            changed.sort(key=lambda c: (ORDER.index(c.verdict), -c.size))
-            for change in changed:
+            head, reason = (str(verdict), flat(j.slot), flat(j.device), j.rule), _short(j.reason)
+            for i, change in enumerate(changed(j)):
                 better = " (improved)" if change.verdict is Verdict.IMPROVED is not verdict else ""
                 told = (change.figure + better, number(change.before), number(change.now), number(change.allowed))
-                listed.append((*head, *told, _short(j.reason)))
-            if not changed:
-                listed.append((*head, "", "", "", "", _short(j.reason)))
+                listed.append(Line(*head, *told, reason if i == 0 else ""))
+            if not changed(j):
+                listed.append(Line(*head, reason=reason))
         if len(rows) > SHOWN:
-            listed.append((str(verdict), f"and {len(rows) - SHOWN} more", "", "", "", "", "", ""))
+            listed.append(Line(str(verdict), f"and {len(rows) - SHOWN} more"))
     return listed
 
 
@@ -59,98 +86,93 @@ def _short(reason: str) -> str:
 
     A compiler's log begins at the first place that it names in a kernel.
     """
-    text = " ".join(reason.split())
+    text = flat(reason)
     place = re.search(r"\S+\.glsl:\d+", text)
     text = text[place.start() :] if place else text
     return text if len(text) <= REASON else text[: REASON - 2] + " …"
 
 
-def table(judged: Sequence[Judged]) -> str:
-    """Write the lines of every row that does not simply pass as an aligned table, and the count of each verdict."""
+def table(judged: Sequence[Judged], width: int | None = None) -> str:
+    """Write the lines of every row that does not simply pass, and the count of each verdict.
+
+    They are an aligned table, a line for each figure. Where that is wider than `width` columns, each row has its name
+    on a line of its own, and below it its figures; None: any width will do.
+    """
     listed = lines(judged)
-    return "\n".join(filter(None, (console.table(HEADER, listed) if listed else "", counted(judged))))
+    text = console.table(HEADER, [astuple(line) for line in listed]) if listed else ""
+    if width is not None and any(len(line) > width for line in text.splitlines()):
+        text = _stacked(listed, width)
+    return "\n".join(filter(None, (text, counted(judged))))
 
 
-def markdown(judged: Sequence[Judged], title: str, baseline: Path, code: int) -> str:
-    """Write a heading with the outcome, which follows from the exit code `code`, and the table, in Markdown."""
+def _stacked(listed: Sequence[Line], width: int) -> str:
+    """Write each row's verdict, cell, device and rule, and below them its figures and the reason."""
+    text: list[str] = []
+    for (verdict, cell, device, rule), own in _rows(listed).items():
+        reason = own[0].reason
+        figures = [
+            (line.figure, line.baseline, "→", line.now, f"allowed {line.allowed}") for line in own if line.figure
+        ]
+        text += _wrapped(
+            f"{verdict}  {cell}" + f" on {device}" * bool(device) + f" (rule: {rule})" * bool(rule), width, ""
+        )
+        if figures:
+            text += [f"{INDENT}{line}" for line in console.table(figures[0], figures[1:]).splitlines()]
+        text += _wrapped(reason, width, INDENT)
+    return "\n".join(text)
 
-    def cell(text: str) -> str:
-        """Escape a text for a cell of a table."""
-        return text.replace("\\", "\\\\").replace("|", "\\|").replace("<", "&lt;")
 
+def _rows(listed: Sequence[Line]) -> dict[tuple[str, str, str, str], list[Line]]:
+    """Gather the lines of each row, by its verdict, cell, device and rule."""
+    rows: dict[tuple[str, str, str, str], list[Line]] = {}
+    for line in listed:
+        rows.setdefault((line.verdict, line.cell, line.device, line.rule), []).append(line)
+    return rows
+
+
+def _wrapped(text: str, width: int, indent: str) -> list[str]:
+    """Break a text into lines of at most `width` columns; "" has none."""
+    return textwrap.wrap(text, max(width, 40), initial_indent=indent, subsequent_indent=indent + INDENT)
+
+
+def _escaped(text: str) -> str:
+    """Escape a text for a cell of a table in Markdown."""
+    text = flat(text).replace("&", "&amp;").replace("<", "&lt;")
+    return re.sub(r"([\\`*|\[\]]|(?<!\w)_|_(?!\w))", r"\\\1", text)  # a _ within a word stands for itself
+
+
+def _quoted(text: str) -> str:
+    """Return a text as code in Markdown, whatever backticks it has."""
+    ticks = "`" * (1 + max((len(run) for run in re.findall("`+", text)), default=0))
+    space = " " if "`" in text else ""
+    return f"{ticks}{space}{flat(text)}{space}{ticks}"
+
+
+def markdown(judged: Sequence[Judged], title: str, held: str, code: int, about: Mapping[Place, About]) -> str:
+    """Write a heading with the outcome, which follows from the exit code `code`, and the table, in Markdown.
+
+    `held` names what the rows are held against. Below the table stands how to get each bad row again, and the picture
+    of its wrong rays.
+    """
     outcome = {0: "passed", 1: "**failed**"}.get(code, "**could not judge everything**")
+    text = [f"## Gate {_escaped(title)}: {outcome}", "", f"{counted(judged)}; held against {_quoted(held)}.", ""]
     listed = lines(judged)
-    text = [f"## Gate {cell(title)}: {outcome}", "", f"{counted(judged)}; baseline `{baseline}`.", ""]
     if listed:
         text += ["| " + " | ".join(HEADER) + " |", "|" + " --- |" * len(HEADER)]
-        text += ["| " + " | ".join(map(cell, line)) + " |" for line in listed]
-    return "\n".join(text) + "\n"
+        text += ["| " + " | ".join(_escaped(part) for part in astuple(line)) + " |" for line in listed]
+        text += ["", *_again([j for j in judged if j.verdict in BAD], about)]
+    return "\n".join(text).rstrip("\n") + "\n"
 
 
-def junit(judged: Sequence[Judged], title: str) -> str:
-    """Write JUnit XML with a test case for each row.
-
-    Regressed and missing rows are failures, and incomparable ones are errors.
-    """
-
-    def attribute(text: str) -> str:
-        """Quote a text as an attribute, without characters that XML cannot hold."""
-        return quoteattr("".join(c if c.isprintable() else " " for c in text))
-
-    failures = sum(j.verdict in (Verdict.REGRESSED, Verdict.MISSING) for j in judged)
-    errors = sum(j.verdict is Verdict.INCOMPARABLE for j in judged)
-    counts = f'tests="{len(judged)}" failures="{failures}" errors="{errors}"'
-    text = ['<?xml version="1.0" encoding="UTF-8"?>', f"<testsuites {counts}>"]
-    text.append(f"<testsuite name={attribute(title)} {counts}>")
-    for j in judged:
-        case = f"<testcase classname={attribute(f'{title}.{j.device}')} name={attribute(j.slot)}"
-        if j.verdict in BAD:
-            kind = "error" if j.verdict is Verdict.INCOMPARABLE else "failure"
-            body = escape("".join(c if c.isprintable() or c == "\n" else " " for c in _told(j)))
-            text.append(
-                f"{case}><{kind} message={attribute(f'{j.verdict}: {_headline(j)}')}>{body}</{kind}></testcase>"
-            )
-        else:
-            text.append(f"{case}/>")
-    return "\n".join([*text, "</testsuite>", "</testsuites>"]) + "\n"
-
-
-def github(judged: Sequence[Judged], kernels: dict[str, Path]) -> str:
-    """Write a workflow command of GitHub for each bad row: a warning where it is incomparable, else an error.
-
-    It is shown at the method's kernel, which `kernels` names, where that lies below the working folder.
-    """
-
-    def data(text: str) -> str:
-        """Escape a text for a command's message."""
-        return text.replace("%", "%25").replace("\r", "%0D").replace("\n", "%0A")
-
-    def place(text: str) -> str:
-        """Escape a text for a command's property."""
-        return data(text).replace(":", "%3A").replace(",", "%2C")
-
-    written = []
-    for j in judged:
-        if j.verdict not in BAD:
-            continue
-        path = kernels.get(j.method)
-        here = path is not None and path.resolve().is_relative_to(Path.cwd())
-        file = f"file={place(path.resolve().relative_to(Path.cwd()).as_posix())}," if path and here else ""
-        kind = "warning" if j.verdict is Verdict.INCOMPARABLE else "error"
-        written.append(f"::{kind} {file}title={place(f'{j.verdict}: {j.slot}')}::{data(_told(j))}")
-    return "\n".join(written)
-
-
-def _headline(judged: Judged) -> str:
-    """Say in one line what is worst of a row."""
-    worst = judged.worst
-    if worst is None or worst.verdict is Verdict.PASS:
-        return judged.reason
-    return f"{worst.figure} {number(worst.before)} → {number(worst.now)}, allowed {number(worst.allowed)}"
-
-
-def _told(judged: Judged) -> str:
-    """Say all that was found of a row, a line for each figure that does not pass."""
-    changed = [c for c in judged.changes if c.verdict is not Verdict.PASS]
-    figures = [f"{c.figure}: {number(c.before)} → {number(c.now)}, allowed {number(c.allowed)}" for c in changed]
-    return "\n".join(filter(None, (f"{judged.slot} on {judged.device}: {judged.verdict}", judged.reason, *figures)))
+def _again(bad: Sequence[Judged], about: Mapping[Place, About]) -> list[str]:
+    """Write the command of each bad row, and where its picture lies, in a part that a reader unfolds."""
+    told = [(j, about[j.slot, j.device]) for j in bad[:SHOWN] if (j.slot, j.device) in about]
+    if not told:
+        return []
+    text = ["<details><summary>Run one row again</summary>", ""]
+    for j, own in told:
+        text.append(f"- {j.verdict}: {_escaped(j.slot)} on {_escaped(j.device)}  ")
+        text.append(f"  {_quoted(own.command)}" + ("  " if own.picture else ""))
+        if own.picture:
+            text.append(f"  wrong rays: {_quoted(own.picture.as_posix())}")
+    return [*text, "", "</details>"]

@@ -23,8 +23,8 @@ def rows_of(
     executor: LocalExecutor,
     watcher: Watcher,
     force: bool = False,
-) -> dict[str, Row]:
-    """Return each planned cell's row by its key.
+) -> tuple[dict[str, Row], frozenset[str]]:
+    """Return each planned cell's row by its key, and the keys of the rows that are of an earlier run.
 
     A cell is run now where `folder` has no row of it, where its row says that it did not finish and, with `force`, in
     any case; `watcher` is told of each. Raises FirsthitError where a row cannot be stored.
@@ -34,4 +34,4 @@ def rows_of(
     if found.todo:
         watcher.starts(len(found.todo), 1.0 * len(found.todo))
     rows = Runner(experiment.config, catalog, store, executor, describe(), watcher.cell).run(found.todo)
-    return found.kept | {row["key"]: row for row in rows}
+    return found.kept | {row["key"]: row for row in rows}, frozenset(found.kept)

@@ -114,6 +114,7 @@ WRONG = (
     Kind(4, "wrong root", _GREEN),
     Kind(5, "invalid", "#FF00FF"),
 )
+APART = "#7a3b10"  # a wrong answer to a grazing or drowned ray, where the kinds of all others are told apart
 UNDECIDED = "#bdbdbd"
 EXACT = "#e9eef4"  # an error of exactly zero, below the colour scale
 ERROR_MAP = "cividis"

@@ -47,15 +47,22 @@ def read(path: Path) -> Arrays:
     """Read the arrays of one cell. Raises ValueError or OSError where the file is damaged or not of this kind."""
     try:
         with np.load(path, allow_pickle=False) as file:
-            named = {name: file[name] for name in NEEDED}
-            named |= {name: file[name] for name in OPTIONAL if name in file}
-            samples = file.get("samples")
-    except (KeyError, EOFError, zipfile.BadZipFile, zlib.error) as error:
+            return of(file)
+    except (EOFError, zipfile.BadZipFile, zlib.error) as error:
         raise ValueError(f"damaged: {error}") from error
+
+
+def of(stored: Mapping[str, NDArray[Any]]) -> Arrays:
+    """Take the arrays of one cell by their names. Raises ValueError where they are not of this kind."""
+    try:
+        named = {name: stored[name] for name in NEEDED}
+    except KeyError as error:
+        raise ValueError(f"damaged: {error}") from error
+    named |= {name: stored[name] for name in OPTIONAL if name in stored}
     shapes = {array.shape for array in named.values()}
     if len(shapes) != 1 or len(next(iter(shapes))) != 2 or 0 in next(iter(shapes)):
         raise ValueError(f"its arrays are not of one two-dimensional shape: {sorted(shapes)}")
-    return Arrays(**named, samples=_whole_pixels(samples, shapes.pop()))
+    return Arrays(**named, samples=_whole_pixels(stored.get("samples"), shapes.pop()))
 
 
 def _whole_pixels(samples: NDArray[np.float32] | None, shape: tuple[int, ...]) -> NDArray[np.float32] | None:

@@ -1,0 +1,185 @@
+"""Real processes end with the exit codes that are documented, say what is true, and leave no worker behind."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from harness.cli import EXIT_CODES, main
+
+from .conftest import usable_devices
+from .synthetic_run import write_run
+
+ROOT = Path(__file__).parents[1]
+COMMAND = [sys.executable, "-m", "harness.cli"]
+CONFIG = """title = "Cells that end at once, and one that takes for ever"
+surfaces = ["sphere", "torus"]
+sizes = [16]
+devices = ["{device}"]
+[[method]]
+name = "analytic"
+[[method]]
+name = "endless"
+[accuracy]
+size = 64
+[budget]
+seconds = 0.1
+timeout = 600
+"""
+METHOD = """from firsthit import Method
+
+METHOD = Method(
+    name="endless",
+    source="t",
+    needs=("surface_along", "surface_value_along"),
+    accepts=lambda surface: None if surface.name == "torus" else "the torus alone takes for ever",
+)
+"""
+KERNEL = """Hit first_hit(Ray ray, real t0, real t1) {
+    Hit hit = no_hit(t1);
+    Along along = surface_along(ray);
+    real sum = 0.0;
+    for (int i = 0; i < 2000000000; i++) {
+        sum = sum * 0.5 + surface_value_along(along, t0 + real(i) * 1e-9);
+    }
+    if (sum == 12345.0) return hit_at(hit, t0);
+    return hit;
+}
+"""
+
+
+@pytest.fixture
+def endless(tmp_path):
+    """A folder with a config whose last cell never ends, the plugin that it needs, and an empty baseline."""
+    names = [info.name for info in usable_devices() if info.name.startswith("opencl:")]
+    if not names:
+        pytest.skip("no OpenCL device")
+    (tmp_path / "plugins" / "endless").mkdir(parents=True)
+    (tmp_path / "plugins" / "endless" / "method.py").write_text(METHOD)
+    (tmp_path / "plugins" / "endless" / "kernel.glsl").write_text(KERNEL)
+    (tmp_path / "endless.toml").write_text(CONFIG.format(device=names[0]))
+    (tmp_path / "baselines").mkdir()
+    (tmp_path / "baselines" / "endless.toml").write_text('format = 1\nconfig = "endless"\n')
+    return tmp_path
+
+
+def _environment():
+    return os.environ | {"PYTHONPATH": str(ROOT)}
+
+
+def _members(session):
+    """The processes of a session that have not ended."""
+    found = []
+    for status in Path("/proc").glob("[0-9]*/stat"):
+        try:
+            fields = status.read_text().rpartition(")")[2].split()
+        except OSError:  # it has ended since
+            continue
+        if int(fields[3]) == session and fields[0] != "Z":
+            found.append(int(status.parent.name))
+    return found
+
+
+def _stopped(folder, arguments, reached, begun=lambda: True):
+    """Start a command, wait for a line on stderr that `reached` knows and until it has `begun`, and type Ctrl-C.
+
+    Returns its exit code and stderr. As on a terminal, the signal goes to the workers too. No process of the command
+    may stay behind.
+    """
+    process = subprocess.Popen(
+        [*COMMAND, *map(str, arguments)],
+        cwd=folder,
+        env=_environment(),
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    )
+    try:
+        told = ""
+        while not reached(told):
+            line = process.stderr.readline()
+            assert line, f"it ended with {process.wait()}: {told}"
+            told += line
+        while not begun():
+            assert process.poll() is None, "it ended before it was stopped"
+            time.sleep(0.01)
+        time.sleep(0.3)  # into the next step
+        os.killpg(process.pid, signal.SIGINT)
+        told += process.communicate(timeout=120)[1]
+        assert not _members(process.pid)
+    finally:
+        process.kill()
+        process.wait()
+    assert "Traceback" not in told
+    return process.returncode, told
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="looks for processes in /proc")
+@pytest.mark.parametrize("command", ["run", "gate"])
+def test_ctrl_c_in_a_step_of_a_worker_is_130_and_keeps_what_finished(endless, command):
+    arguments = ["--plugins", "plugins", command, "endless.toml"]
+    code, told = _stopped(endless, arguments, lambda told: "[2/4]" in told)
+    assert code == 130
+    assert told.splitlines()[-1] == (
+        "firsthit: stopped; finished cells are kept, and the same command goes on from there"
+    )
+    assert len(list(endless.glob("runs/*/cells/*.json"))) >= 2, "what the message says is true"
+    code, told = _stopped(endless, [*arguments, "--force"], lambda told: "[2/4]" in told)
+    assert code == 130
+    assert "the command without --force goes on from there" in told
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="looks for processes in /proc")
+def test_ctrl_c_while_a_report_is_made_is_130_and_leaves_the_folder_as_it_was(tmp_path):
+    write_run(tmp_path / "quick")
+    before = sorted(tmp_path.rglob("*"))
+    code, told = _stopped(tmp_path, ["report", "quick"], lambda _: True, lambda: [*tmp_path.glob("quick/.new-*")])
+    assert (code, told.strip()) == (130, "firsthit: stopped")
+    assert sorted(tmp_path.rglob("*")) == before
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="looks for processes in /proc")
+def test_ctrl_c_while_devices_are_looked_for_is_130(tmp_path):
+    code, told = _stopped(tmp_path, ["devices", "--again"], lambda told: "looking for devices" in told)
+    assert (code, told.splitlines()[-1]) == (130, "firsthit: stopped")
+
+
+@pytest.mark.parametrize("arguments", [("list", "methods"), ("list", "configs"), ("--help",), ("gate", "--help")])
+def test_a_pipe_that_nobody_reads_is_no_success(tmp_path, arguments):
+    ours, theirs = os.pipe()
+    os.close(ours)
+    result = subprocess.run(
+        [*COMMAND, *arguments], cwd=tmp_path, env=_environment(), stdout=theirs, stderr=subprocess.PIPE, check=False
+    )
+    os.close(theirs)
+    assert (result.returncode, result.stderr) == (141, b"")
+
+
+def test_a_reason_that_nobody_reads_is_no_success_either(tmp_path):
+    ours, theirs = os.pipe()
+    os.close(ours)
+    result = subprocess.run([*COMMAND, "why", "nonesuch"], cwd=tmp_path, env=_environment(), stderr=theirs, check=False)
+    os.close(theirs)
+    assert result.returncode == 141
+
+
+def test_a_mistake_of_ours_is_3_and_says_where(monkeypatch, capsys):
+    from harness.commands import listing
+
+    monkeypatch.setattr(listing, "_list", lambda _: 1 / 0)
+    assert main(["list", "methods"]) == 3
+    assert "ZeroDivisionError" in capsys.readouterr().err
+
+
+def test_help_names_every_exit_code(capsys):
+    with pytest.raises(SystemExit) as caught:
+        main(["--help"])
+    assert caught.value.code == 0
+    out = capsys.readouterr().out
+    assert EXIT_CODES in out
+    assert [line.split()[0] for line in EXIT_CODES.splitlines()[1:]] == ["0", "1", "2", "3", "130", "141"]
