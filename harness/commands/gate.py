@@ -12,6 +12,7 @@ from harness.commands.printer import Printer
 from harness.contract import FirsthitError
 from harness.experiment.shipped import located
 from harness.gate import against, baseline, outputs
+from harness.gate.against import Other
 from harness.gate.baseline import Baseline
 from harness.gate.checked import Checked, check
 from harness.gate.judge import Judged, Verdict, exit_code, rank
@@ -30,7 +31,13 @@ def add_parsers(add: Add) -> None:
     parser.add_argument("--junit", type=Path, metavar="FILE", help="write the verdicts as JUnit XML")
     parser.add_argument("--markdown", type=Path, metavar="FILE", help="write a summary as Markdown")
     parser.add_argument("--github", action="store_true", help="print annotations for GitHub Actions")
-    parser.add_argument("--against", metavar="REV", help="also time every cell against this git revision's program")
+    parser.add_argument(
+        "--against",
+        metavar="REV",
+        help="hold errors, wrong rays, claims, evaluations and speed against this git revision instead of a baseline "
+        "(beside it, where --baseline is given); REV is of the repository that holds the folder for --plugins, else of "
+        "this project. Both revisions' programs run on this machine; CONFIG is read as it stands now for both",
+    )
     parser.set_defaults(run=_gate)
 
     parser = add(
@@ -69,30 +76,41 @@ def _gate(options: argparse.Namespace) -> int:
     for path in filter(None, (options.junit, options.markdown)):
         writable(path)
     path = _path(options)
-    before = baseline.read(path)
+    before = baseline.read(path) if options.baseline or not options.against else None
+    other = _other(options) if options.against else None
     checked = _check(options)
-    judged = checked.judged(before)
-    if options.against:
-        judged += against.speeds(checked, options.against, options.config, options.plugins)
+    judged = checked.judged(before) if before else []
+    compared = against.compare(checked, other, Printer(), options.force) if other else None
+    judged += compared.judged if compared else []
     judged.sort(key=rank)
     code = exit_code(judged, checked.unfinished)
-    _tell(options, checked, judged, path, code)
+    _tell(options, checked, judged, path if before else options.against, code)
+    if compared:
+        print(compared.told())
     return code
 
 
-def _tell(options: argparse.Namespace, checked: Checked, judged: list[Judged], path: Path, code: int) -> None:
-    """Write the files that are asked for, and then print the table."""
+def _other(options: argparse.Namespace) -> Other:
+    """Find the revision that --against names, before anything is run."""
+    return against.at(options.against, options.config, options.plugins, options.device or (), Printer())
+
+
+def _tell(options: argparse.Namespace, checked: Checked, judged: list[Judged], held: Path | str, code: int) -> None:
+    """Write the files that are asked for, and then print the table.
+
+    `held` names what the rows are held against: a baseline's file, or a revision.
+    """
     title = checked.experiment.name
     if options.junit:  # files come first, since the table's reader may go away
         write_atomically(options.junit, outputs.junit(judged, title).encode())
     if options.markdown:
-        write_atomically(options.markdown, outputs.markdown(judged, title, path, code).encode())
+        write_atomically(options.markdown, outputs.markdown(judged, title, held, code).encode())
     print(outputs.table(judged))
     if options.github:
         kernels = {name: plugin.folder / "kernel.glsl" for name, plugin in checked.catalog.plugins.items()}
         if written := outputs.github(judged, kernels):
             print(written)
-    if any(j.verdict is Verdict.INCOMPARABLE for j in judged):
+    if any(j.verdict is Verdict.INCOMPARABLE for j in judged) and isinstance(held, Path):
         print("firsthit: incomparable is no pass; bless the baseline on this machine and device", file=sys.stderr)
 
 

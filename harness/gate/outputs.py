@@ -71,7 +71,7 @@ def table(judged: Sequence[Judged]) -> str:
     return "\n".join(filter(None, (console.table(HEADER, listed) if listed else "", counted(judged))))
 
 
-def markdown(judged: Sequence[Judged], title: str, baseline: Path, code: int) -> str:
+def markdown(judged: Sequence[Judged], title: str, baseline: Path | str, code: int) -> str:
     """Write a heading with the outcome, which follows from the exit code `code`, and the table, in Markdown."""
 
     def cell(text: str) -> str:
