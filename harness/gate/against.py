@@ -37,6 +37,7 @@ from harness.running.runner import Runner
 ASKED = ("surface", "view", "sampling", "family", "precision", "raster")  # parts of an identity that a method is asked
 METHODS_OWN = ("meshes", "mesher", "variant")  # what methods decide of these
 SAME = "the same program"
+SKIPPED = "skipped at both revisions"
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,13 +65,13 @@ class Compared:
             SAME: sum(j.reason == SAME for j in accuracy),
             "the same to the last digit": equal,
             "other figures": len(compared) - equal,
-            "nothing to compare": sum(not j.changes and j.reason != SAME for j in accuracy),
+            "skipped at both revisions": sum(j.reason.startswith(SKIPPED) for j in accuracy),
         }
+        counts["not compared"] = len(accuracy) - sum(counts.values())
         said = ", ".join(f"{count} {what}" for what, count in counts.items() if count) or "no cells"
         lines = [f"accuracy against {self.name}: {said}"]
-        raced = [(f"{c.now:.3f}", j.reason, j.slot, j.device) for j in self.judged for c in _speeds(j)]
-        if raced:
-            lines += [f"speed against {self.name}:", console.table(("ratio", "", "cell", "device"), raced)]
+        if raced := [_ratio_line(j) for j in self.judged if j.changes and j.changes[0].figure == SPEED.name]:
+            lines += [f"speed against {self.name}:", console.table(("ratio", "interval", "cell", "device"), raced)]
         lines += [f"not raced: {count} cells whose program changed; {why}" for why, count in self.unraced.items()]
         return "\n".join(lines)
 
@@ -108,8 +109,9 @@ def at(name: str, config: Path, plugins: Path | None, devices: Sequence[str], wa
     there = revision.found(name, plugins)
     catalog = find_methods(plugins)
     experiment = reading.load(config, catalog)
-    cells = plan.grid(experiment, catalog, discover_devices(devices or experiment.config.devices))
-    here = dict.fromkeys(info.name for _, info in cells if info and (not devices or info.name in devices))
+    chosen = replace(experiment.config, devices=list(devices) or experiment.config.devices)
+    cells = plan.grid(replace(experiment, config=chosen), catalog, discover_devices(chosen.devices))
+    here = dict.fromkeys(info.name for _, info in cells if info)
     with watcher.doing(f"making the programs of {name}"):
         return Other(there, revision.programs_at(there, config, list(here)))
 
@@ -169,7 +171,7 @@ def _pair(planned: Planned, row: Row, other: Other) -> _Pair:
         change = Change("status", "cast", CellStatus.SKIPPED, "cast", Verdict.REGRESSED)
         pair.tell(Verdict.REGRESSED, f"{planned.skip}; the other revision casts it", change)
     elif casting is None:
-        pair.tell(Verdict.PASS, f"skipped at both revisions: {planned.skip}")
+        pair.tell(Verdict.PASS, f"{SKIPPED}: {planned.skip}")
     elif former.skip is not None:
         pair.before = row | {"status": CellStatus.SKIPPED, "reason": former.skip, "accuracy": None, "rungs": None}
     elif former.programs.hash == casting.programs.hash:
@@ -320,6 +322,7 @@ def _speed(planned: Planned) -> Judged:
     return Judged(f"{slot_of(planned)}: speed", planned.cell.device, planned.cell.variant.method, Verdict.PASS)
 
 
-def _speeds(judged: Judged) -> list[Change]:
-    """Return the ratio of a row that was raced, as a list of one; else nothing."""
-    return [change for change in judged.changes if change.figure == SPEED.name]
+def _ratio_line(judged: Judged) -> tuple[str, str, str, str]:
+    """Return what a table says of a cell that was raced."""
+    ratio, interval = judged.changes[0].now, judged.reason.removeprefix(race.TOLD)
+    return f"{ratio:.3f}", interval, judged.slot.removesuffix(": speed"), judged.device
