@@ -112,6 +112,8 @@ def at(name: str, config: Path, plugins: Path | None, devices: Sequence[str], wa
     chosen = replace(experiment.config, devices=list(devices) or experiment.config.devices)
     cells = plan.grid(replace(experiment, config=chosen), catalog, discover_devices(chosen.devices))
     here = dict.fromkeys(info.name for _, info in cells if info)
+    if not here:
+        raise FirsthitError(f"--against: {config} has no cell on a device that is here", exit_code=3)
     with watcher.doing(f"making the programs of {name}"):
         return Other(there, revision.programs_at(there, config, list(here)))
 
@@ -159,10 +161,9 @@ def _pair(planned: Planned, row: Row, other: Other) -> _Pair:
     if planned.device is None:
         pair.tell(Verdict.INCOMPARABLE, str(planned.skip))
     elif former is None:
-        why = other.formers.left_out.get(planned.cell.variant.method) or other.formers.left_out.get(
-            planned.cell.family or planned.cell.surface.name
-        )
-        reason = f"the other revision has no such cell{f': {why}' if why else ''}"
+        names = (planned.cell.variant.method, *planned.cell.comparison.split())
+        why = [other.formers.left_out[name] for name in names if name in other.formers.left_out]
+        reason = ": ".join(["the other revision has no such cell", *why])
         done = row["status"] in (CellStatus.OK, CellStatus.SKIPPED)
         pair.tell(*((Verdict.NEW, reason) if done else (Verdict.INCOMPARABLE, f"{row['reason']}; {reason}")))
     elif parts := differing(planned.identity, former.identity):

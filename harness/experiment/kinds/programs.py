@@ -12,8 +12,9 @@ from harness.contract import Program, digest
 from harness.devices.raster import Batch
 
 _COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
+_SPACE = re.compile(r" ?(\W) ?")  # beside a sign
 _STARTED = {  # what the host binds: a kernel's parameters in OpenCL C, and declarations in GLSL
-    "cl": re.compile(r"\bkernel\s+void\s+\w+\s*\([^)]*\)"),
+    "cl": re.compile(r"\b(?:__)?kernel\s+void\s+\w+\s*\([^)]*\)"),
     "glsl": re.compile(r"^[ \t]*(?:layout\s*\(|uniform\b|in\b)[^;{]*(?:\{[^}]*\}[^;]*)?;", re.MULTILINE),
 }
 
@@ -55,7 +56,7 @@ class Programs:
 def _launch(program: Program) -> tuple[str, str, str, list[str]]:
     """Return what the host must know of a program: language, precision, entry, and what is handed to it."""
     text = _COMMENT.sub("", "\n".join([program.text, *(section.text for section in program.vertex)]))
-    told = (" ".join(found.split()) for found in _STARTED[program.language].findall(text))
+    told = (_SPACE.sub(r"\1", " ".join(found.split())) for found in _STARTED[program.language].findall(text))
     return program.language, program.precision, program.entry, sorted(told)
 
 
