@@ -37,6 +37,7 @@ from harness.running.runner import Runner
 ASKED = ("surface", "view", "sampling", "family", "precision", "raster")  # parts of an identity that a method is asked
 METHODS_OWN = ("meshes", "mesher", "variant")  # what methods decide of these
 SAME = "the same program"
+KEPT = "against"  # the folder of the other revision's rows, below that of a gate's
 SKIPPED = "skipped at both revisions"
 
 
@@ -50,11 +51,18 @@ class Other:
 
 @dataclass(frozen=True, eq=False)
 class Compared:
-    """Hold the verdicts on all cells, and those cells' reasons for not being raced that never are, counted."""
+    """Hold the verdicts on all cells.
+
+    name: the revision's, as it was given
+    unraced: why cells whose program changed are never raced, counted
+    before: the other revision's rows by the cells' slots, device included; their arrays lie below `folder`
+    """
 
     name: str
     judged: list[Judged]
     unraced: Counter[str]
+    before: Mapping[str, Row]
+    folder: Path
 
     def told(self) -> str:
         """Tell how much of the accuracy is the same, and every ratio that was measured, those that pass included."""
@@ -135,7 +143,9 @@ def compare(checked: Checked, other: Other, watcher: Watcher, force: bool = Fals
         executor.close()
     judged = [pair.told for pair in pairs if pair.told] + speeds + _missing(checked, other)
     changed = (p.planned.casting for p in pairs if p.then and p.planned.kind.is_timed)
-    return Compared(name, judged, Counter(casting.not_raced for casting in changed if casting and casting.not_raced))
+    unraced = Counter(casting.not_raced for casting in changed if casting and casting.not_raced)
+    before = {pair.planned.cell.slot: pair.before for pair in pairs if pair.then and pair.before}
+    return Compared(name, judged, unraced, before, checked.folder / KEPT)
 
 
 def differing(now: Mapping[str, Any], then: Mapping[str, Any]) -> list[str]:
@@ -211,7 +221,7 @@ def _run(
     pairs: list[_Pair], checked: Checked, there: Revision, executor: LocalExecutor, watcher: Watcher, force: bool
 ) -> None:
     """Check the cells with the other revision's programs, and keep their rows; certified answers are shared."""
-    store = Store(checked.folder / "against")
+    store = Store(checked.folder / KEPT)
     store.truth = checked.folder / "truth"
     planned = [pair.then for pair in pairs if pair.then]
     found = due(planned, store, "everything" if force else "unfinished")
@@ -279,7 +289,7 @@ def _race(
         return
     infos = {p.cell.device: p.device for p in checked.planned if p.device}
     timed = [p for p in plan.plan(experiment, checked.catalog, list(infos.values())) if p.skip is None and p.timed]
-    raced = [p for p in timed if isinstance(p.casting, RacedCasting)]
+    raced = [p for p in timed if isinstance(p.casting, RacedCasting) and p.cell.slot in by_slot]
     told = {p.cell.slot: _unraced(p, by_slot[p.cell.slot], experiment.config.accuracy.max_wrong_share) for p in raced}
     yield from (judged for judged in told.values() if judged)
     todo = [p for p in raced if told[p.cell.slot] is None]
