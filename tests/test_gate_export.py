@@ -43,7 +43,7 @@ def ran(tree, layout):
     for name, text in files.items():
         (tree / name).parent.mkdir(parents=True, exist_ok=True)
         (tree / name).write_text(text)
-    command = [sys.executable, "-c", EXPORT.read_text(encoding="utf-8"), "c.toml", "", "opencl:none"]
+    command = [sys.executable, "-c", EXPORT.read_text(encoding="utf-8"), "c.toml", "", ".", "opencl:none"]
     environment = {**os.environ, "PYTHONPATH": str(tree)}
     return subprocess.run(command, cwd=tree, env=environment, capture_output=True, text=True, check=False)
 
@@ -52,7 +52,7 @@ def ran(tree, layout):
 def test_every_layout_that_a_revision_may_have_is_read(tmp_path, layout):
     done = ran(tmp_path, layout)
     assert done.returncode == 0, done.stderr
-    assert json.loads(done.stdout)["the only cell"]["skip"] == "on ['opencl:none']"
+    assert json.loads(done.stdout)["cells"]["the only cell"]["skip"] == "on ['opencl:none']"
 
 
 def test_a_revision_without_a_part_is_told_and_no_other_revisions_part_is_taken(tmp_path):

@@ -4,9 +4,9 @@ import pytest
 
 from harness.contract import FirsthitError
 from harness.gate import baseline
-from harness.gate.against import verdict_of
 from harness.gate.baseline import Baseline
 from harness.gate.judge import Judged, Tolerance, Verdict, exit_code, judge, tolerances_of
+from harness.gate.race import verdict_of
 from harness.results import figures
 from harness.results.facts import FACTS as COMPARED
 from harness.results.timings import Ratio

@@ -8,11 +8,14 @@ import pytest
 
 import surfaces
 from harness.contract import Casts, FirsthitError, Variant, View
+from harness.devices.raster import Batch
 from harness.devices.trial_launch import trial_launch
 from harness.experiment.cells import Cell
 from harness.experiment.kinds.casts import WAYS
 from harness.experiment.kinds.model import Asked, Drawing
+from harness.experiment.kinds.programs import Programs
 from harness.experiment.kinds.shots import ShotKind
+from harness.kernels import prepass
 from harness.kernels.assemble import KERNELS, ROOMS, Entry, method_program
 from harness.plugins import find_methods
 from harness.scenes.model import single
@@ -88,3 +91,48 @@ def test_what_a_kind_cannot_make_is_refused_with_the_reason():
     assert mesh.cells.refusal(asked) == "the method draws triangles, in stage raster"
     with pytest.raises(FirsthitError, match="the method draws triangles, in stage raster"):
         mesh.cells.casting(asked)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "same"),
+    [
+        ("__global int *answer", "__global int *answer, __global int *more", False),
+        ("__global int *answer", "__global uint *answer", False),
+        ("__kernel void rays(", "__kernel void rays(   ", True),
+        ("get_global_id(0)", "get_global_id(0) + 0", True),
+    ],
+)
+def test_another_revisions_programs_are_launched_only_with_the_same_buffers(old, new, same):
+    mine = program("rays")
+    *ahead, entry = mine.sections
+    assert old in entry.text
+    theirs = dataclasses.replace(mine, sections=(*ahead, dataclasses.replace(entry, text=entry.text.replace(old, new))))
+    assert of_checks(theirs).launched_as(of_checks(mine)) is same
+    assert of_checks(theirs).hash != of_checks(mine).hash
+    assert not of_checks(mine, mine).launched_as(of_checks(mine))
+
+
+def of_checks(*checks):
+    return Programs(checks, None, (), {})
+
+
+def test_knobs_and_triangles_count_although_they_are_in_no_programs_text():
+    mine = program("beams")
+    batch = Batch(mine, np.zeros((1, 32), np.float32), np.arange(3, dtype=np.uint32), None, True)
+    moved = dataclasses.replace(batch, vertices=np.zeros((3, 6), np.float32))
+    own = [
+        Programs((mine,), None, (), knobs, batches)
+        for knobs in ({}, {"GROUPED": 0})
+        for batches in ((), (batch,), (moved,))
+    ]
+    assert len({one.hash for one in own}) == len(own)
+
+
+def test_a_prepass_is_launched_over_the_tiles_that_its_own_program_was_made_with(monkeypatch):
+    made = {}
+    for bits in (3, 5):
+        monkeypatch.setattr(prepass, "TILE_BITS", bits)
+        made[bits] = prepass.program(surfaces.get("torus"), "float32", "cl")
+    monkeypatch.undo()
+    assert [prepass.tile_bits(one) for one in made.values()] == [3, 5]
+    assert [prepass.tiles_per_side(64, bits) for bits in made] == [8, 2]

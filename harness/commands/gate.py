@@ -12,13 +12,15 @@ from harness.commands.printer import Printer
 from harness.contract import FirsthitError
 from harness.experiment.shipped import located
 from harness.gate import against, baseline, chosen
+from harness.gate.about import cell_slot
+from harness.gate.against import Compared, Other
 from harness.gate.baseline import Baseline
 from harness.gate.checked import Checked, check
 from harness.gate.chosen import ALL, Only
 from harness.gate.entries import slot_of
 from harness.gate.judge import Verdict, exit_code, rank
 from harness.gate.keep import Keeping, keeping
-from harness.gate.pictures import blessed_in
+from harness.gate.pictures import Before, blessed_in, rows_in
 
 
 def add_parsers(add: Add) -> None:
@@ -39,7 +41,13 @@ def add_parsers(add: Add) -> None:
         "chooses that row alone; may be repeated",
     )
     telling.add_outputs(parser)
-    parser.add_argument("--against", metavar="REV", help="also time every cell against this git revision's program")
+    parser.add_argument(
+        "--against",
+        metavar="REV",
+        help="hold errors, wrong rays, claims, evaluations and speed against this git revision instead of a baseline "
+        "(beside it, where --baseline is given); REV is of the repository that holds the folder for --plugins, else of "
+        "this project. Both revisions' programs run on this machine; CONFIG is read as it stands now for both",
+    )
     parser.add_argument("--keep", action="store_true", help="keep the figures by commit, for `firsthit history`")
     add_history(parser)
     parser.set_defaults(run=_gate)
@@ -81,26 +89,52 @@ def _gate(options: argparse.Namespace) -> int:
         writable(path)
     telling.ready_to_draw(options)
     path = _path(options)
-    before = baseline.read(path)
-    only = Only(tuple(options.only), chosen.among(before))
+    before = baseline.read(path) if options.baseline or not options.against else None
+    other = _other(options) if options.against else None
+    only = Only(tuple(options.only), _known(before, other))
     kept = _keeping(options, path) if options.keep else None
     checked = _check(options, only)
     if kept:
         _keep(kept, checked)
-    judged = checked.judged(only.narrowed(before, (slot_of(p) for p in checked.planned)))
-    if options.against:
-        judged += against.speeds(checked, options.against, options.config, options.plugins)
+    judged = checked.judged(only.narrowed(before, map(slot_of, checked.planned))) if before else []
+    compared = against.compare(checked, other, only, Printer(), options.force) if other else None
+    judged += compared.judged if compared else []
     judged.sort(key=rank)
     code = exit_code(judged, checked.unfinished) or (3 if checked.catalog.broken else 0)
-    shown = telling.drawn(options, checked, judged, blessed_in(before, checked.folder))
-    telling.tell(options, checked, judged, str(path), code, telling.about_rows(options, checked, judged, shown))
-    if any(j.verdict is Verdict.INCOMPARABLE for j in judged):
+    shown = telling.drawn(options, checked, judged, _answers_before(checked, before, compared))
+    held = " and ".join([str(path)] * bool(before) + [f"revision {options.against}"] * bool(other))
+    about, more = telling.about_rows(options, checked, judged, shown), compared.told() if compared else ""
+    telling.tell(options, checked, judged, held, code, about, more)
+    if before and any(j.verdict is Verdict.INCOMPARABLE for j in judged):
         print("firsthit: incomparable is no pass; bless the baseline on this machine and device", file=sys.stderr)
     return code
 
 
+def _other(options: argparse.Namespace) -> Other:
+    """Find the revision that --against names, before anything is run."""
+    return against.at(options.against, options.config, options.plugins, options.device or (), Printer())
+
+
+def _known(before: Baseline | None, other: Other | None) -> frozenset[str]:
+    """Return the slots that are known beside those of the config, some of which may be gone from it."""
+    blessed = chosen.among(before) if before else frozenset()
+    return blessed | (other.slots if other else frozenset())
+
+
+def _answers_before(checked: Checked, before: Baseline | None, compared: Compared | None) -> Before:
+    """Make the function that finds what a row answered before: at the other revision, or as it was blessed."""
+    blessed = blessed_in(before or Baseline(), checked.folder)
+    there = rows_in(compared.stored(), compared.folder, f"at {compared.name}") if compared else blessed
+    return lambda judged, row: (blessed if judged.slot == cell_slot(judged) else there)(judged, row)
+
+
 def _keeping(options: argparse.Namespace, path: Path) -> Keeping:
-    """Say which commit the rows will be kept by. Raises FirsthitError, before anything runs, where there is none."""
+    """Say which commit the rows will be kept by.
+
+    Raises FirsthitError, before anything runs, where there is none, or where not all rows would be kept.
+    """
+    if options.only:
+        raise FirsthitError("--keep keeps all rows of a config: leave out --only")
     folder = history_of(options, options.config)
     return keeping(options.plugins, options.config, folder, [path, options.runs])
 

@@ -93,17 +93,24 @@ def tell(
     held: str,
     code: int,
     about: Mapping[Place, About],
+    more: str = "",
 ) -> None:
-    """Write the files that are asked for, and then print the table. `held` names what the rows are held against."""
+    """Write the files that are asked for, and then print the table.
+
+    `held` names what the rows are held against, and `more` is told after the table.
+    """
     title = checked.experiment.name
     if options.junit:  # files come first, since the table's reader may go away
         write_atomically(options.junit, servers.junit(judged, title, about).encode())
     summary = outputs.markdown(judged, title, held, code, about)
+    summary += f"\n```\n{more}\n```\n" if more else ""
     if options.markdown:
         write_atomically(options.markdown, summary.encode())
     if options.github:
         servers.summarize(summary)
     print(outputs.table(judged, shutil.get_terminal_size().columns if sys.stdout.isatty() else None))
+    if more:
+        print(more)
     if options.pictures:
         count = sum(1 for own in about.values() if own.picture)
         print(f"{options.pictures}: {count} {'picture' if count == 1 else 'pictures'} of wrong rays")

@@ -38,10 +38,13 @@ class Timing:
 
     wall_ms: the host's time from submitting the work until it is finished
     device_ms: by the device's own clock; None if it has none
+    processor_ms: what the process that holds the device spent meanwhile on the processor, all threads together; None if
+        nobody looked
     """
 
     wall_ms: float
     device_ms: float | None
+    processor_ms: float | None = None
 
 
 @dataclass(frozen=True)

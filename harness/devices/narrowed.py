@@ -89,10 +89,10 @@ def _prepass(device: Device, program: Program, built: Built, size: int) -> tuple
     The buffers are, with m tiles: their spans of depth, real[2 m]; the evaluations that tiles spent, int32[2 m]; the
     queue; and its counts, int32[LEVELS].
     """
-    last = last_level(size)
-    stop = max(0, last - prepass.TILE_BITS)
+    last, bits = last_level(size), prepass.tile_bits(program)
+    stop = max(0, last - bits)
     steps, queue = quadtree_steps(device, built, size, first_level(device.info, stop), last, stop)
-    values = 2 * prepass.tiles_per_side(size) ** 2
+    values = 2 * prepass.tiles_per_side(size, bits) ** 2
     spans, spent = Reserved(values, real_type(program)), Reserved(values, np.int32)
     return steps, [spans, spent, Reserved(queue, np.int32), Reserved(LEVELS, np.int32)]
 
@@ -130,8 +130,8 @@ def launch_narrowed_rays(
     """
     steps, scratch = _prepass(device, programs[0], built[0], size)
     row, column = np.divmod(pixels, size)
-    across = prepass.tiles_per_side(size)
-    tiles = ((row >> prepass.TILE_BITS) * across + (column >> prepass.TILE_BITS)).astype(np.int32)
+    bits = prepass.tile_bits(programs[0])
+    tiles = ((row >> bits) * prepass.tiles_per_side(size, bits) + (column >> bits)).astype(np.int32)
     buffers: list[Array | Reserved] = [
         np.ascontiguousarray(camera, np.float32),
         *scratch,

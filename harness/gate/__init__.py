@@ -3,6 +3,7 @@
 `checked` runs a config's cells without timing them, of which `chosen` chooses those that --only names. `entries` makes
 of their rows what a baseline keeps. `baseline` reads and writes the file. `judge` compares the two. `outputs` tells
 people of it and `servers` tells CI servers; `about` says of each row how to get it again, and `pictures` gathers what
-its wrong rays are drawn from. `against` compares speed with another git revision, whose programs `revision` gets by
-running `export` there. `keep` keeps what `checked` found by commit, which `repository` names.
+its wrong rays are drawn from. `against` holds a config against another git revision instead, whose programs `revision`
+gets by running `export` there; `race` compares the speed of both. `keep` keeps what `checked` found by commit, which
+`repository` names.
 """

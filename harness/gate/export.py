@@ -1,15 +1,21 @@
 """Print a config's programs as JSON on the last line of stdout. This runs as a script inside another revision's tree.
 
-The script's arguments are the config, the plugins folder or "", and the names of devices. It uses only what the harness
-has in every revision, under the name that it has in each.
+The script's arguments are the config, the plugins folder or "", a folder for arrays, and the names of devices. It uses
+only what the harness has in every revision, under the name that it has in each. What a revision lacks is left out, and
+whoever reads the JSON says so.
 """
 
 import dataclasses
 import importlib
+import itertools
 import json
 import sys
+import tomllib
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
+
+import numpy as np
 
 import harness
 from harness.contract import FirsthitError, Program
@@ -18,6 +24,8 @@ from harness.plugins import find_methods
 LOAD = ("harness.experiment.reading", "harness.experiment.config", "harness.config")  # the newest name first
 PLAN = ("harness.experiment.plan", "harness.plan")
 DISCOVERY = ("harness.devices.discovery", "harness.devices.executor", "harness.executor")
+NOT_PLANNED = ("gate", "accuracy", "baseline")  # keys of a config that decide no program
+GROWING = ("method", "surfaces", "families")  # keys whose lists may name what this revision has not
 
 
 def _module(names: tuple[str, ...]) -> Any:
@@ -34,34 +42,127 @@ def _module(names: tuple[str, ...]) -> Any:
 
 def _json(program: Program) -> dict[str, Any]:
     """Return the parts of a program, from which `harness.gate.revision` makes the program again."""
-    sections = [[section.origin, section.text] for section in program.sections]
-    return {"language": program.language, "precision": program.precision, "entry": program.entry, "sections": sections}
+    parts = {name: getattr(program, name, ()) for name in ("sections", "vertex")}
+    texts = {name: [[section.origin, section.text] for section in sections] for name, sections in parts.items()}
+    return {"language": program.language, "precision": program.precision, "entry": program.entry} | texts
 
 
-def export(path: str, plugins: str, devices: list[str]) -> dict[str, Any]:
-    """Return each cell's programs by its slot. Raises FirsthitError where the config cannot be planned.
+def _toml(value: Any) -> str:
+    """Write a value as TOML on one line."""
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{json.dumps(key)} = {_toml(item)}" for key, item in value.items()) + "}"
+    if isinstance(value, list):
+        return "[" + ", ".join(map(_toml, value)) + "]"
+    if isinstance(value, str | bool):
+        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+    return repr(value)
 
-    skip: why the cell cannot be run; None where it can
-    check, timed: the programs that are checked and timed; None where there is none
+
+def load(path: Path, catalog: Any, folder: Path) -> tuple[Any, dict[str, str]]:
+    """Read the config with this revision's code.
+
+    Methods, surfaces and families that this revision cannot read, since they came later, are left out. Returns the
+    experiment, and why each was left out, by its name. Raises FirsthitError where nothing is left that can be read.
     """
+    reading = _module(LOAD)
+    try:
+        return reading.load(path, catalog), {}
+    except FirsthitError as error:
+        first = error
+    try:
+        whole = tomllib.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        raise first from None
+    whole = {key: value for key, value in whole.items() if key not in NOT_PLANNED}
+    copy = folder / path.name
+
+    def attempt(parts: dict[str, Any]) -> Any:
+        lines = (f"{json.dumps(key)} = {_toml(value)}" for key, value in (whole | parts).items())
+        copy.write_text("\n".join(lines), encoding="utf-8")
+        return reading.load(copy, catalog)
+
+    def refusal(parts: dict[str, Any]) -> str | None:
+        try:
+            attempt(parts)
+        except FirsthitError as error:
+            return str(error).partition(": ")[2] or str(error)
+        return None
+
+    lists = {key: whole[key] for key in GROWING if isinstance(whole.get(key), list)}
+    choices = itertools.product(*([[item] for item in items] for items in lists.values()))
+    read = next((c for c in (dict(zip(lists, choice, strict=True)) for choice in choices) if not refusal(c)), None)
+    if read is None:
+        raise first
+    kept: dict[str, list[Any]] = {key: [] for key in lists}
+    left_out: dict[str, str] = {}
+    for key, item in ((key, item) for key, items in lists.items() for item in items):
+        if reason := refusal(read | {key: [item]}):
+            left_out[str(item.get("name") if isinstance(item, dict) else item)] = reason
+        else:
+            kept[key].append(item)
+    return attempt(kept), left_out
+
+
+def _second(casting: Any) -> Program | None:
+    """Return the kernel as an OpenCL program of listed rays, for a second build of it; None where there is none."""
+    try:
+        second = casting.second_build(None, SimpleNamespace(rays=None))
+        return second.program("cl") if second else None
+    except (AttributeError, TypeError, FirsthitError):  # a revision without second builds, or with others
+        return None
+
+
+def _batches(casting: Any, folder: Path, name: str) -> list[str]:
+    """Write what each draw call of stage raster draws into files of `folder`, and return their paths."""
+    files = []
+    for i, draw in enumerate(getattr(casting, "draws", ())):
+        batch = draw.batch(True)
+        arrays = {"instances": batch.instances, "triangles": batch.triangles, "closed": np.array(batch.closed)}
+        arrays |= {} if batch.vertices is None else {"vertices": batch.vertices}
+        files.append(str(folder / f"{name}-{i}.npz"))
+        np.savez(files[-1], **arrays)
+    return files
+
+
+def _cell(planned: Any, catalog: Any, folder: Path, name: str) -> dict[str, Any]:
+    """Return what `harness.gate.revision.Former` holds of a cell, as far as this revision says it."""
+    casting, skip = getattr(planned, "casting", None), planned.skip
+    variant, batches = getattr(planned.cell, "variant", None), []
+    try:
+        batches = _batches(casting, folder, name)
+    except FirsthitError as error:  # a mesh that cannot be made
+        skip = str(error)
+    method = catalog.get(variant.method).method if variant else None
+    before = getattr(planned, "prepass", None)  # where it is in a revision without castings
+    second, others = _second(casting), getattr(casting, "others", (before,) if before else ())
+    return {
+        "skip": skip,
+        "checks": [_json(program) for program in planned.checks or ()],
+        "timed": _json(planned.timed) if planned.timed else None,
+        "others": [_json(program) for program in others],
+        "second": _json(second) if second else None,
+        "batches": batches,
+        "parameters": dict(variant.parameters) if variant else {},
+        "method": variant.method if variant else None,
+        "claims": sorted(method.claims) if method else None,
+        "identity": getattr(planned, "identity", {}),
+    }
+
+
+def export(path: Path, plugins: str, folder: Path, devices: list[str]) -> dict[str, Any]:
+    """Return each cell by its slot, and what was left out, by its name. Raises FirsthitError as `load` does."""
     catalog = find_methods(Path(plugins) if plugins else None)
-    experiment = _module(LOAD).load(Path(path), catalog)
+    experiment, left_out = load(path, catalog, folder)
     experiment = dataclasses.replace(experiment, config=dataclasses.replace(experiment.config, devices=devices))
     found = _module(DISCOVERY).discover_devices(experiment.config.devices)
     planned = _module(PLAN).plan(experiment, catalog, found)
-    return {
-        p.cell.slot: {
-            "skip": p.skip,
-            "check": p.checks and _json(p.checks[0]),
-            "timed": _json(p.timed) if p.timed else None,
-        }
-        for p in planned
-    }
+    cells = {p.cell.slot: _cell(p, catalog, folder, str(i)) for i, p in enumerate(planned)}
+    return {"cells": cells, "left_out": left_out}
 
 
 if __name__ == "__main__":
     try:
-        print(json.dumps(export(sys.argv[1], sys.argv[2], sys.argv[3:])))
+        print(json.dumps(export(Path(sys.argv[1]), sys.argv[2], Path(sys.argv[3]), sys.argv[4:])))
     except FirsthitError as error:
         print(error, file=sys.stderr)
         sys.exit(2)

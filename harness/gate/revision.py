@@ -8,90 +8,179 @@ import os
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from harness import ROOT
 from harness.contract import FirsthitError, Program, Section
+from harness.devices.raster import Batch
+from harness.experiment.kinds.programs import Programs
 
 EXPORT = Path(__file__).with_name("export.py")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Former:
-    """Hold one cell's programs at the other revision.
+    """Hold one cell at the other revision.
 
-    check, timed: the programs that are checked and timed; None where there is none
+    programs: what it is cast by
     skip: why the cell is skipped there; None where it is not
+    claims: those that its method states there; None where that revision does not say
+    identity: what that revision says of the cell's identity (harness.experiment.identity)
     """
 
-    check: Program | None
-    timed: Program | None
+    programs: Programs
     skip: str | None
+    method: str
+    claims: tuple[str, ...] | None
+    identity: Mapping[str, Any]
 
 
-def programs_at(revision: str, config: Path, plugins: Path | None, devices: list[str]) -> dict[str, Former]:
-    """Return each cell's programs at a git revision, by its slot.
+@dataclass(frozen=True, eq=False)
+class Formers:
+    """Hold the cells of a config at another revision by their slots, and what could not be read there, by its name."""
 
-    The revision is one of the repository that holds the folder `plugins` or, without plugins, of this project. Where
-    plugins are in a repository of their own, the harness that plans them is the present one. Raises FirsthitError where
-    there is no such revision, and with exit code 3 where its code cannot plan the config.
+    cells: Mapping[str, Former]
+    left_out: Mapping[str, str]
+
+
+@dataclass(frozen=True)
+class Revision:
+    """State a git revision that is there: its name as it was given, its commit, and its repository.
+
+    plugins: the folder of further methods, in this repository; None for the project itself
     """
-    top = _git(plugins or ROOT, "rev-parse", "--show-toplevel")
+
+    name: str
+    commit: str
+    repository: Path
+    plugins: Path | None
+
+    @property
+    def holds_harness(self) -> bool:
+        """Tell whether the revision is one of this project, whose harness then plans the config."""
+        return self.repository == ROOT.resolve()
+
+
+def found(name: str, plugins: Path | None) -> Revision:
+    """Find a revision of the repository that holds the folder `plugins` or, without plugins, of this project.
+
+    This is done at once, before anything is run. Raises FirsthitError where there is no git, no repository or no such
+    revision, and where the revision lacks the folder.
+    """
+    folder = (plugins or ROOT).resolve()
+    if not folder.is_dir():
+        raise FirsthitError(f"--plugins: there is no folder {plugins}")
+    top, reason = _git(folder, "rev-parse", "--show-toplevel")
     if top is None:
-        raise FirsthitError(f"--against: {plugins or ROOT} is in no git repository, so there is no revision to be had")
-    repository = Path(top)
-    with _worktree(repository, revision) as tree:
-        ours = repository == ROOT.resolve()
-        there = tree / plugins.resolve().relative_to(repository) if plugins else None
-        code = tree if ours else ROOT
-        arguments = [str(config.resolve()), str(there or ""), *devices]
+        raise FirsthitError(f"--against: {folder} is in no git repository that can be read ({reason})")
+    revision = Revision(name, "", Path(top).resolve(), folder if plugins else None)
+    if plugins is None and not revision.holds_harness:
+        raise FirsthitError(
+            f"--against: {ROOT} is an installation and no clone of firsthit; give --plugins DIR before gate"
+        )
+    commit, _ = _git(folder, "rev-parse", "--verify", "--quiet", f"{name}^{{commit}}")
+    if commit is None:
+        shallow, _ = _git(folder, "rev-parse", "--is-shallow-repository")
+        hint = (
+            "the clone is shallow: `git fetch --unshallow`, or fetch-depth: 0 of actions/checkout, gets older ones"
+            if shallow == "true"
+            else "`git fetch` gets what others pushed, and `git branch -a` lists branches"
+        )
+        raise FirsthitError(f"--against: {revision.repository} has no revision {name!r}; {hint}")
+    inside = folder.relative_to(revision.repository).as_posix()
+    if inside != "." and _git(folder, "cat-file", "-e", f"{commit}:{inside}")[0] is None:
+        raise FirsthitError(f"--against: the revision {name!r} has no folder {inside}")
+    return Revision(name, commit, revision.repository, revision.plugins)
+
+
+def programs_at(revision: Revision, config: Path, devices: list[str]) -> Formers:
+    """Return each cell of a config at a git revision. The config is read as it stands now.
+
+    Where plugins are in a repository of their own, the harness that plans them is the present one. Raises
+    FirsthitError, with exit code 3, where the revision cannot be checked out, or its code cannot plan the config.
+    """
+    with tempfile.TemporaryDirectory(prefix="firsthit-against-") as name, _worktree(revision, Path(name)) as tree:
+        there = tree / revision.plugins.relative_to(revision.repository) if revision.plugins else None
+        code, arrays = tree if revision.holds_harness else ROOT, Path(name) / "arrays"
+        arrays.mkdir()
+        arguments = [str(config.resolve()), str(there or ""), str(arrays), *devices]
         command = [sys.executable, "-c", EXPORT.read_text(encoding="utf-8"), *arguments]
-        environment = {**os.environ, "PYTHONPATH": str(code)}
+        environment = {**os.environ, "PYTHONPATH": os.pathsep.join([str(code), *_own(revision, tree)])}
         ran = subprocess.run(command, cwd=code, env=environment, capture_output=True, text=True, check=False)
-    if ran.returncode:
-        reason = (ran.stderr.strip().splitlines() or ["no reason given"])[-1]
-        raise FirsthitError(f"--against {revision}: its code cannot plan {config}: {reason}", exit_code=3)
-    return {slot: _former(cell) for slot, cell in json.loads(ran.stdout.splitlines()[-1]).items()}
+        if ran.returncode:
+            reason = (ran.stderr.strip().splitlines() or ["no reason given"])[-1]
+            raise FirsthitError(f"--against {revision.name}: its code cannot plan {config}: {reason}", exit_code=3)
+        told = json.loads(ran.stdout.splitlines()[-1])
+        return Formers({slot: _former(cell) for slot, cell in told["cells"].items()}, told["left_out"])
+
+
+def _own(revision: Revision, tree: Path) -> list[str]:
+    """List the folders of the worktree from which Python now imports the repository's own modules, if it has any.
+
+    A method may import modules beside its folder; an installation that can be edited offers the present ones.
+    """
+    inside = (Path(entry).resolve() for entry in sys.path if entry)
+    moved = (
+        tree / path.relative_to(revision.repository) for path in inside if path.is_relative_to(revision.repository)
+    )
+    return [str(path) for path in dict.fromkeys(moved) if path.is_dir()]
 
 
 @contextlib.contextmanager
-def _worktree(repository: Path, revision: str) -> Iterator[Path]:
-    """Check `revision` out into a temporary folder, and remove it again when the block ends.
+def _worktree(revision: Revision, folder: Path) -> Iterator[Path]:
+    """Check `revision` out below a temporary folder, and remove it again when the block ends.
 
-    Raises FirsthitError where there is no such revision or it cannot be checked out.
+    Raises FirsthitError where it cannot be checked out.
     """
-    commit = _git(repository, "rev-parse", "--verify", "--quiet", f"{revision}^{{commit}}")
-    if commit is None:
-        raise FirsthitError(f"--against: {repository} has no revision {revision!r}; a shallow clone lacks older ones")
-    with tempfile.TemporaryDirectory(prefix="firsthit-against-") as folder:
-        tree = Path(folder).resolve() / "tree"
-        if _git(repository, "worktree", "add", "--detach", "--quiet", str(tree), commit) is None:
-            raise FirsthitError(f"--against: git cannot check {revision} out into {tree}", exit_code=3)
-        try:
-            yield tree
-        finally:
-            _git(repository, "worktree", "remove", "--force", str(tree))
+    tree, quiet = folder.resolve() / "tree", ("-c", "core.hooksPath=/dev/null")
+    added = (*quiet, "worktree", "add", "--detach", "--quiet", str(tree), revision.commit)
+    told, reason = _git(revision.repository, *added)
+    if told is None:
+        message = f"--against: git cannot check {revision.name} out into {tree}: {reason}"
+        raise FirsthitError(message, exit_code=3)
+    try:
+        yield tree
+    finally:
+        _git(revision.repository, "worktree", "remove", "--force", str(tree))
 
 
-def _git(folder: Path, *arguments: str) -> str | None:
-    """Run git in a folder and return what it printed; None where it fails or is not here."""
+def _git(folder: Path, *arguments: str) -> tuple[str | None, str]:
+    """Run git in a folder. Return what it printed, or None and the reason where it fails or is not here."""
     try:
         ran = subprocess.run(["git", "-C", str(folder), *arguments], capture_output=True, text=True, check=False)
-    except OSError:
-        return None
-    return ran.stdout.strip() if ran.returncode == 0 else None
+    except OSError as error:
+        return None, f"git: {error.strerror}"
+    if ran.returncode:
+        return None, " ".join(ran.stderr.split()) or f"git ended with {ran.returncode}"
+    return ran.stdout.strip(), ""
 
 
 def _former(cell: dict[str, Any]) -> Former:
     """Read what harness/gate/export.py wrote of a cell."""
-    check, timed = (_program(cell[name]) if cell[name] else None for name in ("check", "timed"))
-    return Former(check, timed, cell["skip"])
+    timed, second = (_program(cell[name]) if cell[name] else None for name in ("timed", "second"))
+    checks = tuple(map(_program, cell["checks"])) or (
+        (timed,) if timed else ()
+    )  # beams once had no program of their own
+    others = tuple(map(_program, cell["others"]))
+    batches = tuple(_batch(check, file) for check, file in zip(checks, cell["batches"], strict=False))
+    programs = Programs(checks, timed, others, cell["parameters"], batches, second)
+    claims = None if cell["claims"] is None else tuple(cell["claims"])
+    return Former(programs, cell["skip"], cell["method"] or "", claims, cell["identity"])
 
 
 def _program(stored: dict[str, Any]) -> Program:
     """Read a program that harness/gate/export.py wrote."""
-    sections = tuple(Section(origin, text) for origin, text in stored["sections"])
-    return Program(stored["language"], stored["precision"], stored["entry"], sections)
+    sections, vertex = (tuple(Section(*section) for section in stored[name]) for name in ("sections", "vertex"))
+    return Program(stored["language"], stored["precision"], stored["entry"], sections, vertex)
+
+
+def _batch(check: Program, file: str) -> Batch:
+    """Read what harness/gate/export.py wrote of a draw call, whose reporting program is `check`."""
+    with np.load(file, allow_pickle=False) as arrays:
+        vertices = arrays.get("vertices")
+        return Batch(check, arrays["instances"], arrays["triangles"], vertices, bool(arrays["closed"]))

@@ -31,9 +31,14 @@ def parameters() -> Section:
     return Section("generated: parameters of the prepass", text)
 
 
-def tiles_per_side(size: int) -> int:
-    """Count the prepass's tiles on a side of an image of size × size pixels."""
-    return (size - 1 >> TILE_BITS) + 1
+def tile_bits(program: Program) -> int:
+    """Read the TILE_BITS that a prepass's program was made with, which another revision's may have chosen otherwise."""
+    return int(program.text.partition("#define TILE_BITS ")[2].split()[0])
+
+
+def tiles_per_side(size: int, bits: int = TILE_BITS) -> int:
+    """Count the prepass's tiles, of 2^bits pixels a side, on a side of an image of size × size pixels."""
+    return (size - 1 >> bits) + 1
 
 
 def program(surface: Surface, precision: Precision, language: Language) -> Program:

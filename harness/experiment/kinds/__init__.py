@@ -13,6 +13,7 @@ frame, and how answers become hits of rays. The rest of the harness asks the kin
     mesh      triangles of a surface that is tessellated beforehand
     family    families of hard rays, which are checked and never timed
     raster    scenes in stage raster; draws makes their draw calls
+    programs  what a cell is cast by, which another revision's programs can replace
 
 CONTRIBUTING.md, "a kind", lists all that a new one needs.
 """

@@ -20,8 +20,9 @@ from harness.contract import Hits, Program, Surface
 from harness.devices.beams import BeamAnswer, BeamCheck, BeamFrame
 from harness.devices.executor import LocalExecutor
 from harness.devices.messages import Check, Checked, Frame
-from harness.devices.quadtree import layout_of
+from harness.devices.quadtree import Layout, layout_of
 from harness.experiment.kinds.model import Asked, Casting, Kind, RacedCasting
+from harness.experiment.kinds.programs import Programs
 from harness.experiment.kinds.shots import Shot, ShotKind
 from harness.kernels.assemble import with_free_loops
 from harness.scenes.camera import rays_of
@@ -68,13 +69,12 @@ class BeamCast(Cast):
 class BeamCasting(RacedCasting):
     """Cast the beams of a camera's image, or a quadtree of them."""
 
-    def __init__(self, asked: Asked, check: Program, timed: Program, quadtree: bool) -> None:
+    def __init__(self, asked: Asked, check: Program, timed: Program | None, quadtree: bool, layout: Layout) -> None:
         super().__init__(asked, (check,), timed)
-        self.quadtree = quadtree
+        self.quadtree, self.layout = quadtree, layout
 
     def _frame(self, program: Program) -> BeamFrame:
-        layout = layout_of(dict(self.cell.variant.parameters))
-        return BeamFrame(program, self.camera, self.samples, self.quadtree, layout)
+        return BeamFrame(program, self.camera, self.samples, self.quadtree, self.layout)
 
     def frame(self) -> Frame | None:
         assert self.timed
@@ -91,8 +91,9 @@ class BeamCasting(RacedCasting):
         pictures = {"level": answer.levels.reshape(size, size)}
         return BeamCast(surface, rays, hits, checked.compile_ms, facts, pictures, pixels)
 
-    def with_programs(self, checked: Program | None, timed: Program) -> RacedCasting:
-        return BeamCasting(self.asked, checked or timed, timed, self.quadtree)
+    def with_programs(self, programs: Programs) -> RacedCasting:
+        layout = layout_of(programs.parameters)
+        return BeamCasting(self.asked, programs.checks[0], programs.timed, self.quadtree, layout)
 
 
 def beam_hits(
@@ -114,4 +115,5 @@ class Beams(Kind):
 
     def casting(self, asked: Asked) -> Casting:
         check = asked.program(asked.cell.surface, "beams")
-        return BeamCasting(asked, check, with_free_loops(check), self.quadtree)
+        layout = layout_of(dict(asked.cell.variant.parameters))
+        return BeamCasting(asked, check, with_free_loops(check), self.quadtree, layout)

@@ -17,6 +17,7 @@ do.
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -35,6 +36,7 @@ class Draw:
 
     recipe: of a mesh, which needs no proxy; None for a proxy
     timed, check: the program that is timed, and the one that reports what it answers
+    geometry: instances and triangles that belong to another revision's programs; None if they are made here
     """
 
     group: Group
@@ -42,6 +44,7 @@ class Draw:
     recipe: MeshRecipe | None
     timed: Program
     check: Program
+    geometry: Batch | None = None
 
     def batch(self, reports: bool) -> Batch:
         """Return the draw call ready for a device; a mesh is made here, or read from where it was kept.
@@ -49,7 +52,10 @@ class Draw:
         With `reports` it is drawn by the program that reports what it answers. Raises FirsthitError if a mesh cannot be
         made.
         """
-        records, program = pack(self.group), self.check if reports else self.timed
+        program = self.check if reports else self.timed
+        if self.geometry:
+            return dataclasses.replace(self.geometry, program=program)
+        records = pack(self.group)
         if self.recipe is None:
             return Batch(program, records, corners(self.proxy), None, True)
         from harness.scenes import meshes

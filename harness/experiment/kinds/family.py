@@ -9,13 +9,14 @@ from typing import Any
 from harness.accuracy.answers import validated
 from harness.accuracy.judge import undecided_hits
 from harness.accuracy.rungs import judge_group
-from harness.contract import Program, Surface
+from harness.contract import FirsthitError, Program, Surface
 from harness.devices.executor import LocalExecutor
 from harness.devices.messages import Frame, ListedCheck
 from harness.experiment.cells import Cell
 from harness.experiment.config import AccuracyChoice, Config
 from harness.experiment.kinds.model import Asked, Casting, Kind, KindFacts, Outcome
 from harness.experiment.kinds.narrowed import REFUSAL as NO_PREPASS
+from harness.experiment.kinds.programs import Programs
 from harness.hardcases import groups
 from harness.oracle import cached_first_hits
 from harness.results.row import RungVerdict
@@ -42,6 +43,11 @@ class FamilyCasting(Casting):
         rays, undecided = (sum(rung["rays"] for rung in rungs), sum(rung["undecided"] for rung in rungs))
         reason = undecided_hits(rays - undecided, undecided, choice.undecided, "rays")
         return Outcome(compile_ms, reason, rungs=None if reason else rungs)
+
+    def with_programs(self, programs: Programs) -> Casting:
+        if len(programs.checks) != len(self.checks):
+            raise FirsthitError("the family has another number of surfaces there")
+        return FamilyCasting(self.asked, programs.checks)
 
 
 class Family(Kind):

@@ -41,6 +41,7 @@ from harness.devices.interface import LANGUAGES
 from harness.devices.messages import Frame
 from harness.experiment.cells import Cell
 from harness.experiment.config import AccuracyChoice, Config, Experiment
+from harness.experiment.kinds.programs import Programs
 from harness.kernels.assemble import Entry, Language, method_program, with_free_loops
 from harness.kernels.functions import unsupported
 from harness.plugins import Catalog, Plugin
@@ -292,6 +293,18 @@ class Casting(ABC):
         return ()
 
     @property
+    def programs(self) -> Programs:
+        """Return the cell's programs, with all that belongs to them."""
+        return Programs(self.checks, self.timed, self.others, dict(self.cell.variant.parameters))
+
+    @abstractmethod
+    def with_programs(self, programs: Programs) -> Casting:
+        """Return the same casting by another revision's programs, which `launched_as` allows in the place of its own.
+
+        Raises FirsthitError if they lack what belongs to them.
+        """
+
+    @property
     def methods(self) -> tuple[str, ...]:
         """Return the names of the methods whose programs these are."""
         return (self.cell.variant.method,)
@@ -378,5 +391,5 @@ class RacedCasting(ViewCasting):
     """State how to cast a cell whose frame can be timed against another revision's."""
 
     @abstractmethod
-    def with_programs(self, checked: Program | None, timed: Program) -> RacedCasting:
-        """Return the same casting by another revision's programs; without `checked`, the timed one is checked."""
+    def with_programs(self, programs: Programs) -> RacedCasting:
+        """Return the same casting by another revision's programs, as Casting.with_programs does."""

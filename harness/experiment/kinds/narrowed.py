@@ -9,11 +9,12 @@ from harness.accuracy.answers import validated
 from harness.accuracy.check import Cast
 from harness.accuracy.compilers import SecondBuild
 from harness.accuracy.pixels import pixels_of
-from harness.contract import Program
+from harness.contract import FirsthitError, Program
 from harness.devices.executor import LocalExecutor
 from harness.devices.messages import Frame
 from harness.devices.narrowed import NarrowedCheck, NarrowedFrame
 from harness.experiment.kinds.model import Asked, Casting, Kind, ViewCasting
+from harness.experiment.kinds.programs import Programs
 from harness.experiment.kinds.rays import listed_again
 from harness.kernels import prepass
 from harness.scenes.camera import rays_of
@@ -26,9 +27,12 @@ class NarrowedCasting(ViewCasting):
 
     not_raced = "rays behind a prepass are not raced"
 
-    def __init__(self, asked: Asked, check: Program, timed: Program, before: Program) -> None:
+    def __init__(
+        self, asked: Asked, check: Program, timed: Program | None, before: Program, former: Programs | None = None
+    ) -> None:
+        """Take `former` if the programs are another revision's."""
         super().__init__(asked, (check,), timed)
-        self.before = before
+        self.before, self.former = before, former
 
     @property
     def others(self) -> tuple[Program, ...]:
@@ -51,7 +55,12 @@ class NarrowedCasting(ViewCasting):
         return Cast(surface, rays, hits, checked.compile_ms, facts, {})
 
     def second_build(self, executor: LocalExecutor, cast: Cast) -> SecondBuild | None:
-        return listed_again(self.asked, executor, cast)
+        return listed_again(self.asked, executor, cast, self.former)
+
+    def with_programs(self, programs: Programs) -> Casting:
+        if len(programs.others) != 1:
+            raise FirsthitError("that revision does not hand over its prepass")
+        return NarrowedCasting(self.asked, programs.checks[0], programs.timed, programs.others[0], programs)
 
 
 class Narrowed(Kind):

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from harness.accuracy.check import Cast, Certified
 from harness.accuracy.judge import Deviations, Verdicts
 from harness.accuracy.scene_truth import Seen, hits_of, scene_truth
-from harness.contract import Program, Truth
+from harness.contract import FirsthitError, Program, Truth
 from harness.devices.executor import LocalExecutor
 from harness.devices.messages import Frame
 from harness.devices.raster import Picture, RasterCheck, RasterFrame
@@ -26,6 +26,7 @@ from harness.experiment.cells import Cell
 from harness.experiment.kinds.draws import Draw, draws, identity, refusal, too_many
 from harness.experiment.kinds.model import Asked, Casting, Kind, KindFacts, ViewCasting
 from harness.experiment.kinds.narrowed import REFUSAL as NO_PREPASS
+from harness.experiment.kinds.programs import Programs
 from harness.experiment.targets import able
 from harness.kernels.assemble import with_free_loops
 from harness.kernels.raster import fill_program
@@ -81,6 +82,18 @@ class RasterCasting(ViewCasting):
     @property
     def decides(self) -> Mapping[str, object]:
         return {"raster": identity(self.scene, self.cell.proxy, self.draws)}
+
+    @property
+    def programs(self) -> Programs:
+        batches = tuple(draw.batch(reports=True) for draw in self.draws)
+        return dataclasses.replace(super().programs, batches=batches)
+
+    def with_programs(self, programs: Programs) -> Casting:
+        if not len(programs.batches) == len(programs.others) == len(self.draws):
+            raise FirsthitError("that revision does not hand over what it draws")
+        theirs = zip(self.draws, programs.others, programs.batches, strict=True)
+        drawn = (dataclasses.replace(own, timed=timed, check=b.program, geometry=b) for own, timed, b in theirs)
+        return RasterCasting(self.asked, self.scene, tuple(drawn))
 
     def frame(self) -> Frame | None:
         return self._frame(self.samples, reports=False)

@@ -16,6 +16,7 @@ from harness.devices.executor import LocalExecutor
 from harness.devices.messages import CameraFrame, Check, Frame, ListedCheck, ListedFrame
 from harness.experiment.config import Experiment
 from harness.experiment.kinds.model import Asked, Casting, Drawing, Kind, RacedCasting, Rastering
+from harness.experiment.kinds.programs import Programs
 from harness.experiment.kinds.shots import Shot, ShotKind
 from harness.kernels.assemble import with_free_loops
 from harness.kernels.raster import raster_program
@@ -94,8 +95,10 @@ class RayMethods(ShotKind):
 class RayCasting(RacedCasting):
     """Cast rays of a camera's image, or the same rays listed."""
 
-    def __init__(self, asked: Asked, check: Program, timed: Program) -> None:
+    def __init__(self, asked: Asked, check: Program, timed: Program | None, former: Programs | None = None) -> None:
+        """Take `former` if the programs are another revision's."""
         super().__init__(asked, (check,), timed)
+        self.former = former
 
     def frame(self) -> Frame | None:
         assert self.timed
@@ -110,28 +113,25 @@ class RayCasting(RacedCasting):
         return Cast(surface, rays, hits, checked.compile_ms, {}, {})
 
     def second_build(self, executor: LocalExecutor, cast: Cast) -> SecondBuild | None:
-        return listed_again(self.asked, executor, cast)
+        return listed_again(self.asked, executor, cast, self.former)
 
-    def with_programs(self, checked: Program | None, timed: Program) -> RacedCasting:
-        assert checked  # a revision that casts rays has a program of listed ones
-        return OtherRays(self.asked, checked, timed)
+    def with_programs(self, programs: Programs) -> RacedCasting:
+        return RayCasting(self.asked, programs.checks[0], programs.timed, programs)
 
 
-class OtherRays(RayCasting):
-    """Cast rays by another revision's programs.
+def listed_again(asked: Asked, executor: LocalExecutor, cast: Cast, former: Programs | None) -> SecondBuild | None:
+    """Return how the cell's kernel casts the rays of `cast` if it is built in a second way.
 
-    They have no second build, since that revision's kernel is not at hand.
+    The kernel is that of another revision if there are `former` programs; None if these have no second one.
     """
-
-    def second_build(self, executor: LocalExecutor, cast: Cast) -> SecondBuild | None:
-        return None
-
-
-def listed_again(asked: Asked, executor: LocalExecutor, cast: Cast) -> SecondBuild:
-    """Return how the cell's kernel casts the rays of `cast` if it is built in a second way."""
     cell = asked.cell
     run = with_listed_rays(executor, cast.rays)
-    return SecondBuild(cell.device, cell.precision, lambda language: asked.program(cell.surface, "rays", language), run)
+    if former is None:
+        return SecondBuild(
+            cell.device, cell.precision, lambda language: asked.program(cell.surface, "rays", language), run
+        )
+    second = former.second
+    return SecondBuild(cell.device, cell.precision, lambda _: second, run) if second else None
 
 
 class Rays(Kind):
