@@ -13,7 +13,8 @@ from harness.contract import FirsthitError
 from harness.experiment.shipped import located
 from harness.gate import against, baseline, outputs
 from harness.gate.baseline import Baseline
-from harness.gate.checked import Checked, check
+from harness.gate.checked import Checked, Prepared, prepare
+from harness.gate.foretold import foretold
 from harness.gate.judge import Judged, Verdict, exit_code, rank
 from harness.results.writing import write_atomically
 
@@ -60,8 +61,12 @@ def _path(options: argparse.Namespace) -> Path:
     return path
 
 
-def _check(options: argparse.Namespace) -> Checked:
-    return check(options.config, options.plugins, options.device or (), options.runs, Printer(), options.force)
+def _prepare(options: argparse.Namespace) -> Prepared:
+    return prepare(options.config, options.plugins, options.device or ())
+
+
+def _check(options: argparse.Namespace, prepared: Prepared) -> Checked:
+    return prepared.check(options.runs, Printer(), options.force)
 
 
 def _gate(options: argparse.Namespace) -> int:
@@ -70,7 +75,15 @@ def _gate(options: argparse.Namespace) -> int:
         writable(path)
     path = _path(options)
     before = baseline.read(path)
-    checked = _check(options)
+    prepared = _prepare(options)
+    hopeless, total = prepared.incomparable(before), len(prepared.planned)
+    if told := foretold(hopeless, total, options.config, path):
+        print(told, file=sys.stderr)
+    if len(hopeless) == total and not options.against:
+        judged = sorted(hopeless, key=rank)
+        _tell(options, prepared, judged, path, exit_code(judged, ()))
+        return exit_code(judged, ())
+    checked = _check(options, prepared)
     judged = checked.judged(before)
     if options.against:
         judged += against.speeds(checked, options.against, options.config, options.plugins)
@@ -80,20 +93,20 @@ def _gate(options: argparse.Namespace) -> int:
     return code
 
 
-def _tell(options: argparse.Namespace, checked: Checked, judged: list[Judged], path: Path, code: int) -> None:
+def _tell(options: argparse.Namespace, prepared: Prepared, judged: list[Judged], path: Path, code: int) -> None:
     """Write the files that are asked for, and then print the table."""
-    title = checked.experiment.name
+    title = prepared.experiment.name
     if options.junit:  # files come first, since the table's reader may go away
         write_atomically(options.junit, outputs.junit(judged, title).encode())
     if options.markdown:
         write_atomically(options.markdown, outputs.markdown(judged, title, path, code).encode())
     print(outputs.table(judged))
     if options.github:
-        kernels = {name: plugin.folder / "kernel.glsl" for name, plugin in checked.catalog.plugins.items()}
+        kernels = {name: plugin.folder / "kernel.glsl" for name, plugin in prepared.catalog.plugins.items()}
         if written := outputs.github(judged, kernels):
             print(written)
     if any(j.verdict is Verdict.INCOMPARABLE for j in judged):
-        print("firsthit: incomparable is no pass; bless the baseline on this machine and device", file=sys.stderr)
+        print("firsthit: incomparable is no pass", file=sys.stderr)
 
 
 def _bless(options: argparse.Namespace) -> int:
@@ -103,7 +116,7 @@ def _bless(options: argparse.Namespace) -> int:
     options.config = located(options.config)
     path = _path(options)
     old = baseline.read(path) if path.exists() else Baseline()
-    made = _check(options).blessed(options.reason.strip())
+    made = _check(options, _prepare(options)).blessed(options.reason.strip())
     baseline.write(path, baseline.merged(old, made))
     total = sum(map(len, made.rows.values()))
     print(f"{path}: {total} rows blessed on {', '.join(facts['name'] for facts in made.devices.values())}")

@@ -15,23 +15,61 @@ from harness.experiment import plan, reading
 from harness.experiment.config import Experiment
 from harness.experiment.plan import Planned
 from harness.gate.baseline import Baseline
-from harness.gate.entries import baseline_of, slot_of
+from harness.gate.comparable import held_against
+from harness.gate.entries import asked_of, baseline_of, facts_of, slot_of
+from harness.gate.foretold import others
 from harness.gate.judge import Judged, Verdict, judge, tolerances_of
 from harness.plugins import Catalog, find_methods
 from harness.results.store import Row
 from harness.running import batch
 from harness.running.due import UNFINISHED
-from harness.running.environment import describe
+from harness.running.environment import describe, fingerprinted
 from harness.running.run import Watcher
 
 
 @dataclass(frozen=True, eq=False)
-class Checked:
-    """Hold a config's cells and their rows, and what a baseline keeps of them."""
+class Prepared:
+    """Hold a config's cells before any of them has run."""
 
     experiment: Experiment
     catalog: Catalog
     planned: list[Planned]
+
+    def incomparable(self, before: Baseline) -> list[Judged]:
+        """Judge the rows that cannot be held against a baseline, whatever they give: incomparable ones and new ones."""
+        found = []
+        for p in self.planned:
+            slot, method = slot_of(p), p.cell.variant.method
+            asked = asked_of(p)
+            held = str(p.skip) if p.device is None else held_against(slot, asked, facts_of(p.device, {}), before)
+            if held is None:
+                found.append(Judged(slot, p.cell.device, method, Verdict.NEW, "not in the baseline; bless to gate it"))
+            elif isinstance(held, str):
+                found.append(Judged(slot, p.cell.device, method, Verdict.INCOMPARABLE, held))
+        return found
+
+    def check(self, runs: Path, watcher: Watcher, force: bool = False) -> Checked:
+        """Check the cells that have no finished row yet below `runs`, without timing them.
+
+        With `force` all cells are checked again. `watcher` is told of each cell. Raises FirsthitError where a device
+        does not tell how it computes.
+        """
+        folder = runs / f"gate-{self.experiment.name}"
+        executor = LocalExecutor(self.experiment.config.budget.timeout)
+        usable = {p.device.name: p.device for p in self.planned if p.device and not p.device.problem}
+        try:
+            arithmetic = {name: fingerprinted(executor, info, folder / "probes") for name, info in usable.items()}
+            rows = batch.rows_of(self.planned, self.experiment, self.catalog, folder, executor, watcher, force)
+        finally:
+            executor.close()
+        now = baseline_of(self.planned, rows, self.catalog, self.experiment.name, arithmetic)
+        return Checked(self.experiment, self.catalog, self.planned, rows, now, folder)
+
+
+@dataclass(frozen=True, eq=False)
+class Checked(Prepared):
+    """Hold a config's cells and their rows, and what a baseline keeps of them."""
+
     rows: dict[str, Row]  # of every planned cell, by its key
     now: Baseline
     folder: Path  # where the rows are stored
@@ -49,7 +87,7 @@ class Checked:
             for p in self.planned
             if p.device is None
         ]
-        return judge(self.now, before, methods, tolerances_of(self.experiment.config.gate.figures)) + absent
+        return judge(self.now, before, methods, tolerances_of(self.experiment.config.gate)) + absent
 
     def blessed(self, reason: str) -> Baseline:
         """Return what was found as a baseline that says when, why and at which commit it was blessed.
@@ -72,26 +110,19 @@ class Checked:
         return dataclasses.replace(self.now, devices=devices)
 
 
-def check(
-    config: Path, plugins: Path | None, devices: Sequence[str], runs: Path, watcher: Watcher, force: bool = False
-) -> Checked:
-    """Check the cells of a config that have no finished row yet below `runs`, without timing them.
+def prepare(config: Path, plugins: Path | None, devices: Sequence[str]) -> Prepared:
+    """Plan the cells of a config; none of them is to be timed.
 
     `plugins` is a folder of further methods; `devices`, where there are any, take the place of those that the config
-    names. With `force` all cells are checked again. `watcher` is told of each cell.
-    Raises FirsthitError where the config cannot be planned.
+    names. Raises FirsthitError where the config cannot be planned.
     """
     catalog = find_methods(plugins)
     experiment = reading.load(config, catalog)
     if devices:
         chosen = dataclasses.replace(experiment.config, devices=list(devices))
         experiment = dataclasses.replace(experiment, config=chosen)
-    planned = plan.plan(experiment, catalog, discover_devices(experiment.config.devices), timed=False)
-    folder = runs / f"gate-{experiment.name}"
-    executor = LocalExecutor(experiment.config.budget.timeout)
-    try:
-        rows = batch.rows_of(planned, experiment, catalog, folder, executor, watcher, force)
-    finally:
-        executor.close()
-    now = baseline_of(planned, rows, catalog, experiment.name, experiment.config.gate.same)
-    return Checked(experiment, catalog, planned, rows, now, folder)
+    found, wanted = discover_devices(experiment.config.devices), experiment.config.devices
+    if not {"all", "any", *(info.name for info in found)} & set(wanted):
+        here = ", ".join(f"--device {name}" for name in others(set(wanted))) or "no device here can be used"
+        raise FirsthitError(f"there is no device {', '.join(wanted)} here; name one that is: {here}", exit_code=3)
+    return Prepared(experiment, catalog, plan.plan(experiment, catalog, found, timed=False))
