@@ -11,14 +11,16 @@ import subprocess
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from harness.contract import CellStatus, DeviceInfo, Program
 from harness.devices import serving
-from harness.devices.fingerprint import Fingerprint
 from harness.devices.interface import Timing
 from harness.devices.messages import Answer, Check, Checked, Frame, Warmed
 from harness.devices.probes import Probes
+
+if TYPE_CHECKING:
+    from harness.devices.fingerprint import Fingerprint
 
 START_SECONDS = 60.0  # for a worker to start and a driver to load
 STOP_SECONDS = 0.5  # for a worker to end by itself once its connection is closed

@@ -1,8 +1,9 @@
 """Tell devices' arithmetic apart: hash what fixed programs answer to fixed numbers, bit for bit.
 
-Two devices whose fingerprints agree compute the same, whatever their names, drivers and processors are. The programs
-are harness/kernels/glsl/map/{arithmetic, functions, working}.glsl: single operations, the library's functions, and
-searches as methods make them. Every NaN counts as one, since no method depends on its sign or payload.
+Devices whose fingerprints agree are taken to compute the same, whatever their names, drivers and processors are;
+"Decisions" in CONTRIBUTING.md says why. The programs are arithmetic, functions and working of harness/kernels/glsl/map:
+single operations, the library's functions, and searches as methods make them. Every NaN counts as one, since no method
+depends on its sign or payload.
 """
 
 from __future__ import annotations
@@ -66,6 +67,7 @@ def _function_rows(precision: Precision) -> Array:
 
 
 def _any(precision: Precision) -> Array:
+    """Return a column [ROWS] of numbers of any kind, special ones at its end."""
     return np.concatenate([any_numbers(ROWS - 256, 38, precision), special_numbers(256, 39, precision)])
 
 
@@ -122,7 +124,7 @@ def parts(device: Device, precision: Precision) -> dict[str, str]:
 
 
 def answers(device: Device, precision: Precision, text: Text) -> dict[str, str]:
-    """Run a text over its rows, and return for each of its parts a hash of what it answers in all launches."""
+    """Run a text over its rows, and return for each of its parts a hash of what it answers."""
     sections = files(*(f"map/{name}" for name in text.files))
     program = map_program(sections, precision, device.language, text.libraries)
     rows, outputs = text.rows(precision), sum(text.parts.values())
@@ -153,8 +155,8 @@ def unlike(a: Fingerprint, b: Fingerprint, precision: Precision, raster: bool) -
         if not first or not second:
             found.append(f"{of} (not known)")
         else:
-            parts = dict.fromkeys((*first, *second))
-            found += [f"{of} {part}" for part in parts if first.get(part) != second.get(part)]
+            either = dict.fromkeys((*first, *second))
+            found += [f"{of} {part}" for part in either if first.get(part) != second.get(part)]
     return found
 
 

@@ -8,7 +8,7 @@ from functools import cache
 from pathlib import Path
 
 # How the names of variables begin that drivers and compilers read
-SETTINGS = ("CL_CONFIG_", "POCL_", "LP_", "GALLIVM_", "MESA_", "CUDA_", "__GL_")
+SETTINGS = ("CL_CONFIG_", "POCL_", "LP_", "GALLIVM_", "GALLIUM_", "MESA_", "CUDA_", "__GL_")
 # As harness/devices sets them if the user does not
 OURS = {"POCL_KERNEL_CACHE": "0", "CL_CONFIG_CPU_VECTORIZER_MODE": "16", "MESA_SHADER_CACHE_DISABLE": "true"}
 

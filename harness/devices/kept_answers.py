@@ -37,7 +37,7 @@ PACKAGES = (
     *("pocl-binary-distribution", "intel-opencl-rt", "intel-cmplr-lib-rt"),
 )
 LOADERS = (  # how names of the variables begin by which drivers are found, beside those in host.SETTINGS
-    *("OCL_", "OPENCL_", "LD_", "EGL_", "__EGL_", "__GLX_", "LIBGL_", "GALLIUM_", "RUSTICL_", "DRI_", "VK_"),
+    *("OCL_", "OPENCL_", "LD_", "EGL_", "__EGL_", "__GLX_", "LIBGL_", "RUSTICL_", "DRI_", "VK_"),
     *("NVIDIA_", "ROCR_", "HIP_", "HSA_", "GPU_", "AMD_", "ZE_", "SYCL_", "NEO", "DISPLAY", "WAYLAND_"),
 )
 OPENCL_LISTS = Path("/etc/OpenCL/vendors")

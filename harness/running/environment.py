@@ -9,17 +9,19 @@ import platform
 import subprocess
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from harness import ROOT, __version__
 from harness.contract import DeviceInfo, FirsthitError, digest
 from harness.devices import host
 from harness.devices.executor import CellError, LocalExecutor
-from harness.devices.fingerprint import Fingerprint
 from harness.devices.host_arithmetic import host_arithmetic
 from harness.devices.probes import BELIEVABLE, Probes
 from harness.results import sources
 from harness.results.writing import write_atomically
+
+if TYPE_CHECKING:
+    from harness.devices.fingerprint import Fingerprint
 
 PACKAGES = ("numpy", "sympy", "python-flint", "moderngl", "pyopencl")
 
