@@ -2,7 +2,7 @@
 
 import pytest
 
-from harness.experiment.config import GateChoice, SlackChoice, ToleranceChoice
+from harness.experiment.config import SlackChoice, ToleranceChoice
 from harness.gate import baseline
 from harness.gate.baseline import Baseline
 from harness.gate.comparable import OTHER_SCENE, Rule
@@ -115,14 +115,14 @@ def test_a_row_can_be_judged_by_itself():
 
 
 def test_slack_is_added_to_the_tolerance_and_a_config_may_state_its_own():
-    own = GateChoice({"misses": ToleranceChoice(absolute=1)}, {"misses": SlackChoice(absolute=2, relative=0.5)})
-    tolerance = tolerances_of(own)["misses"]
+    slack = {"misses": SlackChoice(absolute=2, relative=0.5)}
+    tolerance = tolerances_of({"misses": ToleranceChoice(absolute=1)}, slack)["misses"]
     assert tolerance == Tolerance("lower", 1, 0.0, Slack(2, 0.5))
     assert tolerance.under(Rule.LAST_BITS, family=True) == tolerance.under(Rule.LAST_BITS)
     assert (tolerance.under(Rule.EXACT).allowed(4), tolerance.under(Rule.LAST_BITS).allowed(4)) == (5, 9)
     right = Tolerance("higher", 0.0, 0.0, Slack(2, 0.0)).under(Rule.LAST_BITS)
     assert (right.verdict(10, 8), right.verdict(10, 7), right.verdict(10, 12)) == ("pass", "regressed", "pass")
-    assert {name: t.last_bits for name, t in tolerances_of(GateChoice()).items()} == {
+    assert {name: t.last_bits for name, t in tolerances_of({}).items()} == {
         name: figure.last_bits for name, figure in GATED.items()
     }
 

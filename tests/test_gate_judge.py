@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from harness.contract import FirsthitError
-from harness.experiment.config import GateChoice, ToleranceChoice
+from harness.experiment.config import ToleranceChoice
 from harness.gate import baseline, outputs
 from harness.gate.against import verdict_of
 from harness.gate.baseline import Baseline
@@ -29,7 +29,7 @@ ENTRY = {
     "claims": 1,
 }
 METHODS = {"m a": "m", "m b": "m", "m c": "m"}
-DEFAULT = tolerances_of(GateChoice())
+DEFAULT = tolerances_of({})
 
 
 def of(rows, facts=FACTS):
@@ -38,7 +38,7 @@ def of(rows, facts=FACTS):
 
 
 def verdict(now, before=ENTRY, facts=FACTS, own=None):
-    tolerances = tolerances_of(GateChoice(figures=own or {}))
+    tolerances = tolerances_of(own or {})
     (found,) = judge(of({"m a": now}, facts), of({"m a": before}), METHODS, tolerances)
     return found
 

@@ -13,7 +13,6 @@ from harness.contract import Hits, RayStatus
 from harness.devices.executor import LocalExecutor
 from harness.devices.messages import ListedCheck
 from harness.experiment import plan, reading
-from harness.experiment.config import GateChoice
 from harness.experiment.kinds.comparing import last_bit
 from harness.gate import judge as gate
 from harness.gate.baseline import LAST_BIT, Baseline, device_key
@@ -42,7 +41,7 @@ SITTING = 0.01  # share of the rays that sit at a threshold, and so spend one ev
 MARGIN = 1e-3
 HERE = {"name": "a", "processor": "p", "arithmetic": {of: {"sums": "1"} for of in ("float32", "float64", "host")}}
 THERE = HERE | {"name": "b", "arithmetic": HERE["arithmetic"] | {"host": {"sums": "2"}}}
-TOLERANCES = gate.tolerances_of(GateChoice())
+TOLERANCES = gate.tolerances_of({})
 
 
 @dataclasses.dataclass

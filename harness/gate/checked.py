@@ -87,7 +87,8 @@ class Checked(Prepared):
             for p in self.planned
             if p.device is None
         ]
-        return judge(self.now, before, methods, tolerances_of(self.experiment.config.gate)) + absent
+        gate = self.experiment.config.gate
+        return judge(self.now, before, methods, tolerances_of(gate.figures, gate.last_bits)) + absent
 
     def blessed(self, reason: str) -> Baseline:
         """Return what was found as a baseline that says when, why and at which commit it was blessed.

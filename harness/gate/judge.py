@@ -6,10 +6,11 @@ import math
 from collections.abc import Container, Mapping
 from dataclasses import dataclass, replace
 from enum import StrEnum
+from types import MappingProxyType
 from typing import cast
 
 from harness.contract import CellStatus
-from harness.experiment.config import GateChoice
+from harness.experiment.config import SlackChoice, ToleranceChoice
 from harness.gate.baseline import LAST_BIT, Baseline, Entry
 from harness.gate.comparable import OTHER_SCENE, Held, Rule, distance, held_against
 from harness.results.figures import GATED, NO_SLACK, Better, Slack
@@ -213,18 +214,21 @@ def exit_code(judged: list[Judged], broken: Container[tuple[str, str]]) -> int:
     return 3 if Verdict.INCOMPARABLE in verdicts or broken_new or not compared else 0
 
 
-def tolerances_of(own: GateChoice) -> dict[str, Tolerance]:
+def tolerances_of(
+    own: Mapping[str, ToleranceChoice], last_bits: Mapping[str, SlackChoice] = MappingProxyType({})
+) -> dict[str, Tolerance]:
     """Return each gated figure's tolerance by its name: the config's `own` where it states one, else the default.
 
-    The same holds of the slack for last bits. Figures that the config does not want gated are left out.
+    The same holds of the slack, of which the config's own is in `last_bits`. Figures that are not to be gated are left
+    out.
     """
     chosen = {}
     for name, figure in GATED.items():
-        choice, slack = own.figures.get(name), own.last_bits.get(name)
+        choice, slack = own.get(name), last_bits.get(name)
         better, absolute, relative = figure.better, figure.absolute, figure.relative
         if choice:
             better, absolute, relative = cast("Better", choice.better or better), choice.absolute, choice.relative
         if choice is None or choice.gated:
-            last_bits = Slack(slack.absolute, slack.relative) if slack else figure.last_bits
-            chosen[name] = Tolerance(better, absolute, relative, last_bits, None if slack else figure.of_family)
+            bits = Slack(slack.absolute, slack.relative) if slack else figure.last_bits
+            chosen[name] = Tolerance(better, absolute, relative, bits, None if slack else figure.of_family)
     return chosen
