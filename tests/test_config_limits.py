@@ -108,7 +108,8 @@ def test_a_list_or_number_of_the_experiment_keeps_its_limits(tmp_path, line, mes
         ("scene.mine", "elevation = 91", "scene.mine.elevation: 91.0 is outside [-90, 90]"),
         ("scene.mine", "azimuth = 361", "scene.mine.azimuth: 361.0 is outside [-360, 360]"),
         ("scene.mine", "distance = 0", "scene.mine.distance: 0.0 is outside [1e-06, 1e+09]"),
-        ("gate", 'same = ["title", "title"]', "same: 'title' is named twice"),
+        ("gate", 'same = ["title"]', "gate.same is gone: devices are compared by how they compute"),
+        ("gate.last_bits", "misses = { relative = -1 }", "gate.last_bits.misses.relative: a tolerance is not negative"),
     ],
 )
 def test_a_field_of_a_table_keeps_its_limits(tmp_path, table, line, message):

@@ -15,10 +15,11 @@ from harness.gate import against, baseline, chosen
 from harness.gate.about import cell_slot
 from harness.gate.against import Compared, Other
 from harness.gate.baseline import Baseline
-from harness.gate.checked import Checked, check
-from harness.gate.chosen import ALL, Only
+from harness.gate.checked import Checked, Prepared, prepare
+from harness.gate.chosen import Only
 from harness.gate.entries import slot_of
-from harness.gate.judge import Verdict, exit_code, rank
+from harness.gate.foretold import foretold
+from harness.gate.judge import Judged, Verdict, exit_code, rank
 from harness.gate.keep import Keeping, keeping
 from harness.gate.pictures import Before, blessed_in, rows_in
 
@@ -79,8 +80,12 @@ def _path(options: argparse.Namespace) -> Path:
     return path
 
 
-def _check(options: argparse.Namespace, only: Only = ALL) -> Checked:
-    return check(options.config, options.plugins, options.device or (), options.runs, Printer(), options.force, only)
+def _prepare(options: argparse.Namespace) -> Prepared:
+    return prepare(options.config, options.plugins, options.device or (), Printer())
+
+
+def _check(options: argparse.Namespace, prepared: Prepared) -> Checked:
+    return prepared.check(options.runs, Printer(), options.force)
 
 
 def _gate(options: argparse.Namespace) -> int:
@@ -93,20 +98,49 @@ def _gate(options: argparse.Namespace) -> int:
     other = _other(options) if options.against else None
     only = Only(tuple(options.only), _known(before, other))
     kept = _keeping(options, path) if options.keep else None
-    checked = _check(options, only)
+    prepared = _prepare(options).chosen(only)
+    before = before and only.narrowed(before, map(slot_of, prepared.whole))
+    hopeless = _hopeless(options, prepared, before, path) if before else []
+    if not other and len(hopeless) == len(prepared.planned):
+        return _tell(options, prepared, hopeless, before, path)
+    checked = _check(options, prepared)
     if kept:
         _keep(kept, checked)
-    judged = checked.judged(only.narrowed(before, map(slot_of, checked.planned))) if before else []
+    judged = checked.judged(before) if before else []
     compared = against.compare(checked, other, only, Printer(), options.force) if other else None
-    judged += compared.judged if compared else []
+    return _tell(options, checked, judged + (compared.judged if compared else []), before, path, compared)
+
+
+def _hopeless(options: argparse.Namespace, prepared: Prepared, before: Baseline, path: Path) -> list[Judged]:
+    """Judge the rows that cannot be held against a baseline, and say so before anything runs."""
+    hopeless = prepared.incomparable(before)
+    if told := foretold(hopeless, len(prepared.planned), options.config, path):
+        print(told, file=sys.stderr)
+    return hopeless
+
+
+def _tell(
+    options: argparse.Namespace,
+    prepared: Prepared,
+    judged: list[Judged],
+    before: Baseline | None,
+    path: Path,
+    compared: Compared | None = None,
+) -> int:
+    """Draw and tell the verdicts in every form that is asked for, and return the exit code.
+
+    `prepared` is a Checked, if anything ran. `before` is the baseline that `path` holds, None if nothing was held
+    against it.
+    """
     judged.sort(key=rank)
-    code = exit_code(judged, checked.unfinished) or (3 if checked.catalog.broken else 0)
-    shown = telling.drawn(options, checked, judged, _answers_before(checked, before, compared))
-    held = " and ".join([str(path)] * bool(before) + [f"revision {options.against}"] * bool(other))
-    about, more = telling.about_rows(options, checked, judged, shown), compared.told() if compared else ""
-    telling.tell(options, checked, judged, held, code, about, more)
-    if before and any(j.verdict is Verdict.INCOMPARABLE for j in judged):
-        print("firsthit: incomparable is no pass; bless the baseline on this machine and device", file=sys.stderr)
+    ran = prepared if isinstance(prepared, Checked) else None
+    code = exit_code(judged, ran.unfinished if ran else ()) or (3 if prepared.catalog.broken else 0)
+    shown = telling.drawn(options, ran, judged, _answers_before(ran, before, compared)) if ran else {}
+    held = " and ".join([str(path)] * bool(before) + [f"revision {options.against}"] * bool(options.against))
+    about, more = telling.about_rows(options, prepared, judged, shown), compared.told() if compared else ""
+    telling.tell(options, prepared, judged, held, code, about, more)
+    if any(j.verdict is Verdict.INCOMPARABLE for j in judged):
+        print("firsthit: incomparable is no pass", file=sys.stderr)
     return code
 
 
@@ -156,7 +190,7 @@ def _bless(options: argparse.Namespace) -> int:
     options.config = located(options.config)
     path = _path(options)
     old = baseline.read(path) if path.exists() else Baseline()
-    made = _check(options).blessed(options.reason.strip())
+    made = _check(options, _prepare(options)).blessed(options.reason.strip())
     baseline.write(path, baseline.merged(old, made))
     total = sum(map(len, made.rows.values()))
     print(f"{path}: {total} rows blessed on {', '.join(facts['name'] for facts in made.devices.values())}")

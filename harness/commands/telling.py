@@ -13,7 +13,7 @@ from pathlib import Path
 from harness.contract import FirsthitError
 from harness.gate import outputs, pictures, servers
 from harness.gate.about import About, Place, abouts, cell_slot
-from harness.gate.checked import Checked
+from harness.gate.checked import Checked, Prepared
 from harness.gate.judge import Judged
 from harness.gate.pictures import Before
 from harness.results.writing import write_atomically
@@ -80,15 +80,16 @@ def _command(options: argparse.Namespace, judged: Judged) -> str:
 
 
 def about_rows(
-    options: argparse.Namespace, checked: Checked, judged: Sequence[Judged], shown: Mapping[Place, Path]
+    options: argparse.Namespace, prepared: Prepared, judged: Sequence[Judged], shown: Mapping[Place, Path]
 ) -> dict[Place, About]:
     """Say of every row what is told beside its verdict; `shown` has the pictures that were drawn."""
-    return abouts(judged, lambda j: _command(options, j), checked.planned, checked.rows, checked.earlier, shown)
+    rows, earlier = (prepared.rows, prepared.earlier) if isinstance(prepared, Checked) else ({}, frozenset())
+    return abouts(judged, lambda j: _command(options, j), prepared.planned, rows, earlier, shown)
 
 
 def tell(
     options: argparse.Namespace,
-    checked: Checked,
+    prepared: Prepared,
     judged: Sequence[Judged],
     held: str,
     code: int,
@@ -99,7 +100,7 @@ def tell(
 
     `held` names what the rows are held against, and `more` is told after the table.
     """
-    title = checked.experiment.name
+    title = prepared.experiment.name
     if options.junit:  # files come first, since the table's reader may go away
         write_atomically(options.junit, servers.junit(judged, title, about).encode())
     summary = outputs.markdown(judged, title, held, code, about)
@@ -115,6 +116,6 @@ def tell(
         count = sum(1 for own in about.values() if own.picture)
         print(f"{options.pictures}: {count} {'picture' if count == 1 else 'pictures'} of wrong rays")
     if options.github:
-        kernels = {name: plugin.folder / "kernel.glsl" for name, plugin in checked.catalog.plugins.items()}
+        kernels = {name: plugin.folder / "kernel.glsl" for name, plugin in prepared.catalog.plugins.items()}
         if written := servers.github(judged, kernels, about):
             print(written)

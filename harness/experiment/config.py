@@ -21,25 +21,32 @@ from harness.contract import (
     View,
 )
 from harness.limits import PIXELS, RAYS, SECONDS, SEED, SHARE, TIMEOUT, Distinct, Known, OneOf, Within
-from harness.results.facts import FACTS
 from harness.scenes.choice import SceneChoice
 from harness.scenes.model import Scene
 from harness.scenes.views import AngleChoice, DirectionChoice
 
 NOT_NEGATIVE = Within(0.0, inf, "a tolerance is not negative")
+# Keys of older configs, and what to do instead
+GONE = {
+    ("gate", "same"): "is gone: devices are compared by how they compute, and rows of devices whose last bits differ "
+    "are held with more tolerance; remove the key, and state that tolerance in [gate.last_bits] if the default is "
+    "not yours",
+}
 
 
 # Annotated types name these functions. A lambda in an annotation would not find the names of this module
-
-
-def _facts() -> Iterable[str]:
-    return FACTS
 
 
 def _figures() -> Iterable[str]:
     from harness.results.figures import KNOWN
 
     return KNOWN
+
+
+def _rows_figures() -> Iterable[str]:
+    from harness.results.figures import GATED
+
+    return GATED
 
 
 def _studies() -> Iterable[str]:
@@ -148,15 +155,24 @@ class ToleranceChoice:
 
 
 @dataclass(frozen=True)
-class GateChoice:
-    """Say how rows are held against a baseline.
+class SlackChoice:
+    """Say by how much more a gated figure may get worse on other arithmetic: `absolute` + `relative` × the baseline."""
 
-    same: device facts that must be the same for rows to be compared
-    figures: figures with tolerances of their own; harness.results.figures has the tolerances of all others
+    absolute: Annotated[float, NOT_NEGATIVE] = 0.0
+    relative: Annotated[float, NOT_NEGATIVE] = 0.0
+
+
+@dataclass(frozen=True)
+class GateChoice:
+    """Say how rows are held against a baseline; harness.results.figures has what is not stated here.
+
+    figures: figures with tolerances of their own
+    last_bits: figures with slack of their own, which is added to the tolerance where the baseline's device computes
+        with other last bits
     """
 
-    same: Annotated[list[str], Known(_facts), Distinct()] = field(default_factory=lambda: list(FACTS))
     figures: Annotated[dict[str, ToleranceChoice], Known(_figures)] = field(default_factory=dict)
+    last_bits: Annotated[dict[str, SlackChoice], Known(_rows_figures)] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)

@@ -42,6 +42,7 @@ class Planned:
     casting: the cell's programs; None if it cannot run
     skip: why it cannot run
     is_timed: False: the cell is checked only
+    lacks: it cannot run for something that its device lacks, and not for its method
     """
 
     cell: Cell
@@ -52,6 +53,7 @@ class Planned:
     skip: str | None
     kind: kinds.Kind
     is_timed: bool = True
+    lacks: bool = False
 
     @property
     def checks(self) -> tuple[Program, ...]:
@@ -71,15 +73,20 @@ class Planned:
         return self.casting.frame() if self.casting and self.timed else None
 
 
-def _refusal(asked: Asked, kind: kinds.Kind) -> str | None:
-    """Say why a cell cannot run; None if it can."""
-    cell, info, method = asked.cell, asked.info, asked.method
+def _absent(cell: Cell, info: DeviceInfo | None) -> str | None:
+    """Say why nothing of a cell's precision can run on its device; None if something can."""
     if info is None:
         return f"there is no device {cell.device!r} on this machine"
     if info.problem:
         return info.problem
-    if cell.precision == "float64" and not info.float64:
-        return "the device has no float64"
+    return "the device has no float64" if cell.precision == "float64" and not info.float64 else None
+
+
+def _refusal(asked: Asked, kind: kinds.Kind) -> str | None:
+    """Say why a cell cannot run; None if it can."""
+    cell, method = asked.cell, asked.method
+    if reason := _absent(cell, asked.info):
+        return reason
     if cell.precision not in method.precisions:
         return f"the method has no {cell.precision} form"
     return asked.method_kind.origin_refusal(method, cell.origin) or kind.refusal(asked)
@@ -95,7 +102,8 @@ def _planned(cell: Cell, info: DeviceInfo | None, catalog: Catalog, experiment: 
             casting = kind.casting(asked)
         except FirsthitError as error:
             skip = str(error)
-    planned = Planned(cell, "", {}, info, casting, skip, kind, timed)
+    lacks = skip is not None and skip == (_absent(cell, info) or kind.lacking(asked))
+    planned = Planned(cell, "", {}, info, casting, skip, kind, timed, lacks)
     # Probing finds which clock is to be trusted, when a run starts and its plan is printed already: no part of the key
     facts = None if info is None else dataclasses.asdict(dataclasses.replace(info, clock="wall"))
     others = casting.others if casting else ()

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from harness.experiment import toml_file
-from harness.experiment.config import Config, Experiment
+from harness.experiment.config import GONE, Config, Experiment
 from harness.experiment.resolving import resolve
 from harness.experiment.toml_file import ConfigFile, Where
 from harness.limits import Limit, is_finite
@@ -112,6 +112,8 @@ def _table(kind: type[Any], value: Any, where: Where, source: ConfigFile) -> Any
     hints = typing.get_type_hints(kind, include_extras=True)
     place = _path(where) or "the top level"
     for key in value:
+        if gone := GONE.get((*where, key)):
+            raise source.error((*where, key), f"{_path((*where, key))} {gone}")
         if key not in hints:
             raise source.error((*where, key), f"unknown key {key!r} in {place}; {suggestion(key, hints)}")
     for spec in dataclasses.fields(kind):

@@ -26,7 +26,7 @@ from harness.gate.baseline import Entry
 from harness.gate.checked import Checked
 from harness.gate.chosen import Only
 from harness.gate.entries import slot_of
-from harness.gate.judge import Change, Judged, Verdict, _judge_row, tolerances_of
+from harness.gate.judge import Change, Judged, Verdict, judge_row, tolerances_of
 from harness.gate.revision import Former, Formers, Revision
 from harness.plugins import find_methods
 from harness.results.figures import SPEED, figures
@@ -267,7 +267,7 @@ def _judge(pairs: list[_Pair], checked: Checked) -> None:
             pair.tell(Verdict.INCOMPARABLE, str(error))
             continue
         base = pair.base
-        told = _judge_row(base.slot, base.device, base.method, now, then, tolerances)
+        told = judge_row(base.slot, base.device, base.method, now, then, tolerances)
         if told.verdict is Verdict.INCOMPARABLE:
             told = replace(told, reason=f"{now['status']} at both revisions: {now.get('reason', '')}")
         pair.told = replace(told, reason=told.reason or ("" if pair.then else SAME))

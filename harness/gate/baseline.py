@@ -1,9 +1,11 @@
 """Read and write the blessed baseline: a TOML file that is made to be read in a diff, one figure a line, sorted.
 
-    [device."opencl:pocl 1f3a6c"]   one device of one machine: its facts, and who blessed it, when and why
+    [device."opencl:pocl 1f3a6c"]   one device of one machine: what it is, and who blessed it, when and why
+    [device."opencl:pocl 1f3a6c".arithmetic.float32]   its fingerprint (harness/devices/fingerprint.py), a part a line
     [row."opencl:pocl 1f3a6c"."newton torus …"]   what one cell gave there
 
-A baseline may hold several devices and machines; blessing replaces only those that it ran on.
+A device's key is its name and a short hash of its fingerprint. A baseline may hold several devices and machines;
+blessing replaces only those that it ran on. Files of format 1, whose devices have no fingerprint, can be read too.
 """
 
 from __future__ import annotations
@@ -20,8 +22,12 @@ from typing import Any
 from harness.contract import FirsthitError, digest
 from harness.results.writing import write_atomically
 
-FORMAT = 1
-Entry = dict[str, Any]  # status, scene (a hash of what was asked), program (its hash), reason, and the figures
+FORMAT = 2
+READ = (1, FORMAT)
+ARITHMETIC = "arithmetic"  # of a device's facts: its fingerprint
+LAST_BIT = "last_bit"  # of an entry: kinds.comparing.last_bit of its cell
+Entry = dict[str, Any]  # what entries.asked_of names, program (its hash), and the figures
+BARE = re.compile(r"[A-Za-z0-9_-]+")  # keys that TOML needs no quotes for
 
 
 @dataclass(frozen=True)
@@ -36,9 +42,9 @@ class Baseline:
     rows: dict[str, dict[str, Entry]] = field(default_factory=dict)
 
 
-def device_key(facts: Mapping[str, Any], same: list[str]) -> str:
-    """Return a device's name and a hash of those of its facts that must be the `same` for figures to be compared."""
-    return f"{facts['name']} {digest({name: facts[name] for name in same})[:6]}"
+def device_key(facts: Mapping[str, Any]) -> str:
+    """Return a device's name and a short hash of its fingerprint."""
+    return f"{facts['name']} {digest(facts.get(ARITHMETIC, {}))[:6]}"
 
 
 def read(path: Path) -> Baseline:
@@ -49,13 +55,16 @@ def read(path: Path) -> Baseline:
         raise FirsthitError(f"there is no baseline {path}; `firsthit bless` makes one") from None
     except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
         raise FirsthitError(f"cannot read the baseline {path}: {error}") from None
-    if document.get("format") != FORMAT:
+    if document.get("format") not in READ:
         raise FirsthitError(f"{path} is no baseline of this version (format {document.get('format')!r}); bless anew")
     devices, rows = document.get("device", {}), document.get("row", {})
     tables = [devices, rows, *devices.values(), *rows.values()] if _is_tables(devices, rows) else [None]
     tables += [entry for entries in rows.values() for entry in entries.values()] if all(map(_is_table, tables)) else []
     if not all(map(_is_table, tables)) or not rows.keys() <= devices.keys():
         raise FirsthitError(f"{path} is damaged: it lacks tables of devices and rows; restore it, or bless anew")
+    for key, facts in devices.items():
+        if not _is_fingerprint(facts.get(ARITHMETIC, {})):
+            raise FirsthitError(f"{path} is damaged: the arithmetic of {key} is no table of hashes; bless anew")
     for entry in (entry for entries in rows.values() for entry in entries.values()):
         if not {"status", "scene"} <= entry.keys():
             raise FirsthitError(f"{path} is damaged: a row lacks its status or scene; restore it, or bless anew")
@@ -73,6 +82,13 @@ def _is_tables(*values: Any) -> bool:
     return all(map(_is_table, values))
 
 
+def _is_fingerprint(value: Any) -> bool:
+    """Tell whether a value is a table of tables of texts."""
+    return _is_table(value) and all(
+        _is_table(parts) and all(isinstance(part, str) for part in parts.values()) for parts in value.values()
+    )
+
+
 def write(path: Path, baseline: Baseline) -> None:
     """Write a baseline whole or not at all. Raises FirsthitError where it cannot be written."""
     lines = [
@@ -81,7 +97,11 @@ def write(path: Path, baseline: Baseline) -> None:
         f"config = {_value(baseline.config)}",
     ]
     for key in sorted(baseline.devices):
-        lines += ["", f"[device.{_value(key)}]", *_pairs(baseline.devices[key])]
+        facts = dict(baseline.devices[key])
+        arithmetic = facts.pop(ARITHMETIC, {})
+        lines += ["", f"[device.{_value(key)}]", *_pairs(facts)]
+        for of in sorted(arithmetic):
+            lines += ["", f"[device.{_value(key)}.{ARITHMETIC}.{_key(of)}]", *_pairs(arithmetic[of])]
     for key in sorted(baseline.rows):
         for slot in sorted(baseline.rows[key]):
             lines += ["", f"[row.{_value(key)}.{_value(slot)}]", *_pairs(baseline.rows[key][slot])]
@@ -91,7 +111,8 @@ def write(path: Path, baseline: Baseline) -> None:
 def merged(old: Baseline, new: Baseline) -> Baseline:
     """Return the baseline `new` together with those devices of `old`, and their rows, that `new` did not run on.
 
-    A device of the same name on a machine with another processor is another device.
+    A device of the same name is the same one if it has the same key, so that it computes the same, or if the processor
+    is the same, so that the driver is another.
     """
 
     def place(facts: Mapping[str, Any]) -> tuple[Any, Any]:
@@ -99,13 +120,18 @@ def merged(old: Baseline, new: Baseline) -> Baseline:
         return facts.get("name"), facts.get("processor")
 
     replaced = {place(facts) for facts in new.devices.values()}
-    kept = {key: facts for key, facts in old.devices.items() if place(facts) not in replaced}
+    kept = {key: facts for key, facts in old.devices.items() if key not in new.devices and place(facts) not in replaced}
     rows = {key: old.rows[key] for key in kept if key in old.rows}
     return Baseline(new.config, kept | new.devices, rows | new.rows)
 
 
 def _pairs(table: Mapping[str, Any]) -> list[str]:
-    return [f"{name} = {_value(table[name])}" for name in sorted(table)]
+    return [f"{_key(name)} = {_value(table[name])}" for name in sorted(table)]
+
+
+def _key(name: str) -> str:
+    """Write a key, in quotes if TOML needs them."""
+    return name if BARE.fullmatch(name) else _value(name)
 
 
 def _value(value: Any) -> str:
@@ -116,5 +142,5 @@ def _value(value: Any) -> str:
         text = repr(value)
         return re.sub(r"^(-?\d+)e", r"\1.0e", text)
     if isinstance(value, Mapping):
-        return "{ " + ", ".join(f"{name} = {_value(item)}" for name, item in sorted(value.items())) + " }"
+        return "{ " + ", ".join(f"{_key(name)} = {_value(item)}" for name, item in sorted(value.items())) + " }"
     return json.dumps(str(value), ensure_ascii=False).replace("\x7f", "\\u007f")

@@ -15,24 +15,69 @@ from harness.experiment import plan, reading
 from harness.experiment.config import Experiment
 from harness.experiment.plan import Planned
 from harness.gate.baseline import Baseline
-from harness.gate.chosen import ALL, Only
-from harness.gate.entries import baseline_of, slot_of
+from harness.gate.chosen import Only
+from harness.gate.comparable import held_against
+from harness.gate.entries import asked_of, baseline_of, facts_of, slot_of
+from harness.gate.foretold import others
 from harness.gate.judge import Judged, Verdict, judge, tolerances_of
 from harness.plugins import Catalog, find_methods
 from harness.results.store import Row
 from harness.running import batch
 from harness.running.due import UNFINISHED
-from harness.running.environment import describe
+from harness.running.environment import describe, fingerprinted
 from harness.running.run import Watcher
 
 
 @dataclass(frozen=True, eq=False)
-class Checked:
-    """Hold a config's cells and their rows, and what a baseline keeps of them."""
+class Prepared:
+    """Hold a config's cells before any of them has run: all of them in `whole`, those that are chosen in `planned`."""
 
     experiment: Experiment
     catalog: Catalog
+    whole: list[Planned]
     planned: list[Planned]
+
+    def chosen(self, only: Only) -> Prepared:
+        """Choose the cells that `only` names. Raises FirsthitError where it names none."""
+        slots = only.slots(map(slot_of, self.whole))
+        return dataclasses.replace(self, planned=[p for p in self.whole if slot_of(p) in slots])
+
+    def incomparable(self, before: Baseline) -> list[Judged]:
+        """Judge the rows that cannot be held against a baseline, whatever they give: incomparable ones and new ones."""
+        found = []
+        for p in self.planned:
+            slot, method = slot_of(p), p.cell.variant.method
+            asked = asked_of(p)
+            held = str(p.skip) if p.device is None else held_against(slot, asked, facts_of(p.device, {}), before)
+            if held is None:
+                found.append(Judged(slot, p.cell.device, method, Verdict.NEW, "not in the baseline; bless to gate it"))
+            elif isinstance(held, str):
+                found.append(Judged(slot, p.cell.device, method, Verdict.INCOMPARABLE, held))
+        return found
+
+    def check(self, runs: Path, watcher: Watcher, force: bool = False) -> Checked:
+        """Check the cells that have no finished row yet below `runs`, without timing them.
+
+        With `force` all cells are checked again. `watcher` is told of each cell. Raises FirsthitError where a device
+        does not tell how it computes.
+        """
+        folder = runs / f"gate-{self.experiment.name}"
+        executor = LocalExecutor(self.experiment.config.budget.timeout)
+        usable = {p.device.name: p.device for p in self.planned if p.device and not p.device.problem}
+        try:
+            arithmetic = {name: fingerprinted(executor, info, folder / "probes") for name, info in usable.items()}
+            rows, earlier = batch.rows_of(self.planned, self.experiment, self.catalog, folder, executor, watcher, force)
+        finally:
+            executor.close()
+        watcher.failed([row for row in rows.values() if row["status"] in UNFINISHED])
+        now = baseline_of(self.whole, rows, self.catalog, self.experiment.name, arithmetic)
+        return Checked(self.experiment, self.catalog, self.whole, self.planned, rows, now, folder, earlier)
+
+
+@dataclass(frozen=True, eq=False)
+class Checked(Prepared):
+    """Hold a config's cells and their rows, and what a baseline keeps of them."""
+
     rows: dict[str, Row]  # of every planned cell, by its key
     now: Baseline
     folder: Path  # where the rows are stored
@@ -51,7 +96,8 @@ class Checked:
             for p in self.planned
             if p.device is None
         ]
-        return judge(self.now, before, methods, tolerances_of(self.experiment.config.gate.figures)) + absent
+        gate = self.experiment.config.gate
+        return judge(self.now, before, methods, tolerances_of(gate.figures, gate.last_bits)) + absent
 
     def blessed(self, reason: str) -> Baseline:
         """Return what was found as a baseline that says when, why and at which commit it was blessed.
@@ -74,20 +120,11 @@ class Checked:
         return dataclasses.replace(self.now, devices=devices)
 
 
-def check(
-    config: Path,
-    plugins: Path | None,
-    devices: Sequence[str],
-    runs: Path,
-    watcher: Watcher,
-    force: bool = False,
-    only: Only = ALL,
-) -> Checked:
-    """Check the cells of a config that have no finished row yet below `runs`, without timing them.
+def prepare(config: Path, plugins: Path | None, devices: Sequence[str], watcher: Watcher) -> Prepared:
+    """Plan the cells of a config, all of which are chosen; none of them is to be timed.
 
     `plugins` is a folder of further methods; `devices`, where there are any, take the place of those that the config
-    names. `only` says which cells are checked; with `force` all of these are checked again. `watcher` is told of each
-    cell. Raises FirsthitError where the config cannot be planned.
+    names. `watcher` is told of warnings. Raises FirsthitError where the config cannot be planned.
     """
     catalog = find_methods(plugins)
     experiment = reading.load(config, catalog)
@@ -96,15 +133,9 @@ def check(
     if devices:
         chosen = dataclasses.replace(experiment.config, devices=list(devices))
         experiment = dataclasses.replace(experiment, config=chosen)
-    whole = plan.plan(experiment, catalog, discover_devices(experiment.config.devices), timed=False)
-    slots = only.slots(map(slot_of, whole))
-    planned = [p for p in whole if slot_of(p) in slots]
-    folder = runs / f"gate-{experiment.name}"
-    executor = LocalExecutor(experiment.config.budget.timeout)
-    try:
-        rows, earlier = batch.rows_of(planned, experiment, catalog, folder, executor, watcher, force)
-    finally:
-        executor.close()
-    watcher.failed([row for row in rows.values() if row["status"] in UNFINISHED])
-    now = baseline_of(whole, rows, catalog, experiment.name, experiment.config.gate.same)
-    return Checked(experiment, catalog, planned, rows, now, folder, earlier)
+    found, wanted = discover_devices(experiment.config.devices), experiment.config.devices
+    if not {"all", "any", *(info.name for info in found)} & set(wanted):
+        here = ", ".join(f"--device {name}" for name in others(set(wanted))) or "no device here can be used"
+        raise FirsthitError(f"there is no device {', '.join(wanted)} here; name one that is: {here}", exit_code=3)
+    planned = plan.plan(experiment, catalog, found, timed=False)
+    return Prepared(experiment, catalog, planned, planned)

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Container, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
-from typing import Any, cast
+from types import MappingProxyType
+from typing import cast
 
 from harness.contract import CellStatus
-from harness.experiment.config import ToleranceChoice
-from harness.gate.baseline import Baseline, Entry
-from harness.results.facts import FACTS
-from harness.results.figures import GATED, Better
+from harness.experiment.config import SlackChoice, ToleranceChoice
+from harness.gate.baseline import LAST_BIT, Baseline, Entry
+from harness.gate.comparable import OTHER_SCENE, Held, Rule, distance, held_against
+from harness.results.figures import GATED, NO_SLACK, Better, Slack
 
 
 class Verdict(StrEnum):
@@ -39,11 +40,26 @@ class Tolerance:
     """State how much a figure may change: by absolute + relative * |before|, for the worse, and still pass.
 
     A figure that is better by more than that is improved. One that is NaN is regressed.
+
+    last_bits: how much more it may change on a device that computes with other last bits
+    of_family: the same for a row of a family, if it is not `last_bits`
     """
 
     better: Better
     absolute: float
     relative: float
+    last_bits: Slack = NO_SLACK
+    of_family: Slack | None = None
+
+    def under(self, rule: Rule, last_bit: float = 0.0, family: bool = False) -> Tolerance:
+        """Return the tolerance that a rule allows, with the slack in it and none beside it.
+
+        `last_bit` is the row's, see kinds.comparing. `family` says whether the row is of a family.
+        """
+        stated = self.of_family if family and self.of_family else self.last_bits
+        slack = stated if rule is Rule.LAST_BITS else NO_SLACK
+        absolute = self.absolute + slack.absolute + slack.bits * last_bit
+        return Tolerance(self.better, absolute, self.relative + slack.relative)
 
     def allowed(self, before: float) -> float:
         """Return the worst value that passes."""
@@ -80,9 +96,10 @@ class Change:
 
 @dataclass(frozen=True)
 class Judged:
-    """Hold a row's verdict, which is the worst of its figures', and the reason where it follows from no figure.
+    """Hold a row's verdict, which is the worst of its figures'.
 
-    rule: by what rule its figures were held; "" where no figure was
+    reason: why, if the verdict follows from no figure, and why the rule is not EXACT
+    rule: by which Rule the row was held against another one; "" if it was held against none
     """
 
     slot: str
@@ -102,25 +119,43 @@ class Judged:
 def judge(
     now: Baseline, before: Baseline, methods: Mapping[str, str], tolerances: Mapping[str, Tolerance]
 ) -> list[Judged]:
-    """Judge every row of `now`, and those rows of `before` on the same devices that are gone; the worst comes first.
+    """Judge every row of `now`, and those rows of `before` that are gone; the worst comes first.
 
     methods: each slot's method
     tolerances: each gated figure's tolerance, as `tolerances_of` returns them
     """
     judged: list[Judged] = []
     for key, rows in now.rows.items():
-        name = now.devices[key]["name"]
-        blessed = before.rows.get(key)
+        facts, used = now.devices[key], set[str]()
         for slot, entry in rows.items():
-            told = (slot, name, methods[slot])
-            if blessed is None:
-                judged.append(Judged(*told, Verdict.INCOMPARABLE, _elsewhere(now.devices[key], before)))
-            else:
-                judged.append(_judge_row(*told, entry, blessed.get(slot), tolerances))
-        for slot in sorted((blessed or {}).keys() - rows.keys()):
-            method = slot.partition(" ")[0].partition("[")[0]
-            judged.append(Judged(slot, name, method, Verdict.MISSING, "blessed, but no longer in the config"))
+            held = held_against(slot, entry, facts, before)
+            if isinstance(held, Held):
+                used.add(held.key)
+            judged.append(_judged(slot, facts["name"], methods[slot], entry, held, tolerances))
+        if before.devices and not used:
+            used = {min(before.devices, key=lambda one: distance("", facts, before.devices[one], one))}
+        judged += missing(facts["name"], rows, {one: before.rows.get(one, {}) for one in used})
     return sorted(judged, key=rank)
+
+
+def missing(device: str, slots: Container[str], blessed: Mapping[str, Mapping[str, Entry]]) -> list[Judged]:
+    """Judge the rows of blessed devices that a device's `slots` lack, each once."""
+    gone = sorted({slot for rows in blessed.values() for slot in rows if slot not in slots})
+    reason = "blessed, but no longer in the config"
+    return [Judged(slot, device, slot.partition(" ")[0].partition("[")[0], Verdict.MISSING, reason) for slot in gone]
+
+
+def _judged(
+    slot: str, device: str, method: str, now: Entry, held: Held | str | None, tolerances: Mapping[str, Tolerance]
+) -> Judged:
+    """Judge one row by what it is held against."""
+    if isinstance(held, str):
+        return Judged(slot, device, method, Verdict.INCOMPARABLE, held)
+    if held is None:
+        return judge_row(slot, device, method, now, None, tolerances)
+    tolerances = {name: tolerance for name, tolerance in tolerances.items() if name not in held.left_out}
+    judged = judge_row(slot, device, method, now, held.entry, tolerances, held.rule)
+    return replace(judged, reason="; ".join(filter(None, (judged.reason, held.reason))))
 
 
 def rank(judged: Judged) -> tuple[int, float, str, str]:
@@ -128,23 +163,29 @@ def rank(judged: Judged) -> tuple[int, float, str, str]:
     return ORDER.index(judged.verdict), -(judged.worst.size if judged.worst else 0.0), judged.slot, judged.device
 
 
-def _judge_row(
-    slot: str, device: str, method: str, now: Entry, before: Entry | None, tolerances: Mapping[str, Tolerance]
+def judge_row(
+    slot: str,
+    device: str,
+    method: str,
+    now: Entry,
+    before: Entry | None,
+    tolerances: Mapping[str, Tolerance],
+    rule: Rule = Rule.EXACT,
 ) -> Judged:
-    """Judge one row by its entry now and the one that was blessed, if one was."""
+    """Judge one row by its entry now and the one that it is held against, if there is one, by a rule."""
     if before is None:
         return Judged(slot, device, method, Verdict.NEW, f"{now['status']}; bless to gate it")
     if now["scene"] != before["scene"]:
-        reason = "surface, view, rays or family are others than those blessed under this name"
-        return Judged(slot, device, method, Verdict.INCOMPARABLE, reason)
+        return Judged(slot, device, method, Verdict.INCOMPARABLE, OTHER_SCENE)
     if now["status"] != before["status"]:
         verdict = Verdict.IMPROVED if now["status"] == CellStatus.OK else Verdict.REGRESSED
         change = Change("status", before["status"], now["status"], before["status"], verdict)
-        return Judged(slot, device, method, verdict, now.get("reason", ""), (change,))
+        return Judged(slot, device, method, verdict, now.get("reason", ""), (change,), rule)
     if now["status"] not in (CellStatus.OK, CellStatus.SKIPPED):
         return Judged(slot, device, method, Verdict.INCOMPARABLE, f"{now['status']}, now as when it was blessed")
     changes: list[Change] = []
-    for name, tolerance in tolerances.items():
+    for name, stated in tolerances.items():
+        tolerance = stated.under(rule, now.get(LAST_BIT, 0.0), family="right" in before)
         old, new = before.get(name), now.get(name)
         if old is None and new is not None:
             old = GATED[name].unsaid
@@ -153,22 +194,7 @@ def _judge_row(
         elif old is not None:
             changes.append(Change(name, old, "none", tolerance.allowed(old), Verdict.REGRESSED))
     verdict = ORDER[min((ORDER.index(change.verdict) for change in changes), default=ORDER.index(Verdict.PASS))]
-    return Judged(slot, device, method, verdict, "", tuple(changes))
-
-
-def _elsewhere(facts: Mapping[str, Any], before: Baseline) -> str:
-    """Say why a device has no baseline: in which facts it differs from the most similar one that has."""
-    alike = [old for old in before.devices.values() if old.get("name") == facts["name"]]
-    if not alike:
-        known = ", ".join(sorted({str(old.get("name")) for old in before.devices.values()})) or "no device"
-        return f"the baseline is of {known}, not of {facts['name']}"
-
-    def differing(old: Mapping[str, Any]) -> list[str]:
-        """List the facts in which a blessed device differs from this one."""
-        return [f"{name}: {old.get(name)!r} → {facts[name]!r}" for name in FACTS if old.get(name) != facts[name]]
-
-    nearest = min((differing(old) for old in alike), key=lambda changes: len(changes))
-    return f"blessed on another {facts['name']}: {'; '.join(nearest)}"
+    return Judged(slot, device, method, verdict, "", tuple(changes), rule)
 
 
 def exit_code(judged: list[Judged], broken: Container[tuple[str, str]]) -> int:
@@ -188,16 +214,21 @@ def exit_code(judged: list[Judged], broken: Container[tuple[str, str]]) -> int:
     return 3 if Verdict.INCOMPARABLE in verdicts or broken_new or not compared else 0
 
 
-def tolerances_of(own: Mapping[str, ToleranceChoice]) -> dict[str, Tolerance]:
+def tolerances_of(
+    own: Mapping[str, ToleranceChoice], last_bits: Mapping[str, SlackChoice] = MappingProxyType({})
+) -> dict[str, Tolerance]:
     """Return each gated figure's tolerance by its name: the config's `own` where it states one, else the default.
 
-    Figures that the config does not want gated are left out.
+    The same holds of the slack, of which the config's own is in `last_bits`. Figures that are not to be gated are left
+    out.
     """
     chosen = {}
     for name, figure in GATED.items():
-        choice = own.get(name)
-        if choice is None:
-            chosen[name] = Tolerance(figure.better, figure.absolute, figure.relative)
-        elif choice.gated:
-            chosen[name] = Tolerance(cast("Better", choice.better or figure.better), choice.absolute, choice.relative)
+        choice, slack = own.get(name), last_bits.get(name)
+        better, absolute, relative = figure.better, figure.absolute, figure.relative
+        if choice:
+            better, absolute, relative = cast("Better", choice.better or better), choice.absolute, choice.relative
+        if choice is None or choice.gated:
+            bits = Slack(slack.absolute, slack.relative) if slack else figure.last_bits
+            chosen[name] = Tolerance(better, absolute, relative, bits, None if slack else figure.of_family)
     return chosen

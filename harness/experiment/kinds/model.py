@@ -237,9 +237,12 @@ class Kind(ABC):
         for surface in self.surfaces(cell):
             if reason := method.accepts(surface):
                 return f"the method refuses the surface {surface.name}: {reason}"
-            if reason := unsupported(surface, cell.precision, asked.language):
-                return reason
-        return None
+        return self.lacking(asked)
+
+    def lacking(self, asked: Asked) -> str | None:
+        """Say what the cell's device lacks to run it, whatever the method; None if it lacks nothing."""
+        reasons = (unsupported(s, asked.cell.precision, asked.language) for s in self.surfaces(asked.cell))
+        return next(filter(None, reasons), None)
 
     def unable(self, asked: Asked) -> str | None:
         """Say why this kind refuses the cell, whatever the surface; None if it does not."""

@@ -136,9 +136,9 @@ class Raster(Kind):
     """Make castings of scenes, or of one surface alone, in stage raster."""
 
     def refusal(self, asked: Asked) -> str | None:
-        cell, info = asked.cell, asked.info
-        if info is None or not able(info):
-            return "the stage raster needs a rasteriser, and the device has none"
+        cell = asked.cell
+        if reason := self.lacking(asked):
+            return reason
         if cell.precision != "float32":
             return "the stage raster is float32, as its vertices and its depth buffer are"
         if cell.prepass != "none":
@@ -147,6 +147,10 @@ class Raster(Kind):
         return refusal(scene, cell.variant, asked.catalog) or too_many(
             scene, cell.variant, asked.catalog, asked.most_triangles
         )
+
+    def lacking(self, asked: Asked) -> str | None:
+        rasterises = asked.info is not None and able(asked.info)
+        return None if rasterises else "the stage raster needs a rasteriser, and the device has none"
 
     def facts(self, cell: Cell) -> KindFacts:
         own: KindFacts = super().facts(cell)
