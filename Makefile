@@ -1,7 +1,16 @@
-# make quick: from a fresh clone to a PDF. make test, make check: what .ci/run calls. Each sets up what it needs.
+# make quick: from a fresh clone to a PDF. make check, make test, make gate: what .ci/run calls. Each sets up what it
+# needs, with the interpreter PYTHON. A .venv of another interpreter than the PYTHON that is named is made anew.
 PYTHON ?= python3
 BIN := .venv/bin
 READY := .venv/ready
+
+version = $(shell $(1) -c "import sys; print(sys.version)" 2>/dev/null)
+ifneq ($(origin PYTHON),file)
+ifneq ($(call version,$(PYTHON)),$(call version,$(BIN)/python))
+.PHONY: $(READY)
+CLEAR := --clear
+endif
+endif
 
 .PHONY: quick papers test bench gate check format clean
 quick: $(READY)
@@ -37,8 +46,8 @@ clean:
 
 $(READY): pyproject.toml constraints.txt drivers.sh
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' \
-		|| { echo "firsthit needs Python 3.11 or newer; try: make PYTHON=python3.12"; exit 2; }
-	$(PYTHON) -m venv .venv
+		|| { echo "firsthit needs Python 3.11 or newer; try: make PYTHON=python3.13"; exit 2; }
+	$(PYTHON) -m venv $(CLEAR) .venv
 	$(BIN)/python -m pip install --quiet --constraint constraints.txt --editable '.[opengl,opencl,mesh,report,dev]'
 	sh drivers.sh $(BIN)/python
 	touch $@

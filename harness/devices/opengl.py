@@ -57,7 +57,7 @@ def find() -> list[DeviceInfo]:
     try:
         context = _context()
     except Exception as error:  # glcontext raises bare Exception
-        reason = f"no OpenGL through EGL ({error}): install libegl1 and libgl1-mesa-dri, or a GPU driver"
+        reason = f"no OpenGL through EGL ({error}): install libegl1, libgl1 and libgl1-mesa-dri, or a GPU driver"
         return [DeviceInfo("opengl:none", "none", "none", "none", None, False, "wall", versions, reason)]
     info = context.info
     words = f"{info['GL_RENDERER']} {info['GL_VENDOR']}".lower()
