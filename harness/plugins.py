@@ -107,8 +107,11 @@ class Catalog:
         raise FirsthitError(f"there is no method {name!r}; {hint}; see `firsthit list methods`")
 
 
-def _load(folder: Path) -> Method:
-    """Return the METHOD that `folder`/method.py states. Raises FirsthitError, with the reason, if it states none."""
+def _load(folder: Path, name: str | None) -> Method:
+    """Return the METHOD that `folder`/method.py states.
+
+    Raises FirsthitError, with the reason, if it states none, or one that is not called `name`, where that is given.
+    """
     path = folder / "method.py"
     if not (folder / "kernel.glsl").exists():
         raise FirsthitError(f"{folder} has a method.py but no kernel.glsl")
@@ -136,8 +139,8 @@ def _load(folder: Path) -> Method:
             Plugin(method, folder).variant(values)
         except FirsthitError as error:
             raise FirsthitError(f"{path}: setting {setting!r}: {error}") from None
-    if method.name != folder.name:
-        raise FirsthitError(f"{path} names its method {method.name!r}, its folder {folder.name!r}; they must agree")
+    if name not in (None, method.name):
+        raise FirsthitError(f"{path} names its method {method.name!r}, its folder {name!r}; they must agree")
     return method
 
 
@@ -179,14 +182,35 @@ def _folders(directory: Path) -> list[Path]:
     return sorted(path.parent for path in directory.glob("*/method.py"))
 
 
-def _entry_point_folders() -> list[Path]:
-    """Return the folders of installed packages that state methods by entry points."""
-    folders = []
+def _entry_point_folders() -> tuple[list[tuple[str, Path]], dict[str, str]]:
+    """Return names and folders of the methods that installed packages state by entry points, and why others have none.
+
+    An entry point names a package of any name, which is one method's folder or holds the folders of several. Reasons
+    are by the entry point's name.
+    """
+    found: list[tuple[str, Path]] = []
+    broken: dict[str, str] = {}
     for point in importlib.metadata.entry_points(group=ENTRY_POINTS):
-        spec = importlib.util.find_spec(point.value)
-        if spec and spec.submodule_search_locations:
-            folders.append(Path(next(iter(spec.submodule_search_locations))))
-    return folders
+        try:
+            spec = importlib.util.find_spec(point.module)
+        except Exception as error:  # somebody's package, which may fail in any way
+            broken[point.name] = f"its entry point names {point.value}: {type(error).__name__}: {error}"
+            continue
+        places = [Path(place) for place in (spec.submodule_search_locations if spec else None) or ()]
+        own = [(_stated_name(place), place) for place in places if (place / "method.py").exists()]
+        own += [(folder.name, folder) for place in places for folder in _folders(place)]
+        if not own:
+            broken[point.name] = f"its entry point names {point.value}, which is no package that holds a method.py"
+        found += [method for method in own if method not in found]
+    return found, broken
+
+
+def _stated_name(folder: Path) -> str:
+    """Return the name that a method states, whatever its folder is called; the folder's where it cannot be loaded."""
+    try:
+        return _load(folder, None).name
+    except FirsthitError:
+        return folder.name
 
 
 def find_methods(extra: Path | None = None) -> Catalog:
@@ -197,14 +221,14 @@ def find_methods(extra: Path | None = None) -> Catalog:
     """
     if extra is not None and not extra.is_dir():
         raise FirsthitError(f"--plugins {extra}: no such folder")
-    catalog = Catalog()
-    for folder in (*_folders(BUILT_IN), *_entry_point_folders(), *(_folders(extra) if extra else ())):
-        if folder.name in catalog.plugins:
-            raise FirsthitError(
-                f"two methods are called {folder.name!r}: {catalog.plugins[folder.name].folder} and {folder}"
-            )
+    installed, broken = _entry_point_folders()
+    catalog = Catalog(broken=broken)
+    own, given = ([(folder.name, folder) for folder in _folders(place)] if place else [] for place in (BUILT_IN, extra))
+    for name, folder in (*own, *installed, *given):
+        if name in catalog.plugins:
+            raise FirsthitError(f"two methods are called {name!r}: {catalog.plugins[name].folder} and {folder}")
         try:
-            catalog.plugins[folder.name] = Plugin(_load(folder), folder)
+            catalog.plugins[name] = Plugin(_load(folder, name), folder)
         except FirsthitError as error:
-            catalog.broken[folder.name] = str(error)
+            catalog.broken[name] = str(error)
     return catalog
