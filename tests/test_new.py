@@ -78,7 +78,7 @@ def test_a_package_is_found_by_its_entry_point_and_takes_further_methods(here, c
     points = stated["entry-points"]["firsthit.methods"]
     assert (stated["name"], points) == ("Torus-Casters", {"torus_casters": "torus_casters"})
     point = importlib.metadata.EntryPoint("torus_casters", points["torus_casters"], "firsthit.methods")
-    monkeypatch.setattr(importlib.metadata, "entry_points", lambda group: [point])
+    monkeypatch.setattr(importlib.metadata, "entry_points", lambda **_: [point])
     monkeypatch.syspath_prepend(str(here))
     assert {"mine", "other"} <= find_methods().plugins.keys()
 

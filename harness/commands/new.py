@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import importlib.metadata
 import json
 import keyword
@@ -32,7 +33,7 @@ PROJECT = {  # files that methods share, which stay as they are where they are t
     "README.md": "readme.md",
     ".gitignore": "gitignore.txt",
 }
-PACKAGE = {"pyproject.toml": "pyproject.toml", "$package/__init__.py": "package.py.txt"}
+PACKAGE = {"pyproject.toml": "pyproject.toml.txt", "$package/__init__.py": "package.py.txt"}
 OURS = ("configs", "firsthit", "harness", "methods", "reports", "surfaces")
 TAKEN = ("baselines", "runs", "tests")  # folders of the project that hold something else
 DISTRIBUTION = re.compile("[A-Za-z]([A-Za-z0-9._-]*[A-Za-z0-9])?")
@@ -48,9 +49,13 @@ def add_parsers(add: Add) -> None:
     )
     parser.add_argument("what", choices=["method"])
     parser.add_argument("name", metavar="NAME", help="of the method: letters, digits and _, a letter first")
-    parser.add_argument("--to", type=Path, default=Path(), metavar="DIR", help="the project's folder (default: this one)")
     parser.add_argument(
-        "--package", metavar="DISTRIBUTION", help="a package of this name to install, which holds this method and others"
+        "--to", type=Path, default=Path(), metavar="DIR", help="the project's folder (default: this one)"
+    )
+    parser.add_argument(
+        "--package",
+        metavar="DISTRIBUTION",
+        help="a package of this name to install, which holds this method and others",
     )
     parser.set_defaults(run=_new)
 
@@ -140,10 +145,8 @@ def repository() -> str | None:
     addresses = [str(json.loads(told).get("url", ""))] if told else []
     if (ROOT / ".git").exists():
         command = ["git", "-C", str(ROOT), "remote", "get-url", "origin"]
-        try:
+        with contextlib.suppress(OSError):  # without git there is no address from it
             addresses.append(subprocess.run(command, capture_output=True, text=True, check=False).stdout.strip())
-        except OSError:  # no git, so no address from it
-            pass
     return next((found[1] for address in addresses if (found := ADDRESS.search(address))), None)
 
 
