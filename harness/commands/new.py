@@ -47,7 +47,7 @@ def add_parsers(add: Add) -> None:
         "Make a folder for a method of your own, with a kernel that works, the config of its gate, tests and a "
         "workflow for GitHub. No file that is there is changed.",
     )
-    parser.add_argument("what", choices=["method"])
+    parser.add_argument("what", choices=["method"], help="what to make")
     parser.add_argument("name", metavar="NAME", help="of the method: letters, digits and _, a letter first")
     parser.add_argument(
         "--to", type=Path, default=Path(), metavar="DIR", help="the project's folder (default: this one)"

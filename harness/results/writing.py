@@ -80,7 +80,7 @@ def write_new(folder: Path, files: Mapping[str, str]) -> None:
                     parent.mkdir()
                     made.append(parent)
             with replacing(path) as temporary:
-                temporary.write_text(files[path.relative_to(folder).as_posix()], encoding="utf-8")
+                temporary.write_bytes(files[path.relative_to(folder).as_posix()].encode())
             made.append(path)
     except BaseException as error:
         for left in reversed(made):
