@@ -225,6 +225,8 @@ def find_methods(extra: Path | None = None) -> Catalog:
     catalog = Catalog(broken=broken)
     own, given = ([(folder.name, folder) for folder in _folders(place)] if place else [] for place in (BUILT_IN, extra))
     for name, folder in (*own, *installed, *given):
+        if name in catalog.plugins and catalog.plugins[name].folder.resolve() == folder.resolve():
+            continue  # an installed method whose folder --plugins names too
         if name in catalog.plugins:
             raise FirsthitError(f"two methods are called {name!r}: {catalog.plugins[name].folder} and {folder}")
         try:

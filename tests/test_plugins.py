@@ -1,3 +1,5 @@
+from pathlib import Path
+
 import pytest
 
 from harness.contract import FirsthitError
@@ -49,6 +51,13 @@ def test_an_installed_package_holds_several_methods_in_folders(tmp_path, monkeyp
     _installed(tmp_path, monkeypatch, "anything = their_package.casters", "twice = their_package.casters")
     catalog = find_methods()
     assert {"one", "two"} <= catalog.plugins.keys() and not catalog.broken
+
+
+def test_a_folder_that_is_installed_and_given_too_is_one_method(tmp_path, monkeypatch):
+    _plugin(tmp_path / "their_package" / "mine", "mine")
+    _installed(tmp_path, monkeypatch, "anything = their_package")
+    monkeypatch.chdir(tmp_path)
+    assert find_methods(Path("their_package")).get("mine").folder.resolve() == tmp_path / "their_package" / "mine"
 
 
 def test_an_entry_point_without_a_method_is_listed_with_its_reason(tmp_path, monkeypatch):
