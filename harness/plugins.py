@@ -141,8 +141,11 @@ def _shown(path: Path) -> str:
     return os.path.relpath(path) if path.resolve().is_relative_to(Path.cwd()) else str(path)
 
 
-def _load(folder: Path) -> Method:
-    """Return the METHOD that `folder`/method.py states. Raises FirsthitError, with the reason, if it states none."""
+def _load(folder: Path, name: str | None) -> Method:
+    """Return the METHOD that `folder`/method.py states.
+
+    Raises FirsthitError, with the reason, if it states none, or one that is not called `name`, where that is given.
+    """
     path = folder / "method.py"
     if not path.exists():
         raise FirsthitError(f"{folder} has a kernel.glsl but no method.py; {A_METHOD}")
@@ -162,17 +165,20 @@ def _load(folder: Path) -> Method:
             Plugin(method, folder).variant(values)
         except FirsthitError as error:
             raise FirsthitError(f"{path}:{line_of(path, 'settings')}: setting {setting!r}: {error}") from None
-    if method.name != folder.name:
+    if name not in (None, method.name):
         line = line_of(path, "name")
-        raise FirsthitError(
-            f"{path}:{line}: the method is named {method.name!r}, its folder {folder.name!r}; they must agree"
-        )
+        raise FirsthitError(f"{path}:{line}: the method is named {method.name!r}, its folder {name!r}; they must agree")
     return guarded(method, path)
 
 
 def _folders(directory: Path) -> list[Path]:
     """Return the folders in a directory that hold a method.py or a kernel.glsl, sorted."""
     return sorted({path.parent for name in ("method.py", "kernel.glsl") for path in directory.glob(f"*/{name}")})
+
+
+def _named(folders: list[Path]) -> list[tuple[str, Path]]:
+    """Put the name of each folder before it, which is its method's."""
+    return [(folder.name, folder) for folder in folders]
 
 
 def _extra_folders(extra: Path) -> list[Path]:
@@ -191,14 +197,35 @@ def _extra_folders(extra: Path) -> list[Path]:
     raise FirsthitError(f"--plugins {extra}: there is no method in it; {A_METHOD}; {hint}")
 
 
-def _entry_point_folders() -> list[Path]:
-    """Return the folders of installed packages that state methods by entry points."""
-    folders = []
+def _entry_point_folders() -> tuple[list[tuple[str, Path]], dict[str, str]]:
+    """Return names and folders of the methods that installed packages state by entry points, and why others have none.
+
+    An entry point names a package of any name, which is one method's folder or holds the folders of several. Reasons
+    are by the entry point's name.
+    """
+    found: list[tuple[str, Path]] = []
+    broken: dict[str, str] = {}
     for point in importlib.metadata.entry_points(group=ENTRY_POINTS):
-        spec = importlib.util.find_spec(point.value)
-        if spec and spec.submodule_search_locations:
-            folders.append(Path(next(iter(spec.submodule_search_locations))))
-    return folders
+        try:
+            spec = importlib.util.find_spec(point.module)
+        except Exception as error:  # somebody's package, which may fail in any way
+            broken[point.name] = f"its entry point names {point.value}: {type(error).__name__}: {error}"
+            continue
+        places = [Path(place) for place in (spec.submodule_search_locations if spec else None) or ()]
+        own = [(_stated_name(place), place) for place in places if (place / "method.py").exists()]
+        own += [(folder.name, folder) for place in places for folder in _folders(place)]
+        if not own:
+            broken[point.name] = f"its entry point names {point.value}, which is no package that holds a method.py"
+        found += [method for method in own if method not in found]
+    return found, broken
+
+
+def _stated_name(folder: Path) -> str:
+    """Return the name that a method states, whatever its folder is called; the folder's where it cannot be loaded."""
+    try:
+        return _load(folder, None).name
+    except FirsthitError:
+        return folder.name
 
 
 def find_methods(extra: Path | None = None) -> Catalog:
@@ -208,12 +235,12 @@ def find_methods(extra: Path | None = None) -> Catalog:
     `extra` takes the place of an installed method of its name, and a note says so. Raises FirsthitError where no
     method is in `extra`, where a method has the name of one of the project, and where two installed ones have one name.
     """
-    catalog = Catalog(extra=extra)
-    own, installed = _folders(BUILT_IN), _entry_point_folders()
+    installed, broken = _entry_point_folders()
+    catalog = Catalog(extra=extra, broken=broken)
+    own = _folders(BUILT_IN)
     given = [] if extra is None else _extra_folders(extra)
     found: dict[str, Path] = {}
-    for folder in (*own, *installed, *given):
-        name = folder.name
+    for name, folder in (*_named(own), *installed, *_named(given)):
         if name in found and found[name].resolve() == folder.resolve():
             continue
         if name in found:
@@ -222,7 +249,7 @@ def find_methods(extra: Path | None = None) -> Catalog:
         found[name] = folder
     for name, folder in found.items():
         try:
-            catalog.plugins[name] = Plugin(_load(folder), folder)
+            catalog.plugins[name] = Plugin(_load(folder, name), folder)
         except FirsthitError as error:
             catalog.broken[name] = str(error)
     return catalog

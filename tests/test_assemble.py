@@ -7,7 +7,14 @@ import pytest
 import surfaces
 from harness.contract import FirsthitError, Program, Section
 from harness.devices.interface import BuildError, map_rows
-from harness.kernels.assemble import KERNELS, literal, map_program, method_program, table_section
+from harness.kernels.assemble import (
+    KERNELS,
+    file_section,
+    literal,
+    map_program,
+    method_program,
+    table_section,
+)
 from harness.kernels.complaints import explained
 from harness.plugins import BUILT_IN, find_methods
 
@@ -129,3 +136,10 @@ def test_methods_have_no_conditional_compilation_and_exact_literals(path: Path):
     assert not re.search(r"#\s*(if|ifdef|else|pragma)", text)
     for number in re.findall(r"(?<![\w.])\d+\.\d*(?:e-?\d+)?", text):
         assert float(np.float32(float(number))) == float(number), f"{number} is not exact in binary32"
+
+
+def test_a_kernel_that_is_edited_while_python_runs_is_read_anew(tmp_path):
+    path = tmp_path / "kernel.glsl"
+    for text in ("first", "second"):
+        path.write_text(text)
+        assert file_section(path).text == text

@@ -23,15 +23,55 @@ def test_a_folder_outside_the_project_is_found(tmp_path):
     assert find_methods(tmp_path).get("mine").folder == tmp_path / "mine"
 
 
-def test_an_installed_package_is_found_by_its_entry_point(tmp_path, monkeypatch):
-    _plugin(tmp_path / "somebodys_caster", "somebodys_caster")
-    info = tmp_path / "somebodys_caster-1.0.dist-info"
+def _installed(folder, monkeypatch, *points):
+    """Make as if a package with these entry points were installed, whose modules are in `folder`."""
+    info = folder / "somebodys_caster-1.0.dist-info"
     info.mkdir()
     (info / "METADATA").write_text("Metadata-Version: 2.1\nName: somebodys-caster\nVersion: 1.0\n")
-    (info / "entry_points.txt").write_text("[firsthit.methods]\ncaster = somebodys_caster\n")
+    (info / "entry_points.txt").write_text("\n".join(["[firsthit.methods]", *points, ""]))
+    monkeypatch.syspath_prepend(str(folder))
+
+
+def test_an_installed_package_is_found_by_its_entry_point(tmp_path, monkeypatch):
+    _plugin(tmp_path / "somebodys_caster", "somebodys_caster")
     assert "somebodys_caster" not in find_methods().plugins
-    monkeypatch.syspath_prepend(str(tmp_path))
+    _installed(tmp_path, monkeypatch, "caster = somebodys_caster")
     assert find_methods().get("somebodys_caster").folder == tmp_path / "somebodys_caster"
+
+
+def test_an_installed_package_holds_one_method_under_any_name(tmp_path, monkeypatch):
+    _plugin(tmp_path / "their_package", "mine")
+    _installed(tmp_path, monkeypatch, "anything = their_package")
+    catalog = find_methods()
+    assert catalog.get("mine").folder == tmp_path / "their_package"
+    assert "their_package" not in catalog.plugins and not catalog.broken
+
+
+def test_an_installed_package_holds_several_methods_in_folders(tmp_path, monkeypatch):
+    for name in ("one", "two"):
+        _plugin(tmp_path / "their_package" / "casters" / name, name)
+    (tmp_path / "their_package" / "__init__.py").write_text("")
+    _installed(tmp_path, monkeypatch, "anything = their_package.casters", "twice = their_package.casters")
+    catalog = find_methods()
+    assert {"one", "two"} <= catalog.plugins.keys() and not catalog.broken
+
+
+def test_a_folder_that_is_installed_and_given_too_is_one_method(tmp_path, monkeypatch):
+    _plugin(tmp_path / "their_package" / "mine", "mine")
+    _installed(tmp_path, monkeypatch, "anything = their_package")
+    monkeypatch.chdir(tmp_path)
+    assert find_methods(Path("their_package")).get("mine").folder.resolve() == tmp_path / "their_package" / "mine"
+
+
+def test_an_entry_point_without_a_method_is_listed_with_its_reason(tmp_path, monkeypatch):
+    (tmp_path / "empty_package").mkdir()
+    (tmp_path / "raising.py").write_text("raise SystemError('no')\n")
+    points = ("empty = empty_package", "absent = no_such_package", "raising = raising.inside")
+    _installed(tmp_path, monkeypatch, *points)
+    broken = find_methods().broken
+    assert broken["empty"] == "its entry point names empty_package, which is no package that holds a method.py"
+    assert "no_such_package, which is no package" in broken["absent"]
+    assert "SystemError: no" in broken["raising"]
 
 
 @pytest.mark.parametrize(

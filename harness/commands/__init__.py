@@ -34,6 +34,7 @@ GROUPS: dict[str, dict[str, str]] = {
     "pictures": {"show": "draw a shaded picture", "sheet": "draw every surface of the catalog on one sheet"},
     "scenes": {"scene": "draw a scene of a config, by rasterisation"},
     "rays": {"trace": "cast a file of rays by a method", "oracle": "certified first hits for a file of rays"},
+    "new": {"new": "make a folder for a method of your own, which compiles, runs and is gated at once"},
     "kernels": {"compile": "compile every method's kernel on every device, for the surfaces named"},
     "conform": {
         "conform": "check a method's answers, claims and knobs as the tests check ours, at its default and its papers' "

@@ -38,7 +38,7 @@ ROOMS: dict[Entry, str] = {"rays": "rays", "camera": "rays", "beams": "beams"}  
 
 @cache
 def _read(path: Path) -> str:
-    """Return the text of a file, which is read once."""
+    """Return the text of a file of ours, which is read once."""
     return path.read_text(encoding="utf-8")
 
 
@@ -46,11 +46,13 @@ def file_section(path: Path) -> Section:
     """Return one file as a section.
 
     Its origin is the path below the project (`methods/newton/kernel.glsl`) or else below the working folder, where
-    editors find it, or the last three parts of an outer path.
+    editors find it, or the last three parts of an outer path. A method's file is read anew each time, since it may be
+    edited while a notebook runs.
     """
     here = next((top for top in (ROOT, Path.cwd()) if path.is_relative_to(top)), None)
     origin = path.relative_to(here) if here else Path(*path.parts[-3:])
-    return Section(origin.as_posix(), _read(path))
+    text = _read(path) if path.is_relative_to(KERNELS) else path.read_text(encoding="utf-8")
+    return Section(origin.as_posix(), text)
 
 
 def files(*names: str) -> list[Section]:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import contextlib
 import os
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any, cast
 
@@ -60,6 +60,34 @@ def replacing_together(folder: Path, what: str) -> Iterator[Path]:
                 file.replace(folder / file.name)
     except OSError as error:
         raise FirsthitError(f"cannot write {what} into {folder}: {error.strerror or error}", exit_code=3) from error
+
+
+def write_new(folder: Path, files: Mapping[str, str]) -> None:
+    """Write texts as files below `folder` that are not there yet, by their paths in it: all of them, or none.
+
+    Raises FirsthitError, and leaves everything as it was, where one of them is there or cannot be written.
+    """
+    there = sorted(name for name in files if os.path.lexists(folder / name))
+    if there:
+        names = f"{', '.join(there)} {'is' if len(there) == 1 else 'are'}"
+        raise FirsthitError(f"{names} in {folder.resolve()} already; nothing was written")
+    made: list[Path] = []
+    path = folder
+    try:
+        for path in (folder / name for name in files):
+            for parent in (*reversed(path.parent.parents), path.parent):
+                if not parent.exists():
+                    parent.mkdir()
+                    made.append(parent)
+            with replacing(path) as temporary:
+                temporary.write_bytes(files[path.relative_to(folder).as_posix()].encode())
+            made.append(path)
+    except BaseException as error:
+        for left in reversed(made):
+            left.rmdir() if left.is_dir() else left.unlink()
+        if isinstance(error, OSError):
+            raise FirsthitError(f"cannot write {path}: {error.strerror or error}", exit_code=3) from None
+        raise
 
 
 def write_atomically(path: Path, content: bytes) -> None:
