@@ -153,7 +153,7 @@ def test_none_takes_the_place_of_a_method_of_ours_and_the_answer_says_what_to_re
         find_methods(tmp_path)
 
 
-def _installed(folder, name, monkeypatch):
+def _install_one(folder, name, monkeypatch):
     _plugin(folder / name, name)
     info = folder / f"{name}-1.0.dist-info"
     info.mkdir()
@@ -163,7 +163,7 @@ def _installed(folder, name, monkeypatch):
 
 
 def test_a_folder_takes_the_place_of_an_installed_method_and_says_so_once(tmp_path, monkeypatch, capsys):
-    _installed(tmp_path / "site", "twice_here", monkeypatch)
+    _install_one(tmp_path / "site", "twice_here", monkeypatch)
     _plugin(tmp_path / "own" / "twice_here", "twice_here")
     catalog = find_methods(tmp_path / "own")
     assert catalog.get("twice_here").folder == tmp_path / "own" / "twice_here"
@@ -173,7 +173,7 @@ def test_a_folder_takes_the_place_of_an_installed_method_and_says_so_once(tmp_pa
 
 
 def test_a_broken_folder_does_not_let_the_installed_method_stand_in(tmp_path, monkeypatch):
-    _installed(tmp_path / "site", "twice_here", monkeypatch)
+    _install_one(tmp_path / "site", "twice_here", monkeypatch)
     _plugin(tmp_path / "own" / "twice_here", text="METHOD = 3\n")
     catalog = find_methods(tmp_path / "own")
     assert "twice_here" in catalog.broken and "twice_here" not in catalog.plugins
