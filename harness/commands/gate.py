@@ -141,6 +141,9 @@ def _tell(
     telling.tell(options, prepared, judged, held, code, about, more)
     if any(j.verdict is Verdict.INCOMPARABLE for j in judged):
         print("firsthit: incomparable is no pass", file=sys.stderr)
+    if judged and all(j.verdict is Verdict.NEW for j in judged):
+        told = "all rows are new, and nothing was compared, which is no pass; `firsthit bless` makes a baseline of them"
+        print(f"firsthit: {told}", file=sys.stderr)
     return code
 
 
