@@ -67,7 +67,7 @@ def _history(options: argparse.Namespace) -> int:
         for step in steps[:SHOWN]
     ]
     if listed:
-        print(console.table(("step", "figure", "cell", "device", "", "commit", ""), listed))
+        print(console.table(("step", "figure", "cell", "device", "before → now", "commit", "subject"), listed))
     more = f", {len(steps) - SHOWN} of them not listed here" if len(steps) > SHOWN else ""
     runs, found = _counted(len(kept), "kept run"), _counted(len(steps), "step")
     print(f"{output / 'index.html'}: {runs}, {found}{more}")
