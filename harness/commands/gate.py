@@ -10,6 +10,7 @@ from harness.commands import Add, telling
 from harness.commands.options import add_history, history_of, tell, writable
 from harness.commands.printer import Printer
 from harness.contract import FirsthitError
+from harness.experiment import toml_file
 from harness.experiment.shipped import located
 from harness.gate import against, baseline, chosen
 from harness.gate.about import cell_slot
@@ -90,6 +91,7 @@ def _check(options: argparse.Namespace, prepared: Prepared) -> Checked:
 
 def _gate(options: argparse.Namespace) -> int:
     options.typed, options.config = options.config, located(options.config)
+    toml_file.read(options.config)  # a config that cannot be read is told before a baseline of it is missed
     for path in filter(None, (options.junit, options.markdown)):
         writable(path)
     telling.ready_to_draw(options)
