@@ -74,7 +74,7 @@ def runner(tmp_path):
     def run(step, code=0, **given):
         values = {"inputs.config": "configs/mine.toml", "steps.decides.outputs.name": "gate-mine"}
         values |= {f"inputs.{name}": EXPRESSION.sub("", default) for name, default in inputs().items() if default}
-        values |= {f"inputs.{name}": value for name, value in given.items()}
+        values |= {name if "." in name else f"inputs.{name}": value for name, value in given.items()}
         told = {name: EXPRESSION.sub(lambda m: values.get(m[1], ""), text) for name, text in step.environment.items()}
         calls, outputs = tmp_path / "calls", tmp_path / "outputs"
         calls.write_text("")
@@ -85,6 +85,7 @@ def runner(tmp_path):
             "PATH": f"{programs}:{os.environ['PATH']}",
             "GITHUB_ACTION_PATH": str(action),
             "GITHUB_OUTPUT": str(outputs),
+            "RUNNER_OS": "Linux",
             "CALLS": str(calls),
             "CODE": str(code),
         }
@@ -143,10 +144,13 @@ def test_the_key_of_the_cache_follows_config_and_oracle(runner):
     for name in ("harness", "surfaces"):
         shutil.copytree(ROOT / name, other / name)
     (other / "constraints.txt").write_text((ROOT / "constraints.txt").read_text())
-    (other / "harness/oracle/slow.py").write_text("")
+    (other / "harness/oracle/__pycache__/left.pyc").parent.mkdir(exist_ok=True)
+    (other / "harness/oracle/__pycache__/left.pyc").write_text("made by a run, with the time of that")
     (runner.project.parent / "action").unlink()
     (runner.project.parent / "action").symlink_to(other)
     (runner.project / "configs/mine.toml").write_text("")
+    assert runner(steps()[1])[2]["truth"] == first["truth"]
+    (other / "harness/oracle/slow.py").write_text("")
     assert runner(steps()[1])[2]["truth"] != first["truth"]
 
 
@@ -206,6 +210,46 @@ def test_a_commit_that_a_shallow_clone_lacks_is_fetched(runner):
     code, calls, _ = runner(steps()[2], against=commit)
     assert code == 0 and ["--against", commit] == calls[0][5:7]
     subprocess.run([*git, str(project), "cat-file", "-e", f"{commit}^{{commit}}"], check=True)
+
+
+def test_a_pull_request_is_held_against_the_base_that_it_was_merged_into(runner, monkeypatch):
+    """The event names an older one where the base went on since; a checkout of the branch itself has no other."""
+    project = runner.project
+    git = ["git", "-c", "user.name=t", "-c", "user.email=t@example.org", "-C", str(project)]
+
+    def said(*arguments):
+        return subprocess.run([*git, *arguments], check=True, capture_output=True, text=True).stdout.strip()
+
+    old = said("rev-parse", "HEAD")
+    said("checkout", "-qb", "request")
+    said("commit", "-q", "--allow-empty", "-m", "requested")
+    requested = said("rev-parse", "HEAD")
+    said("checkout", "-q", "--detach", old)
+    said("commit", "-q", "--allow-empty", "-m", "the base went on")
+    base = said("rev-parse", "HEAD")
+    said("merge", "-q", "--no-ff", "-m", "merged", "request")
+    monkeypatch.setenv("GITHUB_EVENT_NAME", "pull_request")
+    monkeypatch.setenv("GITHUB_SHA", said("rev-parse", "HEAD"))
+
+    def against(**given):
+        code, calls, _ = runner(steps()[2], **given)
+        assert code == 0
+        return calls[0][calls[0].index("--against") + 1]
+
+    event = {"github.event.pull_request.base.sha": old}
+    assert against(**event) == base
+    assert against(**event, against="request") == "request"
+    said("checkout", "-q", requested)
+    assert against(**event) == old
+
+
+def test_jobs_of_one_run_upload_under_names_of_their_own(runner):
+    names = {
+        runner(steps()[1], **{"device": device, "python-version": version})[2]["artifact"]
+        for device in ("", "opencl:pocl", "opencl:pocl opengl:llvmpipe")
+        for version in ("3.11", "3.12")
+    }
+    assert len(names) == 6 and all(re.fullmatch("[A-Za-z0-9._-]+", name) for name in names)
 
 
 def test_a_new_projects_workflow_is_as_the_template(tmp_path, monkeypatch):

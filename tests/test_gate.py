@@ -265,6 +265,9 @@ def test_without_a_baseline_it_says_how_to_make_one(gated):
     code, _, err = gated()
     assert code == 2
     assert "firsthit bless" in err
+    gated.config.unlink()
+    code, _, err = gated()
+    assert code == 2 and f"cannot read {gated.config}" in err and "no baseline" not in err
 
 
 def _git(folder, *arguments):

@@ -179,7 +179,7 @@ def test_cells_that_only_one_revision_has_are_new_or_missing(gated):
     assert code == 1
     assert verdict(out, VIEW.replace("mine", "mine[STEPS=50]")) == "missing"
     assert verdict(out, VIEW.replace("mine", "later")) == "new"
-    assert "there is no method 'later'" in out
+    assert "it has no method 'later'" in out
 
 
 def test_a_cell_that_is_skipped_or_fails_at_one_revision_has_a_verdict_by_its_status(gated):
@@ -272,15 +272,30 @@ def test_mistakes_about_the_revision_are_told_before_anything_runs(gated, tmp_pa
     assert code == 2 and "is in no git repository that can be read" in err
     code, _, err = gated("--against", "HEAD", plugins=tmp_path / "nowhere", runs=runs)
     assert code == 2 and "there is no folder" in err
-    young = gated.top / "young"
-    young.mkdir()
-    code, _, err = gated("--against", "HEAD", plugins=young, runs=runs)
-    assert code == 2 and "the revision 'HEAD' has no folder young" in err
     git(gated.top, "commit", "-q", "--allow-empty", "-m", "second")
     git(tmp_path, "clone", "-q", "--depth", "1", f"file://{gated.top}", "shallow")
     code, _, err = gated("--against", "HEAD~1", plugins=tmp_path / "shallow" / "plugins", runs=runs)
     assert code == 2 and "the clone is shallow: `git fetch --unshallow`" in err
     assert not runs.exists()
+
+
+def test_methods_that_the_other_revision_does_not_have_are_new(gated):
+    """So that the change that brings a method, or the folder of the first one, passes by its baseline."""
+    for folder, name in (("plugins", "second"), ("young", "third")):
+        (gated.top / folder / name).mkdir(parents=True)
+        (gated.top / folder / name / "method.py").write_text(METHOD.replace('"mine"', f'"{name}"'))
+        (gated.top / folder / name / "kernel.glsl").write_text(KERNEL)
+        gated.config.write_text(gated.config.read_text().replace('name = "mine"', f'name = "{name}"'))
+        code, out, err = gated("--against", "HEAD", plugins=gated.top / folder)
+        assert code == 3 and "nothing was compared, which is no pass; `firsthit bless`" in err
+        assert verdict(out, VIEW.replace("mine", name)) == "new" and f"it has no method '{name}'" in out
+        assert "give --plugins" not in out
+        blessed = gated.top / f"{name}.baseline.toml"
+        words = ["--plugins", str(gated.top / folder), "bless", str(gated.config), "--reason", "first"]
+        assert main([*words, "--runs", str(gated.runs), "--baseline", str(blessed)]) == 0
+        code, out, err = gated("--against", "HEAD", "--baseline", str(blessed), plugins=gated.top / folder)
+        assert code == 0 and "\n2 new, 2 pass\n" in out, out + err
+        gated.config.write_text(CONFIG.format(device=device_of("opencl:", "opengl:")))
 
 
 def test_an_installation_has_no_revisions_of_its_own(tmp_path, monkeypatch):

@@ -120,7 +120,9 @@ def test_annotations_name_the_kernel_and_escape_what_they_must(tmp_path, monkeyp
 def test_an_annotation_is_at_the_line_that_a_compiler_names(tmp_path, monkeypatch):
     monkeypatch.delenv("GITHUB_WORKSPACE", raising=False)
     monkeypatch.chdir(tmp_path)
-    row = Judged("m a", "opencl:a", "m", Verdict.REGRESSED, "m/kernel.glsl:7: error: use of undeclared identifier")
+    log = "m/kernel.glsl:7: error: use of undeclared identifier\n    | return x;\n    |        ^\n    where opencl:a"
+    row = Judged("m a", "opencl:a", "m", Verdict.REGRESSED, log)
+    assert outputs.lines([row])[0].reason == "m/kernel.glsl:7: error: use of undeclared identifier where opencl:a"
     assert servers.github([row], {"m": Path("m/kernel.glsl")}, {}).startswith("::error file=m/kernel.glsl,line=7,title")
 
 

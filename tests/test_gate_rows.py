@@ -224,3 +224,14 @@ def test_the_baseline_is_left_as_it_is(gated):
     before = baseline.read(gated.baseline)
     gated("--only", "mine")
     assert baseline.read(gated.baseline) == before
+
+
+def test_a_rung_without_a_mark_is_explained_for_the_side_that_lacks_it():
+    from reports.drawing import pairs
+
+    whole = {"decided": 4, "right": 4, "worst_ratio": 1.0}
+    assert pairs.across("gap", [whole]) == "Across: gap."
+    wrong, unknown = whole | {"right": 2, "worst_ratio": None}, whole | {"decided": 0, "worst_ratio": None}
+    hit, ray = "no hit that was answered rightly.", "no ray that can be decided."
+    assert pairs.across("gap", [whole, wrong]).endswith(f"On the right, a place without a mark has {hit}")
+    assert pairs.across("gap", [whole, unknown]).endswith(f"On the left, a place without a mark has {ray}")

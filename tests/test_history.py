@@ -213,7 +213,7 @@ def test_real_gate_runs_of_six_commits_give_the_steps_that_were_planted(project)
     top = project.top
     code, _, err = project("history")
     assert code == 2
-    assert "firsthit gate" in err and "--keep" in err
+    assert f"`firsthit --plugins {top / 'methods'} gate {top / 'tiny.toml'} --keep` keeps" in err
     committed(top, "a method")
     assert project("bless", "--reason", "the first")[0] == 0
     assert project("gate", "--keep")[0] == 0

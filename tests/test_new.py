@@ -138,6 +138,9 @@ def test_a_write_that_fails_or_is_stopped_leaves_nothing(here, monkeypatch):
         (["2nd"], "not '2nd', but 'method_2nd'"),
         (["newton"], "newton is a method that firsthit brings; choose another name, such as 'my_newton'"),
         (["tests"], "the folder tests holds something else"),
+        (["history"], "the folder history holds something else"),  # where `gate --keep` keeps
+        (["harness"], "a folder harness would stand before firsthit's own code"),
+        (["mine", "--package", "numpy"], "numpy means something else; write 'numpy-methods'"),
         (["mine", "--package", "-x"], "expected one argument"),
         (["mine", "--package", "my package!"], "write 'my-package'"),
         (["mine", "--package", "json"], "json means something else; write 'json-methods'"),

@@ -10,6 +10,7 @@ from harness.commands import Add, telling
 from harness.commands.options import add_history, history_of, tell, writable
 from harness.commands.printer import Printer
 from harness.contract import FirsthitError
+from harness.experiment import toml_file
 from harness.experiment.shipped import located
 from harness.gate import against, baseline, chosen
 from harness.gate.about import cell_slot
@@ -90,6 +91,7 @@ def _check(options: argparse.Namespace, prepared: Prepared) -> Checked:
 
 def _gate(options: argparse.Namespace) -> int:
     options.typed, options.config = options.config, located(options.config)
+    toml_file.read(options.config)  # a config that cannot be read is told before a baseline of it is missed
     for path in filter(None, (options.junit, options.markdown)):
         writable(path)
     telling.ready_to_draw(options)
@@ -141,6 +143,9 @@ def _tell(
     telling.tell(options, prepared, judged, held, code, about, more)
     if any(j.verdict is Verdict.INCOMPARABLE for j in judged):
         print("firsthit: incomparable is no pass", file=sys.stderr)
+    if judged and all(j.verdict is Verdict.NEW for j in judged):
+        told = "all rows are new, and nothing was compared, which is no pass; `firsthit bless` makes a baseline of them"
+        print(f"firsthit: {told}", file=sys.stderr)
     return code
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import shlex
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -49,9 +50,9 @@ def _history(options: argparse.Namespace) -> int:
     for problem in problems:
         tell(f"firsthit: {problem}")
     if not kept:
-        raise FirsthitError(
-            f"{folder} holds no kept runs to draw; `firsthit gate {options.config} --keep` keeps the rows of a commit"
-        )
+        plugins = ["--plugins", str(options.plugins)] if options.plugins else []
+        command = shlex.join(["firsthit", *plugins, "gate", str(options.config), "--keep"])
+        raise FirsthitError(f"{folder} holds no kept runs to draw; `{command}` keeps the rows of a commit")
     output = options.output or Path("runs") / f"history-{experiment.name}"
     steps = _draw(kept, problems, options.plugins, config, tolerances_of(experiment.config.gate.figures), output)
     listed = [
@@ -67,7 +68,7 @@ def _history(options: argparse.Namespace) -> int:
         for step in steps[:SHOWN]
     ]
     if listed:
-        print(console.table(("step", "figure", "cell", "device", "", "commit", ""), listed))
+        print(console.table(("step", "figure", "cell", "device", "before → now", "commit", "subject"), listed))
     more = f", {len(steps) - SHOWN} of them not listed here" if len(steps) > SHOWN else ""
     runs, found = _counted(len(kept), "kept run"), _counted(len(steps), "step")
     print(f"{output / 'index.html'}: {runs}, {found}{more}")

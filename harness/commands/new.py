@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import contextlib
 import importlib.metadata
+import importlib.util
 import json
 import keyword
 import re
@@ -36,7 +37,7 @@ PROJECT = {  # files that methods share, which stay as they are where they are t
 }
 PACKAGE = {"pyproject.toml": "pyproject.toml.txt", "$package/__init__.py": "package.py.txt"}
 OURS = ("configs", "firsthit", "harness", "methods", "reports", "surfaces")
-TAKEN = ("baselines", "runs", "tests")  # folders of the project that hold something else
+TAKEN = ("baselines", "history", "runs", "tests")  # folders of the project that hold something else
 DISTRIBUTION = re.compile("[A-Za-z]([A-Za-z0-9._-]*[A-Za-z0-9])?")
 ADDRESS = re.compile(r"github\.com[:/]([\w.-]+/[\w.-]+?)(\.git)?/?$")
 
@@ -97,9 +98,9 @@ class Project:
 
 def _new(options: argparse.Namespace) -> int:
     project = Project(checked_name(options.name), options.package)
-    if project.distribution is not None:
-        check_package(project.distribution, project.package)
     folder: Path = options.to
+    if project.distribution is not None:
+        check_package(project.distribution, project.package, folder)
     files = project.files(METHOD)
     shared = project.files(PROJECT | (PACKAGE if project.package else {}))
     missing = {path: text for path, text in shared.items() if not (folder / path).exists()}
@@ -120,20 +121,28 @@ def checked_name(name: str) -> str:
         raise FirsthitError(f"a method's name is letters, digits and _, a letter first: not {name!r}, but {proposal!r}")
     if (BUILT_IN / name).exists():
         raise FirsthitError(f"{name} is a method that firsthit brings; choose another name, such as {'my_' + name!r}")
+    if name in OURS:
+        raise FirsthitError(f"a folder {name} would stand before firsthit's own code; choose another name")
     if name in TAKEN:
         raise FirsthitError(f"the folder {name} holds something else in a project; choose another name")
     return name
 
 
-def check_package(distribution: str, package: str) -> None:
-    """Raise FirsthitError, which says what to write, for a package's name that cannot be installed or imported."""
+def check_package(distribution: str, package: str, folder: Path) -> None:
+    """Raise FirsthitError, which says what to write, for a package's name that cannot be installed or imported.
+
+    `folder` is the project's, which may hold the package already.
+    """
     if not DISTRIBUTION.fullmatch(distribution):
         plain = re.sub("[^A-Za-z0-9]+", "-", distribution).strip("-0123456789")
         raise FirsthitError(
             f"--package {distribution!r}: a package's name is letters, digits, '-', '_' and '.', a letter first and no "
             f"mark last; write {plain or 'my-methods'!r}"
         )
-    if keyword.iskeyword(package) or package in (*OURS, *TAKEN) or package in sys.stdlib_module_names:
+    there = (folder / package / "__init__.py").exists()  # made by this command before, and perhaps installed since
+    other = not there and importlib.util.find_spec(package) is not None
+    taken = package in (*OURS, *TAKEN) or package in sys.stdlib_module_names or other
+    if keyword.iskeyword(package) or taken:
         raise FirsthitError(f"--package {distribution!r}: {package} means something else; write '{package}-methods'")
 
 
@@ -188,5 +197,7 @@ def next_steps(folder: Path, project: Project, workflow: bool) -> str:
     width = max(len(command) for command, _ in commands)
     lines += [f"{command:<{width}}  # {meaning}" for command, meaning in commands]
     if workflow and repository() is None:
-        lines.append("In .github/workflows/gate.yml write the owner of firsthit's repository in place of OWNER.")
+        lines.append(
+            "In .github/workflows/gate.yml and README.md, write the owner of firsthit's repository in place of OWNER."
+        )
     return "\n".join(["next:", *lines])

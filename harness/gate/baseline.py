@@ -52,7 +52,9 @@ def read(path: Path) -> Baseline:
     try:
         document = tomllib.loads(path.read_text(encoding="utf-8"))
     except FileNotFoundError:
-        raise FirsthitError(f"there is no baseline {path}; `firsthit bless` makes one") from None
+        raise FirsthitError(
+            f"there is no baseline {path}; `firsthit bless` makes one, and --against REV needs none"
+        ) from None
     except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
         raise FirsthitError(f"cannot read the baseline {path}: {error}") from None
     if document.get("format") not in READ:

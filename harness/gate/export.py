@@ -58,11 +58,35 @@ def _toml(value: Any) -> str:
     return repr(value)
 
 
-def load(path: Path, catalog: Any, folder: Path) -> tuple[Any, dict[str, str]]:
+def _absent(methods: Any, catalog: Any) -> dict[str, str]:
+    """Return the methods of a config that this revision does not have at all, by name, each with a sentence on that.
+
+    `methods` is what the file holds, which may be anything; a part that is no method is left to the reading of it.
+    """
+    items = methods if isinstance(methods, list) else []
+    names = [str(item["name"]) for item in items if isinstance(item, dict) and isinstance(item.get("name"), str)]
+    if len(names) < len(items):
+        return {}
+    known = catalog.plugins.keys() | getattr(catalog, "broken", {}).keys()
+    return {name: f"it has no method {name!r}" for name in names if name not in known}
+
+
+def _catalog(plugins: Path | None) -> Any:
+    """Find the methods of this revision; without the folder for --plugins where no method is in that yet."""
+    try:
+        return find_methods(plugins)
+    except FirsthitError:
+        if plugins is not None and not [*plugins.glob("method.py"), *plugins.glob("*/method.py")]:
+            return find_methods(None)
+        raise
+
+
+def load(path: Path, catalog: Any, folder: Path) -> tuple[Any | None, dict[str, str]]:
     """Read the config with this revision's code.
 
     Methods, surfaces and families that this revision cannot read, since they came later, are left out. Returns the
-    experiment, and why each was left out, by its name. Raises FirsthitError where nothing is left that can be read.
+    experiment, and why each was left out, by its name. The experiment is None where this revision has none of the
+    methods. Raises FirsthitError where nothing else is left that can be read.
     """
     reading = _module(LOAD)
     try:
@@ -74,6 +98,11 @@ def load(path: Path, catalog: Any, folder: Path) -> tuple[Any, dict[str, str]]:
     except (OSError, ValueError):
         raise first from None
     whole = {key: value for key, value in whole.items() if key not in NOT_PLANNED}
+    absent = _absent(whole.get("method"), catalog)
+    if absent:
+        whole["method"] = [item for item in whole["method"] if item["name"] not in absent]
+        if not whole["method"]:
+            return None, absent
     copy = folder / path.name
 
     def attempt(parts: dict[str, Any]) -> Any:
@@ -94,7 +123,7 @@ def load(path: Path, catalog: Any, folder: Path) -> tuple[Any, dict[str, str]]:
     if read is None:
         raise first
     kept: dict[str, list[Any]] = {key: [] for key in lists}
-    left_out: dict[str, str] = {}
+    left_out = dict(absent)
     for key, item in ((key, item) for key, items in lists.items() for item in items):
         if reason := refusal(read | {key: [item]}):
             left_out[str(item.get("name") if isinstance(item, dict) else item)] = reason
@@ -151,8 +180,10 @@ def _cell(planned: Any, catalog: Any, folder: Path, name: str) -> dict[str, Any]
 
 def export(path: Path, plugins: str, folder: Path, devices: list[str]) -> dict[str, Any]:
     """Return each cell by its slot, and what was left out, by its name. Raises FirsthitError as `load` does."""
-    catalog = find_methods(Path(plugins) if plugins else None)
+    catalog = _catalog(Path(plugins) if plugins else None)
     experiment, left_out = load(path, catalog, folder)
+    if experiment is None:
+        return {"cells": {}, "left_out": left_out}
     experiment = dataclasses.replace(experiment, config=dataclasses.replace(experiment.config, devices=devices))
     found = _module(DISCOVERY).discover_devices(experiment.config.devices)
     planned = _module(PLAN).plan(experiment, catalog, found)

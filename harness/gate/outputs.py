@@ -84,9 +84,10 @@ def lines(judged: Sequence[Judged]) -> list[Line]:
 def _short(reason: str) -> str:
     """Shorten a reason to one line of at most REASON characters.
 
-    A compiler's log begins at the first place that it names in a kernel.
+    A compiler's log begins at the first place that it names in a kernel, and lines of the kernel itself, which it
+    quotes behind a bar, are left out.
     """
-    text = flat(reason)
+    text = flat("\n".join(line for line in reason.splitlines() if not line.lstrip().startswith("|")))
     place = re.search(r"\S+\.glsl:\d+", text)
     text = text[place.start() :] if place else text
     return text if len(text) <= REASON else text[: REASON - 2] + " …"

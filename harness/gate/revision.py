@@ -69,8 +69,8 @@ class Revision:
 def found(name: str, plugins: Path | None) -> Revision:
     """Find a revision of the repository that holds the folder `plugins` or, without plugins, of this project.
 
-    This is done at once, before anything is run. Raises FirsthitError where there is no git, no repository or no such
-    revision, and where the revision lacks the folder.
+    This is done at once, before anything is run. The revision need not have the folder: its methods are new then.
+    Raises FirsthitError where there is no git, no repository or no such revision.
     """
     folder = (plugins or ROOT).resolve()
     if not folder.is_dir():
@@ -92,9 +92,6 @@ def found(name: str, plugins: Path | None) -> Revision:
             else "`git fetch` gets what others pushed, and `git branch -a` lists branches"
         )
         raise FirsthitError(f"--against: {revision.repository} has no revision {name!r}; {hint}")
-    inside = folder.relative_to(revision.repository).as_posix()
-    if inside != "." and _git(folder, "cat-file", "-e", f"{commit}:{inside}")[0] is None:
-        raise FirsthitError(f"--against: the revision {name!r} has no folder {inside}")
     return Revision(name, commit, revision.repository, revision.plugins)
 
 

@@ -278,10 +278,7 @@ def _bar(sheet: _Sheet, y: int, width: int, colors: str, scale: tuple[int, int],
 def _ladder(heading: Sequence[str], before: Side, now: Side, parameter: str) -> bytes:
     """Draw a family rung by rung: the share of rays answered rightly, and the worst error over what is allowed."""
     told = [f"before: {before.told}"] if before.told or not before.rungs else []
-    across = f"Across: {parameter}."
-    if any(not rung["decided"] for rung in now.rungs):
-        across += " A rung without a mark has no ray that can be decided."
-    notes = textwrap.wrap(across, int((2 * PANEL + GAP) / 6.2))
+    notes = textwrap.wrap(across(parameter, now.rungs), int((2 * PANEL + GAP) / 6.2))
     label = 40  # pixels that the labels of a vertical axis take
     width = 2 * (label + PANEL) + GAP + 2 * MARGIN
     sheet, y = _headed([*heading, *told], width, PANEL + (3 + len(notes)) * LINE + 2 * MARGIN)
@@ -297,7 +294,10 @@ def _ladder(heading: Sequence[str], before: Side, now: Side, parameter: str) -> 
     axis.dress(right, "y")
     left.set_ylim(-0.05, 1.05)
     left.yaxis.set_major_formatter(PercentFormatter(1.0))
-    for axes, title in ((left, "share of decided rays answered rightly"), (right, "worst error over what is allowed")):
+    for axes, title in (
+        (left, "share of decided rays answered rightly"),
+        (right, "worst error over what the problem allows"),
+    ):
         axes.set_title(title, loc="left", color=style.INK)
         axes.set_xlim(-0.5, len(now.rungs) - 0.5)
         names = [wording.level(rung["parameter"]) for rung in now.rungs]
@@ -309,6 +309,16 @@ def _ladder(heading: Sequence[str], before: Side, now: Side, parameter: str) -> 
     place = (MARGIN / sheet.width, 1 - (y + LINE * (len(notes) + 0.4)) / sheet.height)
     sheet.drawing.legend(loc="upper left", bbox_to_anchor=place, ncols=2, borderaxespad=0.0)
     return sheet.png()
+
+
+def across(parameter: str, rungs: Sequence[RungVerdict]) -> str:
+    """Say what a family's rungs are made harder by, and why some have no mark."""
+    told = f"Across: {parameter}."
+    if any(not rung["decided"] for rung in rungs):
+        told += " On the left, a place without a mark has no ray that can be decided."
+    if any(rung["decided"] and rung["worst_ratio"] is None for rung in rungs):
+        told += " On the right, a place without a mark has no hit that was answered rightly."
+    return told
 
 
 def _ratios(rungs: Sequence[RungVerdict]) -> NDArray[np.float64]:
