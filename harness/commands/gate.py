@@ -94,8 +94,8 @@ def _gate(options: argparse.Namespace) -> int:
         writable(path)
     telling.ready_to_draw(options)
     path = _path(options)
-    before = baseline.read(path) if options.baseline or not options.against else None
-    other = _other(options) if options.against else None
+    before = baseline.read(path) if options.baseline or options.against is None else None
+    other = _other(options) if options.against is not None else None
     only = Only(tuple(options.only), _known(before, other))
     kept = _keeping(options, path) if options.keep else None
     prepared = _prepare(options).chosen(only)
