@@ -344,17 +344,24 @@ def test_methods_of_the_other_revision_may_print_and_their_mistakes_are_one_line
     assert code == 3 and "method 'mine' cannot be loaded: plugins/mine/method.py:2: RuntimeError: this and that" in err
 
 
-def test_a_link_out_of_the_revision_is_no_method_of_it(gated):
-    """It leads to the method as it is now."""
+def test_a_link_out_of_the_revision_and_a_submodule_are_no_methods_of_it(gated):
+    """The link leads to the method as it is now, and the submodule is empty."""
     real = gated.top / "real"
     (gated.top / "plugins" / "mine").rename(real)
     (gated.top / "plugins" / "mine").symlink_to(real)
     gated.commit()
     gated.plant("real/kernel.glsl", "t - step * (value / (value - before))", "t")
     code, out, err = gated("--against", "HEAD")
-    assert (code, out) == (3, "") and "plugins/mine at HEAD is a link to" in err
+    assert (code, out) == (3, "") and f"plugins/mine at HEAD is a link to {real}, out of the revision" in err
     (gated.top / "plugins" / "mine").unlink()
+    git(gated.top, "-c", "protocol.file.allow=always", "submodule", "--quiet", "add", str(gated.top), "plugins/theirs")
+    gated.commit()
     (gated.top / "plugins" / "mine").symlink_to("../real")
+    (gated.top / "plugins" / "theirs" / "method.py").write_text(METHOD.replace('"mine"', '"theirs"'))
+    (gated.top / "plugins" / "theirs" / "kernel.glsl").write_text(KERNEL)
+    code, out, err = gated("--against", "HEAD")
+    assert (code, out) == (3, "") and "plugins/theirs at HEAD is a submodule; give --plugins a folder in it" in err
+    git(gated.top, "rm", "-qf", "plugins/theirs")
     gated.commit()
     assert gated("--against", "HEAD")[0] == 0
 

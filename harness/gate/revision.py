@@ -21,6 +21,7 @@ from harness.experiment.kinds.programs import Programs
 from harness.results import git
 
 EXPORT = Path(__file__).with_name("export.py")
+SUBMODULE = "160000"  # the mode of its entry in a tree
 ALONE = ("-c", "core.hooksPath=/dev/null", "-c", "core.fsmonitor=false", "-c", "core.splitIndex=false")
 
 
@@ -113,7 +114,7 @@ def programs_at(revision: Revision, config: Path, devices: list[str]) -> Formers
     with tempfile.TemporaryDirectory(prefix="firsthit-against-") as name:
         tree = _checked_out(revision, Path(name))
         there = tree / revision.plugins.relative_to(revision.repository) if revision.plugins else None
-        _held(revision, tree, there or tree / "methods")
+        _held(revision, tree)
         code, arrays = tree if revision.holds_harness else ROOT, Path(name) / "arrays"
         arrays.mkdir()
         arguments = [str(config.resolve()), str(there or ""), str(arrays), *devices]
@@ -156,16 +157,28 @@ def _checked_out(revision: Revision, folder: Path) -> Path:
     return tree
 
 
-def _held(revision: Revision, tree: Path, there: Path) -> None:
-    """Raise FirsthitError where a method of the folder `there` is a link that leads out of the revision's `tree`.
+def _held(revision: Revision, tree: Path) -> None:
+    """Raise FirsthitError where a folder that is a method's now is not held by the revision, which lies in `tree`.
 
-    What lies there is as it is now, and would pass for the other revision's.
+    A link out of it leads to what is there now, which would pass for the other revision's. A submodule is empty.
     """
-    for path in sorted({*there.glob("*"), *there.glob("*/*")}):
-        if path.is_symlink() and path.exists() and not path.resolve().is_relative_to(tree):
-            link = path.relative_to(tree).as_posix()
-            message = f"--against: {link} at {revision.name} is a link to {path.resolve()}, which no revision holds"
-            raise FirsthitError(message, exit_code=3)
+    now = revision.plugins or ROOT / "methods"
+    there = tree / now.relative_to(revision.repository)
+    told = {path: f"a link to {path.readlink()}, out of the revision" for path in _leading_out(there, tree)}
+    listed, _ = _git(revision.repository, "ls-tree", "-r", "-z", revision.commit, "--", f"{there.relative_to(tree)}")
+    for entry in filter(None, (listed or "").split("\0")):
+        facts, name = entry.split("\t", 1)
+        if facts.startswith(SUBMODULE):
+            told[tree / name] = "a submodule; give --plugins a folder in it"
+    for path, what in told.items():
+        if any(folder.joinpath("method.py").is_file() for folder in (now, now / path.relative_to(there).parts[0])):
+            raise FirsthitError(f"--against: {path.relative_to(tree)} at {revision.name} is {what}", exit_code=3)
+
+
+def _leading_out(there: Path, tree: Path) -> list[Path]:
+    """List the links in a folder of methods that lead out of `tree`."""
+    links = sorted(path for pattern in ("*", "*/*") for path in there.glob(pattern) if path.is_symlink())
+    return [path for path in links if not (path.exists() and path.resolve().is_relative_to(tree))]
 
 
 def _git(folder: Path, *arguments: str, own: Mapping[str, str] = git.NOTHING) -> tuple[str | None, str]:
