@@ -2,7 +2,6 @@
 
 import dataclasses
 import subprocess
-from pathlib import Path
 
 import pytest
 
@@ -282,88 +281,6 @@ def test_mistakes_about_the_revision_are_told_before_anything_runs(gated, tmp_pa
     code, _, err = gated("--against", "HEAD~1", plugins=tmp_path / "shallow" / "plugins", runs=runs)
     assert code == 2 and "the clone is shallow: `git fetch --unshallow`" in err
     assert not runs.exists()
-
-
-@pytest.mark.parametrize("name", ["", "--foo", "^HEAD", "HEAD..HEAD", "HEAD:plugins", "HEAD^{tree}"])
-def test_what_is_no_commit_is_told_as_such(gated, tmp_path, name):
-    code, _, err = gated(f"--against={name}", runs=tmp_path / "runs")
-    reasons = {"": "the name of the revision is empty", "HEAD:": "is a tree of", "HEAD^": "is a tree of"}
-    assert code == 2 and reasons.get(name[:5], f"has no revision {name!r}") in err
-    assert len(err.splitlines()) == 1
-
-
-@pytest.mark.parametrize("worktree", [False, True])
-def test_within_a_hook_the_commit_that_git_is_making_is_left_alone(gated, tmp_path, monkeypatch, worktree):
-    """There git names its own index and, in a worktree, its own repository, wherever git is called."""
-    top = gated.top
-    if worktree:
-        top = tmp_path / "beside"
-        git(gated.top, "worktree", "add", "-q", "--detach", str(top))
-    (top / "staged").write_text("by the user\n")
-    git(top, "add", "staged")
-    made = Path(git(top, "rev-parse", "--absolute-git-dir"))
-    before = (made / "index").read_bytes()
-    monkeypatch.setenv("GIT_INDEX_FILE", str(made / "index"))
-    if worktree:
-        monkeypatch.setenv("GIT_DIR", str(made))
-    code, out, err = gated("--against", "HEAD", plugins=top / "plugins")
-    assert code == 0 and "2 the same program" in out, err
-    assert (made / "index").read_bytes() == before
-
-
-def test_nothing_is_written_into_the_repository(gated):
-    """So it may be read-only, several gates may run at once, and none that is stopped leaves anything there."""
-
-    def held():
-        return {path: path.stat().st_mtime_ns for path in (gated.top / ".git").rglob("*")}
-
-    (gated.top / ".git" / "hooks").mkdir(exist_ok=True)
-    for name in ("post-checkout", "post-index-change", "reference-transaction"):
-        hook = gated.top / ".git" / "hooks" / name
-        hook.write_text("#!/bin/sh\ntouch hook-ran\n")
-        hook.chmod(0o755)
-    before = held()
-    revision.programs_at(revision.found("HEAD", gated.top / "plugins"), gated.config, [device_of("opencl:", "opengl:")])
-    assert held() == before
-    assert not list(gated.top.rglob("hook-ran"))
-
-
-def test_methods_of_the_other_revision_may_print_and_their_mistakes_are_one_line_that_names_their_file(gated):
-    method, printing = (
-        "plugins/mine/method.py",
-        "print('hello'), 'against-' in __file__ and atexit.register(print, 'bye')",
-    )
-    gated.plant(method, "from firsthit", f"import atexit\n{printing}\nfrom firsthit")
-    gated.commit()
-    code, out, _ = gated("--against", "HEAD")
-    assert code == 0 and "2 the same program" in out
-    gated.plant(method, printing, "raise RuntimeError('this\\nand that')")
-    gated.commit()
-    gated.plant(method, "raise RuntimeError('this\\nand that')", "")
-    code, _, err = gated("--against", "HEAD")
-    assert code == 3 and "method 'mine' cannot be loaded: plugins/mine/method.py:2: RuntimeError: this and that" in err
-
-
-def test_a_link_out_of_the_revision_and_a_submodule_are_no_methods_of_it(gated):
-    """The link leads to the method as it is now, and the submodule is empty."""
-    real = gated.top / "real"
-    (gated.top / "plugins" / "mine").rename(real)
-    (gated.top / "plugins" / "mine").symlink_to(real)
-    gated.commit()
-    gated.plant("real/kernel.glsl", "t - step * (value / (value - before))", "t")
-    code, out, err = gated("--against", "HEAD")
-    assert (code, out) == (3, "") and f"plugins/mine at HEAD is a link to {real}, out of the revision" in err
-    (gated.top / "plugins" / "mine").unlink()
-    git(gated.top, "-c", "protocol.file.allow=always", "submodule", "--quiet", "add", str(gated.top), "plugins/theirs")
-    gated.commit()
-    (gated.top / "plugins" / "mine").symlink_to("../real")
-    (gated.top / "plugins" / "theirs" / "method.py").write_text(METHOD.replace('"mine"', '"theirs"'))
-    (gated.top / "plugins" / "theirs" / "kernel.glsl").write_text(KERNEL)
-    code, out, err = gated("--against", "HEAD")
-    assert (code, out) == (3, "") and "plugins/theirs at HEAD is a submodule; give --plugins a folder in it" in err
-    git(gated.top, "rm", "-qf", "plugins/theirs")
-    gated.commit()
-    assert gated("--against", "HEAD")[0] == 0
 
 
 def test_an_installation_has_no_revisions_of_its_own(tmp_path, monkeypatch):
