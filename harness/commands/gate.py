@@ -137,7 +137,7 @@ def _tell(
     code = exit_code(judged, ran.unfinished if ran else ()) or (3 if prepared.catalog.broken else 0)
     shown = telling.drawn(options, ran, judged, _answers_before(ran, before, compared)) if ran else {}
     held = " and ".join([str(path)] * bool(before) + [f"revision {options.against}"] * bool(options.against))
-    about, more = telling.about_rows(options, prepared, judged, shown), compared.told() if compared else ""
+    about, more = telling.about_rows(options, prepared, judged, shown), compared.told if compared else None
     telling.tell(options, prepared, judged, held, code, about, more)
     if any(j.verdict is Verdict.INCOMPARABLE for j in judged):
         print("firsthit: incomparable is no pass", file=sys.stderr)
