@@ -1,5 +1,7 @@
 """Races of two revisions' programs, over made-up clocks: when they end, by which clock they count, what they decide."""
 
+from collections import Counter
+from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
@@ -7,8 +9,8 @@ import pytest
 from harness.contract import DeviceInfo
 from harness.devices.interface import Timing
 from harness.experiment.config import BudgetChoice, GateChoice, ToleranceChoice
-from harness.gate import race
-from harness.gate.judge import Judged, Tolerance, Verdict
+from harness.gate import against, race
+from harness.gate.judge import Change, Judged, Tolerance, Verdict
 
 BASE = Judged("m a: speed", "opencl:a", "m", Verdict.PASS)
 GPU = DeviceInfo("opencl:a", "A", "1", "c", 4, False, "device", (), None, resident=1024)
@@ -74,3 +76,14 @@ def test_speed_is_gated_unless_the_config_says_otherwise():
     assert of() == TOLERANCE
     assert of(speed=ToleranceChoice(relative=0.2)) == Tolerance("lower", 0.0, 0.2)
     assert of(speed=ToleranceChoice(gated=False)) is None
+
+
+def test_ratios_stand_below_their_cells_where_a_table_is_wider_than_the_screen():
+    slot, told = "newton torus default 256x256x1 float32 compute", f"{race.TOLD}1.090 to 1.112 (95 %, 10 rounds)"
+    change = Change("speed", 1.0, 1.1, 1.05, Verdict.REGRESSED)
+    judged = [Judged(f"{slot}: speed", "opengl:llvmpipe", "newton", Verdict.REGRESSED, told, (change,))]
+    compared = against.Compared("v1", judged, Counter(), {}, Path())
+    assert f"1.100  1.090 to 1.112 (95 %, 10 rounds)  {slot}  opengl:llvmpipe" in compared.told()
+    narrow = compared.told(100).splitlines()
+    assert narrow[-2:] == [f"{slot} on opengl:llvmpipe", "    1.100  1.090 to 1.112 (95 %, 10 rounds)"]
+    assert max(map(len, narrow)) <= 100

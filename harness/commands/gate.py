@@ -96,8 +96,8 @@ def _gate(options: argparse.Namespace) -> int:
         writable(path)
     telling.ready_to_draw(options)
     path = _path(options)
-    before = baseline.read(path) if options.baseline or not options.against else None
-    other = _other(options) if options.against else None
+    before = baseline.read(path) if options.baseline or options.against is None else None
+    other = _other(options) if options.against is not None else None
     only = Only(tuple(options.only), _known(before, other))
     kept = _keeping(options, path) if options.keep else None
     prepared = _prepare(options).chosen(only)
@@ -139,7 +139,7 @@ def _tell(
     code = exit_code(judged, ran.unfinished if ran else ()) or (3 if prepared.catalog.broken else 0)
     shown = telling.drawn(options, ran, judged, _answers_before(ran, before, compared)) if ran else {}
     held = " and ".join([str(path)] * bool(before) + [f"revision {options.against}"] * bool(options.against))
-    about, more = telling.about_rows(options, prepared, judged, shown), compared.told() if compared else ""
+    about, more = telling.about_rows(options, prepared, judged, shown), compared.told if compared else None
     telling.tell(options, prepared, judged, held, code, about, more)
     if any(j.verdict is Verdict.INCOMPARABLE for j in judged):
         print("firsthit: incomparable is no pass", file=sys.stderr)

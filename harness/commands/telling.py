@@ -7,7 +7,7 @@ import importlib
 import shlex
 import shutil
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 from harness.contract import FirsthitError
@@ -94,24 +94,26 @@ def tell(
     held: str,
     code: int,
     about: Mapping[Place, About],
-    more: str = "",
+    more: Callable[[int | None], str] | None = None,
 ) -> None:
     """Write the files that are asked for, and then print the table.
 
-    `held` names what the rows are held against, and `more` is told after the table.
+    `held` names what the rows are held against. `more` returns what is told after the table, for so many columns; None:
+    any width.
     """
     title = prepared.experiment.name
     if options.junit:  # files come first, since the table's reader may go away
         write_atomically(options.junit, servers.junit(judged, title, about).encode())
     summary = outputs.markdown(judged, title, held, code, about)
-    summary += f"\n```\n{more}\n```\n" if more else ""
+    summary += f"\n```\n{more(None)}\n```\n" if more else ""
     if options.markdown:
         write_atomically(options.markdown, summary.encode())
     if options.github:
         servers.summarize(summary)
-    print(outputs.table(judged, shutil.get_terminal_size().columns if sys.stdout.isatty() else None))
+    width = shutil.get_terminal_size().columns if sys.stdout.isatty() else None
+    print(outputs.table(judged, width))
     if more:
-        print(more)
+        print(more(width))
     if options.pictures:
         count = sum(1 for own in about.values() if own.picture)
         print(f"{options.pictures}: {count} {'picture' if count == 1 else 'pictures'} of wrong rays")

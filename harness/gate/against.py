@@ -27,6 +27,7 @@ from harness.gate.checked import Checked
 from harness.gate.chosen import Only
 from harness.gate.entries import slot_of
 from harness.gate.judge import Change, Judged, Verdict, judge_row, tolerances_of
+from harness.gate.outputs import INDENT, wrapped
 from harness.gate.revision import Former, Formers, Revision
 from harness.plugins import find_methods
 from harness.results.figures import SPEED, figures
@@ -77,8 +78,11 @@ class Compared:
         read = ((slot, store.read(row["key"])) for slot, row in self.before.items())
         return {(slot.rpartition(" ")[0], slot.rpartition(" ")[2]): row for slot, row in read if row}
 
-    def told(self) -> str:
-        """Tell how much of the accuracy is the same, and every ratio that was measured, those that pass included."""
+    def told(self, width: int | None = None) -> str:
+        """Tell how much of the accuracy is the same, and every ratio that was measured, those that pass included.
+
+        The ratios are a table; where that is wider than `width` columns, each has lines of its own. None: any width.
+        """
         accuracy = [j for j in self.judged if j.slot.endswith(": accuracy")]
         compared = [j for j in accuracy if j.changes and j.reason != SAME]
         equal = sum(all(change.before == change.now for change in j.changes) for j in compared)
@@ -92,7 +96,7 @@ class Compared:
         said = ", ".join(f"{count} {what}" for what, count in counts.items() if count) or "no cells"
         lines = [f"accuracy against {self.name}: {said}"]
         if raced := [_ratio_line(j) for j in self.judged if j.changes and j.changes[0].figure == SPEED.name]:
-            lines += [f"speed against {self.name}:", console.table(("ratio", "interval", "cell", "device"), raced)]
+            lines += [f"speed against {self.name}:", _ratios(raced, width)]
         lines += [f"not raced: {count} cells whose program changed; {why}" for why, count in self.unraced.items()]
         return "\n".join(lines)
 
@@ -346,6 +350,18 @@ def _unfit(row: Row, most_wrong: float) -> str | None:
 def _speed(planned: Planned) -> Judged:
     """Return the verdict on a cell's speed as it is before there is anything to say against it."""
     return Judged(f"{slot_of(planned)}: speed", planned.cell.device, planned.cell.variant.method, Verdict.PASS)
+
+
+def _ratios(raced: list[tuple[str, str, str, str]], width: int | None) -> str:
+    """Write the ratios as a table, or below each cell where that is too wide."""
+    text = console.table(("ratio", "interval", "cell", "device"), raced)
+    if width is None or all(len(line) <= width for line in text.splitlines()):
+        return text
+    return "\n".join(
+        line
+        for ratio, interval, cell, device in raced
+        for line in (*wrapped(f"{cell} on {device}", width, ""), *wrapped(f"{ratio}  {interval}", width, INDENT))
+    )
 
 
 def _ratio_line(judged: Judged) -> tuple[str, str, str, str]:

@@ -1,8 +1,8 @@
-"""Print a config's programs as JSON on the last line of stdout. This runs as a script inside another revision's tree.
+"""Write a config's programs as JSON. This runs as a script inside another revision's tree.
 
-The script's arguments are the config, the plugins folder or "", a folder for arrays, and the names of devices. It uses
-only what the harness has in every revision, under the name that it has in each. What a revision lacks is left out, and
-whoever reads the JSON says so.
+The script's arguments are the config, the plugins folder or "", a folder that takes WRITTEN and arrays, and the names
+of devices. It uses only what the harness has in every revision, under the name that it has in each. What a revision
+lacks is left out, and whoever reads the JSON says so. Methods may print what they like.
 """
 
 import dataclasses
@@ -24,6 +24,7 @@ from harness.plugins import find_methods
 LOAD = ("harness.experiment.reading", "harness.experiment.config", "harness.config")  # the newest name first
 PLAN = ("harness.experiment.plan", "harness.plan")
 DISCOVERY = ("harness.devices.discovery", "harness.devices.executor", "harness.executor")
+WRITTEN = "cells.json"
 NOT_PLANNED = ("gate", "accuracy", "baseline")  # keys of a config that decide no program
 GROWING = ("method", "surfaces", "families")  # keys whose lists may name what this revision has not
 
@@ -193,7 +194,8 @@ def export(path: Path, plugins: str, folder: Path, devices: list[str]) -> dict[s
 
 if __name__ == "__main__":
     try:
-        print(json.dumps(export(Path(sys.argv[1]), sys.argv[2], Path(sys.argv[3]), sys.argv[4:])))
+        cells = export(Path(sys.argv[1]), sys.argv[2], Path(sys.argv[3]), sys.argv[4:])
+        Path(sys.argv[3], WRITTEN).write_text(json.dumps(cells), encoding="utf-8")
     except FirsthitError as error:
-        print(error, file=sys.stderr)
+        print(" ".join(str(error).split()), file=sys.stderr)
         sys.exit(2)

@@ -114,12 +114,12 @@ def _stacked(listed: Sequence[Line], width: int) -> str:
         figures = [
             (line.figure, line.baseline, "→", line.now, f"allowed {line.allowed}") for line in own if line.figure
         ]
-        text += _wrapped(
+        text += wrapped(
             f"{verdict}  {cell}" + f" on {device}" * bool(device) + f" (rule: {rule})" * bool(rule), width, ""
         )
         if figures:
             text += [f"{INDENT}{line}" for line in console.table(figures[0], figures[1:]).splitlines()]
-        text += _wrapped(reason, width, INDENT)
+        text += wrapped(reason, width, INDENT)
     return "\n".join(text)
 
 
@@ -131,7 +131,7 @@ def _rows(listed: Sequence[Line]) -> dict[tuple[str, str, str, str], list[Line]]
     return rows
 
 
-def _wrapped(text: str, width: int, indent: str) -> list[str]:
+def wrapped(text: str, width: int, indent: str) -> list[str]:
     """Break a text into lines of at most `width` columns; "" has none."""
     return textwrap.wrap(text, max(width, 40), initial_indent=indent, subsequent_indent=indent + INDENT)
 

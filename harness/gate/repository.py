@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import subprocess
 from collections.abc import Collection
 from datetime import UTC, datetime
@@ -10,6 +9,7 @@ from pathlib import Path
 
 from harness import ROOT
 from harness.contract import FirsthitError
+from harness.results import git
 from harness.results.commits import Commit
 
 
@@ -77,24 +77,22 @@ def _below(path: Path, top: Path) -> str | None:
 def _top(folder: Path) -> Path | None:
     """Return the top of the repository that a folder is in; None in none. Raises FirsthitError as `holding` does."""
     ran = _run(folder, "rev-parse", "--show-toplevel")
-    if ran is None or (ran.returncode and b"not a git repository" in ran.stderr):
+    if ran is None or (ran.returncode and "not a git repository" in ran.stderr):
         return None
     if ran.returncode:
-        raise FirsthitError(f"git in {folder}: {ran.stderr.decode('utf-8', 'replace').strip().splitlines()[0]}")
-    return Path(ran.stdout.decode().rstrip("\n")).resolve()
+        raise FirsthitError(f"git in {folder}: {ran.stderr.strip().splitlines()[0]}")
+    return Path(ran.stdout.rstrip("\n")).resolve()
 
 
 def _git(folder: Path, *arguments: str) -> str | None:
     """Run git in a folder and return what it printed; None where it fails or is not here."""
     ran = _run(folder, *arguments)
-    return ran.stdout.decode("utf-8", "replace").strip("\n") if ran and ran.returncode == 0 else None
+    return ran.stdout.strip("\n") if ran and ran.returncode == 0 else None
 
 
-def _run(folder: Path, *arguments: str) -> subprocess.CompletedProcess[bytes] | None:
+def _run(folder: Path, *arguments: str) -> subprocess.CompletedProcess[str] | None:
     """Run git in a folder, in English; None where there is no git or no such folder."""
-    environment = {**os.environ, "LC_ALL": "C"}
     try:
-        command = ["git", "-C", str(folder), *arguments]
-        return subprocess.run(command, env=environment, capture_output=True, check=False)
+        return git.ran(folder, *arguments)
     except OSError:
         return None

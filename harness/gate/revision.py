@@ -1,14 +1,13 @@
-"""Get another git revision's programs of a config, which that revision's own code makes in a temporary worktree."""
+"""Get another git revision's programs of a config, which that revision's own code makes in a temporary folder."""
 
 from __future__ import annotations
 
-import contextlib
 import json
 import os
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -19,8 +18,11 @@ from harness import ROOT
 from harness.contract import FirsthitError, Program, Section
 from harness.devices.raster import Batch
 from harness.experiment.kinds.programs import Programs
+from harness.results import git
 
 EXPORT = Path(__file__).with_name("export.py")
+SUBMODULE = "160000"  # the mode of its entry in a tree
+ALONE = ("-c", "core.hooksPath=/dev/null", "-c", "core.fsmonitor=false", "-c", "core.splitIndex=false")
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,6 +74,8 @@ def found(name: str, plugins: Path | None) -> Revision:
     This is done at once, before anything is run. The revision need not have the folder: its methods are new then.
     Raises FirsthitError where there is no git, no repository or no such revision.
     """
+    if not name:
+        raise FirsthitError("--against: the name of the revision is empty")
     folder = (plugins or ROOT).resolve()
     if not folder.is_dir():
         raise FirsthitError(f"--plugins: there is no folder {plugins}")
@@ -83,8 +87,11 @@ def found(name: str, plugins: Path | None) -> Revision:
         raise FirsthitError(
             f"--against: {ROOT} is an installation and no clone of firsthit; give --plugins DIR before gate"
         )
-    commit, _ = _git(folder, "rev-parse", "--verify", "--quiet", f"{name}^{{commit}}")
-    if commit is None:
+    commit, _ = _git(folder, "rev-parse", "--verify", "--quiet", "--end-of-options", f"{name}^{{commit}}")
+    if not commit or set(commit) - set("0123456789abcdef"):
+        kind, _ = _git(folder, "cat-file", "-t", name)
+        if kind in ("tree", "blob"):
+            raise FirsthitError(f"--against: {name!r} is a {kind} of {revision.repository}, and no commit")
         shallow, _ = _git(folder, "rev-parse", "--is-shallow-repository")
         hint = (
             "the clone is shallow: `git fetch --unshallow`, or fetch-depth: 0 of actions/checkout, gets older ones"
@@ -101,23 +108,26 @@ def programs_at(revision: Revision, config: Path, devices: list[str]) -> Formers
     Where plugins are in a repository of their own, the harness that plans them is the present one. Raises
     FirsthitError, with exit code 3, where the revision cannot be checked out, or its code cannot plan the config.
     """
-    with tempfile.TemporaryDirectory(prefix="firsthit-against-") as name, _worktree(revision, Path(name)) as tree:
+    with tempfile.TemporaryDirectory(prefix="firsthit-against-") as name:
+        tree = _checked_out(revision, Path(name))
         there = tree / revision.plugins.relative_to(revision.repository) if revision.plugins else None
+        _held(revision, tree)
         code, arrays = tree if revision.holds_harness else ROOT, Path(name) / "arrays"
         arrays.mkdir()
         arguments = [str(config.resolve()), str(there or ""), str(arrays), *devices]
         command = [sys.executable, "-c", EXPORT.read_text(encoding="utf-8"), *arguments]
         environment = {**os.environ, "PYTHONPATH": os.pathsep.join([str(code), *_own(revision, tree)])}
         ran = subprocess.run(command, cwd=code, env=environment, capture_output=True, text=True, check=False)
-        if ran.returncode:
-            reason = (ran.stderr.strip().splitlines() or ["no reason given"])[-1]
+        written = arrays / "cells.json"
+        if ran.returncode or not written.is_file():
+            reason = (ran.stderr.strip().splitlines() or ["no reason given"])[-1].replace(f"{tree}/", "")
             raise FirsthitError(f"--against {revision.name}: its code cannot plan {config}: {reason}", exit_code=3)
-        told = json.loads(ran.stdout.splitlines()[-1])
+        told = json.loads(written.read_text(encoding="utf-8").replace(json.dumps(f"{tree}/")[1:-1], ""))
         return Formers({slot: _former(cell) for slot, cell in told["cells"].items()}, told["left_out"])
 
 
 def _own(revision: Revision, tree: Path) -> list[str]:
-    """List the folders of the worktree from which Python now imports the repository's own modules, if it has any.
+    """List the folders of the other revision from which Python now imports the repository's own modules, if it has any.
 
     A method may import modules beside its folder; an installation that can be edited offers the present ones.
     """
@@ -128,33 +138,55 @@ def _own(revision: Revision, tree: Path) -> list[str]:
     return [str(path) for path in dict.fromkeys(moved) if path.is_dir()]
 
 
-@contextlib.contextmanager
-def _worktree(revision: Revision, folder: Path) -> Iterator[Path]:
-    """Check `revision` out below a temporary folder, and remove it again when the block ends.
+def _checked_out(revision: Revision, folder: Path) -> Path:
+    """Check `revision` out into a new folder below the temporary one `folder`, and return it.
 
-    Raises FirsthitError where it cannot be checked out.
+    Nothing is written into the repository, and no hook of it runs. Raises FirsthitError where it cannot be checked out.
     """
-    tree, quiet = folder.resolve() / "tree", ("-c", "core.hooksPath=/dev/null")
-    added = (*quiet, "worktree", "add", "--detach", "--quiet", str(tree), revision.commit)
-    told, reason = _git(revision.repository, *added)
-    if told is None:
-        message = f"--against: git cannot check {revision.name} out into {tree}: {reason}"
-        raise FirsthitError(message, exit_code=3)
-    try:
-        yield tree
-    finally:
-        _git(revision.repository, "worktree", "remove", "--force", str(tree))
+    tree = folder.resolve() / "tree"
+    tree.mkdir()
+    own = {"GIT_INDEX_FILE": str(folder.resolve() / "index"), "GIT_WORK_TREE": str(tree)}
+    for arguments in (("read-tree", revision.commit), ("checkout-index", "--all", "--quiet")):
+        told, reason = _git(revision.repository, *ALONE, *arguments, own=own)
+        if told is None:
+            message = f"--against: git cannot check {revision.name} out into {tree}: {reason}"
+            raise FirsthitError(message, exit_code=3)
+    return tree
 
 
-def _git(folder: Path, *arguments: str) -> tuple[str | None, str]:
+def _held(revision: Revision, tree: Path) -> None:
+    """Raise FirsthitError where a folder that is a method's now is not held by the revision, which lies in `tree`.
+
+    A link out of it leads to what is there now, which would pass for the other revision's. A submodule is empty.
+    """
+    now = revision.plugins or ROOT / "methods"
+    there = tree / now.relative_to(revision.repository)
+    told = {path: f"a link to {path.readlink()}, out of the revision" for path in _leading_out(there, tree)}
+    listed, _ = _git(revision.repository, "ls-tree", "-r", "-z", revision.commit, "--", f"{there.relative_to(tree)}")
+    for entry in filter(None, (listed or "").split("\0")):
+        facts, name = entry.split("\t", 1)
+        if facts.startswith(SUBMODULE):
+            told[tree / name] = "a submodule; give --plugins a folder in it"
+    for path, what in told.items():
+        if any(folder.joinpath("method.py").is_file() for folder in (now, now / path.relative_to(there).parts[0])):
+            raise FirsthitError(f"--against: {path.relative_to(tree)} at {revision.name} is {what}", exit_code=3)
+
+
+def _leading_out(there: Path, tree: Path) -> list[Path]:
+    """List the links in a folder of methods that lead out of `tree`."""
+    links = sorted(path for pattern in ("*", "*/*") for path in there.glob(pattern) if path.is_symlink())
+    return [path for path in links if not (path.exists() and path.resolve().is_relative_to(tree))]
+
+
+def _git(folder: Path, *arguments: str, own: Mapping[str, str] = git.NOTHING) -> tuple[str | None, str]:
     """Run git in a folder. Return what it printed, or None and the reason where it fails or is not here."""
     try:
-        ran = subprocess.run(["git", "-C", str(folder), *arguments], capture_output=True, text=True, check=False)
+        ran = git.ran(folder, *arguments, own=own)
     except OSError as error:
         return None, f"git: {error.strerror}"
     if ran.returncode:
         return None, " ".join(ran.stderr.split()) or f"git ended with {ran.returncode}"
-    return ran.stdout.strip(), ""
+    return ran.stdout.strip("\n"), ""
 
 
 def _former(cell: dict[str, Any]) -> Former:

@@ -6,7 +6,6 @@ import contextlib
 import dataclasses
 import json
 import platform
-import subprocess
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -17,7 +16,7 @@ from harness.devices import host
 from harness.devices.executor import CellError, LocalExecutor
 from harness.devices.host_arithmetic import host_arithmetic
 from harness.devices.probes import BELIEVABLE, Probes
-from harness.results import sources
+from harness.results import git, sources
 from harness.results.writing import write_atomically
 
 if TYPE_CHECKING:
@@ -29,7 +28,7 @@ PACKAGES = ("numpy", "sympy", "python-flint", "moderngl", "pyopencl")
 def _git(*arguments: str) -> str | None:
     """Run git in the project's folder and return what it printed; None where it fails or is not here."""
     try:
-        result = subprocess.run(["git", "-C", str(ROOT), *arguments], capture_output=True, text=True, check=False)
+        result = git.ran(ROOT, *arguments)
     except OSError:
         return None
     return result.stdout.strip() if result.returncode == 0 else None

@@ -15,7 +15,9 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure as Drawing
+from matplotlib.font_manager import FontProperties
 from matplotlib.patches import Patch
+from matplotlib.textpath import TextToPath
 from matplotlib.ticker import FixedLocator, FuncFormatter, PercentFormatter
 from numpy.typing import NDArray
 
@@ -30,6 +32,7 @@ DPI = 100
 PANEL = 384  # pixels: a panel's side, or the next multiple of the picture's
 MARGIN, GAP = 24, 24  # pixels around and between panels
 LINE = 17  # pixels of a line of text
+HEADING = 9.5  # points
 BAR = 12  # pixels: the height of a colour scale
 RINGED = 60  # wrong rays that are ringed at most
 USUAL = (
@@ -125,13 +128,24 @@ class _Sheet:
 
 def _headed(heading: Sequence[str], width: int, below: int) -> tuple[_Sheet, int]:
     """Make a sheet with `below` pixels under its heading; return it, and where these begin."""
-    letters = int((width - 2 * MARGIN) / 6.6)
-    lines = [line for text in heading for line in textwrap.wrap(text, letters)]
+    looks = ["bold", *["normal"] * (len(heading) - 1)]
+    wrapped = [_wrapped(text, width - 2 * MARGIN, look) for text, look in zip(heading, looks, strict=True)]
+    lines = [(line, look) for own, look in zip(wrapped, looks, strict=True) for line in own]
     top = MARGIN + LINE * len(lines) + LINE
     sheet = _Sheet(width, top + below)
-    for i, line in enumerate(lines):
-        sheet.text(MARGIN, MARGIN + LINE * i, line, fontsize=9.5, weight="bold" if i == 0 else "normal")
+    for i, (line, look) in enumerate(lines):
+        sheet.text(MARGIN, MARGIN + LINE * i, line, fontsize=HEADING, weight=look)
     return sheet, top
+
+
+def _wrapped(text: str, width: int, weight: str) -> list[str]:
+    """Break a text into lines that are `width` pixels wide at most, as a heading is written."""
+    font = FontProperties(size=HEADING * DPI / 72, weight=weight)  # in pixels, since a measured width is in its unit
+    for letters in range(min(len(text), width), 1, -1):
+        lines = textwrap.wrap(text, letters)
+        if all(TextToPath().get_text_width_height_descent(line, font, False)[0] <= width for line in lines):
+            return lines
+    return [text]
 
 
 def _view(heading: Sequence[str], halves: list[_Half], evaluations: bool) -> bytes:
