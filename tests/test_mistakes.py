@@ -53,10 +53,10 @@ POCL = f"""clBuildProgram failed: BUILD_PROGRAM_FAILURE
 
 Build on <pyopencl.Device 'pthread' on 'Portable Computing Language' at 0x1>:
 
-/tmp/pocl/tempfile_1.cl:{AT}:16: expected ';' at end of declaration
+tempfile_1.cl:{AT}:16: expected ';' at end of declaration
 Device pthread failed to build the program
 
-(options: -I /somewhere)"""
+(options: -I somewhere)"""
 MESA = f"""GLSL Compiler failed
 
 compute_shader
