@@ -159,7 +159,7 @@ def _held(revision: Revision, tree: Path) -> None:
 
     A link out of it leads to what is there now, which would pass for the other revision's. A submodule is empty.
     """
-    now = revision.plugins or ROOT / "methods"
+    now = revision.plugins or revision.repository / "methods"
     there = tree / now.relative_to(revision.repository)
     told = {path: f"a link to {path.readlink()}, out of the revision" for path in _leading_out(there, tree)}
     listed, _ = _git(revision.repository, "ls-tree", "-r", "-z", revision.commit, "--", f"{there.relative_to(tree)}")
