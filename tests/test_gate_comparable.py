@@ -88,6 +88,7 @@ def test_what_a_device_cannot_run_is_incomparable_unless_it_was_blessed_so():
     )
     assert exit_code([found, Judged("m b", "opencl:a", "m", Verdict.PASS)], set()) == 3, "one such row is enough"
     assert verdict(lacking, before=lacking).verdict == "pass"
+    assert verdict(lacking, before=lacking, facts=OTHER).rule == "exact", "what cannot run computes nothing"
     old = {name: value for name, value in lacking.items() if name != "lacks"}
     assert verdict(lacking, before=old).verdict == "pass", "older files say no more than the reason"
     assert verdict(ENTRY, before=lacking, facts=OTHER).verdict == "new", "no device of the baseline ran it"
