@@ -213,6 +213,12 @@ def test_missing_and_new_rows_and_another_view_under_the_same_name(gated):
     assert "do: firsthit bless" in err
 
 
+def test_a_row_that_is_gone_can_be_gated_alone(gated):
+    gated.config.write_text(gated.config.read_text().replace('["torus"]', '["sphere"]'))
+    code, out, _ = gated("--only", "mine torus")
+    assert (code, out.splitlines()[-1]) == (1, "1 missing")
+
+
 def test_blessing_makes_the_change_pass_and_says_why(gated):
     _plant(gated.plugins, "mine", "kernel.glsl", "hit.evaluations = 1;", "hit.evaluations = 2;")
     before = set(gated.baseline.read_text().splitlines())

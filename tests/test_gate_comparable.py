@@ -1,11 +1,14 @@
 """What a row is held against, by which rule, and what cannot be compared, of made-up rows."""
 
+from pathlib import Path
+
 import pytest
 
 from harness.experiment.config import SlackChoice, ToleranceChoice
 from harness.gate import baseline
 from harness.gate.baseline import Baseline
 from harness.gate.comparable import OTHER_SCENE, Rule
+from harness.gate.foretold import foretold
 from harness.gate.judge import Judged, Tolerance, Verdict, exit_code, judge, judge_row, tolerances_of
 from harness.results.figures import GATED, Slack
 
@@ -85,6 +88,7 @@ def test_what_a_device_cannot_run_is_incomparable_unless_it_was_blessed_so():
     )
     assert exit_code([found, Judged("m b", "opencl:a", "m", Verdict.PASS)], set()) == 3, "one such row is enough"
     assert verdict(lacking, before=lacking).verdict == "pass"
+    assert verdict(lacking, before=lacking, facts=OTHER).rule == "exact", "what cannot run computes nothing"
     old = {name: value for name, value in lacking.items() if name != "lacks"}
     assert verdict(lacking, before=old).verdict == "pass", "older files say no more than the reason"
     assert verdict(ENTRY, before=lacking, facts=OTHER).verdict == "new", "no device of the baseline ran it"
@@ -164,3 +168,12 @@ def test_how_a_familys_rays_are_wrong_is_not_held_on_other_last_bits_but_how_man
     assert verdict(before | {"right": 250}, before=before, facts=OTHER).worst.figure == "right"
     assert verdict(before | {"misses": 60}, before=before).verdict == "regressed"
     assert verdict(ENTRY | {"misses": 60}, facts=OTHER).verdict == "regressed"
+
+
+def test_rows_that_cannot_be_compared_are_told_with_their_number():
+    rows = [Judged(slot, "opencl:a", "m", Verdict.INCOMPARABLE, OTHER_SCENE) for slot in ("m a", "m b")]
+    one, two = (foretold(rows[:n], n, Path("c.toml"), Path("b.toml")).splitlines() for n in (1, 2))
+    assert one[0] == "firsthit: 1 of 1 row cannot be compared with b.toml, whatever the methods answer:"
+    assert one[1] == f"  m a on opencl:a: {OTHER_SCENE}"
+    assert two[1] == f"  m a on opencl:a and 1 more: {OTHER_SCENE}"
+    assert two[2].startswith("    do: firsthit bless c.toml")

@@ -126,6 +126,20 @@ def test_a_damaged_baseline_is_one_line(tmp_path, text):
         baseline.read(tmp_path / "none.toml")
 
 
+@pytest.mark.parametrize(
+    ("line", "named"),
+    [("status = 7", "status is 7"), ('status = "done"', "status is 'done'"), ("misses = true", "misses is True"),
+     ('misses = "none"', "misses is 'none'"), ("misses = [1]", r"misses is \[1\]"),
+     ("last_bit = 'x'", "last_bit is 'x'"), ("error_max = nan", "error_max is nan")],
+)  # fmt: skip
+def test_a_row_whose_value_cannot_be_is_damage_and_no_improvement(tmp_path, line, named):
+    path = tmp_path / "b.toml"
+    status = "" if line.startswith("status") else "status = 'ok'\n"
+    path.write_text(f"format = 2\n[device.x]\nname = 'x'\n[row.x.y]\nscene = 's'\n{status}{line}\n")
+    with pytest.raises(FirsthitError, match=f"is damaged: a row's {named}"):
+        baseline.read(path)
+
+
 def test_claims_are_counted_until_a_row_disproves_them():
     counts = dict.fromkeys(("misses", "false_hits", "exhausted", "wrong_root", "invalid"), 0)
     grazing = {f"grazing_{name}": 0 for name in counts}

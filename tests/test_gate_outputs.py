@@ -78,7 +78,10 @@ def test_junit_holds_any_name():
 
 def test_markdown_is_a_table_with_the_worst_first_and_the_rule():
     text = outputs.markdown(ROWS, "t", "b.toml", 1, ABOUT)
-    assert text.startswith("## Gate t: **failed**\n\n1 regressed, 1 missing, 1 incomparable, 1 pass; held against `b.t")
+    assert text.startswith(
+        "## Gate t: **failed**\n\n1 regressed, 1 missing, 1 incomparable, 1 pass (1 of 4 held by last bits); "
+        "held against `b.t"
+    )
     rows = [line for line in text.splitlines() if line.startswith("| ")][2:]
     assert [row.split(" | ")[0] for row in rows] == ["| regressed", "| regressed", "| missing", "| incomparable"]
     assert rows[0].split(" | ")[1:5] == ["m a", "opencl:a", "last bits", "error_max"]
@@ -177,7 +180,7 @@ def test_the_table_lists_all_that_does_not_pass_and_the_rule():
     text = outputs.table(ROWS)
     assert text.splitlines()[0].split()[:4] == ["verdict", "cell", "device", "rule"]
     assert " ".join(text.splitlines()[1].split()) == "regressed m a opencl:a last bits error_max 1e-05 1 1.05e-05"
-    assert text.splitlines()[-1] == "1 regressed, 1 missing, 1 incomparable, 1 pass"
+    assert text.splitlines()[-1] == "1 regressed, 1 missing, 1 incomparable, 1 pass (1 of 4 held by last bits)"
     assert outputs.table(ROWS[3:]) == "1 pass"
 
 

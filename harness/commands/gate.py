@@ -103,7 +103,7 @@ def _gate(options: argparse.Namespace) -> int:
     prepared = _prepare(options).chosen(only)
     before = before and only.narrowed(before, map(slot_of, prepared.whole))
     hopeless = _hopeless(options, prepared, before, path) if before else []
-    if not other and len(hopeless) == len(prepared.planned):
+    if not other and hopeless and len(hopeless) == len(prepared.planned):
         return _tell(options, prepared, hopeless, before, path)
     checked = _check(options, prepared)
     if kept:

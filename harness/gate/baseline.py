@@ -19,7 +19,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from harness.contract import FirsthitError, digest
+from harness.contract import CellStatus, FirsthitError, digest
+from harness.results.figures import GATED
 from harness.results.writing import write_atomically
 
 FORMAT = 2
@@ -71,8 +72,8 @@ def read(path: Path) -> Baseline:
         if not {"status", "scene"} <= entry.keys():
             raise FirsthitError(f"{path} is damaged: a row lacks its status or scene; restore it, or bless anew")
         for name, value in entry.items():
-            if isinstance(value, float) and not math.isfinite(value):
-                raise FirsthitError(f"{path} is damaged: a row's {name} is {value}; restore it, or bless anew")
+            if not _can_be(name, value):
+                raise FirsthitError(f"{path} is damaged: a row's {name} is {value!r}; restore it, or bless anew")
     return Baseline(str(document.get("config", "")), devices, rows)
 
 
@@ -82,6 +83,13 @@ def _is_table(value: Any) -> bool:
 
 def _is_tables(*values: Any) -> bool:
     return all(map(_is_table, values))
+
+
+def _can_be(name: str, value: Any) -> bool:
+    """Tell whether an entry can have a value: figures are finite numbers, and a status is one of CellStatus."""
+    if name in GATED or name == LAST_BIT:
+        return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
+    return name != "status" or value in list(CellStatus)
 
 
 def _is_fingerprint(value: Any) -> bool:

@@ -61,7 +61,8 @@ def held_against(slot: str, row: Entry, facts: Mapping[str, Any], before: Baseli
         return f"the device cannot run this cell: {row['reason']}" if row.get("lacks") else None
     key = min(able, key=lambda one: distance(slot, facts, before.devices[one], one))
     entry = able[key]
-    differs = _differs(slot, row, entry, facts, before.devices[key])
+    # a cell that cannot run computes nothing
+    differs = "" if row.get("lacks") else _differs(slot, row, entry, facts, before.devices[key])
     rule = Rule.LAST_BITS if differs else Rule.EXACT
     levels = row.get("device_level"), entry.get("device_level")
     if levels[0] == levels[1]:

@@ -18,11 +18,12 @@ def foretold(found: Sequence[Judged], total: int, config: Path, baseline: Path) 
     told = [j for j in found if j.verdict is Verdict.INCOMPARABLE or len(found) == total]
     if not told:
         return ""
-    lines = [f"firsthit: {len(told)} of {total} rows cannot be compared with {baseline}, whatever they give:"]
+    rows_of = f"{total} {'row' if total == 1 else 'rows'}"
+    lines = [f"firsthit: {len(told)} of {rows_of} cannot be compared with {baseline}, whatever the methods answer:"]
     for reason in dict.fromkeys(j.reason for j in told):
         rows = [j for j in told if j.reason == reason]
-        first = f"{rows[0].slot} on {rows[0].device}"
-        lines += [f"  {len(rows)} rows, first {first}: {reason}", f"    {_to_do(rows, config)}"]
+        more = f" and {len(rows) - 1} more" * (len(rows) > 1)
+        lines += [f"  {rows[0].slot} on {rows[0].device}{more}: {reason}", f"    {_to_do(rows, config)}"]
     return "\n".join(lines)
 
 

@@ -10,6 +10,7 @@ from dataclasses import astuple, dataclass
 
 from harness import console
 from harness.gate.about import About, Place
+from harness.gate.comparable import Rule
 from harness.gate.judge import ORDER, Change, Judged, Value, Verdict
 
 BAD = (Verdict.REGRESSED, Verdict.MISSING, Verdict.INCOMPARABLE)
@@ -42,9 +43,11 @@ def number(value: Value) -> str:
 
 
 def counted(judged: Sequence[Judged]) -> str:
-    """Count the rows of each verdict, the worst first: `1 regressed, 12 pass`."""
+    """Count the rows of each verdict, the worst first, and those held by last bits: `1 regressed, 12 pass`."""
     counts = Counter(j.verdict for j in judged)
-    return ", ".join(f"{counts[verdict]} {verdict}" for verdict in ORDER if counts[verdict]) or "nothing to judge"
+    told = ", ".join(f"{counts[verdict]} {verdict}" for verdict in ORDER if counts[verdict]) or "nothing to judge"
+    loosely = sum(j.rule == Rule.LAST_BITS for j in judged)
+    return told + f" ({loosely} of {len(judged)} held by {Rule.LAST_BITS})" * bool(loosely)
 
 
 def flat(text: str) -> str:
