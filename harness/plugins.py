@@ -131,7 +131,8 @@ class Catalog:
 def _lying_about(name: str, beside: Path | None) -> Path | None:
     """Return the folder of a method in the working folder or `beside`, or in a folder of these; None without one."""
     for place in filter(None, (Path.cwd(), beside)):
-        for folder in (place / name, *sorted(place.glob(f"*/{name}"))):
+        own = [place] if place.resolve().name == name else []
+        for folder in (*own, place / name, *sorted(place.glob(f"*/{name}"))):
             if (folder / "method.py").is_file():
                 return folder
     return None

@@ -12,7 +12,7 @@ import threading
 import tokenize
 import traceback
 import typing
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, Sized
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -143,7 +143,7 @@ def _wrong_answer(name: str, answer: Any) -> str | None:
         for table, values in answer.items():
             if not isinstance(table, str) or not NAME.fullmatch(table):
                 return f"a table {table!r}; name it by letters, digits and _, as kernels read it"
-            if not isinstance(values, Sized) or len(values) == 0:
+            if not isinstance(values, Collection) or len(values) == 0:
                 return f"a table {table} that is empty or no list: {values!r}"
             if not all(is_number(value) and is_finite(value) for value in values):
                 return f"a table {table} that holds what is no finite number"

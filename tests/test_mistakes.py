@@ -338,3 +338,26 @@ def test_what_goes_on_is_said_where_it_takes_long_even_within_one_step(monkeypat
 
 def test_what_is_done_at_once_says_nothing(monkeypatch):
     assert _working(monkeypatch, 0.0, 60.0) == ""
+
+
+@pytest.mark.skipif(not usable_devices(), reason="no device")
+def test_a_picture_that_cannot_be_drawn_tells_one_mistake_and_not_what_follows_from_it(tmp_path, capfd):
+    plugins = _plugin(tmp_path, "real a = t0;", "real half = t0; real a = half;")
+    device = next((info.name for info in usable_devices() if info.name.startswith("opencl:")), None)
+    if device is None:
+        pytest.skip("no OpenCL device")
+    picture = ["show", "--surface", "sphere", "--size", "16", "-o", str(tmp_path / "x.png")]
+    assert main([*picture, "--method", "illinois", "--device", device, *plugins]) == 3
+    err = capfd.readouterr().err
+    assert len(re.findall(r"illinois/kernel\.glsl:\d", err)) == 1 and "a word of OpenCL C" in err
+
+
+@pytest.mark.usefixtures("devices_found_once")
+@pytest.mark.skipif(not usable_devices(), reason="no device")
+def test_what_is_not_blessed_is_told_by_its_first_line(tmp_path, capfd):
+    plugins = _plugin(tmp_path, "real a = t0;", "real a = t0")
+    (tmp_path / "one.toml").write_text(CONFIG)
+    runs = ["--runs", str(tmp_path / "runs"), "--baseline", str(tmp_path / "b.toml"), "--reason", "first"]
+    assert main(["bless", str(tmp_path / "one.toml"), *runs, *plugins]) == 3
+    last = capfd.readouterr().err.splitlines()[-1]
+    assert last.startswith("firsthit: not blessed: 4 cells did not finish, first illinois")

@@ -216,6 +216,9 @@ def test_who_forgets_plugins_is_told_of_it_and_of_the_folder(tmp_path, monkeypat
     _plugin(tmp_path / "own" / "illinois", "illinois")
     with pytest.raises(FirsthitError, match=r"it is in the folder own/illinois: give --plugins own$"):
         find_methods().get("illinois")
+    monkeypatch.chdir(tmp_path / "own" / "illinois")
+    with pytest.raises(FirsthitError, match=rf"it is in the folder \.: give --plugins {tmp_path / 'own'}$"):
+        find_methods().get("illinois")
 
 
 def test_a_config_beside_the_folder_names_it_with_its_line(tmp_path, capsys):
