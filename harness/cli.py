@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import errno
 import importlib
 import os
 import sys
@@ -28,15 +29,16 @@ EXIT_CODES = """exit codes:
   130  stopped by Ctrl-C
   141  who reads the output went away before its end
 """
+FULL = (errno.ENOSPC, errno.EDQUOT)  # of a disk or a quota: no mistake of ours
 RUN_CELLS = ("run", "gate", "bless", "recommend")  # commands that store a row as soon as its cell ends
 
 
 class Parser(argparse.ArgumentParser):
     """Parse a command line, and print help as any other output: argparse's own hides that nobody reads it."""
 
-    def print_help(self, file: SupportsWrite[str] | None = None) -> None:
-        """Print the help. Raises OSError where it cannot be written."""
-        (file or sys.stdout).write(self.format_help())
+    def _print_message(self, message: str, file: SupportsWrite[str] | None = None) -> None:
+        """Print help, usage or version. Raises OSError where it cannot be written."""
+        (file or sys.stderr).write(message)
 
 
 def build_parser(arguments: Sequence[str] | None = None) -> argparse.ArgumentParser:
@@ -77,6 +79,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except BrokenPipeError:
         _write_nowhere()
         return CLOSED_PIPE
+    except OSError as error:
+        if error.errno not in FULL:
+            traceback.print_exc()
+            return FAILED
+        _write_nowhere()
+        print(
+            f"firsthit: cannot write{f' {error.filename}' if error.filename else ''}: {error.strerror}", file=sys.stderr
+        )
+        return FAILED
     except Exception:
         traceback.print_exc()  # a mistake of ours; Python would end with 1, which says that a check does not hold
         return FAILED
@@ -116,7 +127,7 @@ def _write_nowhere() -> None:
     for stream in (sys.stdout, sys.stderr):
         try:
             stream.flush()
-        except BrokenPipeError:
+        except OSError:
             os.dup2(nowhere, stream.fileno())
 
 

@@ -6,6 +6,7 @@ import dataclasses
 import importlib.metadata
 import importlib.util
 import os
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -130,7 +131,8 @@ class Catalog:
 def _lying_about(name: str, beside: Path | None) -> Path | None:
     """Return the folder of a method in the working folder or `beside`, or in a folder of these; None without one."""
     for place in filter(None, (Path.cwd(), beside)):
-        for folder in (place / name, *sorted(place.glob(f"*/{name}"))):
+        own = [place] if place.resolve().name == name else []
+        for folder in (*own, place / name, *sorted(place.glob(f"*/{name}"))):
             if (folder / "method.py").is_file():
                 return folder
     return None
@@ -151,6 +153,7 @@ def _load(folder: Path, name: str | None) -> Method:
         raise FirsthitError(f"{folder} has a kernel.glsl but no method.py; {A_METHOD}")
     if not (folder / "kernel.glsl").exists():
         raise FirsthitError(f"{folder} has a method.py but no kernel.glsl; {A_METHOD}")
+    _check_kernel(folder / "kernel.glsl")
     method = stated(path)
     if not isinstance(method, Method):
         raise FirsthitError(f"{path} does not define METHOD = Method(...)")
@@ -169,6 +172,22 @@ def _load(folder: Path, name: str | None) -> Method:
         line = line_of(path, "name")
         raise FirsthitError(f"{path}:{line}: the method is named {method.name!r}, its folder {name!r}; they must agree")
     return guarded(method, path)
+
+
+def _check_kernel(path: Path) -> None:
+    """Raise FirsthitError, with file and line, if a kernel is no readable text, or asks for another file."""
+    try:
+        read = path.read_bytes()
+    except OSError as error:
+        raise FirsthitError(f"{path}: {error.strerror or error}") from None
+    try:
+        text = read.decode()
+    except UnicodeDecodeError as error:
+        line = read.count(b"\n", 0, error.start) + 1
+        raise FirsthitError(f"{path}:{line}: it is not written in UTF-8; save it in this encoding") from None
+    if include := re.search(r"(?m)^[ \t]*#[ \t]*include\b", text):
+        line = text.count("\n", 0, include.start()) + 1
+        raise FirsthitError(f"{path}:{line}: a kernel is one file; write what it would include into it")
 
 
 def _folders(directory: Path) -> list[Path]:

@@ -9,9 +9,10 @@ import re
 import signal
 import sys
 import threading
+import tokenize
 import traceback
 import typing
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -46,14 +47,13 @@ def stated(path: Path) -> object:
     assert spec and spec.loader
     module = importlib.util.module_from_spec(spec)
     writes_bytecode, sys.dont_write_bytecode = sys.dont_write_bytecode, True
-    with _pressed() as pressed:
+    with _pressed() as pressed, contextlib.redirect_stdout(sys.stderr):  # what it prints is no result of the command
         try:
             spec.loader.exec_module(module)
-        except (Exception, SystemExit, KeyboardInterrupt) as error:
+        except BaseException as error:
             if isinstance(error, KeyboardInterrupt) and pressed:
                 raise
-            ends = "" if isinstance(error, Exception) else "; a method.py states METHOD, and does not end the program"
-            raise FirsthitError(f"{_told(path, error)}{ends}") from error
+            raise FirsthitError(f"{_told(path, error)}{_ending(error)}") from error
         finally:
             sys.dont_write_bytecode = writes_bytecode
     return getattr(module, "METHOD", None)
@@ -79,6 +79,11 @@ def _pressed() -> Iterator[list[int]]:
         signal.signal(signal.SIGINT, before)
 
 
+def _ending(error: BaseException) -> str:
+    """Say of what would end the command that it may not."""
+    return "" if isinstance(error, Exception) else "; a method.py states METHOD, and does not end the program"
+
+
 def _told(path: Path, error: BaseException) -> str:
     """Say with file and line of a method.py what was raised in it."""
     frames = traceback.extract_tb(error.__traceback__)
@@ -91,7 +96,8 @@ def _told(path: Path, error: BaseException) -> str:
 
 def line_of(path: Path, name: str) -> int:
     """Return the line of a method.py that gives METHOD its field `name`; without one, that of METHOD, or 1."""
-    lines = path.read_text(encoding="utf-8").splitlines()
+    with tokenize.open(path) as file:  # in the encoding that it states
+        lines = file.read().splitlines()
     begins = next((i for i, line in enumerate(lines) if re.match(r"METHOD\b", line)), 0)
     named = re.compile(rf"\b{re.escape(name)}\s*=[^=]")
     return next((i for i in range(begins, len(lines)) if named.search(lines[i])), begins) + 1
@@ -106,12 +112,15 @@ def guarded(method: Method, path: Path) -> Method:
             return None
 
         def call(*given: Any) -> Any:
-            try:
-                answer = function(*given)
-            except FirsthitError:
-                raise
-            except Exception as error:  # a plugin may fail in any way
-                raise FirsthitError(f"{_told(path, error)}, in {name}=...", exit_code=3) from error
+            with _pressed() as pressed:
+                try:
+                    answer = function(*given)
+                except FirsthitError:
+                    raise
+                except BaseException as error:  # a plugin may fail in any way
+                    if isinstance(error, KeyboardInterrupt) and pressed:
+                        raise
+                    raise FirsthitError(f"{_told(path, error)}, in {name}=...{_ending(error)}", exit_code=3) from error
             if wrong := _wrong_answer(name, answer):
                 raise FirsthitError(f"{path}:{line_of(path, name)}: {name} returned {wrong}", exit_code=3)
             return answer
@@ -132,8 +141,12 @@ def _wrong_answer(name: str, answer: Any) -> str | None:
         if not isinstance(answer, Mapping):
             return f"{answer!r}; return tables by name, as in {{'NODES': [0.0, 0.5, 1.0]}}"
         for table, values in answer.items():
-            if len(values) == 0 or not all(is_number(value) and is_finite(value) for value in values):
-                return f"a table {table} that is empty or holds what is no finite number"
+            if not isinstance(table, str) or not NAME.fullmatch(table):
+                return f"a table {table!r}; name it by letters, digits and _, as kernels read it"
+            if not isinstance(values, Collection) or len(values) == 0:
+                return f"a table {table} that is empty or no list: {values!r}"
+            if not all(is_number(value) and is_finite(value) for value in values):
+                return f"a table {table} that holds what is no finite number"
     return None
 
 

@@ -49,6 +49,8 @@ LEAST = {  # what a command cannot be parsed without
     "oracle": ["--surface", "torus", "--rays", "r.npy", "-o", "x.npz"],
     "bless": ["quick", "--reason", "r"],
     "recommend": ["--surface", "torus", "--error", "1"],
+    "history": ["quick"],
+    "new": ["method", "mine"],
 }
 
 

@@ -149,7 +149,9 @@ def test_ctrl_c_while_devices_are_looked_for_is_130(tmp_path):
     assert (code, told.splitlines()[-1]) == (130, "firsthit: stopped")
 
 
-@pytest.mark.parametrize("arguments", [("list", "methods"), ("list", "configs"), ("--help",), ("gate", "--help")])
+@pytest.mark.parametrize(
+    "arguments", [("list", "methods"), ("list", "configs"), ("--help",), ("--version",), ("gate", "--help")]
+)
 def test_a_pipe_that_nobody_reads_is_no_success(tmp_path, arguments):
     ours, theirs = os.pipe()
     os.close(ours)
@@ -158,6 +160,23 @@ def test_a_pipe_that_nobody_reads_is_no_success(tmp_path, arguments):
     )
     os.close(theirs)
     assert (result.returncode, result.stderr) == (141, b"")
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no /dev/full")
+@pytest.mark.parametrize("unbuffered", ["", "1"])
+@pytest.mark.parametrize("arguments", [("list", "configs"), ("--version",)])
+def test_a_full_disk_is_one_line_and_no_success(tmp_path, arguments, unbuffered):
+    with Path("/dev/full").open("w") as full:
+        result = subprocess.run(
+            [*COMMAND, *arguments],
+            cwd=tmp_path,
+            env=_environment() | {"PYTHONUNBUFFERED": unbuffered},
+            stdout=full,
+            stderr=subprocess.PIPE,
+            text=True,
+            check=False,
+        )
+    assert (result.returncode, result.stderr) == (3, "firsthit: cannot write: No space left on device\n")
 
 
 def test_a_reason_that_nobody_reads_is_no_success_either(tmp_path):

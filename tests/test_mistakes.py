@@ -5,13 +5,16 @@ from __future__ import annotations
 import io
 import re
 import time
+from pathlib import Path
 
 import pytest
 
 from harness import console
 from harness.cli import main
 from harness.contract import CellStatus, Program, Section
-from harness.kernels.complaints import complaints_in, explained
+from harness.kernels.assemble import file_section
+from harness.kernels.complaints import complaints_in, explained, recursion
+from harness.plugins import BUILT_IN
 from harness.running.failures import Failure, mistakes
 
 from .conftest import usable_devices
@@ -147,6 +150,85 @@ def test_what_to_do_is_said_at_the_line_of_the_kernel(kernel, error, place, advi
     assert advice in told.advice
 
 
+FAR = "1:{}:11: error: use of undeclared identifier 'first_hit'"
+
+
+def test_a_comment_at_the_top_of_a_kernel_hides_nothing_from_the_advice():
+    commented = "// a comment\n" + KERNEL.replace("a = t0", "a = t0;")
+    (told,) = complaints_in(explained(_program(commented), f"0:{AT + 2}(14): error: no function with name 'x'"))
+    assert NEEDS in told.advice
+    (told,) = complaints_in(explained(_program(commented.replace("first_hit", "frist_hit")), FAR.format(99)))
+    assert (told.line, told.words) == (2, "the kernel does not define first_hit; did you mean 'frist_hit'?")
+
+
+def test_two_unknown_names_in_one_line_are_two_mistakes_and_both_are_told():
+    kernel = KERNEL.replace("a = t0", "a = t2 + STEPZ;")
+    log = "\n".join(
+        f"1:{AT}:{column}: error: use of undeclared identifier '{name}'" for column, name in ((14, "t2"), (19, "STEPZ"))
+    )
+    text = explained(_program(kernel), log)
+    assert [complaint.words.split()[-1] for complaint in complaints_in(text)] == ["'t2'", "'STEPZ'"]
+    told = "\n".join(mistakes([Failure("mine", "a", "opencl:intel", "float32", "torus", text)], "programs"))
+    assert "'t2'" in told and "also   line 2, opencl:intel: use of undeclared identifier 'STEPZ'" in told
+
+
+@pytest.mark.parametrize(("word", "language"), [("half", "OpenCL C"), ("sample", "GLSL"), ("input", "GLSL")])
+def test_a_word_that_one_language_keeps_for_itself_is_named(word, language):
+    kernel = KERNEL.replace("real a = t0", f"real {word} = t0; // kernel").replace("surface_value", "f")
+    (told,) = complaints_in(explained(_program(kernel), f"0:{AT}(7): error: syntax error, unexpected SAMPLE"))
+    assert told.advice == f"use another word than {word}, which is a word of {language}"
+
+
+def test_a_name_with_other_letters_than_those_of_ascii_is_named():
+    kernel = KERNEL.replace("real a = t0", "real höhe = t0; // π").replace("surface_value", "f")
+    (told,) = complaints_in(explained(_program(kernel), f"0:{AT}(7): error: syntax error, unexpected end of file"))
+    assert "höhe" in told.advice and "ASCII" in told.advice
+
+
+def test_of_a_very_long_line_the_part_around_the_caret_is_shown():
+    kernel = KERNEL.replace("a = t0", f"a = {'1.0 + ' * 100}q{' + 1.0' * 100};")
+    (told,) = complaints_in(explained(_program(kernel), f"1:{AT}:614: error: use of undeclared identifier 'q'"))
+    text, caret = told.shown
+    assert len(text) < 200 and text[len(caret) - 1] == "q"
+
+
+def test_what_is_of_no_line_is_no_complaint_of_the_first_file():
+    log = "1:0:0: error: function `first_hit' has static recursion"
+    assert "prelude" not in explained(_program(), log) and "static recursion" in explained(_program(), log)
+
+
+@pytest.mark.parametrize(
+    ("text", "line", "words"),
+    [
+        ("// f(1)\nreal f(real x) {\n    return f(x);\n}\n", 3, "f calls itself"),
+        (
+            "real g(real x);\nreal f(real x) { return g(x); }\nreal g(real x) { return f(x); }\n",
+            2,
+            "f calls itself, through g",
+        ),
+    ],
+)
+def test_a_function_that_calls_itself_is_told_before_a_compiler_dies_of_it(text, line, words):
+    told = recursion(Section("mine/kernel.glsl", text))
+    assert (told.line, told.words) == (line, words)
+
+
+def test_no_kernel_of_ours_is_taken_for_one_that_calls_itself():
+    kernels = list(BUILT_IN.glob("*/kernel.glsl"))
+    assert len(kernels) > 10
+    assert not [path for path in kernels if recursion(Section("kernel.glsl", path.read_text()))]
+    assert not recursion(Section("kernel.glsl", "void f() {\n  if (a) {}\n  else if (b) {\n if (c) {} }\n}\n"))
+
+
+def test_a_kernel_is_named_by_the_path_that_was_typed(tmp_path, monkeypatch):
+    folder = tmp_path / "deep" / "er" / "own" / "mine"
+    folder.mkdir(parents=True)
+    (folder / "kernel.glsl").write_bytes(b"\xef\xbb\xbfvoid f() {}\r\n")
+    monkeypatch.chdir(tmp_path)
+    section = file_section(Path("deep/er/own/mine/kernel.glsl"))
+    assert section == Section("deep/er/own/mine/kernel.glsl", "void f() {}\n"), "without the mark of byte order"
+
+
 def _failures() -> list[Failure]:
     logs = {"opencl:intel": INTEL, "opencl:pocl": POCL, "opengl:llvmpipe": MESA}
     return [
@@ -180,6 +262,10 @@ def test_mistakes_of_two_methods_and_of_two_kinds_stay_apart():
     assert told[1].startswith("mine/kernel.glsl: check took longer")
     assert "look for a loop" in told[1] and ": 4 cells" in told[1]
     assert "past its end" in told[2]
+    build = Failure(
+        "mine", "a", "opencl:pocl", "float32", "torus", "the worker died during build: x", CellStatus.CRASHED
+    )
+    assert "a function that calls itself" in " ".join(mistakes([build], "programs")[0].split())
 
 
 def test_reasons_that_differ_in_a_number_are_all_said():
@@ -252,3 +338,26 @@ def test_what_goes_on_is_said_where_it_takes_long_even_within_one_step(monkeypat
 
 def test_what_is_done_at_once_says_nothing(monkeypatch):
     assert _working(monkeypatch, 0.0, 60.0) == ""
+
+
+@pytest.mark.skipif(not usable_devices(), reason="no device")
+def test_a_picture_that_cannot_be_drawn_tells_one_mistake_and_not_what_follows_from_it(tmp_path, capfd):
+    plugins = _plugin(tmp_path, "real a = t0;", "real half = t0; real a = half;")
+    device = next((info.name for info in usable_devices() if info.name.startswith("opencl:")), None)
+    if device is None:
+        pytest.skip("no OpenCL device")
+    picture = ["show", "--surface", "sphere", "--size", "16", "-o", str(tmp_path / "x.png")]
+    assert main([*picture, "--method", "illinois", "--device", device, *plugins]) == 3
+    err = capfd.readouterr().err
+    assert len(re.findall(r"illinois/kernel\.glsl:\d", err)) == 1 and "a word of OpenCL C" in err
+
+
+@pytest.mark.usefixtures("devices_found_once")
+@pytest.mark.skipif(not usable_devices(), reason="no device")
+def test_what_is_not_blessed_is_told_by_its_first_line(tmp_path, capfd):
+    plugins = _plugin(tmp_path, "real a = t0;", "real a = t0")
+    (tmp_path / "one.toml").write_text(CONFIG)
+    runs = ["--runs", str(tmp_path / "runs"), "--baseline", str(tmp_path / "b.toml"), "--reason", "first"]
+    assert main(["bless", str(tmp_path / "one.toml"), *runs, *plugins]) == 3
+    last = capfd.readouterr().err.splitlines()[-1]
+    assert last.startswith("firsthit: not blessed: 4 cells did not finish, first illinois")

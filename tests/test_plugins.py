@@ -8,6 +8,8 @@ from harness.cli import main
 from harness.contract import FirsthitError
 from harness.plugins import find_methods
 
+from .conftest import usable_devices
+
 METHOD = 'from harness.contract import Method\nMETHOD = Method(name="{name}", source="test")\n'
 
 
@@ -214,6 +216,9 @@ def test_who_forgets_plugins_is_told_of_it_and_of_the_folder(tmp_path, monkeypat
     _plugin(tmp_path / "own" / "illinois", "illinois")
     with pytest.raises(FirsthitError, match=r"it is in the folder own/illinois: give --plugins own$"):
         find_methods().get("illinois")
+    monkeypatch.chdir(tmp_path / "own" / "illinois")
+    with pytest.raises(FirsthitError, match=rf"it is in the folder \.: give --plugins {tmp_path / 'own'}$"):
+        find_methods().get("illinois")
 
 
 def test_a_config_beside_the_folder_names_it_with_its_line(tmp_path, capsys):
@@ -224,7 +229,7 @@ def test_a_config_beside_the_folder_names_it_with_its_line(tmp_path, capsys):
     assert f"mine.toml:5: there is no method 'illinois' here; it is in the folder {tmp_path}" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("ends", ["sys.exit(0)", "raise KeyboardInterrupt", "raise SystemExit"])
+@pytest.mark.parametrize("ends", ["sys.exit(0)", "raise KeyboardInterrupt", "raise SystemExit", "raise GeneratorExit"])
 def test_a_method_py_that_ends_the_program_costs_itself_only(tmp_path, ends):
     _plugin(tmp_path / "mine", text=f"import sys\n{ends}\n")
     catalog = find_methods(tmp_path)
@@ -243,6 +248,7 @@ def test_ctrl_c_while_a_method_py_is_run_ends_the_command(tmp_path):
     [
         ("accepts=lambda _: True", "accepts returned True; return None for a surface that it can be used on"),
         ("accepts=lambda _: 1 / 0", "ZeroDivisionError: division by zero, in accepts=..."),
+        ("accepts=lambda _: exit(0)", "SystemExit: 0, in accepts=...; a method.py states METHOD"),
     ],
 )
 def test_a_function_of_method_py_that_goes_wrong_is_answered_with_its_line(tmp_path, stated, words):
@@ -251,10 +257,62 @@ def test_a_function_of_method_py_that_goes_wrong_is_answered_with_its_line(tmp_p
         find_methods(tmp_path).get("mine").method.accepts(surfaces.get("torus"))
 
 
-def test_a_table_without_numbers_is_answered_with_its_line(tmp_path):
-    _plugin(tmp_path / "mine", text=STATED.format("tables=lambda *_: dict(A=[])"))
-    with pytest.raises(FirsthitError, match=r"method\.py:2: tables returned a table A that is empty"):
+@pytest.mark.parametrize(
+    ("answer", "words"),
+    [
+        ("dict(A=[])", "a table A that is empty"),
+        ("dict(A=3)", "a table A that is empty or no list: 3"),
+        ("dict(A='x')", "a table A that holds what is no finite number"),
+        ("dict([('a b', [1.0])])", "a table 'a b'; name it by letters"),
+        ("dict([(3, [1.0])])", "a table 3; name it by letters"),
+    ],
+)
+def test_a_table_that_can_be_none_is_answered_with_its_line(tmp_path, answer, words):
+    _plugin(tmp_path / "mine", text=STATED.format(f"tables=lambda *_: {answer}"))
+    with pytest.raises(FirsthitError, match=rf"method\.py:2: tables returned {words}"):
         find_methods(tmp_path).get("mine").method.tables(surfaces.get("torus"), {}, "float32")
+
+
+@pytest.mark.usefixtures("devices_found_once")
+@pytest.mark.skipif(not usable_devices(), reason="no device")
+def test_tables_that_cannot_be_made_are_a_failure_and_not_a_refusal(tmp_path, capsys):
+    _plugin(tmp_path / "mine", text=STATED.format("tables=lambda *_: 1 / 0"))
+    (tmp_path / "one.toml").write_text('title = "t"\nsurfaces = ["torus"]\nsizes = [16]\n[[method]]\nname = "mine"\n')
+    assert main(["plan", str(tmp_path / "one.toml"), "--plugins", str(tmp_path)]) == 3
+    assert "method.py:2: ZeroDivisionError: division by zero, in tables=..." in capsys.readouterr().err
+
+
+def test_what_a_method_py_prints_is_no_output_of_the_command(tmp_path, capsys):
+    _plugin(tmp_path / "mine", text="print('hello')\n" + METHOD)
+    find_methods(tmp_path).get("mine")
+    out, err = capsys.readouterr()
+    assert (out, err) == ("", "hello\n")
+
+
+def test_a_method_py_in_another_encoding_is_answered_with_its_line_too(tmp_path):
+    _plugin(tmp_path / "mine", text="")
+    text = "# -*- coding: latin-1 -*-\n# \xfc\nfrom firsthit import Method\nMETHOD = Method('mine', 't', casts='foo')\n"
+    (tmp_path / "mine" / "method.py").write_bytes(text.encode("latin-1"))
+    assert "method.py:4: casts: there is no way" in find_methods(tmp_path).broken["mine"]
+
+
+@pytest.mark.parametrize(
+    ("kernel", "words"),
+    [
+        (b"// a\n// \xfc\n", ":2: it is not written in UTF-8"),
+        (b'\n#include "x.glsl"\n', ":2: a kernel is one file"),
+        (None, ": Is a directory"),
+    ],
+)
+def test_a_kernel_that_cannot_be_read_or_is_not_all_of_it_is_listed_with_the_reason(tmp_path, kernel, words):
+    _plugin(tmp_path / "mine")
+    path = tmp_path / "mine" / "kernel.glsl"
+    path.unlink()
+    if kernel is None:
+        path.mkdir()
+    else:
+        path.write_bytes(kernel)
+    assert f"{path}{words}" in find_methods(tmp_path).broken["mine"]
 
 
 def test_a_plugin_folder_that_is_not_there_is_one_line(tmp_path):

@@ -101,6 +101,8 @@ def _planned(cell: Cell, info: DeviceInfo | None, catalog: Catalog, experiment: 
         try:
             casting = kind.casting(asked)
         except FirsthitError as error:
+            if error.exit_code == 3:  # the method went wrong, which is no refusal
+                raise
             skip = str(error)
     lacks = skip is not None and skip == (_absent(cell, info) or kind.lacking(asked))
     planned = Planned(cell, "", {}, info, casting, skip, kind, timed, lacks)

@@ -25,6 +25,7 @@ from harness.results.store import Row
 from harness.running import batch
 from harness.running.due import UNFINISHED
 from harness.running.environment import describe, fingerprinted
+from harness.running.failures import first_line
 from harness.running.run import Watcher
 
 
@@ -107,7 +108,8 @@ class Checked(Prepared):
         broken = [row for row in self.rows.values() if row["status"] in UNFINISHED]
         if broken:
             row = broken[0]
-            message = f"not blessed: {len(broken)} cells did not finish, first {row['slot']}: {row['reason']}"
+            why = first_line(row["reason"] or row["status"])
+            message = f"not blessed: {len(broken)} cells did not finish, first {row['slot']}: {why}"
             raise FirsthitError(message, exit_code=3)
         environment = describe()
         dirty = " with uncommitted changes" if environment["dirty"] else ""

@@ -28,6 +28,7 @@ from harness.contract import (
     Variant,
 )
 from harness.contract import Language as Language
+from harness.kernels.complaints import recursion
 from surfaces.words import suggestion
 
 KERNELS = Path(__file__).parent / "glsl"
@@ -49,9 +50,10 @@ def file_section(path: Path) -> Section:
     editors find it, or the last three parts of an outer path. A method's file is read anew each time, since it may be
     edited while a notebook runs.
     """
-    here = next((top for top in (ROOT, Path.cwd()) if path.is_relative_to(top)), None)
-    origin = path.relative_to(here) if here else Path(*path.parts[-3:])
-    text = _read(path) if path.is_relative_to(KERNELS) else path.read_text(encoding="utf-8")
+    full = path.absolute()
+    here = next((top for top in (ROOT, Path.cwd()) if full.is_relative_to(top)), None)
+    origin = full.relative_to(here) if here else Path(*full.parts[-3:])
+    text = _read(path) if path.is_relative_to(KERNELS) else path.read_text(encoding="utf-8-sig")
     return Section(origin.as_posix(), text)
 
 
@@ -236,7 +238,8 @@ def method_sections(
 ) -> list[Section]:
     """Return the method's own sections, which come after the surface's: its knobs, tables, late libraries and kernel.
 
-    If `loose`, knobs that state `per` may be loosened, see `_parameter_section`.
+    If `loose`, knobs that state `per` may be loosened, see `_parameter_section`. Raises FirsthitError with exit code 3
+    where a function of the kernel calls itself.
     """
     loosened = {p.name: p for p in method.parameters if p.per} if loose else None
     sections = [_parameter_section(variant, precision, language, loosened)] if variant.parameters else []
@@ -244,7 +247,10 @@ def method_sections(
         tables = method.tables(surface, dict(variant.parameters), precision)
         sections += [table_section(name, values, precision, language) for name, values in tables.items()]
     sections += [_library(name) for name in method.libraries if name in AFTER_TABLES]
-    return [*sections, file_section(folder / "kernel.glsl")]
+    kernel = file_section(folder / "kernel.glsl")
+    if complaint := recursion(kernel):
+        raise FirsthitError(str(complaint), exit_code=3)
+    return [*sections, kernel]
 
 
 def beam_sections(

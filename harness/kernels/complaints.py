@@ -13,7 +13,7 @@ which `complaints_in` reads again: rows keep it as the reason why a cell failed.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -47,6 +47,16 @@ _UNKNOWN = re.compile(
     r"(?:undeclared identifier|declaration of function|unknown type name|no function with name) '(\w+)'"
     r"|`(\w+)' undeclared|(?:undefined variable|undefined function|overloaded function) \"(\w+)"
 )
+ONE_LANGUAGE = {  # words that one of the two languages keeps for itself, and a kernel may not use as names
+    "OpenCL C": "half kernel global local constant private generic char short long unsigned signed size_t ptrdiff_t "
+    "uchar ushort uint ulong auto register static extern inline restrict typedef union enum goto sizeof volatile pipe "
+    "complex imaginary event_t sampler_t",
+    "GLSL": "input output sample in out inout uniform varying attribute buffer shared flat smooth noperspective patch "
+    "centroid invariant precise precision lowp mediump highp discard filter common partition active asm class "
+    "namespace using template this resource fixed superp external interface cast layout subroutine noinline public "
+    "readonly writeonly coherent",
+}
+ROOM = 160  # characters of a source line that are shown
 _WRITTEN = re.compile(r"^(?P<file>\S.*?):(?P<line>\d+)(?::(?P<column>\d+))?: (?P<words>.*)$")
 
 
@@ -119,6 +129,8 @@ def _errors(program: Program, log: str) -> Iterator[Complaint]:
         if kind in ("warning", "note") or parts["words"].startswith("   "):  # the latter lists candidates
             continue
         number = int(match["line"])
+        if number < 1:  # it is of no line: a remark on how the kernel was built, or on the program as a whole
+            continue
         origin, line = program.locate(number)
         column = int(parts["column"]) if parts["column"] else None
         source = lines[number - 1].expandtabs(1) if 0 < number <= len(lines) and line else ""
@@ -131,8 +143,15 @@ def _shown(source: str, column: int | None) -> tuple[str, ...]:
     text = source.strip()
     if not text:
         return ()
-    indented = len(source) - len(source.lstrip())
-    return (text,) if column is None else (text, " " * max(0, column - 1 - indented) + "^")
+    at = max(0, (column or 1) - 1 - (len(source) - len(source.lstrip())))
+    if len(text) > ROOM:
+        begins = max(0, min(at - ROOM // 2, len(text) - ROOM))
+        cut = text[begins : begins + ROOM]
+        text, at = (
+            ("…" if begins else "") + cut + ("…" if begins + ROOM < len(text) else ""),
+            at - begins + bool(begins),
+        )
+    return (text,) if column is None else (text, " " * at + "^")
 
 
 def _first_of_each(found: Sequence[Complaint]) -> list[Complaint]:
@@ -142,15 +161,22 @@ def _first_of_each(found: Sequence[Complaint]) -> list[Complaint]:
     for complaint in found:
         if same := next((one for one in kept if one.words == complaint.words), None):
             again.setdefault(complaint.words, []).extend([complaint.line] if complaint.line != same.line else [])
-        elif all((one.file, one.line) != (complaint.file, complaint.line) for one in kept):
+        elif unknown_names(complaint.words) or all(
+            (one.file, one.line) != (complaint.file, complaint.line) for one in kept
+        ):
             kept.append(complaint)
     lines = {words: ", ".join(map(str, dict.fromkeys(numbers))) for words, numbers in again.items() if numbers}
     return [replace(c, words=f"{c.words}; also in line {lines[c.words]}") if c.words in lines else c for c in kept]
 
 
+def unknown_names(words: str) -> set[str]:
+    """Return the names that a complaint calls unknown."""
+    return {name for found in _UNKNOWN.findall(words) for name in found if name}
+
+
 def _code(section: Section) -> str:
     """Return a kernel's text without comments; its lines stay where they are."""
-    return re.sub(r"//.*|/\*.*?\*/", lambda match: "\n" * match[0].count("\n"), section.text, flags=re.DOTALL)
+    return re.sub(r"//[^\n]*|/\*.*?\*/", lambda match: "\n" * match[0].count("\n"), section.text, flags=re.DOTALL)
 
 
 def _blamed(program: Program, kernel: Section, found: Sequence[Complaint]) -> list[Complaint]:
@@ -178,6 +204,32 @@ def _blamed(program: Program, kernel: Section, found: Sequence[Complaint]) -> li
     return []
 
 
+def recursion(kernel: Section) -> Complaint | None:
+    """Return the complaint that a function of the kernel comes back to itself, on which some compilers die."""
+    code = _code(kernel)
+    heads = [head for head in _DEFINED.finditer(code) if head[1] != "if"]  # of `else if (…) {`
+    ends = [head.start() for head in heads[1:]] + [len(code)]
+    bodies = {head[1]: (head.end(), code[head.end() : end]) for head, end in zip(heads, ends, strict=True)}
+    calls = {name: [other for other in bodies if _calls(body, other)] for name, (_, body) in bodies.items()}
+    for name, (begin, body) in bodies.items():
+        by = next((other for other in calls[name] if name in _reached(calls, other)), None)
+        if by and (call := re.search(rf"\b{by}\s*\(", body)):
+            line = code.count("\n", 0, begin + call.start()) + 1
+            words = f"{name} calls itself" + ("" if by == name else f", through {by}")
+            return _at(kernel, line, words, "write a loop: no function of a kernel may call itself")
+    return None
+
+
+def _reached(calls: Mapping[str, Sequence[str]], name: str) -> set[str]:
+    """Return a function and what it calls, directly or not."""
+    reached, waiting = set[str](), [name]
+    while waiting:
+        if (other := waiting.pop()) not in reached:
+            reached.add(other)
+            waiting += calls[other]
+    return reached
+
+
 _DEFINED = re.compile(r"(?m)^\s*\w+\s+(\w+)\s*\([^;{]*\)\s*\{")
 
 
@@ -197,8 +249,20 @@ def _advice(program: Program, kernel: Section, told: Sequence[Complaint], log: s
     if lacking:
         names = ", ".join(map(repr, lacking)).replace("'", '"')
         return f"add {names} to needs in method.py: only functions that are named there are generated"
-    named = (part for complaint in told for match in _UNKNOWN.finditer(complaint.words) for part in match.groups())
-    return next((advice for name in named if name and (advice := _advice_for(name, program))), "")
+    named = (name for complaint in told for name in sorted(unknown_names(complaint.words)))
+    known = next((advice for name in named if (advice := _advice_for(name, program))), "")
+    return known or _advice_on_words(code.split("\n")[told[0].line - 1] if told[0].file == kernel.origin else "")
+
+
+def _advice_on_words(line: str) -> str:
+    """Say which word of a kernel's line, which is given without comments, only one of the languages takes as a name."""
+    for word in re.findall(r"[^\W\d]\w*", line):
+        if not word.isascii():
+            return f"write {word} in letters of ASCII: GLSL has names of these alone"
+        for language, words in ONE_LANGUAGE.items():
+            if word in words.split():
+                return f"use another word than {word}, which is a word of {language}"
+    return ""
 
 
 def _calls(text: str, name: str) -> bool:

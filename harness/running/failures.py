@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from harness.contract import CellStatus
-from harness.kernels.complaints import KERNEL, Complaint, complaints_in
+from harness.kernels.complaints import KERNEL, Complaint, complaints_in, unknown_names
 from harness.results.store import Row
 
 WIDTH = 100  # characters of a line
@@ -19,6 +19,10 @@ ADVICE = {
     CellStatus.CRASHED: "look for an array that is read or written past its end, or a division of an int by 0; if the "
     "kernel runs on other devices, the driver may be at fault",
 }
+COMPILER_DIED = (
+    "look for a function that calls itself, which no kernel may, or a very large array; if the kernel compiles on "
+    "other devices, the driver may be at fault"
+)
 
 
 @dataclass(frozen=True)
@@ -104,7 +108,8 @@ def _paragraph(members: Sequence[Failure], what: str) -> str:
         head, parts = [f"{subject}: {texts[0]}"], [("also", first_line(text)) for text in texts[1 : MOST + 1]]
         if len(texts) > MOST + 1:
             parts.append(("also", f"{len(texts) - MOST - 1} more that differ in numbers only"))
-        if advice := ADVICE.get(members[0].status):
+        died = members[0].status is CellStatus.CRASHED and "during build" in texts[0]
+        if advice := COMPILER_DIED if died else ADVICE.get(members[0].status):
             parts.append(("do", advice))
     parts.append(("where", _places(members, what)))
     lines = [_wrapped("", head[0]), *head[1:]]
@@ -116,12 +121,14 @@ def _compilers(told: Sequence[tuple[str, Complaint]]) -> tuple[list[str], list[t
     # The earliest line comes first: what follows is mostly its consequence. A column comes with the clearer words.
     device, first = min(told, key=lambda one: (not one[1].file.endswith(KERNEL), one[1].line, one[1].column is None))
     head = [f"{first.place}: {first.words}", *(f"    | {line}" for line in first.shown)]
-    seen, also = {(first.line, _family(device))}, []
+    seen, also, unknown = {(first.line, _family(device))}, [], unknown_names(first.words)
     for other, complaint in sorted(told, key=lambda one: one[1].line):
         key = (complaint.line, _family(other) if complaint.line == first.line else "")
-        if key in seen or complaint.words == first.words:
+        new = unknown_names(complaint.words) - unknown  # two names that are unknown in one line are two mistakes
+        if (key in seen and not new) or complaint.words == first.words:
             continue
         seen.add(key)
+        unknown |= new
         also.append(
             textwrap.shorten(f"line {complaint.line}, {other}: {complaint.words}", WIDTH - 11, placeholder=" …")
         )

@@ -27,9 +27,11 @@ from harness.devices.interface import LANGUAGES, no_device
 from harness.experiment.kinds import of_method
 from harness.experiment.kinds.shots import Shot, ShotKind
 from harness.kernels.assemble import Language, method_program
+from harness.kernels.complaints import complaints_in
 from harness.limits import TIMEOUT, held, hold
 from harness.oracle import checked_t_min
 from harness.plugins import Plugin
+from harness.running.failures import Failure, mistakes
 
 UNIT_LENGTH = 1e-5  # by how much the length of a ray's direction may differ from 1
 
@@ -146,7 +148,9 @@ def cast(
         doubts = compilers.doubts_about(surface, rays, hits, second, t_min)
     except CellError as error:
         what = {CellStatus.TIMEOUT: "timed out", CellStatus.CRASHED: "crashed"}.get(error.status, "failed")
-        raise FirsthitError(f"{where} {what}: {error}", exit_code=3) from None
+        of = method.name, "", caster.device, caster.precision, surface.name, str(error), error.status
+        told = mistakes([Failure(*of)], "programs")[0] if complaints_in(str(error)) else error
+        raise FirsthitError(f"{where} {what}: {told}", exit_code=3) from None
     finally:
         executor.close()
     if doubts.fault:
