@@ -125,7 +125,7 @@ def test_an_accuracy_bug_between_two_commits_is_found_without_a_baseline(gated):
     code, out, err = gated("--against", "HEAD", "--force")
     assert code == 1
     assert verdict(out, VIEW) == verdict(out, FAMILY) == "regressed"
-    assert "2 other figures" in out and "error_p99" in out
+    assert "2 with other figures" in out and "error_p99" in out
     assert len([line for line in err.splitlines() if "[2/2]" in line]) == 2, "progress of both revisions is told"
     gated.commit()
     assert gated("--against", "HEAD")[0] == 0
@@ -344,7 +344,7 @@ def test_every_kind_runs_the_other_revisions_programs_with_what_belongs_to_them(
     code, out, _ = gated("--against", "HEAD")
     assert code == 1
     assert verdict(out, "my_polygon torus default 64x64x1 float32 raster") == "regressed"
-    assert "5 the same to the last digit, 1 other figures" in out
+    assert "5 the same to the last digit, 1 with other figures" in out
     gated.commit()
     gated.plant("plugins/my_polygon/method.py", '"N", 16', '"N", 64')
     code, out, _ = gated("--against", "HEAD")

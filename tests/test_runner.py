@@ -161,8 +161,8 @@ def test_interrupting_keeps_what_is_finished(tmp_path, config):
     wait_for(lambda: cells_folder.exists() and len(list(cells_folder.glob("*.json"))) >= 1)
     process.send_signal(signal.SIGINT)
     _, errors = process.communicate(timeout=30)
-    assert process.returncode == 3
-    assert "what was finished is kept" in errors
+    assert process.returncode == 130
+    assert "finished cells are kept" in errors
     assert "Traceback" not in errors
 
 

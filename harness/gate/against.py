@@ -89,7 +89,7 @@ class Compared:
         counts = {
             SAME: sum(j.reason == SAME for j in accuracy),
             "the same to the last digit": equal,
-            "other figures": len(compared) - equal,
+            "with other figures": len(compared) - equal,
             "skipped at both revisions": sum(j.reason.startswith(SKIPPED) for j in accuracy),
         }
         counts["not compared"] = len(accuracy) - sum(counts.values())

@@ -14,7 +14,7 @@ from harness.gate.comparable import Rule
 from harness.gate.judge import ORDER, Change, Judged, Value, Verdict
 
 BAD = (Verdict.REGRESSED, Verdict.MISSING, Verdict.INCOMPARABLE)
-HEADER = ("verdict", "cell", "device", "rule", "figure", "baseline", "now", "allowed", "")
+HEADER = ("verdict", "cell", "device", "rule", "figure", "before", "now", "allowed", "reason")
 SHOWN = 40  # rows of one kind that a table lists
 REASON = 160  # characters of a reason
 INDENT = " " * 4  # of what stands below a cell's name
