@@ -71,23 +71,20 @@ def write_new(folder: Path, files: Mapping[str, str]) -> None:
     if there:
         names = f"{', '.join(there)} {'is' if len(there) == 1 else 'are'}"
         raise FirsthitError(f"{names} in {folder.resolve()} already; nothing was written")
-    made: list[Path] = []
     path = folder
-    try:
-        for path in (folder / name for name in files):
-            for parent in (*reversed(path.parent.parents), path.parent):
-                if not parent.exists():
-                    parent.mkdir()
-                    made.append(parent)
-            with replacing(path) as temporary:
-                temporary.write_bytes(files[path.relative_to(folder).as_posix()].encode())
-            made.append(path)
-    except BaseException as error:
-        for left in reversed(made):
-            left.rmdir() if left.is_dir() else left.unlink()
-        if isinstance(error, OSError):
+    with contextlib.ExitStack() as undo:
+        try:
+            for path in (folder / name for name in files):
+                for parent in (*reversed(path.parent.parents), path.parent):
+                    if not parent.exists():
+                        parent.mkdir()
+                        undo.callback(parent.rmdir)
+                with replacing(path) as temporary:
+                    temporary.write_bytes(files[path.relative_to(folder).as_posix()].encode())
+                undo.callback(path.unlink)
+        except OSError as error:
             raise FirsthitError(f"cannot write {path}: {error.strerror or error}", exit_code=3) from None
-        raise
+        undo.pop_all()  # all were written: nothing is taken back
 
 
 def write_atomically(path: Path, content: bytes) -> None:
