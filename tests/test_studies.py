@@ -5,8 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+import surfaces
 from harness import studies
 from harness.cli import main
+from harness.contract import MeshRecipe
+from harness.scenes import meshes
 from harness.studies import condition_numbers, extrema_bounds, mesh_errors, torus_along_rays
 from reports import published
 
@@ -99,6 +102,8 @@ def test_polygonal_tori_are_off_by_both_chords_where_they_add(monkeypatch, tmp_p
     monkeypatch.setenv("FIRSTHIT_CACHE", str(tmp_path))
     monkeypatch.setattr(mesh_errors, "SIZES", (32, 64, 128))
     paper = published.table("toledo2007_table1_fps")
+    meshes.mesh(surfaces.get("torus"), MeshRecipe("parametric", 64))
+    monkeypatch.setenv("FIRSTHIT_CACHE", str(tmp_path / "another"))  # where nothing is yet, whatever was made before
     for row in mesh_errors.compute():
         printed = paper.number("error_Rr_1e-6", technique=f"Polygon {row['n']}*{row['n']}")
         assert 1e6 * row["ring"] == pytest.approx(printed, abs=1.0)
@@ -106,5 +111,5 @@ def test_polygonal_tori_are_off_by_both_chords_where_they_add(monkeypatch, tmp_p
         assert row["to_mesh"] == pytest.approx(row["both"], rel=0.05)
         assert row["vertices"] == row["n"] ** 2
         assert row["triangles"] == 2 * row["n"] ** 2
-    stored = {path.name: path.stat().st_mtime_ns for path in (tmp_path / "firsthit" / "meshes").iterdir()}
+    stored = {path.name: path.stat().st_mtime_ns for path in meshes.folder().iterdir()}
     assert len(stored) == 3

@@ -54,7 +54,6 @@ def folder() -> Path:
     return Path(base) / "firsthit" / "meshes"
 
 
-@lru_cache(maxsize=16)
 def mesh(surface: Surface, recipe: MeshRecipe) -> Mesh:
     """Return the surface tessellated by `recipe`, from disk if it is stored there.
 
@@ -63,7 +62,12 @@ def mesh(surface: Surface, recipe: MeshRecipe) -> Mesh:
     if reason := missing():
         raise FirsthitError(reason)
     key = digest(surface.identity, recipe.kind, recipe.resolution, mesher(), packages(), digest_of(*MESHES))
-    path = folder() / f"{surface.name}-{recipe.kind}-{recipe.resolution}-{key}.npz"
+    return _mesh(surface, recipe, folder() / f"{surface.name}-{recipe.kind}-{recipe.resolution}-{key}.npz")
+
+
+@lru_cache(maxsize=16)  # of a path, since another cache folder has files of its own
+def _mesh(surface: Surface, recipe: MeshRecipe, path: Path) -> Mesh:
+    """Return the mesh that `path` keeps, or make it and keep it there."""
     if stored := _stored(path):
         return stored
     made = _parametric(surface, recipe.resolution) if recipe.kind == "parametric" else _contour(surface, recipe)
