@@ -42,6 +42,15 @@ class Floats(Arithmetic):
     cos = staticmethod(np.cos)
     tan = staticmethod(np.tan)
 
+    floor = staticmethod(np.floor)
+    atan2 = staticmethod(np.arctan2)
+
+    def powr(self, a: Floats64, q: Fraction) -> Floats64:
+        return np.power(a, float(q))
+
+    def select(self, c: Floats64, p: Floats64, q: Floats64) -> Floats64:
+        return np.where(c > 0.0, p, q)
+
     def sign(self, a: Floats64) -> Floats64:
         return np.where(a < 0.0, -1.0, 1.0)
 

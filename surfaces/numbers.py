@@ -100,6 +100,24 @@ class Balls(Arithmetic):
     def below(self, a: Any, b: Any) -> Any:
         return self.arb(1) if a <= b else self.arb(0) if a > b else self.arb("0.5", "0.5")
 
+    def select(self, c: Any, p: Any, q: Any) -> Any:
+        return p if c >= 1 else q if c <= 0 else p.union(q)
+
+    def floor(self, a: Any) -> Any:
+        return a.floor()
+
+    def powr(self, a: Any, q: Fraction) -> Any:
+        # as sqrt: of the part that is not negative, between the powers of its ends
+        exponent = self.const(q)
+        low, high = a.lower(), a.upper()
+        if high < 0:
+            return a.log()  # NaN
+        most = high**exponent if high > 0 else high
+        return (low**exponent).union(most) if low > 0 else self.arb(0).union(most)
+
+    def atan2(self, a: Any, b: Any) -> Any:
+        return self.arb.atan2(a, b)
+
 
 class BallPolynomials(Balls):
     """Run a tape in flint.arb_poly; constants stay balls. With x, y, z as polynomials in t it gives f along a ray.
@@ -163,6 +181,24 @@ class Symbols(Arithmetic):
 
     def tan(self, a: Any) -> Any:
         return self.sympy.tan(a)
+
+    def floor(self, a: Any) -> Any:
+        return self.sympy.floor(a)
+
+    def powr(self, a: Any, q: Fraction) -> Any:
+        return a ** self.const(q)
+
+    def atan2(self, a: Any, b: Any) -> Any:
+        return self.sympy.atan2(a, b)
+
+    def sign(self, a: Any) -> Any:
+        return self.sympy.Piecewise((1, a >= 0), (-1, True))
+
+    def below(self, a: Any, b: Any) -> Any:
+        return self.sympy.Piecewise((1, a <= b), (0, True))
+
+    def select(self, c: Any, p: Any, q: Any) -> Any:
+        return self.sympy.Piecewise((p, c > 0), (q, True))
 
 
 def fractions_of(ball: Any) -> tuple[Fraction, Fraction]:

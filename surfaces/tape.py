@@ -1,12 +1,24 @@
 """Define straight-line programs. A surface is one `Tape`; every number system runs it by the same operation names.
 
-The operations are `const` (a Fraction), `pi`, `e`, `var` (a name); `neg sqr sqrt exp log sin cos tan abs`; `powi` (a
-value and a whole exponent of 3 or more); `add sub mul div min max`. Derivatives of abs, min and max use two more:
-`sign` (-1 or 1) and `below` (1 if a <= b, else 0).
+    const pi e var          a Fraction, two numbers, and a variable by its name
+    neg sqr abs             abs has a kink at 0
+    sqrt exp log sin cos tan
+    floor                   the greatest whole number that is not above a; it jumps
+    powi powr               a^n for a whole n of 3 or more; a^q for a >= 0 and a Fraction q > 0 that is not whole
+    add sub mul div
+    min max                 they have kinks
+    atan2                   the angle of the point (x, y) = (b, a), in (-pi, pi]; it jumps where a = 0 and b < 0
+    below                   1 if a <= b, else 0; it jumps
+    select                  p if c is 1, q if c is 0, for a condition c made of `below`, min, max and 1 - c
+    sign                    1 if a >= 0, else -1; only derivatives of abs use it
+
+Every other function of the formula language is defined by these. What stands in the part of a select that is not taken
+need not have a value.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
@@ -14,14 +26,17 @@ from typing import Any, TypeVar
 
 Number = TypeVar("Number")
 LEAVES = frozenset({"const", "pi", "e", "var"})
-UNARY = ("sqrt", "exp", "log", "sin", "cos", "tan")  # the functions that a formula may call beside abs, min and max
+POWERS = frozenset({"powi", "powr"})  # their second argument is an exponent
+UNARY = ("sqrt", "exp", "log", "sin", "cos", "tan")  # smooth functions of one value
+JUMPS = frozenset({"floor", "atan2", "below", "select", "sign"})  # operations that may not be continuous
 
 
 @dataclass(frozen=True, slots=True)
 class Op:
     """Hold one operation.
 
-    `args` are indices of earlier operations, except that const has (Fraction,), var (name,) and powi (index, n).
+    `args` are indices of earlier operations, except that const has (Fraction,), var (name,), powi (index, n) and powr
+    (index, Fraction).
     """
 
     name: str
@@ -32,7 +47,7 @@ class Op:
         """Return those of `args` that are indices."""
         if self.name in LEAVES:
             return ()
-        return self.args[:1] if self.name == "powi" else self.args
+        return self.args[:1] if self.name in POWERS else self.args
 
 
 @dataclass(frozen=True)
@@ -75,8 +90,8 @@ def walk(tape: Tape, numbers: Any, variables: Mapping[str, Number] | Callable[[s
     for op in tape.ops:
         if op.name == "var":
             values.append(variable(op.args[0]))
-        elif op.name == "powi":
-            values.append(numbers.powi(values[op.args[0]], op.args[1]))
+        elif op.name in POWERS:
+            values.append(getattr(numbers, op.name)(values[op.args[0]], op.args[1]))
         elif op.name in LEAVES:
             values.append(getattr(numbers, op.name)(*op.args))
         else:
@@ -228,6 +243,8 @@ class Builder:
         return self.const(0) if self.value(a) == 0 else self.emit("div", a, b)
 
     def sqr(self, a: int) -> int:
+        if self.ops[a].name == "abs":
+            a = self.ops[a].args[0]
         factor, rest = self._split(a)
         if rest is None:
             return self.const(factor * factor)
@@ -240,23 +257,51 @@ class Builder:
             return self.const(1)
         if n <= 2:
             return a if n == 1 else self.sqr(a)
+        if n % 2 == 0 and self.ops[a].name == "abs":
+            a = self.ops[a].args[0]
         value = self.value(a)
         return self.emit("powi", a, n) if value is None else self.const(value**n)
+
+    def powr(self, a: int, q: Fraction) -> int:
+        """Return a^q for a >= 0 and any q > 0: whole powers and roots of squares have operations of their own."""
+        if q.denominator == 1:
+            return self.powi(a, int(q))
+        if q.denominator == 2:
+            root = self.sqrt(a)
+            return root if q < 1 else self.mul(self.powi(a, int(q)), root)
+        return self.emit("powr", a, q)
 
     def abs(self, a: int) -> int:
         value = self.value(a)
         if value is not None:
             return self.const(abs(value))
-        return a if self.ops[a].name in ("abs", "sqr", "sqrt", "exp") else self.emit("abs", a)
+        op = self.ops[a]
+        positive = op.name in ("abs", "sqr", "sqrt", "exp", "powr") or (op.name == "powi" and op.args[1] % 2 == 0)
+        return a if positive else self.emit("abs", a)
 
     def min(self, a: int, b: int) -> int:
+        x, y = self.value(a), self.value(b)
+        if x is not None and y is not None:
+            return a if x <= y else b
         return a if a == b else self.emit("min", a, b)
 
     def max(self, a: int, b: int) -> int:
+        x, y = self.value(a), self.value(b)
+        if x is not None and y is not None:
+            return a if x >= y else b
         return a if a == b else self.emit("max", a, b)
 
+    def floor(self, a: int) -> int:
+        value = self.value(a)
+        return self.emit("floor", a) if value is None else self.const(math.floor(value))
+
     def sqrt(self, a: int) -> int:
-        return self.emit("sqrt", a)
+        value, op = self.value(a), self.ops[a]
+        if value is not None and value >= 0:
+            top, bottom = math.isqrt(value.numerator), math.isqrt(value.denominator)
+            if top * top == value.numerator and bottom * bottom == value.denominator:
+                return self.const(Fraction(top, bottom))
+        return self.abs(op.args[0]) if op.name == "sqr" else self.emit("sqrt", a)
 
     def exp(self, a: int) -> int:
         return self.emit("exp", a)
@@ -277,4 +322,16 @@ class Builder:
         return self.emit("sign", a)
 
     def below(self, a: int, b: int) -> int:
-        return self.emit("below", a, b)
+        x, y = self.value(a), self.value(b)
+        if x is not None and y is not None:
+            return self.const(int(x <= y))
+        return self.const(1) if a == b else self.emit("below", a, b)
+
+    def select(self, c: int, p: int, q: int) -> int:
+        value = self.value(c)
+        if value is not None:
+            return p if value > 0 else q
+        return p if p == q else self.emit("select", c, p, q)
+
+    def atan2(self, a: int, b: int) -> int:
+        return self.emit("atan2", a, b)
