@@ -92,12 +92,14 @@ class MethodChoice:
 
 @dataclass(frozen=True)
 class SurfaceChoice:
-    """Define a surface of the config's own; without a formula, change the catalog's of that name.
+    """Define a surface of the config's own; without a formula or a file, change the catalog's of that name.
 
-    domain: if none is given, the catalog's, or sphere:1.5 for a formula
+    domain: if none is given, the catalog's, the file's, or sphere:1.5 for a formula
+    file: a file that `firsthit import` reads, from the config's folder; FILE#NAME is one of several surfaces in it
     """
 
     formula: str = ""
+    file: str = ""
     domain: str = ""
     parameters: dict[str, float] = field(default_factory=dict)
 

@@ -51,7 +51,9 @@ def is_file(text: str) -> bool:
     return Path(path).suffix.lower() in (*SUFFIXES, *MESHES) or "/" in path or Path(path).is_file()
 
 
-def load(path: str | Path, domain: str | Domain | None = None, parameters: dict[str, str | float] | None = None) -> Imported:
+def load(
+    path: str | Path, domain: str | Domain | None = None, parameters: dict[str, str | float] | None = None
+) -> Imported:
     """Read a surface from a file; `FILE#NAME` or `FILE#2` names one of several.
 
     `domain` and `parameters` replace the file's own. Raises FirsthitError where the file cannot be read, holds no
@@ -63,7 +65,11 @@ def load(path: str | Path, domain: str | Domain | None = None, parameters: dict[
     reading: Reading = reader.read(source)
     if unknown := [key for key in parameters or {} if key not in reading.parameters]:
         source.fail(f"there is no parameter {unknown[0]!r}; it has {', '.join(reading.parameters) or 'none'}")
-    return Imported(_surface(source, reading, domain, {**reading.parameters, **(parameters or {})}), tuple(source.remarks), reader.NAME)
+    return Imported(
+        _surface(source, reading, domain, {**reading.parameters, **(parameters or {})}),
+        tuple(source.remarks),
+        reader.NAME,
+    )
 
 
 def _opened(path: Path, part: str) -> tuple[Source, str]:

@@ -123,9 +123,9 @@ def negative(a: Text) -> Text:
 def power(a: Text, b: Text) -> Text:
     a, b = number(a), number(b)
     value = None
-    if a.value is not None and b.value is not None and b.value.denominator == 1 and abs(b.value) <= 100:
-        if a.value or b.value > 0:
-            value = _known(a.value ** int(b.value))
+    small = b.value is not None and b.value.denominator == 1 and abs(b.value) <= 100
+    if small and a.value is not None and b.value is not None and (a.value or b.value > 0):
+        value = _known(a.value ** int(b.value))
     return Text((_inside(a, ATOM), "^", _inside(b, ATOM)), POWER, value)
 
 

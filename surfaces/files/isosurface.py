@@ -11,7 +11,7 @@ from __future__ import annotations
 import json
 import re
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NoReturn
 
 from surfaces.files.expressions import (
     SUM,
@@ -20,7 +20,6 @@ from surfaces.files.expressions import (
     call,
     choose,
     compare,
-    condition,
     div,
     either,
     negative,
@@ -31,7 +30,7 @@ from surfaces.files.expressions import (
     word,
 )
 from surfaces.files.source import Reading, Source, Token, tokens
-from surfaces.files.syntax import PLAIN, SAME, Dialect, Parser, Parts, Scope, comparison, coordinates, one
+from surfaces.files.syntax import PLAIN, SAME, Dialect, Parser, Parts, Scope, comparison, coordinates, function, one
 from surfaces.model import Box
 
 SUFFIXES = (".json", ".js", ".mathmod")
@@ -64,16 +63,20 @@ DIALECT = Dialect(
         **{name: one(name) for name in ("asinh", "acosh", "atanh", "log", "log2", "log10", "exp2", "cbrt")},
         **{name: one(name) for name in ("sec", "csc", "cot", "ceil", "floor", "trunc")},
         "int": one("nearest"),
-        **{name: (2, 2, (lambda name: lambda a, b: call(name, a, b))(name)) for name in ("atan2", "min", "max", "hypot")},
+        **{name: (2, 2, function(name)) for name in ("atan2", "min", "max", "hypot")},
         "pow": (2, 2, power),
         "if": (3, 3, lambda a, b, c: choose(_true(a), b, c)),
     },
     names={"pi": word("pi"), "Pi": word("pi"), "PI": word("pi")},
     unread={
         **{name: "noise is not read" for name in ("NoiseW", "NoiseP", "p_skeletal_int")},
-        **{name: "write out its formula" for name in ("f_hex_y", "fmesh", "fhelix1", "fhelix2", "f_helix1", "f_helix2")},
+        **{
+            name: "write out its formula" for name in ("f_hex_y", "fmesh", "fhelix1", "fhelix2", "f_helix1", "f_helix2")
+        },
         **{name: "complex numbers are not read" for name in ("real", "imag", "arg", "conj", "polar")},
-        **{name: "values that are kept from one component to the next are not read" for name in ("psh", "csd", "CmpId")},
+        **{
+            name: "values that are kept from one component to the next are not read" for name in ("psh", "csd", "CmpId")
+        },
     },
 )
 
@@ -89,7 +92,7 @@ class Model:
 
 def read(source: Source) -> Reading:
     """Read a model. Raises FirsthitError where the file has none, or not all that a surface needs."""
-    models, parametric = _models(source, _loaded(source))
+    models, parametric = _models(_loaded(source))
     if not models:
         told = "it has parametric surfaces, which no equation describes" if parametric else "it has no Iso3D"
         source.fail(f"the file has no isosurface: {told}")
@@ -109,7 +112,7 @@ def _loaded(source: Source) -> Any:
         source.fail(f"this is no JSON that is read: {str(error)[:80] or 'nested too deep'}")
 
 
-def _models(source: Source, content: Any) -> tuple[list[Model], bool]:
+def _models(content: Any) -> tuple[list[Model], bool]:
     """Return all isosurfaces of a file, and whether it has parametric surfaces too."""
     found: list[Model] = []
     parametric = False
@@ -218,5 +221,6 @@ class Labelled(Source):
         super().__init__(source.path, source.text, source.part, source.remarks)
         self.label = label
 
-    def fail(self, message: str, line: int | None = None) -> Any:
+    def fail(self, message: str, _line: int | None = None) -> NoReturn:
+        """Raise FirsthitError with the file's name and the label."""
         super().fail(f"{self.label}: {message}")

@@ -107,7 +107,9 @@ def _domain(source: Source, pairs: dict[str, tuple[str, int]]) -> Domain:
         lengths = [math.hypot(*row) for row in rows]
         products = [sum(a * b for a, b in zip(rows[i], rows[j], strict=True)) for i, j in ((0, 1), (0, 2), (1, 2))]
         if max(map(abs, products)) > 1e-5 * max(lengths) ** 2 or min(lengths) < (1 - 1e-5) * max(lengths):
-            source.remark(f"{_MATRIX} makes an ellipsoid of jsurf's clipping sphere; the sphere around it is the domain")
+            source.remark(
+                f"{_MATRIX} makes an ellipsoid of jsurf's clipping sphere; the sphere around it is the domain"
+            )
         radius *= max(lengths) if min(lengths) > (1 - 1e-5) * max(lengths) else math.hypot(*lengths)
         center = (entries[3], entries[7], entries[11])
     return Sphere(radius, center)

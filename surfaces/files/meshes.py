@@ -4,7 +4,21 @@ from __future__ import annotations
 
 import re
 
-SUFFIXES = (".stl", ".obj", ".ply", ".off", ".gltf", ".glb", ".3mf", ".amf", ".vtk", ".vtp", ".vtu", ".fbx", ".dae")
+SUFFIXES: tuple[str, ...] = (
+    ".stl",
+    ".obj",
+    ".ply",
+    ".off",
+    ".gltf",
+    ".glb",
+    ".3mf",
+    ".amf",
+    ".vtk",
+    ".vtp",
+    ".vtu",
+    ".fbx",
+    ".dae",
+)
 SUFFIXES += (".step", ".stp", ".iges", ".igs")
 WHAT_TO_DO = (
     "a mesh is no implicit surface: it has triangles and no equation. Take the formula that it was made from, or fit a "

@@ -12,8 +12,8 @@ Powers = tuple[int, int, int]
 def order_of(degree: int) -> list[Powers]:
     """Return the powers of x, y, z of all terms up to a degree, in the order of POV-Ray's cubic, quartic and poly.
 
-    It is that of the table in its manual, section "Poly, Cubic and Quartic": x^4, x^3*y, x^3*z, x^3, x^2*y^2, … 1. There
-    are (n + 1)(n + 2)(n + 3)/6 of them.
+    It is that of the table in its manual, section "Poly, Cubic and Quartic": x^4, x^3*y, x^3*z, x^3, x^2*y^2, …, 1.
+    There are (n + 1)(n + 2)(n + 3)/6 of them.
     """
     return [
         (i, j, k)
@@ -31,7 +31,8 @@ def polynomial(terms: Iterable[tuple[Text, Powers]]) -> Text | None:
             continue
         falls = coefficient.value is not None and coefficient.value < 0
         size = _without_sign(coefficient) if falls else coefficient
-        factors = [power(word(axis), word(str(n))) if n > 1 else word(axis) for axis, n in zip("xyz", powers, strict=True) if n]
+        axes = [(word(axis), n) for axis, n in zip("xyz", powers, strict=True) if n]
+        factors = [power(axis, word(str(n))) if n > 1 else axis for axis, n in axes]
         term = None if size.value == 1 and factors else size
         for factor in factors:
             term = factor if term is None else mul(term, factor)

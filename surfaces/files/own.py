@@ -65,7 +65,9 @@ def text_of(surface: Surface) -> str:
     lines = [f"{key} = {_quoted(value)}" for key, value in (("name", surface.name), ("title", surface.title))]
     lines += [f"source = {_quoted(surface.source)}", f"domain = {_quoted(domain_text(surface.domain))}"]
     if surface.parameters:
-        lines.append(f"parameters = {{ {', '.join(f'{key} = {_quoted(value)}' for key, value in surface.parameters)} }}")
+        lines.append(
+            f"parameters = {{ {', '.join(f'{key} = {_quoted(value)}' for key, value in surface.parameters)} }}"
+        )
     if surface.distance is not None:
         lines.append(f"distance = {_quoted(surface.distance)}")
     lines.append(f"formula = {_quoted(surface.formula)}")
@@ -83,7 +85,9 @@ def domain_text(domain: Domain) -> str:
     """Return the text that describes a domain, as --domain takes it."""
     if isinstance(domain, Box):
         return f"box:{_point(domain.lower)}:{_point(domain.upper)}"
-    return f"sphere:{domain.radius!r}" if not any(domain.center) else f"sphere:{_point(domain.center)}:{domain.radius!r}"
+    return (
+        f"sphere:{domain.radius!r}" if not any(domain.center) else f"sphere:{_point(domain.center)}:{domain.radius!r}"
+    )
 
 
 def _point(point: tuple[float, float, float]) -> str:

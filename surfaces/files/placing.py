@@ -134,16 +134,22 @@ def moved(region: Domain, move: Move) -> tuple[Domain, bool]:
     if isinstance(region, Sphere):
         columns = [[row[j] for row in move.rows] for j in range(3)]
         lengths = [hypot(*column) for column in columns]
-        crossed = [abs(sum(a * b for a, b in zip(columns[i], columns[j], strict=True))) for i, j in ((0, 1), (0, 2), (1, 2))]
+        crossed = [
+            abs(sum(a * b for a, b in zip(columns[i], columns[j], strict=True))) for i, j in ((0, 1), (0, 2), (1, 2))
+        ]
         if max(crossed) <= 1e-12 * max(lengths) ** 2 and max(lengths) - min(lengths) <= 1e-12 * max(lengths):
             return Sphere(region.radius * max(lengths), _point(region.center, move)), True
         center, size = region.center, region.radius
         reach = [size * hypot(*row[:3]) for row in move.rows]
         middle = _point(center, move)
-        return _box([m - r for m, r in zip(middle, reach, strict=True)], [m + r for m, r in zip(middle, reach, strict=True)]), False
+        return _box(
+            [m - r for m, r in zip(middle, reach, strict=True)], [m + r for m, r in zip(middle, reach, strict=True)]
+        ), False
     corners = [_point(corner, move) for corner in product(*zip(region.lower, region.upper, strict=True))]  # type: ignore[arg-type]
     straight = all(sum(abs(entry) > 1e-12 for entry in row[:3]) == 1 for row in move.rows)
-    return _box([min(axis) for axis in zip(*corners, strict=True)], [max(axis) for axis in zip(*corners, strict=True)]), straight
+    return _box(
+        [min(axis) for axis in zip(*corners, strict=True)], [max(axis) for axis in zip(*corners, strict=True)]
+    ), straight
 
 
 def _point(point: tuple[float, float, float], move: Move) -> tuple[float, float, float]:

@@ -1,8 +1,8 @@
-"""Read POV-Ray scenes: cubic, quartic, poly, polynomial, quadric and isosurface, and the numbers that they use.
+"""Read POV-Ray scenes: cubic, quartic, poly, polynomial, quadric and isosurface, and the numbers in them.
 
-The manual (3.7, sections "Poly, Cubic and Quartic" and "Isosurface") gives the order of coefficients and the defaults; a
-function's operators and how they bind are those of its parser (parser_functions.cpp: there is no ^). A part of a CSG is
-read without what it is combined with. No other file is opened, and no loop, condition or macro is run.
+The manual (3.7, sections "Poly, Cubic and Quartic" and "Isosurface") gives the order of coefficients and the defaults.
+A function's operators and how they bind are those of its parser (parser_functions.cpp: there is no ^). A part of a CSG
+is read without what it is combined with. No other file is opened, and no loop, condition or macro is run.
 """
 
 from __future__ import annotations
@@ -26,7 +26,19 @@ from surfaces.files.expressions import (
 from surfaces.files.placing import applied
 from surfaces.files.povray_shapes import SHAPES, Shapes, Solid
 from surfaces.files.source import DEFAULT_DOMAIN, Reading, Source, Token, tokens
-from surfaces.files.syntax import PLAIN, SAME, Dialect, Parser, Parts, Scope, comparison, coordinates, folded, one, shown
+from surfaces.files.syntax import (
+    PLAIN,
+    SAME,
+    Dialect,
+    Parser,
+    Parts,
+    Scope,
+    comparison,
+    coordinates,
+    folded,
+    one,
+    shown,
+)
 
 SUFFIXES = (".pov", ".inc")
 NAME = "a POV-Ray scene"
@@ -68,7 +80,10 @@ DIALECT = Dialect(
     names={"pi": word("pi"), "clock": rational(0), **{name: rational(1) for name in ("yes", "true", "on")}}
     | {name: rational(0) for name in ("no", "false", "off")},
     unread={"sum": "loops are not run", "prod": "loops are not run"}
-    | {f"f_{name}": _FUNCTION for name in ("torus", "sphere", "noise3d", "noise_generator", "ridged_mf", "heart", "helix1")},
+    | {
+        f"f_{name}": _FUNCTION
+        for name in ("torus", "sphere", "noise3d", "noise_generator", "ridged_mf", "heart", "helix1")
+    },
 )
 
 
@@ -87,11 +102,11 @@ class Scene:
 
     def read(self) -> None:
         """Read all statements. Raises FirsthitError at one that is none, or not read."""
-        while (token := self.parser.peek()).kind != "end":
+        while self.parser.peek().kind != "end":
             if self.parser.took("#"):
                 self._directive()
             elif not self.parser.took(";"):
-                self.solids += self._statement(token)
+                self.solids += self._statement()
 
     def _directive(self) -> None:
         """Read what stands behind a #."""
@@ -111,7 +126,7 @@ class Scene:
         parser.expect("=")
         token = parser.peek()
         if token.text in (*SHAPES, *CSG, "object"):
-            found = self._statement(token)
+            found = self._statement()
             for solid in found:
                 solid.name = solid.name or name.text
             self.declared[name.text] = found
@@ -138,7 +153,7 @@ class Scene:
         self.parser.scope.functions[name.text] = len(given), called
         self.parts.define(called, value, ours)
 
-    def _statement(self, token: Token) -> list[Solid]:
+    def _statement(self) -> list[Solid]:
         """Read a statement that begins with a name, and return the shapes in it."""
         parser = self.parser
         name = parser.name()
@@ -166,7 +181,7 @@ class Scene:
             self.source.fail("nested more than 50 deep", name.line)
         found: list[Solid] = []
         while self.parser.peek().text in (*SHAPES, *CSG, "object") or self._is_block():
-            found += self._statement(self.parser.peek())
+            found += self._statement()
         self.shapes.modifiers(found)
         self.parser.depth -= 1
         self.csg.append(name.text)
@@ -175,7 +190,11 @@ class Scene:
     def _is_block(self) -> bool:
         """Return whether a shape that is not read, or another block, is next in a CSG."""
         modifiers = ("clipped_by", "bounded_by")
-        return self.parser.peek().kind == "name" and self.parser.peek(1).text == "{" and self.parser.peek().text not in modifiers
+        return (
+            self.parser.peek().kind == "name"
+            and self.parser.peek(1).text == "{"
+            and self.parser.peek().text not in modifiers
+        )
 
     def _skip_value(self) -> None:
         """Skip what stands behind a # or an = that is not read: up to a ;, or to the end of its line and its blocks."""
@@ -203,7 +222,9 @@ def read(source: Source) -> Reading:
     source.left_out(scene.shapes.left, "how it looks, and other shapes")
     domain = solid.region
     if domain is None:
-        source.remark(f"a {solid.kind} without clipped_by or bounded_by has no end: {DEFAULT_DOMAIN} is taken; see --domain")
+        source.remark(
+            f"a {solid.kind} without clipped_by or bounded_by has no end: {DEFAULT_DOMAIN} is taken; see --domain"
+        )
     return Reading(_placed(scene, solid), domain or DEFAULT_DOMAIN, name=solid.name)
 
 

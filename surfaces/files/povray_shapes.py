@@ -1,14 +1,14 @@
-"""Read the shapes of a POV-Ray scene: what stands inside their braces, where they are clipped, and how they are placed."""
+"""Read the shapes of a POV-Ray scene: their equations, where they are clipped, and how they are placed."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from surfaces.files.expressions import Text, rational, sub
+from surfaces.files.expressions import Text, rational, sub, word
 from surfaces.files.monomials import order_of, polynomial
 from surfaces.files.placing import Move, by_matrix, moved, rotations, scaling, translation
 from surfaces.files.source import Source, Token
-from surfaces.files.syntax import Parser, Parts, Scope, word
+from surfaces.files.syntax import Parser, Parts, Scope
 from surfaces.model import Box, Domain, Sphere
 
 SHAPES = ("cubic", "quartic", "poly", "polynomial", "quadric", "isosurface")
@@ -36,7 +36,6 @@ class Solid:
             self.region, exact = moved(self.region, move)
             if not exact:
                 source.remark(f"{self.kind}: its region is turned or stretched; the box around it is the domain")
-
 
 
 class Shapes:
@@ -276,4 +275,3 @@ class Shapes:
             if token.kind == "end":
                 self.source.fail("this '{' has no '}'", start.line)
             depth += (token.text == "{") - (token.text == "}") if token.kind == "operator" else 0
-

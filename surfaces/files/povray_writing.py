@@ -52,7 +52,7 @@ class Polynomials(Arithmetic):
 
 
 def coefficients(tape: Tape) -> dict[Powers, Fraction]:
-    """Return the coefficients of a polynomial's terms that are not 0, irrational constants within 2^-300 of themselves."""
+    """Return the coefficients of a polynomial's terms that are not 0; irrational constants are rounded to 320 bits."""
     numbers = Polynomials()
     axes = dict(zip("xyz", numbers.context.gens(), strict=True))
     (expanded,) = walk(lowering.real_tape(tape), numbers, axes)

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 
 from surfaces import formula
-from surfaces.files.expressions import ATOM, Text, div, negative, power, rational, word
+from surfaces.files.expressions import ATOM, Text, div, negative, power, rational
 from surfaces.files.source import Reading, Source, Token, tokens
 from surfaces.files.syntax import PLAIN, Dialect, Parser, Parts, Scope, coordinates, function, one, shown
 from surfaces.model import Box, Domain, FirsthitError, Sphere
@@ -201,7 +201,9 @@ def _domain(source: Source, view: dict[str, float]) -> Domain:
     turned = any(turns)
     if turned and any(center):
         source.remark("the clipping region is turned about the origin; the ball around it is the domain")
-        return Sphere(max(map(abs, scale)) * (radius * (3.0**0.5 if clip == 4 else 1.0) + sum(c * c for c in center) ** 0.5))
+        return Sphere(
+            max(map(abs, scale)) * (radius * (3.0**0.5 if clip == 4 else 1.0) + sum(c * c for c in center) ** 0.5)
+        )
     middle = [factor * c for factor, c in zip(scale, center, strict=True)]
     if clip == CLIPS["cube"] and not turned:
         lower, upper = ([m + sign * s for m, s in zip(middle, sizes, strict=True)] for sign in (-1, 1))
@@ -210,5 +212,7 @@ def _domain(source: Source, view: dict[str, float]) -> Domain:
         source.remark("the clipping cube is turned; the ball around it is the domain")
         return Sphere(max(sizes) * 3.0**0.5)
     if min(sizes) < max(sizes):
-        source.remark("the clipping ball is an ellipsoid in the equation's coordinates; the ball around it is the domain")
+        source.remark(
+            "the clipping ball is an ellipsoid in the equation's coordinates; the ball around it is the domain"
+        )
     return Sphere(max(sizes), (middle[0], middle[1], middle[2]))

@@ -47,7 +47,8 @@ def one(name: str) -> tuple[int, int, Callable[..., Text]]:
 
 
 SAME = {  # functions that every format calls as we do
-    name: one(name) for name in ("sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "exp", "sqrt", "abs")
+    name: one(name)
+    for name in ("sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "exp", "sqrt", "abs")
 }
 
 
@@ -261,12 +262,14 @@ class Parts:
         """Return the value of a constant. Raises FirsthitError where it is none, or no finite number."""
         if value.value is not None:
             return float(value.value)
+        from numpy import zeros
+
         from surfaces import evaluation, formula, lowering
 
         try:
             tape = formula.parse(self.formula(value))
             known = tape.constants()[tape.outputs[0]]
-            result = float(evaluation.evaluate_tape(lowering.real_tape(tape), [[0.0, 0.0, 0.0]])[0, 0]) if known else nan
+            result = float(evaluation.evaluate_tape(lowering.real_tape(tape), zeros((1, 3)))[0, 0]) if known else nan
         except (FirsthitError, ArithmeticError) as error:
             source.fail(f"{what} is no constant: {error}", line)
         if not isfinite(result):

@@ -2,15 +2,13 @@
 
 The format is that of Matt Keeter's fidget (Context::from_text in fidget-core/src/context/mod.rs), known from the
 Prospero challenge: `#` begins a comment, the last line is the result. What each operation means is there too: `mod` is
-the least remainder that is not negative, `round` goes away from zero, `compare` is -1, 0 or 1, and `and` and `or` return
+the least remainder that is not negative, `round` goes away from zero, `compare` is -1, 0 or 1, and `and` and `or` give
 one of their inputs. Viewers draw tapes in the cube from -1 to 1.
 """
 
 from __future__ import annotations
 
-import re
 from collections import Counter
-from fractions import Fraction
 
 from surfaces import formula
 from surfaces.files.expressions import (
@@ -24,14 +22,12 @@ from surfaces.files.expressions import (
     mul,
     negative,
     power,
-    rational,
     sub,
     word,
 )
 from surfaces.files.source import Reading, Source
-from surfaces.files.syntax import Parts
+from surfaces.files.syntax import Parts, function
 from surfaces.model import FirsthitError
-from surfaces.tape import Tape
 from surfaces.words import suggestion
 
 SUFFIXES = (".vm",)
@@ -71,10 +67,7 @@ UNARY = {
     "not": lambda a: choose(compare(a, "==", _ZERO), _ONE, _ZERO),
     "ceil": lambda a: negative(call("floor", negative(a))),
     "round": _rounded,
-    **{
-        name: (lambda name: lambda a: call(name, a))(name)
-        for name in ("sqrt", "floor", "sin", "cos", "tan", "asin", "acos", "atan", "exp")
-    },
+    **{name: function(name) for name in ("sqrt", "floor", "sin", "cos", "tan", "asin", "acos", "atan", "exp")},
 }
 BINARY = {
     "add": add,

@@ -105,19 +105,19 @@ class Jsurf(Words):
     def powr(self, a: Text, q: Fraction) -> Text:
         return power(a, rational(q))
 
-    def atan2(self, a: Text, b: Text) -> Text:
+    def atan2(self, *_: Text) -> Text:
         return self.refuse("atan2")
 
-    def min(self, a: Text, b: Text) -> Text:
+    def min(self, *_: Text) -> Text:
         return self.refuse("min")
 
-    def max(self, a: Text, b: Text) -> Text:
+    def max(self, *_: Text) -> Text:
         return self.refuse("max")
 
-    def below(self, a: Text, b: Text) -> Text:
+    def below(self, *_: Text) -> Text:
         return self.refuse("comparison")
 
-    def select(self, c: Text, p: Text, q: Text) -> Text:
+    def select(self, *_: Text) -> Text:
         return self.refuse("if")
 
 
