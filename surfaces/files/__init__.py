@@ -11,12 +11,13 @@ file is opened.
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-from surfaces.files.source import MAX_BYTES, PART, Imported, Reading, Source
+from surfaces.files.source import DEFAULT_DOMAIN, MAX_BYTES, PART, Imported, Reading, Source
 from surfaces.model import Domain, FirsthitError, Surface
 
 __all__ = ["FORMS", "SUFFIXES", "Imported", "export", "is_file", "load"]
@@ -59,7 +60,7 @@ def load(
     `domain` and `parameters` replace the file's own. Raises FirsthitError where the file cannot be read, holds no
     surface, or the surface cannot be made.
     """
-    name, _, part = str(path).partition(PART)
+    name, _, part = (str(path), "", "") if Path(path).is_file() else str(path).partition(PART)
     source, form = _opened(Path(name), part)
     reader: Any = import_module(f"surfaces.files.{form}")
     reading: Reading = reader.read(source)
@@ -125,13 +126,31 @@ def _surface(source: Source, reading: Reading, domain: str | Domain | None, para
     import surfaces
 
     stem = re.sub(r"[^A-Za-z_0-9-]+", "_", reading.name or source.path.stem).strip("_")[:40] or "surface"
-    try:
-        made = surfaces.from_formula(reading.formula, domain or reading.domain, stem, parameters)
-    except FirsthitError as error:
-        raise FirsthitError(f"{source.path}: {error}", error.exit_code) from None
+
+    def made_in(place: str | Domain) -> Surface:
+        try:
+            return surfaces.from_formula(reading.formula, place, stem, parameters)
+        except FirsthitError as error:
+            raise FirsthitError(f"{source.path}: {error}", error.exit_code) from None
+
+    made = made_in(domain or reading.domain) if domain or reading.domain else _found(source, made_in)
     title = reading.title or (stem if "\n" in reading.formula else made.title)
     told = reading.source or f"read from {source.path.name}"
     return replace(made, title=title, source=told, distance=reading.distance or made.distance)
+
+
+def _found(source: Source, made_in: Callable[[str], Surface]) -> Surface:
+    """Make a surface whose file says no domain: in a box that holds it, where one is found, else in a sphere."""
+    try:
+        surface = made_in("auto")
+    except FirsthitError:
+        surface = made_in(DEFAULT_DOMAIN)
+        source.remark(
+            f"the file says no domain, and no box that holds the surface was found: {DEFAULT_DOMAIN} is taken"
+        )
+        return surface
+    source.remark("the file says no domain: a box that holds the surface is taken")
+    return surface
 
 
 def export(surface: Surface, form: str) -> str:

@@ -11,10 +11,10 @@ from __future__ import annotations
 import math
 import re
 
-from surfaces import formula
 from surfaces.files.expressions import div, negative, power, word
 from surfaces.files.source import Reading, Source, tokens
 from surfaces.files.syntax import PLAIN, Dialect, Parser, Scope, coordinates, one
+from surfaces.language.tokens import exact
 from surfaces.model import Domain, FirsthitError, Sphere
 
 SUFFIXES = (".jsurf",)
@@ -85,7 +85,7 @@ def _properties(source: Source) -> dict[str, tuple[str, int]]:
 def _decimal(source: Source, text: str, line: int) -> str:
     """Return the text of a decimal number. Raises FirsthitError for any other text."""
     try:
-        formula.exact(text.strip())
+        exact(text.strip())
     except FirsthitError as error:
         source.fail(str(error), line)
     return text.strip()

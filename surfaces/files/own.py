@@ -9,7 +9,7 @@ from __future__ import annotations
 import tomllib
 from typing import Any
 
-from surfaces.files.source import DEFAULT_DOMAIN, Reading, Source
+from surfaces.files.source import Reading, Source
 from surfaces.model import Box, Domain, Surface
 from surfaces.words import suggestion
 
@@ -38,7 +38,7 @@ def read(source: Source) -> Reading:
     parameters = {key: value if isinstance(value, str) else repr(value) for key, value in given.items()}
     return Reading(
         formula=table["formula"],
-        domain=table.get("domain") or DEFAULT_DOMAIN,
+        domain=table.get("domain") or "",
         parameters=parameters,
         name=table.get("name", name),
         title=table.get("title", ""),

@@ -25,7 +25,7 @@ from surfaces.files.expressions import (
 )
 from surfaces.files.placing import applied
 from surfaces.files.povray_shapes import SHAPES, Shapes, Solid
-from surfaces.files.source import DEFAULT_DOMAIN, Reading, Source, Token, tokens
+from surfaces.files.source import Reading, Source, Token, tokens
 from surfaces.files.syntax import (
     PLAIN,
     SAME,
@@ -220,12 +220,7 @@ def read(source: Source) -> Reading:
     if scene.csg:
         source.left_out(scene.csg, "a shape is read alone, without what it is combined with")
     source.left_out(scene.shapes.left, "how it looks, and other shapes")
-    domain = solid.region
-    if domain is None:
-        source.remark(
-            f"a {solid.kind} without clipped_by or bounded_by has no end: {DEFAULT_DOMAIN} is taken; see --domain"
-        )
-    return Reading(_placed(scene, solid), domain or DEFAULT_DOMAIN, name=solid.name)
+    return Reading(_placed(scene, solid), solid.region or "", name=solid.name)
 
 
 def _placed(scene: Scene, solid: Solid) -> str:

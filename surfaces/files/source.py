@@ -31,7 +31,7 @@ class Reading:
     """Hold what a reader found: a formula in our language, and what belongs to it."""
 
     formula: str
-    domain: str | Domain = DEFAULT_DOMAIN
+    domain: str | Domain = ""  # empty where the file has none
     parameters: dict[str, str] = field(default_factory=dict)
     name: str = ""  # the file's own, where nothing else is said
     title: str = ""

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections import Counter
 
-from surfaces import formula
 from surfaces.files.expressions import (
     Text,
     add,
@@ -27,6 +26,7 @@ from surfaces.files.expressions import (
 )
 from surfaces.files.source import Reading, Source
 from surfaces.files.syntax import Parts, function
+from surfaces.language.tokens import exact
 from surfaces.model import FirsthitError
 from surfaces.words import suggestion
 
@@ -153,7 +153,7 @@ def _lines(source: Source) -> dict[str, tuple[int, str, list[str]]]:
 def _constant(source: Source, text: str, line: int) -> Text:
     """Return a constant. Raises FirsthitError for what is no decimal number, such as inf."""
     try:
-        formula.exact(text)
+        exact(text)
     except FirsthitError as error:
         source.fail(str(error), line)
     plain = text.lstrip("+-")
