@@ -13,10 +13,12 @@ import mpmath
 import numpy as np
 import pytest
 
+import firsthit
 from harness.contract import Surface, TruthStatus
 from harness.oracle import first_hits
 from surfaces import files
 
+from .conftest import usable_devices
 from .foreign_files import EXACT, FLOATS, MPMATH, Case, Poly, cases, value
 from .test_oracle_formulas import Roots, clip, integral
 
@@ -107,6 +109,14 @@ def test_the_oracle_agrees_with_an_independent_evaluation(case, tmp_path):
         if status != TruthStatus.UNDECIDED:
             hold(case, surface, ray, status, lower, upper)
     UNDECIDED[case.file] = int(undecided.sum()), count
+
+
+@pytest.mark.parametrize("case", CHOSEN if WANTED else CHOSEN[1::4], ids=lambda case: case.file)
+def test_a_file_is_drawn(case, tmp_path):
+    path = tmp_path / case.file
+    path.write_text(case.text, encoding="utf-8")
+    picture = firsthit.render(files.load(path).surface, "interval_march", usable_devices()[0].name, size=32)
+    assert (picture < 255).any(axis=2).mean() > 0.02, "the picture shows next to nothing"
 
 
 def test_almost_no_ray_is_undecided():

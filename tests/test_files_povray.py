@@ -55,16 +55,8 @@ def test_the_manuals_torus_is_read(load):
 def test_all_coefficients_have_their_places(load, kind, degree):
     rng = np.random.default_rng(degree)
     values = rng.integers(-9, 10, len(order_of(degree)))
-    names = sorted(
-        (
-            (i, j, k)
-            for i in range(degree + 1)
-            for j in range(degree + 1)
-            for k in range(degree + 1)
-            if i + j + k <= degree
-        ),
-        reverse=True,
-    )  # x falls first, then y, then z
+    powers = (p for p in product(range(degree + 1), repeat=3) if sum(p) <= degree)
+    names = sorted(powers, reverse=True)  # x falls first, then y, then z
     expected = sum(c * X**i * Y**j * Z**k for c, (i, j, k) in zip(values, names, strict=True))
     imported = load("a.pov", f"{kind} <{', '.join(map(str, values))}> {CLIP} }}")
     assert np.allclose(surfaces.evaluate(imported.surface, POINTS), expected, rtol=1e-9, atol=1e-9 * 2.0**degree)
@@ -95,7 +87,7 @@ def turned(axis, degrees, x, y, z):
         ("rotate 30*x", lambda x, y, z: turned("x", 30, x, y, z), Sphere(2.0)),
         ("rotate y*-45", lambda x, y, z: turned("y", -45, x, y, z), Sphere(2.0)),
         ("rotate <20, 0, 50>", lambda x, y, z: turned("z", 50, *turned("x", 20, x, y, z)), Sphere(2.0)),
-        ("matrix <0,1,0, -1,0,0, 0,0,2, 1,2,3>", lambda x, y, z: (1 - y, x + 2, 2 * z + 3), Box((-1, 0, -1), (3, 4, 7))),
+        ("matrix <0,1,0,-1,0,0,0,0,2,1,2,3>", lambda x, y, z: (1 - y, x + 2, 2 * z + 3), Box((-1, 0, -1), (3, 4, 7))),
         ("scale <1, 2, 1>", lambda x, y, z: (x, 2 * y, z), Box((-2, -4, -2), (2, 4, 2))),
     ],
 )  # fmt: skip

@@ -17,7 +17,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-from surfaces.files.source import DEFAULT_DOMAIN, MAX_BYTES, PART, Imported, Reading, Source
+from surfaces.files.source import DEFAULT_DOMAIN, MAX_BYTES, MAX_FORMULA, PART, Imported, Reading, Source
 from surfaces.model import Domain, FirsthitError, Surface
 
 __all__ = ["FORMS", "SUFFIXES", "Imported", "export", "is_file", "load"]
@@ -124,16 +124,21 @@ def _guessed(text: str) -> str | None:
 def _surface(source: Source, reading: Reading, domain: str | Domain | None, parameters: dict[str, Any]) -> Surface:
     """Make the surface of what was read. Raises FirsthitError, which names the file, where it cannot be made."""
     import surfaces
+    from surfaces import formula
 
+    if (length := len(reading.formula)) > MAX_FORMULA:
+        source.fail(f"its formula has {length} characters; at most {MAX_FORMULA} are read from a file")
     stem = re.sub(r"[^A-Za-z_0-9-]+", "_", reading.name or source.path.stem).strip("_")[:40] or "surface"
 
     def made_in(place: str | Domain) -> Surface:
-        try:
-            return surfaces.from_formula(reading.formula, place, stem, parameters)
-        except FirsthitError as error:
-            raise FirsthitError(f"{source.path}: {error}", error.exit_code) from None
+        return surfaces.from_formula(reading.formula, place, stem, parameters)
 
-    made = made_in(domain or reading.domain) if domain or reading.domain else _found(source, made_in)
+    try:
+        formula.parse(reading.formula, {name: str(value) for name, value in parameters.items()})
+        place = domain or reading.domain
+        made = made_in(place) if place else _found(source, made_in)
+    except FirsthitError as error:
+        raise FirsthitError(f"{source.path}: {error}", error.exit_code) from None
     title = reading.title or (stem if "\n" in reading.formula else made.title)
     told = reading.source or f"read from {source.path.name}"
     return replace(made, title=title, source=told, distance=reading.distance or made.distance)

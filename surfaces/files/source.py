@@ -13,6 +13,7 @@ from surfaces.words import suggestion
 
 MAX_BYTES = 2**21  # of a file; the longest tape that is passed around has 0.2 MB
 MAX_TOKENS = 200_000
+MAX_FORMULA = 600_000  # characters in our language; a tape of 10,000 lines needs about 200,000
 DEFAULT_DOMAIN = "sphere:1.5"
 PART = "#"  # between a file's name and the name of one of its surfaces
 
