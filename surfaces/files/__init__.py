@@ -45,11 +45,20 @@ FORMS = {
 
 
 def is_file(text: str) -> bool:
-    """Return whether a text names a file and not a surface of the catalog: it is there, or ends as one does."""
+    """Return whether a text names a file and not a surface of the catalog: it ends as one does, or is there."""
+    from surfaces import get
     from surfaces.files.meshes import SUFFIXES as MESHES
 
     path = text.partition(PART)[0]
-    return Path(path).suffix.lower() in (*SUFFIXES, *MESHES) or "/" in path or Path(path).is_file()
+    if Path(path).suffix.lower() in (*SUFFIXES, *MESHES) or "/" in path:
+        return True
+    if not Path(path).is_file():
+        return False
+    try:
+        get(path)  # a surface's name means the surface, whatever lies in the folder
+    except FirsthitError:
+        return True
+    return False
 
 
 def load(

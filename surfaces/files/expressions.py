@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
-CONDITION, SUM, PRODUCT, SIGN, POWER, ATOM = range(6)  # how tightly the outermost operator binds
+EITHER, BOTH, COMPARISON, SUM, PRODUCT, SIGN, POWER, ATOM = range(8)  # how tightly the outermost operator binds
 _MAX_BITS = 400  # of a rational constant that is computed here
 
 
@@ -24,7 +24,7 @@ class Text:
     @property
     def is_condition(self) -> bool:
         """Return whether this is true or false, and no number."""
-        return self.binding == CONDITION
+        return self.binding <= COMPARISON
 
     def __str__(self) -> str:
         """Return the text; built without recursion, since sums can be long."""
@@ -73,7 +73,7 @@ def number(a: Text) -> Text:
 
 def condition(a: Text) -> Text:
     """Return a condition: for a number, that it is not 0."""
-    return a if a.is_condition else Text((_inside(a, SUM), " != ", "0"), CONDITION)
+    return a if a.is_condition else Text((_inside(a, SUM), " != ", "0"), COMPARISON)
 
 
 def _inside(a: Text, binding: int) -> Text:
@@ -139,19 +139,19 @@ def call(name: str, *arguments: Text) -> Text:
 
 def compare(a: Text, sign: str, b: Text) -> Text:
     """Return a condition; `sign` is one of < <= > >= == !=."""
-    return Text((_inside(number(a), SUM), f" {sign} ", _inside(number(b), SUM)), CONDITION)
+    return Text((_inside(number(a), SUM), f" {sign} ", _inside(number(b), SUM)), COMPARISON)
 
 
 def both(a: Text, b: Text) -> Text:
-    return Text((_inside(condition(a), SUM), " and ", _inside(condition(b), SUM)), CONDITION)
+    return Text((_inside(condition(a), BOTH), " and ", _inside(condition(b), COMPARISON)), BOTH)
 
 
 def either(a: Text, b: Text) -> Text:
-    return Text((_inside(condition(a), SUM), " or ", _inside(condition(b), SUM)), CONDITION)
+    return Text((condition(a), " or ", _inside(condition(b), BOTH)), EITHER)
 
 
 def opposite(a: Text) -> Text:
-    return Text(("not ", _inside(condition(a), SUM)), CONDITION)
+    return Text(("not ", Text(("(", condition(a), ")"))), COMPARISON)
 
 
 def choose(a: Text, b: Text, c: Text) -> Text:

@@ -3,16 +3,18 @@
 Its documentation (documentation/Introduction.txt in parisolab/mathmod) names the keys: Const and Funct define constants
 and functions of (x, y, z, t), each component has an equation in Fxyz and limits in Xmin … Zmax. Expressions are those
 of fparser, Warp's function parser: truth is a number that rounds to another than 0, `%` is C's fmod, `=` compares, and
-signs bind less tight than `^`. `t` is time; a still picture has t = 0. A file may hold many models in MathModels.
+signs bind less tight than `^`. `t` is time. A file may hold many models, in MathModels.
 """
 
 from __future__ import annotations
 
 import json
 import re
-from dataclasses import dataclass
+from contextlib import suppress
+from dataclasses import dataclass, replace
 from typing import Any, NoReturn
 
+from surfaces import formula
 from surfaces.files.expressions import (
     SUM,
     Text,
@@ -31,7 +33,7 @@ from surfaces.files.expressions import (
 )
 from surfaces.files.source import Reading, Source, Token, tokens
 from surfaces.files.syntax import PLAIN, SAME, Dialect, Parser, Parts, Scope, comparison, coordinates, function, one
-from surfaces.model import Box
+from surfaces.model import Box, FirsthitError
 
 SUFFIXES = (".json", ".js", ".mathmod")
 NAME = "an isosurface model"
@@ -99,7 +101,21 @@ def read(source: Source) -> Reading:
     entries = [(model, i) for model in models for i in range(len(_texts(source, model, "Fxyz")))]
     names = [_entry_name(source, model, i) for model, i in entries]
     model, which = entries[source.choose(names, "surface")] if entries else source.fail("Fxyz is empty")
-    return _Iso(source, model).reading(which, names[entries.index((model, which))])
+    return _reading(source, model, which, names[entries.index((model, which))])
+
+
+def _reading(source: Source, model: Model, which: int, name: str) -> Reading:
+    """Return what is read of a component, with time as a parameter where the surface moves."""
+    still = _Iso(source, model, rational(0)).reading(which, name)
+    if not re.search(r"(?<![A-Za-z_0-9])t(?![A-Za-z_0-9])", json.dumps(model.table)):
+        return still
+    later = _Iso(source, model, rational(1)).reading(which, name)
+    with suppress(FirsthitError):  # which is raised where the surface is made
+        if formula.parse(still.formula) != formula.parse(later.formula):
+            source.remark("t is time, and a parameter here: 0 unless another moment is given")
+            moving = _Iso(source, model, word("t")).reading(which, name)
+            return replace(moving, parameters={"t": "0"})
+    return still
 
 
 def _loaded(source: Source) -> Any:
@@ -154,12 +170,12 @@ def _entry_name(source: Source, model: Model, which: int) -> str:
 class _Iso:
     """Read one model: its constants and functions, and then a component."""
 
-    def __init__(self, source: Source, model: Model) -> None:
+    def __init__(self, source: Source, model: Model, time: Text) -> None:
         self.source, self.model = source, model
         self.parts = Parts()
         self.parts.define("fmod", Text(("a - b*trunc(a/b)",), SUM), ("a", "b"))
         self.parts.define("nearest", Text(("sign(a)*floor(abs(a) + 0.5)",), SUM), ("a",))
-        self.scope = Scope({**coordinates(), "t": rational(0)}, {}, set("xyz") | {"fmod", "nearest"})
+        self.scope = Scope({**coordinates(), "t": time}, {}, set("xyzt") | {"fmod", "nearest"})
         for text in _texts(source, model, "Const"):
             name, value = self._named(text, "Const")
             self.scope.values[name] = self.parts.define(self.scope.fresh(name), self._parsed(value, self.scope, name))
@@ -201,8 +217,6 @@ class _Iso:
         if which < len(conditions) and conditions[which].strip():
             self.source.remark(f"left out: Cnd {conditions[which].strip()[:60]!r} (it cuts the surface)")
         self.source.left_out((key for key in left if key != "Cnd"), "how it looks and moves")
-        if re.search(r"(?<![A-Za-z_0-9])t(?![A-Za-z_0-9])", equation):
-            self.source.remark("t is time: the picture of t = 0 is read")
         box = Box((lower[0], lower[1], lower[2]), (upper[0], upper[1], upper[2]))
         return Reading(self.parts.formula(value), box, name=name, title=name)
 
@@ -211,7 +225,8 @@ class _Iso:
         texts = _texts(self.source, self.model, key)
         if which >= len(texts):
             self.source.fail(f"{key} has no entry for {self.model.name or 'component'} {which + 1}")
-        return self.parts.constant(self.source, self._parsed(texts[which], self.scope, key), key, None)
+        still = Scope({**self.scope.values, "t": rational(0)}, self.scope.functions, self.scope.taken)
+        return self.parts.constant(self.source, self._parsed(texts[which], still, key), key, None)
 
 
 class Labelled(Source):

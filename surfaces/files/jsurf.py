@@ -52,7 +52,7 @@ def read(source: Source) -> Reading:
     names = set(re.findall(r"[A-Za-z_][A-Za-z_0-9]*", written))
     domain = _domain(source, pairs)
     rest = [key for key in pairs if not key.startswith(_PARAMETER) and key not in ("surface_equation", "scale_factor")]
-    source.left_out(_groups(rest), "what concerns the picture")
+    source.left_out(sorted(_groups(rest)), "what concerns the picture")
     return Reading(written, domain, {name: value for name, value in values.items() if name in names})
 
 

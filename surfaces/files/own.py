@@ -10,7 +10,7 @@ import tomllib
 from typing import Any
 
 from surfaces.files.source import Reading, Source
-from surfaces.model import Box, Domain, Surface
+from surfaces.model import Box, Domain, Surface, as_float32
 from surfaces.words import suggestion
 
 SUFFIXES = (".toml",)
@@ -85,10 +85,15 @@ def domain_text(domain: Domain) -> str:
     """Return the text that describes a domain, as --domain takes it."""
     if isinstance(domain, Box):
         return f"box:{_point(domain.lower)}:{_point(domain.upper)}"
-    return (
-        f"sphere:{domain.radius!r}" if not any(domain.center) else f"sphere:{_point(domain.center)}:{domain.radius!r}"
-    )
+    center = [_point(domain.center)] if any(domain.center) else []
+    return ":".join(["sphere", *center, short(domain.radius)])
 
 
 def _point(point: tuple[float, float, float]) -> str:
-    return ",".join(map(repr, point))
+    return ",".join(map(short, point))
+
+
+def short(value: float) -> str:
+    """Return the shortest decimal that float32 rounds to this number of a domain."""
+    texts = (f"{value:.{digits}g}" for digits in range(1, 10))
+    return next((text for text in texts if as_float32(float(text)) == value), repr(value))

@@ -122,7 +122,7 @@ def _region(domain: Domain) -> str:
     """Return a domain as POV-Ray writes it."""
     if isinstance(domain, Box):
         return f"box {{ <{_triple(domain.lower)}>, <{_triple(domain.upper)}> }}"
-    return f"sphere {{ <{_triple(domain.center)}>, {domain.radius!r} }}"
+    return f"sphere {{ <{_triple(domain.center)}>, {domain.radius:.9g} }}"
 
 
 def _scene(domain: Domain) -> str:
@@ -130,11 +130,11 @@ def _scene(domain: Domain) -> str:
     x, y, z = domain.center
     far = 3.2 * domain.radius
     return _SCENE.format(
-        eye=_triple((x + 0.4 * far, y + 0.5 * far, z - 0.77 * far)),
-        at=_triple((x, y, z)),
-        light=_triple((x + far, y + 2.0 * far, z - 2.0 * far)),
+        eye=f"{x + 0.4 * far:.4g}, {y + 0.5 * far:.4g}, {z - 0.77 * far:.4g}",
+        at=f"{x:.4g}, {y:.4g}, {z:.4g}",
+        light=f"{x + far:.4g}, {y + 2.0 * far:.4g}, {z - 2.0 * far:.4g}",
     )
 
 
 def _triple(point: tuple[float, float, float]) -> str:
-    return ", ".join(f"{value!r}" for value in point)
+    return ", ".join(f"{value:.9g}" for value in point)

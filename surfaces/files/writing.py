@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
-from fractions import Fraction
 from math import dist
 
 from surfaces import formula
@@ -17,6 +17,23 @@ from surfaces.tape import Tape
 from surfaces.words import suggestion
 
 MAX_LENGTH = 200_000  # characters of an equation without named parts
+SYMPY = {
+    "Abs",
+    "E",
+    "Integer",
+    "Max",
+    "Min",
+    "Piecewise",
+    "Rational",
+    "atan2",
+    "cos",
+    "exp",
+    "floor",
+    "log",
+    "pi",
+    "sin",
+}
+SYMPY |= {"sqrt", "tan"}
 
 
 def export(surface: Surface, form: str) -> str:
@@ -68,11 +85,10 @@ def as_sympy(surface: Surface) -> str:
     """Return Python text that sets f to the surface's expression."""
     statements: list[str] = []
     value = written(tape_of(surface), Sympy(), _naming(statements, "v{} = {}"))
-    used = "Abs E Integer Max Min Piecewise Rational atan2 cos exp floor log pi sin sqrt symbols tan"
-    head = "\n".join(f"# {line}" for line in titled(surface))
-    imports = f"from sympy import {', '.join(used.split())}"
-    lines = [head, imports, "", 'x, y, z = symbols("x y z", real=True)', *statements, f"f = {value}"]
-    return "\n".join(lines) + "\n"
+    lines = [*statements, f"f = {value}"]
+    used = sorted({name for line in lines for name in re.findall(r"[A-Za-z][A-Za-z0-9]*", line)} & SYMPY)
+    head = [*(f"# {line}" for line in titled(surface)), f"from sympy import {', '.join([*used, 'symbols'])}", ""]
+    return "\n".join([*head, 'x, y, z = symbols("x y z", real=True)', *lines]) + "\n"
 
 
 def as_glsl(surface: Surface) -> str:
@@ -113,8 +129,3 @@ def _naming(statements: list[str], pattern: str) -> Callable[[Text], Text]:
         return word(f"v{len(statements)}")
 
     return name
-
-
-def decimal_of(value: Fraction) -> str:
-    """Return the double that is nearest to a fraction, as a decimal."""
-    return repr(value.numerator / value.denominator)
