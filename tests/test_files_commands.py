@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 
@@ -164,3 +167,15 @@ def test_a_mistake_with_a_file_is_answered_with_the_configs_line(here, old, new,
     (here / "mine.toml").write_text(CONFIG.replace(old, new).format(more=""), encoding="utf-8")
     with pytest.raises(FirsthitError, match=said):
         load_config(here / "mine.toml", find_methods())
+
+
+@pytest.mark.parametrize("name", ["x" * 5000, "a\0b", "/dev/null/x", "."])
+def test_what_can_be_no_file_is_answered(name):
+    with pytest.raises(FirsthitError, match="cannot read"):
+        files.load(name)
+
+
+def test_a_script_reaches_files_without_an_import():
+    command = "import surfaces; print(surfaces.files.load.__module__)"
+    done = subprocess.run([sys.executable, "-c", command], capture_output=True, text=True, check=True)
+    assert done.stdout == "surfaces.files\n"

@@ -3,9 +3,9 @@
     imported = surfaces.files.load("cayley.jsurf")      # .surface, .remarks: what was left out, .form
     text = surfaces.files.export(surface, "pov")        # one of FORMS
 
-A module for each format has `read`, which makes a formula in our language from a file's text, and its SUFFIXES. A
-format that can be written has a writer beside it. Files are text that is read: nothing in them is run, and no other
-file is opened.
+A module for each format has `read`, which makes a formula in our language from a file's text. `syntax` parses
+expressions, each format's by its own Dialect; `expressions` writes them in our language. `writing` and its neighbours
+write surfaces for others. Files are text that is read: nothing in them is run, and no other file is opened.
 """
 
 from __future__ import annotations
@@ -17,13 +17,12 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-from surfaces.files.source import DEFAULT_DOMAIN, MAX_BYTES, MAX_FORMULA, PART, Imported, Reading, Source
+from surfaces.files.source import DEFAULT_DOMAIN, FORMS, MAX_BYTES, MAX_FORMULA, PART, Imported, Reading, Source
 from surfaces.model import Domain, FirsthitError, Surface
 
 __all__ = ["FORMS", "SUFFIXES", "Imported", "export", "is_file", "load"]
 
-_READERS = ("jsurf", "surf", "povray", "vm", "isosurface", "own")
-SUFFIXES = {
+SUFFIXES = {  # the module that reads a file, by how its name ends
     ".jsurf": "jsurf",
     ".pic": "surf",
     ".surf": "surf",
@@ -35,13 +34,6 @@ SUFFIXES = {
     ".mathmod": "isosurface",
     ".toml": "own",
 }
-FORMS = {
-    "jsurf": "a file of jsurf and SURFER, for polynomials",
-    "pov": "a POV-Ray scene: poly up to degree 35, else an isosurface",
-    "vm": "a tape of operations, as fidget reads it",
-    "sympy": "Python text that makes the expression with sympy",
-    "glsl": "a function float f(vec3 p)",
-}
 
 
 def is_file(text: str) -> bool:
@@ -52,7 +44,7 @@ def is_file(text: str) -> bool:
     path = text.partition(PART)[0]
     if Path(path).suffix.lower() in (*SUFFIXES, *MESHES) or "/" in path:
         return True
-    if not Path(path).is_file():
+    if not _is_there(path):
         return False
     try:
         get(path)  # a surface's name means the surface, whatever lies in the folder
@@ -69,7 +61,7 @@ def load(
     `domain` and `parameters` replace the file's own. Raises FirsthitError where the file cannot be read, holds no
     surface, or the surface cannot be made.
     """
-    name, _, part = (str(path), "", "") if Path(path).is_file() else str(path).partition(PART)
+    name, _, part = (str(path), "", "") if _is_there(path) else str(path).partition(PART)
     source, form = _opened(Path(name), part)
     reader: Any = import_module(f"surfaces.files.{form}")
     reading: Reading = reader.read(source)
@@ -82,15 +74,25 @@ def load(
     )
 
 
+def _is_there(path: str | Path) -> bool:
+    """Return whether there is a file of this name; a text that can be no name is none."""
+    try:
+        return Path(path).is_file()
+    except (OSError, ValueError):
+        return False
+
+
 def _opened(path: Path, part: str) -> tuple[Source, str]:
     """Open a file, and return it with the name of its reader. Raises FirsthitError where it cannot be read."""
     from surfaces.files import meshes
 
     try:
+        if path.exists() and not path.is_file():
+            raise FirsthitError(f"cannot read {path}: it is {'a folder' if path.is_dir() else 'no regular file'}")
         with path.open("rb") as file:
             content = file.read(MAX_BYTES + 1)
-    except OSError as error:
-        raise FirsthitError(f"cannot read {path}: {error.strerror or error}") from None
+    except (OSError, ValueError) as error:
+        raise FirsthitError(f"cannot read {path}: {getattr(error, 'strerror', None) or error}") from None
     suffix = path.suffix.lower()
     if kind := meshes.kind_of(content, suffix):
         raise FirsthitError(f"{path} is {kind}; {meshes.WHAT_TO_DO}")

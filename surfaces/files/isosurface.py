@@ -35,7 +35,6 @@ from surfaces.files.source import Reading, Source, Token, tokens
 from surfaces.files.syntax import PLAIN, SAME, Dialect, Parser, Parts, Scope, comparison, coordinates, function, one
 from surfaces.model import Box, FirsthitError
 
-SUFFIXES = (".json", ".js", ".mathmod")
 NAME = "an isosurface model"
 _LIMITS = ("Xmin", "Xmax", "Ymin", "Ymax", "Zmin", "Zmax")
 _KEYS = ("Fxyz", "Const", "Funct", "Component", "Name", *_LIMITS)

@@ -17,7 +17,6 @@ from surfaces.files.syntax import PLAIN, Dialect, Parser, Scope, coordinates, on
 from surfaces.language.tokens import exact
 from surfaces.model import Domain, FirsthitError, Sphere
 
-SUFFIXES = (".jsurf",)
 NAME = "a .jsurf file"
 _PARAMETER = "surface_parameter_"
 _MATRIX = "surface_transform_matrix"

@@ -13,7 +13,6 @@ from surfaces.files.source import Reading, Source
 from surfaces.model import Box, Domain, Surface, as_float32
 from surfaces.words import suggestion
 
-SUFFIXES = (".toml",)
 NAME = "a surface of ours"
 _TEXTS = ("name", "title", "source", "formula", "domain", "distance")
 

@@ -40,7 +40,6 @@ from surfaces.files.syntax import (
     shown,
 )
 
-SUFFIXES = (".pov", ".inc")
 NAME = "a POV-Ray scene"
 CSG = ("union", "difference", "intersection", "merge")
 _SKIPPED = ("version", "default", "debug", "warning", "undef")

@@ -9,7 +9,7 @@ from surfaces import formula, lowering
 from surfaces.evaluation import gradient, tape_of
 from surfaces.files.expressions import Text, call, word
 from surfaces.files.monomials import Powers, order_of
-from surfaces.files.wording import Povray, written
+from surfaces.files.wording import Povray, titled, written
 from surfaces.model import Box, Domain, FirsthitError, Surface
 from surfaces.numbers import Arithmetic
 from surfaces.tape import Tape, walk
@@ -63,8 +63,6 @@ def coefficients(tape: Tape) -> dict[Powers, Fraction]:
 
 def text_of(surface: Surface) -> str:
     """Return a scene of a surface. Raises FirsthitError where POV-Ray has no words for it."""
-    from surfaces.files.writing import titled
-
     tape = tape_of(surface)
     head = "".join(f"// {line}\n" for line in titled(surface)) + "#version 3.7;\n" + _scene(surface.domain)
     if formula.is_polynomial(tape) and surface.degree is not None and surface.degree <= MAX_ORDER:

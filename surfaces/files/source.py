@@ -17,6 +17,14 @@ MAX_FORMULA = 600_000  # characters in our language; a tape of 10,000 lines need
 DEFAULT_DOMAIN = "sphere:1.5"
 PART = "#"  # between a file's name and the name of one of its surfaces
 
+FORMS = {  # the languages that surfaces are written in
+    "jsurf": "a file of jsurf and SURFER, for polynomials",
+    "pov": "a POV-Ray scene: poly up to degree 35, else an isosurface",
+    "vm": "a tape of operations, as fidget reads it",
+    "sympy": "Python text that makes the expression with sympy",
+    "glsl": "a function float f(vec3 p)",
+}
+
 
 @dataclass(frozen=True)
 class Imported:

@@ -17,7 +17,6 @@ from surfaces.files.source import Reading, Source, Token, tokens
 from surfaces.files.syntax import PLAIN, Dialect, Parser, Parts, Scope, coordinates, function, one, shown
 from surfaces.model import Box, Domain, FirsthitError, Sphere
 
-SUFFIXES = (".pic", ".surf")
 NAME = "a surf script"
 TYPES = ("int", "double", "poly", "string")
 SURFACES = ("surface", *(f"surface{i}" for i in range(2, 10)))

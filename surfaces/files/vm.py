@@ -30,7 +30,6 @@ from surfaces.language.tokens import exact
 from surfaces.model import FirsthitError
 from surfaces.words import suggestion
 
-SUFFIXES = (".vm",)
 NAME = "a tape"
 MAX_LINES = 60_000
 _NESTED = 12  # values that are used once stand inside one another up to this deep

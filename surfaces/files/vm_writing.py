@@ -6,6 +6,7 @@ from collections.abc import Callable
 from fractions import Fraction
 
 from surfaces.evaluation import tape_of
+from surfaces.files.wording import titled
 from surfaces.model import FirsthitError, Surface
 from surfaces.tape import walk
 
@@ -81,8 +82,6 @@ class Lines:
 
 def text_of(surface: Surface) -> str:
     """Return a surface as a tape. Raises FirsthitError for a power that tapes do not have."""
-    from surfaces.files.writing import titled
-
     tape = tape_of(surface)
     lines = Lines()
     result = walk(tape, lines, lambda axis: lines.emit(f"var-{axis}"))[0]

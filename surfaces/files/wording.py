@@ -20,7 +20,8 @@ from surfaces.files.expressions import (
     sub,
     word,
 )
-from surfaces.model import FirsthitError
+from surfaces.files.own import domain_text
+from surfaces.model import FirsthitError, Surface
 from surfaces.numbers import Arithmetic
 from surfaces.tape import LEAVES, Tape
 
@@ -231,3 +232,9 @@ def written(tape: Tape, words: Words, name: Callable[[Text], Text] | None) -> Te
             value = name(value)
         values.append(value)
     return values[tape.outputs[0]]
+
+
+def titled(surface: Surface) -> list[str]:
+    """Return what a comment says of a surface, line by line."""
+    lines = [f"{surface.name}: {surface.title}", f"domain {domain_text(surface.domain)}", "written by firsthit"]
+    return [" ".join("".join(c if c.isprintable() else " " for c in line).split()) for line in lines]

@@ -8,10 +8,10 @@ from math import dist
 
 from surfaces import formula
 from surfaces.evaluation import tape_of
-from surfaces.files import FORMS, jsurf, povray_writing, vm_writing
+from surfaces.files import jsurf, povray_writing, vm_writing
 from surfaces.files.expressions import Text, word
-from surfaces.files.own import domain_text
-from surfaces.files.wording import Glsl, Jsurf, Sympy, written
+from surfaces.files.source import FORMS
+from surfaces.files.wording import Glsl, Jsurf, Sympy, titled, written
 from surfaces.model import FirsthitError, Sphere, Surface
 from surfaces.tape import Tape
 from surfaces.words import suggestion
@@ -51,12 +51,6 @@ def export(surface: Surface, form: str) -> str:
         return writers[form](surface)
     except FirsthitError as error:
         raise FirsthitError(f"{surface.name} cannot be written as {form}: {error}") from None
-
-
-def titled(surface: Surface) -> list[str]:
-    """Return what a comment says of a surface, line by line."""
-    lines = [f"{surface.name}: {surface.title}", f"domain {domain_text(surface.domain)}", "written by firsthit"]
-    return [" ".join("".join(c if c.isprintable() else " " for c in line).split()) for line in lines]
 
 
 def as_jsurf(surface: Surface) -> str:
