@@ -240,11 +240,18 @@ def test_a_model_has_constants_functions_and_limits(load):
         "Xmax": ["A+4*sin(t*pi)+2"],
         "Grid": ["50"],
     }
-    imported = load("a.json", json.dumps({"MathModels": [{"Iso3D": model, "Texture": {}}]}).replace("\\n", "\n"))
+    text = json.dumps({"MathModels": [{"Iso3D": model, "Texture": {}}]}).replace("\\n", "\n")
+    imported = load("a.json", text)
     same(imported, X**2 + Y**2 + 4 * Z**2 - 0.5)
     assert imported.surface.domain == Box((-2, -2, -2), (np.pi / 2 + 2, 2, 2))
     assert imported.surface.name == "Twisted"
-    assert imported.remarks == ("left out: Texture (how it looks and moves)", "t is time: the picture of t = 0 is read")
+    moving = "t is time, and a parameter here: 0 unless another moment is given"
+    assert imported.remarks == ("left out: Texture (how it looks and moves)", moving)
+    same(load("a.json", text, parameters={"t": "0.25"}), X**2 + Y**2 + 4 * Z**2 - 0.25)
+    model["Funct"][1] = "Ball = Ball(y, x, 2*z, t)"  # t is handed on, and changes nothing
+    still = load("a.json", json.dumps({"Iso3D": model}))
+    assert not still.remarks
+    assert not still.surface.parameters
 
 
 @pytest.mark.parametrize(
