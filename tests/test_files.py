@@ -134,7 +134,8 @@ def test_one_of_several_surfaces_is_chosen_by_name_or_number(load):
             "line 4: 'if': conditions and loops are not run",
         ),
         ("curve = y^2 - x^3; draw_curve;", "draws a plane curve and no surface"),
-        ("surface = rotate(x, 1.0, xAxis);", "line 1: rotate is not read"),
+        ("surface = rotate(x, 1.0, x);", "rotate takes xAxis, yAxis, zAxis, not 'x'"),
+        ("surface = diff(x^2, x);", "line 1: diff is not read: write the derivative"),
         ("int n = 3.5; surface = x;", "int n is given 7/2"),
         ("poly f = x; poly f = y;", "'f' is declared twice"),
         ("surface = x^2 +;", r"line 1: expected a number, a name or '\('"),
@@ -145,6 +146,26 @@ def test_one_of_several_surfaces_is_chosen_by_name_or_number(load):
 def test_what_a_surf_script_cannot_have_is_named_with_its_line(load, text, said):
     with pytest.raises(FirsthitError, match=said):
         load("a.pic", text)
+
+
+def test_a_polynomial_is_turned_with_the_parts_that_it_names(load):
+    text = """
+    double a = 0.5;  poly f = x + 2*a*z;  polyxyz g = f^2 - 3*y;
+    poly h = rotate(g*x, 0.25, zAxis) + f;
+    surface = rotate(h, -1, xAxis);
+    surface = surface + rotate(f, a, yAxis);
+    """
+
+    def f(x, y, z):  # noqa: ARG001
+        return x + z
+
+    def h(x, y, z):
+        turned = x * np.cos(0.25) + y * np.sin(0.25), y * np.cos(0.25) - x * np.sin(0.25)
+        return (f(turned[0], 0, z) ** 2 - 3 * turned[1]) * turned[0] + f(x, y, z)
+
+    y, z = Y * np.cos(-1) + Z * np.sin(-1), Z * np.cos(-1) - Y * np.sin(-1)
+    x_, z_ = X * np.cos(0.5) + Z * np.sin(0.5), Z * np.cos(0.5) - X * np.sin(0.5)
+    same(load("a.pic", text), h(X, y, z) + f(x_, Y, z_))
 
 
 # tapes

@@ -3,22 +3,24 @@
 Its manual (surf-alggeo 1.0.6) lists the types int, double, string and poly, the operators, and the variables that say
 what is drawn. The surface is clipped at the ball of `radius`, 10 by default, about (center_x, center_y, center_z), or
 at a cube of that half edge; scale_x, scale_y and scale_z multiply coordinates before the equation sees them, so that
-the domain is so much smaller. Quotients of whole numbers are fractions, as its examples need. Conditions are not run.
+the domain is so much smaller. Quotients of whole numbers are fractions, as in its parser. Conditions are not run.
 """
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, field
 from fractions import Fraction
 
 from surfaces import formula
-from surfaces.files.expressions import ATOM, Text, div, negative, power, rational
+from surfaces.files.expressions import ATOM, Text, add, call, div, mul, negative, power, rational, sub, word
 from surfaces.files.source import Reading, Source, Token, tokens
 from surfaces.files.syntax import PLAIN, Dialect, Parser, Parts, Scope, coordinates, function, one, shown
 from surfaces.model import Box, Domain, FirsthitError, Sphere
 
 NAME = "a surf script"
-TYPES = ("int", "double", "poly", "string")
+TYPES = ("int", "double", "poly", "polyxyz", "string")
+AXES = ("xAxis", "yAxis", "zAxis")
 SURFACES = ("surface", *(f"surface{i}" for i in range(2, 10)))
 CLIPS = {"ball": 0, "cylinder_xaxis": 1, "cylinder_yaxis": 2, "cylinder_zaxis": 3, "cube": 4, "none": 5}
 VIEW = {  # numbers that decide the domain, and their defaults
@@ -33,7 +35,6 @@ _UNREAD = {
     "len": "it counts terms",
     "diff": "write the derivative",
     "hesse": "write the polynomial",
-    "rotate": "write the rotated polynomial",
     "itostr": "it is a text",
     "itostrn": "it is a text",
 }
@@ -54,11 +55,15 @@ DIALECT = Dialect(
         **{name: one(name) for name in ("sqrt", "sin", "cos", "tan")},
         **{f"arc{name}": one(f"a{name}") for name in ("sin", "cos", "tan")},
         "pow": (2, 2, power),
-        "deg": (1, 1, function("deg")),  # replaced by the script that knows its parts
+        "cot": one("cot"),
+        "arccot": (1, 1, lambda a: sub(div(word("pi"), word("2")), call("atan", a))),
+        "deg": (1, 1, function("deg")),  # replaced by those of the script that knows its parts
+        "rotate": (3, 3, function("rotate")),
     },
     names={
         **{name: Text((str(value),), ATOM, Fraction(value)) for name, value in CLIPS.items()},
         **{name: Text((str(value),), ATOM, Fraction(value)) for name, value in (("yes", 1), ("no", 0))},
+        **{name: word(name) for name in AXES},
     },
     unread=_UNREAD,
 )
@@ -121,7 +126,7 @@ class Script:
     def _assignment(self, name: Token) -> None:
         """Give a name its value. A value that concerns the picture only is skipped."""
         kind = self.kinds.get(name.text)
-        wanted = kind in ("int", "double", "poly") or name.text in VIEW or name.text in SURFACES
+        wanted = kind in ("int", "double", "poly", "polyxyz") or name.text in VIEW or name.text in SURFACES
         if not wanted:
             if kind is None:
                 self.skipped.append(name.text)
@@ -135,7 +140,7 @@ class Script:
                 raise
             self.source.fail(str(error), name.line)
         if name.text in SURFACES:
-            self.surfaces[name.text] = value
+            self.surfaces[name.text] = self.parser.scope.values[name.text] = value
         elif name.text in VIEW:
             self.view[name.text] = self.parts.constant(self.source, value, name.text, name.line)
         else:
@@ -160,12 +165,45 @@ class Script:
         """Return the degree of a polynomial, which surf's deg is."""
         return rational(formula.degree(formula.parse(self.parts.formula(value))) or 0)
 
+    def turned(self, value: Text, angle: Text, axis: Text) -> Text:
+        """Return a polynomial at turned points, as surf's rotate makes it (polyarith: polyxyz_rotate_x, _y and _z).
+
+        About the z axis it takes x to x*c + y*s and y to y*c - x*s, about the others x or y and z likewise.
+        """
+        if str(axis) not in AXES:
+            raise FirsthitError(f"rotate takes {', '.join(AXES)}, not {str(axis)[:40]!r}")
+        first, second = {"xAxis": (1, 2), "yAxis": (0, 2), "zAxis": (0, 1)}[str(axis)]
+        cosine, sine = call("cos", angle), call("sin", angle)
+        at = [word(name) for name in "xyz"]
+        p, q = at[first], at[second]
+        at[first], at[second] = add(mul(p, cosine), mul(q, sine)), sub(mul(q, cosine), mul(p, sine))
+        return call(self._function(value), *at)
+
+    def _function(self, value: Text) -> str:
+        """Return the name of a function of x, y and z with a polynomial's values, also of the parts that it names."""
+        scope, moving = self.parser.scope, {"x", "y", "z"}
+        called: dict[str, str] = {}
+
+        def written(text: Text) -> Text:
+            names = re.compile(r"[A-Za-z_][A-Za-z_0-9]*")
+            return word(names.sub(lambda m: f"{called[m[0]]}(x, y, z)" if m[0] in called else m[0], str(text)))
+
+        for name, arguments, part in list(self.parts.texts):
+            if not arguments and moving & set(re.findall(r"[A-Za-z_][A-Za-z_0-9]*", str(part))):
+                moving.add(name)
+                own = scope.fresh(name)
+                self.parts.define(own, written(part), ("x", "y", "z"))
+                called[name] = own
+        own = scope.fresh("turned")
+        self.parts.define(own, written(value), ("x", "y", "z"))
+        return own
+
 
 def read(source: Source) -> Reading:
     """Read a script. Raises FirsthitError where it draws no surface, or has statements that are not run."""
     scope = Scope(coordinates(), {}, set("xyz"))
     script = Script(source, Parser(source, tokens(source), DIALECT, scope))
-    functions = {**DIALECT.functions, "deg": (1, 1, script.degree)}
+    functions = {**DIALECT.functions, "deg": (1, 1, script.degree), "rotate": (3, 3, script.turned)}
     script.parser.dialect = Dialect(**{**vars(DIALECT), "functions": functions})
     script.run()
     drawn = script.drawn[0] if script.drawn else Drawn(script.surfaces, script.view)
