@@ -125,6 +125,24 @@ def test_an_isosurface_has_its_function_threshold_and_container(load):
     assert imported.remarks == ("left out: pigment (how it looks, and other shapes)",)
 
 
+@pytest.mark.parametrize(
+    ("regions", "domain"),
+    [
+        ("", Box((-1, -1, -1), (1, 1, 1))),
+        ("threshold 1 open contained_by { sphere { 0, 3 } }", Sphere(3.0)),
+        ("contained_by { box { <-1, 0, -2>*2, 3*y + 1 } }", Box((-2, 0, -4), (1, 4, 1))),
+        ("contained_by { sphere { <0,0,0>, 3 } } bounded_by { box { -1, 2 } }", Sphere(3.0)),
+        ("clipped_by { box { -1, 1 scale 2.5 translate x } }", Box((-1.5, -2.5, -2.5), (3.5, 2.5, 2.5))),
+        ("bounded_by { sphere { <0,0,0>, 3 } } clipped_by { sphere { <0,0,1>, 2 } }", Sphere(2.0, (0, 0, 1))),
+        ("clipped_by { sphere { <0,0,1>, 2 } } bounded_by { clipped_by }", Sphere(2.0, (0, 0, 1))),
+    ],
+)
+def test_the_region_that_cuts_the_surface_is_its_domain(load, regions, domain):
+    imported = load("a.pov", f"isosurface {{ function {{ x*x - y }} {regions} }}")
+    assert imported.surface.domain == domain
+    same(imported, X**2 - Y - ("threshold" in regions))
+
+
 def test_csg_other_shapes_and_looks_are_named_once_each(load):
     text = f"""
     #include "colors.inc"

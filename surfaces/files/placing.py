@@ -106,22 +106,21 @@ def applied(row: tuple[Text, Text, Text, Text], at: tuple[Text, Text, Text]) -> 
     for factor, coordinate in [*zip(row, at, strict=False), (row[3], None)]:
         if factor.value == 0:
             continue
-        term = factor if coordinate is None else _times(factor, coordinate)
+        falls = factor.parts[0] == "-" and isinstance(factor.parts[-1], Text)
+        size = factor.parts[-1] if falls else factor
+        assert isinstance(size, Text)
+        term = size if coordinate is None else _times(size, coordinate)
         if total is None:
-            total = term
-        elif str(term).startswith("-") and len(term.parts) == 2:
-            total = sub(total, term.parts[1] if isinstance(term.parts[1], Text) else negative(term))
+            total = negative(term) if falls else term
         else:
-            total = add(total, term)
+            total = sub(total, term) if falls else add(total, term)
     return total or _ZERO
 
 
 def _times(factor: Text, coordinate: Text) -> Text:
-    """Return a factor times a coordinate: a quotient for 1/a, and neither for 1 and -1."""
+    """Return a factor times a coordinate: a quotient for 1/a, and the coordinate alone for 1."""
     if factor.value == 1:
         return coordinate
-    if factor.value == -1:
-        return negative(coordinate)
     if factor.parts[1:2] == ("/",) and isinstance(factor.parts[0], Text) and factor.parts[0].value == 1:
         divisor = factor.parts[2]
         if isinstance(divisor, Text):

@@ -39,6 +39,7 @@ from surfaces.files.syntax import (
     one,
     shown,
 )
+from surfaces.model import FirsthitError
 
 NAME = "a POV-Ray scene"
 CSG = ("union", "difference", "intersection", "merge")
@@ -132,11 +133,21 @@ class Scene:
         elif token.text == "function":
             self._function(name)
         elif token.kind == "number" or token.text in ("-", "+", "(") or self._is_number(token):
-            ours = parser.scope.fresh(name.text)
-            parser.scope.values[name.text] = self.parts.define(ours, parser.expression())
+            self._number(name.text)
         else:
             self._skip_value()
         parser.took(";")
+
+    def _number(self, name: str) -> None:
+        """Read the value of a number. One that is not read is skipped, and is unknown where it is used."""
+        parser, start = self.parser, self.parser.at
+        try:
+            value = parser.expression()
+        except FirsthitError:
+            parser.at, parser.depth = start, 0
+            self._skip_value()
+        else:
+            parser.scope.values[name] = self.parts.define(parser.scope.fresh(name), value)
 
     def _is_number(self, token: Token) -> bool:
         """Return whether a name begins a number."""

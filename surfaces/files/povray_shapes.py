@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from surfaces.files.expressions import Text, rational, sub, word
+from surfaces.files.expressions import Text, mul, rational, sub, word
 from surfaces.files.monomials import order_of, polynomial
 from surfaces.files.placing import Move, by_matrix, moved, rotations, scaling, translation
 from surfaces.files.source import Source, Token
@@ -13,9 +13,10 @@ from surfaces.model import Box, Domain, Sphere
 
 SHAPES = ("cubic", "quartic", "poly", "polynomial", "quadric", "isosurface")
 MAX_ORDER = 35  # of poly, in 3.7
+_FACTOR = 60  # binds as a factor of a product does
 _ENTRY = 40  # binds tighter than a comparison, whose > would end a vector
 _AXES = ("x", "y", "z")
-_HINTS = ("threshold", "accuracy", "max_gradient", "evaluate", "max_trace")  # of an isosurface, before its modifiers
+_REGIONS = {"bounded_by": 0, "contained_by": 1, "clipped_by": 2}  # which of them says more about where a shape ends
 
 
 @dataclass
@@ -26,8 +27,14 @@ class Solid:
     line: int
     value: Text
     region: Domain | None = None
+    rank: int = 0  # of the word that the region is from, in _REGIONS
     moves: list[Move] = field(default_factory=list)
     name: str = ""
+
+    def clip(self, region: Domain | None, rank: int) -> None:
+        """Take a region, unless there is one that says more."""
+        if region is not None and (self.region is None or rank >= self.rank):
+            self.region, self.rank = region, rank
 
     def move(self, source: Source, move: Move) -> None:
         """Move the shape, and the region that it has so far."""
@@ -139,9 +146,9 @@ class Shapes:
         """Read <a, b, …>. Raises FirsthitError where it has another number of entries than `count`."""
         start = self.parser.expect("<")
         values = [self.parser.expression(_ENTRY)]
-        while self.parser.took(","):
+        while not self.parser.took(">"):
+            self.parser.took(",")  # which POV-Ray lets be left out
             values.append(self.parser.expression(_ENTRY))
-        self.parser.expect(">")
         if count is not None and len(values) != count:
             self.source.fail(f"expected {count} numbers between < and >, found {len(values)}", start.line)
         return values
@@ -152,7 +159,7 @@ class Shapes:
         return x, y, z
 
     def _isosurface(self, name: Token) -> Solid:
-        """Read an isosurface up to its modifiers: the function, where it is contained, and its threshold."""
+        """Read an isosurface up to its modifiers: its function, and the container that it has where none is given."""
         parser = self.parser
         if parser.take().text != "function":
             self.source.fail("an isosurface begins with function { … }", name.line)
@@ -160,41 +167,28 @@ class Shapes:
         value, _ = self.body(given)
         if given != list(_AXES):
             self.source.fail("an isosurface's function has the arguments x, y, z", name.line)
-        region: Domain = Box((-1.0, -1.0, -1.0), (1.0, 1.0, 1.0))
-        while (token := parser.peek()).text in ("contained_by", *_HINTS):
-            parser.take()
-            if token.text == "contained_by":
-                region = self._region(token) or region
-            else:
-                first = parser.expression(_ENTRY)
-                while parser.took(","):
-                    parser.expression(_ENTRY)
-                if token.text == "threshold" and first.value != 0:
-                    value = sub(value, first)
-        return Solid("isosurface", name.line, value, region)
+        return Solid("isosurface", name.line, value, Box((-1.0, -1.0, -1.0), (1.0, 1.0, 1.0)), _REGIONS["contained_by"])
 
     def _region(self, token: Token) -> Domain | None:
-        """Read { sphere { <c>, r } } or { box { <a>, <b> } }; None for any other shape, which is skipped."""
+        """Read { sphere { <c>, r } } or { box { <a>, <b> } } with its moves; None for any other shape, which is skipped."""
         parser = self.parser
         parser.expect("{")
         kind = parser.peek().text
         found: Domain | None = None
-        if kind == "box" and parser.peek(1).text == "{":
+        if kind in ("box", "sphere") and parser.peek(1).text == "{":
             self._opened()
-            a = self._numbers(self._vector(3), token.line)
+            a = self._numbers(self._triple(), token.line)
             parser.took(",")
-            b = self._numbers(self._vector(3), token.line)
-            parser.expect("}")
-            lower, upper = (tuple(f(p, q) for p, q in zip(a, b, strict=True)) for f in (min, max))
-            found = Box((lower[0], lower[1], lower[2]), (upper[0], upper[1], upper[2]))
-        elif kind == "sphere" and parser.peek(1).text == "{":
-            self._opened()
-            center = self._numbers(self._vector(3), token.line)
-            parser.took(",")
-            radius = self.parts.constant(self.source, parser.expression(_ENTRY), "a radius", token.line)
-            parser.expect("}")
-            found = Sphere(radius, center)
-        else:
+            if kind == "box":
+                b = self._numbers(self._triple(), token.line)
+                lower, upper = (tuple(f(p, q) for p, q in zip(a, b, strict=True)) for f in (min, max))
+                found = Box((lower[0], lower[1], lower[2]), (upper[0], upper[1], upper[2]))
+            else:
+                found = Sphere(self.parts.constant(self.source, parser.expression(_ENTRY), "a radius", token.line), a)
+            held = Solid(token.text, token.line, word("x"), found)
+            self.modifiers([held])
+            found = held.region
+        elif kind not in _REGIONS:
             self.source.remark(f"left out: {token.text} with {kind[:40]} (a sphere or a box is read)")
         while not parser.took("}"):
             if parser.peek().kind == "end":
@@ -222,10 +216,14 @@ class Shapes:
                 for move in self._move(token):
                     for solid in solids:
                         solid.move(self.source, move)
-            elif token.text in ("clipped_by", "bounded_by"):
+            elif token.text in _REGIONS:
                 region = self._region(token)
                 for solid in solids:
-                    solid.region = region or solid.region
+                    solid.clip(region, _REGIONS[token.text])
+            elif token.text == "threshold":
+                level = parser.expression(_ENTRY)
+                for solid in solids:
+                    solid.value = solid.value if level.value == 0 else sub(solid.value, level)
             elif token.text == "#":
                 self.source.fail("directives inside a shape are not read", token.line)
             elif parser.peek().text == "{" and token.kind == "name":
@@ -236,7 +234,7 @@ class Shapes:
 
     def _move(self, token: Token) -> list[Move]:
         """Read a translation, a scaling, turns or a matrix."""
-        parser, name = self.parser, token.text
+        name = token.text
         if name == "matrix":
             values = [value.value for value in self._vector(12)]
             known = [value for value in values if value is not None]
@@ -245,7 +243,7 @@ class Shapes:
                 why = "it has no inverse" if len(known) == 12 else "its numbers are not rational"
                 self.source.fail(f"this matrix cannot be carried over: {why}", token.line)
             return [move]
-        vector = self._vector(3) if parser.peek().text == "<" else self._along_axes()
+        vector = self._triple()
         numbers = self._numbers(vector, token.line)
         by = (vector[0], vector[1], vector[2])
         if name == "scale" and 0.0 in numbers:
@@ -253,6 +251,16 @@ class Shapes:
         if name == "rotate":
             return rotations(by, numbers)
         return [translation(by, numbers) if name == "translate" else scaling(by, numbers)]
+
+    def _triple(self) -> list[Text]:
+        """Read a vector <a, b, c>, or times a number; or what `_along_axes` reads."""
+        if self.parser.peek().text != "<":
+            return self._along_axes()
+        vector = self._vector(3)
+        while self.parser.took("*"):
+            factor = self.parser.expression(_FACTOR)
+            vector = [mul(entry, factor) for entry in vector]
+        return vector
 
     def _along_axes(self) -> list[Text]:
         """Read a vector that is written with x, y and z, as in 90*x, or a number, which stands for all three."""
@@ -262,7 +270,8 @@ class Shapes:
             parser.at = start
             values = {**scope.values, **{other: rational(int(other == axis)) for other in _AXES}}
             parser.scope = Scope(values, scope.functions, scope.taken)
-            entries.append(parser.expression(_ENTRY))
+            entry = parser.expression(_ENTRY)
+            entries.append(entry if entry.value is None else rational(entry.value))
         parser.scope = scope
         return entries
 

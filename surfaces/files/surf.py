@@ -22,7 +22,7 @@ NAME = "a surf script"
 TYPES = ("int", "double", "poly", "polyxyz", "string")
 AXES = ("xAxis", "yAxis", "zAxis")
 SURFACES = ("surface", *(f"surface{i}" for i in range(2, 10)))
-CLIPS = {"ball": 0, "cylinder_xaxis": 1, "cylinder_yaxis": 2, "cylinder_zaxis": 3, "cube": 4, "none": 5}
+CLIPS = {"ball": 0, "sphere": 0, "cylinder_xaxis": 1, "cylinder_yaxis": 2, "cylinder_zaxis": 3, "cube": 4, "none": 5}
 VIEW = {  # numbers that decide the domain, and their defaults
     "clip": 0.0,
     "radius": 10.0,
