@@ -97,7 +97,7 @@ class Shapes:
         degree = {"cubic": 3, "quartic": 4}.get(name.text)
         if degree is None:
             degree = self._order(name)
-            parser.expect(",")
+            parser.took(",")
         if name.text == "polynomial":
             return self._by_powers(degree)
         values = self._vector(None)
@@ -170,7 +170,7 @@ class Shapes:
         return Solid("isosurface", name.line, value, Box((-1.0, -1.0, -1.0), (1.0, 1.0, 1.0)), _REGIONS["contained_by"])
 
     def _region(self, token: Token) -> Domain | None:
-        """Read { sphere { <c>, r } } or { box { <a>, <b> } } with its moves; None for any other shape, which is skipped."""
+        """Read { sphere { <c>, r } } or { box { <a>, <b> } } with its moves; None for other shapes, which are skipped."""
         parser = self.parser
         parser.expect("{")
         kind = parser.peek().text
