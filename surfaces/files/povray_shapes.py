@@ -170,7 +170,7 @@ class Shapes:
         return Solid("isosurface", name.line, value, Box((-1.0, -1.0, -1.0), (1.0, 1.0, 1.0)), _REGIONS["contained_by"])
 
     def _region(self, token: Token) -> Domain | None:
-        """Read { sphere { <c>, r } } or { box { <a>, <b> } } with its moves; None for another shape, which is skipped."""
+        """Read a { sphere { } } or { box { } } with its moves; return None for another shape, which is skipped."""
         parser = self.parser
         parser.expect("{")
         kind = parser.peek().text
