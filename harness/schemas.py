@@ -11,7 +11,8 @@ import inspect
 import re
 import types
 import typing
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from enum import StrEnum
 from typing import Any
 
 from harness.limits import Distinct, Limit
@@ -36,7 +37,17 @@ def of_output(kind: type[Any]) -> Schema:
 
 
 def descriptions(kind: type[Any]) -> tuple[str, dict[str, str]]:
-    """Return what a dataclass's docstring says: what stands above its fields, and the meaning of each that it names."""
+    """Return what a dataclass's docstring says: its text without fields, and the meaning of each field that it names.
+
+    The fields of a dataclass that it inherits from are described there.
+    """
+    inherited = [descriptions(base)[1] for base in kind.__bases__ if dataclasses.is_dataclass(base)]
+    about, meanings = _described(kind)
+    return about, {name: text for own in (*inherited, meanings) for name, text in own.items()}
+
+
+def _described(kind: type[Any]) -> tuple[str, dict[str, str]]:
+    """Return what a dataclass's own docstring says, as `descriptions` does."""
     fields = {field.name for field in dataclasses.fields(kind)}
     about, meanings, names = list[str](), dict[str, str](), list[str]()
     for line in inspect.cleandoc(kind.__doc__ or "").splitlines():
@@ -73,19 +84,21 @@ class _Maker:
             return self._union(parts)
         if origin is typing.Literal:
             return {"enum": list(parts)}
-        if origin in (list, tuple) and (origin is list or parts[1:] == (...,)):
+        if origin in (list, Sequence):
             return self._list(self._of(parts[0]), {})
         if origin is tuple:
             assert len(set(parts)) == 1, "editors read older drafts too, which write items of several kinds otherwise"
             return {"type": "array", "items": self._of(parts[0]), "minItems": len(parts), "maxItems": len(parts)}
         if origin in (dict, Mapping):
             return {"type": "object", "additionalProperties": self._of(parts[1])}
+        if isinstance(kind, type) and issubclass(kind, StrEnum):
+            return {"enum": [str(word) for word in kind]}
         if isinstance(kind, type) and dataclasses.is_dataclass(kind):
             if kind.__name__ not in self._tables:
                 self._tables[kind.__name__] = {}  # a table that holds itself ends here
                 self._tables[kind.__name__] = self._table(kind)
             return {"$ref": f"#/$defs/{kind.__name__}"}
-        return {"type": PLAIN[kind]}
+        return {} if kind is Any else {"type": PLAIN[kind]}
 
     def _union(self, parts: tuple[Any, ...]) -> Schema:
         """Return the schema of one of several kinds. TOML has no null: None says there that a key is left out."""
