@@ -27,7 +27,7 @@ from harness.scenes.views import AngleChoice, DirectionChoice
 
 NOT_NEGATIVE = Within(0.0, inf, "a tolerance is not negative")
 # Keys of older configs, and what to do instead
-GONE = {
+GONE: dict[tuple[str | int, ...], str] = {
     ("gate", "same"): "is gone: devices are compared by how they compute, and rows of devices whose last bits differ "
     "are held with more tolerance; remove the key, and state that tolerance in [gate.last_bits] if the default is "
     "not yours",
