@@ -183,3 +183,21 @@ seconds = -1
         "10: unknown key 'nam' in method.1; did you mean 'name'?",
         "12: budget.seconds: -1.0 is outside [0, 100000]",
     ]
+
+
+def test_all_names_that_are_not_there_are_told_at_once(tmp_path):
+    text = """title = "t"
+surfaces = ["toruss"]
+[[method]]
+name = "newtn"
+[[method]]
+name = "ray_march"
+parameters = { STEP = 3 }
+[[scene.one.placed]]
+surface = "sper"
+"""
+    with pytest.raises(FirsthitError) as caught:
+        load(tmp_path, text)
+    told = [line.partition("c.toml:")[2] for line in str(caught.value).splitlines()]
+    assert [line[: line.index(" ")] for line in told] == ["4:", "6:", "2:", "8:"]
+    assert all(name in line for name, line in zip(("newtn", "STEP", "toruss", "sper"), told, strict=True))
