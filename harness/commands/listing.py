@@ -56,12 +56,16 @@ def _methods(options: argparse.Namespace) -> str:
 def _surfaces(_options: argparse.Namespace) -> str:
     import surfaces
 
-    chosen = [surfaces.get(form) for name in surfaces.names() for form in (name, *surfaces.forms_of(name))]
-    rows = [
-        (s.name, "-" if s.degree is None else s.degree, sum(surfaces.operations(s).values()), s.title, s.source)
-        for s in chosen
-    ]
-    return console.table(("name", "degree", "operations", "title", "source"), rows)
+    header = ("name", "degree", "operations", "title", "source")
+    listed = []
+    for group, title in surfaces.groups().items():
+        chosen = [surfaces.get(form) for name in surfaces.names(group) for form in (name, *surfaces.forms_of(name))]
+        rows = [
+            (s.name, "-" if s.degree is None else s.degree, sum(surfaces.operations(s).values()), s.title, s.source)
+            for s in chosen
+        ]
+        listed.append(f"{group}: {title}\n\n{console.table(header, rows)}")
+    return "\n\n".join(listed)
 
 
 def _configs(_options: argparse.Namespace) -> str:
