@@ -4,6 +4,7 @@ A wrong transcription renders plausibly. Everything in `facts` is therefore reco
 tests/test_gallery_facts.py:
 
     singular_points   how many real points have f = 0 and grad f = 0, all of them isolated
+    singular_within     a radius about the domain's centre, and how many such points lie within it, of more farther out
     singular_along    directions (a, b, c) of lines through the origin along which f and grad f vanish
     singular_at       some points of a curve along which f and grad f vanish
     symmetries        names of SYMMETRIES that leave f as it is

@@ -54,7 +54,7 @@ def distinct(points: Points, apart: float) -> Points:
     return np.array(kept).reshape(-1, 3)
 
 
-def singular_points(surface: Surface) -> Points:
+def singular_points(surface: Surface, starts: Points | None = None) -> Points:
     """Isolated real points with f = 0 and grad f = 0: Newton from many starts, completed by the symmetries."""
     scale = np.abs(surfaces.evaluate(surface, scattered(surface, 1000))).mean()
     facts = dict(surface.facts)
@@ -64,8 +64,9 @@ def singular_points(surface: Surface) -> Points:
         near = np.linalg.norm(points - surface.domain.center, axis=1) < 10.0 * surface.domain.radius
         return points[(np.abs(surfaces.evaluate(surface, points)) < 1e-12 * scale) & flat & near]
 
+    starts = scattered(surface, 1500, 1.05) if starts is None else starts
     apart = 1e-3 * surface.domain.radius
-    found = distinct(singular(refined(surface, scattered(surface, 1500, 1.05), 50)), apart)
+    found = distinct(singular(refined(surface, starts, 50)), apart)
     while True:
         images = [found @ np.array(SYMMETRIES[name]).T for name in facts.get("symmetries", ())]
         more = distinct(singular(refined(surface, np.vstack([found, *images]), 2)), apart)

@@ -186,7 +186,7 @@ class Config:
         report collects them
     baseline: the method, or the variant by its label, that reports give speed-ups over
     studies: computations of harness.studies
-    surfaces, families: names, or ["all"]
+    surfaces, families: names, or ["all"]; of surfaces that is the catalog, and "gallery" and its groups are names too
     view: the views that are named one by one and, once names are resolved, those of `angles` and `directions`; without
         any, one default view
     origins: of rays; beams have none

@@ -21,7 +21,7 @@ SURFACES: tuple[Surface, ...] = (
         "Kusner–Schmitt periodic surface",
         "(x^2 + 3)*(y^2 + 3)*(z^2 + 3) - 32*(x*y*z + 1)",
         6,
-        Sphere(4.0),
+        Sphere(2.0),
         _NORDSTRAND,
         symmetries=("half_turn_x", "swap_xy", "cycle_xyz", "quarter_roto_reflection_z", "half_turn_z"),
         singular_points=4,

@@ -85,8 +85,8 @@ SURFACES: tuple[Surface, ...] = (
     _distance(
         "box_frame",
         "Distance bound of the frame of a box",
-        "max(max(abs(x), abs(y), abs(z)) - 0.8, min(max(abs(x), abs(y)), max(abs(y), abs(z)), max(abs(z), abs(x)))"
-        " - 0.65, 0.65 - max(min(abs(x), abs(y)), min(abs(y), abs(z)), min(abs(z), abs(x))))",
+        "max(max(abs(x), abs(y), abs(z)) - 0.8,"
+        " 0.65 - max(min(abs(x), abs(y)), min(abs(y), abs(z)), min(abs(z), abs(x))))",
         Box((-0.875, -0.875, -0.875), (0.875, 0.875, 0.875)),
         f"{_QUILEZ}: the frame, here as an intersection",
         symmetries=FULL,
@@ -209,7 +209,7 @@ SURFACES: tuple[Surface, ...] = (
     _distance(
         "nested_shells",
         "Nested shells, cut open",
-        "max(abs(abs(abs(sqrt(x^2 + y^2 + z^2) - 0.6) - 0.2) - 0.1) - 0.04, x + y + z - 0.3)",
+        "max(abs(abs(abs(sqrt(x^2 + y^2 + z^2) - 0.6) - 0.2) - 0.1) - 0.04, (x + y + z - 0.3)/sqrt3)",
         Sphere(1.125),
         f"{_QUILEZ}: making shapes annular",
         symmetries=("swap_xy", "cycle_xyz"),

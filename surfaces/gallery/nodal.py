@@ -12,7 +12,7 @@ _FOLDED = f"{_CHMUTOV}; real nodes: S. Breske, O. Labs, D. van Straten, Real lin
 _DELTOID = Box((-1.75, -2.875, -1.125), (3.25, 2.875, 1.125))
 _ENDRASS = "S. Endraß, Surf's gallery of surfaces with many nodes, 2003"
 _GOURSAT = "E. Goursat, Étude des surfaces qui admettent tous les plans de symétrie d'un polyèdre régulier, 1887"
-_LABS = "O. Labs, A septic with 99 real nodes, 2006; alpha to 12 decimals"
+_LABS = "O. Labs, A septic with 99 real nodes, 2006; with the real root of 7a^3 + 7a + 1 to 32 digits"
 
 SURFACES: tuple[Surface, ...] = (
     entry(
@@ -39,14 +39,15 @@ SURFACES: tuple[Surface, ...] = (
     entry(
         "labs_septic",
         "Labs septic",
-        "x^7 - 21*x^5*y^2 + 35*x^3*y^4 - 7*x*y^6 + 7*z*((x^2 + y^2)^3 - 8*z^2*(x^2 + y^2)^2 + 16*z^4*(x^2 + "
-        "y^2)) - 64*z^7 - (z + 51.942614594815)*(-0.078528201497*z^3 - 4.158360592880*z^2 - 4.147143488966*z "
-        "- 1.188165938071 + (z + 1)*(x^2 + y^2))^2",
+        "x^7 - 21*x^5*y^2 + 35*x^3*y^4 - 7*x*y^6 + 7*z*((x^2 + y^2)^3 - 8*z^2*(x^2 + y^2)^2 + 16*z^4*(x^2 + y^2))"
+        " - 64*z^7 - (z + 51.942614594814650766502398132948)*((z + 1)*(x^2 + y^2)"
+        " - 0.078528201496985215355479339329584*z^3 - 4.1583605922880170176286891821059*z^2"
+        " - 4.1471434889655123257182185782115*z - 1.1881659380714787350787731342962)^2",
         7,
         Sphere(2.5),
         _LABS,
         symmetries=("mirror_y", "seventh_turn_z"),
-        singular_points=99,
+        singular_within=(6.0, 92),  # of 99; the last seven are at r = 15.8
     ),
     entry(
         "goursat",
