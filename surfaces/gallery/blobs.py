@@ -126,4 +126,26 @@ SURFACES: tuple[Surface, ...] = (
         f"{_PASKO}, section 4: blending union",
         symmetries=("mirror_x", "mirror_z", "swap_xy"),
     ),
+    entry(
+        "nishimura_metaballs",
+        "Nishimura's metaballs",
+        "let bump(r) = if(r < 1/3, 1 - 3*r^2, if(r < 1, 3/2*(1 - r)^2, 0));"
+        " bump(length(x - 0.4, y, z)) + bump(length(x + 0.4, y, z)) + bump(length(x, y, z - 0.6)) - 0.45",
+        None,
+        Box((-1.125, -0.75, -0.75), (1.125, 0.75, 1.25)),
+        "H. Nishimura et al., Object modeling by distribution function, 1985: piecewise quadratic",
+        symmetries=("mirror_x", "mirror_y"),
+    ),
+    entry(
+        "convolution_jack",
+        "Convolution surface of three segments",
+        # a segment from -1 to 1 under the Cauchy kernel of width 1/2: h is the squared distance from its line
+        "let part(t, p) = t/(2*p*(p + 4*t^2)) + atan2(2*t, sqrt(p))/(4*p*sqrt(p));"
+        " let segment(t, h) = part(1 - t, 1 + 4*h) + part(1 + t, 1 + 4*h);"
+        " segment(x, y^2 + z^2) + segment(y, z^2 + x^2) + segment(z, x^2 + y^2) - 1",
+        None,
+        Sphere(1.875),
+        f"{_SHERSTYUK}: the Cauchy kernel along a segment",
+        symmetries=FULL,
+    ),
 )

@@ -242,4 +242,17 @@ SURFACES: tuple[Surface, ...] = (
         "I. Quilez, Smooth minimum, 2013: exponential",
         symmetries=("mirror_y",),
     ),
+    _distance(
+        "menger_sponge",
+        "Menger sponge of two levels",
+        "let cross(a, b, c) = min(max(a, b), max(b, c), max(c, a)) - 1;"
+        " let third(t) = mod(3*t + 1, 2) - 1;"  # of the cube, from -1 to 1
+        " let hole(p, q, r) = cross(abs(p), abs(q), abs(r));"
+        " max(abs(x) - 1, abs(y) - 1, abs(z) - 1, -hole(3*x, 3*y, 3*z)/3,"
+        " -hole(3*third(x), 3*third(y), 3*third(z))/9)",
+        Box((-1.125, -1.125, -1.125), (1.125, 1.125, 1.125)),
+        "K. Menger 1926; I. Quilez, Menger fractal, 2011",
+        symmetries=FULL,
+        points=((1, 0.5, 0.5), (0.5, 0.5, 1)),
+    ),
 )

@@ -119,4 +119,34 @@ SURFACES: tuple[Surface, ...] = (
         "G. Grandi 1723: the curve r = cos 5θ; E. W. Weisstein, MathWorld: Rose",
         symmetries=("fifth_turn_z", "mirror_y", "mirror_z"),
     ),
+    entry(
+        "sarti_dodecic",
+        "Sarti dodecic",
+        "let l1 = x^4 + y^4 + z^4 + 1; let l2 = x^2*y^2 + z^2; let l3 = x^2*z^2 + y^2; let l4 = x^2 + y^2*z^2;"
+        " let l5 = x*y*z; let q = x^2 + y^2 + z^2 + 1;"
+        " let s10 = l1*(l2*l3 + l2*l4 + l3*l4); let s11 = l1^2*(l2 + l3 + l4); let s12 = l1*(l2^2 + l3^2 + l4^2);"
+        " let s51 = l5^2*(l2 + l3 + l4); let s234 = l2^3 + l3^3 + l4^3;"
+        " let plus = l2*l3*(l2 + l3) + l3*l4*(l3 + l4) + l4*l2*(l4 + l2);"
+        " let minus = l2*l3*(l2 - l3) + l3*l4*(l3 - l4) + l4*l2*(l4 - l2);"
+        " 22*q^6 - 243*(33*sqrt5*minus + 19*plus + 10*s234 - 14*s10 + 2*s11 - 6*s12 - 352*s51 + 336*l5^2*l1"
+        " + 48*l2*l3*l4)",
+        12,
+        Sphere(2.5),
+        "A. Sarti, Pencils of symmetric surfaces in P3, J. Algebra 246, 2001; S. Endraß, Surf's gallery, 2003",
+        symmetries=("mirror_x", "cycle_xyz", "icosahedral_turn"),
+        singular_within=(2.5, 290),  # of 600, some of them at infinity
+    ),
+    entry(
+        "quaternion_julia",
+        "Lemniscate of a quaternion Julia set",
+        # q -> q^2 + c on q = (a, b, c', 0), whose imaginary part keeps its direction but for that of c
+        "let a1 = x^2 - y^2 - z^2 - 0.3; let b1 = 2*x*y + 0.6; let c1 = 2*x*z;"
+        " let a2 = a1^2 - b1^2 - c1^2 - 0.3; let b2 = 2*a1*b1 + 0.6; let c2 = 2*a1*c1;"
+        " let a3 = a2^2 - b2^2 - c2^2 - 0.3; let b3 = 2*a2*b2 + 0.6; let c3 = 2*a2*c2;"
+        " a3^2 + b3^2 + c3^2 - 4",
+        16,
+        Sphere(1.75),
+        "A. Norton, Julia sets in the quaternions, Computers & Graphics 13, 1989: three turns, |q| = 2",
+        symmetries=("mirror_z",),
+    ),
 )

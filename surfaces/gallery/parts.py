@@ -11,6 +11,7 @@ from surfaces.model import Box, Sphere, Surface
 TITLE = "CAD parts: unions, intersections, differences, fillets"
 _REQUICHA = "A. A. G. Requicha, Representations for rigid solids, ACM Computing Surveys 12, 1980: constructive solids"
 _BARR = "A. H. Barr, Superquadrics and angle-preserving transformations, IEEE CG&A 1, 1981"
+_PASKO = "A. Pasko, V. Adzhiev, A. Sourin, V. Savchenko, Function representation, The Visual Computer 11, 1995"
 _RICCI = "A. Ricci, A constructive geometry for computer graphics, The Computer Journal 16, 1973: min and max"
 _QUILEZ = "I. Quilez, Smooth minimum, 2013: quadratic polynomial"
 _BLOCK = "max(abs(x), abs(y), abs(z)) - 0.75"
@@ -179,5 +180,65 @@ SURFACES: tuple[Surface, ...] = (
         Box((-0.8125, -0.8125, -0.8125), (0.8125, 0.8125, 0.8125)),
         "D. Yoo, Porous scaffold design by implicit functions, Int. J. Precis. Eng. Manuf. 12, 2011; Schoen 1970",
         symmetries=("cycle_xyz",),
+    ),
+    entry(
+        "superquadric_5",
+        "Superquadric with exponent 5/2",
+        "abs(x)^2.5 + abs(y)^2.5 + abs(z)^2.5 - 1",
+        None,
+        Sphere(1.25),
+        _BARR,
+        symmetries=FULL,
+        points=((1, 0, 0), (0, -1, 0)),
+    ),
+    entry(
+        "astroidal_ellipsoid",
+        "Astroidal ellipsoid",
+        "abs(x)^(2/3) + abs(y)^(2/3) + abs(z)^(2/3) - 1",
+        None,
+        Sphere(1.0625),
+        "A. Gray, Modern Differential Geometry, 1997; E. W. Weisstein, MathWorld: Astroidal Ellipsoid",
+        symmetries=FULL,
+        points=((1, 0, 0), (0, -1, 0)),
+    ),
+    entry(
+        "threaded_rod",
+        "Threaded rod",
+        "max(sqrt(x^2 + y^2) - 0.5 - 0.06*cos(atan2(y, x) - 12*z), abs(z) - 1)",
+        None,
+        Box((-0.625, -0.625, -1.125), (0.625, 0.625, 1.125)),
+        f"{_PASKO}: a surface of revolution, displaced along a helix",
+        symmetries=("half_turn_x",),
+        points=((0.56, 0, 0), (0.1, 0.2, 1)),
+    ),
+    entry(
+        "spur_gear",
+        "Spur gear",
+        "max(sqrt(x^2 + y^2) - 0.85 - 0.1*tanh(3*cos(12*atan2(y, x))), abs(z) - 0.2, 0.3 - sqrt(x^2 + y^2))",
+        None,
+        Box((-1, -1, -0.25), (1, 1, 0.25)),
+        f"{_PASKO}; teeth as a smooth wave of the angle",
+        symmetries=("twelfth_turn_z", "mirror_x", "mirror_y", "mirror_z"),
+        points=((0.3, 0, 0), (0.5, 0, 0.2)),
+    ),
+    entry(
+        "helical_spring",
+        "Helical spring",
+        "(sqrt(x^2 + y^2) - 0.7)^2 + (1 - cos(atan2(y, x) - 8*z))/32 - 0.01",
+        None,
+        Box((-0.875, -0.875, -1.125), (0.875, 0.875, 1.125)),
+        "E. W. Weisstein, MathWorld: Helix; the tube about it, cut by its domain",
+        symmetries=("half_turn_x",),
+        points=((0.8, 0, 0), (0.6, 0, 0)),
+    ),
+    entry(
+        "heat_sink",
+        "Heat sink",
+        "max(min(abs(mod(x + 0.1, 0.2) - 0.1) - 0.03, z + 0.35), abs(x) - 0.93, abs(y) - 0.7, abs(z) - 0.5)",
+        None,
+        Box((-1.0625, -0.8125, -0.625), (1.0625, 0.8125, 0.625)),
+        f"{_REQUICHA}; fins repeated by a remainder",
+        symmetries=("mirror_y",),
+        points=((0, 0, 0.5), (0.03, 0, 0)),
     ),
 )
