@@ -85,7 +85,8 @@ class _Named:
 def _surfaces(_options: Namespace) -> list[str]:
     import surfaces
 
-    return [form for name in surfaces.names() for form in (name, *surfaces.forms_of(name))]
+    names = (*surfaces.names(), *surfaces.names(surfaces.GALLERY))
+    return [form for name in names for form in (name, *surfaces.forms_of(name))]
 
 
 def _methods(options: Namespace) -> list[str]:

@@ -149,11 +149,17 @@ def _check_baseline(config: Config, file: ConfigFile, catalog: Catalog, variants
 
 
 def _surfaces(config: Config, file: ConfigFile) -> list[Surface]:
-    """Return the surfaces that the config names. Raises FirsthitError for an unknown one and for a bad formula."""
-    import surfaces
+    """Return the surfaces that the config names, of a group that it names all.
 
+    "all" is the catalog. Raises FirsthitError for an unknown one and for a bad formula.
+    """
+    import surfaces
+    from surfaces.entries import CATALOG
+
+    groups = {"all": CATALOG, surfaces.GALLERY: surfaces.GALLERY} | {name: name for name in surfaces.groups()}
     chosen: list[Surface] = []
-    for name in surfaces.names() if config.surfaces == ["all"] else config.surfaces:
+    named = [surfaces.names(groups[name]) if name in groups else (name,) for name in config.surfaces]
+    for name in dict.fromkeys(name for own in named for name in own):
         try:
             chosen.append(_surface(name, {}, config))
         except FirsthitError as error:
