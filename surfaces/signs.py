@@ -239,7 +239,7 @@ def _power(a: Range, n: float) -> Range:
         if base <= 0.0 or base in (1.0, inf):
             return max(base, 0.0)
         try:
-            value = base**n
+            value = float(base**n)
         except OverflowError:
             return inf if outward > 0 else 1e300
         return max(0.0, value * (1.0 + (_SLACK if outward > 0 else -_SLACK)) + (1e-300 if outward > 0 else -1e-300))
@@ -263,7 +263,7 @@ def _logarithm(a: Range) -> Range:
     return Range(at(a.low, -inf), at(a.high, inf))
 
 
-def _own(op: Op, known: Sequence[Range]) -> Range:  # noqa: C901, PLR0911, PLR0912
+def _own(op: Op, known: Sequence[Range]) -> Range:
     """Return the range of an operation by the ranges of its inputs."""
     of = [known[i] for i in op.inputs]
     match op.name:

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from harness import console
 from harness.commands import Add
+from harness.commands.options import tell
 from harness.commands.printer import Printer
 from harness.contract import DeviceInfo, FirsthitError
 from harness.experiment import config, identity, plan
@@ -17,7 +18,7 @@ from harness.plugins import Catalog, find_methods
 from harness.results.history import past_of
 from harness.results.store import Row, Store
 from harness.running.due import due, estimate_seconds
-from harness.running.run import Loaded, load, run
+from harness.running.run import Loaded, load, remarks, run
 
 
 def add_parsers(add: Add) -> None:
@@ -69,7 +70,9 @@ def _plan(options: argparse.Namespace) -> int:
 def _plan_one(
     experiment: config.Experiment, catalog: Catalog, devices: list[DeviceInfo], options: argparse.Namespace
 ) -> None:
-    """Print a config's cells, and how long those that must run will take."""
+    """Print a config's cells, and how long those that must run will take; on standard error what is to be known."""
+    for told in remarks(experiment):
+        tell(f"firsthit: {told}")
     planned = plan.plan(experiment, catalog, devices)
     store = Store(options.runs / experiment.name)
     found = due(planned, store)

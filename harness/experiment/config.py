@@ -94,12 +94,15 @@ class MethodChoice:
 class SurfaceChoice:
     """Define a surface of the config's own; without a formula, change the catalog's of that name.
 
-    domain: if none is given, the catalog's, or sphere:1.5 for a formula
+    domain: if none is given, the catalog's, or sphere:1.5 for a formula; auto finds a box
+    distance: a formula of f's sign that is nowhere larger than the distance to the surface, for sphere_tracing; it is
+        tested. Without it, f is the distance where that can be proved
     """
 
     formula: str = ""
     domain: str = ""
     parameters: dict[str, float] = field(default_factory=dict)
+    distance: str = ""
 
 
 @dataclass(frozen=True)
