@@ -61,6 +61,7 @@ from collections.abc import Mapping, Sequence
 from harness.contract import Method, Parameter, Precision, Surface
 
 TWO_MINIMA = ("sphere", "torus")  # surfaces of the catalog; along a line no distance to them has a third minimum
+LONGEST = 20  # operations of their distances
 
 
 def accepts(surface: Surface) -> str | None:
@@ -74,14 +75,19 @@ def two_minima(surface: Surface) -> bool:
     """Return whether the distance is written as that of a torus about the z axis or of a sphere about the origin."""
     import surfaces
     from surfaces.formula import parse
-    from surfaces.tape import Op
 
-    def outline(of: Surface) -> list[Op]:
-        """Return the operations without the numbers of constants."""
+    def outline(of: Surface) -> str:
+        """Write the distance without the numbers of its constants; "" where it is longer than any of these."""
         tape = parse(of.distance or "0", dict(of.parameters))
-        return [Op("const") if op.name == "const" else op for op in tape.ops]
+        if len(tape.ops) > LONGEST:
+            return ""
+        texts: list[str] = []
+        for op in tape.ops:
+            own = str(op.args) if op.name == "var" else ", ".join(texts[i] for i in op.inputs)
+            texts.append(f"{op.name}({own})")
+        return texts[tape.outputs[0]]
 
-    return any(outline(surface) == outline(surfaces.get(name)) for name in TWO_MINIMA)
+    return outline(surface) in {outline(surfaces.get(name)) for name in TWO_MINIMA}
 
 
 def tables(surface: Surface, _: Mapping[str, float | int], __: Precision) -> Mapping[str, Sequence[float]]:
