@@ -17,7 +17,7 @@ cuts it, or finds a domain.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
@@ -29,8 +29,11 @@ if TYPE_CHECKING:
     from surfaces.evaluation import evaluate, expression, gradient, operations, tape_of
 
 AUTO = "auto"  # the domain that is found
+_EVALUATION = ("evaluate", "expression", "gradient", "operations", "tape_of")
 __all__ = [
     "AUTO",
+    "Reading",
+    "canonical",
     "evaluate",
     "expression",
     "forms_of",
@@ -39,6 +42,7 @@ __all__ = [
     "gradient",
     "names",
     "operations",
+    "reading",
     "tape_of",
 ]
 
@@ -50,9 +54,32 @@ def __getattr__(name: str) -> Any:
 
     It needs numpy; harness.contract, and with it every command, imports this package for surfaces.model alone.
     """
-    if name in __all__:
+    if name in _EVALUATION:
         return getattr(import_module("surfaces.evaluation"), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+@dataclass(frozen=True)
+class Reading:
+    """Hold how a surface's formula was read: its canonical form, and notes, each a sentence's worth for the user."""
+
+    canonical: str
+    notes: tuple[str, ...]
+
+
+def canonical(surface: Surface) -> str:
+    """Return a surface's formula in the language's primitives, without parameters; it reads back as the same graph."""
+    from surfaces import formula
+
+    return formula.canonical(formula.parse(surface.formula, dict(surface.parameters)))
+
+
+def reading(surface: Surface) -> Reading:
+    """Return how a surface's formula was read."""
+    from surfaces import formula
+
+    notes = formula.reading(surface.formula, dict(surface.parameters)).notes
+    return Reading(canonical(surface), notes)
 
 
 def names() -> tuple[str, ...]:
@@ -115,14 +142,15 @@ def from_formula(
 ) -> Surface:
     """Return the surface of a formula in the language of surfaces.formula.
 
-    `domain` is "sphere:R", "sphere:x,y,z:R" about another centre, "box:a,b,c" with half extents,
-    "box:x0,y0,z0:x1,y1,z1", a Sphere or a Box, or "auto": a box that is proved to hold the whole surface
-    (surfaces.extent). `distance` is a formula as Surface.distance describes it, with the same parameters; it is tested
-    where it is used (harness.oracle.stated_distance). Without it, f is the distance where that can be proved
-    (surfaces.lipschitz).
+    `parameters` are numbers or formulas of constants, as "1/3" and "sqrt(2)". `domain` is "sphere:R", "sphere:x,y,z:R"
+    about another centre, "box:a,b,c" with half extents, "box:x0,y0,z0:x1,y1,z1", a Sphere or a Box, or "auto": a box
+    that is proved to hold the whole surface (surfaces.extent). `distance` is a formula as Surface.distance describes
+    it, with the same parameters; it is tested where it is used (harness.oracle.stated_distance). Without it, f is the
+    distance where that can be proved (surfaces.lipschitz).
 
-    Raises FirsthitError if the text is no formula, the domain is none or a parameter no decimal, if f does not depend
-    on x, y and z, if f or the distance cannot be shown to be defined all over the domain, or if no domain is found.
+    Raises FirsthitError if the text is no formula, the domain is none, a parameter no constant or in no formula, if f
+    does not depend on x, y and z, if f or the distance cannot be shown to be defined all over the domain, or if no
+    domain is found.
     """
     if not isinstance(text, str):
         raise FirsthitError(f"a formula is a text, as in 'x^2 + y^2 + z^2 - 1', not {text!r}")
@@ -131,40 +159,50 @@ def from_formula(
     from surfaces.lipschitz import is_distance
     from surfaces.validity import check, undefined
 
-    bound = _decimals(parameters or {})
-    tape = formula.parse(text, bound)
-    degree = formula.degree(tape)
+    bound = _texts(parameters or {})
+    found = formula.reading(text, bound)
+    stated = None if distance is None else formula.reading(distance, bound)
+    used = found.used | (stated.used if stated else frozenset())
+    if unused := sorted(bound.keys() - used):
+        hint = suggestion(unused[0], sorted(used), otherwise=f"its parameters are {', '.join(sorted(used))}")
+        raise FirsthitError(f"no {unused[0]!r} occurs in the formula; {hint if used else 'it has no parameters'}")
+    degree = formula.degree(found.tape)
     surface = Surface(
         name=name,
         title=text if len(text) <= 60 else text[:57] + "...",
         formula=text,
-        domain=held_by(tape) if domain == AUTO else _domain(domain),
+        domain=held_by(found.tape) if domain == AUTO else _domain(domain),
         source="given as a formula",
         degree=degree,
         parameters=tuple(sorted(bound.items())),
     )
     check(surface)
     if distance is None:
-        return replace(surface, distance=text) if is_distance(tape, surface.domain) else surface
-    if problem := undefined(formula.parse(distance, bound), surface.domain):
+        return replace(surface, distance=text) if is_distance(found.tape, surface.domain) else surface
+    if stated and (problem := undefined(stated.tape, surface.domain)):
         raise FirsthitError(f"{name}'s distance: {problem}")
     return replace(surface, distance=distance)
 
 
 def _decimals(values: Mapping[str, str | float]) -> dict[str, str]:
-    """Return parameters as exact decimals. Raises FirsthitError for a value that is none."""
+    """Return parameters as rational numbers' texts. Raises FirsthitError for a value that is none."""
     from surfaces import formula
 
-    texts = {}
-    for name, value in values.items():
-        if not isinstance(value, str) and not is_number(value):
-            raise FirsthitError(f"parameter {name} is a number or the text of a decimal, not {value!r}")
-        texts[name] = str(value).strip()
+    texts = _texts(values)
+    for name, text in texts.items():
         try:
-            formula.exact(texts[name])
+            formula.exact(text)
         except FirsthitError as error:
             raise FirsthitError(f"parameter {name}: {error}") from None
     return texts
+
+
+def _texts(values: Mapping[str, str | float]) -> dict[str, str]:
+    """Return parameters as texts. Raises FirsthitError for a value that is neither a number nor a text."""
+    for name, value in values.items():
+        if not isinstance(value, str) and not is_number(value):
+            raise FirsthitError(f"parameter {name} is a number or the text of a constant, not {value!r}")
+    return {name: str(value).strip() for name, value in values.items()}
 
 
 def _domain(text: str | Domain) -> Domain:
