@@ -8,7 +8,7 @@ in rationals, on intervals of d between which a clamp, a minimum or an absolute 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -36,13 +36,13 @@ class Piece:
 
 
 def is_blend(ops: Sequence[Op], op: Op) -> tuple[int, int] | None:
-    """Return two operations of which `op`, a sum, is proved to be a convex combination; None where none are found."""
+    """Return two operations of which `op`, a sum, is proved to be a convex combination, or that negated, else None."""
     for a, b in _pairs(ops, op):
         try:
             pieces = _run(ops, op, a, b)
         except NotAPolynomialError:
             continue
-        if all(_is_share(piece) for piece in pieces):
+        if all(map(_is_share, pieces)) or all(map(_is_share, _negated(pieces))):
             return a, b
     return None
 
@@ -92,7 +92,7 @@ def _value(op: Op, known: dict[int, list[Piece]]) -> list[Piece]:
         return [Piece(None, None, _trimmed([op.args[0]]), ())]
     of = [known[i] for i in op.inputs]
     if op.name == "neg":
-        return [Piece(p.low, p.high, _times(p.own, (Fraction(-1),)), _times(p.of_b, (Fraction(-1),))) for p in of[0]]
+        return _negated(of[0])
     if op.name == "sqr":
         return _joined(of[0], of[0], _product)
     if op.name == "powi":
@@ -101,18 +101,21 @@ def _value(op: Op, known: dict[int, list[Piece]]) -> list[Piece]:
             value = _joined(value, of[0], _product)
         return value
     if op.name == "abs":
-        negative = _value(Op("neg", (0,)), {0: of[0]})
-        return _extreme(of[0], negative, most=True)
+        return _extreme(of[0], _negated(of[0]), most=True)
     if op.name in ("min", "max"):
         return _extreme(of[0], of[1], most=op.name == "max")
     if op.name == "mul":
         return _joined(of[0], of[1], _product)
-    sign = (Fraction(1 if op.name == "add" else -1),)
-    return _joined(
-        of[0],
-        of[1],
-        lambda p, q: (_plus(p.own, _times(q.own, sign)), _plus(p.of_b, _times(q.of_b, sign))),
-    )
+    return _joined(of[0], of[1] if op.name == "add" else _negated(of[1]), _total)
+
+
+def _negated(pieces: list[Piece]) -> list[Piece]:
+    minus = (Fraction(-1),)
+    return [Piece(p.low, p.high, _times(p.own, minus), _times(p.of_b, minus)) for p in pieces]
+
+
+def _total(p: Piece, q: Piece) -> tuple[Poly, Poly]:
+    return _plus(p.own, q.own), _plus(p.of_b, q.of_b)
 
 
 def _product(p: Piece, q: Piece) -> tuple[Poly, Poly]:
@@ -121,7 +124,9 @@ def _product(p: Piece, q: Piece) -> tuple[Poly, Poly]:
     return _times(p.own, q.own), _plus(_times(p.own, q.of_b), _times(p.of_b, q.own))
 
 
-def _joined(first: list[Piece], second: list[Piece], combine) -> list[Piece]:  # type: ignore[no-untyped-def]
+def _joined(
+    first: list[Piece], second: list[Piece], combine: Callable[[Piece, Piece], tuple[Poly, Poly]]
+) -> list[Piece]:
     """Combine two piecewise values on the intervals that both have."""
     made = []
     for p in first:
@@ -138,11 +143,7 @@ def _joined(first: list[Piece], second: list[Piece], combine) -> list[Piece]:  #
 def _extreme(first: list[Piece], second: list[Piece], most: bool) -> list[Piece]:
     """Return the maximum, or the minimum, of two piecewise values whose difference is linear in d on every piece."""
     made: list[Piece] = []
-    apart = _joined(
-        first,
-        second,
-        lambda p, q: (_plus(p.own, _times(q.own, (Fraction(-1),))), _plus(p.of_b, _times(q.of_b, (Fraction(-1),)))),
-    )
+    apart = _joined(first, _negated(second), _total)
     values = [_joined(first, second, lambda *of, k=k: (of[k].own, of[k].of_b)) for k in (0, 1)]
     for gap, p, q in zip(apart, *values, strict=True):
         if gap.of_b or len(gap.own) > 2:
