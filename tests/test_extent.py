@@ -152,7 +152,7 @@ def test_show_and_plan_and_run_and_report_and_recommend_say_that_a_surface_is_cu
         f'title = "Cut"\nsurfaces = ["mine", "whole"]\nsizes = [16]\ndevices = ["{device}"]\n'
         f'[surface.mine]\nformula = "{CUT}"\ndomain = "sphere:1.8"\n'
         f'[surface.whole]\nformula = "{CUT}"\ndomain = "auto"\n'
-        '[[method]]\nname = "newton"\n[[method]]\nname = "ray_march"\n'
+        '[[method]]\nname = "newton"\n'
         "[accuracy]\nsize = 12\n[budget]\nseconds = 0.001\nrounds = 1\n"
     )
     assert main(["plan", str(config), "--runs", str(tmp_path)]) == 0
