@@ -93,7 +93,7 @@ def _on_boxes(tape: Tape, domain: Domain) -> bool:
     """Return whether the gradient is at most 1 long on boxes that cover the domain, which are halved in time."""
     if len(tape.ops) > MOST_OPERATIONS:
         return False
-    slopes, left = gradient(real_tape(tape)), SECONDS
+    slopes, left = gradient(real_tape(tape), guarded=False), SECONDS
     used = np.array([any(op.name == "var" and op.args[0] == axis for op in tape.ops) for axis in "xyz"])
     lower, upper = (np.array([corner], np.float64) for corner in corners(domain))
     while len(lower) and left > 0.0:

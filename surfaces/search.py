@@ -23,24 +23,22 @@ _CORNERS = np.array(list(product((-1.0, 1.0), repeat=3)))
 
 @dataclass
 class Searcher:
-    """Hold a tape, its gradient where it has one, and the time that is left for searching, seconds.
+    """Hold a tape, its gradient, and the time that is left for searching, seconds.
 
     `left` is counted by the work that is done, not by the clock, so that the same question has the same answer.
     """
 
     tape: Tape
     left: float
-    slopes: Tape | None = field(init=False)
+    slopes: Tape | None = field(init=False)  # None where f may jump: then slopes bound nothing
     defined: tuple[tuple[str, int], ...] = field(init=False)  # operations whose argument must be in their domain
 
     def __post_init__(self) -> None:
         self.defined = tuple(
             (op.name, op.inputs[-1]) for op in self.tape.ops if op.name in ("div", "log", "sqrt", "powr", "tan")
         )
-        try:
-            self.slopes = gradient(real_tape(self.tape))
-        except (ValueError, ZeroDivisionError):
-            self.slopes = None
+        jumps = any(op.name in JUMPS for op in self.tape.ops)
+        self.slopes = None if jumps else gradient(real_tape(self.tape), guarded=False)
 
     def _outputs(self, tape: Tape, lower: Floats64, upper: Floats64) -> tuple[Floats64, Floats64]:
         self.left -= len(tape.ops) * (PER_OPERATION + PER_BOX * len(lower))
