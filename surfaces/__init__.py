@@ -157,7 +157,7 @@ def from_formula(
     from surfaces import formula
     from surfaces.extent import held_by
     from surfaces.lipschitz import is_distance
-    from surfaces.validity import check, undefined
+    from surfaces.validity import check, check_constants, undefined
 
     bound = _texts(parameters or {})
     found = formula.reading(text, bound)
@@ -166,6 +166,7 @@ def from_formula(
     if unused := sorted(bound.keys() - used):
         hint = suggestion(unused[0], sorted(used), otherwise=f"its parameters are {', '.join(sorted(used))}")
         raise FirsthitError(f"no {unused[0]!r} occurs in the formula; {hint if used else 'it has no parameters'}")
+    check_constants(name, found.tape)
     degree = formula.degree(found.tape)
     surface = Surface(
         name=name,
@@ -179,7 +180,9 @@ def from_formula(
     check(surface)
     if distance is None:
         return replace(surface, distance=text) if is_distance(found.tape, surface.domain) else surface
-    if stated and (problem := undefined(stated.tape, surface.domain)):
+    assert stated is not None
+    check_constants(f"{name}'s distance", stated.tape)
+    if problem := undefined(stated.tape, surface.domain):
         raise FirsthitError(f"{name}'s distance: {problem}")
     return replace(surface, distance=distance)
 

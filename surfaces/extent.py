@@ -11,23 +11,22 @@ import math
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
+from importlib import import_module
 from typing import Literal
 
 import numpy as np
 
-from surfaces.catalog import FIXED
 from surfaces.evaluation import Floats64, tape_of
-from surfaces.families import FAMILIES
 from surfaces.model import Box, Domain, FirsthitError, Sphere, Surface
 from surfaces.search import Bools, Hull, Searcher, hull, zero_beyond
 from surfaces.tape import Tape
 from surfaces.validity import corners, outside
 
 REACH = 4.0  # times the domain's radius: how far about its centre a cut surface is looked for
-SECONDS = 0.15  # for asking whether a domain holds some of a surface, and whether it holds all
-HULL_SECONDS = 0.5  # for finding a tight box, which most surfaces take a tenth of
+SECONDS = 0.1  # for asking whether a domain holds some of a surface, and whether it holds all
+HULL_SECONDS = 0.3  # for finding a tight box, which most surfaces take a tenth of
 AUTO_REACH = 1000.0  # scene units from the origin, within which `auto` looks for the surface
-AUTO_SECONDS = 2.0
+AUTO_SECONDS = 1.0
 AUTO_LOOSE = 0.1  # of the surface's extent: how much wider the box that is found may be at most
 SLIVER = 1e-3  # of the domain's radius; what lies beyond the domain by less is not called cut
 MOST_OPERATIONS = 5000  # of a formula; more take seconds
@@ -102,16 +101,14 @@ def remark(surface: Surface) -> str | None:
 
 
 def _as_stated(surface: Surface) -> bool:
-    """Return whether a surface is one of the catalog's, or a form of one, in the domain that the catalog states."""
-    known = [fixed for fixed in FIXED if fixed.name == surface.base]
-    if surface.base in FAMILIES:
-        title, make, defaults = FAMILIES[surface.base]
+    """Return whether a surface is one that `surfaces.get` knows, in the domain that is stated there."""
+    get = import_module("surfaces").get  # which imports this module for formulas
+    for parameters in ({}, dict(surface.parameters)):
         with contextlib.suppress(FirsthitError):
-            known.append(make(surface.base, title, {**defaults, **dict(surface.parameters)}))
-    return any(
-        one.domain == surface.domain and (one.formula == surface.formula or surface.name != surface.base)
-        for one in known
-    )
+            known = get(surface.name, **parameters)
+            if (known.formula, known.domain) == (surface.formula, surface.domain):
+                return True
+    return False
 
 
 def held_by(tape: Tape) -> Box:

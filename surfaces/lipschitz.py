@@ -63,7 +63,8 @@ def _plausible(tape: Tape, domain: Domain) -> bool:
     away *= 1e-3 * radius / np.linalg.norm(away, axis=1)[:, None]
     others = points + np.where(np.sum(away * (points - center), axis=1)[:, None] > 0.0, -away, away)
     real = real_tape(tape)
-    apart = np.abs(evaluate_tape(real, points) - evaluate_tape(real, others))[:, 0]
+    with np.errstate(all="ignore"):
+        apart = np.abs(evaluate_tape(real, points) - evaluate_tape(real, others))[:, 0]
     return bool((apart <= 1.001 * np.linalg.norm(points - others, axis=1)).all())
 
 

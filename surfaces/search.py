@@ -17,7 +17,8 @@ from surfaces.tape import JUMPS, Tape
 Bools = NDArray[np.bool_]
 TIGHT = 0.01  # of the zeros' extent: how much larger than they the box that is found may be
 BATCH = 2048
-PER_OPERATION, PER_BOX = 2e-5, 1e-7  # seconds for one operation, and for each of its boxes
+PER_OPERATION, PER_BOX = 1e-5, 1.5e-8  # seconds for one operation, and for each of its boxes
+OVERHEAD = 20  # operations that cutting and sorting boxes is worth
 _CORNERS = np.array(list(product((-1.0, 1.0), repeat=3)))
 
 
@@ -40,8 +41,11 @@ class Searcher:
         jumps = any(op.name in JUMPS for op in self.tape.ops)
         self.slopes = None if jumps else gradient(real_tape(self.tape), guarded=False)
 
+    def _spend(self, tape: Tape, boxes: int) -> None:
+        self.left -= (len(tape.ops) + OVERHEAD) * (PER_OPERATION + PER_BOX * boxes)
+
     def _outputs(self, tape: Tape, lower: Floats64, upper: Floats64) -> tuple[Floats64, Floats64]:
-        self.left -= len(tape.ops) * (PER_OPERATION + PER_BOX * len(lower))
+        self._spend(tape, len(lower))
         return outputs(tape, lower, upper)
 
     def empty(self, lower: Floats64, upper: Floats64) -> Bools:
@@ -85,7 +89,7 @@ class Searcher:
 
     def _continuous(self, lower: Floats64, upper: Floats64) -> Bools:
         """Return on which boxes f is proved to have a value everywhere, and no jump."""
-        self.left -= len(self.tape.ops) * (PER_OPERATION + PER_BOX * len(lower))
+        self._spend(self.tape, len(lower))
         smooth = np.ones(len(lower), np.bool_)
         with np.errstate(all="ignore"):
             values = list(run(self.tape, sides(lower, upper)))
@@ -122,6 +126,7 @@ def hull(searcher: Searcher, lower: Floats64, upper: Floats64) -> Hull | None:
     the searcher has no time left.
     """
     inner, outer = np.full(3, np.inf), np.full(3, -np.inf)
+    straight = not {"x", "y", "z"} <= {op.args[0] for op in searcher.tape.ops if op.name == "var"}
     kept: list[tuple[Floats64, Floats64]] = []
     todo = [(lower[None], upper[None])]
     while todo and searcher.left > 0.0:
@@ -131,6 +136,8 @@ def hull(searcher: Searcher, lower: Floats64, upper: Floats64) -> Hull | None:
         sure = searcher.crossing(low, high)
         inner = np.minimum(inner, high[sure].min(axis=0, initial=np.inf))
         outer = np.maximum(outer, low[sure].max(axis=0, initial=-np.inf))
+        if straight and sure.any():
+            return Hull(lower, upper, inner, outer)  # the zero is part of a line from side to side
         size = max(float((outer - inner).max()), 0.0)
         room = TIGHT * size
         if size > 0.0 and ((inner - lower <= room).any() or (upper - outer <= room).any()):

@@ -39,14 +39,19 @@ Condition = tuple[str, int]  # the operation's name, and the index of the argume
 def check(surface: Surface) -> None:
     """Raise FirsthitError if f does not depend on x, y, z, or cannot be shown to be defined all over the domain."""
     tape = tape_of(surface)
+    check_constants(surface.name, tape)
+    if problem := undefined(tape, surface.domain):
+        raise FirsthitError(f"{surface.name}: {problem}")
+
+
+def check_constants(name: str, tape: Tape) -> None:
+    """Raise FirsthitError, which names the surface, if a tape's constants have no values, or it is constant itself."""
     try:
         enclosures(tape)
     except ZeroDivisionError as error:
-        raise FirsthitError(f"{surface.name}: {error}; the formula has no value") from None
+        raise FirsthitError(f"{name}: {error}; the formula has no value") from None
     if tape.constants()[tape.outputs[0]] or degree(tape) in (-1, 0):
-        raise FirsthitError(f"{surface.name}: the formula does not depend on x, y, z: it describes no surface")
-    if problem := undefined(tape, surface.domain):
-        raise FirsthitError(f"{surface.name}: {problem}")
+        raise FirsthitError(f"{name}: the formula does not depend on x, y, z: it describes no surface")
 
 
 def undefined(tape: Tape, domain: Domain) -> str | None:
