@@ -80,6 +80,7 @@ def row_of(
         "parameters": dict(cell.variant.parameters),
         "surface": cell.surface.name,
         "surface_title": cell.surface.title,
+        "surface_group": cell.surface.group,
         "formula": cell.surface.formula,
         "degree": cell.surface.degree,
         "domain": extent.written(cell.surface.domain) if alone else None,
