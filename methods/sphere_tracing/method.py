@@ -66,9 +66,7 @@ LONGEST = 20  # operations of their distances
 
 def accepts(surface: Surface) -> str | None:
     """Say why the surface is refused; None if it has a distance."""
-    if surface.distance:
-        return None
-    return "no distance is stated, and f is not proved to be one; sphere_tracing_lipschitz needs none"
+    return None if surface.distance else "the surface states no distance; sphere_tracing_lipschitz needs none"
 
 
 def two_minima(surface: Surface) -> bool:
