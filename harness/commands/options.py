@@ -46,7 +46,10 @@ def add_surface(parser: argparse.ArgumentParser) -> None:
     which = parser.add_mutually_exclusive_group(required=True)
     which.add_argument("--surface", metavar="NAME", help="a surface of the catalog, see `firsthit list surfaces`")
     which.add_argument("--formula", metavar="F", help="f(x, y, z) of your own, as in 'x^2 + y^2*z^3 - z^4'")
-    parser.add_argument("--domain", metavar="D", help="sphere:R or box:X,Y,Z (half extents); default sphere:1.5")
+    domain = "sphere:R, sphere:X,Y,Z:R, box:X,Y,Z (half extents), or auto for a box that is found; default sphere:1.5"
+    parser.add_argument("--domain", metavar="D", help=domain)
+    distance = "a formula that is nowhere larger than the distance to the surface, for sphere_tracing; it is tested"
+    parser.add_argument("--distance", metavar="F", help=distance)
     parser.add_argument("--parameter", action="append", default=[], metavar="NAME=VALUE", help="of the surface")
 
 
@@ -91,9 +94,11 @@ def surface_of(options: argparse.Namespace) -> Surface:
     if options.surface is not None:
         if options.domain is not None:
             raise FirsthitError("--domain goes with --formula; a surface of the catalog has its own")
+        if options.distance is not None:
+            raise FirsthitError("--distance goes with --formula; a surface of the catalog has its own")
         return surfaces.get(options.surface, **parameters)
     domain = "sphere:1.5" if options.domain is None else options.domain
-    return surfaces.from_formula(options.formula, domain, parameters=parameters)
+    return surfaces.from_formula(options.formula, domain, parameters=parameters, distance=options.distance)
 
 
 def _number(text: str, name: str) -> float | int:

@@ -89,7 +89,7 @@ def _answer(found: Recommendation, wish: Wish) -> str:
     bound = f"a {wish.quantile} error of {wish.error:.2g}"
     if not found.contenders:
         head = f"Nothing draws {wish.surface.title} on {device.name} within {bound}. Why each variant fell:"
-        return "\n".join([head, _fallen(found), *([told] if (told := _undecided(found)) else [])])
+        return "\n".join([head, _fallen(found), *([told] if (told := _undecided(found)) else []), *_extent(found)])
     best = found.contenders[0]
     speed = f"{best.ms:.3g} ms a frame, {1e3 / best.ms:.3g} frames/s at {wish.size}x{wish.size}"
     views = f"{wish.views} views to choose by and {wish.held_out_views} held out"
@@ -112,6 +112,7 @@ def _answer(found: Recommendation, wish: Wish) -> str:
             f"Outside the grazing and the drowned class no ray is wrong on {views}. Were more than a share of "
             f"{3.0 / found.held_out:.1e} wrong, the {found.held_out} held-out rays would have shown it 19 times in 20.",
             *([told] if (told := _undecided(found)) else []),
+            *_extent(found),
             "",
             console.table(columns, rows),
             "",
@@ -128,6 +129,11 @@ def _undecided(found: Recommendation) -> str:
     return (
         f"The oracle left {found.undecided} of {found.decided + found.undecided} hits undecided; they bound no error."
     )
+
+
+def _extent(found: Recommendation) -> list[str]:
+    """Say that the surface is cut, and the answer is for what the domain leaves of it."""
+    return [f"{found.extent}. The answer is for what this domain leaves of it."] if found.extent else []
 
 
 def _fallen(found: Recommendation) -> str:

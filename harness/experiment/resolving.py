@@ -175,8 +175,12 @@ def _surface(name: str, parameters: Mapping[str, float], config: Config) -> Surf
     stated = config.surface.get(name, SurfaceChoice())
     given = {key: repr(value) for key, value in {**stated.parameters, **parameters}.items()}
     if not stated.formula:
+        if stated.distance:
+            raise FirsthitError("a distance goes with a formula; a surface of the catalog has its own")
         return cut(surfaces.get(name, **given), stated.domain)
-    return surfaces.from_formula(stated.formula, stated.domain or "sphere:1.5", name=name, parameters=given)
+    return surfaces.from_formula(
+        stated.formula, stated.domain or "sphere:1.5", name=name, parameters=given, distance=stated.distance or None
+    )
 
 
 def _scenes(config: Config, file: ConfigFile, catalog: Catalog) -> list[Scene]:

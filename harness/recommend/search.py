@@ -7,7 +7,7 @@ rounds. The fastest are checked once more on held-out views, by which they were 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -121,6 +121,7 @@ class Recommendation:
     fallen: all others
     held_out: how many rays were judged on the held-out views
     decided, undecided: how many hits the oracle decided and left undecided, on all views
+    extent: a sentence where the domain cuts the surface, so that another surface was searched for than may be meant
     """
 
     device: DeviceInfo
@@ -129,6 +130,7 @@ class Recommendation:
     held_out: int = 0
     decided: int = 0
     undecided: int = 0
+    extent: str | None = None
 
 
 def recommend(wish: Wish, catalog: Catalog, device: str | None, runs: Path, watcher: Watcher) -> Recommendation:
@@ -138,11 +140,15 @@ def recommend(wish: Wish, catalog: Catalog, device: str | None, runs: Path, watc
     FirsthitError where `device` is no text and, with exit code 3, where there is no such device or a row cannot be
     stored.
     """
+    from surfaces.extent import remark
+
+    if told := remark(wish.surface):
+        watcher.warned(told)
     folder = runs / f"recommend-{wish.surface.name}-{digest(wish.surface.identity)[:8]}"
     executor = LocalExecutor(STEP_SECONDS)
     try:
         info, _ = probed(executor, usable_device(device), folder / "probes")
-        return Search(wish, catalog, info, executor, folder, watcher).run()
+        return replace(Search(wish, catalog, info, executor, folder, watcher).run(), extent=told)
     finally:
         executor.close()
 
