@@ -48,6 +48,13 @@ from surfaces.words import suggestion
 
 MAX_EXPANDED_DEGREE = 4
 MAX_FITTED_DEGREE = 20
+# How many operations on reals and on intervals a program's functions may have. The compiler of each language that takes
+# most of them needs 20 s for as many (Mesa 22.3; Intel 2026.2 and PoCL 3.1; unions of spheres, ray_march and
+# interval_march). tests/compile_times.py measures it.
+MOST_OPERATIONS: dict[Language, dict[str, int]] = {
+    "glsl": {"real": 10_000, "interval": 1_800},
+    "cl": {"real": 30_000, "interval": 2_500},
+}
 _LIB = Path(__file__).parent / "glsl" / "lib"
 _INTERVAL = {  # files of interval operations beyond lib/interval.glsl, only in programs that call them
     "interval_exp_log": {"exp", "log"},
@@ -58,6 +65,7 @@ _INTERVAL = {  # files of interval operations beyond lib/interval.glsl, only in 
 _FIT_SAMPLES = _LIB / "fit_samples.glsl"  # reads tables, and so comes after them
 
 _CALLED = {"powr": "pow", "atan2": "atan"}  # how GLSL calls operations that it knows by other names
+FEW_OPERATIONS = 200  # of a tape: no function that is made of fewer is too long
 
 FUNCTIONS = tuple(GENERATED)
 _POINT = {"x": "p.x", "y": "p.y", "z": "p.z"}
@@ -120,6 +128,19 @@ def unsupported(surface: Surface, precision: Precision, language: Language) -> s
     return None
 
 
+def too_long(surface: Surface, needs: Iterable[str], precision: Precision, language: Language) -> str | None:
+    """Return why the needed functions are too long for any compiler of the language, or None if they are not."""
+    if len(tape_of(surface).ops) < FEW_OPERATIONS:
+        return None
+    writer = _Writer(surface, precision, language, free=False)
+    try:
+        for name in _closure(surface, needs):
+            getattr(writer, name)()
+    except FirsthitError as error:
+        return str(error)
+    return writer.too_long()
+
+
 def surface_sections(
     surface: Surface, needs: Iterable[str], precision: Precision, language: Language, free: bool = False
 ) -> tuple[Section, ...]:
@@ -138,6 +159,8 @@ def surface_sections(
         name: getattr(writer, name) for name in dict.fromkeys(["constants", *wanted])
     }
     sections = [Section(f"generated: surface {surface.name}, {name}", make()) for name, make in makers.items()]
+    if reason := writer.too_long():
+        raise FirsthitError(f"{surface.name}: {reason}")
     if "surface_polynomial_along" in wanted and not expands(surface):
         at = 1 + list(makers).index("surface_value")
         sections[at:at] = [*_fit_tables(surface, precision, language), _file(_FIT_SAMPLES)]
@@ -183,6 +206,7 @@ class _Writer:
         self.real = real_tape(self.exact)
         self.precision = precision
         self.language = language
+        self.operations = {"real": 0, "interval": 0}  # of all functions that have been written
         names = sorted(dict(surface.parameters)) if free else []
         self.parameters = {name: f"instance_parameters.{part}" for name, part in zip(names, "xyzw", strict=False)}
 
@@ -216,29 +240,46 @@ class _Writer:
         named = ("SURFACE_DEGREE", "DOMAIN_IS_BOX") if self.free else tuple(values)
         return "\n".join(f"#define {name} {values[name]}" for name in named)
 
+    def _body(self, variables: Mapping[str, str], tape: Tape) -> tuple[list[str], list[str]]:
+        """Return a real tape's statements and its outputs, and count its operations."""
+        lines, values = self._printer(variables).body(tape)
+        self.operations["real"] += len(lines)
+        return lines, values
+
+    def too_long(self) -> str | None:
+        """Return why the functions that have been written are too long to be compiled, or None if they are not."""
+        for kind, most in MOST_OPERATIONS[self.language].items():
+            if self.operations[kind] > most:
+                compiler = {"glsl": "GLSL", "cl": "OpenCL C"}[self.language]
+                return (
+                    f"its functions have {self.operations[kind]:,} operations on {kind}s, and no compiler of {compiler}"
+                    f" that was tried takes more than {most:,} in 20 s"
+                )
+        return None
+
     def _scalar(self, name: str, tape: Tape) -> str:
         """Return the text of a function of a point whose value is a tape's output."""
-        lines, (value,) = self._printer(_POINT).body(tape)
+        lines, (value,) = self._body(_POINT, tape)
         return _function(f"real {name}(vec3 p)", lines, f"return {value};")
 
     def surface_value(self) -> str:
         return self._scalar("surface_value", self.real)
 
     def surface_gradient(self) -> str:
-        lines, values = self._printer(_POINT).body(gradient(self.real))
+        lines, values = self._body(_POINT, gradient(self.real))
         return _function("vec3 surface_gradient(vec3 p)", lines, f"return vec3({', '.join(values)});")
 
     def surface_normal(self) -> str:
         return _function("vec3 surface_normal(vec3 p)", [], "return unit_vector(surface_gradient(p));")
 
     def surface_distance_normal(self) -> str:
-        lines, values = self._printer(_POINT).body(gradient(self._distance("surface_distance_normal"), guarded=False))
+        lines, values = self._body(_POINT, gradient(self._distance("surface_distance_normal"), guarded=False))
         last = f"return unit_vector(vec3({', '.join(values)}));"
         return _function("vec3 surface_distance_normal(vec3 p)", lines, last)
 
     def surface_hessian_product(self) -> str:
         variables = {**_POINT, "vx": "v.x", "vy": "v.y", "vz": "v.z"}
-        lines, values = self._printer(variables).body(hessian_product(self.real))
+        lines, values = self._body(variables, hessian_product(self.real))
         return _function("vec3 surface_hessian_product(vec3 p, vec3 v)", lines, f"return vec3({', '.join(values)});")
 
     def _distance(self, needed_by: str) -> Tape:
@@ -258,6 +299,7 @@ class _Writer:
         variables = {axis: axis for axis in "xyz"} | intervals
         printer = IntervalPrinter(variables, self.precision, self.language, reach is not None)
         lines, (value,) = printer.body(self.exact)
+        self.operations["interval"] += len(lines)
         if reach is None or not used:
             checks = [f"{axis} = finite_or_whole({axis}.lo, {axis}.hi);" for axis in used]
             return _function(head, checks + lines, f"return {value};")
@@ -287,7 +329,7 @@ class _Writer:
             known = f"surface_coefficients_along expands degrees 1 to {MAX_EXPANDED_DEGREE}"
             raise FirsthitError(f"{self.surface.name} is {_degree_of(self.surface)}; {known}")
         assert self.surface.degree is not None
-        lines, values = self._printer(_RAY).body(coefficients_along(self.real, self.surface.degree))
+        lines, values = self._body(_RAY, coefficients_along(self.real, self.surface.degree))
         stores = [f"c[{k}] = {value};" for k, value in enumerate(values)]
         return _function("void surface_coefficients_along(Ray ray, OUT real c[SURFACE_DEGREE + 1])", lines, *stores)
 
@@ -332,7 +374,7 @@ class _Writer:
         if not expands(self.surface):
             lines = ["vec3 p = ray_point(along.ray, t);"]
             variables = {**_POINT, **{f"d{axis}": f"along.ray.direction.{axis}" for axis in "xyz"}}
-            more, values = self._printer(variables).body(tangent(self.real, {axis: f"d{axis}" for axis in "xyz"}))
+            more, values = self._body(variables, tangent(self.real, {axis: f"d{axis}" for axis in "xyz"}))
             return _function(head, lines + more, f"return make_dual({', '.join(values)});")
         degree = self.surface.degree or 0
         lines = [f"real value = along.c[{degree}];", "real derivative = value;"]
