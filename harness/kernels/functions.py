@@ -14,6 +14,7 @@ FUNCTIONS holds the names that a method may need, and `Method.needs` those that 
                               gradient; on a torus that of P - C with C = (R x / rho, R y / rho, 0), toledo2007,
                               equation 6. Either normal is the zero vector if its gradient is zero or not finite
     surface_range             Interval surface_range(Interval x, Interval y, Interval z)
+                              f in the box: without 0 only if f has no root there, see harness/kernels/ranges.py
     surface_range_along       Interval surface_range_along(Ray ray, real t0, real t1)
     surface_coefficients_along  void surface_coefficients_along(Ray ray, OUT real c[SURFACE_DEGREE + 1])
                               f(origin + t direction) = c[0] + c[1] t + …, by exact expansion, for degrees 1 to 4
@@ -38,7 +39,8 @@ from pathlib import Path
 
 from harness import ROOT
 from harness.contract import GENERATED, Box, FirsthitError, Precision, Section, Surface
-from harness.kernels.printing import IntervalPrinter, Language, RealPrinter, functions_used, operations_used, table
+from harness.kernels.printing import Language, RealPrinter, function_text, functions_used, operations_used, table
+from harness.kernels.ranges import range_function
 from harness.kernels.reach import safe_reach
 from surfaces.evaluation import tape_of
 from surfaces.formula import parse
@@ -60,7 +62,7 @@ _INTERVAL = {  # files of interval operations beyond lib/interval.glsl, only in 
     "interval_exp_log": {"exp", "log"},
     "interval_powr": {"powr"},
     "interval_atan2": {"atan2"},
-    "interval_jumps": {"floor", "below", "select", "sign"},
+    "interval_jumps": {"floor", "below", "select", "sign", "atan2"},
 }
 _FIT_SAMPLES = _LIB / "fit_samples.glsl"  # reads tables, and so comes after them
 
@@ -191,11 +193,6 @@ def _degree_of(surface: Surface) -> str:
     return "no polynomial" if surface.degree is None else f"of degree {surface.degree}"
 
 
-def _function(head: str, lines: list[str], *last: str) -> str:
-    """Return a function's text: its head, and its statements indented."""
-    return "\n".join([f"{head} {{", *(f"    {line}" for line in (*lines, *last)), "}"])
-
-
 class _Writer:
     """Write a surface's functions: each method that is named in FUNCTIONS returns the text of that function."""
 
@@ -260,27 +257,29 @@ class _Writer:
     def _scalar(self, name: str, tape: Tape) -> str:
         """Return the text of a function of a point whose value is a tape's output."""
         lines, (value,) = self._body(_POINT, tape)
-        return _function(f"real {name}(vec3 p)", lines, f"return {value};")
+        return function_text(f"real {name}(vec3 p)", lines, f"return {value};")
 
     def surface_value(self) -> str:
         return self._scalar("surface_value", self.real)
 
     def surface_gradient(self) -> str:
         lines, values = self._body(_POINT, gradient(self.real))
-        return _function("vec3 surface_gradient(vec3 p)", lines, f"return vec3({', '.join(values)});")
+        return function_text("vec3 surface_gradient(vec3 p)", lines, f"return vec3({', '.join(values)});")
 
     def surface_normal(self) -> str:
-        return _function("vec3 surface_normal(vec3 p)", [], "return unit_vector(surface_gradient(p));")
+        return function_text("vec3 surface_normal(vec3 p)", [], "return unit_vector(surface_gradient(p));")
 
     def surface_distance_normal(self) -> str:
         lines, values = self._body(_POINT, gradient(self._distance("surface_distance_normal"), guarded=False))
         last = f"return unit_vector(vec3({', '.join(values)}));"
-        return _function("vec3 surface_distance_normal(vec3 p)", lines, last)
+        return function_text("vec3 surface_distance_normal(vec3 p)", lines, last)
 
     def surface_hessian_product(self) -> str:
         variables = {**_POINT, "vx": "v.x", "vy": "v.y", "vz": "v.z"}
         lines, values = self._body(variables, hessian_product(self.real))
-        return _function("vec3 surface_hessian_product(vec3 p, vec3 v)", lines, f"return vec3({', '.join(values)});")
+        return function_text(
+            "vec3 surface_hessian_product(vec3 p, vec3 v)", lines, f"return vec3({', '.join(values)});"
+        )
 
     def _distance(self, needed_by: str) -> Tape:
         """Return the distance function that the surface states. Raises FirsthitError if it states none."""
@@ -292,31 +291,15 @@ class _Writer:
         return self._scalar("surface_distance", self._distance("surface_distance"))
 
     def surface_range(self) -> str:
-        used = sorted({op.args[0] for op in self.exact.ops if op.name == "var"} - self.parameters.keys())
-        intervals = {name: f"make_interval({value}, {value})" for name, value in self.parameters.items()}
-        head = "Interval surface_range(Interval x, Interval y, Interval z)"
         reach = None if self.parameters else safe_reach(self.surface, self.precision)  # instances' are not known yet
-        variables = {axis: axis for axis in "xyz"} | intervals
-        printer = IntervalPrinter(variables, self.precision, self.language, reach is not None)
-        lines, (value,) = printer.body(self.exact)
-        self.operations["interval"] += len(lines)
-        if reach is None or not used:
-            checks = [f"{axis} = finite_or_whole({axis}.lo, {axis}.hi);" for axis in used]
-            return _function(head, checks + lines, f"return {value};")
-        ends = " + ".join(f"fabs({axis}.{end})" for axis in used for end in ("lo", "hi"))
-        lines = [
-            f"PRECISE real reach = {ends};",
-            *lines,
-            f"Interval value = {value};",
-            f"bool safe = reach <= {self._printer({}).literal(Fraction(reach))};",
-        ]
-        ends = "safe ? value.lo : -REAL_INFINITY, safe ? value.hi : REAL_INFINITY"
-        return _function(head, lines, f"return make_interval({ends});")
+        text, count = range_function(self.exact, self.parameters, reach, self.precision, self.language)
+        self.operations["interval"] += count
+        return text
 
     def surface_range_along(self) -> str:
         axes = [f"bounded_affine(ray.origin.{a}, ray.direction.{a}, t0, t1)" for a in "xyz"]
         head = "Interval surface_range_along(Ray ray, real t0, real t1)"
-        return _function(
+        return function_text(
             head,
             [],
             f"return surface_range({axes[0]},",
@@ -331,7 +314,7 @@ class _Writer:
         assert self.surface.degree is not None
         lines, values = self._body(_RAY, coefficients_along(self.real, self.surface.degree))
         stores = [f"c[{k}] = {value};" for k, value in enumerate(values)]
-        return _function("void surface_coefficients_along(Ray ray, OUT real c[SURFACE_DEGREE + 1])", lines, *stores)
+        return function_text("void surface_coefficients_along(Ray ray, OUT real c[SURFACE_DEGREE + 1])", lines, *stores)
 
     def surface_polynomial_along(self) -> str:
         head = "Stretch surface_polynomial_along(Ray ray, real t0, real t1, OUT real c[SURFACE_DEGREE + 1])"
@@ -351,7 +334,7 @@ class _Writer:
                 "for (int i = 0; i <= SURFACE_DEGREE; i++) c[i] = fitted[i];",
                 "return stretch;",
             ]
-        return f"#define POLYNOMIAL_EVALUATIONS {evaluations}\n" + _function(head, lines)
+        return f"#define POLYNOMIAL_EVALUATIONS {evaluations}\n" + function_text(head, lines)
 
     def surface_along(self) -> str:
         if expands(self.surface):
@@ -359,15 +342,15 @@ class _Writer:
         else:
             member, fill = "Ray ray", "along.ray = ray;"
         lines = ["Along along;", fill, "return along;"]
-        return f"STRUCT(Along) struct Along {{ {member}; }};\n\n" + _function("Along surface_along(Ray ray)", lines)
+        return f"STRUCT(Along) struct Along {{ {member}; }};\n\n" + function_text("Along surface_along(Ray ray)", lines)
 
     def surface_value_along(self) -> str:
         head = "real surface_value_along(Along along, real t)"
         if not expands(self.surface):
-            return _function(head, [], "return surface_value(ray_point(along.ray, t));")
+            return function_text(head, [], "return surface_value(ray_point(along.ray, t));")
         degree = self.surface.degree or 0
         steps = [f"value = value * t + along.c[{k}];" for k in reversed(range(degree))]
-        return _function(head, [f"real value = along.c[{degree}];", *steps], "return value;")
+        return function_text(head, [f"real value = along.c[{degree}];", *steps], "return value;")
 
     def surface_dual_along(self) -> str:
         head = "Dual surface_dual_along(Along along, real t)"
@@ -375,9 +358,9 @@ class _Writer:
             lines = ["vec3 p = ray_point(along.ray, t);"]
             variables = {**_POINT, **{f"d{axis}": f"along.ray.direction.{axis}" for axis in "xyz"}}
             more, values = self._body(variables, tangent(self.real, {axis: f"d{axis}" for axis in "xyz"}))
-            return _function(head, lines + more, f"return make_dual({', '.join(values)});")
+            return function_text(head, lines + more, f"return make_dual({', '.join(values)});")
         degree = self.surface.degree or 0
         lines = [f"real value = along.c[{degree}];", "real derivative = value;"]
         for k in reversed(range(1, degree)):
             lines += [f"value = value * t + along.c[{k}];", "derivative = derivative * t + value;"]
-        return _function(head, [*lines, "value = value * t + along.c[0];"], "return make_dual(value, derivative);")
+        return function_text(head, [*lines, "value = value * t + along.c[0];"], "return make_dual(value, derivative);")
