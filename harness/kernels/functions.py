@@ -35,17 +35,18 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from fractions import Fraction
+from functools import lru_cache
 from pathlib import Path
 
 from harness import ROOT
 from harness.contract import GENERATED, Box, FirsthitError, Precision, Section, Surface
 from harness.kernels.printing import Language, RealPrinter, function_text, functions_used, operations_used, table
-from harness.kernels.ranges import range_function
+from harness.kernels.ranges import range_function, range_operations
 from harness.kernels.reach import safe_reach
 from surfaces.evaluation import tape_of
 from surfaces.formula import parse
 from surfaces.lowering import coefficients_along, gradient, hessian_product, real_tape, tangent
-from surfaces.tape import Tape
+from surfaces.tape import LEAVES, Tape
 from surfaces.words import suggestion
 
 MAX_EXPANDED_DEGREE = 4
@@ -117,6 +118,7 @@ def libraries_for(needs: Iterable[str], surface: Surface | None = None) -> tuple
     return interval + dual + (("dual", "fit", "polynomial") if fitted else ())
 
 
+@lru_cache(maxsize=4096)
 def unsupported(surface: Surface, precision: Precision, language: Language) -> str | None:
     """Return why the surface cannot be evaluated in this precision and language, or None if it can."""
     used = functions_used(real_tape(tape_of(surface)))
@@ -130,7 +132,8 @@ def unsupported(surface: Surface, precision: Precision, language: Language) -> s
     return None
 
 
-def too_long(surface: Surface, needs: Iterable[str], precision: Precision, language: Language) -> str | None:
+@lru_cache(maxsize=4096)
+def too_long(surface: Surface, needs: tuple[str, ...], precision: Precision, language: Language) -> str | None:
     """Return why the needed functions are too long for any compiler of the language, or None if they are not."""
     if len(tape_of(surface).ops) < FEW_OPERATIONS:
         return None
@@ -138,9 +141,9 @@ def too_long(surface: Surface, needs: Iterable[str], precision: Precision, langu
     try:
         for name in _closure(surface, needs):
             getattr(writer, name)()
-    except FirsthitError as error:
+    except (_TooLong, FirsthitError) as error:
         return str(error)
-    return writer.too_long()
+    return None
 
 
 def surface_sections(
@@ -160,9 +163,10 @@ def surface_sections(
     makers: dict[str, Callable[[], str]] = {
         name: getattr(writer, name) for name in dict.fromkeys(["constants", *wanted])
     }
-    sections = [Section(f"generated: surface {surface.name}, {name}", make()) for name, make in makers.items()]
-    if reason := writer.too_long():
-        raise FirsthitError(f"{surface.name}: {reason}")
+    try:
+        sections = [Section(f"generated: surface {surface.name}, {name}", make()) for name, make in makers.items()]
+    except _TooLong as error:
+        raise FirsthitError(f"{surface.name}: {error}") from None
     if "surface_polynomial_along" in wanted and not expands(surface):
         at = 1 + list(makers).index("surface_value")
         sections[at:at] = [*_fit_tables(surface, precision, language), _file(_FIT_SAMPLES)]
@@ -191,6 +195,10 @@ def _fit_tables(surface: Surface, precision: Precision, language: Language) -> l
 def _degree_of(surface: Surface) -> str:
     """Return how a message names the surface's degree."""
     return "no polynomial" if surface.degree is None else f"of degree {surface.degree}"
+
+
+class _TooLong(Exception):
+    """Report that functions have more operations than any compiler takes; the text says how many."""
 
 
 class _Writer:
@@ -238,21 +246,28 @@ class _Writer:
         return "\n".join(f"#define {name} {values[name]}" for name in named)
 
     def _body(self, variables: Mapping[str, str], tape: Tape) -> tuple[list[str], list[str]]:
-        """Return a real tape's statements and its outputs, and count its operations."""
-        lines, values = self._printer(variables).body(tape)
-        self.operations["real"] += len(lines)
-        return lines, values
+        """Return a real tape's statements and its outputs. Raises _TooLong if no compiler takes them."""
+        self._add("real", sum(op.name not in LEAVES for op in tape.ops))
+        return self._printer(variables).body(tape)
 
-    def too_long(self) -> str | None:
-        """Return why the functions that have been written are too long to be compiled, or None if they are not."""
-        for kind, most in MOST_OPERATIONS[self.language].items():
-            if self.operations[kind] > most:
-                compiler = {"glsl": "GLSL", "cl": "OpenCL C"}[self.language]
-                return (
-                    f"its functions have {self.operations[kind]:,} operations on {kind}s, and no compiler of {compiler}"
-                    f" that was tried takes more than {most:,} in 20 s"
-                )
-        return None
+    def _add(self, kind: str, count: int) -> None:
+        """Count operations. Raises _TooLong if the functions that have been written have too many of the kind."""
+        self.operations[kind] += count
+        self._hold(kind, self.operations[kind])
+
+    def _hold(self, kind: str, count: int) -> None:
+        """Raise _TooLong if so many operations are too many of the kind."""
+        if count > (most := MOST_OPERATIONS[self.language][kind]):
+            compiler = {"glsl": "GLSL", "cl": "OpenCL C"}[self.language]
+            raise _TooLong(
+                f"its functions have {count:,} operations on {kind}s or more, and no compiler of {compiler} that was"
+                f" tried takes more than {most:,} in 20 s"
+            )
+
+    def _derivable(self, tape: Tape) -> Tape:
+        """Return a tape whose derivatives are asked for. Raises _TooLong if it is too long itself, as they would be."""
+        self._hold("real", sum(op.name not in LEAVES for op in tape.ops))
+        return tape
 
     def _scalar(self, name: str, tape: Tape) -> str:
         """Return the text of a function of a point whose value is a tape's output."""
@@ -263,7 +278,7 @@ class _Writer:
         return self._scalar("surface_value", self.real)
 
     def surface_gradient(self) -> str:
-        lines, values = self._body(_POINT, gradient(self.real))
+        lines, values = self._body(_POINT, gradient(self._derivable(self.real)))
         return function_text("vec3 surface_gradient(vec3 p)", lines, f"return vec3({', '.join(values)});")
 
     def surface_normal(self) -> str:
@@ -276,7 +291,7 @@ class _Writer:
 
     def surface_hessian_product(self) -> str:
         variables = {**_POINT, "vx": "v.x", "vy": "v.y", "vz": "v.z"}
-        lines, values = self._body(variables, hessian_product(self.real))
+        lines, values = self._body(variables, hessian_product(self._derivable(self.real)))
         return function_text(
             "vec3 surface_hessian_product(vec3 p, vec3 v)", lines, f"return vec3({', '.join(values)});"
         )
@@ -292,9 +307,8 @@ class _Writer:
 
     def surface_range(self) -> str:
         reach = None if self.parameters else safe_reach(self.surface, self.precision)  # instances' are not known yet
-        text, count = range_function(self.exact, self.parameters, reach, self.precision, self.language)
-        self.operations["interval"] += count
-        return text
+        self._add("interval", range_operations(self.exact))
+        return range_function(self.exact, self.parameters, reach, self.precision, self.language)
 
     def surface_range_along(self) -> str:
         axes = [f"bounded_affine(ray.origin.{a}, ray.direction.{a}, t0, t1)" for a in "xyz"]
@@ -312,7 +326,7 @@ class _Writer:
             known = f"surface_coefficients_along expands degrees 1 to {MAX_EXPANDED_DEGREE}"
             raise FirsthitError(f"{self.surface.name} is {_degree_of(self.surface)}; {known}")
         assert self.surface.degree is not None
-        lines, values = self._body(_RAY, coefficients_along(self.real, self.surface.degree))
+        lines, values = self._body(_RAY, coefficients_along(self._derivable(self.real), self.surface.degree))
         stores = [f"c[{k}] = {value};" for k, value in enumerate(values)]
         return function_text("void surface_coefficients_along(Ray ray, OUT real c[SURFACE_DEGREE + 1])", lines, *stores)
 
@@ -357,7 +371,9 @@ class _Writer:
         if not expands(self.surface):
             lines = ["vec3 p = ray_point(along.ray, t);"]
             variables = {**_POINT, **{f"d{axis}": f"along.ray.direction.{axis}" for axis in "xyz"}}
-            more, values = self._body(variables, tangent(self.real, {axis: f"d{axis}" for axis in "xyz"}))
+            more, values = self._body(
+                variables, tangent(self._derivable(self.real), {axis: f"d{axis}" for axis in "xyz"})
+            )
             return function_text(head, lines + more, f"return make_dual({', '.join(values)});")
         degree = self.surface.degree or 0
         lines = [f"real value = along.c[{degree}];", "real derivative = value;"]

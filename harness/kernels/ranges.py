@@ -41,10 +41,17 @@ class SidedPrinter(IntervalPrinter):
         return f"open += open_{op.name}({args}); Interval {name} = sided_{op.name}({args}, side);"
 
 
+def range_operations(tape: Tape) -> int:
+    """Return how many operations on intervals surface_range is made of: compilers copy what it calls for each side."""
+    fixed = tape.constants()
+    count = sum(op.name != "var" and not known for op, known in zip(tape.ops, fixed, strict=True))
+    return 3 * count if SIDED & set(operations_used(tape)) else count
+
+
 def range_function(
     tape: Tape, parameters: Mapping[str, str], reach: float | None, precision: Precision, language: Language
-) -> tuple[str, int]:
-    """Return the text of surface_range, and how many operations on intervals it is made of.
+) -> str:
+    """Return the text of surface_range.
 
     `tape` is the formula as parsed; `parameters` gives the text of those of its variables that are no coordinates.
     `reach` is what harness.kernels.reach knows: None, or how large a box may be that nothing overflows in.
@@ -56,7 +63,6 @@ def range_function(
         {axis: axis for axis in "xyz"} | intervals, precision, language, reach is not None
     )
     lines, (value,) = printer.body(tape)
-    count = len(lines)
     if reach is None or not used:
         lines = [f"{axis} = finite_or_whole({axis}.lo, {axis}.hi);" for axis in used] + lines
     else:
@@ -69,7 +75,7 @@ def range_function(
         ]
         value = "make_interval(safe ? value.lo : -REAL_INFINITY, safe ? value.hi : REAL_INFINITY)"
     if not sided:
-        return function_text(f"Interval surface_range({_PARAMETERS})", lines, f"return {value};"), count
+        return function_text(f"Interval surface_range({_PARAMETERS})", lines, f"return {value};")
     last = ["Sided sided;", f"sided.range = {value};", "sided.open = open;", "return sided;"]
     one = function_text(f"Sided range_of_side({_PARAMETERS}, int side)", ["int open = 0;", *lines], *last)
-    return one + "\n" + _BY_SIDES, 3 * count
+    return one + "\n" + _BY_SIDES
