@@ -47,6 +47,7 @@ SLACK = 1.0 + 2.0**-16  # covers the float32 rounding of a direction's length, o
 CLOSE = 1.05  # boxes are split until their bound is within this factor of a gradient that occurs
 MAX_BOXES = 6000  # limit of boxes that are bounded; with fewer the bounds are as certain, but less tight
 MAX_OPERATIONS = 12_000_000  # of balls that are spent on them, which takes about a quarter of a minute
+AWAY = 2.0**-12  # of the radius
 KINKED = frozenset({"abs", "min", "max", "sqrt", "powr"})  # operations whose slopes surfaces.slopes bounds more tightly
 
 
@@ -84,6 +85,8 @@ def ball_bounds(surface: Surface, shells: int) -> tuple[float, ...]:
         return int(shells * math.hypot(*away) / radius)
 
     grid = np.stack(np.meshgrid(*[np.linspace(-1.0, 1.0, 33)] * 3), -1).reshape(-1, 3) * half + center
+    if kinked:
+        grid += AWAY * radius  # a cone point, where no slope says anything, is often at the centre
     distances = np.linalg.norm(grid - center, axis=1)
     slopes = np.linalg.norm(surfaces.gradient(surface, grid), axis=1)
     occurring = [slopes[distances <= radius * (k + 1) / shells].max() for k in range(shells)]
