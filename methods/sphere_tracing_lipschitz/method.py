@@ -11,7 +11,9 @@ Lipschitz bound where there is none.
 root. L is proved: |grad f| is bounded in ball arithmetic over boxes that cover the domain, and boxes are split until
 the bound is close to a gradient that occurs. The domain is cut into SHELLS concentric shells. A step is never longer
 than a shell is thick, so a step from one shell ends in the next one at the latest. Therefore the L used there is that
-of the whole ball that ends with the next shell (a ball is convex, so it holds the step).
+of the whole ball that ends with the next shell (a ball is convex, so it holds the step). Through kinks, cone points
+and smooth minima the bound is that of surfaces/slopes.py, which for most distance functions is 1. An f that may jump is
+refused.
 
 **Changes against the paper**
 - Where |grad f| is far below L, |f| / L is far below the distance, and a threshold on it would end far from the root.
