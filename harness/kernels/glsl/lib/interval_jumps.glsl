@@ -1,9 +1,26 @@
 // Intervals of operations that jump: floor, comparisons and selections. They are not part of `interval`, so that
-// programs that do not need them stay as they are.
+// programs that do not need them stay as they are. For sides see harness/kernels/ranges.py.
+STRUCT(Sided) struct Sided { Interval range; int open; };
+
+bool without_zero(Interval a) {
+    return a.lo > 0.0 || a.hi < 0.0;
+}
 
 // Rounding makes no error here. The whole line stays the whole line.
 Interval interval_floor(Interval a) {
     return make_interval(floor(a.lo), floor(a.hi));
+}
+
+// Returns into how many values the jumps of floor split a: 0 if it is one value, 1 if two, and 2 if more.
+int open_floor(Interval a) {
+    real steps = floor(a.hi) - floor(a.lo);
+    return steps == 0.0 ? 0 : (steps == 1.0 ? 1 : 2);
+}
+
+// Returns the lower value for side 1, the upper one for side 2, and all of them for side 0.
+Interval sided_floor(Interval a, int side) {
+    Interval b = interval_floor(a);
+    return make_interval(side == 2 ? b.hi : b.lo, side == 1 ? b.lo : b.hi);
 }
 
 Interval interval_sign(Interval a) {
@@ -13,6 +30,16 @@ Interval interval_sign(Interval a) {
 // Returns 1 if a <= b everywhere, 0 if nowhere, and [0, 1] otherwise.
 Interval interval_below(Interval a, Interval b) {
     return make_interval(a.hi <= b.lo ? real(1) : real(0), a.lo > b.hi ? real(0) : real(1));
+}
+
+int open_below(Interval a, Interval b) {
+    Interval c = interval_below(a, b);
+    return c.lo < c.hi ? 1 : 0;
+}
+
+Interval sided_below(Interval a, Interval b, int side) {
+    Interval c = interval_below(a, b);
+    return make_interval(side == 2 ? c.hi : c.lo, side == 1 ? c.lo : c.hi);
 }
 
 // Returns p where the condition c is 1 everywhere, q where it is 0 everywhere, and otherwise what holds both. c is wider
