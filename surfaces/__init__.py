@@ -57,10 +57,17 @@ def __getattr__(name: str) -> Any:
 
 @dataclass(frozen=True)
 class Reading:
-    """Hold how a surface's formula was read: its canonical form, and notes, each a sentence's worth for the user."""
+    """Hold how a surface's formula was read: as written, its canonical form, and notes, each a phrase for the user."""
 
+    written: str
     canonical: str
     notes: tuple[str, ...]
+
+    def told(self, most: int = 400) -> list[str]:
+        """Return lines for the user: the canonical form, cut at `most` characters, if it is not what was written."""
+        shown = self.canonical if len(self.canonical) <= most else f"{self.canonical[:most]} ..."
+        same = "".join(self.written.split()) == "".join(self.canonical.split())
+        return [*([] if same else [f"read as: {shown}"]), *(f"note: {note}" for note in self.notes)]
 
 
 def canonical(surface: Surface) -> str:
@@ -75,7 +82,7 @@ def reading(surface: Surface) -> Reading:
     from surfaces import formula
 
     notes = formula.reading(surface.formula, dict(surface.parameters)).notes
-    return Reading(canonical(surface), notes)
+    return Reading(surface.formula, canonical(surface), notes)
 
 
 def names() -> tuple[str, ...]:

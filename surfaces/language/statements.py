@@ -14,7 +14,7 @@ class Parser(Values):
         """Parse the whole text, and return the code of the surface's value."""
         self.definitions(self._last())
         if self._defines():
-            token, name = self.peek(), self.peek(int(self.peek().text == "let"))
+            token, name = self.peek(), self.ahead(int(self.peek().text == "let"))
             known = name.text in COORDINATES or self.names.meaning(name.text) or self.names.letters(name.text)
             if token.text == "let" or not known:
                 self.fail("the last statement is the surface; this one only defines a name", token.column)
@@ -60,18 +60,18 @@ class Parser(Values):
 
     def _defines(self) -> bool:
         """Return whether a statement that begins here is a definition."""
-        if self.peek().text == "let" and self.peek(1).kind == "name":
+        if self.peek().text == "let" and self.ahead(1).kind == "name":
             return True
         if self.peek().kind != "name":
             return False
         at = 1
-        if self.peek(at).text == "(":
-            while self.peek(at + 1).kind == "name" and self.peek(at + 2).text == ",":
+        if self.ahead(at).text == "(":
+            while self.ahead(at + 1).kind == "name" and self.ahead(at + 2).text == ",":
                 at += 2
-            if self.peek(at + 1).kind != "name" or self.peek(at + 2).text != ")":
+            if self.ahead(at + 1).kind != "name" or self.ahead(at + 2).text != ")":
                 return False
             at += 3
-        return self.peek(at).text == "="
+        return self.ahead(at).text == "="
 
     def _definition(self) -> None:
         """Parse the definition of a part or of a function."""
