@@ -224,7 +224,10 @@ class Builder:
         return self.emit("add" if total > 0 else "sub", rest, self.const(abs(total)))
 
     def _scaled(self, factor: Fraction, a: int) -> int:
-        """Return factor · a."""
+        """Return factor · a, with one factor before the rest of a."""
+        own, rest = self._split(a)
+        if rest is not None and own is not ONE:
+            factor, a = factor * own, rest
         if factor == 0:
             return self.const(0)
         if factor == 1:

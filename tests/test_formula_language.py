@@ -97,6 +97,7 @@ MEANINGS: list[tuple[str, Function]] = [
     ("let d = sqrt(x^2+y^2); (d-0.7)^2 + z^2 - 0.09", lambda x, y, z: (math.hypot(x, y) - 0.7) ** 2 + z * z - 0.09),
     ("d = x + 1; g(u, v) = u*v - d; h(u) = g(u, u); g(y, z) + h(x);;", lambda x, y, z: y * z - x - 1 + x * x - x - 1),
     ("r = |x|; let f(x, y) = x^2 + r; f(z, 0) = 2f(r, r)", lambda x, y, z: z * z + abs(x) - 2 * (x * x + abs(x))),
+    ("d = 2zxy; q = xzx/2; d + q", lambda x, y, z: 2 * x * y * z + x * x * z / 2),
     ("let xy = x + y; xy^2", lambda x, y, z: (x + y) ** 2),
     ("let pi = 3; let min(a) = a/2; pi x + min(y)", lambda x, y, z: 3 * x + y / 2),
 ]  # fmt: skip

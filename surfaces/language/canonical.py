@@ -108,6 +108,8 @@ def _written(tape: Tape, op: Op, parts: list[_Part], constant: list[bool]) -> _P
             return _made(_ATOM, op.name)
         case "var":
             return _made(_ATOM, op.args[0])
+        case "neg" if tape.ops[op.args[0]].name == "sub":  # -(a - b) would be read as b - a
+            return _made(_PRODUCT, "-1*", _wrapped(of[0], _POWER))
         case "neg":
             bare = _bare(tape, op.args[0], constant)
             return _made(_SIGN if not bare else _PRODUCT, "-", of[0] if bare else _wrapped(of[0], _POWER))

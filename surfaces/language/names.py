@@ -125,6 +125,7 @@ class Names:
         match = re.fullmatch(r"([A-Za-z])([0-9]+)", name)
         if match and self.meaning(match[1]):
             return f"unknown name {name!r}; did you mean {match[1]}^{match[2]} or {match[2]}*{match[1]}?"
-        known = self.callables() if called else [*self.values(), *self.callables()]
-        what = "function" if called else "name"
-        return f"unknown {what} {name[:40]!r}; {suggestion(name.lower()[:40], known)}"
+        known = [*self.callables()] if called else [*self.values(), *self.callables()]
+        what, most = ("function", 16) if called else ("name", 8)
+        otherwise = f"known: {', '.join(known[:most])}, ..."
+        return f"unknown {what} {name[:40]!r}; {suggestion(name.lower()[:40], known, otherwise=otherwise)}"

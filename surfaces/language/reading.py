@@ -46,6 +46,8 @@ def read(text: str, parameters: Mapping[str, str], free: bool = False) -> Read:
     code = Parser(text, names).formula()
     reader = _Reader(text, values)
     output = reader.run(code)
+    if reader.is_condition(output) and reader.builder.value(output) is None:
+        reader.fail("an inequality is 0 or 1 everywhere: it describes a solid; write a = b for its surface")
     return Read(reader.builder.tape(output), frozenset(reader.parameters), tuple(dict.fromkeys(names.notes)))
 
 

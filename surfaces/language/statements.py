@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from surfaces.language.grammar import COMPARISONS, Values
+from surfaces.language.grammar import Values
 from surfaces.language.names import RESERVED, Code, Function
 from surfaces.words import COORDINATES
 
@@ -22,12 +22,10 @@ class Parser(Values):
         token = self.peek()
         if token.text == "=":
             self.take()
-            self._comparison_refused()
             self.parse(0)
             self.emit("-", None, token.column)
             if self.peek().text == "=":
                 self.fail("an equation has one '='", self.peek().column)
-        self._comparison_refused()
         while self.peek().text == ";":
             self.take()
         if self.peek().kind != "end":
@@ -42,12 +40,13 @@ class Parser(Values):
         return next((i for i in range(end, 0, -1) if self.tokens[i - 1].text == ";"), 0)
 
     def definitions(self, stop: int) -> None:
-        """Parse definitions up to a position. Raises FirsthitError at any other statement."""
+        """Parse definitions up to a token's position. Raises FirsthitError at any other statement."""
+        last = self.tokens[stop]  # a position moves on when a word becomes a product of letters
         for i in range(stop):
             if i == 0 or self.tokens[i - 1].text == ";":
                 name = self.tokens[i + 1] if self.tokens[i].text == "let" else self.tokens[i]
                 self.later.add(name.text)
-        while self.position < stop:
+        while self.peek() is not last:
             if self.peek().text == ";":
                 self.take()
                 continue
@@ -115,9 +114,3 @@ class Parser(Values):
                 self.expect(")")
                 return found
             self.take()
-
-    def _comparison_refused(self) -> None:
-        """Raise FirsthitError if what was parsed last is a comparison: it bounds a solid."""
-        if self.code[-1][0] in (*COMPARISONS, "and", "or", "not"):
-            told = "an inequality describes a solid; write a = b for its surface"
-            self.fail(told, self.code[-1][2])
