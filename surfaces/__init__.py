@@ -161,10 +161,10 @@ def from_formula(
             unused[0], sorted(found.used), otherwise=f"its parameters are {', '.join(sorted(found.used))}"
         )
         raise FirsthitError(f"no {unused[0]!r} occurs in the formula; {hint if found.used else 'it has no parameters'}")
-    degree = formula.degree(found.tape)
+    degree, line = formula.degree(found.tape), " ".join(text.split())
     surface = Surface(
         name=name,
-        title=text if len(text) <= 60 else text[:57] + "...",
+        title=line if len(line) <= 60 else line[:57] + "...",
         formula=text,
         domain=_domain(domain),
         source="given as a formula",

@@ -230,3 +230,23 @@ def test_growth_is_refused_with_a_count(text: str, reason: str) -> None:
 
 def test_calls_share_what_is_equal() -> None:
     assert len(parse("f0(u) = u*u/2 + 1;" + _chain("f{0}(u)/2 + f{0}(u)*y") + "f39(x)").ops) < 200
+
+
+def test_deep_graphs_are_written_so_that_they_can_be_read() -> None:
+    """Nested by definitions, a graph may be deeper than the text of a formula."""
+    for body in ("1 - {0}/2", "-{0}^3 + 1", "sqrt(1 + |{0}|)", "2^(-{0})", "if({0} > 0, -{0}, y)", "x*({0} + 1)%2"):
+        text = "p0 = x;" + "".join(f"p{k} = {body.format(f'p{k - 1}')};" for k in range(1, 300)) + "p299"
+        try:
+            tape = parse(text)
+        except FirsthitError as error:
+            assert "degree" in str(error)
+            continue
+        written = canonical(tape)
+        assert parse(written).ordered() == tape.ordered() and canonical(parse(written)) == written
+
+
+def test_nested_polynomials_of_a_high_degree_are_read() -> None:
+    text = "1"
+    for k in range(1, 65):
+        text = f"{k} - x*({text})"
+    assert formula.degree(parse(text)) == 64

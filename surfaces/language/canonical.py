@@ -13,7 +13,7 @@ from typing import Any
 from surfaces.tape import Op, Tape
 
 SHORT = 12  # characters of a part that is written again where it is used again
-DEEP = 40  # brackets inside one another
+DEEP = 100  # levels of reading inside one another; grammar.MAX_DEPTH is the most
 _COMPARE, _SUM, _PRODUCT, _SIGN, _POWER, _ATOM = 8, 10, 20, 30, 40, 60
 
 
@@ -43,14 +43,14 @@ class _Part:
 def _made(binding: int, *pieces: str | _Part) -> _Part:
     """Return a part of pieces."""
     length = sum(len(p) if isinstance(p, str) else p.length for p in pieces)
-    depth = max((p.depth for p in pieces if isinstance(p, _Part)), default=0)
+    depth = max((p.depth + (i > 0) for i, p in enumerate(pieces) if isinstance(p, _Part)), default=0)
     first = pieces[0]
     return _Part(pieces, binding, length, depth, first.startswith("-") if isinstance(first, str) else first.minus)
 
 
 def _inside(before: str, part: _Part, after: str = ")") -> _Part:
-    """Return a part inside brackets, one deeper."""
-    return _Part((before, part, after), _ATOM, part.length + len(before) + 1, part.depth + 1)
+    """Return a part inside brackets, which are read as one level, those of a call as two."""
+    return _Part((before, part, after), _ATOM, part.length + len(before) + 1, part.depth + 2)
 
 
 def _wrapped(part: _Part, binding: int, right: bool = False) -> _Part:

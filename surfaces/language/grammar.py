@@ -24,7 +24,7 @@ from surfaces.language.tokens import Token, exact, fail, tokens
 from surfaces.model import FirsthitError
 
 MAX_LENGTH = 2_000_000  # characters of a formula
-MAX_DEPTH = 100  # of parentheses, calls, signs and exponents inside one another
+MAX_DEPTH = 200  # of parentheses, calls, operands and signs inside one another
 COMPARISONS = ("<", "<=", ">", ">=", "==", "!=")
 _OR, _NOT, _PRODUCT, _SIGN, _POWER, _RAISED, _BAR = 4, 7, 20, 30, 40, 50, -2
 _PRECEDENCE = {"?": 2, "or": _OR, "and": 6, **dict.fromkeys(COMPARISONS, 8), "+": 10, "-": 10}

@@ -17,7 +17,10 @@ class Parser(Values):
             token, name = self.peek(), self.ahead(int(self.peek().text == "let"))
             known = name.text in COORDINATES or self.names.meaning(name.text) or self.names.letters(name.text)
             if token.text == "let" or not known:
-                self.fail("the last statement is the surface; this one only defines a name", token.column)
+                self.fail(
+                    "the last statement is the surface; this one only defines a name (a ; ends a statement)",
+                    token.column,
+                )
         self.parse(0)
         token = self.peek()
         if token.text == "=":
