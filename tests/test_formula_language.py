@@ -76,6 +76,7 @@ MEANINGS: list[tuple[str, Function]] = [
     ("round(3z) - round(x)", lambda x, y, z: math.floor(3 * z + 0.5) - math.floor(x + 0.5)),
     ("trunc(3x) + fract(y)", lambda x, y, z: math.trunc(3 * x) + y - math.floor(y)),
     ("mod(x,1) + y % 0.3 + 2x % 0.75", lambda x, y, z: mod(x, 1) + mod(y, 0.3) + mod(2 * x, 0.75)),
+    ("fmod(x, 0.3) + XY - Yx", lambda x, y, z: math.fmod(x, 0.3)),
     ("if(x>0,y,z)", lambda x, y, z: y if x > 0 else z),
     ("if(x>=0,y,z) + (x < y ? 1 : 2)", lambda x, y, z: (y if x >= 0 else z) + (1 if x < y else 2)),
     ("if(x>0 && !(y<z) || z==0.5, x, 7)", lambda x, y, z: x if (x > 0 and not y < z) or z == 0.5 else 7),

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -110,13 +109,13 @@ class Names:
         """Return whether a word is a product of single letters, each a coordinate or a value that the user named."""
         if len(word) < 2 or len(word) > 12:
             return False
-        return all(c in COORDINATES or (self.own(c) or ("function",))[0] != "function" for c in word)
+        return all((self.own(c) or ("function",))[0] != "function" or c.lower() in COORDINATES for c in word)
 
-    def values(self) -> Iterable[str]:
+    def values(self) -> list[str]:
         """Return the names of values, for hints."""
         return [*COORDINATES, *self.arguments, *self.parts, *sorted(self.parameters), *CONSTANTS]
 
-    def callables(self) -> Iterable[str]:
+    def callables(self) -> list[str]:
         """Return the names of functions, for hints."""
         return [*self.functions, *BUILT_IN, *(name for name in self.library if not name.startswith("_"))]
 
@@ -125,7 +124,12 @@ class Names:
         match = re.fullmatch(r"([A-Za-z])([0-9]+)", name)
         if match and self.meaning(match[1]):
             return f"unknown name {name!r}; did you mean {match[1]}^{match[2]} or {match[2]}*{match[1]}?"
-        known = [*self.callables()] if called else [*self.values(), *self.callables()]
+        for begin in range(1, len(name) - 1):
+            factors, function = name[:begin], name[begin:]
+            if called and function in self.callables() and (self.letters(factors) or factors in self.values()):
+                shown = factors if factors in self.values() else "*".join(factors)
+                return f"unknown function {name[:40]!r}; did you mean {shown}*{function}(...)?"
+        known = self.callables() if called else [*self.values(), *self.callables()]
         what, most = ("function", 16) if called else ("name", 8)
-        otherwise = f"known: {', '.join(known[:most])}, ..."
+        otherwise = f"known: {', '.join(known[:most])}, ..." + ("" if called else "; a parameter needs a value")
         return f"unknown {what} {name[:40]!r}; {suggestion(name.lower()[:40], known, otherwise=otherwise)}"

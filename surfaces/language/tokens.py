@@ -118,4 +118,6 @@ def _misplaced(text: str, column: int) -> str:
     """Return what is wrong with a character that begins no token."""
     character = text[column]
     hint = "; write ( ) around parts" if character in "[]{}" else ""
+    if text[column : column + 2] in (".*", "./", ".^"):
+        hint = "; operators have no dot"
     return f"{character!r} (U+{ord(character):04X}) has no place in a formula{hint}"
