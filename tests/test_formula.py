@@ -78,6 +78,7 @@ REFUSALS = [
     ("min(x)", 1, "two values"),
     ("x + sqr_t(y)", 5, "did you mean 'sqrt'"),
     ("rho*x", 1, "unknown name 'rho'"),
+    ("4(τ²x² - y²)", 3, "write phi or 2*pi"),
     ("x - w", 5, "a parameter needs a value"),
     ("y + xsin(y)", 5, "did you mean x*sin(...)?"),
     ("x.^2", 2, "operators have no dot"),

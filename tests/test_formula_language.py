@@ -65,7 +65,7 @@ MEANINGS: list[tuple[str, Function]] = [
     ("−z + (x+2)⁻¹ + (y²)¹⁰", lambda x, y, z: -z + 1 / (x + 2) + y**20),
     ("√(x²+1) + √2·y + √3", lambda x, y, z: math.sqrt(x * x + 1) + math.sqrt(2) * y + math.sqrt(3)),
     ("√cos(x) - √(z + 1)²", lambda x, y, z: math.sqrt(math.cos(x)) - (z + 1)),
-    ("π x + φ y + ϕ + tau", lambda x, y, z: math.pi * x + (1 + math.sqrt(5)) / 2 * (y + 1) + 2 * math.pi),
+    ("π x + φ y + ϕ", lambda x, y, z: math.pi * x + (1 + math.sqrt(5)) / 2 * (y + 1)),
     ("atan2(y,x) + atan(z, x)", lambda x, y, z: math.atan2(y, x) + math.atan2(z, x)),
     ("atan(x) + asin(y) + acos(z)", lambda x, y, z: math.atan(x) + math.asin(y) + math.acos(z)),
     ("sinh(x) + cosh(y) + tanh(3z)", lambda x, y, z: math.sinh(x) + math.cosh(y) + math.tanh(3 * z)),
@@ -181,6 +181,30 @@ def test_a_parameter_that_does_not_occur_is_refused() -> None:
         surfaces.from_formula("x^2 - 2", parameters={"b": 2})
     with pytest.raises(FirsthitError, match="two definitions of 'a': it is a parameter too"):
         surfaces.from_formula("a = 2; x^2 - a", parameters={"a": 2})
+
+
+def test_a_parameter_that_occurs_in_a_part_counts() -> None:
+    found = surfaces.from_formula("half(u) = b*u; x^2 + y^2 - 1", parameters={"b": 2})
+    assert found.parameters == (("b", "2"),)
+
+
+CANONICAL = [
+    ("x>0 ? y : z", "if(x > 0, y, z)"),
+    ("if(x <= 0 and not (y > z or z == 1), 1, x)", "if(x <= 0 and not (y > z or z == 1), 1, x)"),
+    ("if((x < 1 or y < 1) and z != 1, y, x)", "if((x < 1 or y < 1) and not z == 1, y, x)"),
+    ("if(1 - (1 - (x < y)), y, 0)*sign(z)", "if(1 - (1 - (y > x)), y, 0)*((z >= 0) - (z <= 0))"),
+    ("-x*y - (-3)*z - (x - y)", "-x*y - (-3*z) - (x - y)"),
+    ("x^2.5 + x^-2 - abs(y)^(1/3) + 1/3*x", "x^2*sqrt(x) + 1/x^2 - abs(y)^(1/3) + 1/3*x"),
+    ("1e-30*x + 12345678901234567890*y + 0.1", "1e-30*x + 12345678901234567890*y + 0.1"),
+    ("(x^2 + y^2 + z^2 + 1)^2 - 4(x^2 + y^2 + z^2 + 1)", "let s1 = x^2 + y^2 + z^2 + 1; s1^2 - 4*s1"),
+    ("s1 = sin(x + y); s1 - (x - (y - s1^2))", "sin(x + y) - (x - (y - sin(x + y)^2))"),
+]
+
+
+@pytest.mark.parametrize(("text", "wanted"), CANONICAL, ids=[text for text, _ in CANONICAL])
+def test_the_canonical_form_has_few_parentheses(text: str, wanted: str) -> None:
+    assert canonical(parse(text)) == wanted
+    assert parse(wanted).ordered() == parse(text).ordered()
 
 
 def test_free_parameters_are_variables_but_no_exponents() -> None:

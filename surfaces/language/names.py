@@ -13,7 +13,6 @@ CONSTANTS = {
     "pi": "the circle's number",
     "e": "Euler's number",
     "phi": "the golden ratio",
-    "tau": "2*pi",
     "sqrt2": "a root",
     "sqrt3": "a root",
     "sqrt5": "a root",
@@ -58,6 +57,7 @@ class Names:
     functions: dict[str, Function] = field(default_factory=dict)
     arguments: dict[str, int] = field(default_factory=dict)
     notes: list[str] = field(default_factory=list)
+    used: set[str] = field(default_factory=set)  # parameters that occur
 
     def own(self, name: str) -> tuple[str, Any] | None:
         """Return the kind and the value of a name that the user chose; None for others."""
@@ -77,6 +77,8 @@ class Names:
         own, lower = self.own(name), name.lower()
         if own:
             self._tell(name, own[0])
+            if own[0] == "parameter":
+                self.used.add(name)
             return own
         if lower != name and self.own(lower):
             return None
@@ -86,7 +88,7 @@ class Names:
         """Return the kind and the value of a name of the language; None for an unknown one."""
         if name in COORDINATES:
             return "var", name
-        if name in ("pi", "e", "phi", "tau"):
+        if name in ("pi", "e", "phi"):
             return "constant", name
         if re.fullmatch(r"sqrt[1-9][0-9]{0,3}", name):
             return "root", int(name[4:])
@@ -124,6 +126,8 @@ class Names:
         match = re.fullmatch(r"([A-Za-z])([0-9]+)", name)
         if match and self.meaning(match[1]):
             return f"unknown name {name!r}; did you mean {match[1]}^{match[2]} or {match[2]}*{match[1]}?"
+        if name.lower() == "tau":
+            return "tau is the golden ratio to some and 2*pi to others; write phi or 2*pi"
         for begin in range(1, len(name) - 1):
             factors, function = name[:begin], name[begin:]
             if called and function in self.callables() and (self.letters(factors) or factors in self.values()):

@@ -48,7 +48,7 @@ def read(text: str, parameters: Mapping[str, str], free: bool = False) -> Read:
     output = reader.run(code)
     if reader.is_condition(output) and reader.builder.value(output) is None:
         reader.fail("an inequality is 0 or 1 everywhere: it describes a solid; write a = b for its surface")
-    return Read(reader.builder.tape(output), frozenset(reader.parameters), tuple(dict.fromkeys(names.notes)))
+    return Read(reader.builder.tape(output), frozenset(names.used), tuple(dict.fromkeys(names.notes)))
 
 
 def _constant(name: str, text: str) -> Read:
@@ -187,8 +187,6 @@ class _Reader:
             return b.pi()
         if name == "e":
             return b.e()
-        if name == "tau":
-            return b.mul(b.const(2), b.pi())
         if name == "phi":
             return b.mul(b.const(Fraction(1, 2)), b.add(b.const(1), b.sqrt(b.const(5))))
         return b.sqrt(b.const(int(name)))
