@@ -7,9 +7,10 @@
     values = surfaces.evaluate(mine, points)  # float64[n, 3] → float64[n]
 
 This is the ground: it imports nothing else of the project. `model` says what a surface is. `catalog`, `families` and
-`forms` hold the surfaces of the papers, written by means of `entries`. `formula` parses text into a `tape`, which
-`numbers` runs in several number systems and `lowering` turns into other tapes: derivatives, coefficients along a ray.
-`evaluation` computes values. `validity` proves that a formula of one's own is defined all over its domain.
+`forms` hold the surfaces of the papers, written by means of `entries`. `formula` parses text into a `tape`, by means of
+the package `language`. `numbers` runs tapes in several number systems, and `lowering` turns them into other tapes:
+derivatives, coefficients along a ray. `evaluation` computes values. `validity` proves that a formula of one's own is
+defined all over its domain.
 """
 
 from __future__ import annotations

@@ -147,7 +147,7 @@ class Values:
         if name in COMPARISONS and self.peek().text in COMPARISONS and self.peek().kind == "operator":
             self.fail("write a < b and b < c for a chain of comparisons", self.peek().column)
         if name == "^" and self.power() == _PRODUCT and self.peek().text not in ("*", "/", "%"):
-            base = self.code[start : start + 1][0][0]
+            base = self.code[start][0]
             if base in ("const", "constant") and self.code[start + 1][2] > token.column:
                 written = self._between(token, self.peek())
                 told = f"{written}*{self.peek().text} or ^({written[1:]}*{self.peek().text})"
@@ -163,7 +163,7 @@ class Values:
         """Add the code of a raised exponent."""
         if self.peek().text == "^" or self.peek().kind == "raised":
             self.fail("a power of a power needs parentheses", self.peek().column)
-        self.emit("const", exact(token.text), token.column)
+        self.number(token)
         self.emit("^", None, token.column)
 
     def _side_by_side(self, divisor: Token | None) -> None:

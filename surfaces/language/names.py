@@ -128,9 +128,9 @@ class Names:
             return f"unknown name {name!r}; did you mean {match[1]}^{match[2]} or {match[2]}*{match[1]}?"
         if name.lower() == "tau":
             return "tau is the golden ratio to some and 2*pi to others; write phi or 2*pi"
-        for begin in range(1, len(name) - 1):
+        for begin in range(1, len(name) - 1) if called else ():
             factors, function = name[:begin], name[begin:]
-            if called and function in self.callables() and (self.letters(factors) or factors in self.values()):
+            if function in self.callables() and (self.letters(factors) or factors in self.values()):
                 shown = factors if factors in self.values() else "*".join(factors)
                 return f"unknown function {name[:40]!r}; did you mean {shown}*{function}(...)?"
         known = self.callables() if called else [*self.values(), *self.callables()]

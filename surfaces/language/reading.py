@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
@@ -15,7 +16,7 @@ from surfaces.language.prelude import library
 from surfaces.language.statements import Parser
 from surfaces.language.tokens import MAX_BITS, bits, fail
 from surfaces.model import FirsthitError
-from surfaces.tape import Builder, Tape
+from surfaces.tape import Builder, Tape, walk
 from surfaces.words import COORDINATES
 
 MAX_DEGREE = 64  # a polynomial of this degree in three variables has 47,905 terms
@@ -53,8 +54,6 @@ def read(text: str, parameters: Mapping[str, str], free: bool = False) -> Read:
 
 def _constant(name: str, text: str) -> Read:
     """Read a parameter's value, which only depends on constants. Raises FirsthitError if it is none."""
-    import re
-
     if not re.fullmatch(r"[A-Za-z_][A-Za-z_0-9]*", name) or name in (*COORDINATES, *RESERVED):
         told = "names are ASCII words that are neither coordinates nor and, or, not, let"
         raise FirsthitError(f"{name!r} cannot be a parameter's name: {told}")
@@ -175,8 +174,6 @@ class _Reader:
             if found is None:
                 self.parameters[name] = self.builder.var(name)
             else:
-                from surfaces.tape import walk
-
                 self.parameters[name] = walk(found.tape, self.builder, {})[0]
         return self.parameters[name]
 

@@ -10,6 +10,7 @@ from surfaces.model import FirsthitError
 
 MAX_BITS = 1000  # of a rational constant's numerator and denominator, which keeps it inside float64's range
 MAX_DIGITS = 400  # characters of one number
+MAX_NAME = 60  # characters of one name
 WORDS = {"and": "and", "or": "or", "not": "not"}
 # other ways to write an operator, a word or a name
 SAME = {
@@ -101,6 +102,8 @@ def tokens(text: str) -> list[Token]:
         kind, word = match.lastgroup, match.group()
         if word == "/" and text.startswith("/*", column):
             fail(text, "this comment has no end; write */ behind it", column)
+        if kind != "space" and len(word) > (MAX_DIGITS if kind == "number" else MAX_NAME):
+            fail(text, f"a {'number' if kind != 'name' else kind} of {len(word)} characters", column)
         if kind == "space":
             spaced, line = True, line or "\n" in word
         else:
