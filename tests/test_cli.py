@@ -260,7 +260,8 @@ def test_show_tells_how_a_formula_was_read(tmp_path, capsys):
     code, out, _ = told(capsys, *show)
     assert code == 0
     assert "read as: x^2 + sqrt(2)*y^2 + z^2 - 1/3\nnote: e is your parameter, not Euler's number\n" in out
-    for more, words in (("a=2", "'a' is given twice"), ("b=2", "no 'b' occurs in the formula; its parameters are a, e")):
+    refused = (("a=2", "'a' is given twice"), ("b=2", "no 'b' occurs in the formula; its parameters are a, e"))
+    for more, words in refused:
         code, _, err = told(capsys, *show, "--parameter", more)
         assert code == 2 and words in err
 
