@@ -8,10 +8,11 @@
 
 This is the ground: it imports nothing else of the project. `model` says what a surface is. `catalog`, `families` and
 `forms` hold the surfaces of the papers, `gallery` others of the literature, all written by means of `entries`.
-`formula` parses text into a `tape`, which `numbers` runs in several number systems and `lowering` turns into other
-tapes: derivatives, coefficients along a ray. `evaluation` computes values. `validity` proves that a formula of one's
-own is defined all over its domain, by `signs`, `guards` and `ranges`; `lipschitz`, with `blending`, that it is a
-distance bound; `extent`, by `search`, that its domain cuts it, or finds a domain.
+`formula` parses text into a `tape`, by means of the package `language`. `numbers` runs tapes in several number systems,
+and `lowering` turns them into other tapes: derivatives, coefficients along a ray. `evaluation` computes values.
+`validity` proves that a formula of one's own is defined all over its domain, by `signs`, `guards` and `ranges`;
+`lipschitz`, with `blending`, that it is a distance bound; `extent`, by `search`, that its domain cuts it, or finds a
+domain.
 """
 
 from __future__ import annotations
@@ -64,10 +65,17 @@ def __getattr__(name: str) -> Any:
 
 @dataclass(frozen=True)
 class Reading:
-    """Hold how a surface's formula was read: its canonical form, and notes, each a sentence's worth for the user."""
+    """Hold how a surface's formula was read: as written, its canonical form, and notes, each a phrase for the user."""
 
+    written: str
     canonical: str
     notes: tuple[str, ...]
+
+    def told(self, most: int = 400) -> list[str]:
+        """Return lines for the user: the canonical form, cut at `most` characters, if it is not what was written."""
+        shown = self.canonical if len(self.canonical) <= most else f"{self.canonical[:most]} ..."
+        same = "".join(self.written.split()) == "".join(self.canonical.split())
+        return [*([] if same else [f"read as: {shown}"]), *(f"note: {note}" for note in self.notes)]
 
 
 def canonical(surface: Surface) -> str:
@@ -82,7 +90,7 @@ def reading(surface: Surface) -> Reading:
     from surfaces import formula
 
     notes = formula.reading(surface.formula, dict(surface.parameters)).notes
-    return Reading(canonical(surface), notes)
+    return Reading(surface.formula, canonical(surface), notes)
 
 
 def names(group: str = CATALOG) -> tuple[str, ...]:
@@ -195,10 +203,10 @@ def from_formula(
         hint = suggestion(unused[0], sorted(used), otherwise=f"its parameters are {', '.join(sorted(used))}")
         raise FirsthitError(f"no {unused[0]!r} occurs in the formula; {hint if used else 'it has no parameters'}")
     check_constants(name, found.tape)
-    degree = formula.degree(found.tape)
+    degree, line = formula.degree(found.tape), " ".join(text.split())
     surface = Surface(
         name=name,
-        title=text if len(text) <= 60 else text[:57] + "...",
+        title=line if len(line) <= 60 else line[:57] + "...",
         formula=text,
         domain=held_by(found.tape) if domain == AUTO else _domain(domain),
         source="given as a formula",

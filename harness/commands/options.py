@@ -76,12 +76,17 @@ def add_origin(parser: argparse.ArgumentParser) -> None:
 
 
 def _assignments(texts: list[str], option: str) -> dict[str, str]:
-    """Read NAME=VALUE from each text. Raises FirsthitError, which names the option, for anything else."""
+    """Read NAME=VALUE from each text.
+
+    Raises FirsthitError, which names the option, for other text and for a name that is given twice.
+    """
     pairs = {}
     for text in texts:
         name, equals, value = text.partition("=")
         if not equals or not name.strip() or not value.strip():
             raise FirsthitError(f"{option} {text!r}: write NAME=VALUE")
+        if name.strip() in pairs:
+            raise FirsthitError(f"{option} {text!r}: {name.strip()!r} is given twice")
         pairs[name.strip()] = value.strip()
     return pairs
 

@@ -132,7 +132,7 @@ class SurfaceChoice:
 
     formula: str = ""
     domain: str = ""
-    parameters: dict[str, float] = field(default_factory=dict)
+    parameters: dict[str, float | str] = field(default_factory=dict)
     distance: str = ""
 
 

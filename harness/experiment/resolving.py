@@ -168,12 +168,13 @@ def _surfaces(config: Config, file: ConfigFile) -> list[Surface]:
     return chosen
 
 
-def _surface(name: str, parameters: Mapping[str, float], config: Config) -> Surface:
+def _surface(name: str, parameters: Mapping[str, float | str], config: Config) -> Surface:
     """Return a surface of the config's own, or of the catalog, with `parameters` bound."""
     import surfaces
 
     stated = config.surface.get(name, SurfaceChoice())
-    given = {key: repr(value) for key, value in {**stated.parameters, **parameters}.items()}
+    bound = {**stated.parameters, **parameters}
+    given = {key: value if isinstance(value, str) else repr(value) for key, value in bound.items()}
     if not stated.formula:
         if stated.distance:
             raise FirsthitError("a distance goes with a formula; a surface of the catalog has its own")

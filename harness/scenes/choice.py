@@ -40,7 +40,7 @@ class PlacedChoice:
     """
 
     surface: str
-    parameters: dict[str, float] = field(default_factory=dict)
+    parameters: dict[str, float | str] = field(default_factory=dict)
     domain: str = ""
     at: Point = (0.0, 0.0, 0.0)
     turn: tuple[Angle, Angle, Angle] = (0.0, 0.0, 0.0)
