@@ -54,7 +54,7 @@ MAX_EXPANDED_DEGREE = 4
 MAX_FITTED_DEGREE = 20
 # How many operations on reals and on intervals a program's functions may have. The compiler of each language that takes
 # most of them needs 20 s for as many (Mesa 22.3; Intel 2026.2 and PoCL 3.1; unions of spheres, ray_march and
-# interval_march). tests/compile_times.py measures it.
+# interval_march). tests/benchmarks/compile_times.py measures it.
 MOST_OPERATIONS: dict[Language, dict[str, int]] = {
     "glsl": {"real": 10_000, "interval": 1_800},
     "cl": {"real": 30_000, "interval": 2_500},
