@@ -52,7 +52,7 @@ GALLERY = "gallery"  # all groups but the catalog
 
 
 def __getattr__(name: str) -> Any:
-    """Return a function of surfaces.evaluation, which is imported when it is first asked for.
+    """Return a function of surfaces.evaluation, or surfaces.files, which are imported when they are first asked for.
 
     Raises AttributeError for any other name.
 
@@ -60,6 +60,8 @@ def __getattr__(name: str) -> Any:
     """
     if name in _EVALUATION:
         return getattr(import_module("surfaces.evaluation"), name)
+    if name == "files":
+        return import_module("surfaces.files")
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 

@@ -44,7 +44,8 @@ def _within(value: N, limit: Limit) -> N:
 def add_surface(parser: argparse.ArgumentParser) -> None:
     """Add the options that name a surface, which `surface_of` reads."""
     which = parser.add_mutually_exclusive_group(required=True)
-    which.add_argument("--surface", metavar="NAME", help="a surface of the catalog, see `firsthit list surfaces`")
+    help_ = "a surface of the catalog, see `firsthit list surfaces`, or a file that `firsthit import` reads"
+    which.add_argument("--surface", metavar="NAME", help=help_)
     which.add_argument("--formula", metavar="F", help="f(x, y, z) of your own, as in 'x^2 + y^2*z^3 - z^4'")
     domain = "sphere:R, sphere:X,Y,Z:R, box:X,Y,Z (half extents), or auto for a box that is found; default sphere:1.5"
     parser.add_argument("--domain", metavar="D", help=domain)
@@ -91,17 +92,42 @@ def _assignments(texts: list[str], option: str) -> dict[str, str]:
     return pairs
 
 
+def given_parameters(options: argparse.Namespace) -> dict[str, str | float]:
+    """Return the values that --parameter gives. Raises FirsthitError for what is not NAME=VALUE."""
+    return dict(_assignments(options.parameter, "--parameter"))
+
+
+def named_surface(
+    name: str,
+    parameters: dict[str, str | float] | None = None,
+    domain: str | None = None,
+    distance: str | None = None,
+) -> Surface:
+    """Return a surface of the catalog or of a file, and say on standard error what of the file was left out.
+
+    Raises FirsthitError where there is none, or where it cannot be made.
+    """
+    import surfaces
+    from surfaces import files
+
+    if files.is_file(name):
+        imported = files.load(name, domain, parameters, distance)
+        for remark in imported.remarks:
+            tell(f"firsthit: {name}: {remark}")
+        return imported.surface
+    for option, given in (("--domain", domain), ("--distance", distance)):
+        if given is not None:
+            raise FirsthitError(f"{option} goes with --formula and with files; a surface of the catalog has its own")
+    return surfaces.get(name, **(parameters or {}))
+
+
 def surface_of(options: argparse.Namespace) -> Surface:
     """Return the surface that --surface or --formula names. Raises FirsthitError where it cannot be made."""
     import surfaces
 
-    parameters = _assignments(options.parameter, "--parameter")
+    parameters = given_parameters(options)
     if options.surface is not None:
-        if options.domain is not None:
-            raise FirsthitError("--domain goes with --formula; a surface of the catalog has its own")
-        if options.distance is not None:
-            raise FirsthitError("--distance goes with --formula; a surface of the catalog has its own")
-        return surfaces.get(options.surface, **parameters)
+        return named_surface(options.surface, parameters, options.domain, options.distance)
     domain = "sphere:1.5" if options.domain is None else options.domain
     return surfaces.from_formula(options.formula, domain, parameters=parameters, distance=options.distance)
 
