@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import errno
 import importlib
 import os
@@ -10,7 +11,7 @@ import sys
 import traceback
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NoReturn, TypeGuard
 
 from harness import __version__
 from harness.commands import GROUPS, PLUGINS, adder
@@ -18,6 +19,7 @@ from harness.commands import GROUPS, PLUGINS, adder
 if TYPE_CHECKING:
     from _typeshed import SupportsWrite
 
+USAGE = 2
 FAILED = 3
 INTERRUPTED = 130  # 128 + SIGINT, as a shell says it
 CLOSED_PIPE = 141  # 128 + SIGPIPE
@@ -33,8 +35,22 @@ FULL = (errno.ENOSPC, errno.EDQUOT)  # of a disk or a quota: no mistake of ours
 RUN_CELLS = ("run", "gate", "bless", "recommend")  # commands that store a row as soon as its cell ends
 
 
+class UsageError(SystemExit):
+    """End a command whose usage is wrong, after argparse has said so on standard error."""
+
+    def __init__(self, message: str) -> None:
+        super().__init__(2)
+        self.message = message
+
+
 class Parser(argparse.ArgumentParser):
     """Parse a command line, and print help as any other output: argparse's own hides that nobody reads it."""
+
+    def error(self, message: str) -> NoReturn:
+        """Say what is wrong with the usage. Raises UsageError."""
+        with contextlib.suppress(SystemExit):
+            super().error(message)
+        raise UsageError(message)
 
     def _print_message(self, message: str, file: SupportsWrite[str] | None = None) -> None:
         """Print help, usage or version. Raises OSError where it cannot be written."""
@@ -67,43 +83,82 @@ def main(arguments: Sequence[str] | None = None) -> int:
     A user's mistake is one line on stderr, and never a traceback. Raises SystemExit as argparse does, for --help and
     where the usage is wrong.
     """
-    options = argparse.Namespace(command=None, force=False)
+    options = argparse.Namespace(command=None, force=False, json=False)
     try:
         try:
-            return _run(sys.argv[1:] if arguments is None else arguments, options)
+            return _ended(sys.argv[1:] if arguments is None else arguments, options)
         finally:
             _flush()  # a pipe that was closed is told here; told at the interpreter's end, it would be lost
     except KeyboardInterrupt:
-        print(f"\nfirsthit: {_stopped(options)}", file=sys.stderr)
         return INTERRUPTED
     except BrokenPipeError:
         _write_nowhere()
         return CLOSED_PIPE
     except OSError as error:
-        if error.errno not in FULL:
-            traceback.print_exc()
-            return FAILED
         _write_nowhere()
-        print(
-            f"firsthit: cannot write{f' {error.filename}' if error.filename else ''}: {error.strerror}", file=sys.stderr
-        )
+        print(f"firsthit: {_unwritten(error)}", file=sys.stderr)
         return FAILED
-    except Exception:
-        traceback.print_exc()  # a mistake of ours; Python would end with 1, which says that a check does not hold
-        return FAILED
+
+
+def _ended(arguments: Sequence[str], options: argparse.Namespace) -> int:
+    """Run one command, say what went wrong, and return its exit code.
+
+    Raises SystemExit as argparse does, and OSError where standard output itself cannot be written.
+    """
+    usage: UsageError | None = None
+    try:
+        return _run(arguments, options)
+    except UsageError as error:
+        usage, code, told = error, USAGE, error.message
+    except KeyboardInterrupt:
+        code, told = INTERRUPTED, _stopped(options)
+        print(f"\nfirsthit: {told}", file=sys.stderr)
+    except Exception as error:
+        if isinstance(error, BrokenPipeError) or (_is_full(error) and error.filename is None):
+            raise
+        code, told = _known(error)
+        if told:
+            print(f"firsthit: {told}", file=sys.stderr)
+        else:
+            told = f"{type(error).__name__}: {error}"
+            traceback.print_exc()  # a mistake of ours; Python would end with 1, which says that a check does not hold
+    if options.json or "--json" in arguments:  # a usage that is wrong leaves `options` empty
+        from harness.commands import machine
+
+        machine.write_error(options.command, code, told)
+    if usage:
+        raise usage
+    return code
 
 
 def _run(arguments: Sequence[str], options: argparse.Namespace) -> int:
     """Parse a command line into `options` and run the command; return its exit code."""
     build_parser(arguments).parse_args(arguments, options)
+    if options.json:
+        from harness.commands import machine
+
+        return machine.run(options.run, options)
+    code: int = options.run(options)
+    return code
+
+
+def _is_full(error: Exception) -> TypeGuard[OSError]:
+    """Tell whether an error says that a disk or a quota is full."""
+    return isinstance(error, OSError) and error.errno in FULL
+
+
+def _known(error: Exception) -> tuple[int, str]:
+    """Return exit code and message of an error that the user can put right; the message is empty for any other."""
     from harness.contract import FirsthitError  # imports numpy, which help and usage do without
 
-    try:
-        code: int = options.run(options)
-        return code
-    except FirsthitError as error:
-        print(f"firsthit: {error}", file=sys.stderr)
-        return error.exit_code
+    if isinstance(error, FirsthitError):
+        return error.exit_code, str(error)
+    return FAILED, _unwritten(error) if _is_full(error) else ""
+
+
+def _unwritten(error: OSError) -> str:
+    """Say which file cannot be written, and why."""
+    return f"cannot write{f' {error.filename}' if error.filename else ''}: {error.strerror}"
 
 
 def _stopped(options: argparse.Namespace) -> str:
