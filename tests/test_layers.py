@@ -24,7 +24,7 @@ LAYERS = (  # from the ground up; what stands in one line does not import each o
     ("harness.studies",),
     ("harness.accuracy",),
     ("harness.experiment",),
-    ("harness.conformance", "harness.running"),
+    ("harness.conformance", "harness.running", "harness.shipping"),
     ("harness.gate", "harness.recommend"),
     ("firsthit",),
     ("harness.commands",),

@@ -37,6 +37,7 @@ NOT_DECIDING = {
     "harness/results/commits.py": "keeps the figures of finished rows",
     "harness/results/columns.py": "prints a page of the documentation",
     "harness/results/schema.py": "says which columns reports make of finished rows",
+    "harness/shipping": "writes programs out for others, and stores no row",
     "harness/studies": "are no cells; each has a key of its own, see harness/studies/__init__.py",
 }
 TRUTH = ("harness/contract.py", "harness/limits.py", "harness/oracle", "surfaces")

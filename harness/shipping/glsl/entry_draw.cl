@@ -1,7 +1,8 @@
-// Casts the ray of one sample of a camera's image per work item, and writes three answers for it. `c` is the camera: eye,
-// forward, right, up, 12 float32. `t` is the distance of the hit from the eye. `answer` is evaluations * 4 + status, with
-// status 0 for a miss, 1 for a hit, 2 for a ray that was given up; -1 is no answer. `normals` holds the unit vector along
-// the gradient of f at the hit, 3 float32; zeros without a hit.
+// Casts the ray of one sample of a camera's image per work item. `c` is the camera: eye, forward, right, up, 12 float32;
+// forward has length 1, right and up are half the sides of the image at the distance 1. It writes for each ray:
+// t         the distance of the hit from the eye
+// answer    evaluations of f * 4 + status; status 0: a miss, 1: a hit, 2: given up; the word -1: no answer
+// normals   the unit vector along the gradient of f at the hit, 3 float32; zeros without a hit
 __kernel void draw(__global const float *c, __global real *t, __global int *answer, __global float *normals,
                    int nx, int ny) {
     int i = get_global_id(0);
