@@ -1,0 +1,65 @@
+"""Write the page of a recommendation: what `firsthit recommend -o FILE` makes of what was found."""
+
+from __future__ import annotations
+
+from datetime import UTC, datetime
+from pathlib import Path
+
+from harness import __version__
+from harness.recommend import telling
+from harness.recommend.model import Recommendation, Wish, named
+from harness.recommend.telling import Told
+from reports.recommended import Recommended, RunnerUp, write
+
+EARLY = "* in a first short timing, over the fastest variant's time there."
+COMMANDS = {"again": "The same search again:", "ship": "The program, with an example that draws it:"}
+NAMES = {"rule": "safety", "guarantee": "guarantee", "checked": "checked"}
+
+
+def write_page(found: Recommendation, wish: Wish, commands: dict[str, str], remark: str | None, path: Path) -> None:
+    """Write the page to `path`. Raises FirsthitError where it cannot be written."""
+    created = datetime.now(UTC).isoformat(timespec="seconds")
+    best = found.contenders[0] if found.contenders else None
+    facts = [("device", f"{found.device.name}: {found.device.title}, {found.device.driver}")]
+    facts += [("mind", remark)] if remark else []
+    facts += [(NAMES[name], text) for name, text in telling.certainty(found, wish).items()]
+    facts += [("surface", f"{wish.surface.formula} = 0{_parameters(wish)}, in {wish.surface.domain}")]
+    told = [other for other in telling.others(found, wish) if not (best and _is_all_of_best(other, found))]
+    runners_up = [_runner_up(other, found) for other in told]
+    picture, arrays = "", None
+    if found.picture is not None and found.folder is not None:
+        accuracy = found.picture["accuracy"]
+        arrays = found.folder / str(found.picture["arrays"])
+        largest = accuracy["error"]["max"]
+        picture = (
+            f"{accuracy['size']}x{accuracy['size']} rays, {accuracy['truth_hits']} hits; largest error {largest:.2g}"
+        )
+    page = Recommended(
+        f"What draws {wish.surface.title}?",
+        f"firsthit {__version__} · {created[:10]} · {found.device.name}",
+        telling.question(found, wish),
+        telling.answer(found, wish),
+        facts,
+        arrays,
+        picture,
+        runners_up,
+        f"Time is over that of {named(best.variant)}. {EARLY}" if best else EARLY,
+        [(COMMANDS[name], command) for name, command in commands.items()],
+    )
+    write(page, path, created)
+
+
+def _parameters(wish: Wish) -> str:
+    return "".join(f", {name} = {value}" for name, value in wish.surface.parameters)
+
+
+def _is_all_of_best(other: Told, found: Recommendation) -> bool:
+    """Tell whether nothing but the recommended variant is told of."""
+    return other.best == found.contenders[0].variant and other.sentence.count(";") == 0
+
+
+def _runner_up(other: Told, found: Recommendation) -> RunnerUp:
+    held = any((c.variant, c.precision) == (other.best, other.precision) for c in found.contenders)
+    variant = f"{telling.how(other.best).removeprefix('with ')}, {other.precision}"
+    why = other.sentence.removeprefix(other.method).strip()
+    return RunnerUp(other.method, variant, other.times, not held, other.error, why)
