@@ -6,12 +6,21 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
+
 from harness.results.writing import replacing
 from reports import wording
 from reports.content import Block, Code, Column, Document, Gallery, Panel, Picture, Section, Table, Text
 from reports.drawing import images, plots
 from reports.reading import arrays
 from reports.rendering import document, html
+
+EDGE = 4  # rows of pixels that are left above and below what is seen
+PICTURES = "What it draws, and the error of every pixel"
+LEGEND = (
+    "Dark blue to yellow is |t − t*| in the surface's units, of rays that hit the right root. Bright colours are rays "
+    "that are answered wrongly, paler where they graze the surface or f drowns in its own rounding."
+)
 
 
 @dataclass(frozen=True)
@@ -78,30 +87,29 @@ def content(page: Recommended) -> Document:
 
 
 def _pictures(path: Path, told: str) -> Gallery:
-    """Show what was drawn, and beside it the error of every pixel."""
+    """Show what was drawn, and beside it the error of every pixel, without rows of pixels that show nothing."""
     read = arrays.read(path)
+    seen = np.flatnonzero((~np.isnan(read.shade) | (read.wrong > 0)).any(axis=1))
+    rows = slice(max(0, seen[0] - EDGE), seen[-1] + 1 + EDGE) if len(seen) else slice(None)
     scale = images.scale_of([read])
     pictures = (
-        Picture("picture", images.png(images.shaded(read)), "The surface as the recommended variant draws it"),
-        Picture("errors", images.png(images.error_map(read, scale)), "The error of each pixel of the picture"),
+        Picture("picture", images.png(images.shaded(read)[rows]), "The surface as the recommended variant draws it"),
+        Picture("errors", images.png(images.error_map(read, scale)[rows]), "The error of each pixel of the picture"),
     )
-    return Gallery(
-        (Panel("What it draws, and the error of every pixel", pictures, told),), "", plots.error_legend(*scale)
-    )
+    return Gallery((Panel(PICTURES, pictures, told),), LEGEND, plots.error_legend(*scale))
 
 
 def _table(page: Recommended) -> Table:
     columns = (
         Column("method"),
-        Column("its best variant", stretch=2),
-        Column("time", _times, numeric=True),
+        Column("the variant that\ncame farthest", stretch=2),
+        Column("time", numeric=True),
         Column("largest\nerror", wording.error, numeric=True),
-        Column("why it is not recommended", stretch=6),
+        Column("how far it came, and why no farther", stretch=6),
     )
-    rows = [(o.method, o.variant, (o.times, o.early), o.error, o.why) for o in page.others]
-    return Table(columns, rows, "The other methods.", page.notes)
+    rows = [(o.method, o.variant, _times(o), o.error, o.why) for o in page.others]
+    return Table(columns, rows, "All methods, the best first.", page.notes)
 
 
-def _times(value: tuple[float | None, bool]) -> str:
-    times, early = value
-    return f"{wording.factor(times)}{'*' if early and times is not None else ''}"
+def _times(of: RunnerUp) -> str:
+    return f"{wording.factor(of.times)}{'*' if of.early and of.times is not None else ''}"

@@ -9,6 +9,7 @@ from harness import __version__
 from harness.recommend import telling
 from harness.recommend.model import Recommendation, Wish, named
 from harness.recommend.telling import Told
+from harness.shipping.program import domain_of
 from reports.recommended import Recommended, RunnerUp, write
 
 EARLY = "* in a first short timing, over the fastest variant's time there."
@@ -23,7 +24,7 @@ def write_page(found: Recommendation, wish: Wish, commands: dict[str, str], rema
     facts = [("device", f"{found.device.name}: {found.device.title}, {found.device.driver}")]
     facts += [("mind", remark)] if remark else []
     facts += [(NAMES[name], text) for name, text in telling.certainty(found, wish).items()]
-    facts += [("surface", f"{wish.surface.formula} = 0{_parameters(wish)}, in {wish.surface.domain}")]
+    facts += [("surface", f"{wish.surface.formula} = 0{_parameters(wish)}, in {domain_of(wish.surface)}")]
     told = [other for other in telling.others(found, wish) if not (best and _is_all_of_best(other, found))]
     runners_up = [_runner_up(other, found) for other in told]
     picture, arrays = "", None
