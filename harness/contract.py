@@ -199,6 +199,7 @@ class Variant:
 class View:
     """State a perspective camera.
 
+    name: what commands and rows call it
     azimuth, elevation: direction from the target to the eye, degrees; elevation 90 looks down the z axis
     fov: the full vertical angle of view, degrees
     distance: from the eye to the target, scene units; None: the domain's bounding sphere just fits the field of view

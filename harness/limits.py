@@ -27,6 +27,9 @@ class Limit(Protocol):
     def broken(self, value: Any) -> str | None:
         """Say why a field cannot hold `value`; None where it can."""
 
+    def keywords(self) -> dict[str, Any]:
+        """Return what a JSON schema says of the value, of each item of a list, or of each key of a table."""
+
 
 @dataclass(frozen=True)
 class Within:
@@ -44,6 +47,10 @@ class Within:
             return None
         return self.words.format(value=value, low=self.low, high=self.high)
 
+    def keywords(self) -> dict[str, Any]:
+        stated = {"minimum": self.low, "maximum": self.high}
+        return {word: bound for word, bound in stated.items() if math.isfinite(bound)}
+
 
 @dataclass(frozen=True)
 class OneOf:
@@ -57,6 +64,9 @@ class OneOf:
             if one not in self.values:
                 return self.words.format(value=one, values=", ".join(map(str, self.values)))
         return None
+
+    def keywords(self) -> dict[str, Any]:
+        return {"enum": list(self.values)}
 
 
 @dataclass(frozen=True)
@@ -77,6 +87,9 @@ class Known:
         unknown = next((name for name in value if name not in known), None)
         return None if unknown is None else f"unknown {unknown!r}; {suggestion(unknown, known)}"
 
+    def keywords(self) -> dict[str, Any]:
+        return {"enum": [*(["all"] if self.or_all else []), *self.names()]}
+
 
 @dataclass(frozen=True)
 class Named:
@@ -86,6 +99,22 @@ class Named:
 
     def broken(self, value: str) -> str | None:
         return Known(self.names).broken([value]) if value else None
+
+    def keywords(self) -> dict[str, Any]:
+        return {"enum": ["", *self.names()]}
+
+
+@dataclass(frozen=True)
+class Offered:
+    """Names that an editor may offer for a text, or for the items of a list, which may be other texts too."""
+
+    names: Callable[[], Iterable[str]]
+
+    def broken(self, value: Any) -> None:
+        del value
+
+    def keywords(self) -> dict[str, Any]:
+        return {"anyOf": [{"enum": list(self.names())}, {"type": "string"}]}
 
 
 @dataclass(frozen=True)
@@ -98,6 +127,9 @@ class Distinct:
         names = self.names(value)
         twice = next((name for name in names if names.count(name) > 1), None)
         return None if twice is None else f"{twice!r} is named twice"
+
+    def keywords(self) -> dict[str, Any]:
+        return {}  # it is said of the list, see harness.schemas
 
 
 def is_finite(value: float) -> bool:

@@ -190,6 +190,11 @@ def _check_kernel(path: Path) -> None:
         raise FirsthitError(f"{path}:{line}: a kernel is one file; write what it would include into it")
 
 
+def built_in() -> list[str]:
+    """List the names of the project's own methods, sorted. None of them is loaded."""
+    return [folder.name for folder in _folders(BUILT_IN)]
+
+
 def _folders(directory: Path) -> list[Path]:
     """Return the folders in a directory that hold a method.py or a kernel.glsl, sorted."""
     return sorted({path.parent for name in ("method.py", "kernel.glsl") for path in directory.glob(f"*/{name}")})

@@ -151,7 +151,11 @@ def test_ctrl_c_while_devices_are_looked_for_is_130(tmp_path):
 
 
 @pytest.mark.parametrize(
-    "arguments", [("list", "methods"), ("list", "configs"), ("--help",), ("--version",), ("gate", "--help")]
+    "arguments",
+    [
+        *[("list", "methods"), ("list", "configs"), ("--help",), ("--version",), ("gate", "--help")],
+        *[("list", "configs", "--json"), ("schema",)],
+    ],
 )
 def test_a_pipe_that_nobody_reads_is_no_success(tmp_path, arguments):
     ours, theirs = os.pipe()
@@ -165,7 +169,7 @@ def test_a_pipe_that_nobody_reads_is_no_success(tmp_path, arguments):
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="no /dev/full")
 @pytest.mark.parametrize("unbuffered", ["", "1"])
-@pytest.mark.parametrize("arguments", [("list", "configs"), ("--version",)])
+@pytest.mark.parametrize("arguments", [("list", "configs"), ("--version",), ("list", "configs", "--json")])
 def test_a_full_disk_is_one_line_and_no_success(tmp_path, arguments, unbuffered):
     with Path("/dev/full").open("w") as full:
         result = subprocess.run(

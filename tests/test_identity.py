@@ -266,7 +266,8 @@ def test_a_methods_key_holds_its_folder_and_its_modules_elsewhere(tmp_path):
     assert before.keys() == named | shared
     (tmp_path / "shared" / "deeper.py").write_text("X = 1")
     after = sources.of_method(folder)
-    assert identity.changes({"method": before}, {"method": after}) == ["method: shared/deeper.py changed"]
+    (change,) = identity.changes({"method": before}, {"method": after})
+    assert (str(change), change.part) == ("method: shared/deeper.py changed", ("method", "shared/deeper.py"))
 
 
 def test_an_installed_methods_key_holds_its_package_and_no_other(tmp_path):

@@ -13,6 +13,7 @@ ROOT = Path(__file__).parent.parent
 LAYERS = (  # from the ground up; what stands in one line does not import each other
     ("surfaces",),
     ("harness.limits",),
+    ("harness.schemas",),
     ("harness.contract", "harness.__init__"),
     ("harness.stated",),
     ("harness.plugins", "harness.results"),

@@ -21,6 +21,7 @@ from harness.contract import FirsthitError
 
 def answered(capsys, *arguments, code=0):
     """Run a command line and return the object that it prints."""
+    capsys.readouterr()
     try:
         found = main([*map(str, arguments), "--json"])
     except SystemExit as ended:

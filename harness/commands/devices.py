@@ -5,11 +5,14 @@ from __future__ import annotations
 import argparse
 import contextlib
 import dataclasses
+from collections.abc import Sequence
 from datetime import UTC, datetime
 from pathlib import Path
 
 from harness import console
 from harness.commands import Add
+from harness.commands.answers import listed
+from harness.commands.machine import Answer, add_json
 from harness.contract import DeviceInfo, FirsthitError
 from harness.devices import kept_answers
 from harness.devices.discovery import known_devices
@@ -24,12 +27,14 @@ HEADER = (
 )
 # Digests of fingerprints: where two are equal, the devices answer alike, to the last bit
 ALIKE = ("arithmetic", "float32", "float64", "raster")
+Tried = tuple[DeviceInfo, Probes | None, Fingerprint | None]  # what a look at a device found
 SHARES = ("two_sum", "two_prod_fma", "two_prod_split", "round_to_nearest", "division")
 
 
 def add_parsers(add: Add) -> None:
     parser = add("devices", "firsthit devices")
     parser.add_argument("--again", action="store_true", help="look and measure anew, whatever is kept of before")
+    add_json(parser)
     parser.set_defaults(run=_devices)
 
 
@@ -75,9 +80,7 @@ def _kept(info: DeviceInfo, folder: Path | None, again: bool) -> list[float]:
     return [when for found, when in (kept_probes(info, folder), kept_fingerprint(info, folder)) if found]
 
 
-def _look(
-    executor: LocalExecutor, info: DeviceInfo, folder: Path | None, again: bool
-) -> tuple[DeviceInfo, Probes | None, Fingerprint | None]:
+def _look(executor: LocalExecutor, info: DeviceInfo, folder: Path | None, again: bool) -> Tried:
     """Return a device, its probes and its fingerprint; if one of them cannot be had, the device's problem says why."""
     info, probes = probed(executor, info, folder, again)
     if info.problem:
@@ -88,11 +91,11 @@ def _look(
         return dataclasses.replace(info, problem=str(error)), probes, None
 
 
-def _devices(options: argparse.Namespace) -> int:
-    """Print the devices, measured now or before; the exit code is 3 where none is usable."""
+def _devices(options: argparse.Namespace) -> int | Answer:
+    """Tell of the devices, measured now or before; the exit code is 3 where none is usable."""
     with console.doing("looking for devices"):
         known = known_devices(again=options.again)
-    since, tried = [known.since], []
+    since, tried = [known.since], list[Tried]()
     folder, executor = kept_answers.probes_folder(), LocalExecutor(START_SECONDS)
     try:
         for info in known.devices:
@@ -102,13 +105,39 @@ def _devices(options: argparse.Namespace) -> int:
                 tried.append(_look(executor, info, folder, options.again))
     finally:
         executor.close()
+    oldest = min((age for age in since if age is not None), default=None)
+    when = None if oldest is None else datetime.fromtimestamp(oldest, UTC)
+    code = 0 if any(not info.problem for info, _, _ in tried) else 3
+    if options.json:
+        return Answer(listed.Devices(_facts(tried), when.isoformat(timespec="seconds") if when else None), code)
+    _print(tried, when)
+    return code
+
+
+def _print(tried: Sequence[Tried], when: datetime | None) -> None:
+    """Print the tables of devices; `when` is the time when the oldest of this was found, if it was not now."""
     print(console.table(HEADER, [_row(info, probes) for info, probes, _ in tried]))
     if devices := {info.name: found for info, _, found in tried if found}:
         print("\n" + console.table(ALIKE, _alike(devices)))
     for info, _, _ in tried:
         if info.problem:
             print(f"{info.name}: {info.problem}")
-    if ages := [age for age in since if age is not None]:
-        oldest = datetime.fromtimestamp(min(ages), UTC).strftime("%Y-%m-%d %H:%M UTC")
-        print(f"Some of this was found on {oldest}, and kept; `firsthit devices --again` finds all of it anew.")
-    return 0 if any(not info.problem for info, _, _ in tried) else 3
+    if when:
+        told = f"Some of this was found on {when:%Y-%m-%d %H:%M UTC}, and kept"
+        print(f"{told}; `firsthit devices --again` finds all of it anew.")
+
+
+def _facts(tried: Sequence[Tried]) -> list[listed.MeasuredDevice]:
+    first: dict[tuple[str, str], str] = {}
+    devices = []
+    for info, probes, fingerprint in tried:
+        short = digests(fingerprint or {})
+        measured = listed.MeasuredDevice(
+            **vars(listed.device(info)),
+            probes=listed.ProbeFacts(**dataclasses.asdict(probes)) if probes else None,
+            fingerprint=fingerprint or {},
+            digests=short,
+            alike={of: first.setdefault((of, found), info.name) for of, found in short.items()},
+        )
+        devices.append(measured)
+    return devices

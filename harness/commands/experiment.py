@@ -5,24 +5,28 @@ from __future__ import annotations
 import argparse
 import shlex
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 from harness import console
 from harness.commands import Add
+from harness.commands.answers import experiments
+from harness.commands.machine import Answer, add_json
 from harness.commands.printer import Printer
-from harness.contract import DeviceInfo, FirsthitError
+from harness.contract import FirsthitError
 from harness.experiment import config, identity, plan
-from harness.experiment.plan import Planned
-from harness.plugins import Catalog, find_methods
+from harness.experiment.identity import Difference
+from harness.plugins import find_methods
 from harness.results.history import past_of
 from harness.results.store import Row, Store
-from harness.running.due import due, estimate_seconds
+from harness.running.due import due, estimates
 from harness.running.run import Loaded, load, run
 
 
 def add_parsers(add: Add) -> None:
     parser = add("plan", "firsthit plan quick")
     _add_config(parser)
+    add_json(parser)
     parser.set_defaults(run=_plan)
 
     parser = add("run", "firsthit run quick --retry failed")
@@ -35,6 +39,7 @@ def add_parsers(add: Add) -> None:
     parser = add("why", "firsthit why runs/quick/cells/0123456789abcdef.json")
     parser.add_argument("cell", help="a cell's key (or its beginning), or its file")
     parser.add_argument("--runs", type=Path, default=Path("runs"), metavar="DIR", help="where to look (default: runs)")
+    add_json(parser)
     parser.set_defaults(run=_why)
 
     parser = add("report", "firsthit report runs/quick")
@@ -59,30 +64,36 @@ def _load(options: argparse.Namespace) -> Loaded:
     return load(options.config, options.plugins, getattr(options, "device", None) or (), Printer())
 
 
-def _plan(options: argparse.Namespace) -> int:
+def _plan(options: argparse.Namespace) -> int | Answer:
+    """Tell each config's cells, and how long those that must run will take."""
     loaded = _load(options)
-    for part in loaded.parts:
-        _plan_one(part, loaded.catalog, loaded.devices, options)
+    parts = [_planned(part, loaded, options.runs) for part in loaded.parts]
+    if options.json:
+        return Answer(experiments.Plan(parts))
+    for part in parts:
+        print(console.table(("key", "cell", "state"), [(cell.key, cell.slot, _state(cell)) for cell in part.cells]))
+        print(f"{part.config}: {len(part.cells)} cells, {part.to_run} to run, about {console.duration(part.seconds)}")
     return 0
 
 
-def _plan_one(
-    experiment: config.Experiment, catalog: Catalog, devices: list[DeviceInfo], options: argparse.Namespace
-) -> None:
-    """Print a config's cells, and how long those that must run will take."""
-    planned = plan.plan(experiment, catalog, devices)
-    store = Store(options.runs / experiment.name)
+def _planned(part: config.Experiment, loaded: Loaded, runs: Path) -> experiments.PlanFacts:
+    """Say which cells a config has, and which of them have a row below `runs`."""
+    planned = plan.plan(part, loaded.catalog, loaded.devices)
+    store = Store(runs / part.name)
     found = due(planned, store)
-    states = [(p.key, p.cell.slot, _state(p, found.kept.get(p.key))) for p in planned]
-    print(console.table(("key", "cell", "state"), states))
-    left = estimate_seconds(found.todo, store, experiment.config.budget.seconds)
-    print(f"{experiment.path}: {len(planned)} cells, {len(found.todo)} to run, about {console.duration(left)}")
+    seconds = estimates(found.todo, store, part.config.budget.seconds)
+    return experiments.PlanFacts(
+        str(part.path),
+        part.config.title,
+        str(store.folder),
+        [experiments.cell(p, found.kept.get(p.key), seconds.get(p.key, 0.0)) for p in planned],
+        len(found.todo),
+        sum(seconds.values()),
+    )
 
 
-def _state(planned: Planned, row: Row | None) -> str:
-    if row:
-        return f"done: {row['status']}"
-    return f"skip: {planned.skip}" if planned.skip else "to run"
+def _state(cell: experiments.CellFacts) -> str:
+    return {"done": f"done: {cell.status}", "skip": f"skip: {cell.reason}"}.get(cell.state, cell.state)
 
 
 def _run(options: argparse.Namespace) -> int:
@@ -92,21 +103,26 @@ def _run(options: argparse.Namespace) -> int:
     return 3 if found.unfinished else 0
 
 
-def _why(options: argparse.Namespace) -> int:
-    """Print what set a cell apart from its last result and its next, and what would make it run again now."""
+def _why(options: argparse.Namespace) -> int | Answer:
+    """Tell what set a cell apart from its last result and its next, and what would make it run again now."""
     past = past_of(Path(options.cell).stem, options.runs)
-    row = past.row
+    row, before, after = past.row, past.before, past.after
+    since = None if after else identity.since(row["identity"], find_methods(options.plugins))
+    if options.json:
+        earlier = experiments.result(before, before, row) if before else None
+        later = experiments.result(after, row, after) if after else None
+        return Answer(experiments.why(row, earlier, later, since))
     print(f"{row['key']}  {row['slot']}\nrun {row['environment']['started']}: {row['status']}")
     if row["reason"]:
         print(f"reason: {row['reason']}")
-    if not past.before and not past.after:
+    if not before and not after:
         print("the only result of this cell so far")
-    if past.before:
-        _print_changes("before", past.before, past.before, row)
-    if past.after:
-        _print_changes("after", past.after, row, past.after)
-    else:
-        _why_again(row, find_methods(options.plugins))
+    if before:
+        _print_changes("before", before, before, row)
+    if after:
+        _print_changes("after", after, row, after)
+    if since is not None:
+        _why_again(since)
     return 0
 
 
@@ -117,9 +133,8 @@ def _print_changes(word: str, other: Row, older: Row, newer: Row) -> None:
         print(f"  {line}")
 
 
-def _why_again(row: Row, catalog: Catalog) -> None:
+def _why_again(changed: Sequence[Difference]) -> None:
     """Print what changed in the harness, the method and this machine since a cell's newest row was made."""
-    changed = identity.since(row["identity"], catalog)
     if not changed:
         print(
             "\nsince then nothing changed in the harness, the method or the packages; a config may ask for another cell"

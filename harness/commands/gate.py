@@ -7,6 +7,8 @@ import sys
 from pathlib import Path
 
 from harness.commands import Add, telling
+from harness.commands.answers import gates
+from harness.commands.machine import Answer, add_json
 from harness.commands.options import add_history, history_of, tell, writable
 from harness.commands.printer import Printer
 from harness.contract import FirsthitError
@@ -52,6 +54,7 @@ def add_parsers(add: Add) -> None:
     )
     parser.add_argument("--keep", action="store_true", help="keep the figures by commit, for `firsthit history`")
     add_history(parser)
+    add_json(parser)
     parser.set_defaults(run=_gate)
 
     parser = add(
@@ -89,7 +92,7 @@ def _check(options: argparse.Namespace, prepared: Prepared) -> Checked:
     return prepared.check(options.runs, Printer(), options.force)
 
 
-def _gate(options: argparse.Namespace) -> int:
+def _gate(options: argparse.Namespace) -> int | Answer:
     options.typed, options.config = options.config, located(options.config)
     toml_file.read(options.config)  # a config that cannot be read is told before a baseline of it is missed
     for path in filter(None, (options.junit, options.markdown)):
@@ -128,8 +131,8 @@ def _tell(
     before: Baseline | None,
     path: Path,
     compared: Compared | None = None,
-) -> int:
-    """Draw and tell the verdicts in every form that is asked for, and return the exit code.
+) -> int | Answer:
+    """Draw and tell the verdicts in every form that is asked for, and return the exit code, or the answer that has it.
 
     `prepared` is a Checked, if anything ran. `before` is the baseline that `path` holds, None if nothing was held
     against it.
@@ -146,6 +149,9 @@ def _tell(
     if judged and all(j.verdict is Verdict.NEW for j in judged):
         told = "all rows are new, and nothing was compared, which is no pass; `firsthit bless` makes a baseline of them"
         print(f"firsthit: {told}", file=sys.stderr)
+    if options.json:
+        held_against, broken = (path if before else None, options.against), prepared.catalog.broken
+        return Answer(gates.gate(options.config, *held_against, judged, about, compared, broken), code)
     return code
 
 

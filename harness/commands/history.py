@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING
 
 from harness import console
 from harness.commands import Add
+from harness.commands.answers import gates
+from harness.commands.machine import Answer, add_json
 from harness.commands.options import add_history, history_of, tell
 from harness.contract import FirsthitError
 from harness.experiment import reading
@@ -38,10 +40,11 @@ def add_parsers(add: Add) -> None:
     parser.add_argument("config", type=Path, metavar="CONFIG", help="a TOML file, or a name of `firsthit list configs`")
     parser.add_argument("-o", "--output", type=Path, metavar="DIR", help="default: runs/history-NAME")
     add_history(parser)
+    add_json(parser)
     parser.set_defaults(run=_history)
 
 
-def _history(options: argparse.Namespace) -> int:
+def _history(options: argparse.Namespace) -> int | Answer:
     """Draw the history of a config. Raises FirsthitError where nothing is kept, or a package is missing."""
     config = located(options.config)
     experiment = reading.load(config, find_methods(options.plugins))
@@ -55,6 +58,8 @@ def _history(options: argparse.Namespace) -> int:
         raise FirsthitError(f"{folder} holds no kept runs to draw; `{command}` keeps the rows of a commit")
     output = options.output or Path("runs") / f"history-{experiment.name}"
     steps = _draw(kept, problems, options.plugins, config, tolerances_of(experiment.config.gate.figures), output)
+    if options.json:
+        return Answer(gates.history(output / "index.html", len(kept), steps))
     listed = [
         (
             "worse" if step.worse else "better",

@@ -96,7 +96,7 @@ def tell(
     about: Mapping[Place, About],
     more: Callable[[int | None], str] | None = None,
 ) -> None:
-    """Write the files that are asked for, and then print the table.
+    """Write the files that are asked for, and then print the table, or with --json no table.
 
     `held` names what the rows are held against. `more` returns what is told after the table, for so many columns; None:
     any width.
@@ -110,10 +110,11 @@ def tell(
         write_atomically(options.markdown, summary.encode())
     if options.github:
         servers.summarize(summary)
-    width = shutil.get_terminal_size().columns if sys.stdout.isatty() else None
-    print(outputs.table(judged, width))
-    if more:
-        print(more(width))
+    if not options.json:
+        width = shutil.get_terminal_size().columns if sys.stdout.isatty() else None
+        print(outputs.table(judged, width))
+        if more:
+            print(more(width))
     if options.pictures:
         count = sum(1 for own in about.values() if own.picture)
         print(f"{options.pictures}: {count} {'picture' if count == 1 else 'pictures'} of wrong rays")

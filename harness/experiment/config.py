@@ -20,7 +20,7 @@ from harness.contract import (
     Variant,
     View,
 )
-from harness.limits import PIXELS, RAYS, SECONDS, SEED, SHARE, TIMEOUT, Distinct, Known, OneOf, Within
+from harness.limits import PIXELS, RAYS, SECONDS, SEED, SHARE, TIMEOUT, Distinct, Known, Offered, OneOf, Within
 from harness.scenes.choice import SceneChoice
 from harness.scenes.model import Scene
 from harness.scenes.views import AngleChoice, DirectionChoice
@@ -32,6 +32,11 @@ GONE = {
     "are held with more tolerance; remove the key, and state that tolerance in [gate.last_bits] if the default is "
     "not yours",
 }
+
+
+BESIDE_INCLUDE = ("title", "include")  # all that a config may hold that includes others
+DRAWN = ("surfaces", "scene", "families")  # each of them needs methods
+ASKED = (*DRAWN, "studies")  # of which a config names one at least
 
 
 # Annotated types name these functions. A lambda in an annotation would not find the names of this module
@@ -61,6 +66,26 @@ def _families() -> Iterable[str]:
     return hardcases.names()
 
 
+def _methods() -> Iterable[str]:
+    from harness import plugins
+
+    return plugins.built_in()
+
+
+def _surfaces() -> Iterable[str]:
+    import surfaces
+
+    return surfaces.names()
+
+
+def _surfaces_and_all() -> Iterable[str]:
+    return ["all", *_surfaces()]
+
+
+def _devices() -> Iterable[str]:
+    return ["all", "any"]
+
+
 def _paths(names: list[str]) -> list[Path]:
     return [Path(name) for name in names]
 
@@ -78,12 +103,14 @@ def _angles(angles: AngleChoice | None) -> list[str]:
 class MethodChoice:
     """Choose a method, and one value or several for each of its knobs; every combination of the values is a variant.
 
+    name: of the method, as `firsthit list methods` prints it
+    parameters: values of its knobs, by the knobs' names
     settings: the papers' own settings, by the names that the method gives them
     stages: of this method, if they are not the experiment's
     deviations: add the default, and each knob that we changed at the value that the method's source prints
     """
 
-    name: str
+    name: Annotated[str, Offered(_methods)]
     parameters: dict[str, list[float]] = field(default_factory=dict)
     settings: list[str] = field(default_factory=list)
     stages: Annotated[list[Stage], Distinct()] = field(default_factory=list)
@@ -94,7 +121,9 @@ class MethodChoice:
 class SurfaceChoice:
     """Define a surface of the config's own; without a formula, change the catalog's of that name.
 
+    formula: f(x, y, z), which is 0 on the surface
     domain: if none is given, the catalog's, or sphere:1.5 for a formula
+    parameters: values of the names that the formula uses, or of the catalog's parameters
     """
 
     formula: str = ""
@@ -144,6 +173,8 @@ class BudgetChoice:
 class ToleranceChoice:
     """Say how much worse a gated figure may get: `absolute` + `relative` × the baseline.
 
+    absolute: in the figure's unit
+    relative: a share of the baseline's value
     better: "lower" or "higher", if it is not as usual
     gated: False leaves the figure alone
     """
@@ -156,7 +187,11 @@ class ToleranceChoice:
 
 @dataclass(frozen=True)
 class SlackChoice:
-    """Say by how much more a gated figure may get worse on other arithmetic: `absolute` + `relative` × the baseline."""
+    """Say by how much more a gated figure may get worse on other arithmetic: `absolute` + `relative` × the baseline.
+
+    absolute: in the figure's unit
+    relative: a share of the baseline's value
+    """
 
     absolute: Annotated[float, NOT_NEGATIVE] = 0.0
     relative: Annotated[float, NOT_NEGATIVE] = 0.0
@@ -182,16 +217,31 @@ class Config:
     - methods × prepass × origins × surfaces × views × sizes × samples × stages × precisions × devices, and
     - methods × families of hard rays × precisions × devices, which are checked and not timed.
 
+    title: what reports are headed with
     include: config files; with it, a config holds nothing else but a title. Each is run into its own folder, and one
         report collects them
     baseline: the method, or the variant by its label, that reports give speed-ups over
     studies: computations of harness.studies
+    method: the methods that are compared, each with its knobs
     surfaces, families: names, or ["all"]
     view: the views that are named one by one and, once names are resolved, those of `angles` and `directions`; without
         any, one default view
+    angles: a set of views by projection angle
+    directions: a set of views spread over the sphere
+    sizes: pixels per side
+    samples_per_pixel: rays through a pixel, in a regular pattern
+    precisions: of the numbers that kernels compute with
+    stages: compute: rays of a camera's image; rays: the same rays, listed; raster: fragments, or triangles of a mesh
+    prepass: beams: beams of tiles narrow the rays to where they cannot exclude the surface
     origins: of rays; beams have none
     proxies, tolerances, normals: of stage raster
+    devices: names of `firsthit devices`, "all", or "any" for the first that works
+    seed: of the order in which cells are timed
+    accuracy: how answers are checked
+    budget: what one cell may cost
+    surface: surfaces of the config's own, and changes to those of the catalog, by name
     scene: drawn by stage raster, from its own view
+    gate: how `firsthit gate` holds rows against a baseline
     """
 
     title: str
@@ -199,7 +249,7 @@ class Config:
     baseline: str = BASELINE
     studies: Annotated[list[str], Known(_studies), Distinct()] = field(default_factory=list)
     method: list[MethodChoice] = field(default_factory=list)
-    surfaces: Annotated[list[str], Distinct()] = field(default_factory=list)
+    surfaces: Annotated[list[str], Offered(_surfaces_and_all), Distinct()] = field(default_factory=list)
     families: Annotated[list[str], Known(_families, or_all=True), Distinct()] = field(default_factory=list)
     view: Annotated[list[View], Distinct(_names)] = field(default_factory=list)
     angles: Annotated[AngleChoice | None, Distinct(_angles)] = None
@@ -213,7 +263,7 @@ class Config:
     proxies: Annotated[list[Proxy], Distinct()] = field(default_factory=lambda: ["box"])
     tolerances: Annotated[list[Annotated[float, Within(0.0, 1e3)]], Distinct()] = field(default_factory=lambda: [0.0])
     normals: Annotated[list[Normal], Distinct()] = field(default_factory=lambda: ["distance"])
-    devices: Annotated[list[str], Distinct()] = field(default_factory=lambda: ["all"])
+    devices: Annotated[list[str], Offered(_devices), Distinct()] = field(default_factory=lambda: ["all"])
     seed: Annotated[int, SEED] = 1
     accuracy: AccuracyChoice = field(default_factory=AccuracyChoice)
     budget: BudgetChoice = field(default_factory=BudgetChoice)

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 from harness.devices.host import cores, processor, settings
 from harness.plugins import Catalog
@@ -37,29 +38,49 @@ def _of_method(folder: Path) -> dict[str, str]:
     return sources.of_method(folder)
 
 
-def since(stored: Mapping[str, Any], catalog: Catalog) -> list[str]:
-    """List what differs between `common` and a stored identity, a line each; the config is not looked at."""
+@dataclass(frozen=True)
+class Difference:
+    """Hold what differs between two identities.
+
+    part: the names that lead to it: ("device", "driver")
+    before, now: its values; None where it is not there, and where it is known by a hash only
+    """
+
+    part: tuple[str, ...]
+    change: Literal["changed", "new", "gone"]
+    before: Any = None
+    now: Any = None
+
+    def __str__(self) -> str:
+        """Say it in a line. Of a hash only the name is told."""
+        name, word = ": ".join(self.part), {"changed": "changed", "new": "is new", "gone": "is gone"}[self.change]
+        hidden = self.before is None and self.now is None
+        return f"{name} {word}" if hidden else f"{name}: {self.before!r} → {self.now!r}"
+
+
+OLDER = Difference(("harness", "what it names as deciding a row"), "changed")
+
+
+def since(stored: Mapping[str, Any], catalog: Catalog) -> list[Difference]:
+    """List what differs between `common` and a stored identity; the config is not looked at."""
     if "method" not in stored:
-        return ["the harness, which named less of what decides a row then"]
+        return [OLDER]
     names = [Path(file).parent.name for file in stored["method"] if file.endswith("/method.py")]
     folders = [catalog.plugins[name].folder for name in names if name in catalog.plugins]
     now = common(folders, timed=stored["cores"] is not None)
     return changes({name: stored[name] for name in now}, now)
 
 
-def changes(old: Mapping[str, Any], new: Mapping[str, Any], path: str = "") -> list[str]:
-    """List what differs between two identities, a line each.
-
-    Of a hash only the name is told.
-    """
-    lines: list[str] = []
+def changes(old: Mapping[str, Any], new: Mapping[str, Any], path: tuple[str, ...] = ()) -> list[Difference]:
+    """List what differs between two identities, sorted by names."""
+    found: list[Difference] = []
     for key in sorted(old.keys() | new.keys()):
-        name = f"{path}{key}"
+        part = (*path, key)
         a, b = old.get(key), new.get(key)
         if isinstance(a, dict) and isinstance(b, dict):
-            lines += changes(a, b, f"{name}: ")
+            found += changes(a, b, part)
         elif a != b:
-            is_hash = name.partition(":")[0] in HASHED
-            word = "is new" if key not in old else "is gone" if key not in new else "changed"
-            lines.append(f"{name} {word}" if is_hash else f"{name}: {a!r} → {b!r}")
-    return lines
+            change: Literal["changed", "new", "gone"]
+            change = "new" if key not in old else "gone" if key not in new else "changed"
+            found.append(Difference(part, change, *(() if part[0] in HASHED else (a, b))))
+    return found

@@ -21,9 +21,13 @@ WORDS = {float: "a number", int: "a whole number", str: "a text in quotes", bool
 
 def load(path: Path, catalog: Catalog) -> Experiment:
     """Read a config and resolve its names. Raises FirsthitError with file and line for anything wrong in it."""
-    read = toml_file.read(path)
-    config: Config = _table(Config, read.table, (), read)
-    return resolve(config, read, catalog)
+    return experiment_of(toml_file.read(path), catalog)
+
+
+def experiment_of(file: ConfigFile, catalog: Catalog) -> Experiment:
+    """Return the experiment that a config file states. Raises FirsthitError as `load`."""
+    config: Config = _table(Config, file.table, (), file)
+    return resolve(config, file, catalog)
 
 
 def _value(kind: Any, value: Any, where: Where, source: ConfigFile) -> Any:

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from harness.contract import FirsthitError, Stage, Surface, Variant, View
-from harness.experiment.config import Config, Experiment, MethodChoice, SurfaceChoice
+from harness.experiment.config import ASKED, BESIDE_INCLUDE, DRAWN, Config, Experiment, MethodChoice, SurfaceChoice
 from harness.experiment.toml_file import ConfigFile, Where
 from harness.limits import Distinct, Known
 from harness.plugins import Catalog
@@ -47,7 +47,7 @@ def _collection(config: Config, file: ConfigFile) -> Experiment:
 
     Raises FirsthitError where it states more than a title beside them, or where there is no such config.
     """
-    if more := [key for key in file.table if key not in ("title", "include")]:
+    if more := [key for key in file.table if key not in BESIDE_INCLUDE]:
         message = f"{more[0]} cannot stand beside include; put it into one of the configs included"
         raise file.error((more[0],), message)
     paths = [file.path.parent / name for name in config.include]
@@ -75,10 +75,10 @@ def _with_all_families(config: Config) -> Config:
 
 def _check_that_something_is_asked(config: Config, file: ConfigFile) -> None:
     """Raise FirsthitError where the config names nothing to draw or compute, or no method to draw by."""
-    if not (config.surfaces or config.scene or config.families or config.studies):
+    if not any(getattr(config, name) for name in ASKED):
         message = "name surfaces to draw, or scenes, or families of hard rays, or studies, or some of each"
         raise file.error((), message)
-    if (config.surfaces or config.scene or config.families) and not config.method:
+    if any(getattr(config, name) for name in DRAWN) and not config.method:
         raise file.error((), "the top level lacks 'method'")
 
 

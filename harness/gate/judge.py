@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Container, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from types import MappingProxyType
 from typing import cast
@@ -75,13 +75,14 @@ class Tolerance:
 
 @dataclass(frozen=True)
 class Change:
-    """Hold what became of one gated figure of a row, or of its status."""
+    """Hold what became of one gated figure of a row, or of its status, which has no tolerance."""
 
     figure: str
     before: Value
     now: Value
     allowed: Value
     verdict: Verdict
+    tolerance: Tolerance | None = field(default=None, compare=False)
 
     @property
     def size(self) -> float:
@@ -190,9 +191,9 @@ def judge_row(
         if old is None and new is not None:
             old = GATED[name].unsaid
         if old is not None and new is not None:
-            changes.append(Change(name, old, new, tolerance.allowed(old), tolerance.verdict(old, new)))
+            changes.append(Change(name, old, new, tolerance.allowed(old), tolerance.verdict(old, new), tolerance))
         elif old is not None:
-            changes.append(Change(name, old, "none", tolerance.allowed(old), Verdict.REGRESSED))
+            changes.append(Change(name, old, "none", tolerance.allowed(old), Verdict.REGRESSED, tolerance))
     verdict = ORDER[min((ORDER.index(change.verdict) for change in changes), default=ORDER.index(Verdict.PASS))]
     return Judged(slot, device, method, verdict, "", tuple(changes), rule)
 

@@ -78,9 +78,8 @@ def verdict_of(base: Judged, ratio: Ratio | None, tolerance: Tolerance) -> Judge
     kept, better = ratio.lower <= allowed, ratio.upper < 1.0 - slack
     verdict = Verdict.IMPROVED if better else Verdict.PASS if kept else Verdict.REGRESSED
     told = f"{TOLD}{ratio.lower:.3f} to {ratio.upper:.3f} (95 %, {ratio.pairs} rounds)"
-    return replace(
-        base, verdict=verdict, reason=told, changes=(Change(SPEED.name, 1.0, ratio.median, allowed, verdict),)
-    )
+    change = Change(SPEED.name, 1.0, ratio.median, allowed, verdict, tolerance)
+    return replace(base, verdict=verdict, reason=told, changes=(change,))
 
 
 def clock_of(device: DeviceInfo) -> Clock:

@@ -32,12 +32,14 @@ NOT_DECIDING = {
     "harness/commands": "read options and print; what an option changes is in the config, and so in the identity",
     "harness/conformance": "checks methods and stores no row",
     "harness/console.py": "prints tables and progress",
+    "harness/experiment/schema.py": "tells editors what a config may hold, and reads none",
     "harness/gate": "judges finished rows",
     "harness/recommend": "chooses among finished rows",
     "harness/results/commits.py": "keeps the figures of finished rows",
     "harness/results/columns.py": "prints a page of the documentation",
     "harness/results/schema.py": "says which columns reports make of finished rows",
     "harness/shipping": "writes programs out for others, and stores no row",
+    "harness/schemas.py": "writes schemas, which no run reads",
     "harness/studies": "are no cells; each has a key of its own, see harness/studies/__init__.py",
 }
 TRUTH = ("harness/contract.py", "harness/limits.py", "harness/oracle", "surfaces")

@@ -46,7 +46,12 @@ def _is_wanted_again(row: Row, again: Again) -> bool:
 
 
 def estimate_seconds(todo: Iterable[Planned], store: Store, budget_seconds: float) -> float:
-    """Estimate the seconds that cells will take: as many as their slot took before, else the whole budget's."""
+    """Estimate the seconds that cells will take together."""
+    return sum(estimates(todo, store, budget_seconds).values())
+
+
+def estimates(todo: Iterable[Planned], store: Store, budget_seconds: float) -> dict[str, float]:
+    """Estimate the seconds of each cell, by its key: as many as its slot took before, else the whole budget's."""
     before: dict[str, float] = {row["slot"]: row["seconds"] for row in store.rows()}
     typical = budget_seconds + PREPARING
-    return sum(before.get(p.cell.slot, 0.0 if p.skip else typical) for p in todo)
+    return {p.key: before.get(p.cell.slot, 0.0 if p.skip else typical) for p in todo}

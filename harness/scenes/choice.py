@@ -28,9 +28,15 @@ def _generators() -> Iterable[str]:
 class PlacedChoice:
     """State one instance of a config: world = at + scale · turn · local.
 
-    `turn` is in degrees about x, then y, then z. `domain` cuts out a part: a quarter torus is a torus in a box that
-    begins at 0. If `method` is given, it draws this instance with its knobs, whatever methods the experiment compares;
-    `polygon` and `contour` make it a mesh.
+    surface: a name of the catalog, or of a surface of the config's own
+    parameters: of the surface, by name
+    domain: cuts out a part: a quarter torus is a torus in a box that begins at 0
+    at: where the surface's origin is put, scene units
+    turn: degrees about x, then y, then z
+    scale: by what lengths are multiplied
+    colour: red, green and blue, from 0 to 1
+    method: draws this instance, whatever methods the experiment compares; `polygon` and `contour` make it a mesh
+    knobs: values of that method's knobs, by name
     """
 
     surface: str
@@ -48,8 +54,14 @@ class PlacedChoice:
 class SceneChoice:
     """State a scene of a config: instances, and one view.
 
-    Instances are `placed` one by one, or made by `generate` (lattice, scattered, pipes or molecule), which gives a
-    scene for each of `counts`.
+    title: what reports call it, if that is not its name
+    placed: instances, one by one
+    generate: makes the instances instead: a lattice, scattered ones, pipes or a molecule
+    counts: how many are made; each makes a scene
+    seed: of what is made at random
+    azimuth, elevation: direction from the scene's middle to the eye, degrees
+    fov: the full vertical angle of view, degrees
+    distance: from the eye to the scene's middle, scene units; if none is given, all instances fit the field of view
     """
 
     title: str = ""

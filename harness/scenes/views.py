@@ -18,10 +18,11 @@ GOLDEN_TURN = 180.0 * (3.0 - math.sqrt(5.0))  # degrees between neighbours of a 
 class AngleChoice:
     """State projection angles as in toledo2007, Table 1: 0° looks down the z axis, 90° looks from the side.
 
-    A view's elevation is 90° minus its angle.
+    From azimuth 0 the torus's box covers as many pixels as the paper prints. From other azimuths the box is seen
+    turned, and covers more.
 
-    Azimuth, field of view and distance are as for a View, and the same for all angles. From azimuth 0 the torus's box
-    covers as many pixels as the paper prints. From other azimuths the box is seen turned, and covers more.
+    values: degrees; a view's elevation is 90° minus its angle
+    azimuth, fov, distance: as for a View, and the same for all angles
     """
 
     values: list[Annotated[float, Within(0.0, 180.0)]] = field(
@@ -34,7 +35,12 @@ class AngleChoice:
 
 @dataclass(frozen=True)
 class DirectionChoice:
-    """State `count` directions, spread evenly over the sphere. `seed` decides one random rotation of all of them."""
+    """State directions that are spread evenly over the sphere.
+
+    count: how many
+    seed: decides one random rotation of all of them
+    fov, distance: as for a View, and the same for all directions
+    """
 
     count: Annotated[int, Within(1, 10_000)] = 24
     seed: Annotated[int, SEED] = 1
