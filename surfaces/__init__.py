@@ -15,7 +15,7 @@ This is the ground: it imports nothing else of the project. `model` says what a 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
@@ -26,7 +26,21 @@ from surfaces.words import suggestion
 if TYPE_CHECKING:
     from surfaces.evaluation import evaluate, expression, gradient, operations, tape_of
 
-__all__ = ["evaluate", "expression", "forms_of", "from_formula", "get", "gradient", "names", "operations", "tape_of"]
+_EVALUATION = ("evaluate", "expression", "gradient", "operations", "tape_of")
+__all__ = [
+    "Reading",
+    "canonical",
+    "evaluate",
+    "expression",
+    "forms_of",
+    "from_formula",
+    "get",
+    "gradient",
+    "names",
+    "operations",
+    "reading",
+    "tape_of",
+]
 
 
 def __getattr__(name: str) -> Any:
@@ -36,9 +50,32 @@ def __getattr__(name: str) -> Any:
 
     It needs numpy; harness.contract, and with it every command, imports this package for surfaces.model alone.
     """
-    if name in __all__:
+    if name in _EVALUATION:
         return getattr(import_module("surfaces.evaluation"), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+@dataclass(frozen=True)
+class Reading:
+    """Hold how a surface's formula was read: its canonical form, and notes, each a sentence's worth for the user."""
+
+    canonical: str
+    notes: tuple[str, ...]
+
+
+def canonical(surface: Surface) -> str:
+    """Return a surface's formula in the language's primitives, without parameters; it reads back as the same graph."""
+    from surfaces import formula
+
+    return formula.canonical(formula.parse(surface.formula, dict(surface.parameters)))
+
+
+def reading(surface: Surface) -> Reading:
+    """Return how a surface's formula was read."""
+    from surfaces import formula
+
+    notes = formula.reading(surface.formula, dict(surface.parameters)).notes
+    return Reading(canonical(surface), notes)
 
 
 def names() -> tuple[str, ...]:
@@ -100,17 +137,24 @@ def from_formula(
 ) -> Surface:
     """Return the surface of a formula in the language of surfaces.formula.
 
+    `parameters` are numbers or formulas of constants, as "1/3" and "sqrt(2)".
     `domain` is "sphere:R", "box:a,b,c" with half extents, "box:x0,y0,z0:x1,y1,z1", a Sphere or a Box. Raises
-    FirsthitError if the text is no formula, the domain is none or a parameter no decimal, if f does not depend on x, y
-    and z, or if it cannot be shown to be defined all over the domain.
+    FirsthitError if the text is no formula, the domain is none, a parameter no constant or not in the formula, if f
+    does not depend on x, y and z, or if it cannot be shown to be defined all over the domain.
     """
     if not isinstance(text, str):
         raise FirsthitError(f"a formula is a text, as in 'x^2 + y^2 + z^2 - 1', not {text!r}")
     from surfaces import formula
     from surfaces.validity import check
 
-    bound = _decimals(parameters or {})
-    degree = formula.degree(formula.parse(text, bound))
+    bound = _texts(parameters or {})
+    found = formula.reading(text, bound)
+    if unused := sorted(bound.keys() - found.used):
+        hint = suggestion(
+            unused[0], sorted(found.used), otherwise=f"its parameters are {', '.join(sorted(found.used))}"
+        )
+        raise FirsthitError(f"no {unused[0]!r} occurs in the formula; {hint if found.used else 'it has no parameters'}")
+    degree = formula.degree(found.tape)
     surface = Surface(
         name=name,
         title=text if len(text) <= 60 else text[:57] + "...",
@@ -125,19 +169,24 @@ def from_formula(
 
 
 def _decimals(values: Mapping[str, str | float]) -> dict[str, str]:
-    """Return parameters as exact decimals. Raises FirsthitError for a value that is none."""
+    """Return parameters as rational numbers' texts. Raises FirsthitError for a value that is none."""
     from surfaces import formula
 
-    texts = {}
-    for name, value in values.items():
-        if not isinstance(value, str) and not is_number(value):
-            raise FirsthitError(f"parameter {name} is a number or the text of a decimal, not {value!r}")
-        texts[name] = str(value).strip()
+    texts = _texts(values)
+    for name, text in texts.items():
         try:
-            formula.exact(texts[name])
+            formula.exact(text)
         except FirsthitError as error:
             raise FirsthitError(f"parameter {name}: {error}") from None
     return texts
+
+
+def _texts(values: Mapping[str, str | float]) -> dict[str, str]:
+    """Return parameters as texts. Raises FirsthitError for a value that is neither a number nor a text."""
+    for name, value in values.items():
+        if not isinstance(value, str) and not is_number(value):
+            raise FirsthitError(f"parameter {name} is a number or the text of a constant, not {value!r}")
+    return {name: str(value).strip() for name, value in values.items()}
 
 
 def _domain(text: str | Domain) -> Domain:

@@ -43,10 +43,12 @@ class Floats(Arithmetic):
     tan = staticmethod(np.tan)
 
     floor = staticmethod(np.floor)
-    atan2 = staticmethod(np.arctan2)
+
+    def atan2(self, a: Floats64, b: Floats64) -> Floats64:
+        return np.arctan2(a + 0.0, b + 0.0)  # the sum makes 0 of -0, whose angle is another
 
     def powr(self, a: Floats64, q: Fraction) -> Floats64:
-        return np.power(a, float(q))
+        return np.power(np.maximum(a, 0.0), float(q))  # a is not negative, but rounding may make it so
 
     def select(self, c: Floats64, p: Floats64, q: Floats64) -> Floats64:
         return np.where(c > 0.0, p, q)

@@ -17,6 +17,9 @@ from surfaces.tape import LEAVES, Builder, Op, Tape, walk
 
 Enclosure = tuple[Fraction, Fraction]
 CONSTANT_BITS = 320
+LEAST_ROOT = Fraction(
+    1, 2**60
+)  # what derivatives of roots divide by at least: far below a kernel's rounding of lengths
 
 
 @cache
@@ -60,10 +63,12 @@ def real_tape(tape: Tape) -> Tape:
     return builder.tape(*walk(Tape(ops, tape.outputs), builder, builder.var))
 
 
-def _partials(b: Builder, op: Op, value: int) -> tuple[int, ...]:
+def _partials(b: Builder, op: Op, value: int, guarded: bool = True) -> tuple[int, ...]:
     """Return the derivatives of an operation by each of its inputs; `value` is the operation's own index.
 
-    Raises ValueError for an operation that has none.
+    Jumps have the derivative 0. A root's derivative is infinite at 0; if `guarded` it is a large number there, so that
+    it vanishes where the root's argument does not change, as inside of a box whose distance is a root of squares.
+    Raises ValueError for an operation that has no derivatives; a select has none by its inputs, see `tangent`.
     """
     a = op.args[0]
     one = b.const(1)
@@ -82,7 +87,13 @@ def _partials(b: Builder, op: Op, value: int) -> tuple[int, ...]:
         case "sqr":
             return (b.mul(b.const(2), a),)
         case "sqrt":
-            return (b.div(b.const(Fraction(1, 2)), value),)
+            return (b.div(b.const(Fraction(1, 2)), b.max(value, b.const(LEAST_ROOT)) if guarded else value),)
+        case "powr":
+            return (_power_derivative(b, a, op.args[1], value),)
+        case "atan2":
+            square = b.add(b.sqr(a), b.sqr(op.args[1]))
+            square = b.max(square, b.const(LEAST_ROOT**2))
+            return b.div(op.args[1], square), b.neg(b.div(a, square))
         case "exp":
             return (value,)
         case "log":
@@ -101,9 +112,16 @@ def _partials(b: Builder, op: Op, value: int) -> tuple[int, ...]:
         case "max":
             first = b.below(op.args[1], a)
             return first, b.sub(one, first)
-        case "sign" | "below":
+        case "sign" | "below" | "floor":
             return tuple(b.const(0) for _ in op.args)
     raise ValueError(f"no derivative of {op.name}")
+
+
+def _power_derivative(b: Builder, a: int, q: Fraction, value: int) -> int:
+    """Return q a^(q - 1), where `value` is a^q; for q < 1 it is 0 at a = 0, as the derivative of a root is guarded."""
+    if q > 1:
+        return b.mul(b.const(q), b.powr(a, q - 1))
+    return b.mul(b.const(q), b.div(value, b.max(a, b.const(LEAST_ROOT))))
 
 
 def _copied(tape: Tape) -> Builder:
@@ -114,20 +132,57 @@ def _copied(tape: Tape) -> Builder:
     return builder
 
 
-def gradient(tape: Tape, names: tuple[str, ...] = ("x", "y", "z")) -> Tape:
-    """Return the derivatives of a real tape's first output by each variable, in one backward pass."""
+def gradient(tape: Tape, names: tuple[str, ...] = ("x", "y", "z"), guarded: bool = True) -> Tape:
+    """Return the derivatives of a real tape's first output by each variable, guarded as for `_partials`.
+
+    It is one backward pass. In that, the part of a select that is not taken would be multiplied by 0, and it may be
+    infinite or no number; so a tape with selects gets a forward pass for each variable.
+    """
+    if any(op.name == "select" for op in tape.ops):
+        return _forward_gradient(tape, names)
     b = _copied(tape)
     adjoints: dict[int, int] = {tape.outputs[0]: b.const(1)}
     for index in reversed(range(len(tape.ops))):
         op = tape.ops[index]
         if index not in adjoints or op.name in LEAVES:
             continue
-        for i, partial in zip(op.inputs, _partials(b, op, index), strict=True):
+        for i, partial in zip(op.inputs, _partials(b, op, index, guarded), strict=True):
             if not b.is_constant(i):
                 term = b.mul(partial, adjoints[index])
                 adjoints[i] = b.add(adjoints[i], term) if i in adjoints else term
     zero = b.const(0)
     return b.tape(*(adjoints.get(b.var(name), zero) for name in names))
+
+
+def _forward_gradient(tape: Tape, names: tuple[str, ...]) -> Tape:
+    """Return the derivatives of a real tape's first output by each variable, in a forward pass for each."""
+    b = _copied(tape)
+    passes = [_rates(b, tape, {name: b.const(1)}) for name in names]
+    return b.tape(*(rates[tape.outputs[0]] for rates in passes))
+
+
+def _rates(b: Builder, tape: Tape, seeds: Mapping[str, int]) -> list[int]:
+    """Return the derivative of each operation of a tape that `b` holds a copy of, by a forward pass.
+
+    seeds[v] is the derivative of the variable v. Variables without one are constant.
+    """
+    rates: list[int] = []
+    zero = b.const(0)
+    for index, op in enumerate(tape.ops):
+        moving = [rates[i] for i in op.inputs]
+        if op.name == "var":
+            rates.append(seeds.get(op.args[0], zero))
+        elif all(rate == zero for rate in moving):
+            rates.append(zero)
+        elif op.name == "select":
+            rates.append(b.select(op.args[0], moving[1], moving[2]))
+        elif op.name in ("min", "max"):
+            lesser, other = op.args if op.name == "min" else op.args[::-1]
+            rates.append(b.select(b.below(lesser, other), *moving))
+        else:
+            terms = (b.mul(p, rate) for p, rate in zip(_partials(b, op, index), moving, strict=True))
+            rates.append(reduce(b.add, terms, zero))
+    return rates
 
 
 def tangent(tape: Tape, seeds: Mapping[str, str]) -> Tape:
@@ -136,14 +191,7 @@ def tangent(tape: Tape, seeds: Mapping[str, str]) -> Tape:
     seeds[v] names the direction's component along the variable v. Variables without one are constant.
     """
     b = _copied(tape)
-    rates: list[int] = []
-    zero = b.const(0)
-    for index, op in enumerate(tape.ops):
-        if op.name in LEAVES:
-            rates.append(b.var(seeds[op.args[0]]) if op.name == "var" and op.args[0] in seeds else zero)
-            continue
-        partials = _partials(b, op, index) if any(rates[i] != zero for i in op.inputs) else ()
-        rates.append(reduce(b.add, (b.mul(p, rates[i]) for p, i in zip(partials, op.inputs, strict=False)), zero))
+    rates = _rates(b, tape, {name: b.var(component) for name, component in seeds.items()})
     return b.tape(*(i for output in tape.outputs for i in (output, rates[output])))
 
 

@@ -57,6 +57,37 @@ class Tape:
     ops: tuple[Op, ...]
     outputs: tuple[int, ...]
 
+    def __hash__(self) -> int:
+        """Return a hash of all operations. It is computed once, since caches ask for it at each look."""
+        known = self.__dict__.get("_hash")
+        if known is None:
+            known = hash((self.ops, self.outputs))
+            self.__dict__["_hash"] = known
+        return int(known)
+
+    def __reduce__(self) -> tuple[type[Tape], tuple[tuple[Op, ...], tuple[int, ...]]]:
+        """Leave the hash out of pickles: that of a text differs from process to process."""
+        return Tape, (self.ops, self.outputs)
+
+    def ordered(self) -> Tape:
+        """Return the same graph with its operations in the order in which the outputs reach them, inputs first."""
+        place: dict[int, int] = {}
+        ops: list[Op] = []
+        waiting = list(reversed(self.outputs))
+        while waiting:
+            index = waiting[-1]
+            op = self.ops[index]
+            missing = [i for i in op.inputs if i not in place] if index not in place else []
+            if missing:
+                waiting.extend(reversed(missing))
+                continue
+            waiting.pop()
+            if index not in place:
+                inputs = tuple(place[i] for i in op.inputs)
+                place[index] = len(ops)
+                ops.append(op if op.name in LEAVES else Op(op.name, inputs + op.args[len(inputs) :]))
+        return Tape(tuple(ops), tuple(place[i] for i in self.outputs))
+
     def constants(self) -> list[bool]:
         """Return for each operation whether it depends on no variable."""
         constant: list[bool] = []

@@ -1,26 +1,40 @@
-"""Prove by ball arithmetic on boxes that f is defined all over its domain, or refuse the formula."""
+"""Prove that f is defined all over its domain, or refuse the formula.
+
+A divisor must not vanish, a logarithm needs a positive argument, a root and a power with a fraction one that is not
+negative, and the tangent must stay off its poles. What stands in a part of a select needs its value only where the part
+is taken. Three proofs are tried: by the structure alone (`signs`), by the structure with what the conditions around an
+operation say (`guards`), and on boxes that are halved (`ranges`).
+"""
 
 from __future__ import annotations
 
-from collections import deque
+import math
 from typing import Any
 
-from surfaces.evaluation import tape_of
+import numpy as np
+from numpy.typing import NDArray
+
+from surfaces.evaluation import Floats64, tape_of
 from surfaces.formula import degree
+from surfaces.guards import Guards, facts_of, guards_of, live_on
 from surfaces.lowering import enclosures
 from surfaces.model import Box, Domain, FirsthitError, Surface
-from surfaces.numbers import Balls
-from surfaces.tape import Tape, walk
+from surfaces.ranges import Pair, Ranges, halved, run, sides
+from surfaces.signs import Range, ranges_of
+from surfaces.tape import Tape
 
-MAX_BOXES = 3000
-MAX_OPERATIONS = 300_000  # ball operations spent on one formula, which take about half a second
+MAX_BOXES = 60_000
+MAX_STEPS = 25_000  # operations on batches of boxes, about 20 µs each: half a second
+MAX_BATCH = 1024  # boxes at once
+MAX_GUARDED = 200_000  # operations bounded once more with what conditions say, about 2 µs each
 _CONDITIONS = {
-    "div": "a divisor must not vanish",
+    "div": "a divisor must not vanish, also where the dividend does",
     "log": "log needs a positive argument",
     "sqrt": "sqrt needs an argument that is not negative",
+    "powr": "a power that is no whole number needs a base that is not negative",
     "tan": "tan must stay off its poles",
 }
-_ENOUGH = {"sqrt": 1, "log": 2, "div": 2}  # from which of `signs_of` on no proof on boxes is needed
+Condition = tuple[str, int]  # the operation's name, and the index of the argument that the condition is on
 
 
 def check(surface: Surface) -> None:
@@ -30,94 +44,157 @@ def check(surface: Surface) -> None:
         enclosures(tape)
     except ZeroDivisionError as error:
         raise FirsthitError(f"{surface.name}: {error}; the formula has no value") from None
-    constant = tape.constants()
-    if constant[tape.outputs[0]] or degree(tape) in (-1, 0):
+    if tape.constants()[tape.outputs[0]] or degree(tape) in (-1, 0):
         raise FirsthitError(f"{surface.name}: the formula does not depend on x, y, z: it describes no surface")
-    conditions = [(op.name, op.inputs[-1]) for op in tape.ops if op.name in _CONDITIONS and not constant[op.inputs[-1]]]
-    signs = signs_of(tape)
-    for name, index in dict.fromkeys(conditions):
-        if signs[index] >= _ENOUGH.get(name, 3):
-            continue
-        argument = Tape(tape.ops, (index,)).pruned()
-        _prove(surface, name, argument, min(MAX_BOXES, MAX_OPERATIONS // (len(conditions) * len(argument.ops))))
+    if problem := undefined(tape, surface.domain):
+        raise FirsthitError(f"{surface.name}: {problem}")
 
 
-def signs_of(tape: Tape) -> list[int]:
-    """Return for each operation 2 if its structure shows that it is positive, 1 if not negative, else 0.
-
-    Squares, absolute values and roots are not negative; exponentials are positive. Sums, products, quotients, minima
-    and maxima follow from their parts.
-    """
-    known: list[int] = []
-    for op in tape.ops:
-        of = [known[i] for i in op.inputs]
-        match op.name:
-            case "const":
-                sign = 2 if op.args[0] > 0 else int(op.args[0] == 0)
-            case "pi" | "e" | "exp":
-                sign = 2
-            case "sqr" | "abs" | "sqrt":
-                sign = max(1, of[0])
-            case "powi":
-                sign = max(of[0], int(op.args[1] % 2 == 0))
-            case "add":
-                sign = max(of) if min(of) else 0
-            case "mul" | "div" | "min":
-                sign = min(of)
-            case "max":
-                sign = max(of)
-            case _:
-                sign = 0
-        known.append(sign)
-    return known
-
-
-def _prove(surface: Surface, name: str, argument: Tape, budget: int) -> None:
-    """Prove that an operation is defined for its argument all over the domain, on boxes that are halved, breadth first.
-
-    Raises FirsthitError if `budget` boxes do not prove it. Boxes are halved along their longest side.
-    """
-    import flint
-
-    domain, numbers = surface.domain, Balls()
-    center, radius = domain.center, domain.radius
-    ends = (
-        zip(domain.lower, domain.upper, strict=True)
-        if isinstance(domain, Box)
-        else [(c - radius, c + radius) for c in center]
+def undefined(tape: Tape, domain: Domain) -> str | None:
+    """Say what cannot be shown to be defined all over a domain, and where; None where all of the tape can."""
+    constant = tape.constants()
+    asked = dict.fromkeys(
+        ((op.name, op.inputs[-1]), i)
+        for i, op in enumerate(tape.ops)
+        if op.name in _CONDITIONS and not constant[op.inputs[-1]]
     )
-    boxes = deque([list(ends)])
-    for _ in range(budget):
-        if not boxes:
-            return
-        box = boxes.popleft()
-        point = [flint.arb(a).union(flint.arb(b)) for a, b in box]
-        if _outside(domain, point) or _holds(name, walk(argument, numbers, dict(zip("xyz", point, strict=True)))[0]):
-            continue
-        axis = max(range(3), key=lambda i: box[i][1] - box[i][0])
-        lower, upper = box[axis]
-        for half in ((lower, (lower + upper) / 2), ((lower + upper) / 2, upper)):
-            boxes.append([half if i == axis else side for i, side in enumerate(box)])
-    if boxes:
-        where = ", ".join(f"{(lower + upper) / 2:.3g}" for lower, upper in boxes[0])
-        raise FirsthitError(
-            f"{surface.name}: {_CONDITIONS[name]}, and that cannot be shown all over the domain (look near {where})"
-        )
+    if not asked:
+        return None
+    box = {axis: side for axis, side in zip("xyz", zip(*corners(domain), strict=True), strict=True)}
+    known = ranges_of(tape, box)
+    left = [(condition, user) for condition, user in asked if not shown(condition[0], known[condition[1]])]
+    if left and any(op.name == "select" for op in tape.ops):
+        left = _unguarded(tape, box, left)
+    return _on_boxes(tape, domain, left) if left else None
 
 
-def _outside(domain: Domain, point: list[Any]) -> bool:
-    """Return whether a box, three flint.arb, is proved to lie outside the domain."""
+def corners(domain: Domain) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    """Return the lower and the upper corner of the box about a domain."""
     if isinstance(domain, Box):
-        return False
-    squares = Balls()
-    distance = sum(squares.sqr(p - c) for p, c in zip(point, domain.center, strict=True))
-    return bool(distance > domain.radius * domain.radius)
+        return domain.lower, domain.upper
+    lower = tuple(math.nextafter(c - domain.radius, -math.inf) for c in domain.center)
+    return lower, tuple(math.nextafter(c + domain.radius, math.inf) for c in domain.center)
 
 
-def _holds(name: str, value: Any) -> bool:
-    """Return whether an operation is proved to be defined for all of a flint.arb."""
-    if name == "sqrt":
-        return bool(value >= 0)
+def shown(name: str, known: Range) -> bool:
+    """Return whether a range of its argument shows that an operation is defined."""
+    if name in ("sqrt", "powr"):
+        return known.low >= 0.0
     if name == "log":
-        return bool(value > 0)
-    return not (value.cos() if name == "tan" else value).contains(0)
+        return known.positive
+    return name == "div" and known.not_zero
+
+
+def _unguarded(
+    tape: Tape, box: dict[str, tuple[float, float]], left: list[tuple[Condition, int]]
+) -> list[tuple[Condition, int]]:
+    """Return those conditions that are not shown by what holds where their operations are needed."""
+    guards = guards_of(tape)
+    groups: dict[int, list[tuple[Condition, int]]] = {}
+    for one in left:
+        guard = guards.of[one[1]]
+        if guard is not None:
+            groups.setdefault(guard, []).append(one)
+    open_: list[tuple[Condition, int]] = groups.pop(0, [])
+    spent = 0
+    for guard, conditions in groups.items():
+        open_ += _under(tape, guards, guard, box, conditions) if spent < MAX_GUARDED else conditions
+        spent += len(tape.ops)
+    return open_
+
+
+def _under(
+    tape: Tape,
+    guards: Guards,
+    guard: int,
+    box: dict[str, tuple[float, float]],
+    conditions: list[tuple[Condition, int]],
+) -> list[tuple[Condition, int]]:
+    """Return those conditions that are not shown where a guard holds."""
+    known = ranges_of(tape, box, facts_of(tape, guards, guard))
+    return [one for one in conditions if not shown(one[0][0], known[one[0][1]])]
+
+
+def _on_boxes(tape: Tape, domain: Domain, left: list[tuple[Condition, int]]) -> str | None:
+    """Prove conditions on boxes that are halved, breadth first; say which is not proved, and where, else None."""
+    users: dict[Condition, list[int]] = {}
+    for condition, user in left:
+        users.setdefault(condition, []).append(user)
+    if not any(op.name == "select" for op in tape.ops):  # then what is needed is needed everywhere
+        pruned = Tape(tape.ops, tuple(index for _, index in users)).pruned()
+        tape, users = pruned, {(name, i): [] for (name, _), i in zip(users, pruned.outputs, strict=True)}
+    used = np.array([any(op.name == "var" and op.args[0] == axis for op in tape.ops) for axis in "xyz"])
+    lower, upper = (np.array([corner], np.float64) for corner in corners(domain))
+    batch = max(1, min(MAX_BATCH, 4_000_000 // len(tape.ops)))
+    seen = steps = 0
+    failed = next(iter(users))
+    while len(lower) and seen < MAX_BOXES and steps <= MAX_STEPS - len(tape.ops):
+        now, later = (lower[:batch], upper[:batch]), (lower[batch:], upper[batch:])
+        steps, seen = steps + len(tape.ops), seen + len(now[0])
+        open_, worst = _open(tape, users, *now)
+        open_ &= ~outside(domain, *now)
+        failed = worst or failed
+        more = halved(now[0][open_], now[1][open_], used)
+        lower, upper = np.concatenate((later[0], more[0])), np.concatenate((later[1], more[1]))
+    if not len(lower):
+        return None
+    place = np.where(np.abs(place := _place(tape, failed, 0.5 * (lower + upper))) < 1e-9 * domain.radius, 0.0, place)
+    where = ", ".join(f"{value:.3g}" for value in place)
+    return f"{_CONDITIONS[failed[0]]}, and that cannot be shown all over the domain (look near {where})"
+
+
+def _open(
+    tape: Tape, users: dict[Condition, list[int]], lower: Floats64, upper: Floats64
+) -> tuple[NDArray[np.bool_], Condition | None]:
+    """Return on which boxes [n] some condition is not proved, and the first such condition; None where all are.
+
+    `users` has the operations that need each condition; a condition without any is needed everywhere.
+    """
+    n, first = len(lower), None
+    open_ = np.zeros(n, np.bool_)
+    with np.errstate(all="ignore"):
+        values = list(run(tape, sides(lower, upper)))
+        live = live_on(tape, values, n) if any(users.values()) else []
+        for condition, of in users.items():
+            fails = np.broadcast_to(~_holds(condition[0], values[condition[1]]), n)
+            if of:
+                fails = fails & np.logical_or.reduce([np.broadcast_to(live[i], n) for i in of])
+            if first is None and fails.any():
+                first = condition
+            open_ |= fails
+    return open_, first
+
+
+def _holds(name: str, value: Pair) -> Any:
+    """Return on which boxes the range of its argument proves that an operation is defined: bool, or bool[n]."""
+    low, high = value
+    if name in ("sqrt", "powr"):
+        return np.asarray(low >= 0.0)
+    if name == "log":
+        return np.asarray(low > 0.0)
+    if name == "tan":
+        low, high = Ranges().cos(value)
+    return np.asarray((low > 0.0) | (high < 0.0))
+
+
+def outside(domain: Domain, lower: Floats64, upper: Floats64) -> NDArray[np.bool_]:
+    """Return which boxes float64[n, 3] are proved to lie outside the domain: bool[n]."""
+    if isinstance(domain, Box):
+        return np.asarray((lower > domain.upper).any(axis=1) | (upper < domain.lower).any(axis=1))
+    center = np.asarray(domain.center)
+    gap = np.maximum(np.maximum(lower - center, center - upper), 0.0)
+    return np.asarray((gap * gap).sum(axis=1) > domain.radius * domain.radius * (1.0 + 1e-14))
+
+
+def _place(tape: Tape, condition: Condition, points: Floats64) -> Floats64:
+    """Return that of the points float64[n, 3] at which the argument is nearest to breaking the condition."""
+    points = points[:4096]
+    if len(tape.ops) * len(points) > 4_000_000:
+        return np.asarray(points[0])
+    argument = Tape(tape.ops, (condition[1],)).pruned()
+    with np.errstate(all="ignore"):
+        low, high = list(run(argument, sides(points, points)))[argument.outputs[0]]
+        middle = np.broadcast_to(0.5 * (low + high), len(points))
+        middle = np.cos(middle) if condition[0] == "tan" else middle
+        size = np.abs(middle) if condition[0] in ("div", "tan") else middle
+    return np.asarray(points[int(np.argmin(np.where(np.isnan(size), np.inf, size)))])

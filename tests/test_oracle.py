@@ -17,7 +17,8 @@ import surfaces
 from harness.contract import FirsthitError, Surface, Truth, TruthStatus
 from harness.oracle import balls64, cached_first_hits, first_hits, reals
 from harness.oracle.balls64 import Balls
-from harness.oracle.program import compile_expression
+from harness.oracle.program import program_of
+from harness.oracle.reading import graph_of
 from harness.oracle.reals import precision
 from harness.oracle.slow import AlgebraicSolver
 from harness.oracle.transcendental import SmoothSolver
@@ -41,9 +42,9 @@ def rays_into(surface: Surface, count: int, seed: int = 1) -> np.ndarray:
 
 
 def slow_path(surface: Surface) -> AlgebraicSolver | SmoothSolver:
-    expr = surfaces.expression(surface)
-    program = compile_expression(expr)
-    return AlgebraicSolver(program, surface.domain) if program.is_polynomial else SmoothSolver(expr, surface.domain)
+    graph = graph_of(surfaces.tape_of(surface))
+    program = program_of(graph)
+    return AlgebraicSolver(program, surface.domain) if program.is_polynomial else SmoothSolver(graph, surface.domain)
 
 
 @pytest.mark.parametrize("surface", SURFACES, ids=lambda s: s.name)

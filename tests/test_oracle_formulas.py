@@ -20,7 +20,7 @@ from harness.contract import Box, Surface, TruthStatus
 from harness.oracle import first_hits
 from harness.oracle.bernstein64 import BernsteinIsolator
 from harness.oracle.enclosure import Enclosure
-from harness.oracle.program import compile_expression
+from harness.oracle.program import compile_tape
 from harness.oracle.slow import AlgebraicSolver
 
 Poly = list[int]  # lowest power first, no trailing zero
@@ -204,7 +204,7 @@ def check(surface: Surface, ray: Sequence[float], status: int, lower: float, upp
 def check_all(surface: Surface, rays: np.ndarray) -> np.ndarray:
     """Check the oracle's answers and the slow path's own, ray by ray; return the statuses."""
     truth = first_hits(surface, rays)
-    slow = AlgebraicSolver(compile_expression(surfaces.expression(surface)), surface.domain)
+    slow = AlgebraicSolver(compile_tape(surfaces.tape_of(surface)), surface.domain)
     for ray, status, lower, upper in zip(rays, truth.status, truth.lower, truth.upper, strict=True):
         check(surface, ray, status, lower, upper)
         alone = slow.first_hit(ray.tolist())
@@ -302,7 +302,7 @@ def test_near_tangent(exponent: int) -> None:
 def test_float64_bernstein_coefficients_are_within_their_error(name: str) -> None:
     """Against Bernstein's own formula in exact fractions, from origins near and far."""
     surface = surfaces.get(name)
-    isolator = BernsteinIsolator(Enclosure(compile_expression(surfaces.expression(surface))))
+    isolator = BernsteinIsolator(Enclosure(compile_tape(surfaces.tape_of(surface))))
     rng = np.random.default_rng(4)
     for distance in (2.0, 1e5):
         directions = rng.normal(size=(20, 3))

@@ -18,8 +18,9 @@ from harness.oracle.clip import clip_exactly
 from harness.oracle.dual import Dual
 from harness.oracle.enclosure import Enclosure
 from harness.oracle.piecewise import PiecewiseSolver, exact_program
-from harness.oracle.program import compile_expression
+from harness.oracle.program import compile_tape
 from harness.oracle.range64 import RangeIsolator
+from harness.oracle.reading import graph_of
 from harness.oracle.reals import rational
 from harness.oracle.slow import MISS
 from tests import distance_functions
@@ -60,7 +61,8 @@ def answer(formula: str, ray: list[float], domain: str = "sphere:2", t_min: floa
         ("sqrt(x^2+y^2)", [-3, 0, 0.2, 1, 0, 0], "touch", 3.0),
         ("sqrt(x^2+y^2)", DOWN, "touch", 1.0),  # 0 all along: where the ray enters the domain
         ("sqrt(x^2+y^2) - x", [-3, 0, 0, 1, 0, 0], "touch", 3.0),  # 2|x| in front, 0 all along behind
-        ("sqrt((x-1/3)^2) - abs(x-1/3)", [-3, 0, 0, 1, 0, 0], "touch", 1.0),
+        ("sqrt(max(x^2-2*x/3+1/9, 0)) - abs(x-1/3)", [-3, 0, 0, 1, 0, 0], "touch", 1.0),
+        ("sqrt((x-1/3)^4) - (1/3-x)^2", [-3, 0, 0, 1, 0, 0], "touch", 1.0),
         ("abs(x) + abs(y) - sqrt((abs(x) + abs(y))^2) + abs(z)", DOWN, "touch", 3.0),
         ("abs(x - pi/3)*exp(y)", ALONG_X, "touch", 3 + np.pi / 3),
         ("abs(x - pi/3)^3*(x - pi/3)", ALONG_X, "crossing", 3 + np.pi / 3),
@@ -148,7 +150,7 @@ def test_exact_pieces_against_sturm(seed: int) -> None:
     factors = [f"({pick.choice('xyz')} - {pick.randint(-4, 4)}/8)^{pick.randint(1, 3)}" for _ in range(3)]
     for formula in (random_formula(pick, 2 + seed), "*".join(factors)):
         surface = surfaces.from_formula(formula, "box:1,1.25,0.75")
-        program = exact_program(surfaces.expression(surface))
+        program = exact_program(graph_of(surfaces.tape_of(surface)))
         assert program is not None
         for ray in rays_at(rng, 20, 1.5, coarse=True):
             exact = [rational(v) for v in ray.tolist()]
@@ -212,7 +214,7 @@ def test_random_kinks_against_high_precision_signs(seed: int) -> None:
 def test_ranges_of_slopes_hold_the_mean_slopes(formula: str) -> None:
     """(f(b) − f(a)) / (b − a) is a mean of slopes: on short pieces across kinks it lies in the range found there."""
     surface = surfaces.from_formula(formula, "sphere:2")
-    f = Enclosure(compile_expression(surfaces.expression(surface), lengths=True))
+    f = Enclosure(compile_tape(surfaces.tape_of(surface), lengths=True))
     isolator = RangeIsolator(f)
     rng = np.random.default_rng(8)
     count = 4000

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import random
+from fractions import Fraction
+from typing import Any
 
 import numpy as np
 import pytest
@@ -11,8 +13,10 @@ import surfaces
 from harness.contract import FirsthitError
 from surfaces import formula
 from surfaces.evaluation import evaluate_tape
-from surfaces.tape import Tape
-from surfaces.validity import signs_of
+from surfaces.model import Box, Sphere
+from surfaces.signs import ranges_of
+from surfaces.tape import Builder, Tape
+from surfaces.validity import undefined
 
 
 @pytest.mark.parametrize(
@@ -32,6 +36,14 @@ from surfaces.validity import signs_of
         "-log(exp(-8*sqrt(x^2+y^2)) + exp(-8*abs(z)))/8 - 0.1",
         "log(1/10 + sqrt(x^2+y^2)) - z",
         "sqrt(log(2 + sqrt(x^2 + y^2))) - z",
+        "sqrt(1 - sin(9*x)) - z",
+        "sqrt(1 - cos(x)^2 * sin(y)^4) - z",
+        "sqrt(abs(x) + x) + sqrt(abs(y) - y) - z",
+        "sqrt(sqrt(x^2 + y^2) - x) - z",
+        "sqrt(max(x, y) - x) + sqrt(y - min(x, y)) - z",
+        "sqrt(1 + x/sqrt(x^2 + y^2 + 1/100)) - z",
+        "1/(2 + sin(x + y)) - z",
+        "log(3 - cos(x)) - z",
     ],
 )
 def test_signs_that_show_in_the_structure_need_no_boxes(text: str) -> None:
@@ -81,10 +93,87 @@ def test_signs_hold_on_random_formulas() -> None:
             tape = formula.parse(tree(3))
         except FirsthitError:  # a constant without a value
             continue
-        known = signs_of(tape)
+        known = ranges_of(tape, dict.fromkeys("xyz", (-2.0, 2.0)))
         values = evaluate_tape(Tape(tape.ops, tuple(range(len(tape.ops)))), points)
-        for column, sign in zip(values.T, known, strict=True):
-            column = column[np.isfinite(column)]
-            assert sign == 0 or (column >= 0.0).all()
-            claimed += sign > 0
+        values = values[np.isfinite(values).all(axis=1)]
+        for column, found in zip(values.T, known, strict=True):
+            slack = 1e-12 * np.maximum(1.0, np.abs(column))
+            assert (column >= found.low - slack).all() and (column <= found.high + slack).all()
+            assert found.low < 0.0 or (column >= 0.0).all()
+            assert not found.not_zero or found.low == 0.0 or found.high == 0.0 or (column != 0.0).all()
+            claimed += found.low >= 0.0
     assert claimed > 300
+
+
+def _choice(condition: str, part: str, other: str = "zero") -> Tape:
+    """Return select(condition, part, other) of expressions in the operations of a Builder b, and x, y, z, zero, one."""
+    b = Builder()
+    names: dict[str, Any] = {"Fraction": Fraction, "b": b, "x": b.var("x"), "y": b.var("y"), "z": b.var("z"), "zero": b.const(0), "one": b.const(1)}
+    names["above"] = lambda p, q: b.sub(b.const(1), b.below(p, q))
+    names["equal"] = lambda p, q: b.min(b.below(p, q), b.below(q, p))
+    return b.tape(b.sub(b.select(*(eval(text, names) for text in (condition, part, other))), names["z"]))  # noqa: S307
+
+
+GUARDED = [  # what holds in the part that is taken: the very argument, the same sum in another form, a factor of it
+    ("above(x, zero)", "b.log(x)", "zero"),
+    ("b.below(zero, x)", "b.sqrt(x)", "zero"),
+    ("b.below(zero, x)", "b.sqrt(x)", "b.sqrt(b.neg(x))"),
+    ("b.below(x, zero)", "zero", "b.div(one, x)"),
+    ("above(x, y)", "b.log(b.sub(x, y))", "zero"),
+    ("above(b.add(b.sqr(x), b.sqr(y)), one)", "zero", "b.sqrt(b.sub(b.sub(one, b.sqr(x)), b.sqr(y)))"),
+    ("b.min(above(x, zero), above(y, zero))", "b.log(b.mul(x, y))", "zero"),
+    ("b.max(b.below(x, zero), b.below(y, zero))", "zero", "b.log(b.mul(x, y))"),
+    ("equal(x, zero)", "one", "b.div(b.sin(x), x)"),
+    ("b.below(b.abs(x), zero)", "one", "b.div(b.sin(x), x)"),
+    ("above(b.powi(x, 3), zero)", "b.log(x)", "zero"),
+    ("above(x, b.const(Fraction(1, 2)))", "b.sqrt(b.sin(x))", "zero"),  # on boxes: sin is positive on [1/2, 2]
+    ("above(x, one)", "b.select(above(x, b.const(2)), zero, b.sqrt(b.sub(x, one)))", "zero"),
+]
+
+
+@pytest.mark.parametrize(("condition", "part", "other"), GUARDED)
+def test_a_guarded_part_needs_its_value_only_where_it_is_taken(condition: str, part: str, other: str) -> None:
+    assert undefined(_choice(condition, part, other), Box((-2, -2, -2), (2, 2, 2))) is None
+
+
+@pytest.mark.parametrize(
+    ("condition", "part", "other"),
+    [
+        ("b.below(zero, x)", "b.log(x)", "zero"),  # log(0) is taken
+        ("above(x, zero)", "zero", "b.log(x)"),
+        ("above(y, zero)", "b.log(x)", "zero"),
+        ("above(x, zero)", "b.add(b.log(x), b.log(y))", "zero"),
+        ("above(b.add(x, one), zero)", "b.log(x)", "zero"),
+        ("b.max(above(x, zero), above(y, zero))", "b.log(x)", "zero"),
+        ("above(x, zero)", "b.log(x)", "b.sqrt(x)"),
+        ("above(b.sqr(x), zero)", "b.log(x)", "zero"),
+        ("equal(x, y)", "one", "b.div(b.sin(x), x)"),
+        ("above(b.sqrt(x), one)", "one", "zero"),  # the condition itself needs a value everywhere
+    ],
+)
+def test_a_guard_that_does_not_help_is_no_proof(condition: str, part: str, other: str) -> None:
+    assert undefined(_choice(condition, part, other), Sphere(2.0))
+
+
+def test_one_use_outside_the_guard_needs_a_value_there() -> None:
+    b = Builder()
+    x, zero = b.var("x"), b.const(0)
+    guarded = b.select(b.sub(b.const(1), b.below(x, zero)), b.log(x), zero)
+    assert undefined(b.tape(guarded), Sphere(1.0)) is None
+    assert "log needs" in (undefined(b.tape(b.add(guarded, b.log(x))), Sphere(1.0)) or "")
+
+
+def test_a_quotient_without_a_value_is_refused_with_its_place() -> None:
+    with pytest.raises(FirsthitError, match=r"also where the dividend does.*look near 0, 0, 0\)$"):
+        surfaces.from_formula("sin(x)/x - y", "sphere:1")
+
+
+def test_a_hundred_thousand_shared_operations_are_checked_in_linear_time() -> None:
+    b = Builder()
+    x, y, value = b.var("x"), b.var("y"), b.var("z")
+    for i in range(20_000):
+        value = b.sqrt(b.add(b.sqr(b.sub(value, b.const(Fraction(i, 7)))), b.sqr(y)))
+        if i % 5 == 0:
+            value = b.select(b.below(value, x), value, b.abs(x))
+    tape = b.tape(value)
+    assert len(tape.ops) > 80_000 and undefined(tape, Sphere(1.0)) is None

@@ -18,6 +18,7 @@ from harness.plugins import Catalog
 from harness.results.figures import figures
 from harness.results.store import Row
 from harness.scenes.model import Group, Scene
+from surfaces.formula import number
 
 # These parts of a cell's identity are the method's, the machine's or the harness's. All others say what was asked of
 # the method: its hash, an entry's `scene`, must be the same for two rows to be compared. "raster" names a scene's
@@ -131,7 +132,7 @@ def _instances(group: Group) -> dict[str, Any]:
     own = [
         {
             "formula": surface.formula,
-            "parameters": {name: _steps(float(value)) for name, value in surface.parameters},
+            "parameters": {name: _steps(number(value)) for name, value in surface.parameters},
             "domain": {name: _steps(value) for name, value in dataclasses.asdict(surface.domain).items()},
         }
         for surface in group.surfaces

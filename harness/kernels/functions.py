@@ -38,7 +38,7 @@ from pathlib import Path
 
 from harness import ROOT
 from harness.contract import GENERATED, Box, FirsthitError, Precision, Section, Surface
-from harness.kernels.printing import IntervalPrinter, Language, RealPrinter, functions_used, table
+from harness.kernels.printing import IntervalPrinter, Language, RealPrinter, functions_used, operations_used, table
 from harness.kernels.reach import safe_reach
 from surfaces.evaluation import tape_of
 from surfaces.formula import parse
@@ -49,8 +49,15 @@ from surfaces.words import suggestion
 MAX_EXPANDED_DEGREE = 4
 MAX_FITTED_DEGREE = 20
 _LIB = Path(__file__).parent / "glsl" / "lib"
-_EXP_LOG = _LIB / "interval_exp_log.glsl"  # only in programs that call them: its first lines say why
+_INTERVAL = {  # files of interval operations beyond lib/interval.glsl, only in programs that call them
+    "interval_exp_log": {"exp", "log"},
+    "interval_powr": {"powr"},
+    "interval_atan2": {"atan2"},
+    "interval_jumps": {"floor", "below", "select", "sign"},
+}
 _FIT_SAMPLES = _LIB / "fit_samples.glsl"  # reads tables, and so comes after them
+
+_CALLED = {"powr": "pow", "atan2": "atan"}  # how GLSL calls operations that it knows by other names
 
 FUNCTIONS = tuple(GENERATED)
 _POINT = {"x": "p.x", "y": "p.y", "z": "p.z"}
@@ -105,7 +112,7 @@ def unsupported(surface: Surface, precision: Precision, language: Language) -> s
     used = functions_used(real_tape(tape_of(surface)))
     weak = [name for name in used if name != "sqrt"]
     if language == "glsl" and precision == "float64" and weak:
-        return f"GLSL has no {weak[0]} in float64"
+        return f"GLSL has no {_CALLED.get(weak[0], weak[0])} in float64"
     try:
         RealPrinter(_POINT, precision, language).body(real_tape(tape_of(surface)))
     except FirsthitError as error:
@@ -133,11 +140,14 @@ def surface_sections(
     sections = [Section(f"generated: surface {surface.name}, {name}", make()) for name, make in makers.items()]
     if "surface_polynomial_along" in wanted and not expands(surface):
         at = 1 + list(makers).index("surface_value")
-        fit = Section(_FIT_SAMPLES.relative_to(ROOT).as_posix(), _FIT_SAMPLES.read_text(encoding="utf-8"))
-        sections[at:at] = [*_fit_tables(surface, precision, language), fit]
-    if "surface_range" in wanted and {"exp", "log"} & set(functions_used(tape_of(surface))):
-        sections.insert(0, Section(_EXP_LOG.relative_to(ROOT).as_posix(), _EXP_LOG.read_text(encoding="utf-8")))
-    return tuple(sections)
+        sections[at:at] = [*_fit_tables(surface, precision, language), _file(_FIT_SAMPLES)]
+    used = set(operations_used(tape_of(surface))) if "surface_range" in wanted else set()
+    return tuple([_file(_LIB / f"{name}.glsl") for name, calls in _INTERVAL.items() if calls & used] + sections)
+
+
+def _file(path: Path) -> Section:
+    """Return a file of glsl/lib as a section."""
+    return Section(path.relative_to(ROOT).as_posix(), path.read_text(encoding="utf-8"))
 
 
 def _fit_tables(surface: Surface, precision: Precision, language: Language) -> list[Section]:
@@ -222,7 +232,7 @@ class _Writer:
         return _function("vec3 surface_normal(vec3 p)", [], "return unit_vector(surface_gradient(p));")
 
     def surface_distance_normal(self) -> str:
-        lines, values = self._printer(_POINT).body(gradient(self._distance("surface_distance_normal")))
+        lines, values = self._printer(_POINT).body(gradient(self._distance("surface_distance_normal"), guarded=False))
         last = f"return unit_vector(vec3({', '.join(values)}));"
         return _function("vec3 surface_distance_normal(vec3 p)", lines, last)
 

@@ -15,8 +15,9 @@ import numpy as np
 from harness.contract import FirsthitError, Precision
 from harness.contract import Language as Language
 from surfaces.lowering import enclosures
-from surfaces.tape import LEAVES, UNARY, Op, Tape
+from surfaces.tape import UNARY, Op, Tape
 
+_PI = Fraction(314159265358979323846264338327950288, 10**35)
 _TYPES: dict[Precision, type[np.floating]] = {"float32": np.float32, "float64": np.float64}
 
 
@@ -78,6 +79,7 @@ class RealPrinter:
         self.variables = variables
         self.precision = precision
         self.language = language
+        self.fixed = [self.literal(value) for value in (Fraction(1), Fraction(1, 2), Fraction(0))]
 
     def literal(self, value: Fraction) -> str:
         """Return the nearest number of the precision as a literal."""
@@ -94,12 +96,13 @@ class RealPrinter:
                 names.append(self.literal(op.args[0]))
             else:
                 names.append(f"a{len(lines)}")
-                lines.append(f"real {names[-1]} = {self.operation(op, [names[i] for i in op.args])};")
+                args = [names[i] for i in op.inputs] + [self.literal(q) for q in op.args[len(op.inputs) :]]
+                lines.append(f"real {names[-1]} = {self.operation(op, args)};")
         return lines, [names[i] for i in tape.outputs]
 
     def operation(self, op: Op, args: list[str]) -> str:
         """Return the text of one operation on arguments that are names or literals."""
-        one, zero = self.literal(Fraction(1)), self.literal(Fraction(0))
+        one, half, zero = self.fixed
         match op.name, args:
             case "add", (a, b):
                 return f"{a} + {b}"
@@ -119,6 +122,13 @@ class RealPrinter:
                 return f"{a} < {zero} ? -{one} : {one}"
             case "below", (a, b):
                 return f"{a} <= {b} ? {one} : {zero}"
+            case "select", (c, p, q):
+                return f"{c} > {half} ? {p} : {q}"
+            case "powr", (a, q):  # GLSL leaves open what pow is of a number under 0, where rounding may take a
+                return f"{a} > {zero} ? pow({a}, {q}) : {zero}"
+            case "atan2", (a, b):  # C has other angles for -0, and GLSL has none for the point (0, 0)
+                angle = f"{'atan' if self.language == 'glsl' else 'atan2'}({a}, {b})"
+                return f"{a} == {zero} ? ({b} < {zero} ? {self.literal(_PI)} : {zero}) : {angle}"
         return f"{op.name}({', '.join(args)})"
 
 
@@ -176,6 +186,9 @@ class IntervalPrinter:
         """Return the text of one operation; `factors` holds the constants that interval_scale can take."""
         if op.name == "powi":
             return f"{self._kind('powi')}_powi({names[op.args[0]]}, {op.args[1]})"
+        if op.name == "powr":
+            q = nearest(op.args[1], self.precision)
+            return f"interval_powr({names[op.args[0]]}, {number(q, self.precision, self.language)})"
         for i, j in (op.args, reversed(op.args)) if op.name == "mul" else ():
             if factor := factors.get(i):
                 return f"{self._kind('scale')}_scale({factor.format(names[j])})"
@@ -186,9 +199,15 @@ class IntervalPrinter:
         return "bounded" if self.bounded and name in BOUNDED else "interval"
 
 
+FUNCTIONS = frozenset({*UNARY, "powr", "atan2"})  # operations that call a function of the language
+
+
 def functions_used(tape: Tape) -> list[str]:
     """Return the functions beyond arithmetic that a tape calls of its variables, sorted by name."""
+    return [name for name in operations_used(tape) if name in FUNCTIONS]
+
+
+def operations_used(tape: Tape) -> list[str]:
+    """Return the operations of a tape that depend on its variables, sorted by name."""
     constant = tape.constants()
-    return sorted(
-        {op.name for i, op in enumerate(tape.ops) if not constant[i] and op.name in UNARY and op.name not in LEAVES}
-    )
+    return sorted({op.name for op, fixed in zip(tape.ops, constant, strict=True) if not fixed and op.name != "var"})

@@ -19,6 +19,7 @@ from harness.kernels.assemble import (
     method_sections,
     ray_sections,
 )
+from surfaces.formula import number
 
 TORUS = "(x^2 + y^2 + z^2 + R^2 - r^2)^2 - 4*R^2*(x^2 + y^2)"  # about the z axis, as the catalog writes it
 PROXY_SIDES = 16  # of the polygon about a ball's outline, whose area is 1.3 % more than the disk's
@@ -83,7 +84,7 @@ def _proxy_sections(proxy: Proxy, free: bool, pixels: float) -> tuple[Section, .
 
 def _core_circle_sections(surface: Surface) -> list[Section]:
     """Return the normal of a torus by its core circle, with the torus's radii as constants."""
-    ring, tube = (literal(float(dict(surface.parameters)[name]), "float32", "glsl") for name in ("R", "r"))
+    ring, tube = (literal(number(dict(surface.parameters)[name]), "float32", "glsl") for name in ("R", "r"))
     radii = f"#define RING_RADIUS {ring}\n#define TUBE_RADIUS {tube}"
     return [Section("generated: radii", radii), *files("raster/normal_core_circle.glsl")]
 

@@ -14,6 +14,7 @@ from surfaces.numbers import Balls
 from surfaces.tape import LEAVES, Tape, walk
 
 SAFE = LEAVES | {"add", "sub", "mul", "sqr", "powi", "neg", "abs", "min", "max", "exp", "sin", "cos"}
+SAFE |= {"floor", "below", "select", "sign", "atan2"}  # these have finite results too
 LARGEST: dict[Precision, int] = {"float32": 2**100, "float64": 2**1000}  # overflow is at 2^128 and 2^1024
 MARGIN = 2.0  # how much farther out than the domain a box may reach
 

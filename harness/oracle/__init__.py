@@ -110,16 +110,17 @@ class _Solver:
         from harness.oracle.fast import FastSolver
         from harness.oracle.floats import FloatFunction
         from harness.oracle.noise import Noise
-        from harness.oracle.program import compile_expression
+        from harness.oracle.program import program_of
+        from harness.oracle.reading import graph_of
         from harness.oracle.slow import AlgebraicSolver
         from harness.oracle.transcendental import SmoothSolver
 
-        expr = surfaces.expression(surface)
-        program = compile_expression(expr)
-        self.fast = FastSolver(expr, surface.domain)
+        graph = graph_of(surfaces.tape_of(surface))
+        program = program_of(graph)
+        self.fast = FastSolver(graph, surface.domain)
         self.floats = FloatFunction(program, [c.mid for c in Enclosure(program).constants])
         self.noise = Noise(surface)
-        smooth = SmoothSolver(expr, surface.domain)
+        smooth = SmoothSolver(graph, surface.domain)
         self.slow: list[AlgebraicSolver | SmoothSolver] = [smooth]
         if program.is_polynomial:  # coefficients in several fields Q(√d): the other one decides more
             self.slow = [AlgebraicSolver(program, surface.domain), *([smooth] if smooth.exact else [])]

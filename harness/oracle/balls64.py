@@ -7,11 +7,17 @@ the rounding of the midpoint 2^-52 of it are added to the radius, twice the boun
 infinite, which no comparison accepts.
 
 Elementary functions are numpy's, with an error of ELEMENTARY = 2^-46 of the result; numpy's own tests allow 4 units in
-the last place (2^-50). Nowhere else does the oracle trust a library beyond IEEE 754.
+the last place (2^-50). Nowhere else does the oracle trust a library beyond IEEE 754. `powr` and `atan2` take their
+bounds from the ends of a range and the corners of a box, since they are monotone from end to end and from corner to
+corner.
+
+Where a ball of a floor, a comparison or a select leaves open on which side of a jump its members lie, it holds the
+values of both sides, and its slope is NaN.
 """
 
 from __future__ import annotations
 
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
@@ -24,6 +30,7 @@ UNIT = 2.0**-52
 GROW = 1.0 + 2.0**-48
 TINY = 2.0**-1000
 ELEMENTARY = 2.0**-46
+PI_ABOVE = float(np.nextafter(np.pi, 4.0))
 
 
 class Balls:
@@ -99,11 +106,21 @@ def sqrt(a: Balls) -> Balls:
     return hull(lower * (1.0 - UNIT), upper * (1.0 + UNIT))
 
 
+def square(a: Balls) -> Balls:
+    """Enclose the squares, [...], which are not negative: a ball about 0 gives one that ends there."""
+    plain = a * a
+    around = np.abs(a.mid) < a.rad
+    if not np.any(around):
+        return plain
+    reach = np.abs(a.mid) + a.rad
+    return where(around, hull(0.0, reach * reach * GROW + TINY), plain)
+
+
 def length(*parts: Balls) -> Balls:
     """Enclose the square root, [...], of the sum of the squares."""
-    total = parts[0] * parts[0]
+    total = square(parts[0])
     for part in parts[1:]:
-        total = total + part * part
+        total = total + square(part)
     return sqrt(total)
 
 
@@ -187,13 +204,105 @@ def sign_range(a: Balls) -> Balls:
     return Balls(sign.astype(np.float64), np.where(sign == 0, 1.0, 0.0))
 
 
-def half(a: Balls) -> Balls:
-    """Enclose the halves, [...]."""
-    return Balls(0.5 * a.mid, 0.5 * a.rad + TINY)
+def scale(a: Balls, factor: Fraction) -> Balls:
+    """Enclose `factor` times the members, [...]."""
+    rounded = factor.numerator / factor.denominator
+    return a * Balls(rounded, UNIT * abs(rounded))
+
+
+def powr(a: Balls, exponent: Fraction) -> Balls:
+    """Enclose the powers, [...], to a positive exponent, of the members that are not negative; NaN where all are.
+
+    The exponent is rounded to float64, which changes the power by at most its logarithm times 2^-53.
+    """
+    e = exponent.numerator / exponent.denominator
+    ends = np.maximum(a.lower, 0.0), a.upper
+    low, high = (np.power(end, e) for end in ends)
+    low_error, high_error = (ELEMENTARY + UNIT * e * np.abs(np.log(end)) for end in ends)
+    low = np.where(low > 0.0, low * (1.0 - low_error) * (1.0 - UNIT) - TINY, low)
+    high = np.where(high > 0.0, high * (1.0 + high_error) * GROW + TINY, high)
+    return hull(low, high)
+
+
+def floor(a: Balls) -> Balls:
+    """Enclose the greatest whole numbers that are not above the members, [...]; exactly where there is only one."""
+    low, high = floors(a)
+    one = (low == high) & np.isfinite(low)
+    return where(one, Balls(low), hull(low, high))
+
+
+def floors(a: Balls) -> tuple[Any, Any]:
+    """Return the floors of the ends, float64[...] each."""
+    exact = np.asarray(a.rad) == 0.0
+    return np.floor(np.where(exact, a.mid, a.lower)), np.floor(np.where(exact, a.mid, a.upper))
+
+
+def below(a: Balls, b: Balls) -> Balls:
+    """Return balls [...]: 1 where a <= b, 0 where a > b, else [0, 1]."""
+    gap = b - a
+    yes, no = np.asarray(gap.lower >= 0.0), np.asarray(gap.upper < 0.0)
+    return Balls(np.where(yes, 1.0, np.where(no, 0.0, 0.5)), np.where(yes | no, 0.0, 0.5))
+
+
+def select(c: Balls, p: Balls, q: Balls) -> Balls:
+    """Enclose p where the condition c, which is 1 or 0, holds, q where it does not, both where that is open; [...]."""
+    yes, no = c.lower > 0.5, c.upper < 0.5
+    both = hull(np.minimum(p.lower, q.lower), np.maximum(p.upper, q.upper))
+    return where(yes, p, where(no, q, both))
+
+
+def select_slope(c: Balls, p: Balls, q: Balls) -> Balls:
+    """Return the slope of a select, balls [...]; NaN where c leaves open which part is taken."""
+    return where(c.lower > 0.5, p, where(c.upper < 0.5, q, Balls(np.nan, np.nan)))
+
+
+def step_slope(value: Balls) -> Balls:
+    """Return the slope of what is constant between jumps, balls [...]: 0 where `value` is one number, else NaN."""
+    steady = np.where(np.asarray(value.rad) == 0.0, 0.0, np.nan)
+    return Balls(steady, steady)
+
+
+def atan2(y: Balls, x: Balls) -> Balls:
+    """Enclose the angles, [...], of the points (x, y)."""
+    ends = y.lower, y.upper
+    return where(meets_cut(y, x), Balls(0.0, PI_ABOVE), angles(*ends, x))
+
+
+def meets_cut(y: Balls, x: Balls) -> Any:
+    """Return bool[...]: whether a box may meet the half line y = 0, x <= 0 and leave it."""
+    on_cut = (np.asarray(y.mid) == 0.0) & (np.asarray(y.rad) == 0.0) & (x.upper < 0.0)
+    return ~(y.excludes_zero | (x.lower > 0.0) | on_cut)
+
+
+def angles(low: Any, high: Any, x: Balls) -> Balls:
+    """Enclose the angles, [...], of boxes that do not meet the cut from below, with y from `low` to `high`.
+
+    Along each side of such a box the angle is monotone, so that corners bound it. Where y begins at 0 the cut itself
+    may belong to the box, with the angle π.
+    """
+    corners = [np.arctan2(v + 0.0, h + 0.0) for v in (low, high) for h in (x.lower, x.upper)]
+    least, most = corners[0], corners[0]
+    for corner in corners[1:]:
+        least, most = np.minimum(least, corner), np.maximum(most, corner)
+    wide = hull(least, most)
+    return Balls(wide.mid, (wide.rad + ELEMENTARY * np.maximum(np.abs(least), np.abs(most))) * GROW + TINY)
+
+
+def atan2_slope(y: Balls, x: Balls, dy: Balls, dx: Balls) -> Balls:
+    """Enclose the derivatives of atan2, [...]; NaN where the box may meet the cut."""
+    slope = (x * dy - y * dx) / (square(x) + square(y))
+    return where(meets_cut(y, x), Balls(np.nan, np.nan), slope)
+
+
+def where(first: Any, a: Balls, b: Balls) -> Balls:
+    """Return balls [...]: `a` where `first`, bool[...], holds, else `b`."""
+    return Balls(np.where(first, a.mid, b.mid), np.where(first, a.rad, b.rad))
 
 
 FUNCTIONS: Functions = {
     "sqrt": sqrt, "exp": exp, "log": log, "sin": sin, "cos": cos, "tan": tan,
-    "abs": absolute, "min": minimum, "max": maximum, "sign": sign_range, "half": half,
+    "abs": absolute, "min": minimum, "max": maximum, "sign": sign_range, "scale": scale, "sqr": square,
     "length": length, "pick": pick, "share": share,
+    "floor": floor, "powr": powr, "atan2": atan2, "below": below, "select": select,
+    "step_slope": step_slope, "select_slope": select_slope, "atan2_slope": atan2_slope,
 }  # fmt: skip

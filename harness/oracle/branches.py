@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from harness.oracle import balls64
-from harness.oracle.balls64 import Balls
+from harness.oracle.balls64 import Balls, where
 from harness.oracle.dual import Dual, dual_functions
 from harness.oracle.program import Functions
 from harness.oracle.segments import Mask
@@ -24,11 +24,6 @@ Signs = NDArray[np.signedinteger]  # 1, 0 or −1
 def _is_zero(a: Dual) -> Mask:
     """Return bool[...]: whether a value is exactly 0."""
     return np.asarray((np.asarray(a.value.mid) == 0.0) & (np.asarray(a.value.rad) == 0.0))
-
-
-def _where(first: Mask, a: Balls, b: Balls) -> Balls:
-    """Return balls [...]: `a` where `first`, bool[...], holds, else `b`."""
-    return Balls(np.where(first, a.mid, b.mid), np.where(first, a.rad, b.rad))
 
 
 def _signs(side: Signs) -> Balls:
@@ -42,8 +37,9 @@ class Branch:
     def __init__(self, side: int, shape: tuple[int, ...]) -> None:
         self.side = side
         self.free = np.ones(shape, dtype=bool)  # pieces that have met no open kink yet
-        # by the identity of a run's results: 1 where a result is >= 0, −1 where it is <= 0, else 0
-        self.known: dict[int, Signs] = {}
+        # by the identity of a run's results: the result, and 1 where it is >= 0, −1 where it is <= 0, else 0; a result
+        # is held here, so that its identity is not given to another one
+        self.known: dict[int, tuple[Dual, Signs]] = {}
 
     def functions(self) -> Functions:
         """Return the elementary functions of this run."""
@@ -53,7 +49,7 @@ class Branch:
     def of(self, a: Dual) -> Signs:
         """Return int[...]: 1 or −1 where the sign of `a` is known, else 0."""
         sign = np.broadcast_to(a.value.sign, self.free.shape)
-        return np.where(sign != 0, sign, self.known[id(a)]) if id(a) in self.known else sign
+        return np.where(sign != 0, sign, self.known[id(a)][1]) if id(a) in self.known else sign
 
     def settled(self, side: Signs) -> Signs:
         """Return `side`, int[...], replaced by this run's own side in pieces whose first open kink this is."""
@@ -64,13 +60,14 @@ class Branch:
 
     def settle(self, a: Dual) -> Signs:
         """Return int[...], the sign of `a`, which is chosen if it is not known, and remembered."""
-        self.known[id(a)] = self.settled(self.of(a))
-        return self.known[id(a)]
+        side = self.settled(self.of(a))
+        self.known[id(a)] = a, side
+        return side
 
     def absolute(self, a: Dual) -> Dual:
         side = self.settle(a)
         result = Dual(balls64.absolute(a.value), balls64.pick(_signs(side), a.slope, -a.slope))
-        self.known[id(result)] = np.ones_like(side)
+        self.known[id(result)] = result, np.ones_like(side)
         return result
 
     def minimum(self, a: Dual, b: Dual) -> Dual:
@@ -88,9 +85,9 @@ class Branch:
         else:
             ahead = self.settled((b.value - a.value).sign * order)
         value = balls64.minimum(a.value, b.value) if order > 0 else balls64.maximum(a.value, b.value)
-        value = _where(ahead > 0, a.value, _where(ahead < 0, b.value, value))
+        value = where(ahead > 0, a.value, where(ahead < 0, b.value, value))
         result = Dual(value, balls64.pick(_signs(ahead), a.slope, b.slope))
-        self.known[id(result)] = np.where(ahead > 0, self.of(a), np.where(ahead < 0, self.of(b), 0))
+        self.known[id(result)] = result, np.where(ahead > 0, self.of(a), np.where(ahead < 0, self.of(b), 0))
         return result
 
     def length(self, *parts: Dual) -> Dual:
@@ -103,7 +100,7 @@ class Branch:
             for others in zero[:k] + zero[k + 1 :]:
                 alone &= others
             signed = balls64.pick(_signs(self.of(part)), part.slope, -part.slope)
-            value, slope = _where(alone, balls64.absolute(part.value), value), _where(alone, signed, slope)
+            value, slope = where(alone, balls64.absolute(part.value), value), where(alone, signed, slope)
         return Dual(value, slope)
 
 

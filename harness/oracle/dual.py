@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from fractions import Fraction
 from operator import truediv
 from typing import Any
 
 from harness.oracle.program import Functions
+
+HALF = Fraction(1, 2)
 
 
 class Dual:
@@ -40,8 +43,11 @@ def dual_functions(base: Mapping[str, Callable[..., Any]]) -> Functions:
 
     Beside the elementary functions `base` has
 
-    - `half`;
-    - `sign`, the generalised derivative of abs: +1, −1, or a range that holds [−1, 1] if the sign is not known.
+    - `scale`, of a number and a rational;
+    - `sqr`, if squares are enclosed better than products;
+    - `sign`, the generalised derivative of abs: +1, −1, or a range that holds [−1, 1] if the sign is not known;
+    - `step_slope`, `select_slope` and `atan2_slope`, which are NaN where f may jump. NaN goes on to the slope of f, so
+      that no proof by slopes crosses a jump.
 
     It may have
 
@@ -51,7 +57,7 @@ def dual_functions(base: Mapping[str, Callable[..., Any]]) -> Functions:
     """
 
     def mixed(sign: Any, a: Any, b: Any) -> Any:
-        return base["half"](a + b + sign * (a - b))
+        return base["scale"](a + b + sign * (a - b), HALF)
 
     pick: Callable[..., Any] = base.get("pick", mixed)
     ratio: Callable[..., Any] = base.get("ratio", truediv)
@@ -59,7 +65,7 @@ def dual_functions(base: Mapping[str, Callable[..., Any]]) -> Functions:
 
     def sqrt(a: Dual) -> Dual:
         root = base["sqrt"](a.value)
-        return Dual(root, base["half"](ratio(a.slope, root)))
+        return Dual(root, base["scale"](ratio(a.slope, root), HALF))
 
     def length(*parts: Dual) -> Dual:
         value = base["length"](*(p.value for p in parts))
@@ -91,7 +97,33 @@ def dual_functions(base: Mapping[str, Callable[..., Any]]) -> Functions:
     def maximum(a: Dual, b: Dual) -> Dual:
         return Dual(base["max"](a.value, b.value), pick(base["sign"](a.value - b.value), a.slope, b.slope))
 
+    def square(a: Dual) -> Dual:
+        value = base["sqr"](a.value) if "sqr" in base else a.value * a.value
+        return Dual(value, a.value * (a.slope + a.slope))
+
+    def powr(a: Dual, exponent: Fraction) -> Dual:
+        value = base["powr"](a.value, exponent)
+        if exponent > 1:
+            return Dual(value, base["scale"](base["powr"](a.value, exponent - 1), exponent) * a.slope)
+        return Dual(value, base["scale"](ratio(a.slope, a.value) * value, exponent))
+
+    def floor(a: Dual) -> Dual:
+        value = base["floor"](a.value)
+        return Dual(value, base["step_slope"](value))
+
+    def below(a: Dual, b: Dual) -> Dual:
+        value = base["below"](a.value, b.value)
+        return Dual(value, base["step_slope"](value))
+
+    def select(c: Dual, p: Dual, q: Dual) -> Dual:
+        slope = base["select_slope"](c.value, p.slope, q.slope)
+        return Dual(base["select"](c.value, p.value, q.value), slope)
+
+    def atan2(y: Dual, x: Dual) -> Dual:
+        return Dual(base["atan2"](y.value, x.value), base["atan2_slope"](y.value, x.value, y.slope, x.slope))
+
     return {
+        "sqr": square, "powr": powr, "floor": floor, "below": below, "select": select, "atan2": atan2,
         "sqrt": sqrt, "exp": exp, "log": log, "sin": sin, "cos": cos, "tan": tan,
         "abs": absolute, "min": minimum, "max": maximum, "length": length,
     }  # fmt: skip

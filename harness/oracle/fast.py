@@ -16,7 +16,6 @@ multiplicity.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,12 +26,10 @@ from harness.oracle.bernstein64 import BernsteinIsolator
 from harness.oracle.clip import clip_many, recentred
 from harness.oracle.enclosure import Enclosure
 from harness.oracle.floats import FloatFunction
-from harness.oracle.program import compile_expression, repeated_factors
+from harness.oracle.graph import Graph
+from harness.oracle.program import program_of
 from harness.oracle.range64 import RangeIsolator
 from harness.oracle.segments import Mask, Segments
-
-if TYPE_CHECKING:
-    import sympy
 
 BLOCK = 2048  # rays at a time, so that the arrays stay in the cache
 MOST_DEGREE = 32  # beyond it the collocation matrix is too ill-conditioned for float64
@@ -52,14 +49,14 @@ class FastAnswers:
 class FastSolver:
     """Find first hits by float64 ball arithmetic on all rays at once."""
 
-    def __init__(self, expr: sympy.Expr, domain: Domain) -> None:
+    def __init__(self, graph: Graph, domain: Domain) -> None:
         self.domain = domain
-        radical, factors = repeated_factors(expr)
-        program = compile_expression(radical)
-        self.f = Enclosure(compile_expression(radical, lengths=True))
+        radical, factors = graph.radical(graph.output)
+        program = program_of(graph, radical)
+        self.f = Enclosure(program_of(graph, radical, lengths=True))
         self.floats = FloatFunction(program, [c.mid for c in Enclosure(program).constants])
         self.factors = [
-            (Enclosure(compile_expression(factor, lengths=True)), multiplicity) for factor, multiplicity in factors
+            (Enclosure(program_of(graph, factor, lengths=True)), multiplicity) for factor, multiplicity in factors
         ]
         small = program.is_polynomial and program.degree <= MOST_DEGREE
         self.isolate = (BernsteinIsolator if small else RangeIsolator)(self.f)

@@ -18,10 +18,17 @@ def _ratio(slope: Any, root: Any) -> Any:
     return np.where(slope == 0.0, 0.0, slope / root)
 
 
+def _select(c: Any, p: Any, q: Any) -> Any:
+    return np.where(c > 0.5, p, q)
+
+
 FUNCTIONS: Functions = {
     "sqrt": np.sqrt, "exp": np.exp, "log": np.log, "sin": np.sin, "cos": np.cos, "tan": np.tan,
-    "abs": np.abs, "min": np.minimum, "max": np.maximum, "sign": np.sign, "half": lambda a: 0.5 * a,
-    "ratio": _ratio,
+    "abs": np.abs, "min": np.minimum, "max": np.maximum, "sign": np.sign, "scale": lambda a, q: float(q) * a,
+    "ratio": _ratio, "floor": np.floor, "powr": lambda a, q: np.power(a, float(q)), "atan2": np.arctan2,
+    "below": lambda a, b: np.where(a <= b, 1.0, 0.0), "select": _select,
+    "step_slope": np.zeros_like, "select_slope": _select,
+    "atan2_slope": lambda y, x, dy, dx: (x * dy - y * dx) / (x * x + y * y),
 }  # fmt: skip
 NEWTON_STEPS = 9
 MOST_DEGREE = 32
@@ -114,17 +121,33 @@ class _Sized:
 def _sized(name: str) -> Callable[..., _Sized]:
     """Return an elementary function of sized values: the argument's terms times the slope, plus the result itself."""
 
-    def call(*args: _Sized) -> _Sized:
-        value = FUNCTIONS[name](*(a.value for a in args))
-        if len(args) == 2:
-            return _Sized(value, np.maximum(args[0].size, args[1].size))
-        slope = DUAL_FUNCTIONS[name](Dual(args[0].value, 1.0)).slope
-        return _Sized(value, np.abs(slope) * args[0].size + (0.0 if name == "abs" else np.abs(value)))
+    def call(a: _Sized, *exponent: Any) -> _Sized:
+        result = DUAL_FUNCTIONS[name](Dual(a.value, 1.0), *exponent)
+        rounding = 0.0 if name in ("abs", "floor") else np.abs(result.value)
+        return _Sized(result.value, np.abs(result.slope) * a.size + rounding)
 
     return call
 
 
-SIZED_FUNCTIONS = {name: _sized(name) for name in FUNCTIONS}
+def _sized_extreme(name: str) -> Callable[..., _Sized]:
+    """Return the minimum or maximum of sized values, with the larger size."""
+    return lambda a, b: _Sized(FUNCTIONS[name](a.value, b.value), np.maximum(a.size, b.size))
+
+
+def _sized_angle(y: _Sized, x: _Sized) -> _Sized:
+    """Return the angle of a point of two sized values."""
+    value = np.arctan2(y.value, x.value)
+    moved = np.abs(x.value) * y.size + np.abs(y.value) * x.size
+    return _Sized(value, moved / (x.value * x.value + y.value * y.value) + np.abs(value))
+
+
+SIZED_FUNCTIONS: Functions = {
+    **{name: _sized(name) for name in ("sqrt", "exp", "log", "sin", "cos", "tan", "abs", "floor", "powr")},
+    **{name: _sized_extreme(name) for name in ("min", "max")},
+    "atan2": _sized_angle,
+    "below": lambda a, b: _Sized(FUNCTIONS["below"](a.value, b.value), 0.0),
+    "select": lambda c, p, q: _Sized(_select(c.value, p.value, q.value), _select(c.value, p.size, q.size)),
+}
 
 
 def majorant(f: FloatFunction, rays: Floats, t: Floats) -> Floats:

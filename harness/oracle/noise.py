@@ -7,6 +7,9 @@ functions as large as OpenCL allows. Some methods evaluate a surface of degree 4
 ray and Horner's rule, others by its tape; the larger of both bounds is taken. The bound depends on how f is written, as
 the errors do. It is a worst case to first order: at most points the errors are less than a tenth of it. It does not
 apply to a method that finds f's sign otherwise than by f's value.
+
+A jump at a distance g, in the argument whose error is u·e for the unit roundoff u, may be taken for its other side once
+u·e reaches g. So its height times e/g bounds that error for every u.
 """
 
 from __future__ import annotations
@@ -27,6 +30,8 @@ Estimate = tuple[Numbers, Numbers]  # a value, and its error in unit roundoffs
 Rows = NDArray[np.intp] | slice  # an index of rays
 DIVISION = 5.0  # unit roundoffs of a quotient; OpenCL and GLSL allow 2.5 units in the last place
 FUNCTION = 10.0  # unit roundoffs of any other function; OpenCL allows up to 5 units in the last place
+ANGLE = 12.0  # unit roundoffs of atan2; OpenCL allows 6 units in the last place
+POWER = 32.0  # unit roundoffs of a general power; OpenCL allows 16 units in the last place
 MOST_EXPANDED = 4  # the degree up to which kernels may expand f along the ray
 
 
@@ -109,6 +114,37 @@ class RunningErrors:
 
     def max(self, a: Estimate, b: Estimate) -> Estimate:
         return np.maximum(a[0], b[0]), np.maximum(a[1], b[1])
+
+    def powr(self, a: Estimate, q: Fraction) -> Estimate:
+        value = np.power(a[0], float(q))
+        # the exponent is rounded too, which moves the power by its logarithm
+        bend = np.where(value == 0.0, 0.0, np.abs(np.log(a[0])) * float(q) * np.abs(value))
+        return self._called(a, value, float(q) * value / np.asarray(a[0]), POWER / FUNCTION * np.abs(value) + bend)
+
+    def floor(self, a: Estimate) -> Estimate:
+        value = np.floor(a[0])
+        return value, _over(a[1], np.minimum(a[0] - value, value + 1.0 - a[0]))
+
+    def below(self, a: Estimate, b: Estimate) -> Estimate:
+        return np.where(a[0] <= b[0], 1.0, 0.0), _over(a[1] + b[1], np.abs(np.asarray(a[0]) - b[0]))
+
+    def select(self, c: Estimate, p: Estimate, q: Estimate) -> Estimate:
+        taken = np.asarray(c[0]) > 0.5
+        doubt, height = np.asarray(c[1]), np.abs(np.asarray(p[0]) - q[0])
+        jump = np.where((doubt == 0.0) | (height == 0.0), 0.0, doubt * height)
+        return np.where(taken, p[0], q[0]), np.where(taken, p[1], q[1]) + jump
+
+    def atan2(self, y: Estimate, x: Estimate) -> Estimate:
+        value = np.arctan2(y[0], x[0])
+        high, wide = np.abs(np.asarray(y[0])), np.abs(np.asarray(x[0]))
+        turned = (wide * (y[1] + high) + high * (x[1] + wide)) / (wide * wide + high * high)
+        cut = np.where(np.asarray(x[0]) <= 0.0, 2.0 * np.pi * _over(y[1], high), 0.0)
+        return value, turned + cut + ANGLE * np.abs(value)
+
+
+def _over(error: Numbers, gap: Numbers) -> Floats:
+    """Return error / gap, which is 0 if the error is, and infinite if only the gap is."""
+    return np.where(np.asarray(error) == 0.0, 0.0, np.asarray(error) / np.asarray(gap))
 
 
 class Noise:

@@ -5,61 +5,48 @@ be 0; these are roots of rational polynomials (`tower`). Inside a cell every kin
 tower, and f has one sign or is 0 all over. There remain the ends of cells. f is 0 at an end if it changes its sign
 there or is 0 beside it; otherwise one exact question at one algebraic number decides. Kinks whose sign balls prove on
 the whole cell need no cut, so that few cuts are made.
+
+Where f may jump, cells are cut too: where the argument of a floor is a whole number, and where the two sides of a
+comparison are equal. Then what f does beside an end says nothing about f at the end, and the whole program is run at
+the end itself (`exact_run.PointRun`). Only the part of a select that is taken is computed.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from flint import arb, fmpq, fmpq_poly
-from flint.utils.flint_exceptions import DomainError
+from flint import fmpq
 
 from harness.contract import TruthStatus
-from harness.oracle import reals
 from harness.oracle.bernstein import Undecidable
 from harness.oracle.clip import End
-from harness.oracle.points import Point, end_point, rational_point, roots_between
-from harness.oracle.program import POLYNOMIAL, Instruction, Program, compile_expression
+from harness.oracle.exact_run import FIRST_PRECISION, Cut, PointRun, Run, Undefined
+from harness.oracle.graph import Graph
+from harness.oracle.points import Point, end_point, rational_point
+from harness.oracle.program import POLYNOMIAL, Leaf, Program, program_of
 from harness.oracle.reals import precision
 from harness.oracle.slow import FirstHit, certified_hit
-from harness.oracle.tower import Element, Tower, add, constant, neg
+from harness.oracle.tower import Element, Tower, constant
 
-if TYPE_CHECKING:
-    import sympy
-
-EXACT = POLYNOMIAL | {"div", "sqrt", "abs", "min", "max"}
-FIRST_PRECISION = 128  # bits of the balls, which decide most kinks
+EXACT = POLYNOMIAL | {"div", "sqrt", "abs", "min", "max", "floor", "below", "select"}
 MOST_CELLS = 200
-ONE = constant(1)
 
 
-class _Cut(Exception):
-    """Report that something that must not vanish inside a cell has `roots` there."""
-
-    def __init__(self, roots: list[Point]) -> None:
-        super().__init__()
-        self.roots = roots
-
-
-class _Undefined(Undecidable):
-    """Report that f has no value in the cell."""
+def exact_program(graph: Graph) -> Program | None:
+    """Return the program of a graph for `PiecewiseSolver`; None if it has other functions or constants."""
+    program = program_of(graph, fold=False)
+    known = all(i.name in EXACT for i in program.instructions)
+    return program if known and all(isinstance(leaf, Fraction) for leaf in program.constants.leaves) else None
 
 
-def exact_program(expr: sympy.Expr) -> Program | None:
-    """Return the program of `expr` for `PiecewiseSolver`; None if it has other functions or constants."""
-    program = compile_expression(expr, fold=False)
-    known = all(i.name in EXACT for i in program.instructions) and all(map(_is_exact, program.constants))
-    return program if known else None
-
-
-def _is_exact(leaf: sympy.Expr) -> bool:
-    """Return whether a constant is a rational or the golden ratio."""
-    import sympy
-
-    return bool(leaf.is_Rational or leaf == sympy.GoldenRatio)
+def _element(leaf: Leaf) -> Element:
+    """Return a rational leaf as an element."""
+    assert isinstance(leaf, Fraction), "an exact program has no other leaves"
+    return constant(fmpq(leaf.numerator, leaf.denominator))
 
 
 @dataclass
@@ -81,6 +68,7 @@ class PiecewiseSolver:
         self.ray = ray
         self.t_min = t_min
         self.enter, self.leave = (end_point(end) for end in ends)
+        self.leaves = program.constants.converted(_element, {})
 
     def first_hit(self, lower: Any, upper: Any, width: float) -> FirstHit | None:
         """Return the first root in the clip interval and in [lower, upper], two fmpq; None if there is none.
@@ -109,9 +97,10 @@ class PiecewiseSolver:
         with precision(FIRST_PRECISION):
             return certified_hit(status, t.ball(), self.t_min)
 
-    @staticmethod
-    def vanishes_between(cell: _Cell, following: _Cell) -> bool:
+    def vanishes_between(self, cell: _Cell, following: _Cell) -> bool:
         """Return whether f is 0 at the point between two neighbouring cells."""
+        if self.program.jumps:
+            return PointRun(self.program, self.leaves, self.ray, cell.last).vanishes()
         if cell.sign is None and following.sign is None:
             return False
         if cell.sign is None or following.sign is None:
@@ -122,7 +111,7 @@ class PiecewiseSolver:
     def cells(self, first: Point, last: Point) -> list[_Cell]:
         """Return the cells from `first` to `last`. Outside the clip interval, f may have no value in a cell.
 
-        Raises Undecidable if there are too many cells, and _Undefined if f has no value in one inside the interval.
+        Raises Undecidable if there are too many cells, and Undefined if f has no value in one inside the interval.
         """
         inside = [p for p in (self.enter, self.leave) if p.compare(first) > 0 and p.compare(last) < 0]
         if len(inside) == 2 and not inside[0].compare(inside[1]):
@@ -136,163 +125,17 @@ class PiecewiseSolver:
             first, last = stack.pop()
             try:
                 result.append(self.cell(first, last))
-            except _Cut as cut:
+            except Cut as cut:
                 points = [first, *cut.roots, last]
                 stack += list(pairwise(points))[::-1]
-            except _Undefined:
+            except Undefined:
                 if last.compare(self.enter) > 0 and first.compare(self.leave) < 0:
                     raise
                 result.append(_Cell(first, last, Tower(first, last), {}, None))
         raise Undecidable("too many cells")
 
     def cell(self, first: Point, last: Point) -> _Cell:
-        """Return one cell. Raises _Cut if it must be cut, and _Undefined if f has no value in it."""
-        run = _Run(self.program, self.ray, first, last)
+        """Return one cell. Raises Cut if it must be cut, and Undefined if f has no value in it."""
+        run = Run(self.program, self.leaves, self.ray, first, last)
         f = run.numerator(run.result())
         return _Cell(first, last, run.tower, f, run.sign(f))
-
-
-Quotient = tuple[Element, Element]
-ZERO: Quotient = ({}, ONE)
-
-
-class _Run:
-    """Run the program on one cell, in quotients of a tower's elements."""
-
-    def __init__(self, program: Program, ray: Sequence[Any], first: Point, last: Point) -> None:
-        self.program = program
-        self.tower = Tower(first, last)
-        self.inputs = [fmpq_poly([o, d]) for o, d in zip(ray[:3], ray[3:], strict=True)]
-        with precision(FIRST_PRECISION):
-            whole = first.ball().union(last.ball())
-            points = [arb(o) + arb(d) * whole for o, d in zip(ray[:3], ray[3:], strict=True)]
-            self.balls = program.results(points, [reals.leaf(c) for c in program.constants], reals.FUNCTIONS)
-
-    def result(self) -> Quotient:
-        """Return f on the cell."""
-        needed = self.needed()
-        values: dict[int, Quotient] = {}
-        for k, i in enumerate(self.program.instructions):
-            if k in needed:
-                values[k] = self.value(i, [values.get(a, ZERO) for a in i.args])
-        return values[len(self.program.instructions) - 1]
-
-    def needed(self) -> set[int]:
-        """Return the instructions that f needs on this cell, without the other sides of minima and maxima."""
-        needed = {len(self.program.instructions) - 1}
-        for k in range(len(self.program.instructions) - 1, -1, -1):
-            i = self.program.instructions[k]
-            if k in needed:
-                side = self.side(i)
-                needed.update(i.args if side is None else i.args[side : side + 1])
-        return needed
-
-    def side(self, i: Instruction) -> int | None:
-        """Return which argument a minimum or maximum is all over the cell, or None if balls do not tell."""
-        if i.name not in ("min", "max"):
-            return None
-        with precision(FIRST_PRECISION):
-            gap = self.balls[i.args[0]] - self.balls[i.args[1]]
-        return None if gap.contains(0) else int((gap > 0) == (i.name == "min"))
-
-    def value(self, i: Instruction, a: list[Quotient]) -> Quotient:
-        """Return an instruction's result from those of its arguments."""
-        mul = self.tower.mul
-        match i.name:
-            case "input":
-                p = self.inputs[i.index]
-                return ({0: p} if p else {}), ONE
-            case "constant":
-                return self.leaf(self.program.constants[i.index]), ONE
-            case "neg":
-                return neg(a[0][0]), a[0][1]
-            case "add":
-                return self.sum(a[0], a[1])
-            case "sub":
-                return self.sum(a[0], (neg(a[1][0]), a[1][1]))
-            case "mul":
-                return mul(a[0][0], a[1][0]), mul(a[0][1], a[1][1])
-            case "div":
-                return mul(a[0][0], a[1][1]), mul(a[0][1], a[1][0])
-            case "sqrt":
-                return self.sqrt(a[0], self.balls[i.args[0]])
-            case "abs":
-                return a[0] if self.kink(a[0], self.balls[i.args[0]]) >= 0 else (neg(a[0][0]), a[0][1])
-        side = self.side(i)
-        if side is None:
-            ahead = self.sign(self.numerator(self.sum(a[0], (neg(a[1][0]), a[1][1]))))
-            side = int((ahead > 0) == (i.name == "min"))
-        return a[side]
-
-    def sum(self, a: Quotient, b: Quotient) -> Quotient:
-        """Return the sum of two quotients."""
-        if a[1] == b[1]:
-            return add(a[0], b[0]), a[1]
-        mul = self.tower.mul
-        return add(mul(a[0], b[1]), mul(b[0], a[1])), mul(a[1], b[1])
-
-    def leaf(self, expr: sympy.Expr) -> Element:
-        """Return a rational or the golden ratio as an element."""
-        if expr.is_Rational:
-            return constant(fmpq(int(expr.p), int(expr.q)))
-        root = self.tower.radical(constant(5))  # the golden ratio
-        return add(constant(fmpq(1, 2)), self.tower.mul(constant(fmpq(1, 2)), root))
-
-    def numerator(self, a: Quotient) -> Element:
-        """Return an element that has the sign of `a`."""
-        return a[0] if a[1] == ONE else self.tower.mul(a[0], a[1])
-
-    def kink(self, a: Quotient, ball: Any) -> int:
-        """Return the sign of `a` on the cell, 0 if it is 0 all over. Raises _Cut if it changes."""
-        if not ball.contains(0):
-            return 1 if ball > 0 else -1
-        return self.sign(self.numerator(a))
-
-    def sign(self, x: Element) -> int:
-        """Return the sign of an element on the cell, 0 if it is 0 all over. Raises _Cut if it changes."""
-        p = self.tower.zeros(x)
-        if p is None:
-            return 0
-        roots = roots_between(p, self.tower.first, self.tower.last)
-        if roots:
-            raise _Cut(roots)
-        return self.tower.sign(x)
-
-    def sqrt(self, a: Quotient, ball: Any) -> Quotient:
-        """Return √a. Raises _Undefined if `a` is negative or its divisor is 0 on the cell, _Cut if a sign changes."""
-        sign = self.kink(a, ball)
-        if sign < 0:
-            raise _Undefined("a root of what is negative")
-        if sign == 0:
-            return ZERO
-        below = a[1]
-        side = 1 if below == ONE else self.sign(below)
-        if not side:
-            raise _Undefined("a division by zero")
-        if side < 0:
-            below = neg(below)
-        return self.root(self.numerator(a)), below
-
-    def root(self, square: Element) -> Element:
-        """Return √square; if it is a polynomial, squared factors are taken out of the root."""
-        if max(square) > 0:
-            return self.tower.radical(square)
-        p = square[0]
-        content, factors = p.numer().factor_squarefree()
-        outer, inner = fmpq_poly([1]), fmpq_poly([fmpq(int(content), 1) / p.denom()])
-        for factor, multiplicity in factors:
-            outer *= fmpq_poly(factor) ** (multiplicity // 2)
-            inner *= fmpq_poly(factor) ** (multiplicity % 2)
-        if outer.degree() > 0 and self.sign({0: outer}) < 0:
-            outer = -outer
-        return self.tower.mul({0: outer}, _constant_root(inner) or self.tower.radical({0: inner}))
-
-
-def _constant_root(p: Any) -> Element | None:
-    """Return √p if p is the square of a rational, else None."""
-    if p.degree() > 0:
-        return None
-    try:
-        return constant(p[0].sqrt())
-    except DomainError:
-        return None

@@ -1,33 +1,53 @@
-"""Compile a surface's expression to a straight-line program that runs in any number system with Python operators.
+"""Compile a surface's formula to a straight-line program that runs in any number system with Python operators.
 
-The oracle compiles the exact sympy expression itself. It shares nothing with the lowering that prints kernels, so that
-an error there cannot hide here. Constants stay symbolic until a number system converts them.
+The oracle compiles the exact formula itself, as the parser read it. It shares nothing with the lowering that prints
+kernels, so that an error there cannot hide here. Constants stay exact until a number system converts them.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, TypeVar
+from dataclasses import dataclass, field
+from fractions import Fraction
+from functools import cached_property
+from typing import Any, TypeVar
 
-from harness.contract import FirsthitError
-
-if TYPE_CHECKING:
-    import sympy
+from harness.oracle.graph import ONE, Graph, Node
+from harness.oracle.reading import graph_of
+from surfaces.tape import Tape
 
 Number = TypeVar("Number")
 Functions = Mapping[str, Callable[..., Any]]
-POLYNOMIAL = frozenset({"input", "constant", "add", "sub", "mul", "neg"})
-FUNCTIONS = {"exp": "exp", "log": "log", "sin": "sin", "cos": "cos", "tan": "tan", "Abs": "abs"}
+Leaf = Fraction | str  # a rational number, or "pi" or "e"
+POLYNOMIAL = frozenset({"input", "constant", "add", "sub", "mul", "sqr", "neg"})
+JUMPS = frozenset({"floor", "atan2", "below", "select"})
 
 
 @dataclass(frozen=True)
 class Instruction:
-    """Hold the operation `name` on the results numbered `args`; an `input` or `constant` has an `index` instead."""
+    """Hold the operation `name` on the results numbered `args`.
+
+    An `input` or `constant` has an `index` instead, and `powr` has an `exponent` beside its argument.
+    """
 
     name: str
     args: tuple[int, ...] = ()
     index: int = 0
+    exponent: Fraction = ONE
+
+
+@dataclass(frozen=True)
+class Constants:
+    """Hold the constants of a program: numbered results of a program whose own constants are leaves."""
+
+    leaves: tuple[Leaf, ...]
+    instructions: tuple[Instruction, ...]
+    numbers: tuple[int, ...]
+
+    def converted(self, leaf: Callable[[Leaf], Any], functions: Functions) -> list[Any]:
+        """Return the constants in a number system whose `leaf` converts rationals, pi and e."""
+        results = _results(self.instructions, (), [leaf(c) for c in self.leaves], functions)
+        return [results[k] for k in self.numbers]
 
 
 @dataclass(frozen=True)
@@ -35,12 +55,17 @@ class Program:
     """Hold instructions in order, of which the last one's result is f."""
 
     instructions: tuple[Instruction, ...]
-    constants: tuple[sympy.Expr, ...]
+    constants: Constants
 
     @property
     def is_polynomial(self) -> bool:
         """Return whether the program uses sums and products only."""
         return all(i.name in POLYNOMIAL for i in self.instructions)
+
+    @property
+    def jumps(self) -> bool:
+        """Return whether f may not be continuous."""
+        return any(i.name in JUMPS for i in self.instructions)
 
     @property
     def degree(self) -> int:
@@ -55,222 +80,212 @@ class Program:
                     degrees.append(0)
                 case "mul":
                     degrees.append(sum(of))
+                case "sqr":
+                    degrees.append(2 * of[0])
                 case _:
                     degrees.append(max(of))
         return degrees[-1]
 
+    @cached_property
+    def _last_uses(self) -> tuple[tuple[int, ...], ...]:
+        """Return for each instruction the results that no later one uses."""
+        seen, last = set[int](), []
+        for i in reversed(self.instructions):
+            last.append(tuple(a for a in dict.fromkeys(i.args) if a not in seen))
+            seen.update(i.args)
+        return tuple(reversed(last))
+
     def run(self, inputs: Sequence[Number], constants: Sequence[Number], functions: Functions) -> Number:
-        """Return f at `inputs`, x, y and z, in their number system; `constants` are already converted to it."""
-        return self.results(inputs, constants, functions)[-1]
+        """Return f at `inputs`, x, y and z, in their number system; `constants` are already converted to it.
+
+        A result is let go of once nothing needs it any more.
+        """
+        f: Number = _results(self.instructions, inputs, constants, functions, self._last_uses)[-1]
+        return f
 
     def results(self, inputs: Sequence[Number], constants: Sequence[Number], functions: Functions) -> list[Number]:
         """Return the result of each instruction, of which the last is f."""
-        results: list[Number] = []
-        for i in self.instructions:
-            a: list[Any] = [results[k] for k in i.args]
-            match i.name:
-                case "input":
-                    value = inputs[i.index]
-                case "constant":
-                    value = constants[i.index]
-                case "add":
-                    value = a[0] + a[1]
-                case "sub":
-                    value = a[0] - a[1]
-                case "mul":
-                    value = a[0] * a[1]
-                case "div":
-                    value = a[0] / a[1]
-                case "neg":
-                    value = -a[0]
-                case name:
-                    value = functions[name](*a)
-            results.append(value)
-        return results
+        return _results(self.instructions, inputs, constants, functions)
 
 
-class _Compiler:
-    """Compile a sympy tree in post-order; equal subtrees are computed once."""
+def _results(
+    instructions: Sequence[Instruction],
+    inputs: Sequence[Any],
+    constants: Sequence[Any],
+    functions: Functions,
+    last_uses: Sequence[tuple[int, ...]] = (),
+) -> list[Any]:
+    """Return the result of each instruction; None where `last_uses` says that it is not needed to the end."""
+    results: list[Any] = []
+    square = functions.get("sqr")
+    for k, i in enumerate(instructions):
+        a = [results[n] for n in i.args]
+        match i.name:
+            case "input":
+                value = inputs[i.index]
+            case "constant":
+                value = constants[i.index]
+            case "add":
+                value = a[0] + a[1]
+            case "sub":
+                value = a[0] - a[1]
+            case "mul":
+                value = a[0] * a[1]
+            case "sqr":
+                value = square(a[0]) if square else a[0] * a[0]
+            case "div":
+                value = a[0] / a[1]
+            case "neg":
+                value = -a[0]
+            case "powr":
+                value = functions["powr"](a[0], i.exponent)
+            case name:
+                value = functions[name](*a)
+        results.append(value)
+        if last_uses:
+            for n in last_uses[k]:
+                results[n] = None
+    return results
 
-    def __init__(self, fold: bool, lengths: bool) -> None:
-        self.fold = fold  # whether a constant subtree becomes one constant
-        self.lengths = lengths  # whether the square root of a sum of squares becomes one instruction
-        self.instructions: list[Instruction] = []
-        self.constants: list[sympy.Expr] = []
-        self.seen: dict[Instruction | sympy.Expr, int] = {}
 
-    def emit(self, name: str, *args: int, index: int = 0) -> int:
+@dataclass
+class _Emitter:
+    """Emit the instructions of one node and all that it needs; equal instructions are computed once."""
+
+    graph: Graph
+    fold: bool  # whether a constant node becomes one constant
+    lengths: bool  # whether the square root of a sum of squares becomes one instruction
+    instructions: list[Instruction] = field(default_factory=list)
+    constants: dict[int, int] = field(default_factory=dict)  # the number of each constant node
+    done: dict[int, int] = field(default_factory=dict)  # the result of each node
+    seen: dict[Instruction, int] = field(default_factory=dict)
+
+    def emit(self, name: str, *args: int, index: int = 0, exponent: Fraction = ONE) -> int:
         """Return the number of an instruction, which is added if it is not there yet."""
-        instruction = Instruction(name, args, index)
+        instruction = Instruction(name, args, index, exponent)
         if instruction not in self.seen:
             self.seen[instruction] = len(self.instructions)
             self.instructions.append(instruction)
         return self.seen[instruction]
 
-    def constant(self, expr: sympy.Expr) -> int:
-        """Emit a constant."""
-        if expr not in self.constants:
-            self.constants.append(expr)
-        return self.emit("constant", index=self.constants.index(expr))
+    def parts(self, index: int) -> tuple[int, ...]:
+        """Return the nodes that a node's instructions need."""
+        if self.is_leaf(index):
+            return ()
+        node = self.graph.nodes[index]
+        if self.lengths and index in self.graph.squares:
+            return self.graph.squares[index]
+        return tuple(p for p in node.parts if p != self.graph.one) if node.name == "sum" else node.parts
 
-    def compile(self, expr: sympy.Expr) -> int:
-        """Return the number of an expression's result."""
-        if expr not in self.seen:
-            self.seen[expr] = self.walk(expr)
-        return self.seen[expr]
+    def is_leaf(self, index: int) -> bool:
+        """Return whether a node becomes a constant."""
+        return self.graph.constant[index] and (self.fold or self.graph.nodes[index].name in ("number", "pi", "e"))
 
-    def walk(self, expr: sympy.Expr) -> int:
-        """Emit an expression that was not met yet. Raises FirsthitError for an unknown function."""
-        import sympy
+    def result(self, output: int) -> int:
+        """Return the result of a node, of which and of whose parts the instructions are emitted."""
+        needed, stack = {output}, [output]
+        while stack:
+            for part in self.parts(stack.pop()):
+                if part not in needed:
+                    needed.add(part)
+                    stack.append(part)
+        for index in sorted(needed):
+            if index not in self.done:
+                self.done[index] = self.node(index, self.graph.nodes[index])
+        return self.done[output]
 
-        if expr.is_Symbol:
-            return self.emit("input", index="xyz".index(expr.name))
-        if expr.is_Atom or (self.fold and not expr.free_symbols):
-            return self.constant(expr)
-        if expr.is_Add:
-            return self.sum(expr.args)
-        if expr.is_Mul:
-            return self.product(expr)
-        if expr.is_Pow:
-            return self.power(*expr.as_base_exp())
-        if isinstance(expr, sympy.Min | sympy.Max):
-            name = "min" if isinstance(expr, sympy.Min) else "max"
-            return self.chain(name, [self.compile(a) for a in expr.args])
-        name = FUNCTIONS.get(type(expr).__name__, "")
-        if not name:
-            raise FirsthitError(f"the oracle does not know the function {type(expr).__name__} in {expr}")
-        return self.emit(name, self.compile(expr.args[0]))
+    def constant(self, index: int) -> int:
+        """Emit a constant node."""
+        return self.emit("constant", index=self.constants.setdefault(index, len(self.constants)))
 
-    def chain(self, name: str, args: list[int]) -> int:
-        """Apply an operation of two arguments to several, from left to right."""
-        result = args[0]
-        for a in args[1:]:
-            result = self.emit(name, result, a)
-        return result
+    def node(self, index: int, node: Node) -> int:
+        """Emit a node whose parts are done."""
+        if self.is_leaf(index):
+            return self.constant(index)
+        match node.name:
+            case "input":
+                return self.emit("input", index=node.value)
+            case "sum":
+                return self.sum(node)
+            case "product":
+                return self.product(node)
+            case "powr":
+                return self.emit("powr", self.done[node.parts[0]], exponent=node.value)
+            case "sqrt" if self.lengths and index in self.graph.squares:
+                return self.emit("length", *(self.done[p] for p in self.graph.squares[index]))
+        return self.emit(node.name, *(self.done[p] for p in node.parts))
 
-    def sum(self, terms: tuple[sympy.Expr, ...]) -> int:
+    def sum(self, node: Node) -> int:
         """Emit a sum; terms with a minus sign come last and are subtracted."""
-        ordered = sorted(terms, key=lambda t: bool(t.could_extract_minus_sign()))
+        terms = sorted(zip(node.parts, node.weights, strict=True), key=lambda term: (term[1] < 0, not term[0]))
         result: int | None = None
-        for term in ordered:
-            negative = bool(term.could_extract_minus_sign())
-            value = self.compile(-term if negative else term)
+        for part, weight in terms:
+            value = self.scaled(abs(weight), part)
             if result is None:
-                result = self.emit("neg", value) if negative else value
+                result = self.emit("neg", value) if weight < 0 else value
             else:
-                result = self.emit("sub" if negative else "add", result, value)
+                result = self.emit("sub" if weight < 0 else "add", result, value)
         assert result is not None
         return result
 
-    def product(self, expr: sympy.Expr) -> int:
+    def scaled(self, factor: Fraction, part: int) -> int:
+        """Emit a positive rational times a node that is done."""
+        if part == self.graph.one:
+            return self.constant(self.graph.number(factor))
+        if factor == ONE:
+            return self.done[part]
+        return self.emit("mul", self.constant(self.graph.number(factor)), self.done[part])
+
+    def product(self, node: Node) -> int:
         """Emit a product; factors with negative exponents are divided by."""
-        import sympy
+        scale, powers = abs(node.value), list(zip(node.parts, node.weights, strict=True))
+        top = [self.power_of(self.done[part], power) for part, power in powers if power > 0]
+        below = [self.power_of(self.done[part], -power) for part, power in powers if power < 0]
+        if scale != ONE or not top:
+            top.insert(0, self.constant(self.graph.number(scale)))
+        result = self.chain(top)
+        if below:
+            result = self.emit("div", result, self.chain(below))
+        return self.emit("neg", result) if node.value < 0 else result
 
-        numerator: list[sympy.Expr] = []
-        denominator: list[sympy.Expr] = []
-        for factor in expr.args:
-            base, exponent = factor.as_base_exp()
-            below = base.free_symbols and exponent.is_Rational and exponent < 0
-            (denominator if below else numerator).append(sympy.Pow(base, -exponent) if below else factor)
-        negative = numerator[:1] == [sympy.S.NegativeOne]
-        top = [self.compile(f) for f in numerator[negative:]] or [self.constant(sympy.S.One)]
-        result = self.chain("mul", top)
-        if denominator:
-            result = self.emit("div", result, self.chain("mul", [self.compile(f) for f in denominator]))
-        return self.emit("neg", result) if negative else result
-
-    def power(self, base: sympy.Expr, exponent: sympy.Expr) -> int:
-        """Emit a power."""
-        import sympy
-
-        if exponent.is_Rational and exponent < 0:
-            return self.emit("div", self.constant(sympy.S.One), self.power(base, -exponent))
-        if exponent == 1:
-            return self.compile(base)
-        if exponent.is_Integer:
-            return self.power_of(self.compile(base), int(exponent))
-        if exponent.is_Rational and exponent.q == 2:
-            roots = _roots_of_squares(base) if self.lengths else None
-            if roots is not None:
-                return self.power_of(self.emit("length", *(self.compile(r) for r in roots)), int(exponent.p))
-            return self.power_of(self.emit("sqrt", self.compile(base)), int(exponent.p))
-        if base == sympy.E:
-            return self.emit("exp", self.compile(exponent))
-        logarithm = self.emit("log", self.compile(base))
-        return self.emit("exp", self.emit("mul", self.compile(exponent), logarithm))
+    def chain(self, factors: list[int]) -> int:
+        """Emit the product of several results, from left to right."""
+        result = factors[0]
+        for factor in factors[1:]:
+            result = self.emit("mul", result, factor)
+        return result
 
     def power_of(self, value: int, exponent: int) -> int:
         """Emit a whole power by squaring, which is exact in exact numbers; numpy's own powers are slow."""
-        if exponent == 1:
-            return value
-        half = self.power_of(value, exponent // 2)
-        square = self.emit("mul", half, half)
-        return self.emit("mul", square, value) if exponent % 2 else square
+        result, place = value, exponent.bit_length() - 2
+        while place >= 0:
+            result = self.emit("sqr", result)
+            if exponent >> place & 1:
+                result = self.emit("mul", result, value)
+            place -= 1
+        return result
 
 
-def _roots_of_squares(expr: sympy.Expr) -> list[sympy.Expr] | None:
-    """Return [u, v, …] if `expr` is written as u² + v² + …, else None; a positive constant counts as a square."""
-    import sympy
+def program_of(graph: Graph, output: int | None = None, fold: bool = True, lengths: bool = False) -> Program:
+    """Return the program of a graph's node, which is its output unless another one is given.
 
-    roots = []
-    for term in sympy.Add.make_args(expr):
-        root = sympy.S.One
-        for factor in sympy.Mul.make_args(term):
-            base, exponent = factor.as_base_exp()
-            if factor.is_Rational and factor > 0:
-                root *= sympy.sqrt(factor)
-            elif exponent.is_Integer and exponent > 0 and exponent % 2 == 0 and base.free_symbols:
-                root *= base ** (exponent / 2)
-            else:
-                return None
-        roots.append(root)
-    return roots
-
-
-def compile_expression(expr: sympy.Expr, fold: bool = True, lengths: bool = False) -> Program:
-    """Return the program of `expr` in symbols named x, y, z.
-
-    If `fold`, a constant subtree becomes one constant. If `lengths`, √(u² + v² + …) becomes one instruction `length` of
-    u, v, …; number systems of ranges know that its slope is bounded, which that of a root is not. Raises FirsthitError
-    if `expr` uses a function that the oracle does not know.
+    If `fold`, a constant node becomes one constant. If `lengths`, √(u² + v² + …) becomes one instruction `length` of u,
+    v, …; number systems of ranges know that its slope is bounded, which that of a root is not.
     """
-    compiler = _Compiler(fold, lengths)
-    last = compiler.compile(expr)
-    if last != len(compiler.instructions) - 1:  # the result was met earlier, as in f = -(-x)
-        raise AssertionError("the last instruction must be the result")
-    return Program(tuple(compiler.instructions), tuple(compiler.constants))
+    output = graph.output if output is None else output
+    emitter = _Emitter(graph, fold, lengths)
+    last = emitter.result(output)
+    inner = _Emitter(graph, fold=False, lengths=False)
+    numbers = tuple(inner.result(index) for index in emitter.constants)
+    leaves = tuple(_leaf(graph.nodes[index]) for index in inner.constants)
+    return Program(tuple(emitter.instructions[: last + 1]), Constants(leaves, tuple(inner.instructions), numbers))
 
 
-def repeated_factors(expr: sympy.Expr) -> tuple[sympy.Expr, list[tuple[sympy.Expr, int]]]:
-    """Return the radical of `expr` as it is written, and its factors with their multiplicities.
-
-    (x − 1)^2·y gives (x − 1)·y and [(x − 1, 2), (y, 1)]. An expression without repeated factors gives itself and [].
-    |u| counts as u twice, since it has the roots of u and, like u², never changes its sign.
-    """
-    import sympy
-
-    found: dict[sympy.Expr, int] = {}
-    for factor in sympy.Mul.make_args(expr):
-        base, exponent = factor.as_base_exp()
-        multiplicity = int(exponent) if exponent.is_Integer and exponent > 1 else 1
-        if not factor.free_symbols:
-            continue
-        if multiplicity == 1:
-            base = factor
-        if isinstance(base, sympy.Abs):
-            base, multiplicity = base.args[0], 2 * multiplicity
-        found[base] = found.get(base, 0) + multiplicity
-    factors = list(found.items())
-    if all(multiplicity == 1 for _, multiplicity in factors):
-        return expr, []
-    return sympy.Mul(*found), factors
+def compile_tape(tape: Tape, fold: bool = True, lengths: bool = False) -> Program:
+    """Return the program of a tape, as `program_of`. Raises FirsthitError if the oracle does not know an operation."""
+    return program_of(graph_of(tape), fold=fold, lengths=lengths)
 
 
-def convert_constants(program: Program, leaf: Callable[[sympy.Expr], Any], functions: Functions) -> list[Any]:
-    """Return the program's constants in a number system whose `leaf` converts rationals, pi, e and the golden ratio."""
-
-    def convert(constant: sympy.Expr) -> Any:
-        inner = compile_expression(constant, fold=False)
-        return inner.run((), [leaf(c) for c in inner.constants], functions)
-
-    return [convert(constant) for constant in program.constants]
+def _leaf(node: Node) -> Leaf:
+    """Return a rational number, or the name of another leaf."""
+    return node.name if node.value is None else node.value

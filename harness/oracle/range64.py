@@ -2,7 +2,8 @@
 
 **Theory.** A piece has no root if the range of f excludes 0, directly or by the mean value form
 f(m) + f'(piece)·(piece − m). It has exactly one root, a crossing, if the range of f' excludes 0 and f has opposite
-proved signs at the ends. Where f is not defined the ranges are NaN, which proves nothing.
+proved signs at the ends. Where f is not defined, and in slopes where f may jump, ranges are NaN, which proves nothing.
+A piece in which f may jump has no root if f is off 0 on all sides (`jumps`).
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from harness.oracle.branches import Branch
 from harness.oracle.clip import points_at
 from harness.oracle.dual import Dual
 from harness.oracle.enclosure import Enclosure
+from harness.oracle.jumps import Sided64, sides
 from harness.oracle.segments import Pieces, Segments, Verdict, first_segments
 
 DEPTH = 36
@@ -26,6 +28,7 @@ class RangeIsolator:
 
     def __init__(self, f: Enclosure) -> None:
         self.f = f
+        self.jumps = f.program.jumps
         self.kinks = any(i.name in ("abs", "min", "max", "length") for i in f.program.instructions)
 
     def __call__(self, rays: Floats, lower: Floats, upper: Floats) -> Segments:
@@ -48,6 +51,9 @@ class RangeIsolator:
         slope = self._narrowed(whole, inputs)
         mean_value = self.f.of(centers) + slope * Balls(0.0, half)
         empty = whole.value.excludes_zero | mean_value.excludes_zero
+        if self.jumps:
+            open_ = np.flatnonzero(~empty & ~np.isfinite(slope.rad))
+            empty[open_] = self._off_zero_on_all_sides([_rows(i.value, open_) for i in inputs])
         single = np.zeros_like(empty)
         rising = slope.mid > 0.0
         monotone = ~empty & slope.excludes_zero
@@ -56,6 +62,15 @@ class RangeIsolator:
         single[monotone] = first * last == -1
         empty[monotone] |= first * last == 1
         return Verdict(empty, single, rising, (middle <= pieces.lower) | (middle >= pieces.upper))
+
+    def _off_zero_on_all_sides(self, points: list[Balls]) -> NDArray[np.bool_]:
+        """Return bool[p]: whether f is proved to be off 0 on all sides of the jumps that are open on p pieces."""
+        shape = np.shape(points[0].mid)
+        proved = np.ones(shape, dtype=bool)
+        for chosen in sides() if len(proved) else ():
+            f = self.f.program.run(points, self.f.constants, Sided64(chosen, shape).functions())
+            proved &= np.broadcast_to(f.excludes_zero, shape)
+        return proved
 
     def _narrowed(self, whole: Dual, inputs: list[Dual]) -> Balls:
         """Enclose the slopes of f on p pieces, balls [p].

@@ -17,7 +17,7 @@ from harness.contract import Domain, TruthStatus
 from harness.oracle import reals, surd
 from harness.oracle.bernstein import Bracket, Undecidable, brackets, to_bernstein
 from harness.oracle.clip import End, clip_exactly
-from harness.oracle.program import Program, convert_constants
+from harness.oracle.program import Program
 from harness.oracle.reals import float_above, float_below, precision, rational
 
 if TYPE_CHECKING:
@@ -56,7 +56,7 @@ class AlgebraicSolver:
 
     def __post_init__(self) -> None:
         try:
-            self.surds = convert_constants(self.program, surd.leaf, surd.FUNCTIONS)
+            self.surds = self.program.constants.converted(surd.leaf, surd.FUNCTIONS)
         except surd.NotExact:
             self.surds = None
 
@@ -82,7 +82,7 @@ class AlgebraicSolver:
     def _by_balls(self, ray: Sequence[float], ends: tuple[End, End], reach: float, bits: int, t_min: float) -> FirstHit:
         """Return the first hit by balls of `bits`; `reach` is the domain's radius in units of t. Raises Undecidable."""
         if bits not in self.constants:
-            self.constants[bits] = convert_constants(self.program, reals.leaf, reals.FUNCTIONS)
+            self.constants[bits] = self.program.constants.converted(reals.leaf, reals.FUNCTIONS)
             self.constants[bits] = [arb_poly([c]) for c in self.constants[bits]]
         enter, leave = (end.ball() for end in ends)
         start, width = _frame(enter, leave, reach)

@@ -8,14 +8,13 @@ then uses balls.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from fractions import Fraction
+from math import gcd
+from typing import Any
 
 from flint import arb, arb_poly, fmpq, fmpq_poly, fmpz
 
-from harness.oracle.program import Functions
-
-if TYPE_CHECKING:
-    import sympy
+from harness.oracle.program import Functions, Leaf
 
 ZERO = fmpq_poly(0)
 
@@ -50,6 +49,9 @@ class Surd:
         return Surd(-self.a, -self.b, self.d)
 
     def __mul__(self, other: Surd) -> Surd:
+        if self.d and other.d and self.d != other.d and not self.a and not other.a:  # √2·√6 is 2·√3
+            common = gcd(self.d, other.d)
+            return Surd(0, common * self.b * other.b, self.d * other.d // common**2)
         d = self.field(other)
         if not d:
             return Surd(self.a * other.a)
@@ -77,15 +79,11 @@ class Surd:
         return arb_poly(self.a) + arb_poly(self.b) * arb(self.d).sqrt()
 
 
-def leaf(expr: sympy.Expr) -> Surd:
-    """Return a rational or the golden ratio as a surd. Raises NotExact for anything else."""
-    import sympy
-
-    if expr.is_Rational:
-        return Surd(fmpq(int(expr.p), int(expr.q)))
-    if expr == sympy.GoldenRatio:
-        return Surd(fmpq(1, 2), fmpq(1, 2), 5)
-    raise NotExact(str(expr))
+def leaf(value: Leaf) -> Surd:
+    """Return a rational number as a surd. Raises NotExact for pi and e."""
+    if not isinstance(value, Fraction):
+        raise NotExact(value)
+    return Surd(fmpq(value.numerator, value.denominator))
 
 
 def sqrt(value: Surd) -> Surd:
@@ -108,6 +106,7 @@ def _outside(*_: Surd) -> Surd:
 
 FUNCTIONS: Functions = {
     **dict.fromkeys(("exp", "log", "sin", "cos", "tan", "abs", "min", "max"), _outside),
+    **dict.fromkeys(("floor", "powr", "atan2", "below", "select"), _outside),
     "sqrt": sqrt,
 }
 

@@ -174,6 +174,24 @@ class Tower:
             return bool(self.ball(x, t.ball()).contains(0))
 
 
+class PointTower(Tower):
+    """Hold radicals of numbers that are not negative at one point, and answer exactly about elements there."""
+
+    def __init__(self, point: Point) -> None:
+        self.first = self.last = point
+        self.squares = []
+
+    def sign_at(self, x: Element, t: Point) -> int:
+        """Return the sign of an element that is not 0 at the point. Raises Undecidable if no precision tells."""
+        for bits in PRECISIONS:
+            t.refine(fmpq(1, 1 << bits))
+            with precision(bits):
+                value = self.ball(x, t.ball())
+                if not value.contains(0):
+                    return 1 if value > 0 else -1
+        raise Undecidable("a sign was not found")
+
+
 def _sum(x: Element, radicals: dict[int, Any], t: Any) -> Any:
     """Return x at the ball `t`, given the radicals' values there."""
     total = arb(0)

@@ -10,23 +10,23 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from math import hypot, ldexp
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from flint import arb
+from flint import arb, fmpq
 
 from harness.contract import Domain, TruthStatus
 from harness.oracle import reals
 from harness.oracle.bernstein import Undecidable
 from harness.oracle.clip import End, clip_exactly
 from harness.oracle.dual import Dual, dual_functions
+from harness.oracle.graph import Graph
+from harness.oracle.jumps import Sided, meets_cut, sides
 from harness.oracle.piecewise import PiecewiseSolver, exact_program
-from harness.oracle.program import Program, compile_expression, convert_constants
+from harness.oracle.program import Program, program_of
 from harness.oracle.reals import float_above, float_below, precision, rational
 from harness.oracle.slow import MISS, UNDECIDED, FirstHit, certified_hit
-
-if TYPE_CHECKING:
-    import sympy
 
 PRECISIONS = (80, 256)
 OPEN = 2.0**-28  # the width, in domain radii, below which pieces that ranges leave open are decided exactly
@@ -36,14 +36,14 @@ NARROW = 2.0**-50  # the width of certified intervals, in domain radii
 
 @dataclass
 class SmoothSolver:
-    """Find first hits of single rays with the surface `expr` = 0."""
+    """Find first hits of single rays with the surface that a graph describes."""
 
-    expr: sympy.Expr
+    graph: Graph
     domain: Domain
 
     def __post_init__(self) -> None:
-        self.program = compile_expression(self.expr, lengths=True)
-        self.exact = exact_program(self.expr)
+        self.program = program_of(self.graph, lengths=True)
+        self.exact = exact_program(self.graph)
         self.constants: dict[int, list[Any]] = {}
 
     def first_hit(self, ray: Sequence[float], t_min: float = 0.0) -> FirstHit:
@@ -58,7 +58,7 @@ class SmoothSolver:
             try:
                 with precision(bits):
                     if bits not in self.constants:
-                        self.constants[bits] = convert_constants(self.program, reals.leaf, reals.FUNCTIONS)
+                        self.constants[bits] = self.program.constants.converted(reals.leaf, reals.FUNCTIONS)
                     search = _Search(self.program, self.constants[bits], ray, scale, t_min)
                     floor = scale * OPEN if exact else ldexp(scale, -bits // 2)
                     return search.first_hit(ends, floor, exact)
@@ -138,7 +138,14 @@ class _Search:
         if not f.value.contains(0):
             return True
         middle = whole.mid()
-        return not (self.value(middle) + f.slope * (whole - middle)).contains(0)
+        if not (self.value(middle) + f.slope * (whole - middle)).contains(0):
+            return True
+        return self.program.jumps and not f.slope.is_finite() and self.is_empty_on_all_sides(whole)
+
+    def is_empty_on_all_sides(self, whole: Any) -> bool:
+        """Return whether f is proved to be off 0 on all sides of the jumps that are open on a piece."""
+        points = [o + d * whole for o, d in self.axes]
+        return not any(self.program.run(points, self.constants, Sided(s).functions()).contains(0) for s in sides())
 
     def single_root(self, lower: Any, upper: Any) -> Any:
         """Return the root of a piece as a ball of t; None if it is not proved to hold exactly one with opposite signs.
@@ -186,9 +193,34 @@ def _ratio(slope: Any, root: Any) -> Any:
 def _share(part: Any, whole: Any) -> Any:
     """Enclose part / whole where |part| <= whole is known."""
     share = part / whole
-    return share if abs(share) <= 1 else arb(0, 1)
+    if not share.is_finite():
+        return arb(0, 1)
+    return max(share.lower(), arb(-1)).union(min(share.upper(), arb(1)))
 
 
-DUAL_FUNCTIONS = dual_functions(
-    {**reals.FUNCTIONS, "sign": _sign, "half": lambda a: a / 2, "pick": _pick, "ratio": _ratio, "share": _share}
-)
+def _scale(a: Any, factor: Fraction) -> Any:
+    """Return a rational times a ball."""
+    return a * fmpq(factor.numerator, factor.denominator)
+
+
+def _step_slope(value: Any) -> Any:
+    """Return the slope of what is constant between jumps: 0 if `value` is one number, else NaN."""
+    return arb(0) if value.is_exact() and value.is_finite() else arb.nan()
+
+
+def _select_slope(c: Any, p: Any, q: Any) -> Any:
+    """Return the slope of a select; NaN if the condition leaves open which part is taken."""
+    return p if c > 0.5 else q if c < 0.5 else arb.nan()
+
+
+def _atan2_slope(y: Any, x: Any, dy: Any, dx: Any) -> Any:
+    """Enclose the derivative of atan2; NaN if the box may meet the cut."""
+    if meets_cut(y, x):
+        return arb.nan()
+    return (x * dy - y * dx) / (reals.square(x) + reals.square(y))
+
+
+DUAL_FUNCTIONS = dual_functions({
+    **reals.FUNCTIONS, "sign": _sign, "scale": _scale, "pick": _pick, "ratio": _ratio, "share": _share,
+    "step_slope": _step_slope, "select_slope": _select_slope, "atan2_slope": _atan2_slope,
+})  # fmt: skip

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from harness.contract import Box, FirsthitError, Surface
 from harness.devices.raster import RECORD
 from harness.scenes.model import Group, Scene, bounding_radius
+from surfaces.formula import number
 
 Floats = NDArray[np.float64]
 MOST_PARAMETERS = 4  # how many parameters a formula may have whose instances differ in them
@@ -38,7 +39,7 @@ def _own(surface: Surface, varies: bool) -> list[float]:
     """
     domain, radius = surface.domain, bounding_radius(surface)
     lower, upper = _box_of(surface, tight=not varies)
-    parameters = [float(value) for _, value in sorted(surface.parameters)][:MOST_PARAMETERS] if varies else []
+    parameters = [number(value) for _, value in sorted(surface.parameters)][:MOST_PARAMETERS] if varies else []
     feature = surface.feature_radius or domain.radius
     stretch = (1.0, 1.0, 1.0)
     numbers = [*lower, 1.0, *upper, radius, *stretch, domain.radius, 0.0, 0.0, 0.0, feature, *parameters]

@@ -46,6 +46,8 @@ from harness.contract import Box, FirsthitError, Method, Parameter, Precision, S
 SLACK = 1.0 + 2.0**-16  # covers the float32 rounding of a direction's length, of |p|, of the clip and of the table
 CLOSE = 1.05  # boxes are split until their bound is within this factor of a gradient that occurs
 MAX_BOXES = 6000  # limit of boxes that are bounded; with fewer the bounds are as certain, but less tight
+MAX_OPERATIONS = 12_000_000  # of balls that are spent on them, which takes about a quarter of a minute
+KINKED = frozenset({"abs", "min", "max", "sqrt", "powr"})  # operations whose slopes surfaces.slopes bounds more tightly
 
 
 @lru_cache(maxsize=128)
@@ -60,14 +62,19 @@ def ball_bounds(surface: Surface, shells: int) -> tuple[float, ...]:
     import surfaces
     from surfaces.lowering import gradient, real_tape
     from surfaces.numbers import Balls
+    from surfaces.slopes import steepest as bound_of_slope
     from surfaces.tape import walk
 
-    tape, numbers = gradient(real_tape(surfaces.tape_of(surface))), Balls()
+    value = real_tape(surfaces.tape_of(surface))
+    tape, numbers, kinked = gradient(value), Balls(), any(op.name in KINKED for op in value.ops)
+    most = max(64, min(MAX_BOXES, MAX_OPERATIONS // len(tape.ops)))
     domain, center, radius = surface.domain, surface.domain.center, surface.domain.radius * SLACK
     half = np.subtract(domain.upper, domain.lower) / 2 if isinstance(domain, Box) else np.full(3, domain.radius)
 
     def steepest(middle: Sequence[float], half: Sequence[float]) -> float:
         box = {axis: flint.arb(m, h) for axis, m, h in zip("xyz", middle, half, strict=True)}
+        if kinked:
+            return bound_of_slope(value, box) * SLACK
         size = sum(numbers.sqr(slope) for slope in walk(tape, numbers, box))
         return math.sqrt(float(size.upper())) * SLACK if size.is_finite() else math.inf
 
@@ -92,7 +99,7 @@ def ball_bounds(surface: Surface, shells: int) -> tuple[float, ...]:
                 continue
             bound = steepest(middle, size)
             bounded += 1
-            if bound > CLOSE * occurring[reached] and bounded + 8 * len(split) < MAX_BOXES:
+            if bound > CLOSE * occurring[reached] and bounded + 8 * len(split) < most:
                 split.append((middle, size))
             else:
                 bounds[reached] = max(bounds[reached], bound)
@@ -105,6 +112,15 @@ def ball_bounds(surface: Surface, shells: int) -> tuple[float, ...]:
     if not bounds[-1] < math.inf:
         raise FirsthitError(f"{surface.name}: its gradient has no finite bound over the domain")
     return tuple(bounds)
+
+
+def accepts(surface: Surface) -> str | None:
+    """Say why the surface is refused; None if f does not jump."""
+    import surfaces
+    from surfaces.slopes import jumps
+
+    found = jumps(surfaces.tape_of(surface))
+    return f"f may jump ({', '.join(found)}), and a bound of its gradient says nothing of jumps" if found else None
 
 
 def tables(surface: Surface, knobs: Mapping[str, float | int], _: Precision) -> Mapping[str, Sequence[float]]:
@@ -135,5 +151,6 @@ METHOD = Method(
         Parameter("MAX_EVALUATIONS", 20000, "evaluations of f on one ray, after which the ray is exhausted"),
     ),
     claims=frozenset({"conservative_bound"}),
+    accepts=accepts,
     tables=tables,
 )
