@@ -263,7 +263,7 @@ def _logarithm(a: Range) -> Range:
     return Range(at(a.low, -inf), at(a.high, inf))
 
 
-def _own(op: Op, known: Sequence[Range]) -> Range:  # noqa: C901, PLR0911, PLR0912
+def _own(op: Op, known: Sequence[Range]) -> Range:
     """Return the range of an operation by the ranges of its inputs."""
     of = [known[i] for i in op.inputs]
     match op.name:

@@ -108,10 +108,18 @@ def test_signs_hold_on_random_formulas() -> None:
 def _choice(condition: str, part: str, other: str = "zero") -> Tape:
     """Return select(condition, part, other) of expressions in the operations of a Builder b, and x, y, z, zero, one."""
     b = Builder()
-    names: dict[str, Any] = {"Fraction": Fraction, "b": b, "x": b.var("x"), "y": b.var("y"), "z": b.var("z"), "zero": b.const(0), "one": b.const(1)}
+    names: dict[str, Any] = {
+        "Fraction": Fraction,
+        "b": b,
+        "x": b.var("x"),
+        "y": b.var("y"),
+        "z": b.var("z"),
+        "zero": b.const(0),
+        "one": b.const(1),
+    }
     names["above"] = lambda p, q: b.sub(b.const(1), b.below(p, q))
     names["equal"] = lambda p, q: b.min(b.below(p, q), b.below(q, p))
-    return b.tape(b.sub(b.select(*(eval(text, names) for text in (condition, part, other))), names["z"]))  # noqa: S307
+    return b.tape(b.sub(b.select(*(eval(text, names) for text in (condition, part, other))), names["z"]))
 
 
 GUARDED = [  # what holds in the part that is taken: the very argument, the same sum in another form, a factor of it

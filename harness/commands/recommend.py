@@ -7,19 +7,20 @@ import importlib.util
 import shlex
 import textwrap
 from pathlib import Path
-from typing import Any
 
 from harness import console
 from harness.commands import Add
+from harness.commands.answers import recommending
+from harness.commands.answers.recommending import Beside
 from harness.commands.machine import Answer, add_json
 from harness.commands.options import add_surface, methods_of, number, surface_of, surface_words, whole, writable
 from harness.commands.printer import Printer
 from harness.commands.shipping import command_for
-from harness.contract import CLAIMS, PRECISIONS, FirsthitError, Surface, Variant
+from harness.contract import CLAIMS, PRECISIONS, FirsthitError, Surface
 from harness.limits import PIXELS, RAYS, SECONDS, SEED
 from harness.plugins import Catalog
 from harness.recommend import telling
-from harness.recommend.model import ERROR, FPS, HEADROOM, QUANTILES, VIEWS, Contender, Recommendation, Wish, named
+from harness.recommend.model import ERROR, FPS, HEADROOM, QUANTILES, VIEWS, Recommendation, Wish, named
 from harness.recommend.search import recommend
 
 NOTHING_HOLDS = 1
@@ -96,15 +97,16 @@ def _recommend(options: argparse.Namespace) -> int | Answer:
         _check_page(page)
     catalog = methods_of(options)
     found = recommend(wish, catalog, options.device, options.runs, _Printer(), pictured=page is not None)
-    commands, remark = _commands(found, options, catalog), remark_on(surface)
+    again, ship = _commands(found, options, catalog)
+    beside = Beside(again, ship, remark_on(surface), page)
     code = 0 if found.contenders else NOTHING_HOLDS
     if page is not None:
         from harness.commands.recommended import write_page
 
-        write_page(found, wish, commands, remark, page)
+        write_page(found, wish, beside, page)
     if options.json:
-        return Answer(content(found, wish, commands, remark, page), code)
-    print(printed(found, wish, commands, remark))
+        return Answer(recommending.recommend(found, wish, beside), code)
+    print(printed(found, wish, beside))
     if page is not None:
         print(f"\npage       {page}")
     return code
@@ -134,78 +136,28 @@ def remark_on(surface: Surface) -> str | None:
     return remark
 
 
-def _commands(found: Recommendation, options: argparse.Namespace, catalog: Catalog) -> dict[str, str]:
-    """Return the commands that make the same search again and, where something is recommended, that ship it."""
+def _commands(found: Recommendation, options: argparse.Namespace, catalog: Catalog) -> tuple[str, str | None]:
+    """Return the commands that make the same search again and that ship what is recommended; None where nothing is."""
     words = ["firsthit", "recommend", *surface_words(options), "--error", f"{options.error:g}"]
     given = {name: getattr(options, name) for name, usual in USUAL.items() if getattr(options, name) != usual}
     words += [word for name, value in given.items() for word in (f"--{name}", str(value))]
     words += [word for claim in options.require for word in ("--require", claim)]
     words += ["--plugins", str(options.plugins)] if options.plugins else []
-    commands = {"again": shlex.join([*words, "--device", found.device.name])}
-    if found.contenders:
-        best = found.contenders[0]
-        made = command_for(options, catalog, best.variant, best.precision)
-        commands["ship"] = f"{made} --device {found.device.name} -o DIR"
-    return commands
+    again = shlex.join([*words, "--device", found.device.name])
+    if not found.contenders:
+        return again, None
+    best = found.contenders[0]
+    made = command_for(options, catalog, best.variant, best.precision)
+    return again, f"{made} --device {found.device.name} -o DIR"
 
 
-def content(
-    found: Recommendation, wish: Wish, commands: dict[str, str], remark: str | None, page: Path | None
-) -> dict[str, Any]:
-    """Return what --json prints."""
-    surface, device, best = wish.surface, found.device, found.contenders[0] if found.contenders else None
-    names = ("error", "quantile", "fps", "size", "precision", "views", "held_out_views", "rays", "seed", "seconds")
-    fallen = [
-        {**_of(f.variant), "precision": f.precision, "cause": f.cause, "why": f.why, "error": f.error, "times": f.times}
-        for f in found.fallen
-    ]
-    return {
-        "question": telling.question(found, wish),
-        "asked": {
-            "surface": {"name": surface.name, "title": surface.title, **surface.identity},
-            **{name: getattr(wish, name) for name in (*names, "require")},
-        },
-        "device": {"name": device.name, "title": device.title, "driver": device.driver},
-        "answer": telling.answer(found, wish),
-        "recommended": _contender(best) if best else None,
-        "guarantee": telling.guarantee(best) if best else None,
-        "rule": {"factor": wish.error / wish.target, "allowed": wish.target, "text": telling.rule(found, wish)},
-        "checked": {
-            "held_out_rays": found.held_out,
-            "decided_hits": found.decided,
-            "undecided_hits": found.undecided,
-            "text": telling.checked(found, wish) if best else None,
-        },
-        "contenders": [_contender(contender) for contender in found.contenders],
-        "fallen": fallen,
-        "methods": [
-            {"method": told.method, "precision": told.precision, "sentence": told.sentence}
-            for told in telling.others(found, wish)
-        ],
-        "remark": remark,
-        "commands": commands,
-        "page": page,
-        "folder": found.folder,
-    }
-
-
-def _of(variant: Variant) -> dict[str, Any]:
-    return {"variant": named(variant), "method": variant.method, "knobs": dict(variant.parameters)}
-
-
-def _contender(contender: Contender) -> dict[str, Any]:
-    figures = {name: getattr(contender, name) for name in ("precision", "ms", "error", "evaluations")}
-    claims = {"claims": contender.claims, "disproved": contender.disproved}
-    return {**_of(contender.variant), **figures, "frames_per_second": 1e3 / contender.ms, **claims}
-
-
-def printed(found: Recommendation, wish: Wish, commands: dict[str, str], remark: str | None) -> str:
+def printed(found: Recommendation, wish: Wish, beside: Beside) -> str:
     """Say what is asked, what is recommended, how fast and how certain it is, and why the others are not."""
     told = {"question": telling.question(found, wish), "answer": telling.answer(found, wish)}
-    told |= {"mind": remark} if remark else {}
+    told |= {"mind": beside.remark} if beside.remark else {}
     told |= telling.certainty(found, wish)
     parts = [_paragraph(name, text) for name, text in told.items()]
-    parts += [f"{name:<10} {command}" for name, command in commands.items()]
+    parts += [f"again      {beside.again}", *([f"ship       {beside.ship}"] if beside.ship else [])]
     if found.contenders:
         parts += ["", _table(found, wish)]
     parts += ["", "Why other variants are not recommended, a sentence for each method:"]

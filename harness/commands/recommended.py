@@ -6,6 +6,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 from harness import __version__
+from harness.commands.answers.recommending import Beside
 from harness.recommend import telling
 from harness.recommend.model import Recommendation, Wish, named
 from harness.recommend.telling import Told
@@ -13,16 +14,16 @@ from harness.shipping.program import domain_of
 from reports.recommended import Recommended, RunnerUp, write
 
 EARLY = "* in a first short timing, over the fastest variant's time there."
-COMMANDS = {"again": "The same search again:", "ship": "The program, with an example that draws it:"}
+AGAIN, SHIP = "The same search again:", "The recommended program, with an example that draws it:"
 NAMES = {"rule": "safety", "guarantee": "guarantee", "checked": "checked"}
 
 
-def write_page(found: Recommendation, wish: Wish, commands: dict[str, str], remark: str | None, path: Path) -> None:
+def write_page(found: Recommendation, wish: Wish, beside: Beside, path: Path) -> None:
     """Write the page to `path`. Raises FirsthitError where it cannot be written."""
     created = datetime.now(UTC).isoformat(timespec="seconds")
     best = found.contenders[0] if found.contenders else None
     facts = [("device", f"{found.device.name}: {found.device.title}, {found.device.driver}")]
-    facts += [("mind", remark)] if remark else []
+    facts += [("mind", beside.remark)] if beside.remark else []
     facts += [(NAMES[name], text) for name, text in telling.certainty(found, wish).items()]
     facts += [("surface", f"{wish.surface.formula} = 0{_parameters(wish)}, in {domain_of(wish.surface)}")]
     told = [other for other in telling.others(found, wish) if not (best and _is_all_of_best(other, found))]
@@ -45,7 +46,7 @@ def write_page(found: Recommendation, wish: Wish, commands: dict[str, str], rema
         picture,
         runners_up,
         f"Time is over that of {named(best.variant)}. {EARLY}" if best else EARLY,
-        [(COMMANDS[name], command) for name, command in commands.items()],
+        [(AGAIN, beside.again), *([(SHIP, beside.ship)] if beside.ship else [])],
     )
     write(page, path, created)
 

@@ -71,7 +71,7 @@ def rule(found: Recommendation, wish: Wish) -> str:
     if not found.contenders:
         return told
     error = found.contenders[0].error
-    margin = f", {wish.error / error:.3g} times below the bound" if error else ""
+    margin = f", {wish.error / error:,.{0 if wish.error > 100 * error else 1}f} times below the bound" if error else ""
     return f"{told} The {QUANTILE_NAMES[wish.quantile]} measured is {error:.2g}{margin}."
 
 
