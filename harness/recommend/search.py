@@ -6,7 +6,7 @@ rounds. The fastest are checked once more on held-out views, by which they were 
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping, Sequence, Sized
 from pathlib import Path
 
 from harness.accuracy.judge import NAMES
@@ -30,6 +30,7 @@ HOPELESS = 2.0  # times the fastest in a first, short timing of a small picture:
 STEP_SECONDS = 60.0  # for one step of a candidate; then it falls
 SMALL = 128  # pixels per side of that picture, at most
 FRONT = View("picture")  # of the picture of what is recommended
+ENDED = {CellStatus.FAILED: "failed", CellStatus.TIMEOUT: "took too long", CellStatus.CRASHED: "crashed"}
 PICTURE_RAYS = 192  # per side of that picture, each of them checked
 
 
@@ -93,17 +94,14 @@ class Search:
         alive = self._claiming(list(variants(self._catalog)), precision, found)
         worst: dict[Variant, tuple[float, float]] = {}
         self._disproved.clear()
-        wish, methods = self._wish, len({variant.method for variant in alive})
-        self._watcher.told(
-            f"{precision}, step 1 of 3: checks {len(alive)} variants of {methods} methods on {wish.views} views; one "
-            "that is wrong or over the error falls"
-        )
+        methods = {variant.method for variant in alive}
+        many = f"{_many(alive, 'variant')} of {_many(methods, 'method')} on {_many(self._tuning, 'view')}"
+        self._watcher.told(f"{precision}: step 1 of 3 checks {many}; one that is wrong or over the error falls")
         alive = self._check(alive, precision, self._tuning, found, worst)
         timed = self._race(alive, precision, found, worst)
         if timed:
-            self._watcher.told(
-                f"{precision}, step 3 of 3: checks {len(timed)} variants on {wish.held_out_views} views held out"
-            )
+            held_out = f"{_many(timed, 'variant')} on {_many(self._held_out, 'view')} held out"
+            self._watcher.told(f"{precision}: step 3 of 3 checks {held_out}")
         kept = self._check(list(timed), precision, self._held_out, found, worst)
         made = [self._contender(variant, precision, timed[variant], *worst[variant]) for variant in kept]
         found.contenders = sorted(made, key=lambda c: c.ms)
@@ -171,7 +169,7 @@ class Search:
             told = " ".join(str(row["reason"]).split())
             if row["status"] == CellStatus.SKIPPED:
                 return Fallen(variant, precision, Cause.REFUSED, f"cannot draw the surface here: {told}")
-            return Fallen(variant, precision, Cause.FAILED, f"ended without an answer ({row['status']}): {told}")
+            return Fallen(variant, precision, Cause.FAILED, f"{ENDED[row['status']]}: {told}")
         accuracy, where = row["accuracy"], f"on view {row['view']}"
         counts = {name: accuracy[name] for name in (*NAMES.values(), "grazing_invalid", "drowned_invalid")}
         if any(not count <= 0 for count in counts.values()):
@@ -222,10 +220,9 @@ class Search:
         if not alive:
             return {}
         small = min(SMALL, self._wish.size)
-        self._watcher.told(
-            f"{precision}, step 2 of 3: times {len(alive)} variants shortly, at {small}x{small}; one that takes over "
-            f"{HOPELESS:g} times as long as the fastest falls"
-        )
+        many = f"{_many(alive, 'variant')} shortly, at {small}x{small}"
+        told = f"one that takes over {HOPELESS:g} times as long as the fastest falls"
+        self._watcher.told(f"{precision}: step 2 of 3 times {many}; {told}")
         short = self._medians(alive, precision, self._tuning[0], small, self._wish.seconds / 4.0, found)
         order = sorted(short, key=lambda variant: short[variant])
         chosen = [v for v in order[:CONTENDERS] if short[v] <= HOPELESS * short[order[0]]]
@@ -234,8 +231,8 @@ class Search:
             told = f"{times:.3g} times as long as {named(order[0])}: {short[variant]:.3g} ms at {small}x{small}"
             why = f"keeps the error, but takes {told}"
             found.fallen.append(Fallen(variant, precision, Cause.SLOW, why, worst[variant][0], times))
-        views = "a view" if len(self._tuning) == 1 else f"{len(self._tuning)} views"
-        self._watcher.told(f"{precision}, step 2 of 3: times the {len(chosen)} fastest in turns on {views}")
+        many = f"{_many(chosen, 'variant')} in turns on {_many(self._tuning, 'view')}"
+        self._watcher.told(f"{precision}: step 2 of 3 times the fastest: {many}")
         wish, by_view = self._wish, []
         for view in self._tuning:
             by_view.append(self._medians(chosen, precision, view, wish.size, wish.seconds, found))
@@ -311,3 +308,7 @@ def certified_error(accuracy: Accuracy, quantile: Quantile) -> float | None:
     """
     measured = accuracy["error"][quantile]
     return None if measured is None else float(measured + accuracy["certified_width"])
+
+
+def _many(of: Sized, noun: str) -> str:
+    return f"{len(of)} {noun}{'' if len(of) == 1 else 's'}"
