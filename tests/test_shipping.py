@@ -157,7 +157,15 @@ def test_the_head_says_what_the_program_is():
     head = text[: text.index("#version")]
     assert all(line.startswith("//") for line in head.splitlines() if line)
     told = " ".join(line[2:].strip() for line in head.splitlines())
-    for word in ("torus", "R = 0.7", "the box from (-1, -1, -0.3) to (1, 1, 0.3)", "units", "the command", "MIT"):
+    for word in (
+        "torus",
+        "R = 0.7",
+        "f(x, y, z) = (x^2 + y^2 + z^2 + 0.4)^2 - 1.96*(x^2 + y^2)",
+        "the box from (-1, -1, -0.3) to (1, 1, 0.3)",
+        "units",
+        "the command",
+        "MIT",
+    ):
         assert word in told
     assert "no_missed_root: a ray that meets the surface is never answered as a miss" in re.sub(" +", " ", told)
     assert "no guarantee" in shipped("newton", torus, "glsl").text("")

@@ -16,7 +16,7 @@ from harness.commands.machine import Answer, add_json
 from harness.commands.options import add_surface, methods_of, number, surface_of, surface_words, whole, writable
 from harness.commands.printer import Printer
 from harness.commands.shipping import command_for
-from harness.contract import CLAIMS, PRECISIONS, FirsthitError, Surface
+from harness.contract import CLAIMS, PRECISIONS, FirsthitError
 from harness.limits import PIXELS, RAYS, SECONDS, SEED
 from harness.plugins import Catalog
 from harness.recommend import telling
@@ -98,7 +98,7 @@ def _recommend(options: argparse.Namespace) -> int | Answer:
     catalog = methods_of(options)
     found = recommend(wish, catalog, options.device, options.runs, _Printer(), pictured=page is not None)
     again, ship = _commands(found, options, catalog)
-    beside = Beside(again, ship, remark_on(surface), page)
+    beside = Beside(again, ship, page)
     code = 0 if found.contenders else NOTHING_HOLDS
     if page is not None:
         from harness.commands.recommended import write_page
@@ -128,14 +128,6 @@ def _check_page(path: Path) -> None:
             raise FirsthitError(f"a page needs the package {package}: pip install 'firsthit[report]'", exit_code=3)
 
 
-def remark_on(surface: Surface) -> str | None:
-    """Return what is to be known of a surface that its domain cuts, or that is not in it; None where nothing is."""
-    if importlib.util.find_spec("surfaces.extent") is None:
-        return None
-    remark: str | None = importlib.import_module("surfaces.extent").remark(surface)
-    return remark
-
-
 def _commands(found: Recommendation, options: argparse.Namespace, catalog: Catalog) -> tuple[str, str | None]:
     """Return the commands that make the same search again and that ship what is recommended; None where nothing is."""
     words = ["firsthit", "recommend", *surface_words(options), "--error", f"{options.error:g}"]
@@ -154,7 +146,7 @@ def _commands(found: Recommendation, options: argparse.Namespace, catalog: Catal
 def printed(found: Recommendation, wish: Wish, beside: Beside) -> str:
     """Say what is asked, what is recommended, how fast and how certain it is, and why the others are not."""
     told = {"question": telling.question(found, wish), "answer": telling.answer(found, wish)}
-    told |= {"mind": beside.remark} if beside.remark else {}
+    told |= {"mind": telling.mind(found)} if found.extent else {}
     told |= telling.certainty(found, wish)
     parts = [_paragraph(name, text) for name, text in told.items()]
     parts += [f"again      {beside.again}", *([f"ship       {beside.ship}"] if beside.ship else [])]

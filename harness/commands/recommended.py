@@ -5,14 +5,18 @@ from __future__ import annotations
 from datetime import UTC, datetime
 from pathlib import Path
 
+import surfaces
 from harness import __version__
 from harness.commands.answers.recommending import Beside
 from harness.recommend import telling
 from harness.recommend.model import Recommendation, Wish, named
+from harness.recommend.search import certified_error
 from harness.recommend.telling import Told
 from harness.shipping.program import domain_of
+from reports import wording
 from reports.recommended import Recommended, RunnerUp, write
 
+LONGEST = 400  # characters of a formula
 EARLY = "* in a first short timing, over the fastest variant's time there."
 AGAIN, SHIP = "The same search again:", "The recommended program, with an example that draws it:"
 NAMES = {"rule": "safety", "guarantee": "guarantee", "checked": "checked"}
@@ -23,19 +27,17 @@ def write_page(found: Recommendation, wish: Wish, beside: Beside, path: Path) ->
     created = datetime.now(UTC).isoformat(timespec="seconds")
     best = found.contenders[0] if found.contenders else None
     facts = [("device", f"{found.device.name}: {found.device.title}, {found.device.driver}")]
-    facts += [("mind", beside.remark)] if beside.remark else []
+    facts += [("mind", telling.mind(found))] if found.extent else []
     facts += [(NAMES[name], text) for name, text in telling.certainty(found, wish).items()]
-    facts += [("surface", f"{wish.surface.formula} = 0{_parameters(wish)}, in {domain_of(wish.surface)}")]
-    told = [other for other in telling.others(found, wish) if not (best and _is_all_of_best(other, found))]
-    runners_up = [_runner_up(other, found) for other in told]
+    formula = wording.excerpt(surfaces.canonical(wish.surface), LONGEST)
+    facts += [("surface", f"{formula} = 0, in {domain_of(wish.surface)}")]
+    runners_up = [_runner_up(other, found) for other in telling.others(found, wish)]
     picture, arrays = "", None
     if found.picture is not None and found.folder is not None:
         accuracy = found.picture["accuracy"]
         arrays = found.folder / str(found.picture["arrays"])
-        largest = accuracy["error"]["max"]
-        picture = (
-            f"{accuracy['size']}x{accuracy['size']} rays, {accuracy['truth_hits']} hits; largest error {largest:.2g}"
-        )
+        size, largest = accuracy["size"], certified_error(accuracy, "max") or 0.0
+        picture = f"{size}x{size} rays, {accuracy['truth_hits']:,} hits, largest error {largest:.2g}."
     page = Recommended(
         f"What draws {wish.surface.title}?",
         f"firsthit {__version__} · {created[:10]} · {found.device.name}",
@@ -49,15 +51,6 @@ def write_page(found: Recommendation, wish: Wish, beside: Beside, path: Path) ->
         [(AGAIN, beside.again), *([(SHIP, beside.ship)] if beside.ship else [])],
     )
     write(page, path, created)
-
-
-def _parameters(wish: Wish) -> str:
-    return "".join(f", {name} = {value}" for name, value in wish.surface.parameters)
-
-
-def _is_all_of_best(other: Told, found: Recommendation) -> bool:
-    """Tell whether nothing but the recommended variant is told of."""
-    return other.best == found.contenders[0].variant and other.sentence.count(";") == 0
 
 
 def _runner_up(other: Told, found: Recommendation) -> RunnerUp:

@@ -72,7 +72,10 @@ def _kernel(options: argparse.Namespace) -> int:
         raise FirsthitError(NO_WGSL)
     surface, catalog = surface_of(options), methods_of(options)
     variant = given_variant(options, catalog)
-    device = usable_device(options.device).name if options.device is not None else None
+    info = usable_device(options.device) if options.device is not None else None
+    if info and options.precision == "float64" and not info.float64:
+        raise FirsthitError(f"{info.name} has no float64; take another device or --precision float32")
+    device = info.name if info else None
     language = NAMED[options.language] if device is None else LANGUAGES[device.partition(":")[0]]
     shipment = Shipment(catalog.get(options.method), variant, surface, language, options.precision, options.origin)
     where = f"--language {options.language}" if device is None else f"--device {device}"

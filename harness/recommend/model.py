@@ -143,6 +143,7 @@ class Recommendation:
     fallen: all others
     held_out: how many rays were judged on the held-out views
     decided, undecided: how many hits the oracle decided and left undecided, on all views
+    extent: a sentence where the domain cuts the surface, so that another surface was searched for than may be meant
     folder: where the rows are
     picture: the row of the first contender on the view FRONT, where a picture was asked for and there is a contender
     """
@@ -153,6 +154,7 @@ class Recommendation:
     held_out: int = 0
     decided: int = 0
     undecided: int = 0
+    extent: str | None = None
     folder: Path | None = None
     picture: Row | None = None
 

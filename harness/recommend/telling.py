@@ -110,6 +110,11 @@ def undecided(found: Recommendation) -> str:
     return f" The oracle left {found.undecided} of {hits} hits undecided; they bound no error."
 
 
+def mind(found: Recommendation) -> str:
+    """Say that the domain cuts the surface, where it does, and what the answer is for."""
+    return f"{found.extent}. The answer is for what this domain leaves of it." if found.extent else ""
+
+
 def certainty(found: Recommendation, wish: Wish) -> dict[str, str]:
     """Return sentences on how certain the answer is, by what they are about."""
     told = {"rule": rule(found, wish)}

@@ -13,6 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
+import surfaces
 from harness import __version__
 from harness.contract import (
     CLAIMS,
@@ -131,15 +132,22 @@ def head(shipment: Shipment, command: str) -> str:
 def _facts(shipment: Shipment) -> Iterator[tuple[str, str]]:
     """Yield the lines of the head: a name, and what is to be known of it."""
     surface, method = shipment.surface, shipment.plugin.method
-    formula = surface.formula if len(surface.formula) <= LONGEST else f"{surface.formula[:LONGEST]} …"
-    bound = "".join(f", {name} = {value}" for name, value in surface.parameters)
-    yield "surface", f"{surface.name}: f(x, y, z) = {formula}{bound}; {surface.source}"
+    read, bound = surfaces.canonical(surface), "".join(f", {name} = {value}" for name, value in surface.parameters)
+    yield "surface", f"{surface.name}: f(x, y, z) = {_cut(read)}; {surface.source}"
+    yield "written", f"{_cut(surface.formula)}{bound}"
     yield "domain", domain_of(surface)
     yield "units", "lengths are in the units of x, y and z; t is the distance along a ray of direction length 1"
     yield "numbers", f"{shipment.precision}; the camera and the normals are float32"
     yield "language", LANGUAGE_TITLES[shipment.language]
     if shipment.language == "cl":
         yield "options", BUILD_OPTIONS[shipment.precision]
+    yield (
+        "use",
+        (
+            "the last section starts it for each pixel of a camera. A program of your own takes what stands above, and calls "
+            "cast_ray(make_ray(origin, direction)): with status HIT the hit is at shift + hit.t"
+        ),
+    )
     yield "method", f"{method.name}, published in {method.source}"
     meanings = {parameter.name: parameter.meaning for parameter in method.parameters}
     for name, value in shipment.variant.parameters:
@@ -150,6 +158,10 @@ def _facts(shipment: Shipment) -> Iterator[tuple[str, str]]:
         f"; the kernel of {method.name} is its author's own, who says how it may be used" if shipment.foreign else ""
     )
     yield "license", f"SPDX-License-Identifier: MIT, copyright (c) 2026 the firsthit authors, see LICENSE.txt{whose}"
+
+
+def _cut(text: str) -> str:
+    return text if len(text) <= LONGEST else f"{text[:LONGEST]} … ({len(text)} characters)"
 
 
 def guarantees(plugin: Plugin, variant: Variant, surface: Surface) -> list[str]:

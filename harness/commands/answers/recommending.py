@@ -207,7 +207,6 @@ class Beside:
 
     again: str
     ship: str | None
-    remark: str | None
     page: Path | None
 
 
@@ -228,7 +227,7 @@ def recommend(found: Recommendation, wish: Wish, beside: Beside) -> Recommend:
         contenders=contenders,
         fallen=[_fallen(fallen) for fallen in found.fallen],
         methods=[_sentence(told) for told in telling.others(found, wish)],
-        remark=beside.remark,
+        remark=found.extent,
         again=beside.again,
         ship=beside.ship,
         page=None if beside.page is None else str(beside.page),
