@@ -144,7 +144,7 @@ def _facts(shipment: Shipment) -> Iterator[tuple[str, str]]:
     yield (
         "use",
         (
-            "the last section starts it for each pixel of a camera. A program of your own takes what stands above, and calls "
+            "the last section starts it for each pixel of a camera. Programs of your own take what stands above it, and call "
             "cast_ray(make_ray(origin, direction)): with status HIT the hit is at shift + hit.t"
         ),
     )
