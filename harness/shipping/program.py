@@ -144,8 +144,8 @@ def _facts(shipment: Shipment) -> Iterator[tuple[str, str]]:
     yield (
         "use",
         (
-            "the last section starts it for each pixel of a camera. Programs of your own take what stands above it, and call "
-            "cast_ray(make_ray(origin, direction)): with status HIT the hit is at shift + hit.t"
+            "the last section starts it for each pixel of a camera. Take what stands above it into programs of your own: "
+            "cast_ray(make_ray(origin, direction)) has a hit where hit.status is HIT, at the distance shift + hit.t"
         ),
     )
     yield "method", f"{method.name}, published in {method.source}"
