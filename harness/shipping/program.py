@@ -141,13 +141,11 @@ def _facts(shipment: Shipment) -> Iterator[tuple[str, str]]:
     yield "language", LANGUAGE_TITLES[shipment.language]
     if shipment.language == "cl":
         yield "options", BUILD_OPTIONS[shipment.precision]
-    yield (
-        "use",
-        (
-            "the last section starts it for each pixel of a camera. Take what stands above it into programs of your own: "
-            "cast_ray(make_ray(origin, direction)) has a hit where hit.status is HIT, at the distance shift + hit.t"
-        ),
+    use = (
+        "the last section starts it for each pixel of a camera. Programs of your own take what stands above it; there "
+        "cast_ray(make_ray(origin, direction)) has a hit where hit.status is HIT, at the distance shift + hit.t"
     )
+    yield "use", use
     yield "method", f"{method.name}, published in {method.source}"
     meanings = {parameter.name: parameter.meaning for parameter in method.parameters}
     for name, value in shipment.variant.parameters:
