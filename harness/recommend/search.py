@@ -94,15 +94,16 @@ class Search:
         found = Recommendation(self._device, folder=self._folder)
         precisions: tuple[Precision, ...] = (self._wish.precision,) if self._wish.precision else ("float32", "float64")
         for precision in precisions:
-            self._narrow(precision, found)
-            if pictured:
-                self._draw(found)
+            self._narrow(precision, found, pictured)
             if found.contenders:
                 break
         return found
 
-    def _narrow(self, precision: Precision, found: Recommendation) -> None:
-        """Search in one precision, and put into `found` what holds and what fell."""
+    def _narrow(self, precision: Precision, found: Recommendation, pictured: bool) -> None:
+        """Search in one precision, and put into `found` what holds and what fell.
+
+        Where none of the fastest variants holds on the views held out, the next fastest have their turn.
+        """
         alive = self._claiming(list(variants(self._catalog)), precision, found)
         worst: dict[Variant, tuple[float, float]] = {}
         self._disproved.clear()
@@ -110,15 +111,33 @@ class Search:
         many = f"{_many(alive, 'variant')} of {_many(methods, 'method')} on {_many(self._tuning, 'view')}"
         self._watcher.told(f"{precision}: step 1 of 3 checks {many}; one that is wrong or over the error falls")
         alive = self._check(alive, precision, self._tuning, found, worst)
-        timed = self._race(alive, precision, found, worst)
-        if timed:
-            held_out = f"{_many(timed, 'variant')} on {_many(self._held_out, 'view')} held out"
-            self._watcher.told(f"{precision}: step 3 of 3 checks {held_out}")
+        slow: list[Fallen] = []
+        while alive and not found.contenders:
+            timed, slow = self._race(alive, precision, found, worst)
+            if not timed:
+                break
+            self._hold_out(timed, precision, found, worst)
+            if pictured:
+                self._draw(found)
+            if not found.contenders:
+                alive, slow = [fallen.variant for fallen in slow], []
+        found.fallen += slow
+        found.decided, found.undecided = (sum(counts[k] for counts in self._truth.values()) for k in (1, 2))
+
+    def _hold_out(
+        self,
+        timed: Mapping[Variant, float],
+        precision: Precision,
+        found: Recommendation,
+        worst: dict[Variant, tuple[float, float]],
+    ) -> None:
+        """Check the variants that were timed on the views held out, and make contenders of those that hold."""
+        held_out = f"{_many(timed, 'variant')} on {_many(self._held_out, 'view')} held out"
+        self._watcher.told(f"{precision}: step 3 of 3 checks {held_out}")
         kept = self._check(list(timed), precision, self._held_out, found, worst)
         made = [self._contender(variant, precision, timed[variant], *worst[variant]) for variant in kept]
         found.contenders = sorted(made, key=lambda c: c.ms)
         found.held_out = sum(self._truth[view.name][0] for view in self._held_out) if kept else 0
-        found.decided, found.undecided = (sum(counts[k] for counts in self._truth.values()) for k in (1, 2))
 
     def _contender(
         self, variant: Variant, precision: Precision, ms: float, error: float, evaluations: float
@@ -223,14 +242,12 @@ class Search:
         precision: Precision,
         found: Recommendation,
         worst: Mapping[Variant, tuple[float, float]],
-    ) -> dict[Variant, float]:
-        """Time variants, and return those of the fastest that keep the wished frame rate, with their times.
+    ) -> tuple[dict[Variant, float], list[Fallen]]:
+        """Time variants; return the fastest that keep the wished frame rate, with their times, and the slow ones.
 
         A time is in milliseconds for one frame, the mean over the tuning views of the median on each. `worst` has the
         largest error of each variant so far.
         """
-        if not alive:
-            return {}
         small = min(SMALL, self._wish.size)
         many = f"{_many(alive, 'variant')} shortly, at {small}x{small}"
         told = f"one that takes over {HOPELESS:g} times as long as the fastest falls"
@@ -238,11 +255,12 @@ class Search:
         short = self._medians(alive, precision, self._tuning[0], small, self._wish.seconds / 4.0, found)
         order = sorted(short, key=lambda variant: short[variant])
         chosen = [v for v in order[:CONTENDERS] if short[v] <= HOPELESS * short[order[0]]]
+        slow = []
         for variant in order[len(chosen) :]:
             times = short[variant] / short[order[0]]
             told = f"{times:.3g} times as long as {named(order[0])}: {short[variant]:.3g} ms at {small}x{small}"
             why = f"keeps the error, but takes {told}"
-            found.fallen.append(Fallen(variant, precision, Cause.SLOW, why, worst[variant][0], times))
+            slow.append(Fallen(variant, precision, Cause.SLOW, why, worst[variant][0], times))
         many = f"{_many(chosen, 'variant')} in turns on {_many(self._tuning, 'view')}"
         self._watcher.told(f"{precision}: step 2 of 3 times the fastest: {many}")
         wish, by_view = self._wish, []
@@ -258,7 +276,7 @@ class Search:
                 times = ms / fastest
                 found.fallen.append(Fallen(variant, precision, Cause.FRAMES, why, worst[variant][0], times))
                 del means[variant]
-        return means
+        return means, slow
 
     def _medians(
         self,
