@@ -93,7 +93,8 @@ def guarantee(best: Contender) -> str:
 
 def checked(found: Recommendation, wish: Wish) -> str:
     """Say on how many rays the recommended variant was checked, and what this says of other rays."""
-    views = f"{wish.views} views to choose by and {wish.held_out_views} held out, of {wish.rays}x{wish.rays} rays each"
+    chosen_by = f"{wish.views} view{'' if wish.views == 1 else 's'} to choose by"
+    views = f"{chosen_by} and {wish.held_out_views} held out, of {wish.rays}x{wish.rays} rays each"
     told = f"Outside the grazing and the drowned class no ray is wrong on {views}."
     if found.picture is not None:
         accuracy = found.picture["accuracy"]
