@@ -83,6 +83,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     A user's mistake is one line on stderr, and never a traceback. Raises SystemExit as argparse does, for --help and
     where the usage is wrong.
     """
+    if "_ARGCOMPLETE" in os.environ:  # a shell asks how its command line may go on
+        from harness.commands import completion
+
+        completion.complete(build_parser)
     options = argparse.Namespace(command=None, force=False, json=False)
     try:
         try:

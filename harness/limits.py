@@ -7,12 +7,12 @@ package or of a command states is held to the same limits by `hold` and `held`.
 
 from __future__ import annotations
 
+import dataclasses
 import math
 import types
 import typing
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from functools import cache
 from numbers import Integral
 from pathlib import Path
 from typing import Any, Protocol
@@ -132,6 +132,11 @@ class Distinct:
         return {}  # it is said of the list, see harness.schemas
 
 
+def is_required(field: dataclasses.Field[Any]) -> bool:
+    """Tell whether a field has no default."""
+    return field.default is dataclasses.MISSING and field.default_factory is dataclasses.MISSING
+
+
 def is_finite(value: float) -> bool:
     """Tell whether a number is finite; a whole number that is too large for a float is not."""
     try:
@@ -145,13 +150,18 @@ def hold(record: Any) -> None:
 
     Numbers of numpy become numbers of Python. Raises FirsthitError, which names the field.
     """
-    for name, kind in _kinds(record.__class__).items():
+    for name, kind in hints_of(record.__class__).items():
         object.__setattr__(record, name, held(name, getattr(record, name), kind))
 
 
-@cache
-def _kinds(record: type[Any]) -> dict[str, Any]:
-    return typing.get_type_hints(record, include_extras=True)
+def hints_of(record: type[Any]) -> dict[str, Any]:
+    """Return the kind of each field of a dataclass, with its limits."""
+    if record not in _HINTS:
+        _HINTS[record] = typing.get_type_hints(record, include_extras=True)
+    return _HINTS[record]
+
+
+_HINTS: dict[type[Any], dict[str, Any]] = {}  # evaluating them takes longer than reading a table
 
 
 def held(name: str, value: Any, kind: Any) -> Any:

@@ -195,6 +195,15 @@ def built_in() -> list[str]:
     return [folder.name for folder in _folders(BUILT_IN)]
 
 
+def named(extra: Path | None = None) -> list[str]:
+    """List the names of the folders that the project and `extra` have for methods, sorted. None of them is loaded."""
+    try:
+        more = [] if extra is None else _extra_folders(extra)
+    except FirsthitError:
+        more = []
+    return sorted({*built_in(), *(folder.name for folder in more)})
+
+
 def _folders(directory: Path) -> list[Path]:
     """Return the folders in a directory that hold a method.py or a kernel.glsl, sorted."""
     return sorted({path.parent for name in ("method.py", "kernel.glsl") for path in directory.glob(f"*/{name}")})

@@ -15,7 +15,7 @@ from collections.abc import Mapping, Sequence
 from enum import StrEnum
 from typing import Any
 
-from harness.limits import Distinct, Limit
+from harness.limits import Distinct, Limit, hints_of, is_required
 
 DRAFT = "https://json-schema.org/draft/2020-12/schema"
 PLAIN = {float: "number", int: "integer", str: "string", bool: "boolean"}
@@ -127,7 +127,7 @@ class _Maker:
     def _table(self, kind: type[Any]) -> Schema:
         """Return the schema of a dataclass."""
         about, meanings = descriptions(kind)
-        hints = typing.get_type_hints(kind, include_extras=True)
+        hints = hints_of(kind)
         properties, required = dict[str, Schema](), list[str]()
         for field in dataclasses.fields(kind):
             made = self._of(hints[field.name])
@@ -136,7 +136,7 @@ class _Maker:
             if self._is_input and (default := _default(field)):
                 made["default"] = default[0]
             properties[field.name] = made
-            if not self._is_input or _is_required(field):
+            if not self._is_input or is_required(field):
                 required.append(field.name)
         table: Schema = {"description": about, "type": "object", "properties": properties}
         if required:
@@ -144,13 +144,9 @@ class _Maker:
         return table | ({"additionalProperties": False} if self._is_input else {})
 
 
-def _is_required(field: dataclasses.Field[Any]) -> bool:
-    return field.default is dataclasses.MISSING and field.default_factory is dataclasses.MISSING
-
-
 def _default(field: dataclasses.Field[Any]) -> list[Any]:
     """Return a list of a field's default, empty where it says no more than that the key is left out."""
-    if _is_required(field):
+    if is_required(field):
         return []
     value = field.default if field.default_factory is dataclasses.MISSING else field.default_factory()
     if dataclasses.is_dataclass(value) or value in (None, "", [], {}):

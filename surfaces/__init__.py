@@ -7,9 +7,10 @@
     values = surfaces.evaluate(mine, points)  # float64[n, 3] → float64[n]
 
 This is the ground: it imports nothing else of the project. `model` says what a surface is. `catalog`, `families` and
-`forms` hold the surfaces of the papers, written by means of `entries`. `formula` parses text into a `tape`, which
-`numbers` runs in several number systems and `lowering` turns into other tapes: derivatives, coefficients along a ray.
-`evaluation` computes values. `validity` proves that a formula of one's own is defined all over its domain.
+`forms` hold the surfaces of the papers, `gallery` others of the literature, all written by means of `entries`.
+`formula` parses text into a `tape`, which `numbers` runs in several number systems and `lowering` turns into other
+tapes: derivatives, coefficients along a ray. `evaluation` computes values. `validity` proves that a formula of one's
+own is defined all over its domain.
 """
 
 from __future__ import annotations
@@ -19,6 +20,7 @@ from dataclasses import dataclass, replace
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from surfaces.entries import CATALOG
 from surfaces.forms import FORMS, SEPARATOR
 from surfaces.model import Box, Domain, FirsthitError, Sphere, Surface, is_number
 from surfaces.words import suggestion
@@ -36,11 +38,13 @@ __all__ = [
     "from_formula",
     "get",
     "gradient",
+    "groups",
     "names",
     "operations",
     "reading",
     "tape_of",
 ]
+GALLERY = "gallery"  # all groups but the catalog
 
 
 def __getattr__(name: str) -> Any:
@@ -78,12 +82,33 @@ def reading(surface: Surface) -> Reading:
     return Reading(canonical(surface), notes)
 
 
-def names() -> tuple[str, ...]:
-    """Return all names of the catalog, sorted, without those of forms."""
-    from surfaces.catalog import FIXED
-    from surfaces.families import FAMILIES
+def names(group: str = CATALOG) -> tuple[str, ...]:
+    """Return all names of a group, sorted, without those of forms: of the catalog, unless `group` says otherwise.
 
-    return tuple(sorted((*FAMILIES, *(surface.name for surface in FIXED))))
+    `group` is "catalog", "gallery" for all of the gallery, or one of the gallery's groups. Raises FirsthitError for
+    any other.
+    """
+    if group == CATALOG:
+        from surfaces.catalog import FIXED
+        from surfaces.families import FAMILIES
+
+        return tuple(sorted((*FAMILIES, *(surface.name for surface in FIXED))))
+    from surfaces.gallery import GROUPS
+
+    if group == GALLERY:
+        return tuple(sorted(surface.name for known in GROUPS.values() for surface in known.surfaces))
+    if group not in GROUPS:
+        raise FirsthitError(f"there is no group {group!r}; {suggestion(group, (CATALOG, GALLERY, *GROUPS))}")
+    return tuple(sorted(surface.name for surface in GROUPS[group].surfaces))
+
+
+def groups() -> dict[str, str]:
+    """Return what the surfaces of each group have in common, by the group's name: the catalog, then the gallery's."""
+    from surfaces.gallery import GROUPS
+
+    return {CATALOG: "The surfaces of the papers, and hard ones with singular points"} | {
+        name: group.title for name, group in GROUPS.items()
+    }
 
 
 def forms_of(name: str) -> tuple[str, ...]:
@@ -92,7 +117,9 @@ def forms_of(name: str) -> tuple[str, ...]:
 
 
 def get(name: str, **parameters: str | float) -> Surface:
-    """Return a surface of the catalog, or one of its forms, with the parameters given: `get("torus", R="0.5")`.
+    """Return a surface of the catalog or the gallery, or one of its forms, with the parameters given.
+
+    As in `get("torus", R="0.5")`.
 
     A parameter that is a number, of Python's or numpy's kinds, is taken as the decimal that it prints. Raises
     FirsthitError for an unknown name, with the nearest names, and for an unknown form or parameter or a value that is
@@ -111,12 +138,13 @@ def get(name: str, **parameters: str | float) -> Surface:
 
 
 def _as_printed(name: str, parameters: Mapping[str, str | float]) -> Surface:
-    """Return a surface of the catalog in the form of its source. Raises FirsthitError as `get`."""
+    """Return a surface of the catalog or of the gallery as its source writes it. Raises FirsthitError as `get`."""
     from surfaces.catalog import FIXED
     from surfaces.families import FAMILIES
+    from surfaces.gallery import GROUPS
 
-    if name not in names():
-        hint = suggestion(name, names(), most=3, otherwise="see `firsthit list surfaces`")
+    if name not in names() and name not in names(GALLERY):
+        hint = suggestion(name, (*names(), *names(GALLERY)), most=3, otherwise="see `firsthit list surfaces`")
         raise FirsthitError(f"there is no surface {name!r}; {hint}")
     known = FAMILIES[name][2] if name in FAMILIES else {}
     for key in parameters:
@@ -124,7 +152,8 @@ def _as_printed(name: str, parameters: Mapping[str, str | float]) -> Surface:
             told = suggestion(key, known) if known else "it takes none"
             raise FirsthitError(f"surface {name!r} has no parameter {key!r}; {told}")
     if name not in FAMILIES:
-        return next(surface for surface in FIXED if surface.name == name)
+        hung = (surface for group in GROUPS.values() for surface in group.surfaces)
+        return next(surface for surface in (*FIXED, *hung) if surface.name == name)
     title, make, defaults = FAMILIES[name]
     return make(name, title, defaults | _decimals(parameters))
 

@@ -121,6 +121,7 @@ class Surface:
     distance: str | None = None  # a formula of the exact signed distance; None: not known
     bounding_radius: float | None = None
     feature_radius: float | None = None  # the length papers relate errors to (torus: minor radius r)
+    group: str | None = None  # "catalog", or the gallery's group that it is in; None of a formula of one's own
     facts: tuple[tuple[str, Any], ...] = ()  # what tests recompute: ("singular_points", 50), ...
 
     @property

@@ -308,6 +308,14 @@ def test_compile_reports_a_broken_plugin_with_its_line(tmp_path, capsys):
     assert "failed" in out
 
 
+def test_compile_is_on_the_devices_that_are_named(capsys):
+    name = usable_devices()[0].name
+    code, out, _ = told(capsys, "compile", "--method", "ray_march", "--surface", "sphere", "--device", name)
+    assert code == 0 and "programs compiled on 1 devices, 0 failed" in out
+    assert [line.partition(": ")[0] for line in out.splitlines()[:-1]] == [name]
+    assert told(capsys, "compile", "--method", "ray_march", "--device", "opencl:none")[0] == 3
+
+
 def test_a_plugin_that_cannot_be_imported_costs_only_itself(tmp_path, capsys):
     folder = tmp_path / "mine"
     folder.mkdir()

@@ -158,3 +158,46 @@ def test_a_plugins_own_default_is_a_finite_number_too(tmp_path):
 def test_a_number_of_more_digits_than_python_reads_is_one_line(tmp_path):
     with pytest.raises(FirsthitError, match=r"c\.toml: not valid TOML: "):
         load(tmp_path, f"sizes = [1{'0' * 5000}]\n{START}")
+
+
+def test_all_mistakes_are_told_at_once_each_with_its_line(tmp_path):
+    text = f"""sizes = [64, 0, "x"]
+stagess = ["compute"]
+seed = 1.5
+{START}parameters = {{ EPSILON = ["a", 1.0] }}
+[[method]]
+nam = "x"
+[budget]
+seconds = -1
+"""
+    with pytest.raises(FirsthitError) as caught:
+        load(tmp_path, text)
+    assert caught.value.exit_code == 2
+    assert [line.partition("c.toml:")[2] for line in str(caught.value).splitlines()] == [
+        "1: sizes.1: 0 is outside [1, 16384]",
+        "1: sizes.2 is a whole number, not 'x'",
+        "2: unknown key 'stagess' in the top level; did you mean 'stages'?",
+        "3: seed is a whole number, not 1.5",
+        "8: method.0.parameters.EPSILON.0 is a number, not 'a'",
+        "9: method.1 lacks 'name'",
+        "10: unknown key 'nam' in method.1; did you mean 'name'?",
+        "12: budget.seconds: -1.0 is outside [0, 100000]",
+    ]
+
+
+def test_all_names_that_are_not_there_are_told_at_once(tmp_path):
+    text = """title = "t"
+surfaces = ["toruss"]
+[[method]]
+name = "newtn"
+[[method]]
+name = "ray_march"
+parameters = { STEP = 3 }
+[[scene.one.placed]]
+surface = "sper"
+"""
+    with pytest.raises(FirsthitError) as caught:
+        load(tmp_path, text)
+    told = [line.partition("c.toml:")[2] for line in str(caught.value).splitlines()]
+    assert [line[: line.index(" ")] for line in told] == ["4:", "6:", "2:", "8:"]
+    assert all(name in line for name, line in zip(("newtn", "STEP", "toruss", "sper"), told, strict=True))

@@ -22,13 +22,13 @@ from harness.plugins import Plugin, find_methods
 from harness.scenes.camera import scene_radius
 
 from .conftest import opened, usable_devices
-from .gallery import aimed, anywhere, entries, surface_named, tails, view_rays
+from .gallery import aimed, anywhere, held, surface_named, tails, view_rays
 from .test_conformance import bench_on
 from .test_devices import cast
 
 DEFAULT_RAYS = 40_000
 RAYS = int(os.environ.get("FIRSTHIT_RAYS", DEFAULT_RAYS))
-NAMES = tuple(entries())
+NAMES = held()
 GRAZING = 1e-3
 CLAIMING = [n for n, plugin in find_methods().plugins.items() if "no_false_hit" in plugin.method.claims]
 PLACES = [(info.name, precision) for precision in ("float32", "float64") for info in usable_devices()]
@@ -57,14 +57,9 @@ def false_hits(surface, rays, truth, method, device, precision):
     return false & verdicts.clear, false & verdicts.drowned
 
 
-def test_the_gallery_is_large_and_none_of_it_is_in_the_catalog():
-    gallery = [surface_named(name) for name in NAMES]
-    degrees = {surface.degree for surface in gallery}
-    assert len(gallery) >= 40
-    assert degrees >= {3, 4, 5, 6, 7, 8, 9, 12, 20, None}
-    known = {surfaces.expression(surfaces.get(name)) for name in surfaces.names()}
-    assert not known & {surfaces.expression(surface) for surface in gallery}
-    assert all(source for _, _, source in entries().values())
+def test_what_claims_are_held_on_is_large_and_of_many_degrees():
+    assert len(NAMES) >= 78
+    assert {surface_named(name).degree for name in NAMES} >= {3, 4, 5, 6, 7, 8, 9, 12, 20, None}
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -125,6 +125,8 @@ class Inner:
         (2**70, 2**70),
         (Fraction(1, 4), 0.25),
         (True, True),
+        (np.bool_(False), False),
+        (np.array(2.5), 2.5),
         (Word.SOME, "some"),
         (Path("a/b"), "a/b"),
         (frozenset({"b", "a"}), ["a", "b"]),

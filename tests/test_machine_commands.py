@@ -90,8 +90,11 @@ def test_every_command_with_json_is_documented_and_every_field_says_what_it_is()
 
 
 def test_surfaces_are_listed_with_their_facts(answered):
-    listed = {one["name"]: one for one in answered("list surfaces")["surfaces"]}
-    assert set(surfaces.names()) <= set(listed)
+    value = answered("list surfaces")
+    listed = {one["name"]: one for one in value["surfaces"]}
+    for group in surfaces.groups():
+        assert {name for name in listed if listed[name]["group"] == group} >= set(surfaces.names(group))
+    assert {one["group"] for one in value["surfaces"]} == set(value["groups"])
     torus, nested = listed["torus"], listed["torus:nested"]
     assert (torus["degree"], torus["parameters"], torus["form_of"]) == (4, {"R": "0.7", "r": "0.3"}, None)
     assert torus["domain"]["shape"] == "box" and torus["domain"]["upper"][2] == surfaces.get("torus").domain.upper[2]

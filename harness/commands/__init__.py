@@ -33,6 +33,7 @@ GROUPS: dict[str, dict[str, str]] = {
     "devices": {"devices": "the devices of this machine and what their arithmetic and clocks are worth"},
     "listing": {"list": "what there is to choose from"},
     "schema": {"schema": "print the JSON schema of configs, by which editors complete, explain and check them"},
+    "completion": {"completion": "print what makes bash, zsh or fish complete commands, options, names and paths"},
     "pictures": {"show": "draw a shaded picture", "sheet": "draw every surface of the catalog on one sheet"},
     "scenes": {"scene": "draw a scene of a config, by rasterisation"},
     "rays": {"trace": "cast a file of rays by a method", "oracle": "certified first hits for a file of rays"},

@@ -22,6 +22,7 @@ def add_parsers(add: Add) -> None:
     parser.add_argument("--surface", action="append", metavar="NAME", help=f"default: {', '.join(TYPICAL)}")
     parser.add_argument("--formula", metavar="F", help="f(x, y, z) of your own beside them")
     parser.add_argument("--domain", metavar="D", default="sphere:1.5", help="its domain (default: sphere:1.5)")
+    parser.add_argument("--device", action="append", metavar="NAME", help="may be repeated (default: every usable one)")
     add_timeout(parser)
     parser.set_defaults(run=_compile)
 
@@ -33,7 +34,7 @@ def _compile(options: argparse.Namespace) -> int:
     plugins = [catalog.get(name) for name in options.method or sorted(catalog.plugins)]
     chosen = [surfaces.get(name) for name in options.surface or (TYPICAL if options.formula is None else ())]
     chosen += [] if options.formula is None else [surfaces.from_formula(options.formula, options.domain)]
-    usable = usable_devices()
+    usable = usable_devices(options.device or ())
     with console.Working() as tell:
         done = compile_all(plugins, chosen, usable, tell, options.timeout)
     broken = [] if options.method else list(catalog.broken)

@@ -70,7 +70,7 @@ def _methods(options: argparse.Namespace) -> str:
 
 
 def _method_facts(options: argparse.Namespace) -> listed.ListedMethods:
-    catalog, chosen = _found(options), _every_surface()
+    catalog, chosen = _found(options), [surface for own in _every_surface().values() for surface in own]
     methods = [_method(plugin, chosen) for _, plugin in sorted(catalog.plugins.items())]
     stated = {claim for one in methods for claim in one.claims}
     claims = {claim: meaning for claim, meaning in CLAIMS.items() if claim in stated}
@@ -110,32 +110,46 @@ def _knob(knob: Parameter) -> listed.KnobFacts:
     return listed.KnobFacts(knob.name, whole, knob.default, *words)
 
 
-def _every_surface() -> list[Surface]:
-    """Return each surface, followed by its other forms."""
+def _with_forms(group: str) -> list[Surface]:
+    """Return each surface of a group, followed by its other forms."""
     import surfaces
 
-    return [surfaces.get(form) for name in surfaces.names() for form in (name, *surfaces.forms_of(name))]
+    return [surfaces.get(form) for name in surfaces.names(group) for form in (name, *surfaces.forms_of(name))]
+
+
+def _every_surface() -> dict[str, list[Surface]]:
+    """Return the surfaces of each group, each followed by its other forms."""
+    import surfaces
+
+    return {group: _with_forms(group) for group in surfaces.groups()}
 
 
 def _surfaces(_options: argparse.Namespace) -> str:
     import surfaces
 
-    rows = [
-        (s.name, "-" if s.degree is None else s.degree, sum(surfaces.operations(s).values()), s.title, s.source)
-        for s in _every_surface()
-    ]
-    return console.table(("name", "degree", "operations", "title", "source"), rows)
+    header, tables = ("name", "degree", "operations", "title", "source"), []
+    for group, title in surfaces.groups().items():
+        rows = [
+            (s.name, "-" if s.degree is None else s.degree, sum(surfaces.operations(s).values()), s.title, s.source)
+            for s in _with_forms(group)
+        ]
+        tables.append(f"{group}: {title}\n\n{console.table(header, rows)}")
+    return "\n\n".join(tables)
 
 
 def _surface_facts(_options: argparse.Namespace) -> listed.ListedSurfaces:
-    return listed.ListedSurfaces([_surface(surface) for surface in _every_surface()])
+    import surfaces
+
+    told = [_surface(surface, group) for group, own in _every_surface().items() for surface in own]
+    return listed.ListedSurfaces(told, surfaces.groups())
 
 
-def _surface(surface: Surface) -> listed.SurfaceFacts:
+def _surface(surface: Surface, group: str) -> listed.SurfaceFacts:
     import surfaces
 
     return listed.SurfaceFacts(
         name=surface.name,
+        group=group,
         form_of=None if surface.base == surface.name else surface.base,
         title=surface.title,
         source=surface.source,

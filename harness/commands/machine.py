@@ -88,6 +88,8 @@ def plain(value: Any) -> Any:
     """
     if isinstance(value, Enum):
         value = value.value
+    if getattr(value, "ndim", None) == 0:  # a number or switch of numpy
+        value = value.item()
     if value is None or isinstance(value, str | bool):
         return value
     if isinstance(value, Integral):

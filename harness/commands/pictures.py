@@ -49,6 +49,7 @@ def add_parsers(add: Add) -> None:
     parser.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help=".png file to write")
     parser.add_argument("--size", type=whole(PICTURE), default=160, help="pixels per side of each (default: 160)")
     parser.add_argument("--columns", type=whole(COLUMNS), default=8, help="pictures side by side (default: 8)")
+    parser.add_argument("--group", default="catalog", help="catalog, gallery, or one of the gallery's groups")
     parser.set_defaults(run=_sheet, view="30,30", fov=30.0)
 
 
@@ -96,7 +97,8 @@ def _sheet(options: argparse.Namespace) -> int:
 
     import surfaces
 
-    view, output, names, caster = _view(options), writable_png(options.output), surfaces.names(), caster_of(options)
+    view, output, names = _view(options), writable_png(options.output), surfaces.names(options.group)
+    caster = caster_of(options)
     label, columns = 14, options.columns
     width, height = options.size, options.size + label
     sheet = Image.new("RGB", (columns * width, math.ceil(len(names) / columns) * height), "white")

@@ -27,7 +27,7 @@ from harness.scenes.views import AngleChoice, DirectionChoice
 
 NOT_NEGATIVE = Within(0.0, inf, "a tolerance is not negative")
 # Keys of older configs, and what to do instead
-GONE = {
+GONE: dict[tuple[str | int, ...], str] = {
     ("gate", "same"): "is gone: devices are compared by how they compute, and rows of devices whose last bits differ "
     "are held with more tolerance; remove the key, and state that tolerance in [gate.last_bits] if the default is "
     "not yours",
@@ -75,11 +75,13 @@ def _methods() -> Iterable[str]:
 def _surfaces() -> Iterable[str]:
     import surfaces
 
-    return surfaces.names()
+    return (*surfaces.names(), *surfaces.names(surfaces.GALLERY))
 
 
-def _surfaces_and_all() -> Iterable[str]:
-    return ["all", *_surfaces()]
+def _surfaces_and_groups() -> Iterable[str]:
+    import surfaces
+
+    return ("all", surfaces.GALLERY, *surfaces.groups(), *_surfaces())
 
 
 def _devices() -> Iterable[str]:
@@ -223,7 +225,7 @@ class Config:
     baseline: the method, or the variant by its label, that reports give speed-ups over
     studies: computations of harness.studies
     method: the methods that are compared, each with its knobs
-    surfaces, families: names, or ["all"]
+    surfaces, families: names, or ["all"]; of surfaces that is the catalog, and "gallery" and its groups are names too
     view: the views that are named one by one and, once names are resolved, those of `angles` and `directions`; without
         any, one default view
     angles: a set of views by projection angle
@@ -249,7 +251,7 @@ class Config:
     baseline: str = BASELINE
     studies: Annotated[list[str], Known(_studies), Distinct()] = field(default_factory=list)
     method: list[MethodChoice] = field(default_factory=list)
-    surfaces: Annotated[list[str], Offered(_surfaces_and_all), Distinct()] = field(default_factory=list)
+    surfaces: Annotated[list[str], Offered(_surfaces_and_groups), Distinct()] = field(default_factory=list)
     families: Annotated[list[str], Known(_families, or_all=True), Distinct()] = field(default_factory=list)
     view: Annotated[list[View], Distinct(_names)] = field(default_factory=list)
     angles: Annotated[AngleChoice | None, Distinct(_angles)] = None

@@ -11,8 +11,8 @@ from typing import Any
 from harness.experiment import toml_file
 from harness.experiment.config import GONE, Config, Experiment
 from harness.experiment.resolving import resolve
-from harness.experiment.toml_file import ConfigFile, Where
-from harness.limits import Limit, is_finite
+from harness.experiment.toml_file import ConfigFile, Where, gathered
+from harness.limits import Limit, hints_of, is_finite, is_required
 from harness.plugins import Catalog
 from surfaces.words import suggestion
 
@@ -20,14 +20,18 @@ WORDS = {float: "a number", int: "a whole number", str: "a text in quotes", bool
 
 
 def load(path: Path, catalog: Catalog) -> Experiment:
-    """Read a config and resolve its names. Raises FirsthitError with file and line for anything wrong in it."""
-    return experiment_of(toml_file.read(path), catalog)
+    """Read a config and resolve its names. Raises FirsthitError with file and line for each thing wrong in it.
+
+    Names are resolved once all values can be read.
+    """
+    file = toml_file.read(path)
+    return resolve(config_of(file), file, catalog)
 
 
-def experiment_of(file: ConfigFile, catalog: Catalog) -> Experiment:
-    """Return the experiment that a config file states. Raises FirsthitError as `load`."""
+def config_of(file: ConfigFile) -> Config:
+    """Return what a config file states, without resolving names. Raises FirsthitError as `load`."""
     config: Config = _table(Config, file.table, (), file)
-    return resolve(config, file, catalog)
+    return config
 
 
 def _value(kind: Any, value: Any, where: Where, source: ConfigFile) -> Any:
@@ -87,44 +91,46 @@ def _list(kind: Any, value: Any, where: Where, source: ConfigFile) -> list[Any]:
     items = value if isinstance(value, list) else [value]
     if not items:
         raise source.error(where, f"{_path(where)} is empty; give at least one")
-    return [_value(kind, item, (*where, i), source) for i, item in enumerate(items)]
+    return gathered(enumerate(items), lambda one: _value(kind, one[1], (*where, one[0]), source))
 
 
 def _tuple(kinds: tuple[Any, ...], value: Any, where: Where, source: ConfigFile) -> tuple[Any, ...]:
     """Read a fixed number of values. Raises FirsthitError for any other number."""
     if not isinstance(value, list) or len(value) != len(kinds):
         raise source.error(where, f"{_path(where)} needs {len(kinds)} numbers, not {value!r}")
-    return tuple(
-        _value(kind, item, (*where, i), source) for i, (kind, item) in enumerate(zip(kinds, value, strict=True))
-    )
+    parts = enumerate(zip(kinds, value, strict=True))
+    return tuple(gathered(parts, lambda one: _value(*one[1], (*where, one[0]), source)))
 
 
 def _names(kind: Any, value: Any, where: Where, source: ConfigFile) -> dict[str, Any]:
     """Read a table whose keys are names that the writer chose. Raises FirsthitError for anything but a table."""
     if not isinstance(value, dict):
         raise source.error(where, f"{_path(where)} is a table of names, not {value!r}")
-    return {key: _value(kind, item, (*where, key), source) for key, item in value.items()}
+    return dict(gathered(value.items(), lambda one: (one[0], _value(kind, one[1], (*where, one[0]), source))))
 
 
 def _table(kind: type[Any], value: Any, where: Where, source: ConfigFile) -> Any:
     """Read a table as the dataclass `kind`, whose fields are its keys.
 
-    Raises FirsthitError for anything but a table, for an unknown key, and for a missing one.
+    Raises FirsthitError for anything but a table, for unknown and missing keys, and for values that cannot be read.
     """
     if not isinstance(value, dict):
         raise source.error(where, f"{_path(where)} is a table, not {value!r}")
-    hints = typing.get_type_hints(kind, include_extras=True)
+    hints = hints_of(kind)
     place = _path(where) or "the top level"
-    for key in value:
-        if gone := GONE.get((*where, key)):
-            raise source.error((*where, key), f"{_path((*where, key))} {gone}")
+
+    def of(key: str) -> tuple[str, Any]:
+        there: Where = (*where, key)
+        if gone := GONE.get(there):
+            raise source.error(there, f"{_path(there)} {gone}")
         if key not in hints:
-            raise source.error((*where, key), f"unknown key {key!r} in {place}; {suggestion(key, hints)}")
-    for spec in dataclasses.fields(kind):
-        required = spec.default is dataclasses.MISSING and spec.default_factory is dataclasses.MISSING
-        if required and spec.name not in value:
-            raise source.error(where, f"{place} lacks {spec.name!r}")
-    return kind(**{key: _value(hints[key], item, (*where, key), source) for key, item in value.items()})
+            raise source.error(there, f"unknown key {key!r} in {place}; {suggestion(key, hints)}")
+        if key not in value:
+            raise source.error(where, f"{place} lacks {key!r}")
+        return key, _value(hints[key], value[key], there, source)
+
+    required = [spec.name for spec in dataclasses.fields(kind) if is_required(spec)]
+    return kind(**dict(gathered(dict.fromkeys([*required, *value]), of)))
 
 
 def _scalar(kind: type, value: Any, where: Where, source: ConfigFile) -> Any:

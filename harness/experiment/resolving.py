@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
+from typing import Any
 
 from harness.contract import FirsthitError, Stage, Surface, Variant, View
 from harness.experiment.config import ASKED, BESIDE_INCLUDE, DRAWN, Config, Experiment, MethodChoice, SurfaceChoice
-from harness.experiment.toml_file import ConfigFile, Where
+from harness.experiment.toml_file import ConfigFile, Where, gathered
 from harness.limits import Distinct, Known
 from harness.plugins import Catalog
 from harness.scenes.choice import cut, scenes_of
@@ -17,12 +18,17 @@ from harness.scenes.views import by_angle, by_direction
 
 
 def resolve(config: Config, file: ConfigFile, catalog: Catalog) -> Experiment:
-    """Resolve every name that a config holds. Raises FirsthitError with file and line for one that is not there."""
+    """Resolve every name that a config holds. Raises FirsthitError with file and line for each that is not there."""
     if config.include:
         return _collection(config, file)
     config = _with_all_families(_with_all_views(config, file))
     _check_that_something_is_asked(config, file)
-    variants, own_stages = _variants(config, file, catalog)
+    parts: list[Callable[[], Any]] = [
+        lambda: _variants(config, file, catalog),
+        lambda: _surfaces(config, file),
+        lambda: _scenes(config, file, catalog),
+    ]
+    (variants, own_stages), chosen, scenes = gathered(parts, lambda part: part())
     _check_baseline(config, file, catalog, variants)
     return Experiment(
         file.path.stem,
@@ -30,14 +36,14 @@ def resolve(config: Config, file: ConfigFile, catalog: Catalog) -> Experiment:
         file.text,
         config,
         tuple(variants),
-        tuple(_surfaces(config, file)),
+        tuple(chosen),
         tuple(config.precisions),
         tuple(config.stages),
         prepasses=tuple(config.prepass),
         origins=tuple(config.origins),
         proxies=tuple(config.proxies),
         normals=tuple(config.normals),
-        scenes=tuple(_scenes(config, file, catalog)),
+        scenes=tuple(scenes),
         own_stages=own_stages,
     )
 
@@ -90,16 +96,19 @@ def _variants(
     Returns all variants, and the stages of those that have their own. Raises FirsthitError for an unknown method or
     knob, and where a variant is named twice.
     """
-    variants: list[Variant] = []
-    own_stages: dict[Variant, tuple[Stage, ...]] = {}
-    for i, choice in enumerate(config.method):
+
+    def of(one: tuple[int, MethodChoice]) -> list[Variant]:
         try:
-            chosen = _variants_of(choice, catalog, file.path.parent)
+            return _variants_of(one[1], catalog, file.path.parent)
         except FirsthitError as error:
-            raise file.error(("method", i, "name"), str(error), error.exit_code) from None
-        variants += chosen
+            raise file.error(("method", one[0], "name"), str(error), error.exit_code) from None
+
+    chosen = gathered(enumerate(config.method), of)
+    variants = [variant for own in chosen for variant in own]
+    own_stages: dict[Variant, tuple[Stage, ...]] = {}
+    for choice, own in zip(config.method, chosen, strict=True):
         if choice.stages:
-            own_stages |= dict.fromkeys(chosen, tuple(choice.stages))
+            own_stages |= dict.fromkeys(own, tuple(choice.stages))
     bound = [(variant.method, variant.parameters) for variant in variants]
     if twice := [variant for variant, key in zip(variants, bound, strict=True) if bound.count(key) > 1]:
         raise file.error(("method",), f"{twice[0]} is named twice")
@@ -140,11 +149,17 @@ def _check_baseline(config: Config, file: ConfigFile, catalog: Catalog, variants
 
 
 def _surfaces(config: Config, file: ConfigFile) -> list[Surface]:
-    """Return the surfaces that the config names. Raises FirsthitError for an unknown one and for a bad formula."""
-    import surfaces
+    """Return the surfaces that the config names, of a group that it names all.
 
+    "all" is the catalog. Raises FirsthitError for an unknown one and for a bad formula.
+    """
+    import surfaces
+    from surfaces.entries import CATALOG
+
+    groups = {"all": CATALOG, surfaces.GALLERY: surfaces.GALLERY} | {name: name for name in surfaces.groups()}
     chosen: list[Surface] = []
-    for name in surfaces.names() if config.surfaces == ["all"] else config.surfaces:
+    named = [surfaces.names(groups[name]) if name in groups else (name,) for name in config.surfaces]
+    for name in dict.fromkeys(name for own in named for name in own):
         try:
             chosen.append(_surface(name, {}, config))
         except FirsthitError as error:

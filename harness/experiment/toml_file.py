@@ -1,16 +1,45 @@
-"""Hold a config file: its text, its TOML, and the line on which a value stands."""
+"""Hold a config file: its text, its TOML, and the line on which a value stands. Gather the mistakes in it."""
 
 from __future__ import annotations
 
-import contextlib
 import tomllib
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from harness.contract import FirsthitError
 
 Where = tuple[str | int, ...]  # keys and places that lead to a value: ("view", 1, "fov")
+Part = TypeVar("Part")
+Read = TypeVar("Read")
+
+
+class Mistakes(FirsthitError):
+    """Report several mistakes, a line each.
+
+    The exit code is 2 where one of them is the user's: the least of all.
+    """
+
+    def __init__(self, each: list[FirsthitError]) -> None:
+        super().__init__("\n".join(map(str, each)), min(error.exit_code for error in each))
+        self.each = each
+
+
+def gathered(parts: Iterable[Part], read: Callable[[Part], Read]) -> list[Read]:
+    """Read each part, whether the others can be read or not. Raises FirsthitError, which tells all mistakes."""
+    values, mistakes = list[Read](), list[FirsthitError]()
+    for part in parts:
+        try:
+            values.append(read(part))
+        except Mistakes as error:
+            mistakes += error.each
+        except FirsthitError as error:
+            mistakes.append(error)
+    if mistakes:
+        raise mistakes[0] if len(mistakes) == 1 else Mistakes(mistakes)
+    return values
 
 
 @dataclass(frozen=True)
@@ -33,13 +62,22 @@ class ConfigFile:
 
         tomllib keeps no positions, so the shortest beginning of the file that sets the value is looked for.
         """
-        lines = self.text.splitlines()
         for depth in range(len(where), 0, -1):
-            for count in range(1, len(lines) + 1):
-                with contextlib.suppress(ValueError):
-                    if _has(tomllib.loads("\n".join(lines[:count])), where[:depth]):
-                        return count
+            for count, table in self._beginnings:
+                if _has(table, where[:depth]):
+                    return count
         return 1
+
+    @cached_property
+    def _beginnings(self) -> list[tuple[int, dict[str, Any]]]:
+        """Return each number of lines that are TOML by themselves, and what they set."""
+        lines, found = self.text.splitlines(), list[tuple[int, dict[str, Any]]]()
+        for count in range(1, len(lines) + 1):
+            try:
+                found.append((count, tomllib.loads("\n".join(lines[:count]))))
+            except ValueError:
+                continue
+        return found
 
 
 def read(path: Path) -> ConfigFile:

@@ -218,6 +218,9 @@ class CellRow(TypedDict):
     parameters: Annotated[dict[str, float], "every knob of the method, by name"]
     surface: Annotated[str, Leaf("the surface's name; where the cell draws a scene, the scene's name", always=True)]
     surface_title: Annotated[str, Leaf("the surface's title", always=True)]
+    surface_group: Annotated[
+        str | None, "catalog, or its group of the gallery; null of a scene and of formulas of one's own"
+    ]
     formula: Annotated[str, "f, whose zeros are the surface"]
     degree: Annotated[int | None, "of f in x, y, z together; null where f is no polynomial"]
     view: Annotated[str, Leaf("the view's name", always=True)]

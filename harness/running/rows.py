@@ -78,6 +78,7 @@ def row_of(
         "parameters": dict(cell.variant.parameters),
         "surface": cell.surface.name,
         "surface_title": cell.surface.title,
+        "surface_group": cell.surface.group,
         "formula": cell.surface.formula,
         "degree": cell.surface.degree,
         "view": cell.view.name,

@@ -43,6 +43,7 @@ class SurfaceFacts:
     """Say what a surface is.
 
     name: what `--surface` and configs call it
+    group: its group, a key of `groups` beside `surfaces`
     form_of: the surface that this is another form of, with the same values; null for the form of the source
     title: for people
     source: where it is published
@@ -58,6 +59,7 @@ class SurfaceFacts:
     """
 
     name: str
+    group: str
     form_of: str | None
     title: str
     source: str
@@ -229,10 +231,12 @@ class MeasuredDevice(DeviceFacts):
 class ListedSurfaces:
     """List what `--surface` takes.
 
-    surfaces: each surface, followed by its other forms
+    surfaces: each surface, followed by its other forms; group by group
+    groups: what the surfaces of each group have in common
     """
 
     surfaces: Sequence[SurfaceFacts]
+    groups: Mapping[str, str]
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,113 @@
+"""The report's page that says who breaks where, on rows made up for it."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+from harness.contract import digest
+from reports import content
+from reports.analysis import breaks, derive
+from reports.material import Material
+from reports.parts import who_breaks_where
+from reports.reading import load
+from reports.reading.arrays import Shelf
+from tests.synthetic_run import cell, printed, tiny_run
+
+TITLE = "Who breaks where"
+DEVICE = "opencl:intel"
+
+
+def row(
+    variant: str, surface: str, group: str | None, wrong: dict[str, int] | None, undecided: int = 0
+) -> dict[str, Any]:
+    """A row of a method on a surface; `wrong` None is a refusal."""
+    made = cell(variant, "torus", DEVICE, "float32")
+    slot = f"{variant} {surface}"
+    made |= {"surface": surface, "surface_title": surface.title(), "comparison": surface, "surface_group": group}
+    made |= {"slot": slot, "key": digest(slot), "arrays": None}
+    if wrong is None:
+        made |= dict.fromkeys(("time", "build", "accuracy", "operations"))
+        return made | {"status": "skipped", "reason": "no quartic"}
+    counts = {"misses": 0, "false_hits": 0, "exhausted": 0, "wrong_root": 0, "invalid": 0} | wrong
+    made["accuracy"] |= counts | {"judged": 1000, "undecided": undecided}
+    return made
+
+
+def page(folder: Path) -> content.Section | None:
+    run = load.load(folder)
+    frame = derive.derive(run.frame, run.plan.peaks)
+    found = who_breaks_where.sections(Material(run, frame, breaks.derive(run.families, run.rungs), Shelf(run.folders)))
+    assert all(section.title == TITLE for section in found)
+    return found[0] if found else None
+
+
+def table(section: content.Section, title: str) -> dict[str, tuple[Any, ...]]:
+    """The lines of the table whose title begins so, by their first cell, or the second where the first is a group."""
+    (found,) = [b for b in section.blocks if isinstance(b, content.Table) and b.title.startswith(title)]
+    return {str(line[1] if title.startswith("Every") else line[0]): line for line in found.rows}
+
+
+def gallery(folder: Path) -> Path:
+    rows = [
+        row("ray_march", "goursat", "nodal", {}),
+        row("ray_march", "desmic", "nodal", {"misses": 20, "exhausted": 5}),
+        row("ray_march", "gyroid", "minimal", {"exhausted": 1}, undecided=9),
+        row("newton[EPSILON=0.001]", "goursat", "nodal", {}),
+        row("newton[EPSILON=0.001]", "desmic", "nodal", None),
+        row("newton[EPSILON=0.001]", "gyroid", "minimal", {}, undecided=9),
+        row("null", "goursat", "nodal", {}),
+    ]
+    made = tiny_run(folder, *rows)
+    document = json.loads((made / "plan.json").read_text())
+    document["methods"] = {"ray_march": {"claims": ["no_missed_root"]}, "newton": {"claims": []}}
+    (made / "plan.json").write_text(json.dumps(document))
+    return made
+
+
+def test_groups_count_the_surfaces_that_are_right(tmp_path: Path) -> None:
+    section = page(gallery(tmp_path / "run"))
+    assert section is not None
+    groups = table(section, "How many surfaces")
+    assert groups["nodal"] == ("nodal", 2, "1 / 2", "1 / 1")
+    assert groups["minimal"] == ("minimal", 1, "0 / 1", "1 / 1")
+
+
+def test_the_matrix_marks_shares_kinds_and_refusals(tmp_path: Path) -> None:
+    section = page(gallery(tmp_path / "run"))
+    assert section is not None
+    matrix = table(section, "Every surface")
+    assert matrix["goursat"][3:] == ("✓", "✓")
+    assert matrix["desmic"][3:] == ("2.5 % m", "·")
+    assert matrix["gyroid"][3:] == ("0.1 % e", "✓")
+    refused = table(section, "Which surfaces")
+    assert refused["newton"] == ("newton", "no quartic", 1, "nodal 1")
+
+
+def test_words_say_where_each_breaks_and_which_claim_is_broken(tmp_path: Path) -> None:
+    section = page(gallery(tmp_path / "run"))
+    assert section is not None
+    told = table(section, "Where each method")
+    assert told["ray_march"][1:3] == (3, 2)
+    assert told["ray_march"][3].startswith("minimal 1 of 1 (gyroid 0.1 %, rays given up); nodal 1 of 2 (desmic 2.5 %")
+    assert told["newton[EPSILON=0.001]"][3].startswith("nowhere")
+    text = printed(section.blocks)
+    assert "ray_march claims no_missed_root, and misses of clear rays break it on: desmic." in text
+    assert "newton claims" not in text
+    assert "more than 0.1 % of the rays undecided on gyroid" in text
+
+
+def test_the_catalog_alone_has_the_page_where_it_is_many_surfaces(tmp_path: Path) -> None:
+    few = [row("ray_march", f"s{i}", "catalog", {}) for i in range(3)]
+    assert page(tiny_run(tmp_path / "few", *few)) is None
+    many = [row("ray_march", f"s{i}", "catalog", {}) for i in range(who_breaks_where.MANY)]
+    section = page(tiny_run(tmp_path / "many", *many))
+    assert section is not None
+    assert table(section, "How many surfaces")["catalog"][2] == f"{len(many)} / {len(many)}"
+
+
+def test_rows_of_older_versions_without_groups_make_no_page(tmp_path: Path) -> None:
+    old = row("ray_march", "torus", None, {})
+    del old["surface_group"]
+    assert page(tiny_run(tmp_path / "run", old)) is None
