@@ -257,6 +257,18 @@ def test_show_draws_the_sphere_in_the_middle(tmp_path, capsys):
     assert "0 exhausted" in out
 
 
+def test_show_tells_how_a_formula_was_read(tmp_path, capsys):
+    written = ("--formula", "x^2 + e y² + z^2 = a", "--parameter", "a=1/3", "--parameter", "e=sqrt(2)")
+    show = ("show", *written, "--method", "newton", "--size", "16", "-o", tmp_path / "a.png")
+    code, out, _ = told(capsys, *show)
+    assert code == 0
+    assert "read as: x^2 + sqrt(2)*y^2 + z^2 - 1/3\nnote: e is your parameter, not Euler's number\n" in out
+    refused = (("a=2", "'a' is given twice"), ("b=2", "no 'b' occurs in the formula; its parameters are a, e"))
+    for more, words in refused:
+        code, _, err = told(capsys, *show, "--parameter", more)
+        assert code == 2 and words in err
+
+
 @pytest.mark.parametrize("what", ["methods", "surfaces", "configs", "devices"])
 def test_lists_name_what_is_there(capsys, what):
     code, out, _ = told(capsys, "list", what)

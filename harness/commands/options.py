@@ -47,7 +47,10 @@ def add_surface(parser: argparse.ArgumentParser) -> None:
     which = parser.add_mutually_exclusive_group(required=True)
     which.add_argument("--surface", metavar="NAME", help="a surface of the catalog, see `firsthit list surfaces`")
     which.add_argument("--formula", metavar="F", help="f(x, y, z) of your own, as in 'x^2 + y^2*z^3 - z^4'")
-    parser.add_argument("--domain", metavar="D", help="sphere:R or box:X,Y,Z (half extents); default sphere:1.5")
+    domain = "sphere:R, sphere:X,Y,Z:R, box:X,Y,Z (half extents), or auto for a box that is found; default sphere:1.5"
+    parser.add_argument("--domain", metavar="D", help=domain)
+    distance = "a formula that is nowhere larger than the distance to the surface, for sphere_tracing; it is tested"
+    parser.add_argument("--distance", metavar="F", help=distance)
     parser.add_argument("--parameter", action="append", default=[], metavar="NAME=VALUE", help="of the surface")
 
 
@@ -74,12 +77,17 @@ def add_origin(parser: argparse.ArgumentParser) -> None:
 
 
 def _assignments(texts: list[str], option: str) -> dict[str, str]:
-    """Read NAME=VALUE from each text. Raises FirsthitError, which names the option, for anything else."""
+    """Read NAME=VALUE from each text.
+
+    Raises FirsthitError, which names the option, for other text and for a name that is given twice.
+    """
     pairs = {}
     for text in texts:
         name, equals, value = text.partition("=")
         if not equals or not name.strip() or not value.strip():
             raise FirsthitError(f"{option} {text!r}: write NAME=VALUE")
+        if name.strip() in pairs:
+            raise FirsthitError(f"{option} {text!r}: {name.strip()!r} is given twice")
         pairs[name.strip()] = value.strip()
     return pairs
 
@@ -92,9 +100,11 @@ def surface_of(options: argparse.Namespace) -> Surface:
     if options.surface is not None:
         if options.domain is not None:
             raise FirsthitError("--domain goes with --formula; a surface of the catalog has its own")
+        if options.distance is not None:
+            raise FirsthitError("--distance goes with --formula; a surface of the catalog has its own")
         return surfaces.get(options.surface, **parameters)
     domain = "sphere:1.5" if options.domain is None else options.domain
-    return surfaces.from_formula(options.formula, domain, parameters=parameters)
+    return surfaces.from_formula(options.formula, domain, parameters=parameters, distance=options.distance)
 
 
 def surface_words(options: argparse.Namespace) -> list[str]:

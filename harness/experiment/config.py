@@ -124,13 +124,16 @@ class SurfaceChoice:
     """Define a surface of the config's own; without a formula, change the catalog's of that name.
 
     formula: f(x, y, z), which is 0 on the surface
-    domain: if none is given, the catalog's, or sphere:1.5 for a formula
+    domain: if none is given, the catalog's, or sphere:1.5 for a formula; auto finds a box
     parameters: values of the names that the formula uses, or of the catalog's parameters
+    distance: a formula of f's sign, nowhere larger than the distance to the surface; it is tested. Without it, f is the
+        distance where that can be proved
     """
 
     formula: str = ""
     domain: str = ""
-    parameters: dict[str, float] = field(default_factory=dict)
+    parameters: dict[str, float | str] = field(default_factory=dict)
+    distance: str = ""
 
 
 @dataclass(frozen=True)

@@ -168,15 +168,20 @@ def _surfaces(config: Config, file: ConfigFile) -> list[Surface]:
     return chosen
 
 
-def _surface(name: str, parameters: Mapping[str, float], config: Config) -> Surface:
+def _surface(name: str, parameters: Mapping[str, float | str], config: Config) -> Surface:
     """Return a surface of the config's own, or of the catalog, with `parameters` bound."""
     import surfaces
 
     stated = config.surface.get(name, SurfaceChoice())
-    given = {key: repr(value) for key, value in {**stated.parameters, **parameters}.items()}
+    bound = {**stated.parameters, **parameters}
+    given = {key: value if isinstance(value, str) else repr(value) for key, value in bound.items()}
     if not stated.formula:
+        if stated.distance:
+            raise FirsthitError("a distance goes with a formula; a surface of the catalog has its own")
         return cut(surfaces.get(name, **given), stated.domain)
-    return surfaces.from_formula(stated.formula, stated.domain or "sphere:1.5", name=name, parameters=given)
+    return surfaces.from_formula(
+        stated.formula, stated.domain or "sphere:1.5", name=name, parameters=given, distance=stated.distance or None
+    )
 
 
 def _scenes(config: Config, file: ConfigFile, catalog: Catalog) -> list[Scene]:

@@ -6,13 +6,12 @@ rounds. The fastest are checked once more on held-out views, by which they were 
 
 from __future__ import annotations
 
-import importlib.util
 from collections.abc import Mapping, Sequence, Sized
 from dataclasses import replace
 from pathlib import Path
 
 from harness.accuracy.judge import NAMES
-from harness.contract import CellStatus, DeviceInfo, Precision, Surface, Variant, View, digest
+from harness.contract import CellStatus, DeviceInfo, Precision, Variant, View, digest
 from harness.devices.executor import LocalExecutor
 from harness.experiment import plan
 from harness.experiment.config import AccuracyChoice, BudgetChoice, Config, Experiment, MethodChoice
@@ -48,7 +47,9 @@ def recommend(
     Raises FirsthitError where `device` is no text and, with exit code 3, where there is no such device or a row cannot
     be stored.
     """
-    if told := remark_on(wish.surface):
+    from surfaces.extent import remark
+
+    if told := remark(wish.surface):
         watcher.warned(told)
     folder = runs / f"recommend-{wish.surface.name}-{digest(wish.surface.identity)[:8]}"
     executor = LocalExecutor(STEP_SECONDS)
@@ -57,14 +58,6 @@ def recommend(
         return replace(Search(wish, catalog, info, executor, folder, watcher).run(pictured), extent=told)
     finally:
         executor.close()
-
-
-def remark_on(surface: Surface) -> str | None:
-    """Return what is to be known of a surface that its domain cuts, or that is not in it; None where nothing is."""
-    if importlib.util.find_spec("surfaces.extent") is None:
-        return None
-    remark: str | None = importlib.import_module("surfaces.extent").remark(surface)
-    return remark
 
 
 class Search:
