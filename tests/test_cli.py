@@ -14,7 +14,7 @@ from .conftest import usable_devices
 pytestmark = pytest.mark.usefixtures("devices_found_once")
 
 COMMANDS = ("devices", "list", "plan", "run", "why", "report", "show", "sheet", "trace", "oracle", "compile")
-COMMANDS += ("gate", "bless", "history", "recommend")
+COMMANDS += ("gate", "bless", "history", "recommend", "kernel")
 
 
 @pytest.fixture
@@ -49,6 +49,7 @@ LEAST = {  # what a command cannot be parsed without
     "oracle": ["--surface", "torus", "--rays", "r.npy", "-o", "x.npz"],
     "bless": ["quick", "--reason", "r"],
     "recommend": ["--surface", "torus", "--error", "1"],
+    "kernel": ["--surface", "torus", "--method", "newton", "-o", "x"],
     "history": ["quick"],
     "new": ["method", "mine"],
 }
@@ -205,6 +206,7 @@ SHOW = ("show", "--surface", "sphere", "--method", "newton", "-o", "none.png")
 SHEET = ("sheet", "--method", "newton", "-o", "none.png")
 SCENE = ("scene", "pipes", "--method", "newton", "-o", "none.png")
 RECOMMEND = ("recommend", "--surface", "sphere", "--error", "1")
+KERNEL = ("kernel", "--surface", "sphere", "--method", "newton", "-o", "none")
 NUMBERS = {
     TRACE: ("--timeout", "--t-min"),
     ORACLE: ("--t-min",),
@@ -213,6 +215,7 @@ NUMBERS = {
     SCENE: ("--timeout", "--size"),
     ("conform",): ("--timeout",),
     ("compile",): ("--timeout",),
+    KERNEL: ("--timeout",),
     RECOMMEND: ("--error", "--fps", "--size", "--views", "--rays", "--seconds", "--seed"),
 }
 MAY_BE_NOTHING = ("--t-min", "--fps", "--seconds", "--seed")

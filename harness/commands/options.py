@@ -14,6 +14,7 @@ from harness.plugins import Catalog, find_methods
 from harness.running.trace import Caster, usable_device
 
 N = TypeVar("N", int, float)
+SURFACE_OPTIONS = ("surface", "formula", "domain", "distance")  # of add_surface, but for the parameters
 
 
 def number(limit: Limit) -> Callable[[str], float]:
@@ -130,6 +131,13 @@ def surface_of(options: argparse.Namespace) -> Surface:
         return named_surface(options.surface, parameters, options.domain, options.distance)
     domain = "sphere:1.5" if options.domain is None else options.domain
     return surfaces.from_formula(options.formula, domain, parameters=parameters, distance=options.distance)
+
+
+def surface_words(options: argparse.Namespace) -> list[str]:
+    """Return the words of a command line by which the options of `add_surface` name the same surface again."""
+    given = [(name, getattr(options, name, None)) for name in SURFACE_OPTIONS]
+    words = [word for name, value in given if value is not None for word in (f"--{name}", str(value))]
+    return words + [word for text in options.parameter for word in ("--parameter", text)]
 
 
 def _number(text: str, name: str) -> float | int:
