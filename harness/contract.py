@@ -108,7 +108,8 @@ class Parameter:
 CLAIMS: dict[str, str] = {
     "no_missed_root": "a ray that meets the surface is never answered as a miss or by a later root; near tangency too",
     "finds_touch": "where a ray touches the surface without crossing it, that is a hit",
-    "no_false_hit": "no hit where the oracle proves that there is none, on rays that are neither grazing nor drowned",
+    "no_false_hit": "if f does not jump, no hit where the oracle proves that there is none, on rays that are neither"
+    " grazing nor drowned",
     "error_below_tolerance": "a right hit is off its root by at most Method.tolerance and what rounding must add",
     "conservative_bound": "no step is longer than a proved bound allows: no root of a ray that is neither grazing nor"
     " drowned is passed",
@@ -243,7 +244,7 @@ def source(sections: Sequence[Section]) -> str:
 class Program:
     """Hold one program text for one compiler and precision.
 
-    entry: what it is started as: "rays", "camera", "beams", "map", "raster", "mesh" or "fill"
+    entry: what it is started as: "rays", "camera", "beams", "map", "raster", "mesh", "fill" or "draw"
     sections: its text in order; for "raster" and "mesh" that of the fragments
     vertex: for "raster" and "mesh" the text of the vertices, else nothing
     optimised: False: built without optimisation, to compare its answers with the other's; OpenCL compilers only

@@ -178,3 +178,9 @@ def test_two_roots_at_one_place_are_not_told_apart_and_others_are():
     assert all(
         conformance.no_missed_root(find_methods().get("null"), hits, c, "float32", {}).fails for c in (near, far)
     )
+
+
+def test_a_claim_of_no_false_hits_is_not_checked_where_f_may_jump():
+    jumping = dataclasses.replace(CASE, surface=surfaces.from_formula("floor(x) + y^2 + z^2 - 0.5"))
+    found = conformance.no_false_hit(find_methods().get("ray_march"), _right(), jumping, "float32", {})
+    assert found.unchecked == "f may jump (floor), and the claim is for an f that does not"

@@ -10,8 +10,8 @@ from harness.kernels.assemble import KERNELS
 from harness.kernels.functions import surface_sections
 from harness.plugins import find_methods
 
-OPERATION = re.compile(r" [-+*/] |\b(?:min|max|sqrt|exp|log|sin|cos|tan|floor|fma)\(")
-FUNCTION = re.compile(r"^(?:Interval|real|Dual|Pair|vec3|void) (\w+)\([^{]*\) \{\n(.*?)^\}", re.M | re.S)
+OPERATION = re.compile(r" [-+*/] |\b(?:min|max|sqrt|exp|log|log2|pow|sin|cos|tan|floor|fma)\(")
+FUNCTION = re.compile(r"^(?:Interval|real|int|Dual|Pair|vec3|void) (\w+)\([^{]*\) \{\n(.*?)^\}", re.M | re.S)
 CONSTANT = re.compile(r"2\.0 \* UNIT_ROUNDOFF|2\.0 \* k \* UNIT_ROUNDOFF|16\.0 \* UNIT_ROUNDOFF")
 NAMES = ["sphere", "torus", "calyx", "barth_sextic", "endrass_octic", "sixteen_ball", "blinn_blob"]
 
@@ -29,7 +29,8 @@ def _counts(text):
     return {name: count(name) for name in bodies}
 
 
-LIBRARY = (KERNELS / "lib" / "interval.glsl").read_text() + (KERNELS / "lib" / "interval_exp_log.glsl").read_text()
+NAMES_OF_FILES = ("interval", "interval_exp_log", "interval_powr", "interval_atan2", "interval_jumps")
+LIBRARY = "".join((KERNELS / "lib" / f"{name}.glsl").read_text() for name in NAMES_OF_FILES)
 RAY = (KERNELS / "lib" / "ray.glsl").read_text()
 
 
@@ -47,6 +48,24 @@ def test_an_evaluation_costs_what_its_generated_function_does(name, function):
 @pytest.mark.parametrize("operation", ["add", "sub", "mul", "sqr", "min", "max", "abs"])
 def test_interval_operations_cost_what_the_library_does(operation):
     assert costs.INTERVAL[operation] == _counts(LIBRARY)[f"interval_{operation}"]
+
+
+def test_new_interval_operations_cost_what_the_library_does():
+    counted = _counts(LIBRARY)
+    assert costs.INTERVAL["powr"] == counted["interval_powr"]
+    assert costs.INTERVAL["floor"] == counted["sided_floor"] + counted["open_floor"]
+    assert costs.INTERVAL["select"] == counted["interval_select"]
+    assert costs.INTERVAL["below"] == counted["sided_below"] + counted["open_below"] == 0
+    sizes = counted["interval_magnitude"] * 2 + counted["interval_mignitude"] * 2 + 1  # whether the angles are usable
+    assert costs.INTERVAL["atan2"] == sizes + counted["upper_angles"] + counted["open_atan2"] * 2
+
+
+def test_every_operation_of_a_tape_has_a_cost():
+    from surfaces.tape import LEAVES, Builder
+
+    operations = {name for name in vars(Builder) if not name.startswith("_")} - LEAVES
+    operations -= {"emit", "tape", "value", "is_constant", "powi"}  # no operations, and one of a cost of its own
+    assert operations - costs.INTERVAL.keys() == set()
 
 
 def test_a_piece_of_a_ray_costs_what_the_library_does():

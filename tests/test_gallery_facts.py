@@ -207,3 +207,13 @@ def test_folding_polynomials_multiply_angles():
         np.testing.assert_allclose(real + 1j * imaginary, orbit(degree), atol=1e-7)
     with pytest.raises(ValueError, match="leaves 5"):
         folded(10)
+
+
+def test_the_convolution_surface_is_the_integral_of_its_kernel():
+    points = np.array([[0.3, 0.2, 0.1], [1.2, 0.1, 0.0], [-0.5, 0.7, 0.9]])
+    on, total = np.linspace(-1.0, 1.0, 4001), np.full(3, -0.2)
+    for axis in range(3):
+        aside = np.sum(np.delete(points, axis, axis=1) ** 2, axis=1)
+        kernel = 1.0 / (1.0 + 16.0 * (aside[:, None] + (points[:, axis, None] - on) ** 2)) ** 2
+        total += np.trapezoid(kernel, on, axis=1)
+    np.testing.assert_allclose(surfaces.evaluate(surfaces.get("convolution_jack"), points), total, rtol=1e-5)

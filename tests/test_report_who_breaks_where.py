@@ -29,7 +29,7 @@ def row(
     made |= {"slot": slot, "key": digest(slot), "arrays": None}
     if wrong is None:
         made |= dict.fromkeys(("time", "build", "accuracy", "operations"))
-        return made | {"status": "skipped", "reason": "no quartic"}
+        return made | {"status": "skipped", "reason": f"the method refuses the surface {surface}: degree 8: no"}
     counts = {"misses": 0, "false_hits": 0, "exhausted": 0, "wrong_root": 0, "invalid": 0} | wrong
     made["accuracy"] |= counts | {"judged": 1000, "undecided": undecided}
     return made
@@ -82,7 +82,7 @@ def test_the_matrix_marks_shares_kinds_and_refusals(tmp_path: Path) -> None:
     assert matrix["desmic"][3:] == ("2.5 % m", "·")
     assert matrix["gyroid"][3:] == ("0.1 % e", "✓")
     refused = table(section, "Which surfaces")
-    assert refused["newton"] == ("newton", "no quartic", 1, "nodal 1")
+    assert refused["newton"] == ("newton", "its degree: no", 1, "nodal 1")
 
 
 def test_words_say_where_each_breaks_and_which_claim_is_broken(tmp_path: Path) -> None:

@@ -29,6 +29,7 @@ GROUPS: dict[str, dict[str, str]] = {
     "recommend": {
         "recommend": "the fastest variant whose certified error stays within a bound, and why the others fell",
     },
+    "shipping": {"kernel": "write a method's whole program for a surface, with an example that draws it"},
     "devices": {"devices": "the devices of this machine and what their arithmetic and clocks are worth"},
     "listing": {"list": "what there is to choose from"},
     "schema": {"schema": "print the JSON schema of configs, by which editors complete, explain and check them"},

@@ -204,7 +204,7 @@ def touch_cases() -> tuple[Case, ...]:
 
 def refusal(plugin: Plugin, surface: Surface, precision: Precision, bench: Bench) -> str | None:
     """Say why the method is not to be checked here; None where it is."""
-    from harness.kernels.functions import unsupported
+    from harness.kernels.functions import too_long, unsupported
 
     if precision not in plugin.method.precisions:
         return f"the method has no {precision} form"
@@ -212,4 +212,8 @@ def refusal(plugin: Plugin, surface: Surface, precision: Precision, bench: Bench
         return "the device has no float64"
     if reason := of_method(plugin.method).unlisted:
         return f"it {reason}"
-    return plugin.method.accepts(surface) or unsupported(surface, precision, bench.language)
+    return (
+        plugin.method.accepts(surface)
+        or unsupported(surface, precision, bench.language)
+        or too_long(surface, plugin.method.needs, precision, bench.language)
+    )

@@ -13,6 +13,8 @@ from harness.conformance.cases import INSIDE, TYPICAL, Case, Finding, not_checke
 from harness.contract import CLAIMS, UNIT_ROUNDOFF, Hits, Precision, RayStatus, TruthStatus
 from harness.oracle.noise import root_shift
 from harness.plugins import Plugin
+from surfaces.evaluation import tape_of
+from surfaces.slopes import jumps
 
 MOST_UNDECIDED = 0.01  # of the rays that hit or may: a pass needs decided hits
 MOST_WRONG = 0.002  # of a typical surface's clear rays
@@ -170,7 +172,9 @@ def conservative_bound(_plugin: Plugin, hits: Hits, case: Case, precision: Preci
 
 
 def no_false_hit(_plugin: Plugin, hits: Hits, case: Case, precision: Precision, _knobs: Knobs) -> Finding:
-    """Check the claim that no clear ray hits where the oracle proves a miss."""
+    """Check the claim that no clear ray hits where the oracle proves a miss; it is made of an f that does not jump."""
+    if found := jumps(tape_of(case.surface)):
+        return not_checked("no_false_hit", f"f may jump ({', '.join(found)}), and the claim is for an f that does not")
     misses = (case.truth.status == TruthStatus.MISS) & case.clear(case.judged(hits, precision))
     false = misses & ~np.isin(hits.status, (RayStatus.MISS, RayStatus.EXHAUSTED))
     return _claim("no_false_hit", false, misses, "hits where the oracle proves a miss, on clear rays", hits, case)

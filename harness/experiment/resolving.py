@@ -169,7 +169,7 @@ def _surfaces(config: Config, file: ConfigFile) -> list[Surface]:
     return chosen
 
 
-def _surface(name: str, parameters: Mapping[str, float], config: Config, folder: Path) -> Surface:
+def _surface(name: str, parameters: Mapping[str, float | str], config: Config, folder: Path) -> Surface:
     """Return a surface of the config's own, of a file, or of the catalog, with `parameters` bound.
 
     Files are looked for from `folder`. Raises FirsthitError where there is none, or where it cannot be made.
@@ -177,18 +177,22 @@ def _surface(name: str, parameters: Mapping[str, float], config: Config, folder:
     import surfaces
 
     stated = config.surface.get(name, SurfaceChoice())
-    given = {key: repr(value) for key, value in {**stated.parameters, **parameters}.items()}
+    bound = {**stated.parameters, **parameters}
+    given = {key: value if isinstance(value, str) else repr(value) for key, value in bound.items()}
     if stated.file:
         from surfaces import files
 
         if stated.formula:
             raise FirsthitError(f"surface {name!r} has a formula and a file; give one of them")
-        return dataclasses.replace(
-            files.load(folder / stated.file, stated.domain or None, dict(given)).surface, name=name
-        )
+        made = files.load(folder / stated.file, stated.domain or None, dict(given), stated.distance or None).surface
+        return dataclasses.replace(made, name=name)
     if not stated.formula:
+        if stated.distance:
+            raise FirsthitError("a distance goes with a formula; a surface of the catalog has its own")
         return cut(surfaces.get(name, **given), stated.domain)
-    return surfaces.from_formula(stated.formula, stated.domain or "sphere:1.5", name=name, parameters=given)
+    return surfaces.from_formula(
+        stated.formula, stated.domain or "sphere:1.5", name=name, parameters=given, distance=stated.distance or None
+    )
 
 
 def _scenes(config: Config, file: ConfigFile, catalog: Catalog) -> list[Scene]:

@@ -11,7 +11,7 @@ from collections.abc import Callable, Sequence
 from harness.contract import Surface
 
 POINT = 6  # of origin + t direction
-FREE = frozenset({"neg", "abs", "sign", "below"})
+FREE = frozenset({"neg", "abs", "sign", "below", "select"})
 WIDENED = 6  # of widened_by_rounding in interval.glsl
 OUTWARD = WIDENED + 1  # of outward: also the check that the ends are finite
 INTERVAL = {
@@ -27,6 +27,12 @@ INTERVAL = {
     "abs": 4,
     **dict.fromkeys(("sin", "cos"), 138),
     "tan": 2 * 138 + 13 + OUTWARD,
+    "powr": 17 + 2 * OUTWARD,
+    "floor": 2 + 3,  # the 3 of open_floor
+    "below": 0,
+    "sign": 0,
+    "select": 2,
+    "atan2": 7 + 2 * 59 + WIDENED + 2,  # two corners; the 2 of open_atan2
 }
 AFFINE = 10 + WIDENED  # of bounded_affine: one coordinate of a piece of a ray
 

@@ -9,11 +9,12 @@ FUNCTIONS holds the names that a method may need, and `Method.needs` those that 
     surface_gradient          vec3 surface_gradient(vec3 p)
     surface_hessian_product   vec3 surface_hessian_product(vec3 p, vec3 v)
     surface_normal            vec3 surface_normal(vec3 p)                         the unit vector along f's gradient
-    surface_distance          real surface_distance(vec3 p)                       for surfaces that state a distance
+    surface_distance          real surface_distance(vec3 p)                       for surfaces that have a distance
     surface_distance_normal   vec3 surface_distance_normal(vec3 p)                the unit vector along the distance's
                               gradient; on a torus that of P - C with C = (R x / rho, R y / rho, 0), toledo2007,
                               equation 6. Either normal is the zero vector if its gradient is zero or not finite
     surface_range             Interval surface_range(Interval x, Interval y, Interval z)
+                              f in the box: without 0 only if f has no root there, see harness/kernels/ranges.py
     surface_range_along       Interval surface_range_along(Ray ray, real t0, real t1)
     surface_coefficients_along  void surface_coefficients_along(Ray ray, OUT real c[SURFACE_DEGREE + 1])
                               f(origin + t direction) = c[0] + c[1] t + …, by exact expansion, for degrees 1 to 4
@@ -34,30 +35,41 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from fractions import Fraction
+from functools import lru_cache
 from pathlib import Path
 
 from harness import ROOT
 from harness.contract import GENERATED, Box, FirsthitError, Precision, Section, Surface
-from harness.kernels.printing import IntervalPrinter, Language, RealPrinter, functions_used, operations_used, table
+from harness.kernels.printing import Language, RealPrinter, function_text, functions_used, operations_used, table
+from harness.kernels.ranges import range_function, range_operations
 from harness.kernels.reach import safe_reach
+from harness.oracle.stated_distance import refutation
 from surfaces.evaluation import tape_of
 from surfaces.formula import parse
 from surfaces.lowering import coefficients_along, gradient, hessian_product, real_tape, tangent
-from surfaces.tape import Tape
+from surfaces.tape import LEAVES, Tape
 from surfaces.words import suggestion
 
 MAX_EXPANDED_DEGREE = 4
 MAX_FITTED_DEGREE = 20
+# How many operations on reals and on intervals a program's functions may have. The compiler of each language that takes
+# most of them needs 20 s for as many (Mesa 22.3; Intel 2026.2 and PoCL 3.1; unions of spheres, ray_march and
+# interval_march). tests/benchmarks/compile_times.py measures it.
+MOST_OPERATIONS: dict[Language, dict[str, int]] = {
+    "glsl": {"real": 10_000, "interval": 1_800},
+    "cl": {"real": 30_000, "interval": 2_500},
+}
 _LIB = Path(__file__).parent / "glsl" / "lib"
 _INTERVAL = {  # files of interval operations beyond lib/interval.glsl, only in programs that call them
     "interval_exp_log": {"exp", "log"},
     "interval_powr": {"powr"},
     "interval_atan2": {"atan2"},
-    "interval_jumps": {"floor", "below", "select", "sign"},
+    "interval_jumps": {"floor", "below", "select", "sign", "atan2"},
 }
 _FIT_SAMPLES = _LIB / "fit_samples.glsl"  # reads tables, and so comes after them
 
 _CALLED = {"powr": "pow", "atan2": "atan"}  # how GLSL calls operations that it knows by other names
+FEW_OPERATIONS = 200  # of a tape: no function that is made of fewer is too long
 
 FUNCTIONS = tuple(GENERATED)
 _POINT = {"x": "p.x", "y": "p.y", "z": "p.z"}
@@ -107,6 +119,7 @@ def libraries_for(needs: Iterable[str], surface: Surface | None = None) -> tuple
     return interval + dual + (("dual", "fit", "polynomial") if fitted else ())
 
 
+@lru_cache(maxsize=4096)
 def unsupported(surface: Surface, precision: Precision, language: Language) -> str | None:
     """Return why the surface cannot be evaluated in this precision and language, or None if it can."""
     used = functions_used(real_tape(tape_of(surface)))
@@ -116,6 +129,20 @@ def unsupported(surface: Surface, precision: Precision, language: Language) -> s
     try:
         RealPrinter(_POINT, precision, language).body(real_tape(tape_of(surface)))
     except FirsthitError as error:
+        return str(error)
+    return None
+
+
+@lru_cache(maxsize=4096)
+def too_long(surface: Surface, needs: tuple[str, ...], precision: Precision, language: Language) -> str | None:
+    """Return why the needed functions are too long for any compiler of the language, or None if they are not."""
+    if len(tape_of(surface).ops) < FEW_OPERATIONS:
+        return None
+    writer = _Writer(surface, precision, language, free=False)
+    try:
+        for name in _closure(surface, needs):
+            getattr(writer, name)()
+    except (_TooLong, FirsthitError) as error:
         return str(error)
     return None
 
@@ -137,7 +164,10 @@ def surface_sections(
     makers: dict[str, Callable[[], str]] = {
         name: getattr(writer, name) for name in dict.fromkeys(["constants", *wanted])
     }
-    sections = [Section(f"generated: surface {surface.name}, {name}", make()) for name, make in makers.items()]
+    try:
+        sections = [Section(f"generated: surface {surface.name}, {name}", make()) for name, make in makers.items()]
+    except _TooLong as error:
+        raise FirsthitError(f"{surface.name}: {error}") from None
     if "surface_polynomial_along" in wanted and not expands(surface):
         at = 1 + list(makers).index("surface_value")
         sections[at:at] = [*_fit_tables(surface, precision, language), _file(_FIT_SAMPLES)]
@@ -168,9 +198,8 @@ def _degree_of(surface: Surface) -> str:
     return "no polynomial" if surface.degree is None else f"of degree {surface.degree}"
 
 
-def _function(head: str, lines: list[str], *last: str) -> str:
-    """Return a function's text: its head, and its statements indented."""
-    return "\n".join([f"{head} {{", *(f"    {line}" for line in (*lines, *last)), "}"])
+class _TooLong(Exception):
+    """Report that functions have more operations than any compiler takes; the text says how many."""
 
 
 class _Writer:
@@ -183,6 +212,7 @@ class _Writer:
         self.real = real_tape(self.exact)
         self.precision = precision
         self.language = language
+        self.operations = {"real": 0, "interval": 0}  # of all functions that have been written
         names = sorted(dict(surface.parameters)) if free else []
         self.parameters = {name: f"instance_parameters.{part}" for name, part in zip(names, "xyzw", strict=False)}
 
@@ -216,65 +246,77 @@ class _Writer:
         named = ("SURFACE_DEGREE", "DOMAIN_IS_BOX") if self.free else tuple(values)
         return "\n".join(f"#define {name} {values[name]}" for name in named)
 
+    def _body(self, variables: Mapping[str, str], tape: Tape) -> tuple[list[str], list[str]]:
+        """Return a real tape's statements and its outputs. Raises _TooLong if no compiler takes them."""
+        self._add("real", sum(op.name not in LEAVES for op in tape.ops))
+        return self._printer(variables).body(tape)
+
+    def _add(self, kind: str, count: int) -> None:
+        """Count operations. Raises _TooLong if the functions that have been written have too many of the kind."""
+        self.operations[kind] += count
+        self._hold(kind, self.operations[kind])
+
+    def _hold(self, kind: str, count: int) -> None:
+        """Raise _TooLong if so many operations are too many of the kind."""
+        if count > (most := MOST_OPERATIONS[self.language][kind]):
+            compiler = {"glsl": "GLSL", "cl": "OpenCL C"}[self.language]
+            raise _TooLong(
+                f"its functions have {count:,} operations on {kind}s or more, and no compiler of {compiler} that was"
+                f" tried takes more than {most:,} in 20 s"
+            )
+
+    def _derivable(self, tape: Tape) -> Tape:
+        """Return a tape whose derivatives are asked for. Raises _TooLong if it is too long itself, as they would be."""
+        self._hold("real", sum(op.name not in LEAVES for op in tape.ops))
+        return tape
+
     def _scalar(self, name: str, tape: Tape) -> str:
         """Return the text of a function of a point whose value is a tape's output."""
-        lines, (value,) = self._printer(_POINT).body(tape)
-        return _function(f"real {name}(vec3 p)", lines, f"return {value};")
+        lines, (value,) = self._body(_POINT, tape)
+        return function_text(f"real {name}(vec3 p)", lines, f"return {value};")
 
     def surface_value(self) -> str:
         return self._scalar("surface_value", self.real)
 
     def surface_gradient(self) -> str:
-        lines, values = self._printer(_POINT).body(gradient(self.real))
-        return _function("vec3 surface_gradient(vec3 p)", lines, f"return vec3({', '.join(values)});")
+        lines, values = self._body(_POINT, gradient(self._derivable(self.real)))
+        return function_text("vec3 surface_gradient(vec3 p)", lines, f"return vec3({', '.join(values)});")
 
     def surface_normal(self) -> str:
-        return _function("vec3 surface_normal(vec3 p)", [], "return unit_vector(surface_gradient(p));")
+        return function_text("vec3 surface_normal(vec3 p)", [], "return unit_vector(surface_gradient(p));")
 
     def surface_distance_normal(self) -> str:
-        lines, values = self._printer(_POINT).body(gradient(self._distance("surface_distance_normal"), guarded=False))
+        lines, values = self._body(_POINT, gradient(self._distance("surface_distance_normal"), guarded=False))
         last = f"return unit_vector(vec3({', '.join(values)}));"
-        return _function("vec3 surface_distance_normal(vec3 p)", lines, last)
+        return function_text("vec3 surface_distance_normal(vec3 p)", lines, last)
 
     def surface_hessian_product(self) -> str:
         variables = {**_POINT, "vx": "v.x", "vy": "v.y", "vz": "v.z"}
-        lines, values = self._printer(variables).body(hessian_product(self.real))
-        return _function("vec3 surface_hessian_product(vec3 p, vec3 v)", lines, f"return vec3({', '.join(values)});")
+        lines, values = self._body(variables, hessian_product(self._derivable(self.real)))
+        return function_text(
+            "vec3 surface_hessian_product(vec3 p, vec3 v)", lines, f"return vec3({', '.join(values)});"
+        )
 
     def _distance(self, needed_by: str) -> Tape:
-        """Return the distance function that the surface states. Raises FirsthitError if it states none."""
+        """Return the surface's distance function. Raises FirsthitError if it has none, or a wrong one."""
         if self.surface.distance is None:
-            raise FirsthitError(f"{self.surface.name} states no distance function, which {needed_by} needs")
+            raise FirsthitError(f"{self.surface.name} has no distance function, which {needed_by} needs")
+        if problem := refutation(self.surface):
+            raise FirsthitError(problem)
         return real_tape(parse(self.surface.distance, dict(self.surface.parameters), self.free))
 
     def surface_distance(self) -> str:
         return self._scalar("surface_distance", self._distance("surface_distance"))
 
     def surface_range(self) -> str:
-        used = sorted({op.args[0] for op in self.exact.ops if op.name == "var"} - self.parameters.keys())
-        intervals = {name: f"make_interval({value}, {value})" for name, value in self.parameters.items()}
-        head = "Interval surface_range(Interval x, Interval y, Interval z)"
         reach = None if self.parameters else safe_reach(self.surface, self.precision)  # instances' are not known yet
-        variables = {axis: axis for axis in "xyz"} | intervals
-        printer = IntervalPrinter(variables, self.precision, self.language, reach is not None)
-        lines, (value,) = printer.body(self.exact)
-        if reach is None or not used:
-            checks = [f"{axis} = finite_or_whole({axis}.lo, {axis}.hi);" for axis in used]
-            return _function(head, checks + lines, f"return {value};")
-        ends = " + ".join(f"fabs({axis}.{end})" for axis in used for end in ("lo", "hi"))
-        lines = [
-            f"PRECISE real reach = {ends};",
-            *lines,
-            f"Interval value = {value};",
-            f"bool safe = reach <= {self._printer({}).literal(Fraction(reach))};",
-        ]
-        ends = "safe ? value.lo : -REAL_INFINITY, safe ? value.hi : REAL_INFINITY"
-        return _function(head, lines, f"return make_interval({ends});")
+        self._add("interval", range_operations(self.exact))
+        return range_function(self.exact, self.parameters, reach, self.precision, self.language)
 
     def surface_range_along(self) -> str:
         axes = [f"bounded_affine(ray.origin.{a}, ray.direction.{a}, t0, t1)" for a in "xyz"]
         head = "Interval surface_range_along(Ray ray, real t0, real t1)"
-        return _function(
+        return function_text(
             head,
             [],
             f"return surface_range({axes[0]},",
@@ -287,9 +329,9 @@ class _Writer:
             known = f"surface_coefficients_along expands degrees 1 to {MAX_EXPANDED_DEGREE}"
             raise FirsthitError(f"{self.surface.name} is {_degree_of(self.surface)}; {known}")
         assert self.surface.degree is not None
-        lines, values = self._printer(_RAY).body(coefficients_along(self.real, self.surface.degree))
+        lines, values = self._body(_RAY, coefficients_along(self._derivable(self.real), self.surface.degree))
         stores = [f"c[{k}] = {value};" for k, value in enumerate(values)]
-        return _function("void surface_coefficients_along(Ray ray, OUT real c[SURFACE_DEGREE + 1])", lines, *stores)
+        return function_text("void surface_coefficients_along(Ray ray, OUT real c[SURFACE_DEGREE + 1])", lines, *stores)
 
     def surface_polynomial_along(self) -> str:
         head = "Stretch surface_polynomial_along(Ray ray, real t0, real t1, OUT real c[SURFACE_DEGREE + 1])"
@@ -309,7 +351,7 @@ class _Writer:
                 "for (int i = 0; i <= SURFACE_DEGREE; i++) c[i] = fitted[i];",
                 "return stretch;",
             ]
-        return f"#define POLYNOMIAL_EVALUATIONS {evaluations}\n" + _function(head, lines)
+        return f"#define POLYNOMIAL_EVALUATIONS {evaluations}\n" + function_text(head, lines)
 
     def surface_along(self) -> str:
         if expands(self.surface):
@@ -317,25 +359,27 @@ class _Writer:
         else:
             member, fill = "Ray ray", "along.ray = ray;"
         lines = ["Along along;", fill, "return along;"]
-        return f"STRUCT(Along) struct Along {{ {member}; }};\n\n" + _function("Along surface_along(Ray ray)", lines)
+        return f"STRUCT(Along) struct Along {{ {member}; }};\n\n" + function_text("Along surface_along(Ray ray)", lines)
 
     def surface_value_along(self) -> str:
         head = "real surface_value_along(Along along, real t)"
         if not expands(self.surface):
-            return _function(head, [], "return surface_value(ray_point(along.ray, t));")
+            return function_text(head, [], "return surface_value(ray_point(along.ray, t));")
         degree = self.surface.degree or 0
         steps = [f"value = value * t + along.c[{k}];" for k in reversed(range(degree))]
-        return _function(head, [f"real value = along.c[{degree}];", *steps], "return value;")
+        return function_text(head, [f"real value = along.c[{degree}];", *steps], "return value;")
 
     def surface_dual_along(self) -> str:
         head = "Dual surface_dual_along(Along along, real t)"
         if not expands(self.surface):
             lines = ["vec3 p = ray_point(along.ray, t);"]
             variables = {**_POINT, **{f"d{axis}": f"along.ray.direction.{axis}" for axis in "xyz"}}
-            more, values = self._printer(variables).body(tangent(self.real, {axis: f"d{axis}" for axis in "xyz"}))
-            return _function(head, lines + more, f"return make_dual({', '.join(values)});")
+            more, values = self._body(
+                variables, tangent(self._derivable(self.real), {axis: f"d{axis}" for axis in "xyz"})
+            )
+            return function_text(head, lines + more, f"return make_dual({', '.join(values)});")
         degree = self.surface.degree or 0
         lines = [f"real value = along.c[{degree}];", "real derivative = value;"]
         for k in reversed(range(1, degree)):
             lines += [f"value = value * t + along.c[{k}];", "derivative = derivative * t + value;"]
-        return _function(head, [*lines, "value = value * t + along.c[0];"], "return make_dual(value, derivative);")
+        return function_text(head, [*lines, "value = value * t + along.c[0];"], "return make_dual(value, derivative);")

@@ -72,6 +72,11 @@ def table(name: str, values: Sequence[float], precision: Precision, language: La
     return f"TABLE real {name}[{size}] = {body};"
 
 
+def function_text(head: str, lines: Sequence[str], *last: str) -> str:
+    """Return a function's text: its head, and its statements indented."""
+    return "\n".join([f"{head} {{", *(f"    {line}" for line in (*lines, *last)), "}"])
+
+
 class RealPrinter:
     """Print a real tape as statements `real NAME = …;`. `variables` gives the text of each of the tape's variables."""
 
@@ -179,8 +184,12 @@ class IntervalPrinter:
                 names.append(self.variables[op.args[0]])
             else:
                 names.append(f"a{len(lines)}")
-                lines.append(f"Interval {names[-1]} = {self.operation(op, names, factors)};")
+                lines.append(self.statement(names[-1], op, names, factors))
         return lines, [names[i] for i in tape.outputs]
+
+    def statement(self, name: str, op: Op, names: list[str], factors: Mapping[int, str | None]) -> str:
+        """Return the statement that computes one operation under a name."""
+        return f"Interval {name} = {self.operation(op, names, factors)};"
 
     def operation(self, op: Op, names: list[str], factors: Mapping[int, str | None]) -> str:
         """Return the text of one operation; `factors` holds the constants that interval_scale can take."""

@@ -74,12 +74,15 @@ def compile_all(
 
 def _is_refused(plugin: Plugin, surface: Surface, info: DeviceInfo, precision: Precision) -> bool:
     """Tell whether method, language or device refuses the surface or the precision."""
-    from harness.kernels.functions import unsupported
+    from harness.kernels.functions import too_long, unsupported
 
     if precision not in plugin.method.precisions or (precision == "float64" and not info.float64):
         return True
+    method, language = plugin.method, LANGUAGES[info.name.partition(":")[0]]
     return bool(
-        plugin.method.accepts(surface) or unsupported(surface, precision, LANGUAGES[info.name.partition(":")[0]])
+        method.accepts(surface)
+        or unsupported(surface, precision, language)
+        or too_long(surface, method.needs, precision, language)
     )
 
 

@@ -118,11 +118,12 @@ def cast(
     crashes or gives other answers when it is run again, or where the device's compiler is found at fault
     (harness/accuracy/compilers.py).
     """
-    from harness.kernels.functions import unsupported
+    from harness.kernels.functions import too_long, unsupported
 
     t_min = checked_t_min(t_min)
     method = caster.plugin.method
-    if reason := method.accepts(surface) or unsupported(surface, caster.precision, caster.language):
+    stated = caster.precision, caster.language
+    if reason := (method.accepts(surface) or unsupported(surface, *stated) or too_long(surface, method.needs, *stated)):
         raise FirsthitError(f"{caster.variant} cannot draw {surface.name} here: {reason}")
     kind = of_method(method)
     if reason := kind.shot_refusal(camera):

@@ -8,7 +8,9 @@ is no longer than TOLERANCE and cannot be excluded is the hit.
 
 **Theory** An interval extension of f over a piece encloses every value that f takes there. Where it excludes 0, the
 piece holds no root and no touch. Nothing else is ever passed, so no root is missed. The converse does not hold:
-overestimation and rounding can place the answer before a root, or where there is only nearly one.
+overestimation and rounding can place the answer before a root, or where there is only nearly one. A piece that one jump
+of f crosses is bounded on both sides of it alone (harness/kernels/ranges.py), so that a jump across 0 is no hit; where
+two jumps meet in a last piece, it is one.
 
 **Changes against the paper**
 - A ray in place of a pixel's beam: as for the other ray methods, the answer is a hit of the ray.

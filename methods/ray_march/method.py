@@ -6,7 +6,8 @@ around the change, and ends with one secant step.
 **Source** szente, sections 1 and 4. There it is the ground truth and the baseline, with at most 10,000 steps.
 
 **Theory** If f has different signs at two neighbouring samples, a root lies between them, and bisection keeps it
-between its ends. Touches, and pairs of roots that are closer to each other than a step, are missed.
+between its ends. Touches, and pairs of roots that are closer to each other than a step, are missed. Where f jumps from
+one sign to the other, as floor may make it, the jump is taken for a root.
 
 **Changes against the paper**
 - EXPAND: to degree 4 the expansion of f along the ray is evaluated. The paper evaluates f.

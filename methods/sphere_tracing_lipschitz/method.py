@@ -11,7 +11,9 @@ Lipschitz bound where there is none.
 root. L is proved: |grad f| is bounded in ball arithmetic over boxes that cover the domain, and boxes are split until
 the bound is close to a gradient that occurs. The domain is cut into SHELLS concentric shells. A step is never longer
 than a shell is thick, so a step from one shell ends in the next one at the latest. Therefore the L used there is that
-of the whole ball that ends with the next shell (a ball is convex, so it holds the step).
+of the whole ball that ends with the next shell (a ball is convex, so it holds the step). Through kinks, cone points
+and smooth minima the bound is that of surfaces/slopes.py, which for most distance functions is 1. An f that may jump is
+refused.
 
 **Changes against the paper**
 - Where |grad f| is far below L, |f| / L is far below the distance, and a threshold on it would end far from the root.
@@ -47,6 +49,7 @@ SLACK = 1.0 + 2.0**-16  # covers the float32 rounding of a direction's length, o
 CLOSE = 1.05  # boxes are split until their bound is within this factor of a gradient that occurs
 MAX_BOXES = 6000  # limit of boxes that are bounded; with fewer the bounds are as certain, but less tight
 MAX_OPERATIONS = 12_000_000  # of balls that are spent on them, which takes about a quarter of a minute
+AWAY = 2.0**-12  # of the radius
 KINKED = frozenset({"abs", "min", "max", "sqrt", "powr"})  # operations whose slopes surfaces.slopes bounds more tightly
 
 
@@ -84,6 +87,8 @@ def ball_bounds(surface: Surface, shells: int) -> tuple[float, ...]:
         return int(shells * math.hypot(*away) / radius)
 
     grid = np.stack(np.meshgrid(*[np.linspace(-1.0, 1.0, 33)] * 3), -1).reshape(-1, 3) * half + center
+    if kinked:
+        grid += AWAY * radius  # a cone point, where no slope says anything, is often at the centre
     distances = np.linalg.norm(grid - center, axis=1)
     slopes = np.linalg.norm(surfaces.gradient(surface, grid), axis=1)
     occurring = [slopes[distances <= radius * (k + 1) / shells].max() for k in range(shells)]

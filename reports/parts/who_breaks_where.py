@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Mapping
 from typing import Any
@@ -171,9 +172,11 @@ def _matrix(judged: pd.DataFrame, place: str) -> Table:
 
 def _refusals(rows: pd.DataFrame) -> Table | None:
     """Make a line for each method and reason to refuse a surface; None where none is refused."""
-    refused = rows[rows["status"] == CellStatus.SKIPPED].drop_duplicates(["surface", "variant", "reason"])
+    refused = rows[rows["status"] == CellStatus.SKIPPED]
     if refused.empty:
         return None
+    reasons = [_shared(str(row.reason), str(row.surface)) for row in refused.itertuples()]
+    refused = refused.assign(reason=reasons).drop_duplicates(["surface", "method", "reason"])
     body = []
     for (method, reason), own in refused.groupby(["method", "reason"], sort=True):
         told = ", ".join(f"{str(group).replace('_', ' ')} {n}" for group, n in Counter(own["group"]).most_common())
@@ -189,6 +192,11 @@ def _refusals(rows: pd.DataFrame) -> Table | None:
         "Which surfaces each method refuses, and why.",
         group=1,
     )
+
+
+def _shared(reason: str, surface: str) -> str:
+    """Return a reason without what is the surface's own: its name and its degree."""
+    return re.sub(r"degree \d+", "its degree", reason.removeprefix(f"the method refuses the surface {surface}: "))
 
 
 def _broken(rows: pd.DataFrame, material: Material) -> list[Text]:

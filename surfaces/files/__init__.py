@@ -54,12 +54,15 @@ def is_file(text: str) -> bool:
 
 
 def load(
-    path: str | Path, domain: str | Domain | None = None, parameters: dict[str, str | float] | None = None
+    path: str | Path,
+    domain: str | Domain | None = None,
+    parameters: dict[str, str | float] | None = None,
+    distance: str | None = None,
 ) -> Imported:
     """Read a surface from a file; `FILE#NAME` or `FILE#2` names one of several.
 
-    `domain` and `parameters` replace the file's own. Raises FirsthitError where the file cannot be read, holds no
-    surface, or the surface cannot be made.
+    `domain`, `parameters` and `distance` replace the file's own. Raises FirsthitError where the file cannot be
+    read, holds no surface, or the surface cannot be made.
     """
     name, _, part = (str(path), "", "") if _is_there(path) else str(path).partition(PART)
     source, form = _opened(Path(name), part)
@@ -67,8 +70,9 @@ def load(
     reading: Reading = reader.read(source)
     if unknown := [key for key in parameters or {} if key not in reading.parameters]:
         source.fail(f"there is no parameter {unknown[0]!r}; it has {', '.join(reading.parameters) or 'none'}")
+    given = {**reading.parameters, **(parameters or {})}
     return Imported(
-        _surface(source, reading, domain, {**reading.parameters, **(parameters or {})}),
+        _surface(source, replace(reading, distance=distance or reading.distance), domain, given),
         tuple(source.remarks),
         reader.NAME,
     )
@@ -142,7 +146,7 @@ def _surface(source: Source, reading: Reading, domain: str | Domain | None, para
     stem = re.sub(r"[^A-Za-z_0-9-]+", "_", reading.name or source.path.stem).strip("_")[:40] or "surface"
 
     def made_in(place: str | Domain) -> Surface:
-        return surfaces.from_formula(reading.formula, place, stem, parameters)
+        return surfaces.from_formula(reading.formula, place, stem, parameters, distance=reading.distance or None)
 
     try:
         formula.parse(reading.formula, {name: str(value) for name, value in parameters.items()})
@@ -152,7 +156,7 @@ def _surface(source: Source, reading: Reading, domain: str | Domain | None, para
         raise FirsthitError(f"{source.path}: {error}", error.exit_code) from None
     title = reading.title or (stem if "\n" in reading.formula else made.title)
     told = reading.source or f"read from {source.path.name}"
-    return replace(made, title=title, source=told, distance=reading.distance or made.distance)
+    return replace(made, title=title, source=told)
 
 
 def _found(source: Source, made_in: Callable[[str], Surface]) -> Surface:

@@ -139,12 +139,12 @@ SURFACES: tuple[Surface, ...] = (
     entry(
         "convolution_jack",
         "Convolution surface of three segments",
-        # a segment from -1 to 1 under the Cauchy kernel of width 1/2: h is the squared distance from its line
-        "let part(t, p) = t/(2*p*(p + 4*t^2)) + atan2(2*t, sqrt(p))/(4*p*sqrt(p));"
-        " let segment(t, h) = part(1 - t, 1 + 4*h) + part(1 + t, 1 + 4*h);"
-        " segment(x, y^2 + z^2) + segment(y, z^2 + x^2) + segment(z, x^2 + y^2) - 1",
+        # segments from -1 to 1 under the Cauchy kernel of width 1/4: h is the squared distance from the line
+        "let part(t, p) = t/(2*p*(p + 16*t^2)) + atan2(4*t, sqrt(p))/(8*p*sqrt(p));"
+        " let segment(t, h) = part(1 - t, 1 + 16*h) + part(1 + t, 1 + 16*h);"
+        " segment(x, y^2 + z^2) + segment(y, z^2 + x^2) + segment(z, x^2 + y^2) - 0.2",
         None,
-        Sphere(1.875),
+        Sphere(1.5),
         f"{_SHERSTYUK}: the Cauchy kernel along a segment",
         symmetries=FULL,
     ),

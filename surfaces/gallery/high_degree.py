@@ -11,6 +11,7 @@ _FOLDED = (
     "S. V. Chmutov, Examples of projective surfaces with many singularities, J. Alg. Geom. 1, 1992;"
     " real nodes: S. Breske, O. Labs, D. van Straten, Real line arrangements, 2008"
 )
+_CUBE = Box((-1.0625, -1.0625, -1.0625), (1.0625, 1.0625, 1.0625))  # farther out T_20 drowns all else
 _DELTOID = Box((-1.75, -2.875, -1.125), (3.25, 2.875, 1.125))
 _CHMUTOV = (
     "T. F. Banchoff, Computer graphics tools for rendering algebraic surfaces, 1991: sums of Chebyshev polynomials"
@@ -43,7 +44,7 @@ SURFACES: tuple[Surface, ...] = (
         "Banchoff–Chmutov of degree 16",
         f"{chebyshev(16, 'x')} + {chebyshev(16, 'y')} + {chebyshev(16, 'z')}",
         16,
-        Sphere(1.7),
+        _CUBE,
         _CHMUTOV,
         symmetries=FULL,
         singular_points=0,
@@ -53,7 +54,7 @@ SURFACES: tuple[Surface, ...] = (
         "Banchoff–Chmutov of degree 20",
         f"{chebyshev(20, 'x')} + {chebyshev(20, 'y')} + {chebyshev(20, 'z')}",
         20,
-        Sphere(1.7),
+        _CUBE,
         _CHMUTOV,
         symmetries=FULL,
         singular_points=0,

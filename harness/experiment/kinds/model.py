@@ -43,7 +43,7 @@ from harness.experiment.cells import Cell
 from harness.experiment.config import AccuracyChoice, Config, Experiment
 from harness.experiment.kinds.programs import Programs
 from harness.kernels.assemble import Entry, Language, method_program, with_free_loops
-from harness.kernels.functions import unsupported
+from harness.kernels.functions import too_long, unsupported
 from harness.plugins import Catalog, Plugin
 from harness.results.row import Accuracy, Camera, RungVerdict
 from harness.scenes.camera import camera_for, distance_of, pixel_footprint, rays_of
@@ -237,7 +237,8 @@ class Kind(ABC):
         for surface in self.surfaces(cell):
             if reason := method.accepts(surface):
                 return f"the method refuses the surface {surface.name}: {reason}"
-        return self.lacking(asked)
+        stated = method.needs, cell.precision, asked.language
+        return self.lacking(asked) or next(filter(None, (too_long(s, *stated) for s in self.surfaces(cell))), None)
 
     def lacking(self, asked: Asked) -> str | None:
         """Say what the cell's device lacks to run it, whatever the method; None if it lacks nothing."""

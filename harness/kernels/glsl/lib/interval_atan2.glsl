@@ -60,3 +60,16 @@ Interval interval_atan2(Interval a, Interval b) {
     }
     return widened_by_rounding(-INTERVAL_PI - INTERVAL_PI_REST, INTERVAL_PI + INTERVAL_PI_REST, 4.0);
 }
+
+// Returns 1 if the rectangle crosses the cut away from the origin, where the angle jumps from pi to -pi, else 0.
+int open_atan2(Interval a, Interval b) {
+    bool crossing = a.lo < 0.0 && a.hi >= 0.0 && b.hi < -REAL_TINY;
+    return crossing && interval_magnitude(a) < INTERVAL_LARGEST_DIVISOR && b.lo > -INTERVAL_LARGEST_DIVISOR ? 1 : 0;
+}
+
+// Returns the angles on and above the cut or those below it, as `sides` says; all of them for -1.
+Interval sided_atan2(Interval a, Interval b, int sides, int open) {
+    if (sides < 0 || open_atan2(a, b) == 0) return interval_atan2(a, b);
+    if (((sides >> open) & 1) == 1) return upper_angles(make_interval(0.0, a.hi), b);
+    return interval_neg(upper_angles(make_interval(0.0, -a.lo), b));
+}
