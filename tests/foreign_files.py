@@ -239,7 +239,7 @@ def _sum(p: tuple[int, ...], q: tuple[int, ...]) -> tuple[int, ...]:
 
 
 def _root(a: Any) -> Poly:
-    with mpmath.workdps(80):
+    with mpmath.workdps(45):
         return Poly.of(Fraction(str(mpmath.sqrt(mpmath.mpf(str(Poly.of(a).terms[()]))))))
 
 

@@ -179,3 +179,9 @@ def test_a_script_reaches_files_without_an_import():
     command = "import surfaces; print(surfaces.files.load.__module__)"
     done = subprocess.run([sys.executable, "-c", command], capture_output=True, text=True, check=True)
     assert done.stdout == "surfaces.files\n"
+
+
+@pytest.mark.usefixtures("here")
+def test_import_says_where_the_domain_cuts_the_surface(capsys):
+    assert main(["import", "egg.jsurf", "--domain", "sphere:0.9"]) == 0
+    assert "egg: its domain sphere:0.9 cuts the surface" in capsys.readouterr().out

@@ -58,7 +58,7 @@ def hold_against_sturm(case: Case, surface: Surface, ray: np.ndarray, status: in
         return
     low, high = max(Fraction(lower), inner[0]), min(Fraction(upper), inner[1])
     assert roots.before(inner[0], low) == 0, where
-    slack = Fraction(1, 10**30) if "sqrt" in case.equation else 0  # roots of 2 and 5 are rounded to 80 digits
+    slack = Fraction(1, 10**30) if "sqrt" in case.equation else 0  # roots of 2 and 5 are rounded to 45 digits
     assert roots.within(low - slack, high + slack) >= 1, where
 
 

@@ -18,6 +18,7 @@ def add_parsers(add: Add) -> None:
     parser.add_argument("file", metavar="FILE", help="FILE#NAME or FILE#2 takes one of several surfaces")
     parser.add_argument("--domain", metavar="D", help="instead of the file's own, as `firsthit show` takes it")
     parser.add_argument("--parameter", action="append", default=[], metavar="NAME=VALUE", help="instead of the file's")
+    parser.add_argument("--distance", metavar="F", help="as `firsthit show` takes it")
     _add_output(parser, "write the surface as TOML, for --surface and for a config")
     parser.set_defaults(run=_import)
 
@@ -40,11 +41,12 @@ def _add_output(parser: argparse.ArgumentParser, help_: str) -> None:
 
 def _import(options: argparse.Namespace) -> int:
     from surfaces import files
+    from surfaces.extent import remark
     from surfaces.files import own
 
     if options.output is not None:
         writable(options.output)
-    imported = files.load(options.file, options.domain, given_parameters(options))
+    imported = files.load(options.file, options.domain, given_parameters(options), options.distance)
     surface = imported.surface
     degree = "no polynomial" if surface.degree is None else f"a polynomial of degree {surface.degree}"
     print(f"{surface.name}: read as {imported.form}, {degree}")
@@ -52,11 +54,10 @@ def _import(options: argparse.Namespace) -> int:
     for name, value in surface.parameters:
         print(f"parameter {name} = {value}")
     print(f"\n{surface.formula}")
-    if imported.remarks:
-        print("\n" + "\n".join(imported.remarks))
+    if remarks := [*imported.remarks, *filter(None, [remark(surface)])]:
+        print("\n" + "\n".join(remarks))
     if options.output is not None:
-        remarks = "".join(f"# {remark}\n" for remark in imported.remarks)
-        _write(options, remarks + own.text_of(surface))
+        _write(options, "".join(f"# {line}\n" for line in imported.remarks) + own.text_of(surface))
         print(f"\nwrote {options.output}")
     return 0
 
