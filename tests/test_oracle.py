@@ -5,6 +5,7 @@ from __future__ import annotations
 import subprocess
 import sys
 from dataclasses import fields
+from fractions import Fraction
 from pathlib import Path
 
 import mpmath
@@ -278,17 +279,29 @@ def test_float64_balls_hold_the_exact_results() -> None:
         return Balls(mid, rad), [arb(m) + p * arb(r) for m, p, r in zip(mid.tolist(), place, rad.tolist(), strict=True)]
 
     with precision(200), np.errstate(all="ignore"):
-        (a, in_a), (b, in_b) = draw(), draw()
+        (a, in_a), (b, in_b), (c, in_c) = draw(), draw(), draw()
         cases = {
             "add": (a + b, [x + y for x, y in zip(in_a, in_b, strict=True)]),
             "sub": (a - b, [x - y for x, y in zip(in_a, in_b, strict=True)]),
             "mul": (a * b, [x * y for x, y in zip(in_a, in_b, strict=True)]),
             "div": (a / b, [x / y for x, y in zip(in_a, in_b, strict=True)]),
         }
+        two = ("min", "max", "length", "atan2", "below")
         for name, function in reals.FUNCTIONS.items():
-            members = [in_a, in_b] if name in ("min", "max", "length") else [in_a]
-            result = balls64.FUNCTIONS[name](*(a, b)[: len(members)])
-            cases[name] = result, [function(*each) for each in zip(*members, strict=True)]
+            if name == "select":
+                choice = [arb(int(x > 0)) for x in in_c]
+                cases[name] = (
+                    balls64.select(balls64.below(-c, Balls(0.0)), a, b),
+                    [function(*each) for each in zip(choice, in_a, in_b, strict=True)],
+                )
+                continue
+            more = (Fraction(7, 3),) if name == "powr" else ()
+            members = [in_a, in_b] if name in two else [in_a]
+            result = balls64.FUNCTIONS[name](*(a, b)[: len(members)], *more)
+            cases[name] = result, [function(*each, *more) for each in zip(*members, strict=True)]
+        for exponent in (Fraction(1, 3), Fraction(2, 7), Fraction(10**9 + 1, 10**8)):
+            result = balls64.powr(a, exponent)
+            cases[f"powr {exponent}"] = result, [reals.powr(x, exponent) for x in in_a]
         for name, (result, exact) in cases.items():
             proved = 0
             for mid, rad, value in zip(result.mid.tolist(), result.rad.tolist(), exact, strict=True):

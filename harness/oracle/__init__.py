@@ -3,8 +3,9 @@ exists.
 
 `first_hits` sends all rays through a fast path in float64, which accepts only what a rigorous error bound certifies
 (`fast`). The rest go one by one through ball arithmetic of rising precision and exact arithmetic: `slow` for
-polynomials, `transcendental` and `piecewise` for everything else. What none of them can prove is UNDECIDED. The proofs
-share nothing with the code that generates kernels, so that an error there cannot hide here.
+polynomials, `transcendental` and `piecewise` for everything else. What none of them can prove is UNDECIDED. `reading`
+turns the parsed formula into a `graph`, of which `program` makes what every number system runs. The proofs share
+nothing with the code that generates kernels, so that an error there cannot hide here.
 
 - The float32 numbers of a ray o + t·d are taken as exact rationals; d is not normalised again.
 - A touch is a root of even multiplicity. If f vanishes all along the ray, the answer is a TOUCH at the first t of the
@@ -18,8 +19,16 @@ share nothing with the code that generates kernels, so that an error there canno
   on all but rare rays (`piecewise`). A hit may lie at a kink, or where a square root's argument is 0. A ray stays
   undecided if f is made of more than 12 different square roots at one place, or if 1536 bits do not decide it. The hit
   is a TOUCH if f keeps its sign across it, is 0 all along behind it, or has no value on one side.
+- f may jump: at a floor, at a comparison, and where atan2 goes from −π to π. A jump across 0 is no root. A hit is a t
+  at which f is 0, and at the place of a jump f's own value decides. If f is 0 all along behind a jump, the hit is a
+  TOUCH where that begins, although f may have another value just there.
+- What jumps by floors and comparisons of polynomials, quotients and roots is decided exactly (`piecewise`). Elsewhere a
+  jump is passed if f is proved to be off 0 on both of its sides (`jumps`); a ray that meets the surface in the very
+  place of the jump, or lies in it, may stay undecided.
 - With other constants (π, e) or functions, crossings and misses are decided, and touches if f is written with a
-  repeated factor or as an absolute value.
+  repeated factor or as an absolute value. A root just where the slope is infinite, such as that of cbrt(x), stays
+  undecided.
+- A formula of many thousand operations is given fewer trials per ray, so that a ray may stay undecided.
 - `following`, `condition`, `margin` and `contrast` are estimates in plain float64 (`classify`).
 """
 

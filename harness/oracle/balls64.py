@@ -271,7 +271,7 @@ def atan2(y: Balls, x: Balls) -> Balls:
 def meets_cut(y: Balls, x: Balls) -> Any:
     """Return bool[...]: whether a box may meet the half line y = 0, x <= 0 and leave it."""
     on_cut = (np.asarray(y.mid) == 0.0) & (np.asarray(y.rad) == 0.0) & (x.upper < 0.0)
-    return ~(y.excludes_zero | (x.lower > 0.0) | on_cut)
+    return ~((y.lower > 0.0) | (y.upper < 0.0) | (x.lower > 0.0) | on_cut)  # the bounds that `angles` takes
 
 
 def angles(low: Any, high: Any, x: Balls) -> Balls:

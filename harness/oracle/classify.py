@@ -314,7 +314,18 @@ class _Block:
         rows = np.flatnonzero(self.hit & np.isfinite(upper))
         following = np.full(len(upper), np.inf)
         following[rows] = self._root(rows, np.maximum(lower, self.first)[rows], upper[rows], side[rows])
+        if self.f.program.jumps:
+            following[rows[self._is_jump(rows, following[rows])]] = np.inf
         return following
+
+    def _is_jump(self, rows: Indices, t: Floats) -> NDArray[np.bool_]:
+        """Return bool[k]: whether f does not go through 0 where it changes its sign, at t float64[k].
+
+        Within the last step of Newton's method a root's value is what the slope gives.
+        """
+        f = self.f.along(self.rays[rows], t)
+        step = LAST_STEP * self.domain.radius / self.length[rows]
+        return np.asarray(np.abs(f.value) > 2.0**10 * step * (np.abs(f.slope) + np.abs(self.slope[rows])))
 
     def _root(self, rows: Indices, lower: Floats, upper: Floats, side: Floats) -> Floats:
         """Return the root of g in each bracket, float64[k], by safeguarded Newton.

@@ -32,6 +32,8 @@ from harness.oracle.range64 import RangeIsolator
 from harness.oracle.segments import Mask, Segments
 
 BLOCK = 2048  # rays at a time, so that the arrays stay in the cache
+FEWEST = 64  # rays at a time of a long formula, which holds many arrays
+LONG = 1000  # instructions from which on a block has fewer rays
 MOST_DEGREE = 32  # beyond it the collocation matrix is too ill-conditioned for float64
 WIDTHS = (2.0**-44, 2.0**-42, 2.0**-41)  # the widths of certified intervals that are tried, in domain radii
 
@@ -63,7 +65,8 @@ class FastSolver:
 
     def first_hits(self, rays: Floats, t_min: float) -> FastAnswers:
         """Return the answers for rays float64[n, 6] that hold float32 values."""
-        blocks = [self._block(rays[k : k + BLOCK], t_min) for k in range(0, max(len(rays), 1), BLOCK)]
+        size = max(FEWEST, BLOCK * LONG // max(LONG, len(self.f.program.instructions)))
+        blocks = [self._block(rays[k : k + size], t_min) for k in range(0, max(len(rays), 1), size)]
         return FastAnswers(*(np.concatenate([getattr(b, f) for b in blocks]) for f in FastAnswers.__annotations__))
 
     def _block(self, rays: Floats, t_min: float) -> FastAnswers:

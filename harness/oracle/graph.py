@@ -20,6 +20,8 @@ from typing import Any
 
 ONE = Fraction(1)
 FEW = 8  # parts of a sum or product used in several places, up to which it is merged into another one
+MOST_BITS = 256  # of a rational factor; what would give a larger one is not merged
+MOST_EXPONENT = 256  # of a factor, likewise
 MOST_POWER = 32  # up to which exp(n·log(a)) becomes a power
 # cos(q·π) for q from 0 to 1/2, as the rationals a and b and the whole number d of a + b·√d
 COSINES = {
@@ -85,8 +87,8 @@ class Graph:
             return node.value, self._product(ONE, dict(self.powers(index)))
         return ONE, index
 
-    def powers(self, index: int) -> list[tuple[int, int]]:
-        """Return the factors of a product with their exponents."""
+    def powers(self, index: int) -> list[tuple[int, Any]]:
+        """Return the factors of a product with their exponents, or the terms of a sum with their factors."""
         return list(zip(self.nodes[index].parts, self.nodes[index].weights, strict=True))
 
     def sum(self, terms: Iterable[tuple[int, Fraction]]) -> int:
@@ -94,10 +96,11 @@ class Graph:
         found: dict[int, Fraction] = {}
         for index, weight in terms:
             factor, rest = self.split(index)
-            node = self.nodes[rest]
-            inner = zip(node.parts, node.weights, strict=True) if node.name == "sum" else ((rest, ONE),)
-            for part, share in inner if len(node.parts) <= FEW else ((rest, ONE),):
-                found[part] = found.get(part, Fraction(0)) + weight * factor * share
+            node, factor = self.nodes[rest], factor * weight
+            flat = node.name == "sum" and len(node.parts) <= FEW
+            flat = flat and max(map(_bits, node.weights)) + _bits(factor) <= MOST_BITS
+            for part, share in self.powers(rest) if flat else ((rest, ONE),):
+                found[part] = found.get(part, Fraction(0)) + factor * share
         found = {part: weight for part, weight in found.items() if weight}
         constants = {part: weight for part, weight in found.items() if self.constant[part]}
         if 1 < len(constants) < len(found):
@@ -116,7 +119,7 @@ class Graph:
         return self.node("sum", *parts, weights=tuple(terms[p] for p in parts))
 
     def product(self, factors: Iterable[tuple[int, int]], scale: Fraction = ONE) -> int:
-        """Return a product of nodes with whole exponents. Raises ZeroDivisionError for a division by the number 0."""
+        """Return a product of nodes with whole exponents. A division by the number 0 stays one, which has no value."""
         found: dict[int, int] = {}
         stack = list(factors)[::-1]
         while stack:
@@ -124,9 +127,9 @@ class Graph:
             node = self.nodes[index]
             if not power:
                 continue
-            if node.name == "number":
+            if node.name == "number" and (node.value or power > 0) and _bits(node.value) * abs(power) <= MOST_BITS:
                 scale *= node.value**power
-            elif node.name == "product" and len(node.parts) <= FEW:
+            elif node.name == "product" and len(node.parts) <= FEW and self._is_small(index, power):
                 scale *= node.value**power
                 stack += [(p, e * power) for p, e in self.powers(index)]
             elif node.name == "sqrt" and abs(power) > 1:
@@ -145,6 +148,12 @@ class Graph:
                 elif total:
                     found[index] = total
         return self._product(scale, found)
+
+    def _is_small(self, index: int, power: int) -> bool:
+        """Return whether a product to a power has a factor and exponents of moderate size."""
+        node = self.nodes[index]
+        largest = max((abs(e) for e in node.weights), default=0) * abs(power)
+        return largest <= MOST_EXPONENT and _bits(node.value) * abs(power) <= MOST_BITS
 
     def _product(self, scale: Fraction, powers: dict[int, int]) -> int:
         """Return the product of collected factors; constant ones become one factor."""
@@ -217,8 +226,12 @@ class Graph:
         node = self.nodes[rest]
         if rest == self.one:
             return self.number(abs(factor))
-        even = node.name == "product" and all(power % 2 == 0 for power in node.weights)
-        kept = even or node.name in ("abs", "sqrt", "exp", "powr")
+        if node.name == "product":
+            even = [(part, power) for part, power in self.powers(rest) if power % 2 == 0]
+            odd = self.product([(part, power) for part, power in self.powers(rest) if power % 2])
+            size = odd if odd == self.one else self.abs(odd) if even else self.node("abs", odd)
+            return self.product([*even, (size, 1)], abs(factor))
+        kept = node.name in ("abs", "sqrt", "exp", "powr")
         return self.product([(rest if kept else self.node("abs", rest), 1)], abs(factor))
 
     def exp(self, index: int) -> int:
@@ -307,7 +320,8 @@ class Graph:
         """Return the radical of a node as it is written, and its factors with their multiplicities.
 
         (x − 1)²·y gives (x − 1)·y and [(x − 1, 2), (y, 1)]. A node without repeated factors gives itself and []. |u|
-        counts as u twice, since it has the roots of u and, like u², never changes its sign.
+        counts as u twice, since it has the roots of u and, like u², never changes its sign; so does a power of u that
+        is not whole.
         """
         open_, found = {index: 1}, dict[int, int]()
         queue = [-index]  # parts come after what holds them
@@ -315,7 +329,7 @@ class Graph:
             last = -heappop(queue)
             power, node = open_.pop(last), self.nodes[last]
             inner: list[tuple[int, int]] = []
-            if node.name == "abs":
+            if node.name in ("abs", "powr"):
                 inner = [(node.parts[0], 2 * power)]
             elif node.name == "product" and any(e > 0 and not self.constant[p] for p, e in self.powers(last)):
                 inner = [(p, e * power) for p, e in self.powers(last) if e > 0 and not self.constant[p]]
@@ -330,3 +344,8 @@ class Graph:
         if all(multiplicity == 1 for multiplicity in found.values()):
             return index, []
         return self.product([(part, 1) for part in found]), list(found.items())
+
+
+def _bits(value: Fraction) -> int:
+    """Return the length of the longer of numerator and denominator, in bits."""
+    return max(value.numerator.bit_length(), value.denominator.bit_length())

@@ -79,7 +79,7 @@ class PiecewiseSolver:
         room = (upper - lower) / 7
         cells = self.cells(rational_point(lower - room), rational_point(upper + room))
         for k, cell in enumerate(cells):
-            if cell.sign == 0 and cell.first.compare(self.leave) <= 0 and cell.last.compare(self.enter) >= 0:
+            if cell.sign == 0 and self.is_met(cell):
                 start = cell.first if cell.first.compare(self.enter) > 0 else self.enter
                 return self.hit(TruthStatus.TOUCH, start, width)
             following = cells[k + 1] if k + 1 < len(cells) else None
@@ -96,6 +96,14 @@ class PiecewiseSolver:
         t.refine(fmpq(*width.as_integer_ratio()))
         with precision(FIRST_PRECISION):
             return certified_hit(status, t.ball(), self.t_min)
+
+    def is_met(self, cell: _Cell) -> bool:
+        """Return whether the clip interval holds a point of a cell in which f is 0, or of its ends if f is 0 there too.
+
+        If f may jump, it need not be 0 at the ends; those are asked for one by one.
+        """
+        ahead, behind = cell.first.compare(self.leave), cell.last.compare(self.enter)
+        return ahead < 0 < behind if self.program.jumps else ahead <= 0 <= behind
 
     def vanishes_between(self, cell: _Cell, following: _Cell) -> bool:
         """Return whether f is 0 at the point between two neighbouring cells."""

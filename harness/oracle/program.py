@@ -20,6 +20,7 @@ Number = TypeVar("Number")
 Functions = Mapping[str, Callable[..., Any]]
 Leaf = Fraction | str  # a rational number, or "pi" or "e"
 POLYNOMIAL = frozenset({"input", "constant", "add", "sub", "mul", "sqr", "neg"})
+LONG = 500  # instructions of a program that lets go of results, which costs time
 JUMPS = frozenset({"floor", "atan2", "below", "select"})
 
 
@@ -88,7 +89,9 @@ class Program:
 
     @cached_property
     def _last_uses(self) -> tuple[tuple[int, ...], ...]:
-        """Return for each instruction the results that no later one uses."""
+        """Return for each instruction the results that no later one uses; nothing for a short program."""
+        if len(self.instructions) < LONG:
+            return ()
         seen, last = set[int](), []
         for i in reversed(self.instructions):
             last.append(tuple(a for a in dict.fromkeys(i.args) if a not in seen))
@@ -98,7 +101,7 @@ class Program:
     def run(self, inputs: Sequence[Number], constants: Sequence[Number], functions: Functions) -> Number:
         """Return f at `inputs`, x, y and z, in their number system; `constants` are already converted to it.
 
-        A result is let go of once nothing needs it any more.
+        In a long program, a result is let go of once nothing needs it any more.
         """
         f: Number = _results(self.instructions, inputs, constants, functions, self._last_uses)[-1]
         return f

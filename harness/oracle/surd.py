@@ -31,7 +31,7 @@ class Surd:
     def __init__(self, a: Any, b: Any = ZERO, d: int = 0) -> None:
         self.a = fmpq_poly(a)
         self.b = fmpq_poly(b)
-        self.d = d
+        self.d = d if self.b else 0
 
     def field(self, other: Surd) -> int:
         """Return d of the field that holds both. Raises NotExact if there is none."""
@@ -58,10 +58,12 @@ class Surd:
         return Surd(self.a * other.a + d * self.b * other.b, self.a * other.b + self.b * other.a, d)
 
     def __truediv__(self, other: Surd) -> Surd:
-        """Divide by a constant. Raises NotExact for any other divisor."""
+        """Divide by a constant. Raises NotExact for any other divisor, and for 0."""
         if other.a.degree() > 0 or other.b.degree() > 0:
             raise NotExact("division by a polynomial")
         norm = (other.a * other.a - other.d * other.b * other.b)[0]
+        if not norm:
+            raise NotExact("division by zero")
         product = self * Surd(other.a, -other.b, other.d)
         return Surd(product.a / norm, product.b / norm, product.d)
 

@@ -31,6 +31,8 @@ from harness.oracle.slow import MISS, UNDECIDED, FirstHit, certified_hit
 PRECISIONS = (80, 256)
 OPEN = 2.0**-28  # the width, in domain radii, below which pieces that ranges leave open are decided exactly
 MOST_PIECES = 3000  # that are tried for one ray and precision
+MOST_OPERATIONS = 2_000_000  # that are spent on pieces, so that a long formula has fewer of them
+FEWEST_PIECES = 60
 NARROW = 2.0**-50  # the width of certified intervals, in domain radii
 
 
@@ -99,7 +101,8 @@ class _Search:
         enter, leave = (end.ball() for end in ends)
         room = self.scale * 2.0**-20 + abs(float(leave)) * 2.0**-40
         stack = [(arb(float_below(enter) - room), arb(float_above(leave) + room))]
-        for _ in range(MOST_PIECES):
+        affordable = MOST_OPERATIONS // len(self.program.instructions)
+        for _ in range(min(MOST_PIECES, max(FEWEST_PIECES, affordable))):
             if not stack:
                 return MISS
             lower, upper = stack.pop()
