@@ -53,7 +53,7 @@ if TYPE_CHECKING:
     import pandas as pd
     from numpy.typing import NDArray
 
-    from harness.recommend.search import Quantile, Recommendation
+    from harness.recommend.model import Quantile, Recommendation
     from harness.running.run import Run
     from harness.running.trace import Caster
 
@@ -93,7 +93,7 @@ __all__ = [
 
 AnySurface = str | Surface
 AnyPath = str | Path
-_LATE = {"Run": "harness.running.run", "Recommendation": "harness.recommend.search"}  # imported where they are used
+_LATE = {"Run": "harness.running.run", "Recommendation": "harness.recommend.model"}  # imported where they are used
 _NAME = re.compile("[A-Za-z0-9_:]+")
 
 
@@ -264,6 +264,7 @@ def recommend(
     rays: int = 64,
     seconds: float = 1.0,
     seed: int = 1,
+    require: Sequence[str] = (),
     runs: AnyPath = "runs",
     plugins: AnyPath | None = None,
     tell: Callable[[str], None] | None = None,
@@ -273,16 +274,17 @@ def recommend(
     The bound is on a quantile of the errors ("max", "p999" or "p99") on `rays`² rays of each of `views` views, chosen
     by `seed`, and of half as many views held out, two at least. Pictures of `size`² pixels are timed for `seconds` a
     variant and view; under `fps` frames a second a variant falls. Without a precision float64 is tried where no float32
-    holds. Rows are kept below `runs`; `tell` is called with a line of text for each step and whatever ends.
+    holds. Only methods that make all claims of `require`, names of CLAIMS, are tried. Rows are kept below `runs`;
+    `tell` is called with a line of text for each step and whatever ends.
 
     `contenders` of the answer is empty where nothing holds, and `fallen` says why. Raises FirsthitError for names and
     numbers that make no sense, and with exit_code 3 where the device is not here or a row cannot be written.
     """
     from harness.plugins import find_methods
-    from harness.recommend import search
+    from harness.recommend import model, search
     from harness.running.run import teller
 
-    wish = search.Wish(
+    wish = model.Wish(
         surface=_surface(surface),
         error=error,
         quantile=quantile,
@@ -293,6 +295,7 @@ def recommend(
         rays=rays,
         seed=seed,
         seconds=seconds,
+        require=tuple(checked_names("require", require)),
     )
     return search.recommend(wish, find_methods(_folder(plugins)), device, checked_path("runs", runs), teller(tell))
 

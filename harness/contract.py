@@ -244,7 +244,7 @@ def source(sections: Sequence[Section]) -> str:
 class Program:
     """Hold one program text for one compiler and precision.
 
-    entry: what it is started as: "rays", "camera", "beams", "map", "raster", "mesh" or "fill"
+    entry: what it is started as: "rays", "camera", "beams", "map", "raster", "mesh", "fill" or "draw"
     sections: its text in order; for "raster" and "mesh" that of the fragments
     vertex: for "raster" and "mesh" the text of the vertices, else nothing
     optimised: False: built without optimisation, to compare its answers with the other's; OpenCL compilers only

@@ -167,9 +167,9 @@ _HINTS: dict[type[Any], dict[str, Any]] = {}  # evaluating them takes longer tha
 def held(name: str, value: Any, kind: Any) -> Any:
     """Return `value` as a plain value of a kind.
 
-    A kind is float, int, str, any other class, a Literal of words, a tuple of kinds, a union of one with None, or any
-    of these Annotated with limits. A whole number may stand for a float, and stays whole. Raises FirsthitError, whose
-    text begins with `name`, for a value of another kind or past its limits.
+    A kind is float, int, str, any other class, a Literal of words, a tuple of kinds or of any number of one kind, a
+    union of one with None, or any of these Annotated with limits. A whole number may stand for a float, and stays
+    whole. Raises FirsthitError, whose text begins with `name`, for a value of another kind or past its limits.
     """
     origin, parts = typing.get_origin(kind), typing.get_args(kind)
     if origin is typing.Annotated:
@@ -182,6 +182,10 @@ def held(name: str, value: Any, kind: Any) -> Any:
         return None if value is None else held(name, value, next(k for k in parts if k is not type(None)))
     if origin is typing.Literal:
         return _word(name, value, parts)
+    if origin is tuple and parts[1:] == (Ellipsis,):
+        if not isinstance(value, Sequence) or isinstance(value, str):
+            raise FirsthitError(f"{name} is a list, not {_shown(value)}")
+        return tuple(held(name, item, parts[0]) for item in value)
     if origin is tuple:
         if not isinstance(value, Sequence) or isinstance(value, str) or len(value) != len(parts):
             raise FirsthitError(f"{name} needs {len(parts)} numbers, not {_shown(value)}")

@@ -8,9 +8,11 @@
 
 This is the ground: it imports nothing else of the project. `model` says what a surface is. `catalog`, `families` and
 `forms` hold the surfaces of the papers, `gallery` others of the literature, all written by means of `entries`.
-`formula` parses text into a `tape`, which `numbers` runs in several number systems and `lowering` turns into other
-tapes: derivatives, coefficients along a ray. `evaluation` computes values. `validity` proves that a formula of one's
-own is defined all over its domain.
+`formula` parses text into a `tape`, by means of the package `language`. `numbers` runs tapes in several number systems,
+and `lowering` turns them into other tapes: derivatives, coefficients along a ray. `evaluation` computes values.
+`validity` proves that a formula of one's own is defined all over its domain, by `signs`, `guards` and `ranges`;
+`lipschitz`, with `blending`, that it is a distance bound; `extent`, by `search`, that its domain cuts it, or finds a
+domain.
 """
 
 from __future__ import annotations
@@ -28,8 +30,10 @@ from surfaces.words import suggestion
 if TYPE_CHECKING:
     from surfaces.evaluation import evaluate, expression, gradient, operations, tape_of
 
+AUTO = "auto"  # the domain that is found
 _EVALUATION = ("evaluate", "expression", "gradient", "operations", "tape_of")
 __all__ = [
+    "AUTO",
     "Reading",
     "canonical",
     "evaluate",
@@ -48,7 +52,7 @@ GALLERY = "gallery"  # all groups but the catalog
 
 
 def __getattr__(name: str) -> Any:
-    """Return a function of surfaces.evaluation, which is imported when it is first asked for.
+    """Return a function of surfaces.evaluation, or surfaces.files, which are imported when they are first asked for.
 
     Raises AttributeError for any other name.
 
@@ -56,15 +60,24 @@ def __getattr__(name: str) -> Any:
     """
     if name in _EVALUATION:
         return getattr(import_module("surfaces.evaluation"), name)
+    if name == "files":
+        return import_module("surfaces.files")
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
 @dataclass(frozen=True)
 class Reading:
-    """Hold how a surface's formula was read: its canonical form, and notes, each a sentence's worth for the user."""
+    """Hold how a surface's formula was read: as written, its canonical form, and notes, each a phrase for the user."""
 
+    written: str
     canonical: str
     notes: tuple[str, ...]
+
+    def told(self, most: int = 400) -> list[str]:
+        """Return lines for the user: the canonical form, cut at `most` characters, if it is not what was written."""
+        shown = self.canonical if len(self.canonical) <= most else f"{self.canonical[:most]} ..."
+        same = "".join(self.written.split()) == "".join(self.canonical.split())
+        return [*([] if same else [f"read as: {shown}"]), *(f"note: {note}" for note in self.notes)]
 
 
 def canonical(surface: Surface) -> str:
@@ -79,7 +92,7 @@ def reading(surface: Surface) -> Reading:
     from surfaces import formula
 
     notes = formula.reading(surface.formula, dict(surface.parameters)).notes
-    return Reading(canonical(surface), notes)
+    return Reading(surface.formula, canonical(surface), notes)
 
 
 def names(group: str = CATALOG) -> tuple[str, ...]:
@@ -163,38 +176,53 @@ def from_formula(
     domain: str | Domain = "sphere:1.5",
     name: str = "formula",
     parameters: Mapping[str, str | float] | None = None,
+    distance: str | None = None,
 ) -> Surface:
     """Return the surface of a formula in the language of surfaces.formula.
 
-    `parameters` are numbers or formulas of constants, as "1/3" and "sqrt(2)".
-    `domain` is "sphere:R", "box:a,b,c" with half extents, "box:x0,y0,z0:x1,y1,z1", a Sphere or a Box. Raises
-    FirsthitError if the text is no formula, the domain is none, a parameter no constant or not in the formula, if f
-    does not depend on x, y and z, or if it cannot be shown to be defined all over the domain.
+    `parameters` are numbers or formulas of constants, as "1/3" and "sqrt(2)". `domain` is "sphere:R", "sphere:x,y,z:R"
+    about another centre, "box:a,b,c" with half extents, "box:x0,y0,z0:x1,y1,z1", a Sphere or a Box, or "auto": a box
+    that is proved to hold the whole surface (surfaces.extent). `distance` is a formula as Surface.distance describes
+    it, with the same parameters; it is tested where it is used (harness.oracle.stated_distance). Without it, f is the
+    distance where that can be proved (surfaces.lipschitz).
+
+    Raises FirsthitError if the text is no formula, the domain is none, a parameter no constant or in no formula, if f
+    does not depend on x, y and z, if f or the distance cannot be shown to be defined all over the domain, or if no
+    domain is found.
     """
     if not isinstance(text, str):
         raise FirsthitError(f"a formula is a text, as in 'x^2 + y^2 + z^2 - 1', not {text!r}")
     from surfaces import formula
-    from surfaces.validity import check
+    from surfaces.extent import held_by
+    from surfaces.lipschitz import is_distance
+    from surfaces.validity import check, check_constants, undefined
 
     bound = _texts(parameters or {})
     found = formula.reading(text, bound)
-    if unused := sorted(bound.keys() - found.used):
-        hint = suggestion(
-            unused[0], sorted(found.used), otherwise=f"its parameters are {', '.join(sorted(found.used))}"
-        )
-        raise FirsthitError(f"no {unused[0]!r} occurs in the formula; {hint if found.used else 'it has no parameters'}")
-    degree = formula.degree(found.tape)
+    stated = None if distance is None else formula.reading(distance, bound)
+    used = found.used | (stated.used if stated else frozenset())
+    if unused := sorted(bound.keys() - used):
+        hint = suggestion(unused[0], sorted(used), otherwise=f"its parameters are {', '.join(sorted(used))}")
+        raise FirsthitError(f"no {unused[0]!r} occurs in the formula; {hint if used else 'it has no parameters'}")
+    check_constants(name, found.tape)
+    degree, line = formula.degree(found.tape), " ".join(text.split())
     surface = Surface(
         name=name,
-        title=text if len(text) <= 60 else text[:57] + "...",
+        title=line if len(line) <= 60 else line[:57] + "...",
         formula=text,
-        domain=_domain(domain),
+        domain=held_by(found.tape) if domain == AUTO else _domain(domain),
         source="given as a formula",
         degree=degree,
         parameters=tuple(sorted(bound.items())),
     )
     check(surface)
-    return surface
+    if distance is None:
+        return replace(surface, distance=text) if is_distance(found.tape, surface.domain) else surface
+    assert stated is not None
+    check_constants(f"{name}'s distance", stated.tape)
+    if problem := undefined(stated.tape, surface.domain):
+        raise FirsthitError(f"{name}'s distance: {problem}")
+    return replace(surface, distance=distance)
 
 
 def _decimals(values: Mapping[str, str | float]) -> dict[str, str]:
@@ -231,8 +259,10 @@ def _domain(text: str | Domain) -> Domain:
     match kind, numbers:
         case "sphere", [[radius]]:
             return Sphere(radius)
+        case "sphere", [[x, y, z], [radius]]:
+            return Sphere(radius, (x, y, z))
         case "box", [[a, b, c]]:
             return Box((-a, -b, -c), (a, b, c))
         case "box", [[x0, y0, z0], [x1, y1, z1]]:
             return Box((x0, y0, z0), (x1, y1, z1))
-    raise FirsthitError(f"domain {text!r}: write sphere:R, box:a,b,c or box:x0,y0,z0:x1,y1,z1")
+    raise FirsthitError(f"domain {text!r}: write sphere:R, sphere:x,y,z:R, box:a,b,c, box:x0,y0,z0:x1,y1,z1 or auto")

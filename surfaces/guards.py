@@ -13,7 +13,7 @@ from typing import Any, Literal
 import numpy as np
 
 from surfaces.signs import Fact, linear
-from surfaces.tape import Tape
+from surfaces.tape import Op, Tape
 
 DEEPEST = 40  # conditions around one operation that are kept track of; more are left out, which proves less
 MOST_FACTS = 64
@@ -93,15 +93,16 @@ def facts_of(tape: Tape, guards: Guards, guard: int) -> list[Fact]:
     while stack and len(found) < MOST_FACTS:
         index, holds = stack.pop()
         op = tape.ops[index]
-        if op.name == "sub" and tape.ops[op.args[0]].name == "const":
-            stack.append((op.args[1], not holds))  # 1 - c
+        if op.name == "sub" and tape.ops[op.args[0]] == Op("const", (Fraction(1),)):
+            stack.append((op.args[1], not holds))
         elif op.name == ("min" if holds else "max"):
             stack += [(i, holds) for i in op.args]
         elif op.name == "below":
             a, b = op.args if holds else reversed(op.args)
             found += _compared(tape, a, b, ">=" if holds else ">")
         elif op.name == "min" and _equality(tape, *op.args):
-            found += _compared(tape, *tape.ops[op.args[0]].args, "!=")
+            a, b = tape.ops[op.args[0]].args
+            found += _compared(tape, a, b, "!=")
     return found
 
 
@@ -113,10 +114,10 @@ def _equality(tape: Tape, a: int, b: int) -> bool:
 
 def _compared(tape: Tape, a: int, b: int, how: Literal[">=", ">", "!="]) -> list[Fact]:
     """Return how b - a compares with 0, and what follows for the base of a power or of an absolute value."""
-    forms = linear(tape, a), linear(tape, b)
-    if forms[0] is None or forms[1] is None:
+    first, second = linear(tape, a), linear(tape, b)
+    if first is None or second is None:
         return []
-    (less, below), (more, above) = forms
+    (less, below), (more, above) = first, second
     terms = {i: more.get(i, Fraction(0)) - less.get(i, Fraction(0)) for i in {*less, *more}}
     terms = {i: factor for i, factor in terms.items() if factor}
     found = [Fact(terms, above - below, how)] if terms else []

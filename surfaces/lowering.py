@@ -168,14 +168,20 @@ def _rates(b: Builder, tape: Tape, seeds: Mapping[str, int]) -> list[int]:
     """
     rates: list[int] = []
     zero = b.const(0)
+    halves: dict[int, int] = {}  # half the derivatives of sums of squares, which their roots need
+    rooted = any(op.name == "sqrt" for op in tape.ops)
     for index, op in enumerate(tape.ops):
         moving = [rates[i] for i in op.inputs]
+        if rooted and (half := _half(b, op, rates, halves)) is not None:
+            halves[index] = half
         if op.name == "var":
             rates.append(seeds.get(op.args[0], zero))
         elif all(rate == zero for rate in moving):
             rates.append(zero)
         elif op.name == "select":
             rates.append(b.select(op.args[0], moving[1], moving[2]))
+        elif op.name == "sqrt" and op.args[0] in halves:
+            rates.append(b.div(halves[op.args[0]], b.max(index, b.const(LEAST_ROOT))))
         elif op.name in ("min", "max"):
             lesser, other = op.args if op.name == "min" else op.args[::-1]
             rates.append(b.select(b.below(lesser, other), *moving))
@@ -183,6 +189,18 @@ def _rates(b: Builder, tape: Tape, seeds: Mapping[str, int]) -> list[int]:
             terms = (b.mul(p, rate) for p, rate in zip(_partials(b, op, index), moving, strict=True))
             rates.append(reduce(b.add, terms, zero))
     return rates
+
+
+def _half(b: Builder, op: Op, rates: list[int], halves: Mapping[int, int]) -> int | None:
+    """Return half the derivative of an operation if it is a square or a sum of squares and constants, else None."""
+    if op.name == "sqr":
+        return b.mul(op.args[0], rates[op.args[0]])
+    if op.name not in ("add", "sub") or not any(i in halves for i in op.args):
+        return None
+    first, second = (halves[i] if i in halves else rates[i] if b.value(rates[i]) == 0 else None for i in op.args)
+    if first is None or second is None:
+        return None
+    return b.add(first, second) if op.name == "add" else b.sub(first, second)
 
 
 def tangent(tape: Tape, seeds: Mapping[str, str]) -> Tape:

@@ -107,8 +107,10 @@ Domain = Sphere | Box
 class Surface:
     """Define an implicit surface f(x, y, z) = 0 in its domain; all else is derived from the formula.
 
-    What is stated beside the formula (`degree`, `distance`, `facts`) is recomputed by tests. `bounding_radius` is that
-    of a sphere about the domain's centre that holds the surface; None where no better one than the domain's is known.
+    What is stated beside the formula (`degree`, `distance`, `facts`) is recomputed by tests. `distance` is any function
+    of f's sign whose absolute value is nowhere in the domain greater than the distance to the surface: a step of its
+    length passes no root. `bounding_radius` is that of a sphere about the domain's centre that holds the surface; None
+    where no better one than the domain's is known.
     """
 
     name: str
@@ -118,7 +120,7 @@ class Surface:
     source: str
     degree: int | None  # total degree in x, y, z; None where f is not a polynomial
     parameters: tuple[tuple[str, str], ...] = ()  # name, exact decimal: ("R", "0.7")
-    distance: str | None = None  # a formula of the exact signed distance; None: not known
+    distance: str | None = None  # a formula of a bound of the distance; f itself where that is one; None: not known
     bounding_radius: float | None = None
     feature_radius: float | None = None  # the length papers relate errors to (torus: minor radius r)
     group: str | None = None  # "catalog", or the gallery's group that it is in; None of a formula of one's own

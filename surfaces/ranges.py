@@ -174,6 +174,18 @@ def run(tape: Tape, box: Mapping[str, Pair]) -> Iterator[Pair]:
         yield value
 
 
+def has_value(name: str, argument: Pair) -> NDArray[np.bool_]:
+    """Return on which boxes the range of its argument proves that an operation has a value: bool, or bool[n]."""
+    low, high = argument
+    if name in ("sqrt", "powr"):
+        return np.asarray(low >= 0.0)
+    if name == "log":
+        return np.asarray(low > 0.0)
+    if name == "tan":
+        low, high = Ranges().cos(argument)
+    return np.asarray((low > 0.0) | (high < 0.0))
+
+
 def sides(lower: Floats, upper: Floats) -> dict[str, Pair]:
     """Return boxes float64[n, 3] as the pairs of x, y, z."""
     return {axis: (lower[:, k], upper[:, k]) for k, axis in enumerate("xyz")}

@@ -19,6 +19,7 @@ from surfaces.ranges import bracket
 from surfaces.tape import Op, Tape
 
 MOST_TERMS = 64  # of a sum that is looked through
+MORE = 2  # how a covers b, where a > |b|
 _SLACK = 2.0**-44
 
 
@@ -127,15 +128,17 @@ def _related(ops: Sequence[Op], op: Op) -> Range:
     if op.name == "div":
         return Range(-1.0, 1.0) if ops[b].name == "sqrt" and _root_covers(ops, b, a) else ANY
     if op.name == "add":
-        return Range(low=0.0) if _covers(ops, a, b) or _covers(ops, b, a) else ANY
+        covered = max(_covers(ops, a, b), _covers(ops, b, a))
+        return Range(low=0.0, nonzero=covered == MORE) if covered else ANY
     if ops[b].name == "floor" and ops[b].args[0] == a:
         return Range(0.0, 1.0)
     if _modulo(ops, a, b):
         return Range(0.0, float("inf"))
-    if _covers(ops, a, b) or _is_one_of(ops[a], "max", b) or _is_one_of(ops[b], "min", a):
-        return Range(low=0.0)
-    if _covers(ops, b, a) or _is_one_of(ops[b], "max", a) or _is_one_of(ops[a], "min", b):
-        return Range(high=0.0)
+    covered, covering = _covers(ops, a, b), _covers(ops, b, a)
+    if covered or _is_one_of(ops[a], "max", b) or _is_one_of(ops[b], "min", a):
+        return Range(low=0.0, nonzero=covered == MORE)
+    if covering or _is_one_of(ops[b], "max", a) or _is_one_of(ops[a], "min", b):
+        return Range(high=0.0, nonzero=covering == MORE)
     return ANY
 
 
@@ -154,29 +157,31 @@ def _modulo(ops: Sequence[Op], a: int, b: int) -> bool:
     return bool(step > 0 and inner.args[1] == a and ops[inner.args[0]].args[0] * step == 1)
 
 
-def _covers(ops: Sequence[Op], a: int, b: int) -> bool:
-    """Return whether the structure shows a >= |b|."""
+def _covers(ops: Sequence[Op], a: int, b: int) -> int:
+    """Return MORE where the structure shows a > |b|, 1 where it shows a >= |b|, else 0."""
     if ops[a].name == "abs":
         inner = ops[a].args[0]
-        return b in (inner, a) or (ops[b].name == "neg" and ops[b].args[0] == inner)
-    return ops[a].name == "sqrt" and _root_covers(ops, a, b)
+        return int(b in (inner, a) or (ops[b].name == "neg" and ops[b].args[0] == inner))
+    return _root_covers(ops, a, b) if ops[a].name == "sqrt" else 0
 
 
-def _root_covers(ops: Sequence[Op], root: int, b: int) -> bool:
-    """Return whether the argument of a root is a sum of squares, even powers and constants with the square of b."""
+def _root_covers(ops: Sequence[Op], root: int, b: int) -> int:
+    """Return 1 or MORE where the argument of a root is a sum of squares, even powers and constants with that of b."""
     inner = ops[b].args[0] if ops[b].name in ("abs", "neg") else b
-    stack, steps, found = [ops[root].args[0]], 0, False
+    stack, steps, found, more = [ops[root].args[0]], 0, False, False
     while stack:
         op, steps = ops[stack.pop()], steps + 1
         if steps > MOST_TERMS:
-            return False
+            return 0
         if op.name == "add":
             stack += op.args
         elif op.name == "sqr":
             found = found or op.args[0] == inner
-        elif not (op.name == "const" and op.args[0] >= 0) and not (op.name == "powi" and op.args[1] % 2 == 0):
-            return False
-    return found
+        elif op.name == "const" and op.args[0] >= 0:
+            more = more or op.args[0] > 0
+        elif op.name != "powi" or op.args[1] % 2:
+            return 0
+    return (MORE if more else 1) if found else 0
 
 
 def _sum(a: float, b: float, outward: float) -> float:
@@ -239,7 +244,7 @@ def _power(a: Range, n: float) -> Range:
         if base <= 0.0 or base in (1.0, inf):
             return max(base, 0.0)
         try:
-            value = base**n
+            value = float(base**n)
         except OverflowError:
             return inf if outward > 0 else 1e300
         return max(0.0, value * (1.0 + (_SLACK if outward > 0 else -_SLACK)) + (1e-300 if outward > 0 else -1e-300))
@@ -263,7 +268,7 @@ def _logarithm(a: Range) -> Range:
     return Range(at(a.low, -inf), at(a.high, inf))
 
 
-def _own(op: Op, known: Sequence[Range]) -> Range:  # noqa: C901, PLR0911, PLR0912
+def _own(op: Op, known: Sequence[Range]) -> Range:
     """Return the range of an operation by the ranges of its inputs."""
     of = [known[i] for i in op.inputs]
     match op.name:

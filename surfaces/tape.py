@@ -25,6 +25,7 @@ from fractions import Fraction
 from typing import Any, TypeVar
 
 Number = TypeVar("Number")
+ONE = Fraction(1)
 LEAVES = frozenset({"const", "pi", "e", "var"})
 POWERS = frozenset({"powi", "powr"})  # their second argument is an exponent
 UNARY = ("sqrt", "exp", "log", "sin", "cos", "tan")  # smooth functions of one value
@@ -157,13 +158,20 @@ class Builder:
 
     def emit(self, name: str, *args: Any) -> int:
         """Return the index of an operation, which is added if it is not there yet."""
-        key = (name, *sorted(args)) if name in ("add", "mul", "min", "max") else (name, *args)
-        if key not in self._known:
-            self._known[key] = len(self.ops)
+        key: tuple[Any, ...]
+        if name in ("add", "mul", "min", "max"):
+            key = (name, *args) if args[0] <= args[1] else (name, args[1], args[0])
+        elif name == "const":
+            key = (args[0].numerator, args[0].denominator)  # a Fraction's own hash takes long
+        else:
+            key = (name, *args)
+        known = self._known.get(key)
+        if known is None:
+            known = self._known[key] = len(self.ops)
             op = Op(name, args)
-            self._constant.append(name != "var" and all(self._constant[i] for i in op.inputs))
+            self._constant.append(name != "var" and all([self._constant[i] for i in op.inputs]))
             self.ops.append(op)
-        return self._known[key]
+        return known
 
     def _split(self, index: int) -> tuple[Fraction, int | None]:
         """Split an operation into a rational factor and the rest; the rest is None for a rational constant."""
@@ -171,12 +179,12 @@ class Builder:
         if op.name == "const":
             return op.args[0], None
         if self._constant[index]:
-            return Fraction(1), index
+            return ONE, index
         if op.name == "neg":
             return Fraction(-1), op.args[0]
         if op.name == "mul" and (factor := self.value(op.args[0])) is not None:
             return factor, op.args[1]
-        return Fraction(1), index
+        return ONE, index
 
     def const(self, value: Fraction | int) -> int:
         return self.emit("const", Fraction(value))
@@ -216,7 +224,10 @@ class Builder:
         return self.emit("add" if total > 0 else "sub", rest, self.const(abs(total)))
 
     def _scaled(self, factor: Fraction, a: int) -> int:
-        """Return factor · a."""
+        """Return factor · a, with one factor before the rest of a."""
+        own, rest = self._split(a)
+        if rest is not None and own is not ONE:
+            factor, a = factor * own, rest
         if factor == 0:
             return self.const(0)
         if factor == 1:
@@ -258,7 +269,7 @@ class Builder:
         if p is None or q is None:
             rest = p if q is None else q
             return self.const(x * y) if rest is None else self._scaled(x * y, rest)
-        if x * y != 1 or x != 1:
+        if x is not ONE or y is not ONE:
             return self._scaled(x * y, self.mul(p, q))
         return self.sqr(a) if a == b else self.emit("mul", a, b)
 

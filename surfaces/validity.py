@@ -9,7 +9,6 @@ operation say (`guards`), and on boxes that are halved (`ranges`).
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,7 +18,7 @@ from surfaces.formula import degree
 from surfaces.guards import Guards, facts_of, guards_of, live_on
 from surfaces.lowering import enclosures
 from surfaces.model import Box, Domain, FirsthitError, Surface
-from surfaces.ranges import Pair, Ranges, halved, run, sides
+from surfaces.ranges import halved, has_value, run, sides
 from surfaces.signs import Range, ranges_of
 from surfaces.tape import Tape
 
@@ -40,14 +39,19 @@ Condition = tuple[str, int]  # the operation's name, and the index of the argume
 def check(surface: Surface) -> None:
     """Raise FirsthitError if f does not depend on x, y, z, or cannot be shown to be defined all over the domain."""
     tape = tape_of(surface)
+    check_constants(surface.name, tape)
+    if problem := undefined(tape, surface.domain):
+        raise FirsthitError(f"{surface.name}: {problem}")
+
+
+def check_constants(name: str, tape: Tape) -> None:
+    """Raise FirsthitError, which names the surface, if a tape's constants have no values, or it is constant itself."""
     try:
         enclosures(tape)
     except ZeroDivisionError as error:
-        raise FirsthitError(f"{surface.name}: {error}; the formula has no value") from None
+        raise FirsthitError(f"{name}: {error}; the formula has no value") from None
     if tape.constants()[tape.outputs[0]] or degree(tape) in (-1, 0):
-        raise FirsthitError(f"{surface.name}: the formula does not depend on x, y, z: it describes no surface")
-    if problem := undefined(tape, surface.domain):
-        raise FirsthitError(f"{surface.name}: {problem}")
+        raise FirsthitError(f"{name}: the formula does not depend on x, y, z: it describes no surface")
 
 
 def undefined(tape: Tape, domain: Domain) -> str | None:
@@ -156,25 +160,13 @@ def _open(
         values = list(run(tape, sides(lower, upper)))
         live = live_on(tape, values, n) if any(users.values()) else []
         for condition, of in users.items():
-            fails = np.broadcast_to(~_holds(condition[0], values[condition[1]]), n)
+            fails = np.broadcast_to(~has_value(condition[0], values[condition[1]]), n)
             if of:
                 fails = fails & np.logical_or.reduce([np.broadcast_to(live[i], n) for i in of])
             if first is None and fails.any():
                 first = condition
             open_ |= fails
     return open_, first
-
-
-def _holds(name: str, value: Pair) -> Any:
-    """Return on which boxes the range of its argument proves that an operation is defined: bool, or bool[n]."""
-    low, high = value
-    if name in ("sqrt", "powr"):
-        return np.asarray(low >= 0.0)
-    if name == "log":
-        return np.asarray(low > 0.0)
-    if name == "tan":
-        low, high = Ranges().cos(value)
-    return np.asarray((low > 0.0) | (high < 0.0))
 
 
 def outside(domain: Domain, lower: Floats64, upper: Floats64) -> NDArray[np.bool_]:

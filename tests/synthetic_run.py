@@ -126,6 +126,8 @@ def cell(variant: str, surface: str, device: str, precision: str) -> dict[str, A
         "surface_title": title,
         "formula": "x^2 + y^2 + z^2 - 1",
         "degree": degree,
+        "domain": "sphere:1.5",
+        "extent": None,
         "view": "front",
         "size": 256,
         "samples_per_pixel": 1,

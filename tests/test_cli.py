@@ -14,7 +14,7 @@ from .conftest import usable_devices
 pytestmark = pytest.mark.usefixtures("devices_found_once")
 
 COMMANDS = ("devices", "list", "plan", "run", "why", "report", "show", "sheet", "trace", "oracle", "compile")
-COMMANDS += ("gate", "bless", "history", "recommend")
+COMMANDS += ("gate", "bless", "history", "recommend", "kernel")
 
 
 @pytest.fixture
@@ -49,6 +49,7 @@ LEAST = {  # what a command cannot be parsed without
     "oracle": ["--surface", "torus", "--rays", "r.npy", "-o", "x.npz"],
     "bless": ["quick", "--reason", "r"],
     "recommend": ["--surface", "torus", "--error", "1"],
+    "kernel": ["--surface", "torus", "--method", "newton", "-o", "x"],
     "history": ["quick"],
     "new": ["method", "mine"],
 }
@@ -205,6 +206,7 @@ SHOW = ("show", "--surface", "sphere", "--method", "newton", "-o", "none.png")
 SHEET = ("sheet", "--method", "newton", "-o", "none.png")
 SCENE = ("scene", "pipes", "--method", "newton", "-o", "none.png")
 RECOMMEND = ("recommend", "--surface", "sphere", "--error", "1")
+KERNEL = ("kernel", "--surface", "sphere", "--method", "newton", "-o", "none")
 NUMBERS = {
     TRACE: ("--timeout", "--t-min"),
     ORACLE: ("--t-min",),
@@ -213,6 +215,7 @@ NUMBERS = {
     SCENE: ("--timeout", "--size"),
     ("conform",): ("--timeout",),
     ("compile",): ("--timeout",),
+    KERNEL: ("--timeout",),
     RECOMMEND: ("--error", "--fps", "--size", "--views", "--rays", "--seconds", "--seed"),
 }
 MAY_BE_NOTHING = ("--t-min", "--fps", "--seconds", "--seed")
@@ -252,6 +255,18 @@ def test_show_draws_the_sphere_in_the_middle(tmp_path, capsys):
     assert (picture[0, 0] == 255).all()
     assert picture[32, 32, 2] > picture[32, 32, 0]
     assert "0 exhausted" in out
+
+
+def test_show_tells_how_a_formula_was_read(tmp_path, capsys):
+    written = ("--formula", "x^2 + e y² + z^2 = a", "--parameter", "a=1/3", "--parameter", "e=sqrt(2)")
+    show = ("show", *written, "--method", "newton", "--size", "16", "-o", tmp_path / "a.png")
+    code, out, _ = told(capsys, *show)
+    assert code == 0
+    assert "read as: x^2 + sqrt(2)*y^2 + z^2 - 1/3\nnote: e is your parameter, not Euler's number\n" in out
+    refused = (("a=2", "'a' is given twice"), ("b=2", "no 'b' occurs in the formula; its parameters are a, e"))
+    for more, words in refused:
+        code, _, err = told(capsys, *show, "--parameter", more)
+        assert code == 2 and words in err
 
 
 @pytest.mark.parametrize("what", ["methods", "surfaces", "configs", "devices"])

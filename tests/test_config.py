@@ -84,6 +84,10 @@ def test_a_surface_of_the_configs_own(tmp_path):
         GOOD.replace('["sphere"]', '["mine"]') + '[surface.mine]\nformula = "x^2 + y^2 - a"\nparameters = { a = 0.5 }\n'
     )
     assert _load(tmp_path, text).surfaces[0].degree == 2
+    constant = _load(tmp_path, text.replace("a = 0.5", 'a = "sqrt(2)/3"')).surfaces[0]
+    assert constant.parameters == (("a", "sqrt(2)/3"),)
+    with pytest.raises(FirsthitError, match=r"c\.toml:\d+: .*no 'b' occurs in the formula"):
+        _load(tmp_path, text.replace("a = 0.5", "a = 0.5, b = 2"))
     with pytest.raises(FirsthitError, match=r"c\.toml:9: "):
         _load(tmp_path, text.replace("y^2 - a", "y^2 - b"))
 

@@ -27,6 +27,7 @@ EXACT_BOXES = 1500  # decided by balls alone, where float64 is the precision und
 FORMULAS = {
     "quotients": "x/(1.5 + y^2) - z/(2 + sin(x))",
     "roots": "sqrt(x^2 + y^2) - abs(z) + sqrt(2 + x)",
+    "distances": "sqrt(x^2 + y^2 + z^2) - 0.5 - sqrt(abs(x))",
     "waves": "sin(3*x)*cos(5*y) + sin(20*z + cos(x)) + tan(0.3*z)",
     "logs": "log(2.5 + x*y) - exp(3*z)",
     "extremes": "max(x, min(y, z) - 0.1, abs(x - y)) - pi/4",

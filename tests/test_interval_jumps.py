@@ -67,6 +67,9 @@ BORDERS = {  # f jumps where x = 0.5, or its parts do, and has no root near the 
     "floor(x + 0.5) - 1 + 0*y": True,  # 0 from the border on
     "atan2(y - 0.1, x - 2) + z": False,  # from pi to -pi across y = 0.1
     "mod(x, 0.5)": True,  # 0 on the border itself
+    "sign(x - 0.5)": True,  # 0 on the border, between -1 and 1
+    "2*sign(x - 0.5) + 1": False,  # -1, 1 and 3
+    "(mod(x, 0.5) - 0.25)^2 + (mod(y + 0.4, 0.5) - 0.25)^2 - 0.01": False,  # an edge where four cells meet
 }
 
 
@@ -85,7 +88,7 @@ def test_one_sided_ranges_are_needed() -> None:
     plain = surfaces.from_formula("x^2 + y^2 + z^2 - 1", "sphere:1.5")
     text = surface_sections(plain, ("surface_range",), "float32", "glsl")[-1].text
     assert "side" not in text
-    assert "range_of_side" in surface_sections(SURFACES[0], ("surface_range",), "float32", "glsl")[-1].text
+    assert "range_of_sides" in surface_sections(SURFACES[0], ("surface_range",), "float32", "glsl")[-1].text
 
 
 ANGLES = Section(

@@ -25,7 +25,7 @@ LAYERS = (  # from the ground up; what stands in one line does not import each o
     ("harness.studies",),
     ("harness.accuracy",),
     ("harness.experiment",),
-    ("harness.conformance", "harness.running"),
+    ("harness.conformance", "harness.running", "harness.shipping"),
     ("harness.gate", "harness.recommend"),
     ("firsthit",),
     ("harness.commands",),
@@ -41,7 +41,7 @@ REPORTS = (
     ("reports.material",),
     ("reports.parts", "reports.rendering"),
     ("reports.first_page",),
-    ("reports.report", "reports.compare", "reports.history"),
+    ("reports.report", "reports.compare", "reports.history", "reports.recommended"),
 )
 OTHERS = {  # rooms beside the tower, and all that they may import of ours
     "methods": ("firsthit", "harness.contract", "harness.kernels", "harness.scenes.meshes", "surfaces"),

@@ -13,8 +13,9 @@ from harness.contract import View
 from harness.devices.executor import LocalExecutor
 from harness.oracle import first_hits
 from harness.plugins import Catalog, find_methods
-from harness.recommend import candidates
-from harness.recommend.search import Search, Wish, certified_error
+from harness.recommend import candidates, search, telling
+from harness.recommend.model import Cause, Fallen, Wish
+from harness.recommend.search import Search, certified_error
 from harness.running.run import Watcher
 from harness.scenes.camera import camera_for, rays_of, scene_radius
 
@@ -41,14 +42,14 @@ def info():
     return usable_devices()[0]
 
 
-def _search(tmp_path, info, surface, methods=METHODS, **wished):
+def _search(tmp_path, info, surface, methods=METHODS, pictured=False, **wished):
     plugins = find_methods().plugins
     wish = Wish(surface, ERROR, size=64, views=2, rays=32, seconds=0.02)
     executor = LocalExecutor(60.0)
     try:
         catalog = Catalog({name: plugins[name] for name in methods})
-        search = Search(dataclasses.replace(wish, **wished), catalog, info, executor, tmp_path, Watcher())
-        return search.run()
+        made = Search(dataclasses.replace(wish, **wished), catalog, info, executor, tmp_path, Watcher())
+        return made.run(pictured)
     finally:
         executor.close()
 
@@ -83,12 +84,90 @@ def test_every_candidate_is_recommended_or_told_why_it_fell(tmp_path, info):
     told = [fallen.variant for fallen in found.fallen] + [c.variant for c in found.contenders]
     plugins = find_methods().plugins
     assert sorted(map(str, told)) == sorted(map(str, candidates.variants(Catalog({m: plugins[m] for m in methods}))))
-    whys = {(fallen.variant.method, fallen.why.split(",")[0]) for fallen in found.fallen}
-    assert any(method == "sphere_tracing" and "states no distance" in why for method, why in whys)
+    refused = next(fallen for fallen in found.fallen if fallen.variant.method == "sphere_tracing")
+    assert refused.cause is Cause.REFUSED and "states no distance" in refused.why
     loose = next(fallen for fallen in found.fallen if str(fallen.variant) == "newton[EPSILON=0.03]")
-    assert loose.why.startswith("max error ")
+    assert loose.cause is Cause.ERROR and loose.error > ERROR / 2
+    assert loose.why.startswith("has a max error of ")
     assert not found.contenders, "no device here draws a million frames per second"
-    assert any("frames/s at 64x64, not 1e+06" in fallen.why for fallen in found.fallen)
+    slow = [fallen for fallen in found.fallen if fallen.cause is Cause.FRAMES]
+    assert any("frames/s at 64x64, not the 1e+06 asked for" in fallen.why for fallen in slow)
+    assert min(fallen.times for fallen in slow) == 1.0
+    told = {one.method: one.sentence for one in telling.others(found, Wish(surface, ERROR, fps=1e6))}
+    assert set(told) == set(methods), "a sentence for each method"
+    assert told["sphere_tracing"].startswith("sphere_tracing cannot draw the surface here: ")
+    assert all(sentence.endswith(".") and sentence.count("\n") == 0 for sentence in told.values())
+
+
+def test_a_variant_that_could_not_be_timed_is_told_of(tmp_path, info, monkeypatch):
+    surface, rows = surfaces.from_formula("x^2 + 2*y^2 + z^2 - 1"), Search._rows
+
+    def untimed(self, of, precision, view, size, seconds=None, rays=None):
+        found = rows(self, of, precision, view, size, seconds, rays)
+        return {v: row | ({"time": None} if v.parameters == of[0].parameters else {}) for v, row in found.items()}
+
+    monkeypatch.setattr(Search, "_rows", untimed)
+    found = _search(tmp_path, info, surface, ("newton",), precision="float32")
+    told = [fallen.variant for fallen in found.fallen] + [c.variant for c in found.contenders]
+    assert len(told) == len(candidates.variants(Catalog({"newton": find_methods().get("newton")})))
+    assert any("could not be timed" in fallen.why for fallen in found.fallen)
+
+
+def test_only_methods_that_make_the_claims_and_whose_answers_do_not_disprove_them_are_tried(
+    tmp_path, info, monkeypatch
+):
+    surface, wanted = surfaces.from_formula("x^2 + 2*y^2 + z^2 - 1"), {"require": ("no_missed_root",)}
+    methods = ("newton", "interval_march")
+    found = _search(tmp_path, info, surface, methods, precision="float32", **wanted)
+    assert {contender.variant.method for contender in found.contenders} == {"interval_march"}
+    assert "no_missed_root" in found.contenders[0].claims and not found.contenders[0].disproved
+    fell = {fallen.cause for fallen in found.fallen if fallen.variant.method == "newton"}
+    assert fell == {Cause.CLAIM}
+    monkeypatch.setattr("harness.recommend.search.disproved", lambda claim, _: claim == "no_missed_root")
+    found = _search(tmp_path, info, surface, methods, precision="float32", **wanted)
+    assert not found.contenders
+    assert any("which its answers on view 1 of seed 1 disprove" in fallen.why for fallen in found.fallen)
+    best = _search(tmp_path, info, surface, ("interval_march",), precision="float32").contenders[0]
+    assert best.disproved == ("no_missed_root",)
+    assert "But answers of this search disprove no_missed_root." in telling.guarantee(best)
+
+
+def test_the_next_fastest_have_their_turn_where_none_of_the_fastest_holds(tmp_path, info, monkeypatch):
+    surface, reason = surfaces.from_formula("x^2 + 2*y^2 + z^2 - 1"), Search._reason
+    monkeypatch.setattr(search, "CONTENDERS", 1)
+    fell = []
+
+    def falls(self, variant, precision, row):
+        if "2 of" in row["view"] and len(fell) < 2:  # a view held out
+            fell.append(variant)
+            return Fallen(variant, precision, Cause.WRONG, "answers rays wrongly")
+        return reason(self, variant, precision, row)
+
+    monkeypatch.setattr(Search, "_reason", falls)
+    found = _search(tmp_path, info, surface, ("newton",), precision="float32", views=1)
+    assert len(fell) == 2 and [c.variant for c in found.contenders] and found.contenders[0].variant not in fell
+    told = [fallen.variant for fallen in found.fallen] + [c.variant for c in found.contenders]
+    assert len(set(told)) == len(told) == len(candidates.variants(Catalog({"newton": find_methods().get("newton")})))
+    assert {fallen.cause for fallen in found.fallen} >= {Cause.SLOW, Cause.WRONG}
+
+
+def test_what_does_not_hold_on_its_picture_is_not_recommended(tmp_path, info, monkeypatch):
+    surface, reason = surfaces.from_formula("x^2 + 2*y^2 + z^2 - 1"), Search._reason
+    monkeypatch.setattr(search, "PICTURE_RAYS", 24)
+    found = _search(tmp_path, info, surface, ("newton", "yuksel"), pictured=True)
+    first = found.contenders[0]
+    assert found.picture["accuracy"]["rays"] == 24 * 24 and (tmp_path / found.picture["arrays"]).exists()
+
+    def falls(self, variant, precision, row):
+        if row["view"] == "picture" and variant == first.variant:
+            return Fallen(variant, precision, Cause.WRONG, "answers rays wrongly on view picture")
+        return reason(self, variant, precision, row)
+
+    monkeypatch.setattr(Search, "_reason", falls)
+    again = _search(tmp_path, info, surface, ("newton", "yuksel"), pictured=True)
+    assert again.contenders[0].variant != first.variant
+    assert again.picture["variant"] == str(again.contenders[0].variant)
+    assert first.variant in [fallen.variant for fallen in again.fallen if fallen.cause is Cause.WRONG]
 
 
 def test_stored_rows_are_used_again(tmp_path, info):
@@ -148,6 +227,9 @@ def test_the_certified_error_holds_the_certificates_own_width():
             "there is no device 'opencl:none' here; known: open",
         ),
         (("--formula", "x + ", "--error", "1"), "x + "),
+        (("--surface", "sphere", "--error", "1", "--require", "no_mised_root"), "did you mean 'no_missed_root'"),
+        (("--surface", "sphere", "--error", "1", "-o", "page.doc"), "name it page.pdf"),
+        (("--surface", "sphere", "--error", "1", "-o", "no/page.pdf"), "no such folder"),
     ],
 )
 def test_mistakes_are_one_line(tmp_path, capsys, arguments, words):

@@ -196,7 +196,7 @@ def test_nothing_is_recommended_for_hits_that_nobody_decided(tmp_path, one, caps
     _only_newton(monkeypatch)
     assert _recommend(tmp_path, device, "x^2 + y^2 + z^2 - 1") == 1
     out = capsys.readouterr().out
-    assert "Nothing draws" in out
+    assert "No method draws" in out
     assert "hits undecided" in out
 
 

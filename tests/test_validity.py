@@ -119,7 +119,7 @@ def _choice(condition: str, part: str, other: str = "zero") -> Tape:
     }
     names["above"] = lambda p, q: b.sub(b.const(1), b.below(p, q))
     names["equal"] = lambda p, q: b.min(b.below(p, q), b.below(q, p))
-    return b.tape(b.sub(b.select(*(eval(text, names) for text in (condition, part, other))), names["z"]))  # noqa: S307
+    return b.tape(b.sub(b.select(*(eval(text, names) for text in (condition, part, other))), names["z"]))
 
 
 GUARDED = [  # what holds in the part that is taken: the very argument, the same sum in another form, a factor of it

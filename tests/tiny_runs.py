@@ -42,6 +42,9 @@ name = "uncompiled"
 [[method]]
 name = "null"
 
+[surface.octdong]
+domain = "sphere:0.9"
+
 [accuracy]
 size = 12
 

@@ -29,11 +29,16 @@ GROUPS: dict[str, dict[str, str]] = {
     "recommend": {
         "recommend": "the fastest variant whose certified error stays within a bound, and why the others fell",
     },
+    "shipping": {"kernel": "write a method's whole program for a surface, with an example that draws it"},
     "devices": {"devices": "the devices of this machine and what their arithmetic and clocks are worth"},
     "listing": {"list": "what there is to choose from"},
     "schema": {"schema": "print the JSON schema of configs, by which editors complete, explain and check them"},
     "completion": {"completion": "print what makes bash, zsh or fish complete commands, options, names and paths"},
     "pictures": {"show": "draw a shaded picture", "sheet": "draw every surface of the catalog on one sheet"},
+    "files": {
+        "import": "read a surface from another program's file, and say what was left out",
+        "export": "write a surface in another program's language",
+    },
     "scenes": {"scene": "draw a scene of a config, by rasterisation"},
     "rays": {"trace": "cast a file of rays by a method", "oracle": "certified first hits for a file of rays"},
     "new": {"new": "make a folder for a method of your own, which compiles, runs and is gated at once"},

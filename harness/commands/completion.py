@@ -132,6 +132,12 @@ def _parameters(options: Namespace) -> list[str]:
         return []
 
 
+def _claims(_options: Namespace) -> Iterable[str]:
+    from harness.contract import CLAIMS
+
+    return CLAIMS
+
+
 def _cells(options: Namespace) -> list[str]:
     """List the keys of the results in the folder that --runs names."""
     folder = getattr(options, "runs", None) or Path("runs")
@@ -156,6 +162,7 @@ COMPLETERS: dict[str, Callable[[Namespace], Iterable[str]]] = {  # by the destin
     "knob": _knobs,
     "parameter": _parameters,
     "cell": _cells,
+    "require": _claims,
 }
 FOLDERS = ("folder", "other")  # arguments that are folders
 FILES = ("surface", "cell")  # names that may be files

@@ -11,7 +11,7 @@ from collections.abc import Iterable
 
 from harness import conformance, console
 from harness.commands import Add
-from harness.commands.options import add_timeout, methods_of
+from harness.commands.options import add_timeout, methods_of, named_surface
 from harness.conformance import Finding
 from harness.contract import PRECISIONS, CellStatus
 from harness.devices.discovery import usable_devices
@@ -45,7 +45,7 @@ def _conform(options: argparse.Namespace) -> int:
     names = options.method or conformance.checkable(catalog)
     plugins = [catalog.get(name) for name in names]
     wanted = surfaces.names() if options.surface == ["all"] else options.surface or conformance.TYPICAL
-    chosen = [surfaces.get(name) for name in wanted]
+    chosen = [named_surface(name) for name in wanted]
     devices = usable_devices(options.device or ())
     executor = LocalExecutor(options.timeout)
     rows: list[tuple[str, str, Finding]] = []

@@ -12,6 +12,7 @@ from harness import console
 from harness.commands import Add
 from harness.commands.answers import experiments
 from harness.commands.machine import Answer, add_json
+from harness.commands.options import tell
 from harness.commands.printer import Printer
 from harness.contract import FirsthitError
 from harness.experiment import config, identity, plan
@@ -20,7 +21,7 @@ from harness.plugins import find_methods
 from harness.results.history import past_of
 from harness.results.store import Row, Store
 from harness.running.due import due, estimates
-from harness.running.run import Loaded, load, run
+from harness.running.run import Loaded, load, remarks, run
 
 
 def add_parsers(add: Add) -> None:
@@ -77,7 +78,9 @@ def _plan(options: argparse.Namespace) -> int | Answer:
 
 
 def _planned(part: config.Experiment, loaded: Loaded, runs: Path) -> experiments.PlanFacts:
-    """Say which cells a config has, and which of them have a row below `runs`."""
+    """Say which cells a config has, and which have a row below `runs`; on standard error what domains leave out."""
+    for told in remarks(part):
+        tell(f"firsthit: {told}")
     planned = plan.plan(part, loaded.catalog, loaded.devices)
     store = Store(runs / part.name)
     found = due(planned, store)

@@ -8,7 +8,7 @@ import sys
 
 from harness import console
 from harness.commands import Add
-from harness.commands.options import add_timeout, methods_of
+from harness.commands.options import add_timeout, methods_of, named_surface
 from harness.devices.discovery import usable_devices
 from harness.running.compiling import compile_all
 from harness.running.failures import mistakes
@@ -32,7 +32,7 @@ def _compile(options: argparse.Namespace) -> int:
 
     catalog = methods_of(options)
     plugins = [catalog.get(name) for name in options.method or sorted(catalog.plugins)]
-    chosen = [surfaces.get(name) for name in options.surface or (TYPICAL if options.formula is None else ())]
+    chosen = [named_surface(name) for name in options.surface or (TYPICAL if options.formula is None else ())]
     chosen += [] if options.formula is None else [surfaces.from_formula(options.formula, options.domain)]
     usable = usable_devices(options.device or ())
     with console.Working() as tell:

@@ -12,7 +12,7 @@ from harness import console
 from harness.commands import Add
 from harness.commands.answers import listed
 from harness.commands.machine import Answer, add_json
-from harness.contract import CLAIMS, Box, DeviceInfo, Domain, FirsthitError, Parameter, Surface
+from harness.contract import CLAIMS, DeviceInfo, FirsthitError, Parameter, Surface
 from harness.experiment import shipped
 from harness.plugins import Catalog, Plugin, find_methods
 
@@ -155,7 +155,7 @@ def _surface(surface: Surface, group: str) -> listed.SurfaceFacts:
         source=surface.source,
         formula=surface.formula,
         degree=surface.degree,
-        domain=_domain(surface.domain),
+        domain=listed.domain_facts(surface.domain),
         parameters=dict(surface.parameters),
         operations=surfaces.operations(surface),
         distance=surface.distance,
@@ -163,15 +163,6 @@ def _surface(surface: Surface, group: str) -> listed.SurfaceFacts:
         feature_radius=surface.feature_radius,
         facts=dict(surface.facts),
     )
-
-
-def _domain(domain: Domain) -> listed.DomainFacts:
-    x, y, z = domain.center
-    radius = domain.radius
-    if isinstance(domain, Box):
-        return listed.DomainFacts("box", (x, y, z), radius, domain.lower, domain.upper)
-    lower, upper = ((x - radius, y - radius, z - radius), (x + radius, y + radius, z + radius))
-    return listed.DomainFacts("sphere", (x, y, z), radius, lower, upper)
 
 
 def _titles() -> list[tuple[Path, str]]:

@@ -14,6 +14,7 @@ from harness.plugins import Catalog, find_methods
 from harness.running.trace import Caster, usable_device
 
 N = TypeVar("N", int, float)
+SURFACE_OPTIONS = ("surface", "formula", "domain", "distance")  # of add_surface, but for the parameters
 
 
 def number(limit: Limit) -> Callable[[str], float]:
@@ -44,9 +45,13 @@ def _within(value: N, limit: Limit) -> N:
 def add_surface(parser: argparse.ArgumentParser) -> None:
     """Add the options that name a surface, which `surface_of` reads."""
     which = parser.add_mutually_exclusive_group(required=True)
-    which.add_argument("--surface", metavar="NAME", help="a surface of the catalog, see `firsthit list surfaces`")
+    help_ = "a surface of the catalog, see `firsthit list surfaces`, or a file that `firsthit import` reads"
+    which.add_argument("--surface", metavar="NAME", help=help_)
     which.add_argument("--formula", metavar="F", help="f(x, y, z) of your own, as in 'x^2 + y^2*z^3 - z^4'")
-    parser.add_argument("--domain", metavar="D", help="sphere:R or box:X,Y,Z (half extents); default sphere:1.5")
+    domain = "sphere:R, sphere:X,Y,Z:R, box:X,Y,Z (half extents), or auto for a box that is found; default sphere:1.5"
+    parser.add_argument("--domain", metavar="D", help=domain)
+    distance = "a formula that is nowhere larger than the distance to the surface, for sphere_tracing; it is tested"
+    parser.add_argument("--distance", metavar="F", help=distance)
     parser.add_argument("--parameter", action="append", default=[], metavar="NAME=VALUE", help="of the surface")
 
 
@@ -73,27 +78,66 @@ def add_origin(parser: argparse.ArgumentParser) -> None:
 
 
 def _assignments(texts: list[str], option: str) -> dict[str, str]:
-    """Read NAME=VALUE from each text. Raises FirsthitError, which names the option, for anything else."""
+    """Read NAME=VALUE from each text.
+
+    Raises FirsthitError, which names the option, for other text and for a name that is given twice.
+    """
     pairs = {}
     for text in texts:
         name, equals, value = text.partition("=")
         if not equals or not name.strip() or not value.strip():
             raise FirsthitError(f"{option} {text!r}: write NAME=VALUE")
+        if name.strip() in pairs:
+            raise FirsthitError(f"{option} {text!r}: {name.strip()!r} is given twice")
         pairs[name.strip()] = value.strip()
     return pairs
+
+
+def given_parameters(options: argparse.Namespace) -> dict[str, str | float]:
+    """Return the values that --parameter gives. Raises FirsthitError for what is not NAME=VALUE."""
+    return dict(_assignments(options.parameter, "--parameter"))
+
+
+def named_surface(
+    name: str,
+    parameters: dict[str, str | float] | None = None,
+    domain: str | None = None,
+    distance: str | None = None,
+) -> Surface:
+    """Return a surface of the catalog or of a file, and say on standard error what of the file was left out.
+
+    Raises FirsthitError where there is none, or where it cannot be made.
+    """
+    import surfaces
+    from surfaces import files
+
+    if files.is_file(name):
+        imported = files.load(name, domain, parameters, distance)
+        for remark in imported.remarks:
+            tell(f"firsthit: {name}: {remark}")
+        return imported.surface
+    for option, given in (("--domain", domain), ("--distance", distance)):
+        if given is not None:
+            raise FirsthitError(f"{option} goes with --formula and with files; a surface of the catalog has its own")
+    return surfaces.get(name, **(parameters or {}))
 
 
 def surface_of(options: argparse.Namespace) -> Surface:
     """Return the surface that --surface or --formula names. Raises FirsthitError where it cannot be made."""
     import surfaces
 
-    parameters = _assignments(options.parameter, "--parameter")
+    parameters = given_parameters(options)
     if options.surface is not None:
-        if options.domain is not None:
-            raise FirsthitError("--domain goes with --formula; a surface of the catalog has its own")
-        return surfaces.get(options.surface, **parameters)
+        return named_surface(options.surface, parameters, options.domain, options.distance)
     domain = "sphere:1.5" if options.domain is None else options.domain
-    return surfaces.from_formula(options.formula, domain, parameters=parameters)
+    return surfaces.from_formula(options.formula, domain, parameters=parameters, distance=options.distance)
+
+
+def surface_words(options: argparse.Namespace) -> list[str]:
+    """Return the words of a command line by which the options of `add_surface` name the same surface again."""
+    given = [(name, getattr(options, name, None)) for name in SURFACE_OPTIONS]
+    words = [word for name, value in given if value is not None for word in (f"--{name}", str(value))]
+    return words + [word for text in options.parameter for word in ("--parameter", text)]
 
 
 def _number(text: str, name: str) -> float | int:

@@ -26,6 +26,7 @@ from harness.contract import FirsthitError, RayStatus, View
 from harness.limits import FIELD_OF_VIEW, PICTURE, Within
 from harness.results.writing import write_atomically
 from harness.running.picture import picture
+from surfaces import reading
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -88,6 +89,8 @@ def _show(options: argparse.Namespace) -> int:
     told = f"{np.mean(hits.status == RayStatus.HIT):.1%} of {len(hits.t)} rays hit, {exhausted} exhausted"
     bad = invalid(hits)
     print(f"{output}: {told}" + (f", {bad} invalid" if bad else ""))
+    for line in reading(surface).told() if options.formula is not None else ():
+        print(line)
     return 0
 
 

@@ -3,29 +3,39 @@
 from __future__ import annotations
 
 import argparse
+import importlib.util
+import shlex
+import textwrap
 from pathlib import Path
 
 from harness import console
 from harness.commands import Add
-from harness.commands.options import add_surface, methods_of, number, surface_of, whole
+from harness.commands.answers import recommending
+from harness.commands.answers.recommending import Beside
+from harness.commands.machine import Answer, add_json
+from harness.commands.options import add_surface, methods_of, number, surface_of, surface_words, whole, writable
 from harness.commands.printer import Printer
-from harness.contract import PRECISIONS
+from harness.commands.shipping import command_for
+from harness.contract import CLAIMS, PRECISIONS, FirsthitError
 from harness.limits import PIXELS, RAYS, SECONDS, SEED
-from harness.recommend.search import (
-    ERROR,
-    FPS,
-    HEADROOM,
-    QUANTILES,
-    VIEWS,
-    Fallen,
-    Recommendation,
-    Wish,
-    named,
-    recommend,
-)
+from harness.plugins import Catalog
+from harness.recommend import telling
+from harness.recommend.model import ERROR, FPS, HEADROOM, QUANTILES, VIEWS, Recommendation, Wish, named
+from harness.recommend.search import recommend
 
 NOTHING_HOLDS = 1
-REASON = 110  # characters of a reason that are printed
+PAGES = (".pdf", ".html", ".png")
+WIDTH = 118  # characters of a line that is printed
+USUAL = {
+    "quantile": "max",
+    "fps": 0.0,
+    "size": 512,
+    "precision": None,
+    "views": 5,
+    "rays": 64,
+    "seconds": 1.0,
+    "seed": 1,
+}
 
 
 def add_parsers(add: Add) -> None:
@@ -41,26 +51,37 @@ def add_parsers(add: Add) -> None:
     parser.add_argument(
         "--quantile",
         choices=QUANTILES,
-        default="max",
+        default=USUAL["quantile"],
         help=f"of the errors that must keep E; max leaves a factor {HEADROOM:g} for rays not sampled (default: max)",
     )
-    parser.add_argument("--fps", type=number(FPS), default=0.0, metavar="N", help="frames per second at least")
-    parser.add_argument("--size", type=whole(PIXELS), default=512, help="pixels per side that are timed (default: 512)")
+    fps, size, views = USUAL["fps"], USUAL["size"], USUAL["views"]
+    parser.add_argument("--fps", type=number(FPS), default=fps, metavar="N", help="frames per second at least")
+    claims = f"only methods that claim this of their answers: {', '.join(CLAIMS)}; may be repeated"
+    parser.add_argument("--require", action="append", default=[], metavar="CLAIM", help=claims)
+    parser.add_argument(
+        "--size", type=whole(PIXELS), default=size, help="pixels per side that are timed (default: 512)"
+    )
     parser.add_argument("--precision", choices=PRECISIONS, help="default: float32, and float64 where none holds")
     parser.add_argument("--device", metavar="NAME", help="see `firsthit list devices`; default: the first usable one")
-    parser.add_argument("--views", type=whole(VIEWS), default=5, metavar="N", help="views to choose by (default: 5)")
+    parser.add_argument(
+        "--views", type=whole(VIEWS), default=views, metavar="N", help="views to choose by (default: 5)"
+    )
     rays = "rays per side checked a view (default: 64)"
-    parser.add_argument("--rays", type=whole(RAYS), default=64, metavar="N", help=rays)
+    parser.add_argument("--rays", type=whole(RAYS), default=USUAL["rays"], metavar="N", help=rays)
     seconds = "of timing a variant and view (default: 1)"
-    parser.add_argument("--seconds", type=number(SECONDS), default=1.0, metavar="S", help=seconds)
-    parser.add_argument("--seed", type=whole(SEED), default=1, help="of the views (default: 1)")
+    parser.add_argument("--seconds", type=number(SECONDS), default=USUAL["seconds"], metavar="S", help=seconds)
+    parser.add_argument("--seed", type=whole(SEED), default=USUAL["seed"], help="of the views (default: 1)")
     parser.add_argument("--runs", type=Path, default=Path("runs"), metavar="DIR", help="rows go here (default: runs)")
+    page = "write the answer as a page with a picture and its error map: FILE.pdf, FILE.html or FILE.png"
+    parser.add_argument("-o", "--output", type=Path, metavar="FILE", help=page)
+    add_json(parser)
     parser.set_defaults(run=_recommend)
 
 
-def _recommend(options: argparse.Namespace) -> int:
+def _recommend(options: argparse.Namespace) -> int | Answer:
+    surface, page = surface_of(options), options.output
     wish = Wish(
-        surface=surface_of(options),
+        surface=surface,
         error=options.error,
         quantile=options.quantile,
         fps=options.fps,
@@ -70,10 +91,25 @@ def _recommend(options: argparse.Namespace) -> int:
         rays=options.rays,
         seed=options.seed,
         seconds=options.seconds,
+        require=tuple(dict.fromkeys(options.require)),
     )
-    found = recommend(wish, methods_of(options), options.device, options.runs, _Printer())
-    print(_answer(found, wish))
-    return 0 if found.contenders else NOTHING_HOLDS
+    if page is not None:
+        _check_page(page)
+    catalog = methods_of(options)
+    found = recommend(wish, catalog, options.device, options.runs, _Printer(), pictured=page is not None)
+    again, ship = _commands(found, options, catalog)
+    beside = Beside(again, ship, page)
+    code = 0 if found.contenders else NOTHING_HOLDS
+    if page is not None:
+        from harness.commands.recommended import write_page
+
+        write_page(found, wish, beside, page)
+    if options.json:
+        return Answer(recommending.recommend(found, wish, beside), code)
+    print(printed(found, wish, beside))
+    if page is not None:
+        print(f"\npage       {page}")
+    return code
 
 
 class _Printer(Printer):
@@ -83,17 +119,52 @@ class _Printer(Printer):
         self.warned(line)
 
 
-def _answer(found: Recommendation, wish: Wish) -> str:
-    """Say which variant is recommended, how fast and how certain it is, and why the other variants were dropped."""
-    device = found.device
-    bound = f"a {wish.quantile} error of {wish.error:.2g}"
+def _check_page(path: Path) -> None:
+    """Raise FirsthitError, before long work, where no page can be written to `path`, or a package for it is missing."""
+    if writable(path).suffix.lower() not in PAGES:
+        raise FirsthitError(f"cannot write {path}: a page is one of {', '.join(PAGES)}; name it {path.stem}.pdf")
+    for package in ("matplotlib", "pandas", "PIL", "typst"):
+        if not importlib.util.find_spec(package):
+            raise FirsthitError(f"a page needs the package {package}: pip install 'firsthit[report]'", exit_code=3)
+
+
+def _commands(found: Recommendation, options: argparse.Namespace, catalog: Catalog) -> tuple[str, str | None]:
+    """Return the commands that make the same search again and that ship what is recommended; None where nothing is."""
+    words = ["firsthit", "recommend", *surface_words(options), "--error", f"{options.error:g}"]
+    given = {name: getattr(options, name) for name, usual in USUAL.items() if getattr(options, name) != usual}
+    words += [word for name, value in given.items() for word in (f"--{name}", str(value))]
+    words += [word for claim in options.require for word in ("--require", claim)]
+    words += ["--plugins", str(options.plugins)] if options.plugins else []
+    again = shlex.join([*words, "--device", found.device.name])
     if not found.contenders:
-        head = f"Nothing draws {wish.surface.title} on {device.name} within {bound}. Why each variant fell:"
-        return "\n".join([head, _fallen(found), *([told] if (told := _undecided(found)) else [])])
+        return again, None
     best = found.contenders[0]
-    speed = f"{best.ms:.3g} ms a frame, {1e3 / best.ms:.3g} frames/s at {wish.size}x{wish.size}"
-    views = f"{wish.views} views to choose by and {wish.held_out_views} held out"
-    columns = ("variant", "precision", "ms", "times", f"{wish.quantile} error", "evaluations")
+    made = command_for(options, catalog, best.variant, best.precision)
+    return again, f"{made} --device {found.device.name} -o DIR"
+
+
+def printed(found: Recommendation, wish: Wish, beside: Beside) -> str:
+    """Say what is asked, what is recommended, how fast and how certain it is, and why the others are not."""
+    told = {"question": telling.question(found, wish), "answer": telling.answer(found, wish)}
+    told |= {"mind": telling.mind(found)} if found.extent else {}
+    told |= telling.certainty(found, wish)
+    parts = [_paragraph(name, text) for name, text in told.items()]
+    parts += [f"again      {beside.again}", *([f"ship       {beside.ship}"] if beside.ship else [])]
+    if found.contenders:
+        parts += ["", _table(found, wish)]
+    parts += ["", "Why other variants are not recommended, a sentence for each method:"]
+    for other in telling.others(found, wish):
+        parts.append(textwrap.fill(other.sentence, WIDTH, initial_indent="- ", subsequent_indent="  "))
+    return "\n".join(parts)
+
+
+def _paragraph(name: str, text: str) -> str:
+    return textwrap.fill(text, WIDTH, initial_indent=f"{name:<10} ", subsequent_indent=" " * 11, break_on_hyphens=False)
+
+
+def _table(found: Recommendation, wish: Wish) -> str:
+    best = found.contenders[0]
+    columns = ("variant", "precision", "ms", "times", f"{wish.quantile} error", "evaluations", "claims")
     rows = [
         (
             named(c.variant),
@@ -102,41 +173,8 @@ def _answer(found: Recommendation, wish: Wish) -> str:
             f"{c.ms / best.ms:.3g}",
             f"{c.error:.2g}",
             f"{c.evaluations:.4g}",
+            ", ".join(c.claims) or "none",
         )
         for c in found.contenders
     ]
-    return "\n".join(
-        [
-            f"{named(best.variant)} in {best.precision} is the fastest that draws {wish.surface.title} within {bound} "
-            f"on {device.name}: {speed}.",
-            f"Outside the grazing and the drowned class no ray is wrong on {views}. Were more than a share of "
-            f"{3.0 / found.held_out:.1e} wrong, the {found.held_out} held-out rays would have shown it 19 times in 20.",
-            *([told] if (told := _undecided(found)) else []),
-            "",
-            console.table(columns, rows),
-            "",
-            "Why the others fell:",
-            _fallen(found),
-        ]
-    )
-
-
-def _undecided(found: Recommendation) -> str:
-    """Say how many hits the oracle could not decide; "" where it decided all."""
-    if not found.undecided:
-        return ""
-    return (
-        f"The oracle left {found.undecided} of {found.decided + found.undecided} hits undecided; they bound no error."
-    )
-
-
-def _fallen(found: Recommendation) -> str:
-    """Write a line for each variant that fell; one line for all variants of a method that fell for the same reason."""
-    grouped: dict[tuple[str, str, str], list[Fallen]] = {}
-    for fallen in found.fallen:
-        grouped.setdefault((fallen.variant.method, fallen.precision, fallen.why), []).append(fallen)
-    rows = []
-    for (method, precision, why), alike in grouped.items():
-        name = named(alike[0].variant) if len(alike) == 1 else f"{method}, {len(alike)} variants"
-        rows.append((name, precision, why if len(why) <= REASON else why[: REASON - 2] + " …"))
-    return console.table(("variant", "precision", "why"), rows) if rows else "none did"
+    return console.table(columns, rows)

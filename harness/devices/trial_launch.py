@@ -27,6 +27,8 @@ def trial_launch(device: Device, program: Program, built: Built) -> Launch:
         buffers = [camera, *answer, span, ray, np.zeros(1, np.int32)] if narrowed else [ray, *answer]
     elif program.entry == "camera":
         buffers = [camera, *answer, span] if narrowed else [camera, *answer]
+    elif program.entry == "draw":
+        buffers = [camera, *answer, Reserved(3, np.float32)]
     elif program.entry == "beams":
         buffers = [camera, *answer, Reserved(PARENT, np.int32), Reserved(LEVELS, np.int32)]
         numbers = {"size": 1, "level": -1, "last": 0, "source": -1, "target": 0}

@@ -38,14 +38,16 @@ def _value(kind: Any, value: Any, where: Where, source: ConfigFile) -> Any:
     """Return `value` as `kind` states it.
 
     A kind is a dataclass, str, float, int, bool, a Literal of words, a list, tuple or dict of kinds, a union of one
-    with None, or any of these Annotated with limits. Raises FirsthitError for a value of another kind or past its
-    limits.
+    with None or with str, or any of these Annotated with limits. Raises FirsthitError for a value of another kind or
+    past its limits.
     """
     origin = typing.get_origin(kind)
     if origin is typing.Annotated:
         return _limited(typing.get_args(kind), value, where, source)
     if origin in (types.UnionType, typing.Union):
-        return _value(next(k for k in typing.get_args(kind) if k is not type(None)), value, where, source)
+        kinds = typing.get_args(kind)
+        text = isinstance(value, str) and str in kinds
+        return _value(str if text else next(k for k in kinds if k is not type(None)), value, where, source)
     if origin is typing.Literal:
         return _word(typing.get_args(kind), value, where, source)
     if origin is list:

@@ -161,22 +161,38 @@ def _surfaces(config: Config, file: ConfigFile) -> list[Surface]:
     named = [surfaces.names(groups[name]) if name in groups else (name,) for name in config.surfaces]
     for name in dict.fromkeys(name for own in named for name in own):
         try:
-            chosen.append(_surface(name, {}, config))
+            chosen.append(_surface(name, {}, config, file.path.parent))
         except FirsthitError as error:
-            where: Where = ("surface", name, "formula") if name in config.surface else ("surfaces",)
+            stated = config.surface.get(name)
+            where: Where = ("surface", name, "file" if stated.file else "formula") if stated else ("surfaces",)
             raise file.error(where, str(error)) from None
     return chosen
 
 
-def _surface(name: str, parameters: Mapping[str, float], config: Config) -> Surface:
-    """Return a surface of the config's own, or of the catalog, with `parameters` bound."""
+def _surface(name: str, parameters: Mapping[str, float | str], config: Config, folder: Path) -> Surface:
+    """Return a surface of the config's own, of a file, or of the catalog, with `parameters` bound.
+
+    Files are looked for from `folder`. Raises FirsthitError where there is none, or where it cannot be made.
+    """
     import surfaces
 
     stated = config.surface.get(name, SurfaceChoice())
-    given = {key: repr(value) for key, value in {**stated.parameters, **parameters}.items()}
+    bound = {**stated.parameters, **parameters}
+    given = {key: value if isinstance(value, str) else repr(value) for key, value in bound.items()}
+    if stated.file:
+        from surfaces import files
+
+        if stated.formula:
+            raise FirsthitError(f"surface {name!r} has a formula and a file; give one of them")
+        made = files.load(folder / stated.file, stated.domain or None, dict(given), stated.distance or None).surface
+        return dataclasses.replace(made, name=name)
     if not stated.formula:
+        if stated.distance:
+            raise FirsthitError("a distance goes with a formula; a surface of the catalog has its own")
         return cut(surfaces.get(name, **given), stated.domain)
-    return surfaces.from_formula(stated.formula, stated.domain or "sphere:1.5", name=name, parameters=given)
+    return surfaces.from_formula(
+        stated.formula, stated.domain or "sphere:1.5", name=name, parameters=given, distance=stated.distance or None
+    )
 
 
 def _scenes(config: Config, file: ConfigFile, catalog: Catalog) -> list[Scene]:
@@ -187,7 +203,9 @@ def _scenes(config: Config, file: ConfigFile, catalog: Catalog) -> list[Scene]:
             scenes += scenes_of(
                 name,
                 choice,
-                lambda placed: cut(_surface(placed.surface, placed.parameters, config), placed.domain),
+                lambda placed: cut(
+                    _surface(placed.surface, placed.parameters, config, file.path.parent), placed.domain
+                ),
                 lambda placed: catalog.get(placed.method, file.path.parent).variant(placed.knobs),
             )
         except FirsthitError as error:

@@ -9,7 +9,7 @@ FUNCTIONS holds the names that a method may need, and `Method.needs` those that 
     surface_gradient          vec3 surface_gradient(vec3 p)
     surface_hessian_product   vec3 surface_hessian_product(vec3 p, vec3 v)
     surface_normal            vec3 surface_normal(vec3 p)                         the unit vector along f's gradient
-    surface_distance          real surface_distance(vec3 p)                       for surfaces that state a distance
+    surface_distance          real surface_distance(vec3 p)                       for surfaces that have a distance
     surface_distance_normal   vec3 surface_distance_normal(vec3 p)                the unit vector along the distance's
                               gradient; on a torus that of P - C with C = (R x / rho, R y / rho, 0), toledo2007,
                               equation 6. Either normal is the zero vector if its gradient is zero or not finite
@@ -43,6 +43,7 @@ from harness.contract import GENERATED, Box, FirsthitError, Precision, Section, 
 from harness.kernels.printing import Language, RealPrinter, function_text, functions_used, operations_used, table
 from harness.kernels.ranges import range_function, range_operations
 from harness.kernels.reach import safe_reach
+from harness.oracle.stated_distance import refutation
 from surfaces.evaluation import tape_of
 from surfaces.formula import parse
 from surfaces.lowering import coefficients_along, gradient, hessian_product, real_tape, tangent
@@ -53,7 +54,7 @@ MAX_EXPANDED_DEGREE = 4
 MAX_FITTED_DEGREE = 20
 # How many operations on reals and on intervals a program's functions may have. The compiler of each language that takes
 # most of them needs 20 s for as many (Mesa 22.3; Intel 2026.2 and PoCL 3.1; unions of spheres, ray_march and
-# interval_march). tests/compile_times.py measures it.
+# interval_march). tests/benchmarks/compile_times.py measures it.
 MOST_OPERATIONS: dict[Language, dict[str, int]] = {
     "glsl": {"real": 10_000, "interval": 1_800},
     "cl": {"real": 30_000, "interval": 2_500},
@@ -297,9 +298,11 @@ class _Writer:
         )
 
     def _distance(self, needed_by: str) -> Tape:
-        """Return the distance function that the surface states. Raises FirsthitError if it states none."""
+        """Return the surface's distance function. Raises FirsthitError if it has none, or a wrong one."""
         if self.surface.distance is None:
-            raise FirsthitError(f"{self.surface.name} states no distance function, which {needed_by} needs")
+            raise FirsthitError(f"{self.surface.name} has no distance function, which {needed_by} needs")
+        if problem := refutation(self.surface):
+            raise FirsthitError(problem)
         return real_tape(parse(self.surface.distance, dict(self.surface.parameters), self.free))
 
     def surface_distance(self) -> str:

@@ -1,9 +1,10 @@
 """Write surface_range, f's interval extension, with what keeps jumps from looking like roots.
 
 Over a box that a jump crosses, such as one at the border of two cells of mod(x, 1), an interval holds everything
-between the values on both sides, 0 too, however small the box is. So where the box is crossed by one jump, f is bounded
-again on either side alone: the jump takes its lower value everywhere, and then its upper one. f has a root in the box
-only if one of these holds 0. A box that several jumps cross is not looked at again.
+between the values on both sides, 0 too, however small the box is. So where up to MOST_OPEN operations jump in a box,
+from one value to another, f is bounded again for each way in which each of them may take one of its two values
+everywhere. f has a root in the box only if one of these ranges holds 0. Where more jump, or one has more than two
+values, f is not bounded again.
 """
 
 from __future__ import annotations
@@ -17,35 +18,47 @@ from surfaces.tape import Op, Tape
 
 SIDED = frozenset({"floor", "below", "atan2"})  # operations that jump by themselves
 _PARAMETERS = "Interval x, Interval y, Interval z"
+MOST_OPEN = 3
 _BY_SIDES = """
-// Returns an interval that holds f in a box. If f jumps there from one sign to the other, and has no root on either
-// side, it is that of one side.
+// Returns an interval that holds f in a box. If f jumps there from one sign to the other, and has no root on any side,
+// it is that of one side. Bit k of `sides` says which value the jump number k takes; -1 stands for both values of all.
 Interval surface_range(Interval x, Interval y, Interval z) {
-    Sided whole = range_of_side(x, y, z, 0);
-    if (whole.open != 1 || without_zero(whole.range)) return whole.range;
-    Interval p = range_of_side(x, y, z, 1).range;
-    Interval q = range_of_side(x, y, z, 2).range;
-    if (!without_zero(p) || !without_zero(q)) return whole.range;
-    return (p.lo > 0.0) == (q.lo > 0.0) ? make_interval(min(p.lo, q.lo), max(p.hi, q.hi)) : p;
-}"""
+    Sided whole = range_of_sides(x, y, z, -1);
+    if (whole.open < 1 || whole.open > MOST_OPEN || without_zero(whole.range)) return whole.range;
+    Interval first = whole.range;
+    Interval all = whole.range;
+    bool alike = true;
+    int ways = 1 << whole.open;
+    int tried = 0;
+    for (int sides = 0; sides < ways; sides++) {
+        Sided one = range_of_sides(x, y, z, sides);
+        if (!without_zero(one.range) || one.open > whole.open) return whole.range;
+        if (sides == 0) first = one.range;
+        all = sides == 0 ? one.range : make_interval(min(all.lo, one.range.lo), max(all.hi, one.range.hi));
+        alike = alike && (one.range.lo > 0.0) == (first.lo > 0.0);
+        tried += 1;
+    }
+    if (tried < ways) return whole.range;
+    return alike ? all : first;
+}""".replace("MOST_OPEN", str(MOST_OPEN))
 
 
 class SidedPrinter(IntervalPrinter):
-    """Print a tape as IntervalPrinter does, with jumps that take the side `side`, and count the open ones in `open`."""
+    """Print a tape as IntervalPrinter does, with jumps that take the values that `sides` says, counted in `open`."""
 
     def statement(self, name: str, op: Op, names: list[str], factors: Mapping[int, str | None]) -> str:
         text = super().statement(name, op, names, factors)
         if op.name not in SIDED:
             return text
         args = ", ".join(names[i] for i in op.args)
-        return f"open += open_{op.name}({args}); Interval {name} = sided_{op.name}({args}, side);"
+        return f"Interval {name} = sided_{op.name}({args}, sides, open); open += open_{op.name}({args});"
 
 
 def range_operations(tape: Tape) -> int:
-    """Return how many operations on intervals surface_range is made of: compilers copy what it calls for each side."""
+    """Return how many operations on intervals surface_range is made of: compilers copy what it calls twice."""
     fixed = tape.constants()
     count = sum(op.name != "var" and not known for op, known in zip(tape.ops, fixed, strict=True))
-    return 3 * count if SIDED & set(operations_used(tape)) else count
+    return 2 * count if SIDED & set(operations_used(tape)) else count
 
 
 def range_function(
@@ -77,5 +90,5 @@ def range_function(
     if not sided:
         return function_text(f"Interval surface_range({_PARAMETERS})", lines, f"return {value};")
     last = ["Sided sided;", f"sided.range = {value};", "sided.open = open;", "return sided;"]
-    one = function_text(f"Sided range_of_side({_PARAMETERS}, int side)", ["int open = 0;", *lines], *last)
+    one = function_text(f"Sided range_of_sides({_PARAMETERS}, int sides)", ["int open = 0;", *lines], *last)
     return one + "\n" + _BY_SIDES

@@ -11,10 +11,12 @@ import math
 from harness.contract import Box, Precision, Surface
 from surfaces.evaluation import tape_of
 from surfaces.numbers import Balls
+from surfaces.signs import ranges_of
 from surfaces.tape import LEAVES, Tape, walk
 
 SAFE = LEAVES | {"add", "sub", "mul", "sqr", "powi", "neg", "abs", "min", "max", "exp", "sin", "cos"}
 SAFE |= {"floor", "below", "select", "sign", "atan2"}  # these have finite results too
+ROOTS = frozenset({"sqrt", "powr"})
 LARGEST: dict[Precision, int] = {"float32": 2**100, "float64": 2**1000}  # overflow is at 2^128 and 2^1024
 MARGIN = 2.0  # how much farther out than the domain a box may reach
 
@@ -22,14 +24,13 @@ MARGIN = 2.0  # how much farther out than the domain a box may reach
 def safe_reach(surface: Surface, precision: Precision) -> float | None:
     """Return a power of two below which a box's size rules out overflow, where size is the sum of |end| over all ends.
 
-    The domain's own box is below it. Returns None if that is not proved: the formula has a division, root, logarithm or
-    tangent of its variables, or a value that may be too large.
+    The domain's own box is below it. Returns None if that is not proved: the formula has a division, logarithm or
+    tangent of its variables, a root of what may be negative, or a value that may be too large.
     """
     import flint
 
     tape = tape_of(surface)
-    constant = tape.constants()
-    if any(op.name not in SAFE for op, fixed in zip(tape.ops, constant, strict=True) if not fixed):
+    if not _is_safe(tape):
         return None
     domain = surface.domain
     corners = (domain.lower, domain.upper) if isinstance(domain, Box) else (domain.center,)
@@ -39,3 +40,16 @@ def safe_reach(surface: Surface, precision: Precision) -> float | None:
     box = dict.fromkeys("xyz", flint.arb(0, reach))
     values = walk(Tape(tape.ops, tuple(range(len(tape.ops)))), Balls(), box)
     return reach if all(abs(value) < LARGEST[precision] for value in values) else None
+
+
+def _is_safe(tape: Tape) -> bool:
+    """Return whether every operation on variables has a finite result where its inputs are below the largest number.
+
+    A root has one of what is not negative, whatever the variables are: rounding may take an interval's lower end below
+    0, but not its upper end.
+    """
+    ranges = ranges_of(tape) if ROOTS & {op.name for op in tape.ops} else []
+    return all(
+        fixed or op.name in SAFE or (op.name in ROOTS and ranges[op.args[0]].low >= 0.0)
+        for op, fixed in zip(tape.ops, tape.constants(), strict=True)
+    )

@@ -42,9 +42,11 @@ def views(count: int, seed: int) -> list[View]:
     """
     draw = random.Random(f"views {seed}")
     turn, order = draw.uniform(0.0, 360.0), draw.sample(range(count), count)
-    made = []
+    angles = []
     for i in range(count):
         height = 1.0 - 2.0 * (i + draw.uniform(0.2, 0.8)) / count
-        azimuth = (turn + GOLDEN_ANGLE * i) % 360.0
-        made.append(View(f"seed {seed}, {i + 1}", azimuth=azimuth, elevation=math.degrees(math.asin(height))))
-    return [made[i] for i in order]
+        angles.append(((turn + GOLDEN_ANGLE * i) % 360.0, math.degrees(math.asin(height))))
+    return [
+        View(f"{place} of seed {seed}", azimuth=angles[i][0], elevation=angles[i][1])
+        for place, i in enumerate(order, 1)
+    ]

@@ -6,143 +6,56 @@ rounds. The fastest are checked once more on held-out views, by which they were 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence, Sized
+from dataclasses import replace
 from pathlib import Path
-from typing import Annotated, Literal
 
 from harness.accuracy.judge import NAMES
-from harness.contract import (
-    CellStatus,
-    DeviceInfo,
-    Precision,
-    Surface,
-    Variant,
-    View,
-    digest,
-)
+from harness.contract import CellStatus, DeviceInfo, Precision, Variant, View, digest
 from harness.devices.executor import LocalExecutor
 from harness.experiment import plan
 from harness.experiment.config import AccuracyChoice, BudgetChoice, Config, Experiment, MethodChoice
-from harness.limits import PIXELS, RAYS, SECONDS, SEED, Within, hold
 from harness.plugins import Catalog
 from harness.recommend.candidates import variants, views
+from harness.recommend.model import Cause, Contender, Fallen, Quantile, Recommendation, Wish, named
+from harness.results.figures import disproved
 from harness.results.row import Accuracy
-from harness.results.store import Row
+from harness.results.store import Row, Store
 from harness.running import batch
 from harness.running.environment import probed
 from harness.running.run import Watcher
 from harness.running.trace import usable_device
 
-Quantile = Literal["max", "p999", "p99"]
-QUANTILES: tuple[Quantile, ...] = ("max", "p999", "p99")
-HEADROOM = 2.0  # of the bound on the largest error: rays that were not sampled may be worse than those that were
 CONTENDERS = 6  # timed on every view and checked on held-out ones
 HOPELESS = 2.0  # times the fastest in a first, short timing of a small picture: not timed further
 STEP_SECONDS = 60.0  # for one step of a candidate; then it falls
-ERROR = Within(1e-30, 1e30)  # scene units; no variant keeps an error of 0
-FPS = Within(0.0, 1e6)
-VIEWS = Within(1, 1000)
 SMALL = 128  # pixels per side of that picture, at most
+FRONT = View("picture")  # of the picture of what is recommended
+ENDED = {CellStatus.FAILED: "failed", CellStatus.TIMEOUT: "took too long", CellStatus.CRASHED: "crashed"}
+PICTURE_RAYS = 192  # per side of that picture, each of them checked
 
 
-@dataclass(frozen=True)
-class Wish:
-    """Says what is asked for.
-
-    error: the largest |t - t*| allowed, scene units
-    quantile: of which errors `error` is the bound
-    fps: frames per second at least; 0 for any
-    size: pixels per side of the frames that are timed
-    precision: None for float32, and float64 only where no float32 variant holds
-    views: how many views variants are chosen by; on half as many others, two at least, the chosen are checked
-    rays: per side of those that are checked on each view
-    seed: of the views
-    seconds: of timing for each contender and view
-
-    Raises FirsthitError for a value that is no number or outside its limits, and for an unknown quantile or precision.
-    """
-
-    surface: Surface
-    error: Annotated[float, ERROR]
-    quantile: Quantile = "max"
-    fps: Annotated[float, FPS] = 0.0
-    size: Annotated[int, PIXELS] = 512
-    precision: Precision | None = None
-    views: Annotated[int, VIEWS] = 5
-    rays: Annotated[int, RAYS] = 64
-    seed: Annotated[int, SEED] = 1
-    seconds: Annotated[float, SECONDS] = 1.0
-
-    def __post_init__(self) -> None:
-        hold(self)
-
-    @property
-    def held_out_views(self) -> int:
-        """Return how many views the chosen variants are checked on, by which they were not chosen."""
-        return max(2, self.views // 2)
-
-    @property
-    def target(self) -> float:
-        """Return the error, scene units, that the sampled rays must keep."""
-        return self.error / HEADROOM if self.quantile == "max" else self.error
-
-
-@dataclass(frozen=True)
-class Fallen:
-    """Names a variant that was not chosen, and says why."""
-
-    variant: Variant
-    precision: Precision
-    why: str
-
-
-@dataclass(frozen=True)
-class Contender:
-    """Describes a variant that is within bounds on every view.
-
-    ms: the time of a frame, the mean over the tuning views
-    error: the largest error on any view, scene units
-    evaluations: the largest mean number of evaluations of f per ray on any view
-    """
-
-    variant: Variant
-    precision: Precision
-    ms: float
-    error: float
-    evaluations: float
-
-
-@dataclass
-class Recommendation:
-    """Holds what a search found on a device.
-
-    contenders: the variants within bounds, the fastest first; none where no variant holds
-    fallen: all others
-    held_out: how many rays were judged on the held-out views
-    decided, undecided: how many hits the oracle decided and left undecided, on all views
-    """
-
-    device: DeviceInfo
-    contenders: list[Contender] = field(default_factory=list)
-    fallen: list[Fallen] = field(default_factory=list)
-    held_out: int = 0
-    decided: int = 0
-    undecided: int = 0
-
-
-def recommend(wish: Wish, catalog: Catalog, device: str | None, runs: Path, watcher: Watcher) -> Recommendation:
+def recommend(
+    wish: Wish, catalog: Catalog, device: str | None, runs: Path, watcher: Watcher, pictured: bool = False
+) -> Recommendation:
     """Search among all methods for the fastest variant that keeps the wish, on a device or the first usable one.
 
-    Rows go below `runs`, where a later search finds them again; `watcher` is told of each step and cell. Raises
-    FirsthitError where `device` is no text and, with exit code 3, where there is no such device or a row cannot be
-    stored.
+    If `pictured`, the variant that is recommended is checked on one more view, FRONT, on PICTURE_RAYS² rays, whose
+    answers are kept as a picture; one that does not hold there falls as well. Rows go below `runs`, where a later
+    search finds them again; `watcher` is told of each step and cell.
+
+    Raises FirsthitError where `device` is no text and, with exit code 3, where there is no such device or a row cannot
+    be stored.
     """
+    from surfaces.extent import remark
+
+    if told := remark(wish.surface):
+        watcher.warned(told)
     folder = runs / f"recommend-{wish.surface.name}-{digest(wish.surface.identity)[:8]}"
     executor = LocalExecutor(STEP_SECONDS)
     try:
         info, _ = probed(executor, usable_device(device), folder / "probes")
-        return Search(wish, catalog, info, executor, folder, watcher).run()
+        return replace(Search(wish, catalog, info, executor, folder, watcher).run(pictured), extent=told)
     finally:
         executor.close()
 
@@ -163,29 +76,80 @@ class Search:
         self._executor, self._folder, self._watcher = executor, folder, watcher
         sampled = views(wish.views + wish.held_out_views, wish.seed)
         self._truth: dict[str, tuple[int, int, int]] = {}  # judged rays, decided and undecided hits, by view
+        self._disproved: dict[Variant, set[str]] = {}  # claims that rows contradict
         self._tuning, self._held_out = sampled[: wish.views], sampled[wish.views :]
 
-    def run(self) -> Recommendation:
-        """Search in the wished precision or, without one, in float32 and then, where no variant holds, in float64."""
-        found = Recommendation(self._device)
+    def run(self, pictured: bool = False) -> Recommendation:
+        """Search in the wished precision or, without one, in float32 and then, where no variant holds, in float64.
+
+        `pictured` is as for `recommend`.
+        """
+        found = Recommendation(self._device, folder=self._folder)
         precisions: tuple[Precision, ...] = (self._wish.precision,) if self._wish.precision else ("float32", "float64")
         for precision in precisions:
-            self._narrow(precision, found)
+            self._narrow(precision, found, pictured)
             if found.contenders:
                 break
         return found
 
-    def _narrow(self, precision: Precision, found: Recommendation) -> None:
-        """Search in one precision, and put into `found` what holds and what fell."""
-        alive = list(variants(self._catalog))
+    def _narrow(self, precision: Precision, found: Recommendation, pictured: bool) -> None:
+        """Search in one precision, and put into `found` what holds and what fell.
+
+        Where none of the fastest variants holds on the views held out, the next fastest have their turn.
+        """
+        alive = self._claiming(list(variants(self._catalog)), precision, found)
         worst: dict[Variant, tuple[float, float]] = {}
-        alive = self._check(alive, precision, self._tuning, found, worst, "")
-        timed = self._race(alive, precision, found)
-        kept = self._check(list(timed), precision, self._held_out, found, worst, " (held-out)")
-        made = [Contender(variant, precision, timed[variant], *worst[variant]) for variant in kept]
+        self._disproved.clear()
+        methods = {variant.method for variant in alive}
+        many = f"{_many(alive, 'variant')} of {_many(methods, 'method')} on {_many(self._tuning, 'view')}"
+        self._watcher.told(f"{precision}: step 1 of 3 checks {many}; one that is wrong or over the error falls")
+        alive = self._check(alive, precision, self._tuning, found, worst)
+        slow: list[Fallen] = []
+        while alive and not found.contenders:
+            timed, slow = self._race(alive, precision, found, worst)
+            if not timed:
+                break
+            self._hold_out(timed, precision, found, worst)
+            if pictured:
+                self._draw(found)
+            if not found.contenders:
+                alive, slow = [fallen.variant for fallen in slow], []
+        found.fallen += slow
+        found.decided, found.undecided = (sum(counts[k] for counts in self._truth.values()) for k in (1, 2))
+
+    def _hold_out(
+        self,
+        timed: Mapping[Variant, float],
+        precision: Precision,
+        found: Recommendation,
+        worst: dict[Variant, tuple[float, float]],
+    ) -> None:
+        """Check the variants that were timed on the views held out, and make contenders of those that hold."""
+        held_out = f"{_many(timed, 'variant')} on {_many(self._held_out, 'view')} held out"
+        self._watcher.told(f"{precision}: step 3 of 3 checks {held_out}")
+        kept = self._check(list(timed), precision, self._held_out, found, worst)
+        made = [self._contender(variant, precision, timed[variant], *worst[variant]) for variant in kept]
         found.contenders = sorted(made, key=lambda c: c.ms)
         found.held_out = sum(self._truth[view.name][0] for view in self._held_out) if kept else 0
-        found.decided, found.undecided = (sum(counts[k] for counts in self._truth.values()) for k in (1, 2))
+
+    def _contender(
+        self, variant: Variant, precision: Precision, ms: float, error: float, evaluations: float
+    ) -> Contender:
+        claims = tuple(sorted(self._catalog.get(variant.method).method.claims))
+        broken = tuple(sorted(self._disproved.get(variant, ())))
+        return Contender(variant, precision, ms, error, evaluations, claims, broken)
+
+    def _claiming(self, of: list[Variant], precision: Precision, found: Recommendation) -> list[Variant]:
+        """Return the variants whose methods make all claims that are asked for."""
+        alive = []
+        for variant in of:
+            claims = self._catalog.get(variant.method).method.claims
+            if lacking := [claim for claim in self._wish.require if claim not in claims]:
+                why = f"does not claim {' or '.join(lacking)}"
+                found.fallen.append(Fallen(variant, precision, Cause.CLAIM, why))
+            else:
+                alive.append(variant)
+        return alive
 
     def _check(
         self,
@@ -194,7 +158,6 @@ class Search:
         on: Sequence[View],
         found: Recommendation,
         worst: dict[Variant, tuple[float, float]],
-        where: str,
     ) -> list[Variant]:
         """Check variants on one view after the other, and return those within bounds on every view.
 
@@ -205,12 +168,11 @@ class Search:
         for view in on:
             if not alive:
                 break
-            self._watcher.told(f"{precision}: {len(alive)} variants on view {view.name}{where}")
             rows = self._rows(alive, precision, view, self._wish.size)
             for variant in list(alive):
                 row = rows[variant]
-                if reason := self._reason(row):
-                    found.fallen.append(Fallen(variant, precision, reason + where))
+                if reason := self._reason(variant, precision, row):
+                    found.fallen.append(reason)
                     alive.remove(variant)
                     continue
                 accuracy = row["accuracy"]
@@ -220,64 +182,127 @@ class Search:
                 if now is not None:
                     measured.add(variant)
                 worst[variant] = max(error, now or 0.0), max(evaluations, accuracy["evaluations_mean"])
-        nothing = f"no hit to measure an error of: the oracle decides none on a clear ray{where}"
-        found.fallen += [Fallen(variant, precision, nothing) for variant in alive if variant not in measured]
+        nothing = "has no hit to measure an error of: the oracle decides none on a clear ray"
+        fell = [Fallen(variant, precision, Cause.UNMEASURED, nothing) for variant in alive if variant not in measured]
+        found.fallen += fell
         return [variant for variant in alive if variant in measured]
 
-    def _reason(self, row: Row) -> str | None:
+    def _reason(self, variant: Variant, precision: Precision, row: Row) -> Fallen | None:
         """Say with figures why a row's variant falls; None where it holds."""
         if row["status"] != CellStatus.OK:
-            return f"{row['status']}: {' '.join(str(row['reason']).split())}"
-        accuracy = row["accuracy"]
+            told = " ".join(str(row["reason"]).split())
+            if row["status"] == CellStatus.SKIPPED:
+                return Fallen(variant, precision, Cause.REFUSED, f"cannot draw the surface here: {told}")
+            return Fallen(variant, precision, Cause.FAILED, f"{ENDED[row['status']]}: {told}")
+        accuracy, where = row["accuracy"], f"on view {row['view']}"
         counts = {name: accuracy[name] for name in (*NAMES.values(), "grazing_invalid", "drowned_invalid")}
         if any(not count <= 0 for count in counts.values()):
-            wrong = [f"{count} {name.replace('_', ' ')}" for name, count in counts.items() if count]
-            return f"{', '.join(wrong)} of {accuracy['judged']} rays, view {row['view']}"
+            wrong = ", ".join(f"{count} {name.replace('_', ' ')}" for name, count in counts.items() if count)
+            why = f"answers rays wrongly {where}: {wrong} of {accuracy['judged']} rays"
+            return Fallen(variant, precision, Cause.WRONG, why)
+        broken = {claim for claim in self._catalog.get(variant.method).method.claims if disproved(claim, row)}
+        self._disproved.setdefault(variant, set()).update(broken)
+        if asked := sorted(broken.intersection(self._wish.require)):
+            why = f"claims {asked[0]}, which its answers {where} disprove"
+            return Fallen(variant, precision, Cause.CLAIM, why)
         error, wish = certified_error(accuracy, self._wish.quantile), self._wish
         if error is None or error <= wish.target:
             return None
-        over = f"over {wish.error:.2g}" if error > wish.error else f"under {wish.error:.2g}, but over {wish.target:.2g}"
-        return f"{wish.quantile} error {error:.2g}, {over}, view {row['view']}"
+        over = f"over the {wish.error:.2g} asked for"
+        if error <= wish.error:
+            over = f"within the {wish.error:.2g} asked for, but over the {wish.target:.2g} that sampled rays must keep"
+        why = f"has a {wish.quantile} error of {error:.2g} {where}, {over}"
+        return Fallen(variant, precision, Cause.ERROR, why, error)
 
-    def _race(self, alive: list[Variant], precision: Precision, found: Recommendation) -> dict[Variant, float]:
-        """Time variants, and return those of the fastest that keep the wished frame rate, with their times.
+    def _draw(self, found: Recommendation) -> None:
+        """Check the first contender on FRONT and keep its row as the picture; let it fall where it does not hold."""
+        while found.contenders:
+            best = found.contenders[0]
+            self._watcher.told(f"{best.precision}: draws {named(best.variant)}, and checks every pixel of the picture")
+            row = self._rows([best.variant], best.precision, FRONT, PICTURE_RAYS, rays=PICTURE_RAYS)[best.variant]
+            if (fell := self._reason(best.variant, best.precision, row)) is None:
+                error = certified_error(row["accuracy"], self._wish.quantile) or 0.0
+                stated = best.variant, best.precision, best.ms, max(best.error, error), best.evaluations
+                found.contenders[0] = self._contender(*stated)
+                found.picture = Store(self._folder).read(row["key"])  # as stored, it names the file of its arrays
+                return
+            found.fallen.append(fell)
+            del found.contenders[0]
 
-        A time is in milliseconds for one frame, the mean over the tuning views of the median on each.
+    def _race(
+        self,
+        alive: list[Variant],
+        precision: Precision,
+        found: Recommendation,
+        worst: Mapping[Variant, tuple[float, float]],
+    ) -> tuple[dict[Variant, float], list[Fallen]]:
+        """Time variants; return the fastest that keep the wished frame rate, with their times, and the slow ones.
+
+        A time is in milliseconds for one frame, the mean over the tuning views of the median on each. `worst` has the
+        largest error of each variant so far.
         """
-        if not alive:
-            return {}
-        self._watcher.told(f"{precision}: timing {len(alive)} variants shortly")
         small = min(SMALL, self._wish.size)
-        short = self._medians(alive, precision, self._tuning[0], small, self._wish.seconds / 4.0)
+        many = f"{_many(alive, 'variant')} shortly, at {small}x{small}"
+        told = f"one that takes over {HOPELESS:g} times as long as the fastest falls"
+        self._watcher.told(f"{precision}: step 2 of 3 times {many}; {told}")
+        short = self._medians(alive, precision, self._tuning[0], small, self._wish.seconds / 4.0, found)
         order = sorted(short, key=lambda variant: short[variant])
-        for place, variant in enumerate(order):
-            if short[variant] > HOPELESS * short[order[0]] or place >= CONTENDERS:
-                times = short[variant] / short[order[0]]
-                why = f"{times:.3g} times the time of {named(order[0])}, {short[variant]:.3g} ms at {small}x{small}"
-                found.fallen.append(Fallen(variant, precision, why))
         chosen = [v for v in order[:CONTENDERS] if short[v] <= HOPELESS * short[order[0]]]
-        self._watcher.told(f"{precision}: timing {len(chosen)} variants on {len(self._tuning)} views")
-        by_view = [self._medians(chosen, precision, view, self._wish.size, self._wish.seconds) for view in self._tuning]
-        means = {v: sum(times[v] for times in by_view) / len(by_view) for v in chosen if all(v in t for t in by_view)}
+        slow = []
+        for variant in order[len(chosen) :]:
+            times = short[variant] / short[order[0]]
+            told = f"{times:.3g} times as long as {named(order[0])}: {short[variant]:.3g} ms at {small}x{small}"
+            why = f"keeps the error, but takes {told}"
+            slow.append(Fallen(variant, precision, Cause.SLOW, why, worst[variant][0], times))
+        many = f"{_many(chosen, 'variant')} in turns on {_many(self._tuning, 'view')}"
+        self._watcher.told(f"{precision}: step 2 of 3 times the fastest: {many}")
+        wish, by_view = self._wish, []
+        for view in self._tuning:
+            by_view.append(self._medians(chosen, precision, view, wish.size, wish.seconds, found))
+            chosen = list(by_view[-1])
+        means = {v: sum(times[v] for times in by_view) / len(by_view) for v in chosen}
+        fastest = min(means.values(), default=0.0)
         for variant, ms in list(means.items()):
             if self._wish.fps and 1e3 / ms < self._wish.fps:
                 size = self._wish.size
-                why = f"{1e3 / ms:.3g} frames/s at {size}x{size}, not {self._wish.fps:g}"
-                found.fallen.append(Fallen(variant, precision, why))
+                why = f"draws {1e3 / ms:.3g} frames/s at {size}x{size}, not the {self._wish.fps:g} asked for"
+                times = ms / fastest
+                found.fallen.append(Fallen(variant, precision, Cause.FRAMES, why, worst[variant][0], times))
                 del means[variant]
-        return means
+        return means, slow
 
     def _medians(
-        self, of: list[Variant], precision: Precision, view: View, size: int, seconds: float
+        self,
+        of: list[Variant],
+        precision: Precision,
+        view: View,
+        size: int,
+        seconds: float,
+        found: Recommendation,
     ) -> dict[Variant, float]:
-        """Return the median time of a frame in ms of each variant that could be timed on this view."""
+        """Return the median time of a frame in ms of each variant; those that could not be timed on this view fall."""
         rows = self._rows(of, precision, view, size, seconds)
+        for variant, row in rows.items():
+            if not row["time"]:
+                why = (
+                    f"could not be timed on view {view.name} ({row['status']}): {' '.join(str(row['reason']).split())}"
+                )
+                found.fallen.append(Fallen(variant, precision, Cause.FAILED, why))
         return {variant: row["time"]["median_ms"] for variant, row in rows.items() if row["time"]}
 
     def _rows(
-        self, of: list[Variant], precision: Precision, view: View, size: int, seconds: float | None = None
+        self,
+        of: list[Variant],
+        precision: Precision,
+        view: View,
+        size: int,
+        seconds: float | None = None,
+        rays: int | None = None,
     ) -> dict[Variant, Row]:
-        """Return each variant's row on this view, run where it is not stored; it is timed where `seconds` are given."""
+        """Return each variant's row on this view, run where it is not stored; it is timed where `seconds` are given.
+
+        `rays` is how many are checked per side, those of the wish where it is None.
+        """
         wish = self._wish
         config = Config(
             title=f"Recommendation for {wish.surface.title}",
@@ -288,7 +313,7 @@ class Search:
             precisions=[precision],
             devices=[self._device.name],
             seed=wish.seed,
-            accuracy=AccuracyChoice(size=wish.rays, max_wrong_share=0.0),
+            accuracy=AccuracyChoice(size=rays or wish.rays, max_wrong_share=0.0),
             budget=BudgetChoice(seconds=seconds or 0.0),
         )
         named = Experiment(
@@ -308,7 +333,5 @@ def certified_error(accuracy: Accuracy, quantile: Quantile) -> float | None:
     return None if measured is None else float(measured + accuracy["certified_width"])
 
 
-def named(variant: Variant) -> str:
-    """Return the variant's label, behind the method's name where the label does not begin with it."""
-    label = str(variant)
-    return label if label.startswith(variant.method) else f"{variant.method} “{label}”"
+def _many(of: Sized, noun: str) -> str:
+    return f"{len(of)} {noun}{'' if len(of) == 1 else 's'}"

@@ -156,14 +156,14 @@ def figures(row: Row, claims: Iterable[str]) -> dict[str, Value]:
         elif rungs is not None and figure.add_up:
             found[figure.name] = figure.add_up(rungs)
     if found:
-        found[CLAIMS.name] = sum(not _disproved(claim, row) for claim in claims)
+        found[CLAIMS.name] = sum(not disproved(claim, row) for claim in claims)
     for name, value in found.items():
         if value is not None and not math.isfinite(value):
             raise FirsthitError(f"{row['slot']}: its {name} is {value}, which cannot be gated", exit_code=3)
     return {name: value for name, value in found.items() if value is not None}
 
 
-def _disproved(claim: str, row: Row) -> bool:
+def disproved(claim: str, row: Row) -> bool:
     """Tell whether this row contradicts a claim. A claim that no row can contradict holds while its method states it.
 
     An impossible answer contradicts what is claimed of its ray, whatever the truth.

@@ -223,6 +223,10 @@ class CellRow(TypedDict):
     ]
     formula: Annotated[str, "f, whose zeros are the surface"]
     degree: Annotated[int | None, "of f in x, y, z together; null where f is no polynomial"]
+    domain: Annotated[str | None, "the surface's domain, as configs write it; null of a scene and of a family"]
+    extent: Annotated[
+        str | None, "a sentence where the domain cuts the surface, or has nothing of it; null where it does not"
+    ]
     view: Annotated[str, Leaf("the view's name", always=True)]
     view_set: Annotated[str | None, "the set of views that are compared with each other; null without one"]
     camera: Annotated[Camera | None, "where the view is from; null of a family"]

@@ -38,6 +38,7 @@ NOT_DECIDING = {
     "harness/results/commits.py": "keeps the figures of finished rows",
     "harness/results/columns.py": "prints a page of the documentation",
     "harness/results/schema.py": "says which columns reports make of finished rows",
+    "harness/shipping": "writes programs out for others, and stores no row",
     "harness/schemas.py": "writes schemas, which no run reads",
     "harness/studies": "are no cells; each has a key of its own, see harness/studies/__init__.py",
 }

@@ -37,10 +37,14 @@ def picture(
     """Draw a surface with a light at the eye, on white: uint8[size, size, 3], row 0 at the top, and the hits.
 
     Each pixel is the mean of four rays, so there are 4 · size² hits. Rays that the method gave up are orange, answers
-    that can be none magenta. Raises FirsthitError for a size that is outside harness.limits.PICTURE, and where `cast`
-    does.
+    that can be none magenta. `tell` is called with a sentence where the domain cuts the surface or has nothing of it,
+    and where `cast` calls it. Raises FirsthitError for a size outside harness.limits.PICTURE, and where `cast` does.
     """
+    from surfaces.extent import remark
+
     size = held("size", size, Annotated[int, PICTURE])
+    if told := remark(surface):
+        tell(told)
     camera = camera_for(view, surface)
     rays = rays_of(camera, 2 * size)
     hits = cast(caster, surface, rays, camera, tell=tell)

@@ -15,6 +15,7 @@ from harness.experiment.plan import Planned
 from harness.kernels.costs import operations_per_evaluation
 from harness.results import timings
 from harness.results.row import Accuracy, Build, CellRow, RungVerdict, Time
+from surfaces import extent
 
 
 @dataclass(eq=False)
@@ -69,6 +70,7 @@ def row_of(
     """
     cell, own = planned.cell, planned.kind.facts(planned.cell)
     programs = ((planned.timed,) if planned.timed else ()) + planned.checks
+    alone = cell.scene is None and planned.kind.listed == "cells"
     return {
         "key": planned.key,
         "slot": cell.slot,
@@ -81,6 +83,8 @@ def row_of(
         "surface_group": cell.surface.group,
         "formula": cell.surface.formula,
         "degree": cell.surface.degree,
+        "domain": extent.written(cell.surface.domain) if alone else None,
+        "extent": extent.remark(cell.surface) if alone else None,
         "view": cell.view.name,
         "view_set": cell.view.set,
         "camera": own["camera"],

@@ -209,6 +209,8 @@ def _run_part(part: Experiment, loaded: Loaded, runs: Path, command: str, again:
         with hears.doing(_announced(part, loaded.catalog, chosen)):
             tried = [probed(executor, info, store.folder / "probes") for info in chosen.values() if info]
             planned = plan.plan(part, loaded.catalog, [info for info, _ in tried]) if part.variants else []
+        for told in remarks(part):
+            hears.warned(told)
         store.write_plan(
             _described(part, command, environment)
             | {"devices": [_device(info, found) for info, found in tried]}
@@ -223,6 +225,13 @@ def _run_part(part: Experiment, loaded: Loaded, runs: Path, command: str, again:
     finally:
         executor.close()
     return Run(store.folder, tuple(rows), tuple(found.kept.values()))
+
+
+def remarks(part: Experiment) -> list[str]:
+    """Return a sentence for each surface of a config that its domain cuts, or that is not in it."""
+    from surfaces.extent import remark
+
+    return [told for told in map(remark, part.surfaces) if told]
 
 
 def _device(info: DeviceInfo, found: Probes | None) -> dict[str, Any]:

@@ -40,7 +40,7 @@ class PlacedChoice:
     """
 
     surface: str
-    parameters: dict[str, float] = field(default_factory=dict)
+    parameters: dict[str, float | str] = field(default_factory=dict)
     domain: str = ""
     at: Point = (0.0, 0.0, 0.0)
     turn: tuple[Angle, Angle, Angle] = (0.0, 0.0, 0.0)
@@ -121,12 +121,13 @@ def rotation(x: float, y: float, z: float) -> Floats:
 def cut(surface: Surface, domain: str) -> Surface:
     """Return the surface in another domain, or as it is if `domain` is empty.
 
-    Its bounding radius is dropped, since it is about the old domain's centre. Raises FirsthitError for a domain that
-    cannot be read.
+    Its bounding radius is dropped, since it is about the old domain's centre. So is f as its own distance where that
+    does not hold in the new domain. Raises FirsthitError for a domain that cannot be read.
     """
     import surfaces
 
     if not domain:
         return surface
-    other = surfaces.from_formula(surface.formula, domain, parameters=dict(surface.parameters)).domain
-    return dataclasses.replace(surface, domain=other, bounding_radius=None, facts=())
+    other = surfaces.from_formula(surface.formula, domain, parameters=dict(surface.parameters))
+    distance = other.distance if surface.distance == surface.formula else surface.distance
+    return dataclasses.replace(surface, domain=other.domain, bounding_radius=None, facts=(), distance=distance)

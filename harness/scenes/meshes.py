@@ -232,7 +232,7 @@ def geometric_error(surface: Surface, made: Mesh, pieces: int = 2) -> tuple[floa
     import surfaces
     from surfaces.evaluation import evaluate_tape
     from surfaces.formula import parse
-    from surfaces.lowering import real_tape
+    from surfaces.lowering import gradient, real_tape
 
     corners = made.vertices[:, :3].astype(np.float64)[made.triangles]
     weights = [(i, j, pieces - i - j) for i in range(pieces + 1) for j in range(pieces + 1 - i)]
@@ -242,10 +242,11 @@ def geometric_error(surface: Surface, made: Mesh, pieces: int = 2) -> tuple[floa
         f, slope = surfaces.evaluate(surface, at), surfaces.gradient(surface, at)
         return np.asarray(f[:, None] * slope / np.einsum("ij,ij->i", slope, slope)[:, None])
 
+    away = np.linalg.norm(off(points), axis=1)
     if surface.distance:
-        away = evaluate_tape(real_tape(parse(surface.distance, dict(surface.parameters))), points)[:, 0]
-    else:
-        away = np.linalg.norm(off(points), axis=1)
+        tape = real_tape(parse(surface.distance, dict(surface.parameters)))
+        if np.allclose(np.linalg.norm(evaluate_tape(gradient(tape), points), axis=1), 1.0, rtol=0.0, atol=1e-6):
+            away = evaluate_tape(tape, points)[:, 0]  # not only a bound of the distance, but the distance
     onto = points[np.argsort(-np.abs(away), kind="stable")[:FARTHEST]]
     for _ in range(6):
         onto = onto - off(onto)

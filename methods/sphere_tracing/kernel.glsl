@@ -1,15 +1,17 @@
 // Takes steps as long as the distance to the surface, until that distance is nearly 0 (toledo2007, section 4.3). With
 // RAYS 2 the march jumps to t_M as soon as the distance grows. With AHEAD 1 it never jumps back, and the second march
-// ends where the distance grows after it fell.
+// ends where the distance grows after it fell. Both are for distances with two minima along a line at most, about
+// the origin; STARTS is 1 for all others.
 Hit first_hit(Ray ray, real t0, real t1) {
     Hit hit = no_hit(t1);
     real near_enough = EPSILON * FEATURE_RADIUS;
-    real t_m = inner_product(difference(DOMAIN_CENTER, ray.origin), ray.direction);
+    real t_m = -inner_product(ray.origin, ray.direction);
+    bool two = RAYS == 2 && STARTS[0] == 2.0;
     real t = t0;
     real distance_here = 0.0;
     bool second = false;
     bool searching = true;
-    if (RAYS == 2) {
+    if (two) {
         real before = REAL_INFINITY;
         bool fell = true;
         while (searching) {
@@ -33,7 +35,7 @@ Hit first_hit(Ray ray, real t0, real t1) {
     }
     // with one start, or when inside the surface: go back from the second start, or on from the first
     real way = second ? -1.0 : 1.0;
-    if (RAYS == 2) {
+    if (two) {
         if (searching) return exhausted(hit, t);
         searching = distance_here <= -near_enough;
         t += searching ? way * fabs(distance_here) : real(0);

@@ -1,7 +1,7 @@
 """Sphere tracing by the surface's own distance, with one start or two.
 
 The kernel marches along the ray by the distance to the surface until that distance is below EPSILON. With RAYS = 2 the
-march goes on from a second start, the ray's point nearest the domain's centre, as soon as the distance has grown.
+march goes on from a second start, the ray's point nearest the torus's centre, as soon as the distance has grown.
 
 **Source** toledo2007, section 4.3 (Sphere Tracing and 2-rays S. Tracing of Table 1), after Hart 1996.
 
@@ -17,8 +17,11 @@ towards the other one. When it grows there after it fell, both minima are passed
   at t_M whatever was passed, and ends where the first march ends, at the domain's exit, or as exhausted after
   MAX_EVALUATIONS. A second start inside the torus turns back to the root behind it, as the signed distance does.
 - A start inside the surface marches by the absolute value of the distance, and has no second start.
-- Any surface that states a distance is accepted. Two starts are proved for the torus and the sphere only, on which no
-  third minimum can exist. For surfaces without a distance see sphere_tracing_lipschitz.
+- Any surface with a distance is accepted: one that is stated, which is tested against certified hits, or f itself
+  where it is proved that f is nowhere greater than the distance (surfaces.lipschitz). A distance need not be exact: a
+  bound takes more steps. For surfaces without one see sphere_tracing_lipschitz.
+- Two starts are proved for the torus about the z axis and the sphere about the origin only, on which no third minimum
+  can exist; t_M is nearest to the origin, wherever the domain is. Every other distance is marched from one start.
 - Rays begin at their point nearest the domain's centre (`origins` of a config). The paper's rays begin at the box, and
   configs for its tables do the same. This matters less here than for other methods, since distances do not cancel: of
   24,576 rays of Table 1's views (opencl:pocl, float32) the printed settings get the same 10 grazing ones wrong from the
@@ -53,12 +56,41 @@ last two rows Table 1's views.
                                                             opencl:intel
 """
 
-from harness.contract import Method, Parameter, Surface
+from collections.abc import Mapping, Sequence
+
+from harness.contract import Method, Parameter, Precision, Surface
+
+TWO_MINIMA = ("sphere", "torus")  # surfaces of the catalog; along a line no distance to them has a third minimum
+LONGEST = 20  # operations of their distances
 
 
 def accepts(surface: Surface) -> str | None:
-    """Say why the surface is refused; None if it states a distance."""
+    """Say why the surface is refused; None if it has a distance."""
     return None if surface.distance else "the surface states no distance; sphere_tracing_lipschitz needs none"
+
+
+def two_minima(surface: Surface) -> bool:
+    """Return whether the distance is written as that of a torus about the z axis or of a sphere about the origin."""
+    import surfaces
+    from surfaces.formula import parse
+
+    def outline(of: Surface) -> str:
+        """Write the distance without the numbers of its constants; "" where it is longer than any of these."""
+        tape = parse(of.distance or "0", dict(of.parameters))
+        if len(tape.ops) > LONGEST:
+            return ""
+        texts: list[str] = []
+        for op in tape.ops:
+            own = str(op.args) if op.name == "var" else ", ".join(texts[i] for i in op.inputs)
+            texts.append(f"{op.name}({own})")
+        return texts[tape.outputs[0]]
+
+    return outline(surface) in {outline(surfaces.get(name)) for name in TWO_MINIMA}
+
+
+def tables(surface: Surface, _: Mapping[str, float | int], __: Precision) -> Mapping[str, Sequence[float]]:
+    """Return STARTS: on how many starts a march may rely."""
+    return {"STARTS": [2.0 if two_minima(surface) else 1.0]}
 
 
 METHOD = Method(
@@ -78,7 +110,7 @@ METHOD = Method(
         Parameter(
             "RAYS",
             2,
-            "starts on a ray; 1: where it enters the domain; 2: also at its point nearest the domain's centre",
+            "starts on a ray; 1: where it enters the domain; 2: also at its point nearest a torus's or sphere's centre",
         ),
         Parameter(
             "AHEAD",
@@ -95,4 +127,5 @@ METHOD = Method(
         "2-rays S. Tracing": {"EPSILON": 0.001, "RAYS": 2, "AHEAD": 0},
     },
     accepts=accepts,
+    tables=tables,
 )

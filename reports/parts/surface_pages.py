@@ -86,11 +86,12 @@ def sections(material: Material) -> list[Section]:
 
 
 def _facts(rows: pd.DataFrame) -> str:
-    """Write degree and formula, which all rows of a surface share."""
+    """Write degree and formula, which all rows of a surface share, and what their domains leave out of it."""
     first = rows.iloc[0]
     degree = "not algebraic" if wording.absent(first["degree"]) else f"degree {first['degree']}"
     formula = "" if wording.absent(first["formula"]) else f": {wording.excerpt(first['formula'], 400)} = 0"
-    return f"{degree[0].upper()}{degree[1:]}{formula}."
+    told = rows["extent"].dropna().unique() if "extent" in rows else ()
+    return " ".join([f"{degree[0].upper()}{degree[1:]}{formula}.", *(f"Note: {sentence}." for sentence in told)])
 
 
 def flags(row: Any) -> str:

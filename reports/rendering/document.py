@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import json
 import shutil
+import tempfile
 from datetime import datetime
 from pathlib import Path
 from typing import Any
@@ -14,7 +15,9 @@ import typst
 
 from reports.content import Block, Code, Document, Figure, Gallery, Section, Table, Text
 
-TEMPLATE = Path(__file__).with_name("report.typ")
+HERE = Path(__file__).parent
+REPORT, ONE_PAGE = "report.typ", "one_page.typ"  # templates; both read blocks.typ
+PIXELS_PER_INCH = 144  # of a page that is a picture
 
 
 def write_pdf(document: Document, folder: Path, pdf: Path, created: str) -> None:
@@ -24,7 +27,28 @@ def write_pdf(document: Document, folder: Path, pdf: Path, created: str) -> None
     ValueError where two figures or pictures of one name differ, and OSError where a file cannot be written.
     """
     folder.mkdir()
-    shutil.copy(TEMPLATE, folder)
+    _lay_out(document, folder, REPORT)
+    typst.compile(folder / REPORT, output=pdf, timestamp=_timestamp(created), **_settings(folder))
+
+
+def write_page(document: Document, path: Path, created: str) -> None:
+    """Write the summary of `document` as one page, as a PDF or, where `path` ends so, as a PNG.
+
+    `created` is as for `write_pdf`, and so is what is raised.
+    """
+    form = "png" if path.suffix.lower() == ".png" else "pdf"
+    with tempfile.TemporaryDirectory(prefix="firsthit-page-") as name:
+        folder = Path(name)
+        _lay_out(document, folder, ONE_PAGE)
+        told: dict[str, Any] = {"ppi": PIXELS_PER_INCH} if form == "png" else {"timestamp": _timestamp(created)}
+        settings = {**_settings(folder), **told, "format": form, "sys_inputs": {"form": form}}
+        path.write_bytes(typst.compile(folder / ONE_PAGE, **settings))
+
+
+def _lay_out(document: Document, folder: Path, template: str) -> None:
+    """Put into `folder` what a template reads: its own files, the document as JSON, and the pictures."""
+    for file in (template, "blocks.typ"):
+        shutil.copy(HERE / file, folder)
     data = {
         "title": document.title,
         "subtitle": document.subtitle,
@@ -32,14 +56,12 @@ def write_pdf(document: Document, folder: Path, pdf: Path, created: str) -> None
         "sections": [_section(section, folder) for section in document.sections],
     }
     (folder / "report.json").write_text(json.dumps(data, ensure_ascii=False), encoding="utf-8", errors="replace")
-    typst.compile(
-        folder / TEMPLATE.name,
-        output=pdf,
-        root=folder,
-        font_paths=[Path(matplotlib.get_data_path()) / "fonts" / "ttf"],
-        ignore_system_fonts=True,  # the same pages on every machine
-        timestamp=_timestamp(created),
-    )
+
+
+def _settings(folder: Path) -> dict[str, Any]:
+    """Return what both templates are compiled with: fonts of the package alone, for the same pages on every machine."""
+    fonts = [Path(matplotlib.get_data_path()) / "fonts" / "ttf"]
+    return {"root": folder, "font_paths": fonts, "ignore_system_fonts": True}
 
 
 def _timestamp(created: str) -> int | None:

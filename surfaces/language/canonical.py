@@ -13,8 +13,8 @@ from typing import Any
 from surfaces.tape import Op, Tape
 
 SHORT = 12  # characters of a part that is written again where it is used again
-DEEP = 40  # brackets inside one another
-_COMPARE, _SUM, _PRODUCT, _SIGN, _POWER, _ATOM = 8, 10, 20, 30, 40, 60
+DEEP = 100  # levels of reading inside one another; grammar.MAX_DEPTH is the most
+_OR, _AND, _NOT, _COMPARE, _SUM, _PRODUCT, _SIGN, _POWER, _ATOM = 4, 6, 7, 8, 10, 20, 30, 40, 60
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,14 +43,14 @@ class _Part:
 def _made(binding: int, *pieces: str | _Part) -> _Part:
     """Return a part of pieces."""
     length = sum(len(p) if isinstance(p, str) else p.length for p in pieces)
-    depth = max((p.depth for p in pieces if isinstance(p, _Part)), default=0)
+    depth = max((p.depth + (i > 0) for i, p in enumerate(pieces) if isinstance(p, _Part)), default=0)
     first = pieces[0]
     return _Part(pieces, binding, length, depth, first.startswith("-") if isinstance(first, str) else first.minus)
 
 
 def _inside(before: str, part: _Part, after: str = ")") -> _Part:
-    """Return a part inside brackets, one deeper."""
-    return _Part((before, part, after), _ATOM, part.length + len(before) + 1, part.depth + 1)
+    """Return a part inside brackets, which are read as one level, those of a call as two."""
+    return _Part((before, part, after), _ATOM, part.length + len(before) + 1, part.depth + 2)
 
 
 def _wrapped(part: _Part, binding: int, right: bool = False) -> _Part:
@@ -86,9 +86,10 @@ def canonical(tape: Tape) -> str:
     names = (name for k in range(1, len(tape.ops) + 2) if (name := f"s{k}") not in taken)
     statements: list[str] = []
     parts: list[_Part] = []
-    constant = tape.constants()
+    constant, conditions = tape.constants(), _conditions(tape)
     for index, op in enumerate(tape.ops):
-        part = _written(tape, op, parts, constant)
+        condition = _condition(tape, op, parts) if conditions[index] and op.inputs else None
+        part = condition or _written(tape, op, parts, constant)
         shared = uses[index] > 1 and part.length > SHORT
         if op.inputs and (shared or part.depth >= DEEP) and index != tape.outputs[0]:
             name = next(names)
@@ -96,6 +97,46 @@ def canonical(tape: Tape) -> str:
             part = _Part((name,), _ATOM, len(name), 0)
         parts.append(part)
     return "".join(statements) + parts[tape.outputs[0]].text()
+
+
+def _conditions(tape: Tape) -> list[bool]:
+    """Return for each operation whether it is 0 or 1 by its structure."""
+    known: list[bool] = []
+    for op in tape.ops:
+        if op.name in ("min", "max"):
+            known.append(all(known[i] for i in op.inputs))
+        elif op.name == "sub":
+            first = tape.ops[op.args[0]]
+            known.append(first.name == "const" and first.args[0] == 1 and known[op.args[1]])
+        else:
+            known.append(op.name == "below" or (op.name == "const" and op.args[0] in (0, 1)))
+    return known
+
+
+def _condition(tape: Tape, op: Op, parts: list[_Part]) -> _Part | None:
+    """Return the text of a condition, as people write it; None if only arithmetic reads back as the same."""
+
+    def compared(sign: str, a: int, b: int) -> _Part:
+        if tape.ops[a].name == "const" and sign != "==":
+            a, b, sign = b, a, ">=" if sign == "<=" else "<"
+        return _made(_COMPARE, _wrapped(parts[a], _SUM), f" {sign} ", _wrapped(parts[b], _SUM))
+
+    a, b = op.args
+    if op.name == "below":
+        return compared("<=", a, b)
+    first, second = tape.ops[a], tape.ops[b]
+    if op.name in ("min", "max"):
+        if "const" in (first.name, second.name):
+            return None
+        if op.name == "min" and first.name == second.name == "below" and first.args == second.args[::-1]:
+            return compared("==", *first.args)
+        word, binding = ("and", _AND) if op.name == "min" else ("or", _OR)
+        return _made(binding, _wrapped(parts[a], binding), f" {word} ", _wrapped(parts[b], binding + 1))
+    if second.name == "below":
+        return compared(">", *second.args)
+    if second.name in ("sub", "const"):
+        return None
+    return _made(_NOT, "not ", _wrapped(parts[b], _NOT))
 
 
 def _written(tape: Tape, op: Op, parts: list[_Part], constant: list[bool]) -> _Part:
@@ -108,6 +149,8 @@ def _written(tape: Tape, op: Op, parts: list[_Part], constant: list[bool]) -> _P
             return _made(_ATOM, op.name)
         case "var":
             return _made(_ATOM, op.args[0])
+        case "neg" if tape.ops[op.args[0]].name == "sub":  # -(a - b) would be read as b - a
+            return _made(_PRODUCT, "-1*", _wrapped(of[0], _POWER))
         case "neg":
             bare = _bare(tape, op.args[0], constant)
             return _made(_SIGN if not bare else _PRODUCT, "-", of[0] if bare else _wrapped(of[0], _POWER))
@@ -123,8 +166,6 @@ def _written(tape: Tape, op: Op, parts: list[_Part], constant: list[bool]) -> _P
         case "powi" | "powr":
             exponent = _wrapped(_constant(Fraction(op.args[1])), _ATOM)
             return _made(_POWER, _wrapped(of[0], _ATOM), "^", exponent)
-        case "below":
-            return _made(_COMPARE, _wrapped(of[0], _SUM), " <= ", _wrapped(of[1], _SUM))
         case "select":
             return _inside("if(", _made(0, of[0], ", ", of[1], ", ", of[2]))
         case "min" | "max" | "atan2":

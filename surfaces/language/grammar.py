@@ -24,12 +24,12 @@ from surfaces.language.tokens import Token, exact, fail, tokens
 from surfaces.model import FirsthitError
 
 MAX_LENGTH = 2_000_000  # characters of a formula
-MAX_DEPTH = 100  # of parentheses, calls, signs and exponents inside one another
+MAX_DEPTH = 200  # of parentheses, calls, operands and signs inside one another
 COMPARISONS = ("<", "<=", ">", ">=", "==", "!=")
-_PRODUCT, _SIGN, _POWER, _RAISED = 20, 30, 40, 50
-_PRECEDENCE = {"?": 2, "or": 4, "and": 6, **dict.fromkeys(COMPARISONS, 8), "+": 10, "-": 10}
-_PRECEDENCE |= {"*": _PRODUCT, "/": _PRODUCT, "%": _PRODUCT, "^": _POWER}
-_NOT = 7
+_OR, _NOT, _PRODUCT, _SIGN, _POWER, _RAISED, _BAR = 4, 7, 20, 30, 40, 50, -2
+_PRECEDENCE = {"?": 2, "or": _OR, "and": 6, **dict.fromkeys(COMPARISONS, 8), "+": 10, "-": 10}
+_PRECEDENCE |= {"*": _PRODUCT, "/": _PRODUCT, "%": _PRODUCT, "^": _POWER, "(": _PRODUCT, "√": _PRODUCT, "|": _BAR}
+_KINDS = {"number": _PRODUCT, "name": _PRODUCT, "raised": _RAISED, "end": -1}
 
 
 class Values:
@@ -43,6 +43,7 @@ class Values:
         self.own = own
         self.code: list[tuple[str, Any, int]] = []
         self.tokens = tokens(text)
+        self.powers = [self._binding(token) for token in self.tokens]
         self.position = 0
         self.depth = 0
         self.bars = 0  # how many | are open inside the innermost parentheses
@@ -52,13 +53,22 @@ class Values:
     def fail(self, message: str, column: int) -> NoReturn:
         fail(self.text, message, column)
 
-    def peek(self, ahead: int = 0) -> Token:
-        """Return the next token, or one further on."""
-        return self.tokens[min(self.position + ahead, len(self.tokens) - 1)]
+    @staticmethod
+    def _binding(token: Token) -> int:
+        """Return how tight a token binds as an operator: -1 if it is none, _BAR if that depends on open bars."""
+        return _PRECEDENCE.get(token.text, -1) if token.kind == "operator" else _KINDS[token.kind]
+
+    def peek(self) -> Token:
+        """Return the next token."""
+        return self.tokens[self.position]
+
+    def ahead(self, count: int) -> Token:
+        """Return the token that stands `count` tokens behind the next one, or the end."""
+        return self.tokens[min(self.position + count, len(self.tokens) - 1)]
 
     def take(self) -> Token:
         """Return the next token, and go on behind it."""
-        token = self.peek()
+        token = self.tokens[self.position]
         self.position += token.kind != "end"
         return token
 
@@ -114,13 +124,13 @@ class Values:
 
     def power(self) -> int:
         """Return how tight the next token binds as an operator; -1 if it is none."""
-        token = self.peek()
-        if token.kind == "operator":
-            if token.text == "|" and self.bars == 0:
-                after = self.peek(1)
-                return _PRECEDENCE["or"] if after.text == "|" and not after.spaced else _PRODUCT
-            return _PRODUCT if token.text in ("(", "√") else _PRECEDENCE.get(token.text, -1)
-        return -1 if token.kind == "end" else _RAISED if token.kind == "raised" else _PRODUCT
+        power = self.powers[self.position]
+        if power != _BAR:
+            return power
+        if self.bars:
+            return -1
+        after = self.ahead(1)
+        return _OR if after.text == "|" and not after.spaced else _PRODUCT
 
     def _operator(self, token: Token, power: int, start: int) -> None:
         """Parse what stands behind an operator, and add the operator's code."""
@@ -137,7 +147,7 @@ class Values:
         if name in COMPARISONS and self.peek().text in COMPARISONS and self.peek().kind == "operator":
             self.fail("write a < b and b < c for a chain of comparisons", self.peek().column)
         if name == "^" and self.power() == _PRODUCT and self.peek().text not in ("*", "/", "%"):
-            base = self.code[start : start + 1][0][0]
+            base = self.code[start][0]
             if base in ("const", "constant") and self.code[start + 1][2] > token.column:
                 written = self._between(token, self.peek())
                 told = f"{written}*{self.peek().text} or ^({written[1:]}*{self.peek().text})"
@@ -153,7 +163,7 @@ class Values:
         """Add the code of a raised exponent."""
         if self.peek().text == "^" or self.peek().kind == "raised":
             self.fail("a power of a power needs parentheses", self.peek().column)
-        self.emit("const", exact(token.text), token.column)
+        self.number(token)
         self.emit("^", None, token.column)
 
     def _side_by_side(self, divisor: Token | None) -> None:
@@ -264,6 +274,7 @@ class Values:
         # each letter becomes a token of its own, so that powers bind to the last one only
         letters = [Token("name", c, token.column + i) for i, c in enumerate(word)]
         self.tokens[self.position - 1 : self.position] = letters
+        self.powers[self.position - 1 : self.position] = [_PRODUCT] * len(letters)
         self.name(letters[0])
 
     def _call(self, token: Token, kind: str, value: Any) -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -14,7 +13,6 @@ CONSTANTS = {
     "pi": "the circle's number",
     "e": "Euler's number",
     "phi": "the golden ratio",
-    "tau": "2*pi",
     "sqrt2": "a root",
     "sqrt3": "a root",
     "sqrt5": "a root",
@@ -59,6 +57,7 @@ class Names:
     functions: dict[str, Function] = field(default_factory=dict)
     arguments: dict[str, int] = field(default_factory=dict)
     notes: list[str] = field(default_factory=list)
+    used: set[str] = field(default_factory=set)  # parameters that occur
 
     def own(self, name: str) -> tuple[str, Any] | None:
         """Return the kind and the value of a name that the user chose; None for others."""
@@ -78,6 +77,8 @@ class Names:
         own, lower = self.own(name), name.lower()
         if own:
             self._tell(name, own[0])
+            if own[0] == "parameter":
+                self.used.add(name)
             return own
         if lower != name and self.own(lower):
             return None
@@ -87,7 +88,7 @@ class Names:
         """Return the kind and the value of a name of the language; None for an unknown one."""
         if name in COORDINATES:
             return "var", name
-        if name in ("pi", "e", "phi", "tau"):
+        if name in ("pi", "e", "phi"):
             return "constant", name
         if re.fullmatch(r"sqrt[1-9][0-9]{0,3}", name):
             return "root", int(name[4:])
@@ -110,13 +111,13 @@ class Names:
         """Return whether a word is a product of single letters, each a coordinate or a value that the user named."""
         if len(word) < 2 or len(word) > 12:
             return False
-        return all(c in COORDINATES or (self.own(c) or ("function",))[0] != "function" for c in word)
+        return all((self.own(c) or ("function",))[0] != "function" or c.lower() in COORDINATES for c in word)
 
-    def values(self) -> Iterable[str]:
+    def values(self) -> list[str]:
         """Return the names of values, for hints."""
         return [*COORDINATES, *self.arguments, *self.parts, *sorted(self.parameters), *CONSTANTS]
 
-    def callables(self) -> Iterable[str]:
+    def callables(self) -> list[str]:
         """Return the names of functions, for hints."""
         return [*self.functions, *BUILT_IN, *(name for name in self.library if not name.startswith("_"))]
 
@@ -125,6 +126,14 @@ class Names:
         match = re.fullmatch(r"([A-Za-z])([0-9]+)", name)
         if match and self.meaning(match[1]):
             return f"unknown name {name!r}; did you mean {match[1]}^{match[2]} or {match[2]}*{match[1]}?"
+        if name.lower() == "tau":
+            return "tau is the golden ratio to some and 2*pi to others; write phi or 2*pi"
+        for begin in range(1, len(name) - 1) if called else ():
+            factors, function = name[:begin], name[begin:]
+            if function in self.callables() and (self.letters(factors) or factors in self.values()):
+                shown = factors if factors in self.values() else "*".join(factors)
+                return f"unknown function {name[:40]!r}; did you mean {shown}*{function}(...)?"
         known = self.callables() if called else [*self.values(), *self.callables()]
-        what = "function" if called else "name"
-        return f"unknown {what} {name[:40]!r}; {suggestion(name.lower()[:40], known)}"
+        what, most = ("function", 16) if called else ("name", 8)
+        otherwise = f"known: {', '.join(known[:most])}, ..." + ("" if called else "; a parameter needs a value")
+        return f"unknown {what} {name[:40]!r}; {suggestion(name.lower()[:40], known, otherwise=otherwise)}"

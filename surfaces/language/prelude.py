@@ -28,15 +28,16 @@ sech(a) = 1/cosh(a);  csch(a) = 1/sinh(a);  coth(a) = 1/tanh(a);
 asinh(a) = log(a + sqrt(a^2 + 1));
 acosh(a) = log(a + sqrt((a - 1)*(a + 1)));
 atanh(a) = log((1 + a)/(1 - a))/2;
+arcsinh(a) = asinh(a);  arccosh(a) = acosh(a);  arctanh(a) = atanh(a);
 radians(a) = a*pi/180;  degrees(a) = a*180/pi;
 
 sign(a) = (a >= 0) - (a <= 0);  sgn(a) = sign(a);   # 0 at 0
-fabs(a) = abs(a);
+fabs(a) = abs(a);  fmin(a, b) = min(a, b);  fmax(a, b) = max(a, b);
 ceil(a) = -floor(-a);
 round(a) = floor(a + 1/2);
 trunc(a) = if(a >= 0, floor(a), ceil(a));
 fract(a) = a - floor(a);  frac(a) = fract(a);
-mod(a, b) = a - b*floor(a/b);
+mod(a, b) = a - b*floor(a/b);  fmod(a, b) = a - b*trunc(a/b);   # with the sign of b, and of a
 clamp(a, lower, upper) = min(max(a, lower), upper);
 saturate(a) = clamp(a, 0, 1);
 mix(a, b, t) = a + (b - a)*t;  lerp(a, b, t) = mix(a, b, t);

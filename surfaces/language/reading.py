@@ -3,23 +3,26 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import reduce
 from typing import Any, NoReturn
 
+from surfaces.language.grammar import COMPARISONS
 from surfaces.language.names import RESERVED, Code, Names
 from surfaces.language.prelude import library
 from surfaces.language.statements import Parser
 from surfaces.language.tokens import MAX_BITS, bits, fail
 from surfaces.model import FirsthitError
-from surfaces.tape import Builder, Tape
+from surfaces.tape import Builder, Tape, walk
 from surfaces.words import COORDINATES
 
 MAX_DEGREE = 64  # a polynomial of this degree in three variables has 47,905 terms
 MAX_OPERATIONS = 200_000  # of a tape
-MAX_STEPS = 1_000_000  # of reading one formula; a function's steps count at each call
+MAX_STEPS = 200_000  # inside functions, for all calls of a formula together
+OPERATORS = frozenset({"+", "-", "*", "/", "%", "^", "and", "or", *COMPARISONS})
 _FUNCTIONS = ("sqrt", "exp", "log", "sin", "cos", "tan", "abs", "floor", "atan2", "min", "max")
 _WEIGHED = (*_FUNCTIONS, "below", "select")  # their values have degree 1
 
@@ -44,13 +47,13 @@ def read(text: str, parameters: Mapping[str, str], free: bool = False) -> Read:
     code = Parser(text, names).formula()
     reader = _Reader(text, values)
     output = reader.run(code)
-    return Read(reader.builder.tape(output), frozenset(reader.parameters), tuple(dict.fromkeys(names.notes)))
+    if reader.is_condition(output) and reader.builder.value(output) is None:
+        reader.fail("an inequality is 0 or 1 everywhere: it describes a solid; write a = b for its surface")
+    return Read(reader.builder.tape(output), frozenset(names.used), tuple(dict.fromkeys(names.notes)))
 
 
 def _constant(name: str, text: str) -> Read:
     """Read a parameter's value, which only depends on constants. Raises FirsthitError if it is none."""
-    import re
-
     if not re.fullmatch(r"[A-Za-z_][A-Za-z_0-9]*", name) or name in (*COORDINATES, *RESERVED):
         told = "names are ASCII words that are neither coordinates nor and, or, not, let"
         raise FirsthitError(f"{name!r} cannot be a parameter's name: {told}")
@@ -106,7 +109,7 @@ class _Reader:
                 continue
             name, value, column = frame.code[frame.at]
             frame.at += 1
-            steps += 1
+            steps += len(frames) > 1
             self.column = column if frame.column is None else frame.column
             if steps > MAX_STEPS or len(self.builder.ops) > MAX_OPERATIONS:
                 self._too_much()
@@ -132,20 +135,27 @@ class _Reader:
         """Raise FirsthitError for a formula that is too large."""
         built = len(self.builder.ops)
         if built > MAX_OPERATIONS:
-            raise FirsthitError(
-                f"the formula has more than {MAX_OPERATIONS:,} operations; at most so many are accepted"
-            )
-        raise FirsthitError(f"the formula's calls take more than {MAX_STEPS:,} steps; at most so many are accepted")
+            raise FirsthitError(f"the formula has more than {MAX_OPERATIONS:,} operations; no more are accepted")
+        raise FirsthitError(
+            f"the formula's calls of functions take more than {MAX_STEPS:,} steps; no more are accepted"
+        )
 
     def step(self, name: str, value: Any, stack: list[int]) -> None:
         """Do one instruction that is no call of a function of the language's own."""
         b = self.builder
-        if name == "const":
+        if name in OPERATORS:
+            right = stack.pop()
+            stack[-1] = self.checked(self.apply(name, stack[-1], right))
+        elif name == "const":
             stack.append(b.const(value))
         elif name == "var":
             stack.append(b.var(value))
-        elif name in ("neg", "not"):
-            stack.append(self.checked((b.neg if name == "neg" else self.negated)(stack.pop())))
+        elif name == "part":
+            stack.append(self.parts[value])
+        elif name == "parameter":
+            stack.append(self.parameter(value))
+        elif name in ("constant", "root"):
+            stack.append(self.constant(value))
         elif name == "call":
             function, count = value
             arguments = stack[-count:]
@@ -154,15 +164,8 @@ class _Reader:
         elif name == "if":
             q, p, c = stack.pop(), stack.pop(), stack.pop()
             stack.append(self.checked(b.select(self.condition(c), p, q)))
-        elif name == "part":
-            stack.append(self.parts[value])
-        elif name == "parameter":
-            stack.append(self.parameter(value))
-        elif name in ("constant", "root"):
-            stack.append(self.constant(value))
         else:
-            right, left = stack.pop(), stack.pop()
-            stack.append(self.checked(self.apply(name, left, right)))
+            stack[-1] = self.checked((b.neg if name == "neg" else self.negated)(stack[-1]))
 
     def parameter(self, name: str) -> int:
         """Return a parameter's value, whose operations are added where it occurs first."""
@@ -171,8 +174,6 @@ class _Reader:
             if found is None:
                 self.parameters[name] = self.builder.var(name)
             else:
-                from surfaces.tape import walk
-
                 self.parameters[name] = walk(found.tape, self.builder, {})[0]
         return self.parameters[name]
 
@@ -183,8 +184,6 @@ class _Reader:
             return b.pi()
         if name == "e":
             return b.e()
-        if name == "tau":
-            return b.mul(b.const(2), b.pi())
         if name == "phi":
             return b.mul(b.const(Fraction(1, 2)), b.add(b.const(1), b.sqrt(b.const(5))))
         return b.sqrt(b.const(int(name)))

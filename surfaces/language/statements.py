@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from surfaces.language.grammar import COMPARISONS, Values
+from surfaces.language.grammar import Values
 from surfaces.language.names import RESERVED, Code, Function
 from surfaces.words import COORDINATES
 
@@ -14,20 +14,21 @@ class Parser(Values):
         """Parse the whole text, and return the code of the surface's value."""
         self.definitions(self._last())
         if self._defines():
-            token, name = self.peek(), self.peek(int(self.peek().text == "let"))
+            token, name = self.peek(), self.ahead(int(self.peek().text == "let"))
             known = name.text in COORDINATES or self.names.meaning(name.text) or self.names.letters(name.text)
             if token.text == "let" or not known:
-                self.fail("the last statement is the surface; this one only defines a name", token.column)
+                self.fail(
+                    "the last statement is the surface; this one only defines a name (a ; ends a statement)",
+                    token.column,
+                )
         self.parse(0)
         token = self.peek()
         if token.text == "=":
             self.take()
-            self._comparison_refused()
             self.parse(0)
             self.emit("-", None, token.column)
             if self.peek().text == "=":
                 self.fail("an equation has one '='", self.peek().column)
-        self._comparison_refused()
         while self.peek().text == ";":
             self.take()
         if self.peek().kind != "end":
@@ -42,12 +43,13 @@ class Parser(Values):
         return next((i for i in range(end, 0, -1) if self.tokens[i - 1].text == ";"), 0)
 
     def definitions(self, stop: int) -> None:
-        """Parse definitions up to a position. Raises FirsthitError at any other statement."""
+        """Parse definitions up to a token's position. Raises FirsthitError at any other statement."""
+        last = self.tokens[stop]  # a position moves on when a word becomes a product of letters
         for i in range(stop):
             if i == 0 or self.tokens[i - 1].text == ";":
                 name = self.tokens[i + 1] if self.tokens[i].text == "let" else self.tokens[i]
                 self.later.add(name.text)
-        while self.position < stop:
+        while self.peek() is not last:
             if self.peek().text == ";":
                 self.take()
                 continue
@@ -60,18 +62,18 @@ class Parser(Values):
 
     def _defines(self) -> bool:
         """Return whether a statement that begins here is a definition."""
-        if self.peek().text == "let" and self.peek(1).kind == "name":
+        if self.peek().text == "let" and self.ahead(1).kind == "name":
             return True
         if self.peek().kind != "name":
             return False
         at = 1
-        if self.peek(at).text == "(":
-            while self.peek(at + 1).kind == "name" and self.peek(at + 2).text == ",":
+        if self.ahead(at).text == "(":
+            while self.ahead(at + 1).kind == "name" and self.ahead(at + 2).text == ",":
                 at += 2
-            if self.peek(at + 1).kind != "name" or self.peek(at + 2).text != ")":
+            if self.ahead(at + 1).kind != "name" or self.ahead(at + 2).text != ")":
                 return False
             at += 3
-        return self.peek(at).text == "="
+        return self.ahead(at).text == "="
 
     def _definition(self) -> None:
         """Parse the definition of a part or of a function."""
@@ -115,9 +117,3 @@ class Parser(Values):
                 self.expect(")")
                 return found
             self.take()
-
-    def _comparison_refused(self) -> None:
-        """Raise FirsthitError if what was parsed last is a comparison: it bounds a solid."""
-        if self.code[-1][0] in (*COMPARISONS, "and", "or", "not"):
-            told = "an inequality describes a solid; write a = b for its surface"
-            self.fail(told, self.code[-1][2])

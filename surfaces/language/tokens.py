@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from fractions import Fraction
-from typing import NoReturn
+from typing import NamedTuple, NoReturn
 
 from surfaces.model import FirsthitError
 
 MAX_BITS = 1000  # of a rational constant's numerator and denominator, which keeps it inside float64's range
 MAX_DIGITS = 400  # characters of one number
+MAX_NAME = 60  # characters of one name
 WORDS = {"and": "and", "or": "or", "not": "not"}
 # other ways to write an operator, a word or a name
 SAME = {
@@ -37,12 +37,13 @@ SAME = {
     "π": "pi",
     "φ": "phi",
     "ϕ": "phi",
+    "τ": "tau",
 }
 _RAISED = "⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻"
 _LOWERED = str.maketrans(_RAISED, "0123456789+-")
 _TOKEN = re.compile(
     r"(?P<number>(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)"
-    r"|(?P<name>[A-Za-z_][A-Za-z_0-9]*|[πφϕ])"
+    r"|(?P<name>[A-Za-z_][A-Za-z_0-9]*|[πφϕτ])"
     r"|(?P<space>[ \t\r\n\u00a0\u2009\u202f]+|(?:\#|//)[^\n]*|/\*.*?\*/)"
     r"|(?P<operator>\*\*|&&|<=|>=|==|!=|<>|[-+*/^(),;=<>!?:|%√·×∗⋅∙÷∕⁄−–﹣≤≥≠∧∨¬])"
     rf"|(?P<raised>[⁺⁻]?[{_RAISED[:10]}]+)",
@@ -51,8 +52,7 @@ _TOKEN = re.compile(
 _NUMBER = re.compile(r"[+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE](?P<exponent>[+-]?[0-9]+))?")
 
 
-@dataclass(frozen=True, slots=True)
-class Token:
+class Token(NamedTuple):
     """Hold one token. `spaced` and `line` say whether white space and whether a new line stand before it."""
 
     kind: str  # "number", "name", "raised", "operator" or "end"
@@ -102,6 +102,8 @@ def tokens(text: str) -> list[Token]:
         kind, word = match.lastgroup, match.group()
         if word == "/" and text.startswith("/*", column):
             fail(text, "this comment has no end; write */ behind it", column)
+        if kind != "space" and len(word) > (MAX_DIGITS if kind == "number" else MAX_NAME):
+            fail(text, f"a {'number' if kind != 'name' else kind} of {len(word)} characters", column)
         if kind == "space":
             spaced, line = True, line or "\n" in word
         else:
@@ -120,4 +122,6 @@ def _misplaced(text: str, column: int) -> str:
     """Return what is wrong with a character that begins no token."""
     character = text[column]
     hint = "; write ( ) around parts" if character in "[]{}" else ""
+    if text[column : column + 2] in (".*", "./", ".^"):
+        hint = "; operators have no dot"
     return f"{character!r} (U+{ord(character):04X}) has no place in a formula{hint}"

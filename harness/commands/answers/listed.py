@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from harness.contract import Casts, DeviceInfo, Precision
+from harness.contract import Box, Casts, DeviceInfo, Domain, Precision
 
 Point = tuple[float, float, float]
 
@@ -26,6 +26,16 @@ class DomainFacts:
     radius: float
     lower: Point
     upper: Point
+
+
+def domain_facts(domain: Domain) -> DomainFacts:
+    """Return what is said of a domain."""
+    x, y, z = domain.center
+    radius = domain.radius
+    if isinstance(domain, Box):
+        return DomainFacts("box", (x, y, z), radius, domain.lower, domain.upper)
+    lower, upper = ((x - radius, y - radius, z - radius), (x + radius, y + radius, z + radius))
+    return DomainFacts("sphere", (x, y, z), radius, lower, upper)
 
 
 @dataclass(frozen=True)

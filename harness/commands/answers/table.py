@@ -9,6 +9,7 @@ from harness import schemas
 from harness.commands.answers.experiments import Plan, Why
 from harness.commands.answers.gates import Gate, History
 from harness.commands.answers.listed import Devices, ListedConfigs, ListedDevices, ListedMethods, ListedSurfaces
+from harness.commands.answers.recommending import Recommend
 from harness.commands.machine import OWN
 
 ANSWERS: dict[str, type[Any]] = {  # by the command that answers it
@@ -21,6 +22,7 @@ ANSWERS: dict[str, type[Any]] = {  # by the command that answers it
     "why": Why,
     "gate": Gate,
     "history": History,
+    "recommend": Recommend,
 }
 
 

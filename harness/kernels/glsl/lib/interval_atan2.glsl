@@ -67,9 +67,9 @@ int open_atan2(Interval a, Interval b) {
     return crossing && interval_magnitude(a) < INTERVAL_LARGEST_DIVISOR && b.lo > -INTERVAL_LARGEST_DIVISOR ? 1 : 0;
 }
 
-// Returns the angles on and above the cut for side 1, those below it for side 2, and all of them for side 0.
-Interval sided_atan2(Interval a, Interval b, int side) {
-    if (side == 0 || open_atan2(a, b) == 0) return interval_atan2(a, b);
-    if (side == 1) return upper_angles(make_interval(0.0, a.hi), b);
+// Returns the angles on and above the cut or those below it, as `sides` says; all of them for -1.
+Interval sided_atan2(Interval a, Interval b, int sides, int open) {
+    if (sides < 0 || open_atan2(a, b) == 0) return interval_atan2(a, b);
+    if (((sides >> open) & 1) == 1) return upper_angles(make_interval(0.0, a.hi), b);
     return interval_neg(upper_angles(make_interval(0.0, -a.lo), b));
 }

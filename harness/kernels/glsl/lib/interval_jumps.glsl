@@ -11,16 +11,23 @@ Interval interval_floor(Interval a) {
     return make_interval(floor(a.lo), floor(a.hi));
 }
 
-// Returns into how many values the jumps of floor split a: 0 if it is one value, 1 if two, and 2 if more.
-int open_floor(Interval a) {
-    real steps = floor(a.hi) - floor(a.lo);
-    return steps == 0.0 ? 0 : (steps == 1.0 ? 1 : 2);
+// Returns which value the jump number `open` takes: bit number `open` of `sides`.
+bool takes_upper(int sides, int open) {
+    return ((sides >> open) & 1) == 1;
 }
 
-// Returns the lower value for side 1, the upper one for side 2, and all of them for side 0.
-Interval sided_floor(Interval a, int side) {
+// Returns 0 where floor has one value over a, 1 where it has two, and otherwise a number that is too many.
+int open_floor(Interval a) {
+    real steps = floor(a.hi) - floor(a.lo);
+    return steps == 0.0 ? 0 : (steps == 1.0 ? 1 : 8);
+}
+
+// Returns the value that `sides` says, all of them for -1.
+Interval sided_floor(Interval a, int sides, int open) {
     Interval b = interval_floor(a);
-    return make_interval(side == 2 ? b.hi : b.lo, side == 1 ? b.lo : b.hi);
+    if (sides < 0) return b;
+    real one = takes_upper(sides, open) ? b.hi : b.lo;
+    return make_interval(one, one);
 }
 
 Interval interval_sign(Interval a) {
@@ -37,9 +44,11 @@ int open_below(Interval a, Interval b) {
     return c.lo < c.hi ? 1 : 0;
 }
 
-Interval sided_below(Interval a, Interval b, int side) {
+Interval sided_below(Interval a, Interval b, int sides, int open) {
     Interval c = interval_below(a, b);
-    return make_interval(side == 2 ? c.hi : c.lo, side == 1 ? c.lo : c.hi);
+    if (sides < 0) return c;
+    real one = takes_upper(sides, open) ? c.hi : c.lo;
+    return make_interval(one, one);
 }
 
 // Returns p where the condition c is 1 everywhere, q where it is 0 everywhere, and otherwise what holds both. c is wider

@@ -1,0 +1,367 @@
+"""Read random formulas: python tests/fuzz_formulas.py --count 1000000 --seed 1.
+
+A third is made by a grammar of its own, together with its value, a third are such formulas with mistakes in them, and a
+third is text of any characters. None may end in anything but a tape or a FirsthitError, take longer than LIMIT, or run
+code. What is read is written in canonical form and read again, which must give the same graph, and a made formula must
+have the value that it was made with.
+"""
+
+from __future__ import annotations
+
+import argparse
+import random
+import sys
+import time
+from collections import Counter
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+import flint
+import mpmath
+
+from surfaces import formula
+from surfaces.model import FirsthitError
+from surfaces.numbers import Balls
+from surfaces.tape import Tape, walk
+
+LIMIT = 2.0  # seconds of the processor for one formula
+FORBIDDEN = ("compile", "exec", "import", "open", "os.", "subprocess.", "ctypes.", "socket.", "code.")
+PARAMETERS = {"a": "0.25", "b": "1/4", "e": "2", "R": "sqrt(4)", "xyz": "-0.5"}
+VALUES = {"a": 0.25, "b": 0.25, "e": 2.0, "R": 2.0, "xyz": -0.5}
+POINT = {"x": Fraction(5, 8), "y": Fraction(-3, 4), "z": Fraction(11, 8)}
+SPACES = ["", "", "", " ", "  "]
+CHARACTERS = "xyzXabeR0123456789.+-*/^()|,;=<>!?:%&# \n\t_'\"[]{}\\~@$`²³⁻¹√·×−÷π≤≥≠φ∧∨¬éß𝑥½∞\x00\u200b\ufeff"
+WORDS = ["let ", "sin", "sqrt(", "if(", "min(", "pow(", "and", "or", "not", "||", "&&", "**", "==", "//", "/*", "*/"]
+WORDS += ["pi", "e", "1e3", "1e999", "9^9^9", "x^2y", "2x", "atan2(", "exec(", "lambda", "__import__('os')"]
+
+
+@dataclass
+class Made:
+    """Hold a formula's text, how tight its outermost operator binds, and its value, NaN where it has none."""
+
+    text: str
+    binding: int
+    value: Any
+
+    def inside(self, binding: int) -> str:
+        """Return the text, in parentheses unless it binds tighter than `binding`."""
+        return self.text if self.binding > binding else f"({self.text})"
+
+
+def _value(name: str) -> Any:
+    """Return the value of a coordinate or a parameter."""
+    exact = Fraction(VALUES[name]) if name in VALUES else POINT[name]
+    return mpmath.mpf(exact.numerator) / exact.denominator
+
+
+def _mod(a: Any, b: Any) -> Any:
+    return a - b * mpmath.floor(a / b)
+
+
+def _sign(a: Any) -> Any:
+    return mpmath.sign(a)
+
+
+FUNCTIONS: dict[str, tuple[int, Any]] = {
+    "sqrt": (1, lambda a: mpmath.sqrt(a) if a >= 0 else mpmath.nan),
+    "exp": (1, lambda a: mpmath.exp(a) if abs(a) < 50 else mpmath.nan),
+    "log": (1, lambda a: mpmath.log(a) if a > 0 else mpmath.nan),
+    "ln": (1, lambda a: mpmath.log(a) if a > 0 else mpmath.nan),
+    "log10": (1, lambda a: mpmath.log10(a) if a > 0 else mpmath.nan),
+    "sin": (1, mpmath.sin),
+    "cos": (1, mpmath.cos),
+    "abs": (1, abs),
+    "ABS": (1, abs),
+    "atan": (1, mpmath.atan),
+    "asin": (1, lambda a: mpmath.asin(a) if abs(a) < 1 else mpmath.nan),
+    "acos": (1, lambda a: mpmath.acos(a) if abs(a) < 1 else mpmath.nan),
+    "sinh": (1, lambda a: mpmath.sinh(a) if abs(a) < 50 else mpmath.nan),
+    "cosh": (1, lambda a: mpmath.cosh(a) if abs(a) < 50 else mpmath.nan),
+    "tanh": (1, lambda a: mpmath.tanh(a) if abs(a) < 50 else mpmath.nan),
+    "asinh": (1, mpmath.asinh),
+    "floor": (1, mpmath.floor),
+    "ceil": (1, mpmath.ceil),
+    "round": (1, lambda a: mpmath.floor(a + mpmath.mpf(0.5))),
+    "trunc": (1, lambda a: mpmath.floor(a) if a >= 0 else mpmath.ceil(a)),
+    "fract": (1, lambda a: a - mpmath.floor(a)),
+    "sign": (1, _sign),
+    "cbrt": (1, lambda a: _sign(a) * mpmath.cbrt(abs(a))),
+    "square": (1, lambda a: a * a),
+    "cube": (1, lambda a: a**3),
+    "mod": (2, lambda a, b: _mod(a, b) if b else mpmath.nan),
+    "atan2": (2, lambda a, b: mpmath.atan2(a, b) if a or b else mpmath.mpf(0)),
+    "min": (2, min),
+    "max": (3, max),
+    "hypot": (2, mpmath.hypot),
+    "length": (3, lambda a, b, c: mpmath.sqrt(a * a + b * b + c * c)),
+    "clamp": (3, lambda a, low, high: min(max(a, low), high)),
+    "mix": (3, lambda a, b, t: a + (b - a) * t),
+    "step": (2, lambda edge, a: mpmath.mpf(int(a >= edge))),
+}
+COMPARISONS: dict[str, Any] = {
+    "<": lambda a, b: a < b, "<=": lambda a, b: a <= b, "≤": lambda a, b: a <= b, ">": lambda a, b: a > b,
+    ">=": lambda a, b: a >= b, "==": lambda a, b: a == b, "!=": lambda a, b: a != b, "≠": lambda a, b: a != b,
+}  # fmt: skip
+
+EXPONENTS = [("^2", 2), ("²", 2), ("**3", 3), ("⁴", 4), ("^-1", -1), ("⁻²", -2), ("^0.5", 0.5), ("^(5/2)", 2.5),
+             ("^x", 0.625), ("^0", 0), ("^1.25", 1.25)]  # fmt: skip
+
+
+class Maker:
+    """Make random formulas. `names` are those that the formula has defined, with their values."""
+
+    def __init__(self, pick: random.Random) -> None:
+        self.pick = pick
+        self.names: dict[str, Any] = {}
+
+    def space(self) -> str:
+        return self.pick.choice(SPACES)
+
+    def leaf(self) -> Made:
+        """Make a number or a name."""
+        pick = self.pick
+        match pick.randrange(4):
+            case 0:
+                text = pick.choice(["1", "2", "3", "0.5", ".25", "4.", "1e-2", "12.5", "0"])
+                return Made(text, 60, mpmath.mpf(text))
+            case 1:
+                text = pick.choice(list(VALUES))
+                return Made(text, 60, mpmath.mpf(VALUES[text]))
+            case 2 if self.names:
+                text = pick.choice(list(self.names))
+                return Made(text, 60, self.names[text])
+        text = pick.choice("xyzXYZ")
+        return Made(text, 60, _value(text.lower()))
+
+    def made(self, depth: int) -> Made:
+        """Make a value of at most this depth."""
+        if depth == 0:
+            return self.leaf()
+        kinds = [self.sum, self.sum, self.product, self.product, self.side_by_side, self.factors, self.quotient,
+                 self.power, self.call, self.call, self.sign, self.bars, self.root, self.choice]  # fmt: skip
+        return self.pick.choice(kinds)(depth - 1)
+
+    def sum(self, depth: int) -> Made:
+        a, b, sign = self.made(depth), self.made(depth), self.pick.choice(["+", "-", "−"])
+        text = f"{a.inside(9)}{self.space()}{sign}{self.space()}{b.inside(10)}"
+        return Made(text, 10, a.value + b.value if sign == "+" else a.value - b.value)
+
+    def product(self, depth: int) -> Made:
+        a, b, sign = self.made(depth), self.made(depth), self.pick.choice(["*", "*", "·", "×"])
+        return Made(f"{a.inside(19)}{self.space()}{sign}{self.space()}{b.inside(20)}", 20, a.value * b.value)
+
+    def side_by_side(self, depth: int) -> Made:
+        """Make a product without a sign, in parentheses, so that nothing before it makes it ambiguous."""
+        a, b = self.made(depth), self.made(depth)
+        return Made(f"(({a.text}){self.space()}({b.text}))", 60, a.value * b.value)
+
+    def factors(self, depth: int) -> Made:
+        """Make a product without a sign as people write it: 2xy(z + 1), in parentheses."""
+        pick, text, value = self.pick, "", mpmath.mpf(1)
+        if pick.random() < 0.6:
+            text = pick.choice(["2", "0.5", "3 ", "4.", "12"])
+            value = mpmath.mpf(text)
+        word = "".join(pick.choice("xyzab") for _ in range(pick.randint(1, 3)))
+        word = "x" if word in VALUES else word
+        for letter in word:
+            value *= _value(letter)
+        text += word
+        if pick.random() < 0.5:
+            power, n = pick.choice([("^2", 2), ("²", 2), ("^3", 3)])
+            text, value = text + power, value * _value(word[-1]) ** (n - 1)
+        if pick.random() < 0.5:
+            a = self.made(depth)
+            text, value = f"{text}{self.space()}({a.text})", value * a.value
+        return Made(f"({text})", 60, value)
+
+    def quotient(self, depth: int) -> Made:
+        a, b = self.made(depth), self.made(depth)
+        sign = self.pick.choice("//÷%")
+        divided = _mod if sign == "%" else mpmath.fdiv
+        value = divided(a.value, b.value) if b.value else mpmath.nan
+        return Made(f"{a.inside(19)}{self.space()}{sign}{self.space()}{b.inside(20)}", 20, value)
+
+    def power(self, depth: int) -> Made:
+        a = self.made(depth)
+        text, n = self.pick.choice(EXPONENTS)
+        value = a.value
+        if (n != int(n) and not value >= 0) or (n == 0.625 and value == 0) or (n < 0 and not value):
+            return Made(f"({a.text}){text}", 40, mpmath.nan)
+        return Made(f"({a.text}){text}", 40, value ** mpmath.mpf(n) if abs(value) < 1e6 else mpmath.nan)
+
+    def call(self, depth: int) -> Made:
+        name = self.pick.choice(list(FUNCTIONS))
+        count, function = FUNCTIONS[name]
+        values = [self.made(depth if i == 0 else max(depth - 2, 0)) for i in range(count)]
+        known = not any(mpmath.isnan(v.value) or abs(v.value) > 1e9 for v in values)
+        value = function(*(v.value for v in values)) if known else mpmath.nan
+        return Made(f"{name}({(self.space() + ',' + self.space()).join(v.text for v in values)})", 60, value)
+
+    def sign(self, depth: int) -> Made:
+        a = self.made(depth)
+        return Made(f"-{a.inside(30)}", 30, -a.value)
+
+    def bars(self, depth: int) -> Made:
+        a = self.made(depth)
+        return Made(f"|({a.text})|", 60, abs(a.value))
+
+    def root(self, depth: int) -> Made:
+        a = self.made(depth)
+        return Made(f"√({a.text})", 60, mpmath.sqrt(a.value) if a.value >= 0 else mpmath.nan)
+
+    def choice(self, depth: int) -> Made:
+        a, b = self.made(max(depth - 1, 0)), self.made(max(depth - 1, 0))
+        p, q = self.made(depth), self.made(depth)
+        sign = self.pick.choice(list(COMPARISONS))
+        text = f"{a.inside(8)}{self.space()}{sign}{self.space()}{b.inside(8)}"
+        holds = COMPARISONS[sign](a.value, b.value)
+        if self.pick.random() < 0.3:
+            text, holds = self.pick.choice(["not({})", "!({})"]).format(text), not holds
+        if self.pick.random() < 0.3:
+            word, all_ = self.pick.choice([("and", True), ("&&", True), ("or", False), ("||", False)])
+            text = f"{text} {word} x > 0.5"
+            holds = holds if all_ else True
+        unknown = mpmath.isnan(a.value) or mpmath.isnan(b.value)
+        value = mpmath.nan if unknown else p.value if holds else q.value
+        if self.pick.random() < 0.5:
+            return Made(f"if({text}, {p.text}, {q.text})", 60, value)
+        return Made(f"({text} ? {p.text} : {q.text})", 60, value)
+
+    def formula(self) -> Made:
+        """Make a whole formula, with definitions before it, comments and an equation."""
+        pick, text = self.pick, ""
+        self.names = {}
+        for name in pick.sample(["d", "r1", "part", "q"], pick.choice([0, 0, 0, 1, 2])):
+            value = self.made(pick.randrange(3))
+            text += (
+                f"{pick.choice(['let ', ''])}{name} = {value.text};{pick.choice([' ', chr(10), '# said' + chr(10)])}"
+            )
+            self.names[name] = value.value
+        a = self.made(pick.randrange(5))
+        if pick.random() < 0.3:
+            b = self.made(pick.randrange(3))
+            return Made(f"{text}{a.inside(9)} = {b.inside(9)}", 0, a.value - b.value)
+        return Made(text + a.inside(9) + pick.choice(["", ";", " // end"]), 0, a.value)
+
+
+def mutated(pick: random.Random, text: str) -> str:
+    """Return a text with one to four mistakes."""
+    for _ in range(pick.randint(1, 4)):
+        at, to = pick.randint(0, len(text)), pick.randint(0, len(text))
+        match pick.randrange(6):
+            case 0:
+                text = text[:at] + text[at + 1 :]
+            case 1:
+                text = text[:at] + pick.choice(CHARACTERS) + text[at:]
+            case 2:
+                text = text[:at] + pick.choice(WORDS) + text[at:]
+            case 3:
+                text = text[:at] + text[min(at, to) : max(at, to)][:40] + text[at:]
+            case 4:
+                text = text[:at] + pick.choice(CHARACTERS) + text[at + 1 :]
+            case 5:
+                text = text[: max(at, to)] if pick.random() < 0.3 else text.replace(" ", "")
+    return text
+
+
+def noise(pick: random.Random) -> str:
+    """Return text of any characters and words."""
+    kinds = [lambda: pick.choice(CHARACTERS), lambda: pick.choice(WORDS), lambda: chr(pick.randrange(0x20, 0x3000))]
+    return "".join(pick.choice(kinds)() for _ in range(pick.randrange(40)))
+
+
+def value_of(tape: Tape) -> Any:
+    """Return the value of a tape at POINT, as a ball."""
+    with flint.ctx.workprec(200):
+        point = {name: flint.arb(flint.fmpq(v.numerator, v.denominator)) for name, v in POINT.items()}
+        return walk(tape, Balls(), point)[0]
+
+
+def wrong(text: str, made: Made | None, seen: Counter[str]) -> str | None:
+    """Return what is wrong with how a formula is read; None if nothing is. `seen` counts what became of it."""
+    try:
+        tape = formula.parse(text, PARAMETERS)
+    except FirsthitError as error:
+        seen["refused"] += 1
+        if len(str(error)) > 600:
+            return f"a message of {len(str(error))} characters"
+        known = made is not None and mpmath.isfinite(made.value)
+        return f"was refused: {error}" if known and _unexpected(str(error)) else None
+    seen["read"] += 1
+    written = formula.canonical(tape)
+    again = formula.parse(written)
+    if again.ordered() != tape.ordered():
+        return f"reads as another graph from {written}"
+    if formula.canonical(again) != written:
+        return f"is written in two ways: {written} and {formula.canonical(again)}"
+    if made is None or not mpmath.isfinite(made.value) or abs(made.value) > 1e9:
+        return None
+    ball = value_of(tape)
+    if not ball.rad() < 1e-20:
+        return None
+    seen["with the right value"] += 1
+    found = mpmath.mpf(ball.mid().str(45, radius=False))
+    if abs(found - made.value) > mpmath.mpf(10) ** -15 * (1 + abs(made.value)):
+        return f"has the value {found} and not {made.value}"
+    return None
+
+
+def _unexpected(message: str) -> bool:
+    """Return whether a well-formed formula was refused for another reason than its sizes or a constant's value."""
+    return not any(word in message for word in ("bits", "degree", "division by zero", "root of", "above 0", "solid"))
+
+
+def fuzz(count: int, seed: int) -> tuple[Counter[str], list[str], float]:
+    """Read `count` random formulas. Return what became of them, what was wrong, and the longest time of one."""
+    pick, seen, problems, longest = random.Random(seed), Counter[str](), [], 0.0
+    watching = [False]
+    events: list[str] = []
+
+    def watch(event: str, _arguments: Any) -> None:
+        if watching[0] and event.startswith(FORBIDDEN):
+            events.append(event)
+
+    formula.parse("atan2(x, cosh(y)) + if(x < a, mod(x, 2), 0)", PARAMETERS)  # what is imported later is imported now
+    value_of(formula.parse("x"))
+    sys.addaudithook(watch)
+    maker = Maker(pick)
+    with mpmath.workdps(45):
+        for i in range(count):
+            made = maker.formula() if i % 3 < 2 else None
+            text = noise(pick) if made is None else made.text if i % 3 == 0 else mutated(pick, made.text)
+            start, watching[0] = time.process_time(), True
+            try:
+                problem = wrong(text, made if i % 3 == 0 else None, seen)
+            except Exception as error:  # what the fuzz is for: anything but a FirsthitError
+                problem = f"ended in {type(error).__name__}: {error}"
+            watching[0] = False
+            took = time.process_time() - start
+            longest = max(longest, took)
+            if took > LIMIT:
+                problem = f"took {took:.1f} s"
+            if events:
+                problem = f"ran code: {sorted(set(events))}"
+                events.clear()
+            if problem:
+                problems.append(f"{text!r}: {problem}")
+    return seen, problems, longest
+
+
+def main() -> int:
+    """Fuzz as the command line says. Returns 1 if anything was wrong."""
+    parser = argparse.ArgumentParser(description="Read random formulas.")
+    parser.add_argument("--count", type=int, default=100_000)
+    parser.add_argument("--seed", type=int, default=1)
+    options = parser.parse_args()
+    seen, problems, longest = fuzz(options.count, options.seed)
+    for problem in problems[:50]:
+        print(problem)
+    told = ", ".join(f"{count:,} {what}" for what, count in seen.items())
+    print(f"{options.count:,} formulas, seed {options.seed}: {told}")
+    print(f"the longest took {longest:.2f} s of the processor; {len(problems)} wrong")
+    return int(bool(problems))
+
+
+if __name__ == "__main__":
+    sys.exit(main())
