@@ -21,7 +21,7 @@ from harness.scenes.camera import scene_radius
 from surfaces import formula, lowering
 from surfaces.entries import SYMMETRIES
 from surfaces.evaluation import evaluate_tape
-from surfaces.gallery.polynomials import chebyshev, folded, folding
+from surfaces.gallery.polynomials import chebyshev, doubled, folded, folding
 from surfaces.validity import check
 
 from .conftest import opened, usable_devices
@@ -190,9 +190,10 @@ def test_a_small_picture_is_as_the_oracle_says(name, method, device_name):
 def test_chebyshev_polynomials_are_those_of_cosines():
     angles = np.linspace(0.1, 3.0, 9)
     for degree in (2, 3, 7, 12, 20):
-        tape = lowering.real_tape(formula.parse(chebyshev(degree, "x")))
         at = np.stack([np.cos(angles), 0 * angles, 0 * angles], axis=1)
-        np.testing.assert_allclose(evaluate_tape(tape, at)[:, 0], np.cos(degree * angles), atol=1e-6)
+        for text, error in ((chebyshev(degree, "x"), 1e-6), (doubled(degree, "x"), 1e-13)):
+            tape = lowering.real_tape(formula.parse(text))
+            np.testing.assert_allclose(evaluate_tape(tape, at)[:, 0], np.cos(degree * angles), atol=error)
 
 
 def test_folding_polynomials_multiply_angles():

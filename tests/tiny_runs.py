@@ -18,7 +18,7 @@ METHOD = Method(name="uncompiled", source="a test", needs=("surface_value",))
 KERNEL = "Hit first_hit(Ray ray, real t0, real t1) { return no_such_function(t0); }"
 
 CAST = """title = "Every way of casting"
-surfaces = ["kiss"]
+surfaces = ["octdong"]
 sizes = [24]
 prepass = ["none", "beams"]
 devices = {devices}
@@ -54,7 +54,7 @@ rounds = 1
 """
 
 SEEN = """title = "Forms, origins, directions and hard rays"
-surfaces = ["torus", "torus:nested"]
+surfaces = ["torus", "torus:nested", "kiss"]
 sizes = [24]
 origins = ["nearest", "eye"]
 devices = {devices}

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from surfaces.entries import FULL, entry
-from surfaces.gallery.polynomials import chebyshev, folded, folded_nodes
+from surfaces.gallery.polynomials import chebyshev, doubled, folded, folded_nodes
 from surfaces.model import Box, Sphere, Surface
 
 TITLE = "High degree, up to 20"
@@ -11,7 +11,7 @@ _FOLDED = (
     "S. V. Chmutov, Examples of projective surfaces with many singularities, J. Alg. Geom. 1, 1992;"
     " real nodes: S. Breske, O. Labs, D. van Straten, Real line arrangements, 2008"
 )
-_CUBE = Box((-1.0625, -1.0625, -1.0625), (1.0625, 1.0625, 1.0625))  # farther out T_20 drowns all else
+_CUBE = Box((-1.0625, -1.0625, -1.0625), (1.0625, 1.0625, 1.0625))
 _DELTOID = Box((-1.75, -2.875, -1.125), (3.25, 2.875, 1.125))
 _CHMUTOV = (
     "T. F. Banchoff, Computer graphics tools for rendering algebraic surfaces, 1991: sums of Chebyshev polynomials"
@@ -42,7 +42,7 @@ SURFACES: tuple[Surface, ...] = (
     entry(
         "chmutov_16",
         "Banchoff–Chmutov of degree 16",
-        f"{chebyshev(16, 'x')} + {chebyshev(16, 'y')} + {chebyshev(16, 'z')}",
+        f"{doubled(16, 'x')} + {doubled(16, 'y')} + {doubled(16, 'z')}",
         16,
         _CUBE,
         _CHMUTOV,
@@ -52,7 +52,7 @@ SURFACES: tuple[Surface, ...] = (
     entry(
         "chmutov_20",
         "Banchoff–Chmutov of degree 20",
-        f"{chebyshev(20, 'x')} + {chebyshev(20, 'y')} + {chebyshev(20, 'z')}",
+        f"{doubled(20, 'x')} + {doubled(20, 'y')} + {doubled(20, 'z')}",
         20,
         _CUBE,
         _CHMUTOV,
