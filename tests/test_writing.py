@@ -43,7 +43,7 @@ EXEMPT = {
     "reports/history/draw.py": {"write_text"},  # into the writer's temporary folder, as those below
     "reports/history/multiples.py": {"savefig"},
     "reports/reading/export.py": {"write_table", "write_csv"},
-    "reports/rendering/document.py": {"copy", "write_text", "write_bytes"},
+    "reports/rendering/document.py": {"TemporaryDirectory", "copy", "write_text", "write_bytes"},
     "reports/rendering/html.py": {"write_text"},
     "reports/report.py": {"to_csv"},
 }
@@ -180,7 +180,7 @@ def test_what_commands_write(tmp_path):
     kept(picture, lambda: save(image.new("RGB", (2, 2)), picture))
     checked = SimpleNamespace(experiment=SimpleNamespace(name="quick"))
     for kind in ("junit", "markdown"):
-        told = SimpleNamespace(junit=None, markdown=None, github=False, pictures=None)
+        told = SimpleNamespace(junit=None, markdown=None, github=False, pictures=None, json=False)
         setattr(told, kind, tmp_path / kind / "gate.txt")
         kept(getattr(told, kind), partial(telling.tell, told, checked, [], "baseline.toml", 0, {}))
 
