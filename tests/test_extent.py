@@ -16,8 +16,8 @@ from harness.contract import FirsthitError
 from harness.recommend.model import Recommendation
 from harness.recommend.search import Search
 from surfaces import formula
-from surfaces.extent import Extent, extent, held_by, remark, written
 from surfaces.model import Box, Sphere
+from surfaces.proofs.extent import Extent, extent, held_by, remark, written
 
 from .conftest import usable_devices
 

@@ -41,8 +41,8 @@ def _add_output(parser: argparse.ArgumentParser, help_: str) -> None:
 
 def _import(options: argparse.Namespace) -> int:
     from surfaces import files
-    from surfaces.extent import remark
     from surfaces.files import own
+    from surfaces.proofs.extent import remark
 
     if options.output is not None:
         writable(options.output)

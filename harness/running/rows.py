@@ -15,7 +15,7 @@ from harness.experiment.plan import Planned
 from harness.kernels.costs import operations_per_evaluation
 from harness.results import timings
 from harness.results.row import Accuracy, Build, CellRow, RungVerdict, Time
-from surfaces import extent
+from surfaces.proofs import extent
 
 
 @dataclass(eq=False)

@@ -18,9 +18,9 @@ import numpy as np
 
 from surfaces.evaluation import Floats64, tape_of
 from surfaces.model import Box, Domain, FirsthitError, Sphere, Surface
-from surfaces.search import Bools, Hull, Searcher, hull, zero_beyond
+from surfaces.proofs.search import Bools, Hull, Searcher, hull, zero_beyond
+from surfaces.proofs.validity import corners, outside
 from surfaces.tape import Tape
-from surfaces.validity import corners, outside
 
 REACH = 4.0  # times the domain's radius: how far about its centre a cut surface is looked for
 SECONDS = 0.1  # for asking whether a domain holds some of a surface, and whether it holds all
