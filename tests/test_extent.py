@@ -141,9 +141,8 @@ def test_auto_refuses_what_no_box_holds(text: str, message: str) -> None:
         held_by(formula.parse(text))
 
 
-def test_show_and_plan_and_run_and_report_and_recommend_say_that_a_surface_is_cut(
-    tmp_path, capsys, monkeypatch
-) -> None:
+@pytest.mark.usefixtures("devices_found_once")
+def test_show_and_plan_and_run_and_recommend_say_that_a_surface_is_cut(tmp_path, capsys, monkeypatch) -> None:
     device, told = usable_devices()[0].name, "its domain sphere:1.8 cuts the surface; the domain box:1.22,1.22,1.22"
     one = ["--formula", CUT, "--domain", "sphere:1.8", "--device", device]
     assert main(["show", *one, "--method", "newton", "--size", "16", "-o", str(tmp_path / "a.png")]) == 0
