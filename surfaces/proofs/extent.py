@@ -18,8 +18,8 @@ import numpy as np
 
 from surfaces.evaluation import Floats64, tape_of
 from surfaces.model import Box, Domain, FirsthitError, Sphere, Surface, domain_text
+from surfaces.proofs.boxes import corners, outside
 from surfaces.proofs.search import Bools, Hull, Searcher, hull, zero_beyond
-from surfaces.proofs.validity import corners, outside
 from surfaces.tape import Tape
 
 REACH = 4.0  # times the domain's radius: how far about its centre a cut surface is looked for
