@@ -25,6 +25,7 @@ from surfaces.model import FirsthitError
 from surfaces.numbers import Balls
 from surfaces.tape import Tape, walk
 
+LIMIT = 2.0  # seconds of the processor for one formula, unless --limit says otherwise
 FORBIDDEN = ("compile", "exec", "import", "open", "os.", "subprocess.", "ctypes.", "socket.", "code.")
 PARAMETERS = {"a": "0.25", "b": "1/4", "e": "2", "R": "sqrt(4)", "xyz": "-0.5"}
 VALUES = {"a": 0.25, "b": 0.25, "e": 2.0, "R": 2.0, "xyz": -0.5}
@@ -355,7 +356,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description="Read random formulas.")
     parser.add_argument("--count", type=int, default=100_000)
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--limit", type=float, default=2.0, help="seconds of the processor for one formula")
+    parser.add_argument("--limit", type=float, default=LIMIT, help="seconds of the processor for one formula")
     options = parser.parse_args()
     seen, problems, longest = fuzz(options.count, options.seed, options.limit)
     for problem in problems[:50]:
