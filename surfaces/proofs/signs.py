@@ -216,6 +216,7 @@ def _times(a: Range, b: Range) -> Range:
 
 
 def _inverse(b: Range) -> Range:
+    """Return the range of 1 / b."""
     if b.positive and b.high <= 0.0:  # the divisor has a value nowhere, such as a root of what is negative
         return ANY
     if b.positive:
