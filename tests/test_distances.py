@@ -21,8 +21,8 @@ from harness.running.trace import Caster, cast
 from harness.scenes.camera import camera_for, rays_of
 from surfaces import formula
 from surfaces.evaluation import evaluate_tape
-from surfaces.lipschitz import is_distance_bound
 from surfaces.model import Box, Sphere
+from surfaces.proofs.lipschitz import is_distance_bound
 
 from .conftest import usable_devices
 from .distance_functions import random_shape

@@ -16,8 +16,8 @@ from harness.contract import FirsthitError
 from harness.recommend.model import Recommendation
 from harness.recommend.search import Search
 from surfaces import formula
-from surfaces.extent import Extent, extent, held_by, remark, written
-from surfaces.model import Box, Sphere
+from surfaces.model import Box, Sphere, domain_text
+from surfaces.proofs.extent import Extent, extent, held_by, remark
 
 from .conftest import usable_devices
 
@@ -123,8 +123,8 @@ def test_auto_finds_a_tight_box_of_short_decimals(text: str, box: tuple[tuple[fl
     lower, upper = map(np.array, box)
     assert (np.array(found.lower) < lower).all() and (np.array(found.upper) > upper).all()
     assert max((lower - found.lower).max(), (found.upper - upper).max()) <= 0.05 * (upper - lower).max()
-    assert all(len(number.lstrip("-").replace(".", "")) <= 6 for number in re.split("[,:]", written(found))[1:])
-    assert surfaces.from_formula(text, written(found)).domain == found
+    assert all(len(number.lstrip("-").replace(".", "")) <= 6 for number in re.split("[,:]", domain_text(found))[1:])
+    assert surfaces.from_formula(text, domain_text(found)).domain == found
 
 
 @pytest.mark.parametrize(
@@ -190,10 +190,21 @@ def test_big_formulas_are_not_searched() -> None:
 
 def test_domains_about_other_centres_are_read_and_written() -> None:
     domain = surfaces.from_formula("x - 3", "sphere:3,-2,1/2:1.5").domain
-    assert domain == Sphere(1.5, (3.0, -2.0, 0.5)) and written(domain) == "sphere:3,-2,0.5:1.5"
+    assert domain == Sphere(1.5, (3.0, -2.0, 0.5)) and domain_text(domain) == "sphere:3,-2,0.5:1.5"
+    assert domain_text(Box((-1, -2, -0.1), (1, 2, 0.1))) == "box:1,2,0.1"
     for bad in ("sphere:1,2:3", "sphere:1,2,3", "sphere:1,2,3:0", "auto:1"):
         with pytest.raises(FirsthitError):
             surfaces.from_formula("x", bad)
+
+
+def test_every_domain_reads_back_from_its_text(rng) -> None:
+    """To all digits: the row, the remark and an imported file name the same domain."""
+    numbers = rng.uniform(0.1, 4.0, (50, 3))
+    domains = [Sphere(r) for r in (10**0.5, 1e-30, 3.4e38)] + [Box(tuple(-n), tuple(n * [1, 1, 2])) for n in numbers]
+    for domain in [*domains, *(Sphere(n[0], tuple(n)) for n in numbers)]:
+        assert surfaces.from_formula("x", domain_text(domain)).domain == domain
+    said = remark(surfaces.from_formula("x^2 + y^2 + z^2 - 100", Sphere(10**0.5)))
+    assert said and domain_text(Sphere(10**0.5)) in said
 
 
 def test_slopes_do_not_bound_what_jumps() -> None:

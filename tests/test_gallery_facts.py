@@ -22,7 +22,7 @@ from surfaces import formula, lowering
 from surfaces.entries import SYMMETRIES
 from surfaces.evaluation import evaluate_tape
 from surfaces.gallery.polynomials import chebyshev, doubled, folded, folding
-from surfaces.validity import check
+from surfaces.proofs.validity import check
 
 from .conftest import opened, usable_devices
 from .facts import scattered, singular_points

@@ -14,9 +14,9 @@ from harness.contract import FirsthitError
 from surfaces import formula
 from surfaces.evaluation import evaluate_tape
 from surfaces.model import Box, Sphere
-from surfaces.signs import ranges_of
+from surfaces.proofs.signs import ranges_of
+from surfaces.proofs.validity import undefined
 from surfaces.tape import Builder, Tape
-from surfaces.validity import undefined
 
 
 @pytest.mark.parametrize(

@@ -17,14 +17,14 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from surfaces.blending import is_blend
 from surfaces.evaluation import Floats64, evaluate_tape
 from surfaces.lowering import gradient, real_tape
 from surfaces.model import Domain
-from surfaces.ranges import halved, outputs
-from surfaces.signs import MOST_TERMS, Range, ranges_of
+from surfaces.proofs.blending import is_blend
+from surfaces.proofs.ranges import halved, outputs
+from surfaces.proofs.signs import MOST_TERMS, Range, ranges_of
+from surfaces.proofs.validity import corners, outside
 from surfaces.tape import JUMPS, Op, Tape
-from surfaces.validity import corners, outside
 
 ONE = 1.0 + 2.0**-30  # what rounding of the bounds themselves may add to 1; a float32 is wrong by 2^-24
 SECONDS, PER_OPERATION, PER_BOX = 0.3, 2e-5, 1e-7  # of bounding gradients on boxes, counted by the work

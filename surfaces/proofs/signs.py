@@ -15,7 +15,7 @@ from fractions import Fraction
 from math import inf, nextafter
 from typing import Literal, NamedTuple
 
-from surfaces.ranges import bracket
+from surfaces.proofs.ranges import bracket
 from surfaces.tape import Op, Tape
 
 MOST_TERMS = 64  # of a sum that is looked through

@@ -15,11 +15,11 @@ from numpy.typing import NDArray
 
 from surfaces.evaluation import Floats64, tape_of
 from surfaces.formula import degree
-from surfaces.guards import Guards, facts_of, guards_of, live_on
 from surfaces.lowering import enclosures
 from surfaces.model import Box, Domain, FirsthitError, Surface
-from surfaces.ranges import halved, has_value, run, sides
-from surfaces.signs import Range, ranges_of
+from surfaces.proofs.guards import Guards, facts_of, guards_of, live_on
+from surfaces.proofs.ranges import halved, has_value, run, sides
+from surfaces.proofs.signs import Range, ranges_of
 from surfaces.tape import Tape
 
 MAX_BOXES = 60_000
