@@ -56,7 +56,7 @@ def add_surface(parser: argparse.ArgumentParser) -> None:
 
 
 def add_method(parser: argparse.ArgumentParser, default: str | None = None) -> None:
-    """Add the options that name a method and where it casts, which `caster_of` reads. Without `default` it is a must."""
+    """Add the options that name a method and where it casts, which `caster_of` reads; `default` is a method."""
     help_ = "see `firsthit list methods`" + (f" (default: {default})" if default else "")
     parser.add_argument("--method", required=default is None, default=default, metavar="NAME", help=help_)
     parser.add_argument("--knob", action="append", default=[], metavar="NAME=VALUE", help="a parameter of the method")

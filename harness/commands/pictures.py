@@ -27,8 +27,8 @@ from harness.limits import FIELD_OF_VIEW, PICTURE, Within
 from harness.results.writing import write_atomically
 from harness.running.picture import picture
 from surfaces import AUTO, reading
-from surfaces.extent import remark
 from surfaces.files.own import domain_text
+from surfaces.proofs.extent import remark
 
 if TYPE_CHECKING:
     from PIL.Image import Image

@@ -40,7 +40,7 @@ class Told:
 
 
 def subject(surface: Surface) -> str:
-    """Return how sentences call a surface: by its title, or "this surface" where that is only the start of a formula."""
+    """Return what sentences call a surface: its title, or "this surface" where that is a formula's start."""
     return "this surface" if surface.title.endswith("...") else surface.title
 
 
