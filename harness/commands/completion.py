@@ -91,9 +91,8 @@ def _surfaces(_options: Namespace) -> list[str]:
 
 def _groups(_options: Namespace) -> list[str]:
     import surfaces
-    from surfaces.gallery import GROUPS
 
-    return [surfaces.CATALOG, surfaces.GALLERY, *GROUPS]
+    return [*surfaces.groups(), surfaces.GALLERY]
 
 
 def _methods(options: Namespace) -> list[str]:
