@@ -36,7 +36,7 @@ GROUPS: dict[str, dict[str, str]] = {
     "completion": {"completion": "print what makes bash, zsh or fish complete commands, options, names and paths"},
     "pictures": {
         "show": "say how a surface is read, and draw a shaded picture",
-        "sheet": "draw every surface of the catalog on one sheet",
+        "sheet": "draw every surface of the catalog, or of a group, on one sheet",
     },
     "files": {
         "import": "read a surface from another program's file, and say what was left out",
