@@ -90,10 +90,11 @@ def _surfaces(_options: Namespace) -> list[str]:
 
 
 def _groups(_options: Namespace) -> list[str]:
-    import surfaces
+    from surfaces import GALLERY
+    from surfaces.entries import CATALOG
     from surfaces.gallery import GROUPS
 
-    return [surfaces.CATALOG, surfaces.GALLERY, *GROUPS]
+    return [CATALOG, GALLERY, *GROUPS]
 
 
 def _methods(options: Namespace) -> list[str]:

@@ -27,7 +27,7 @@ from harness.limits import FIELD_OF_VIEW, PICTURE, Within
 from harness.results.writing import write_atomically
 from harness.running.picture import picture
 from surfaces import AUTO, reading
-from surfaces.files.own import domain_text
+from surfaces.model import domain_text
 from surfaces.proofs.extent import remark
 
 if TYPE_CHECKING:
