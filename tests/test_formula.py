@@ -146,7 +146,7 @@ REFUSALS = [
 ]
 
 
-@pytest.mark.timeout(5)
+@pytest.mark.timeout(60)
 @pytest.mark.parametrize(("text", "column", "reason"), REFUSALS, ids=[repr(text[:20]) for text, _, _ in REFUSALS])
 def test_refusal_names_the_column(text: str, column: int, reason: str) -> None:
     with pytest.raises(FirsthitError) as caught:
@@ -175,7 +175,7 @@ def test_refuses_what_is_too_long_and_bad_parameters() -> None:
         parse("x*a", {"a": "x"})
 
 
-@pytest.mark.timeout(10)
+@pytest.mark.timeout(60)
 @pytest.mark.parametrize(
     ("text", "reason"),
     [

@@ -90,11 +90,9 @@ def _surfaces(_options: Namespace) -> list[str]:
 
 
 def _groups(_options: Namespace) -> list[str]:
-    from surfaces import GALLERY
-    from surfaces.entries import CATALOG
-    from surfaces.gallery import GROUPS
+    import surfaces
 
-    return [CATALOG, GALLERY, *GROUPS]
+    return [*surfaces.groups(), surfaces.GALLERY]
 
 
 def _methods(options: Namespace) -> list[str]:
