@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from harness.contract import digest
-from reports import content
+from reports import content, parts
 from reports.analysis import breaks, derive
 from reports.material import Material
 from reports.parts import who_breaks_where
@@ -111,3 +111,8 @@ def test_rows_of_older_versions_without_groups_make_no_page(tmp_path: Path) -> N
     old = row("ray_march", "torus", None, {})
     del old["surface_group"]
     assert page(tiny_run(tmp_path / "run", old)) is None
+
+
+def test_it_stands_before_the_winners():
+    parts_ = [part.__name__.rpartition(".")[2] for part in parts.found(parts.__name__, parts.__path__)]
+    assert parts_.index("who_breaks_where") < parts_.index("winners")
