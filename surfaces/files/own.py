@@ -95,4 +95,5 @@ def _point(point: tuple[float, float, float]) -> str:
 def short(value: float) -> str:
     """Return the shortest decimal that float32 rounds to this number of a domain."""
     texts = (f"{value:.{digits}g}" for digits in range(1, 10))
-    return next((text for text in texts if as_float32(float(text)) == value), repr(value))
+    text = next((text for text in texts if as_float32(float(text)) == value), repr(value))
+    return f"{float(text):.0f}" if "e+" in text and abs(value) < 1e6 else text
