@@ -7,7 +7,6 @@ import contextlib
 import errno
 import importlib
 import os
-import re
 import sys
 import traceback
 from collections.abc import Sequence
@@ -33,8 +32,7 @@ EXIT_CODES = """exit codes:
   141  who reads the output went away before its end
 """
 FULL = (errno.ENOSPC, errno.EDQUOT)  # of a disk or a quota: no mistake of ours
-SIGNED = ("--formula", "--distance", "--surface")  # options whose values may begin with a minus sign or a dash
-SHORT = ("-h", "-o")
+SIGNED = ("--formula", "--distance", "--view", "--surface")  # options whose values may begin with a minus sign
 RUN_CELLS = ("run", "gate", "bless", "recommend")  # commands that store a row as soon as its cell ends
 
 
@@ -138,28 +136,27 @@ def _ended(arguments: Sequence[str], options: argparse.Namespace) -> int:
     return code
 
 
+def _signed(arguments: Sequence[str]) -> list[str]:
+    """Join an option of SIGNED and its value where that begins with a minus sign: argparse takes it for an option."""
+    joined: list[str] = []
+    for word in arguments:
+        if joined and joined[-1] in SIGNED and word.startswith("-") and not word.startswith(("--", "-o", "-h")):
+            joined[-1] += f"={word}"
+        else:
+            joined.append(word)
+    return joined
+
+
 def _run(arguments: Sequence[str], options: argparse.Namespace) -> int:
     """Parse a command line into `options` and run the command; return its exit code."""
-    build_parser(arguments).parse_args(_joined(arguments), options)
+    arguments = _signed(arguments)
+    build_parser(arguments).parse_args(arguments, options)
     if options.json:
         from harness.commands import machine
 
         return machine.run(options.run, options)
     code: int = options.run(options)
     return code
-
-
-def _joined(arguments: Sequence[str]) -> list[str]:
-    """Return a command line in which `--formula -x^2` is one word, `--formula=-x^2`.
-
-    Else argparse takes the formula for an option, since it begins with a sign.
-    """
-    joined: list[str] = []
-    for word in arguments:
-        if joined and joined[-1] in SIGNED and re.match(r"-[^-]", word) and word not in SHORT:
-            word = f"{joined.pop()}={word}"
-        joined.append(word)
-    return joined
 
 
 def _is_full(error: Exception) -> TypeGuard[OSError]:

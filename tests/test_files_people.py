@@ -9,7 +9,7 @@ import surfaces
 from harness.cli import main
 from harness.contract import Box, FirsthitError, Sphere
 from surfaces import files
-from surfaces.files import own
+from surfaces.model import domain_text
 
 from .test_files import LIMITS, X, Y, Z, load, same  # noqa: F401  (load is a fixture)
 
@@ -91,7 +91,7 @@ def test_other_meshes_are_told_as_meshes(load, name):  # noqa: F811
 
 @pytest.mark.parametrize(("radius", "text"), [(10.0, "sphere:10"), (2500.0, "sphere:2500"), (0.001, "sphere:0.001")])
 def test_a_domain_is_written_as_people_write_it(radius, text):
-    assert own.domain_text(Sphere(radius)) == text
+    assert domain_text(Sphere(radius)) == text
 
 
 @pytest.mark.parametrize("formula", ["-x^2-y^2-z^2+1", "-x", "-(x+y)*z"])

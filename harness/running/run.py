@@ -229,7 +229,7 @@ def _run_part(part: Experiment, loaded: Loaded, runs: Path, command: str, again:
 
 def remarks(part: Experiment) -> list[str]:
     """Return sentences on surfaces that their domains cut or do not hold, and on what of their files is left out."""
-    from surfaces.extent import remark
+    from surfaces.proofs.extent import remark
 
     return [*part.left_out, *(told for told in map(remark, part.surfaces) if told)]
 

@@ -17,10 +17,10 @@ from typing import Literal
 import numpy as np
 
 from surfaces.evaluation import Floats64, tape_of
-from surfaces.model import Box, Domain, FirsthitError, Sphere, Surface
-from surfaces.search import Bools, Hull, Searcher, hull, zero_beyond
+from surfaces.model import Box, Domain, FirsthitError, Sphere, Surface, as_float32, domain_text
+from surfaces.proofs.boxes import corners, outside
+from surfaces.proofs.search import Bools, Hull, Searcher, hull, zero_beyond
 from surfaces.tape import Tape
-from surfaces.validity import corners, outside
 
 REACH = 4.0  # times the domain's radius: how far about its centre a cut surface is looked for
 SECONDS = 0.1  # for asking whether a domain holds some of a surface, and whether it holds all
@@ -88,7 +88,7 @@ def remark(surface: Surface) -> str | None:
     if _as_stated(surface):
         return None
     found = extent(surface)
-    domain, box = f"its domain {written(surface.domain)}", found.box and written(found.box)
+    domain, box = f"its domain {domain_text(surface.domain)}", found.box and domain_text(found.box)
     if found.kind == "cut":
         return f"{surface.name}: {domain} cuts the surface; the domain {box} holds all of it"
     if found.kind == "missed" and box:
@@ -134,23 +134,6 @@ def held_by(tape: Tape) -> Box:
     return _rounded(found)
 
 
-def written(domain: Domain) -> str:
-    """Return the text of a domain, as `surfaces.from_formula` takes it."""
-
-    def joined(values: tuple[float, ...]) -> str:
-        return ",".join(f"{value:.7g}" for value in values)
-
-    if isinstance(domain, Sphere):
-        return (
-            f"sphere:{joined(domain.center)}:{domain.radius:.7g}"
-            if any(domain.center)
-            else f"sphere:{domain.radius:.7g}"
-        )
-    if all(-a == b for a, b in zip(domain.lower, domain.upper, strict=True)):
-        return f"box:{joined(domain.upper)}"
-    return f"box:{joined(domain.lower)}:{joined(domain.upper)}"
-
-
 def _ends(domain: Domain) -> tuple[Floats64, Floats64]:
     """Return the corners of the box about a domain, float64[3] each."""
     lower, upper = corners(domain)
@@ -176,10 +159,19 @@ def _widened(domain: Domain, by: float) -> Domain:
 
 def _rounded(found: Hull) -> Box:
     """Return a box about the one found, whose ends are multiples of a short decimal step."""
-    size = max(float((found.upper - found.lower).max()), 1e-6 * (1.0 + float(np.abs(found.upper).max())))  # of a point
+    far = max(float(np.abs(found.lower).max()), float(np.abs(found.upper).max()))
+    size = max(float((found.upper - found.lower).max()), 1e-6 * far, 1e-30)  # which a point has none of
     power = Fraction(10) ** math.floor(math.log10(_STEP * size))
     step = max(factor * power for factor in (1, 2, 5) if float(factor * power) <= _STEP * size)
-    room = Fraction(size) / 10_000  # more than the box's numbers lose as float32
-    low = [float(math.floor((Fraction(v) - room) / step) * step) for v in found.lower]
-    high = [float(math.ceil((Fraction(v) + room) / step) * step) for v in found.upper]
+    room = Fraction(size) / 10_000
+    high = [_stepped(Fraction(v) + room, step, v) for v in found.upper]
+    low = [-_stepped(room - Fraction(v), step, -v) for v in found.lower]
     return Box((low[0], low[1], low[2]), (high[0], high[1], high[2]))
+
+
+def _stepped(value: Fraction, step: Fraction, least: float) -> float:
+    """Return the first multiple of a step from a value on that is above `least` as float32 too."""
+    count = math.ceil(value / step)
+    while as_float32(float(count * step)) <= least:  # far from the origin, floats lie farther apart than steps
+        count += 1
+    return float(count * step)
