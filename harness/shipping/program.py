@@ -199,7 +199,10 @@ def domain_of(surface: Surface) -> str:
 def _folded(text: str) -> str:
     """Return a section's text with its tables in lines of WIDTH; all else is as it was."""
     return re.sub(
-        rf"^TABLE .{{{WIDTH},}}$", lambda line: "\n    ".join(textwrap.wrap(line[0], WIDTH - 4)), text, flags=re.M
+        rf"^(?=.{{{WIDTH + 1}}})TABLE .*$",
+        lambda line: "\n    ".join(textwrap.wrap(line[0], WIDTH - 4)),
+        text,
+        flags=re.M,
     )
 
 
