@@ -32,7 +32,7 @@ EXIT_CODES = """exit codes:
   141  who reads the output went away before its end
 """
 FULL = (errno.ENOSPC, errno.EDQUOT)  # of a disk or a quota: no mistake of ours
-SIGNED = ("--formula", "--distance", "--view")  # options whose value may begin with a minus sign
+SIGNED = ("--formula", "--distance", "--view", "--surface")  # options whose values may begin with a minus sign
 RUN_CELLS = ("run", "gate", "bless", "recommend")  # commands that store a row as soon as its cell ends
 
 

@@ -123,8 +123,8 @@ def _number_text(value: float) -> str:
     for digits in range(1, 9):
         text = f"{value:.{digits}g}"
         with contextlib.suppress(OverflowError):
-            if as_float32(float(text)) == value:
-                return text
+            if as_float32(float(text)) == value:  # 1e+01 is written 10
+                return f"{value:.0f}" if "e+" in text and abs(value) < 1e6 else text
     return f"{value:.9g}"
 
 

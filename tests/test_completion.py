@@ -56,6 +56,7 @@ def typed(tmp_path, monkeypatch):
     here = tmp_path / "here"
     (here / "runs" / "mine" / "cells").mkdir(parents=True)
     (here / "runs" / "mine" / "cells" / "0123abcd.json").write_text("{}")
+    (here / "torus_d.jsurf").write_text("surface_equation=x-a\nsurface_parameter_a=1\n")
     (here / "plugins" / "own_method").mkdir(parents=True)
     (here / "plugins" / "own_method" / "method.py").write_text("raise SystemExit('it must not be run for its name')")
     (here / "quick-own.toml").write_text("")
@@ -92,6 +93,8 @@ def test_bash_completes_options_and_every_kind_of_name(typed):
         "firsthit show --surface torus:n": ["nested"],  # bash breaks words at a colon, and has the first part already
         "firsthit recommend --surface=barth_s": ["barth_sextic"],
         "firsthit show --surface torus --parameter ": ["R=", "r="],
+        "firsthit show --surface torus_d": ["torus_d.jsurf", "torus_distance"],
+        "firsthit show --surface torus_d.jsurf --parameter ": ["a="],
         "firsthit trace --method newton --knob MAX": ["MAX_EVALUATIONS="],
         "firsthit trace --device ": ["opencl:kept"],
         "firsthit --plugins plugins conform --method own": ["own_method"],

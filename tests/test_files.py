@@ -45,7 +45,10 @@ def test_a_jsurf_file_has_its_equation_parameters_and_the_sphere_it_is_clipped_b
     assert imported.surface.name == "some_surface"
     assert imported.surface.domain == Sphere(10**0.3)  # jsurf: FileFormat scales by 10^scale_factor
     assert dict(imported.surface.parameters) == {"a": "0.5", "b": "-1e-1"}
-    assert imported.remarks == ("left out: camera_…, light_… (what concerns the picture)",)
+    assert imported.remarks == (
+        "left out: surface_parameter_unused (the equation does not name it)",
+        "left out: camera_…, light_… (what concerns the picture)",
+    )
 
 
 def test_a_jsurf_parameter_may_have_any_name_and_be_replaced(load):

@@ -97,7 +97,8 @@ def test_export_takes_files_formulas_and_the_catalog(capsys):
     [
         ("toruss", "there is no surface 'toruss'; did you mean torus"),
         ("nothing.jsurf", "cannot read nothing.jsurf: No such file"),
-        ("egg.jsurf#2", "egg.jsurf: there is no parameter"),
+        ("egg.jsurf", "egg.jsurf: there is no parameter"),
+        ("egg.jsurf#2", "egg.jsurf: it has one surface; leave out #2"),
         ("egg.txt", "egg.txt is no file that is read; read are .jsurf"),
     ],
 )
@@ -157,6 +158,18 @@ def test_a_config_takes_a_file_from_its_own_folder(here, tmp_path_factory, monke
     assert torus == surfaces.get("torus")
     path.write_text(CONFIG.format(more='domain = "sphere:1.25"'), encoding="utf-8")
     assert load_config(path, find_methods()).surfaces[0].domain == Sphere(1.25)
+
+
+def test_a_plan_says_what_of_a_configs_file_is_left_out(here, capsys):
+    """A scene of two shapes in a CSG gives the first; whoever runs the config hears of it."""
+    quadric = "quadric { <1,1,1>, <0,0,0>, <0,0,0>, -1 }"
+    (here / "two.pov").write_text(f"union {{ {quadric} {quadric} }}", encoding="utf-8")
+    config = CONFIG.replace("files/egg.jsurf", "two.pov").replace("parameters = {{ a = 3 }}", "")
+    (here / "mine.toml").write_text(config.format(more=""), encoding="utf-8")
+    assert main(["plan", "mine.toml"]) == 0
+    told = capsys.readouterr().err
+    assert "egg: the file has 2 shapes (quadric, quadric); the first is taken" in told
+    assert "egg: left out: union (a shape is read alone" in told
 
 
 @pytest.mark.parametrize(

@@ -4,6 +4,7 @@ import ast
 import dataclasses
 import os
 import re
+import shlex
 import subprocess
 import sys
 from functools import cache
@@ -230,6 +231,24 @@ def test_what_cannot_be_shipped_is_refused_in_a_sentence(tmp_path, capsys, argum
     err = capsys.readouterr().err
     assert words in err and err.count("\n") == 1
     assert not (tmp_path / "made").exists()
+
+
+def test_the_next_command_can_be_pasted_whatever_the_folder_is_called(tmp_path, capsys):
+    folder = tmp_path / "two words"
+    assert main(["kernel", "--surface", "torus", "--method", "newton", "-o", str(folder)]) == 0
+    words = shlex.split(capsys.readouterr().out.splitlines()[-1])
+    assert words == ["next:", "python", str(folder / "draw.py"), "surface.png"]
+
+
+def test_tables_are_folded_and_nothing_else_is():
+    shipment = shipped("lu_lipschitz", surfaces.get("barth_sextic"), "cl")
+    text = shipment.text("firsthit kernel")
+    assert all(len(line) <= 118 for line in text.splitlines() if line.startswith("TABLE "))
+    folded = [line for line in text.splitlines() if line.startswith("TABLE ") and not line.endswith(";")]
+    assert folded  # a table longer than a line
+    assert "PRECISE keeps the compiler" in text
+    squeezed = "".join(text.split())
+    assert all("".join(section.text.split()) in squeezed for section in shipment.program.sections)
 
 
 def test_all_files_are_written_or_none(tmp_path, capsys):

@@ -79,7 +79,7 @@ class _Named:
         found = [name for name in self._names(parsed_args) if name.startswith(prefix)]
         if action.dest == "config":
             return found + list(FilesCompleter(("toml",))(prefix))
-        return found or (list(FilesCompleter()(prefix)) if action.dest in FILES else [])
+        return found + (list(FilesCompleter()(prefix)) if action.dest in FILES and (prefix or not found) else [])
 
 
 def _surfaces(_options: Namespace) -> list[str]:
@@ -131,9 +131,12 @@ def _parameters(options: Namespace) -> list[str]:
     """List the parameters of the surface that --surface names, as `NAME=`."""
     import surfaces
     from harness.contract import FirsthitError
+    from surfaces import files
 
+    named = _last(options, "surface")
     try:
-        return [f"{name}=" for name, _ in surfaces.get(_last(options, "surface")).parameters]
+        surface = files.load(named).surface if files.is_file(named) else surfaces.get(named)
+        return [f"{name}=" for name, _ in surface.parameters]
     except FirsthitError:
         return []
 

@@ -91,5 +91,5 @@ def _kernel(options: argparse.Namespace) -> int:
             f"tried on {device}: compiled in {tried.compile_ms / 1e3:.2g} s; {tried.rays} rays, {tried.hits} hits, all "
             "answered as by the program that firsthit checks, to the last bit"
         )
-    print(f"next:  python {options.output / 'draw.py'} surface.png")
+    print(f"next:  {shlex.join(['python', str(options.output / 'draw.py'), 'surface.png'])}")
     return 0

@@ -284,6 +284,7 @@ class Experiment:
     """Hold a config with every name in it resolved. One that includes others has nothing but `included`.
 
     own_stages: the stages of variants whose stages are not `stages`
+    left_out: a sentence for each thing that a surface's file has and that is not carried over
     """
 
     name: str
@@ -301,6 +302,7 @@ class Experiment:
     normals: tuple[Normal, ...] = ("distance",)
     scenes: tuple[Scene, ...] = ()
     own_stages: Mapping[Variant, tuple[Stage, ...]] = field(default_factory=dict)
+    left_out: tuple[str, ...] = ()
 
     def stages_of(self, variant: Variant) -> tuple[Stage, ...]:
         """Return the stages that a variant is cast in."""

@@ -23,10 +23,11 @@ def resolve(config: Config, file: ConfigFile, catalog: Catalog) -> Experiment:
         return _collection(config, file)
     config = _with_all_families(_with_all_views(config, file))
     _check_that_something_is_asked(config, file)
+    told: list[str] = []
     parts: list[Callable[[], Any]] = [
         lambda: _variants(config, file, catalog),
-        lambda: _surfaces(config, file),
-        lambda: _scenes(config, file, catalog),
+        lambda: _surfaces(config, file, told),
+        lambda: _scenes(config, file, catalog, told),
     ]
     (variants, own_stages), chosen, scenes = gathered(parts, lambda part: part())
     _check_baseline(config, file, catalog, variants)
@@ -45,6 +46,7 @@ def resolve(config: Config, file: ConfigFile, catalog: Catalog) -> Experiment:
         normals=tuple(config.normals),
         scenes=tuple(scenes),
         own_stages=own_stages,
+        left_out=tuple(dict.fromkeys(told)),
     )
 
 
@@ -148,8 +150,8 @@ def _check_baseline(config: Config, file: ConfigFile, catalog: Catalog, variants
         raise file.error(("baseline",), f"baseline: {problem}")
 
 
-def _surfaces(config: Config, file: ConfigFile) -> list[Surface]:
-    """Return the surfaces that the config names, of a group that it names all.
+def _surfaces(config: Config, file: ConfigFile, told: list[str]) -> list[Surface]:
+    """Return the surfaces that the config names, of a group that it names all, and add to `told` as `_surface` does.
 
     "all" is the catalog. Raises FirsthitError for an unknown one and for a bad formula.
     """
@@ -161,7 +163,7 @@ def _surfaces(config: Config, file: ConfigFile) -> list[Surface]:
     named = [surfaces.names(groups[name]) if name in groups else (name,) for name in config.surfaces]
     for name in dict.fromkeys(name for own in named for name in own):
         try:
-            chosen.append(_surface(name, {}, config, file.path.parent))
+            chosen.append(_surface(name, {}, config, file.path.parent, told))
         except FirsthitError as error:
             stated = config.surface.get(name)
             where: Where = ("surface", name, "file" if stated.file else "formula") if stated else ("surfaces",)
@@ -169,10 +171,13 @@ def _surfaces(config: Config, file: ConfigFile) -> list[Surface]:
     return chosen
 
 
-def _surface(name: str, parameters: Mapping[str, float | str], config: Config, folder: Path) -> Surface:
+def _surface(
+    name: str, parameters: Mapping[str, float | str], config: Config, folder: Path, told: list[str]
+) -> Surface:
     """Return a surface of the config's own, of a file, or of the catalog, with `parameters` bound.
 
-    Files are looked for from `folder`. Raises FirsthitError where there is none, or where it cannot be made.
+    Files are looked for from `folder`; what of them is not carried over is added to `told`. Raises FirsthitError where
+    there is none, or where it cannot be made.
     """
     import surfaces
 
@@ -184,8 +189,9 @@ def _surface(name: str, parameters: Mapping[str, float | str], config: Config, f
 
         if stated.formula:
             raise FirsthitError(f"surface {name!r} has a formula and a file; give one of them")
-        made = files.load(folder / stated.file, stated.domain or None, dict(given), stated.distance or None).surface
-        return dataclasses.replace(made, name=name)
+        found = files.load(folder / stated.file, stated.domain or None, dict(given), stated.distance or None)
+        told += [f"{name}: {remark}" for remark in found.remarks]
+        return dataclasses.replace(found.surface, name=name)
     if not stated.formula:
         if stated.distance:
             raise FirsthitError("a distance goes with a formula; a surface of the catalog has its own")
@@ -195,8 +201,11 @@ def _surface(name: str, parameters: Mapping[str, float | str], config: Config, f
     )
 
 
-def _scenes(config: Config, file: ConfigFile, catalog: Catalog) -> list[Scene]:
-    """Make the scenes that the config states. Raises FirsthitError, with the scene's line, if one cannot be made."""
+def _scenes(config: Config, file: ConfigFile, catalog: Catalog, told: list[str]) -> list[Scene]:
+    """Make the scenes that the config states, and add to `told` as `_surface` does.
+
+    Raises FirsthitError, with the scene's line, if one cannot be made.
+    """
     scenes: list[Scene] = []
     for name, choice in config.scene.items():
         try:
@@ -204,7 +213,7 @@ def _scenes(config: Config, file: ConfigFile, catalog: Catalog) -> list[Scene]:
                 name,
                 choice,
                 lambda placed: cut(
-                    _surface(placed.surface, placed.parameters, config, file.path.parent), placed.domain
+                    _surface(placed.surface, placed.parameters, config, file.path.parent, told), placed.domain
                 ),
                 lambda placed: catalog.get(placed.method, file.path.parent).variant(placed.knobs),
             )

@@ -228,10 +228,10 @@ def _run_part(part: Experiment, loaded: Loaded, runs: Path, command: str, again:
 
 
 def remarks(part: Experiment) -> list[str]:
-    """Return a sentence for each surface of a config that its domain cuts, or that is not in it."""
+    """Return sentences on surfaces that their domains cut or do not hold, and on what of their files is left out."""
     from surfaces.proofs.extent import remark
 
-    return [told for told in map(remark, part.surfaces) if told]
+    return [*part.left_out, *(told for told in map(remark, part.surfaces) if told)]
 
 
 def _device(info: DeviceInfo, found: Probes | None) -> dict[str, Any]:

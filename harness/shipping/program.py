@@ -6,6 +6,7 @@ The answers are those of the harness's own program of entry `camera`, bit for bi
 
 from __future__ import annotations
 
+import re
 import textwrap
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
@@ -43,6 +44,10 @@ HERE = Path(__file__).parent
 LANGUAGE_TITLES: dict[Language, str] = {"glsl": "GLSL 4.30, a compute shader", "cl": "OpenCL C 1.2"}
 ENTRY = "draw"
 WIDTH = 118  # characters of a line of the head
+MACROS = (
+    "real is the type of numbers. PRECISE keeps the compiler from contracting or reordering a sum whose rounding error "
+    "is used. IN, OUT, INOUT, TABLE and STRUCT write what differs between GLSL and OpenCL C"
+)
 LONGEST = 4000  # characters of a formula that the head shows
 BUILD_OPTIONS = {  # without the first, OpenCL takes numbers like 0.5 as float64; not every device has the second
     "float32": "-cl-single-precision-constant and, where the device has it, -cl-fp32-correctly-rounded-divide-sqrt",
@@ -107,7 +112,7 @@ class Shipment:
 
         `command` is the one that writes it. Raises FirsthitError where the kernel is mistaken.
         """
-        sections = [f"// ==== {section.origin} ====\n{section.text.rstrip()}\n" for section in self.program.sections]
+        sections = [f"// ==== {s.origin} ====\n{_folded(s.text).rstrip()}\n" for s in self.program.sections]
         return "\n".join([head(self, command) + "\n", *sections])
 
     @property
@@ -139,6 +144,7 @@ def _facts(shipment: Shipment) -> Iterator[tuple[str, str]]:
     yield "units", "lengths are in the units of x, y and z; t is the distance along a ray of direction length 1"
     yield "numbers", f"{shipment.precision}; the camera and the normals are float32"
     yield "language", LANGUAGE_TITLES[shipment.language]
+    yield "macros", MACROS
     if shipment.language == "cl":
         yield "options", BUILD_OPTIONS[shipment.precision]
     use = (
@@ -188,6 +194,16 @@ def domain_of(surface: Surface) -> str:
     else:
         where = f"the ball of radius {number(domain.radius)} about {point(domain.center)}"
     return f"{where}; what lies outside is not drawn"
+
+
+def _folded(text: str) -> str:
+    """Return a section's text with its tables in lines of WIDTH; all else is as it was."""
+    return re.sub(
+        rf"^(?=.{{{WIDTH + 1}}})TABLE .*$",
+        lambda line: "\n    ".join(textwrap.wrap(line[0], WIDTH - 4)),
+        text,
+        flags=re.M,
+    )
 
 
 def _wrapped(text: str, name: str = "") -> list[str]:

@@ -11,7 +11,9 @@ write surfaces for others. Files are text that is read: nothing in them is run, 
 from __future__ import annotations
 
 import re
+from codecs import BOM_UTF16_BE, BOM_UTF16_LE
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
@@ -67,7 +69,7 @@ def load(
     name, _, part = (str(path), "", "") if _is_there(path) else str(path).partition(PART)
     source, form = _opened(Path(name), part)
     reader: Any = import_module(f"surfaces.files.{form}")
-    reading: Reading = reader.read(source)
+    reading = _read(source, reader)
     if unknown := [key for key in parameters or {} if key not in reading.parameters]:
         source.fail(f"there is no parameter {unknown[0]!r}; it has {', '.join(reading.parameters) or 'none'}")
     given = {**reading.parameters, **(parameters or {})}
@@ -76,6 +78,18 @@ def load(
         tuple(source.remarks),
         reader.NAME,
     )
+
+
+def _read(source: Source, reader: Any) -> Reading:
+    """Read what a file holds. Raises FirsthitError, which names the file, where that is no surface."""
+    try:
+        reading: Reading = reader.read(source)
+    except FirsthitError as error:
+        told = str(error)
+        raise FirsthitError(told if told.startswith(str(source.path)) else f"{source.path}: {told}") from None
+    if source.part and not source.chosen:
+        source.fail(f"it has one surface; leave out {PART}{source.part[:40]}")
+    return reading
 
 
 def _is_there(path: str | Path) -> bool:
@@ -102,17 +116,25 @@ def _opened(path: Path, part: str) -> tuple[Source, str]:
         raise FirsthitError(f"{path} is {meshes.refusal(kind)}")
     if len(content) > MAX_BYTES:
         raise FirsthitError(f"{path} has more than {MAX_BYTES} bytes, the most that is read")
-    try:
-        text = content.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        text = content.decode("latin-1")
+    text = _decoded(content)
     if "\0" in text:
         raise FirsthitError(f"{path} is no text; {_known()}")
+    if not text.strip():
+        raise FirsthitError(f"{path} is empty")
     text = text.replace("\r\n", "\n").replace("\r", "\n")
     form = SUFFIXES.get(suffix) or _guessed(text)
     if form is None:
         raise FirsthitError(f"{path} is no file that is read; {_known()}")
     return Source(path, text, part), form
+
+
+def _decoded(content: bytes) -> str:
+    """Return the text of a file: UTF-16 where its first two bytes say so, else UTF-8, else Latin-1."""
+    encodings = ("utf-16",) if content.startswith((BOM_UTF16_LE, BOM_UTF16_BE)) else ()
+    for encoding in (*encodings, "utf-8-sig"):
+        with suppress(UnicodeDecodeError):
+            return content.decode(encoding)
+    return content.decode("latin-1")
 
 
 def _known() -> str:

@@ -216,7 +216,8 @@ class _Iso:
             self.source.remark(f"left out: Cnd {conditions[which].strip()[:60]!r} (it cuts the surface)")
         self.source.left_out((key for key in left if key != "Cnd"), "how it looks and moves")
         box = Box((lower[0], lower[1], lower[2]), (upper[0], upper[1], upper[2]))
-        return Reading(self.parts.formula(value), box, name=name, title=name)
+        own = "" if name.isdecimal() else name  # a number is no name of the model's
+        return Reading(self.parts.formula(value), box, name=own, title=own)
 
     def _limit(self, key: str, which: int) -> float:
         """Return a limit of a component."""

@@ -10,15 +10,17 @@ from __future__ import annotations
 
 import math
 import re
+from itertools import pairwise
 
 from surfaces.files.expressions import div, negative, power, word
-from surfaces.files.source import Reading, Source, tokens
+from surfaces.files.source import Reading, Source, Token, tokens
 from surfaces.files.syntax import PLAIN, Dialect, Parser, Scope, coordinates, one
 from surfaces.language.tokens import exact
 from surfaces.model import Domain, FirsthitError, Sphere
 
 NAME = "a .jsurf file"
 _PARAMETER = "surface_parameter_"
+_ESCAPE = re.compile(r"\\(u[0-9A-Fa-f]{4}|.)")
 _MATRIX = "surface_transform_matrix"
 _FUNCTIONS = ("sin", "cos", "tan", "asin", "acos", "atan", "exp", "log", "sqrt", "ceil", "floor", "abs", "sign")
 DIALECT = Dialect(
@@ -47,12 +49,26 @@ def read(source: Source) -> Reading:
         scope.values[name] = word(ours)
         values[ours] = _decimal(source, value, line)
     text, line = pairs["surface_equation"]
-    written = str(Parser(source, tokens(source, text, line), DIALECT, scope).whole())
+    words = tokens(source, text, line)
+    _check_names(source, words, scope)
+    written = str(Parser(source, words, DIALECT, scope).whole())
     names = set(re.findall(r"[A-Za-z_][A-Za-z_0-9]*", written))
+    unused = [name for name, ours in scope.values.items() if str(ours) in values and str(ours) not in names]
+    source.left_out((f"{_PARAMETER}{name}" for name in unused), "the equation does not name it")
     domain = _domain(source, pairs)
     rest = [key for key in pairs if not key.startswith(_PARAMETER) and key not in ("surface_equation", "scale_factor")]
     source.left_out(sorted(_groups(rest)), "what concerns the picture")
     return Reading(written, domain, {name: value for name, value in values.items() if name in names})
+
+
+def _check_names(source: Source, words: list[Token], scope: Scope) -> None:
+    """Raise FirsthitError at a letter of the equation that is no coordinate and has no line as a parameter."""
+    for token, following in pairwise(words):
+        short = token.kind == "name" and len(token.text) == 1 and following.text != "("
+        if short and token.text not in scope.values:
+            small = token.text.lower()
+            told = f"write {small}" if small in "xyz" else f"the file has no {_PARAMETER}{token.text}=…"
+            source.fail(f"unknown name {token.text!r}: {told}", token.line)
 
 
 def _groups(keys: list[str]) -> list[str]:
@@ -76,9 +92,15 @@ def _properties(source: Source) -> dict[str, tuple[str, int]]:
         match = re.fullmatch(r"((?:[^\\=:\s]|\\.)+)\s*[=:]?\s*(.*)", line)
         if match is None:
             source.fail(f"expected key=value, found {line[:40]!r}", number)
-        key, value = (re.sub(r"\\(.)", r"\1", part) for part in match.groups())
+        key, value = (_ESCAPE.sub(_unescaped, part) for part in match.groups())
         pairs[key] = value, number
     return pairs
+
+
+def _unescaped(escape: re.Match[str]) -> str:
+    """Return the character that Java's Properties means by an escape."""
+    code = escape[1]
+    return chr(int(code[1:], 16)) if len(code) > 1 else {"n": "\n", "t": "\t", "r": "\r", "f": "\f"}.get(code, code)
 
 
 def _decimal(source: Source, text: str, line: int) -> str:

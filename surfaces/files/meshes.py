@@ -19,6 +19,7 @@ SUFFIXES: tuple[str, ...] = (
     ".fbx",
     ".dae",
 )
+SUFFIXES += (".wrl", ".vrml", ".x3d", ".msh", ".blend", ".3ds", ".dxf", ".usd", ".usdz")
 PATCHES = (".step", ".stp", ".iges", ".igs")
 WHAT_TO_DO = (
     "Take the formula that it was made from, or fit a function to it with another program and bring that function's "
@@ -44,6 +45,8 @@ def kind_of(content: bytes, suffix: str) -> str | None:
         return "an STL"
     if re.match(r"ply\s", text):
         return "a PLY"
+    if text.startswith("#VRML"):
+        return "a VRML"
     if re.match(r"(?:ST)?C?N?4?OFF\b", text):
         return "an OFF"
     if head.startswith(b"glTF") or (text.startswith("{") and b'"asset"' in content and b'"meshes"' in content):
@@ -52,4 +55,5 @@ def kind_of(content: bytes, suffix: str) -> str | None:
         return "a 3MF" if suffix == ".3mf" else "an archive"
     if re.search(r"^v\s+[-+.0-9]", text, re.MULTILINE) and re.search(rb"^f\s+[0-9]", content, re.MULTILINE):
         return "an OBJ"
-    return f"a {suffix[1:].upper()}" if suffix in SUFFIXES + PATCHES else None
+    article = "an" if re.match(r"[aiofx]|msh|st[lp]\b", suffix[1:]) else "a"
+    return f"{article} {suffix[1:].upper()}" if suffix in SUFFIXES + PATCHES else None

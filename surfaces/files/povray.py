@@ -79,7 +79,7 @@ DIALECT = Dialect(
     },
     names={"pi": word("pi"), "clock": rational(0), **{name: rational(1) for name in ("yes", "true", "on")}}
     | {name: rational(0) for name in ("no", "false", "off")},
-    unread={"sum": "loops are not run", "prod": "loops are not run"}
+    unread={"sum": "loops are not run", "prod": "loops are not run", "^": "POV-Ray has no such power; write pow(a, b)"}
     | {
         f"f_{name}": _FUNCTION
         for name in ("torus", "sphere", "noise3d", "noise_generator", "ridged_mf", "heart", "helix1")

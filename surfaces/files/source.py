@@ -65,6 +65,7 @@ class Source:
     text: str
     part: str = ""
     remarks: list[str] = field(default_factory=list)
+    chosen: bool = False  # whether `choose` was asked
 
     def fail(self, message: str, line: int | None = None) -> NoReturn:
         """Raise FirsthitError with the file's name, and the line where there is one."""
@@ -88,6 +89,7 @@ class Source:
 
         Says so where there are several. Raises FirsthitError where `part` is none of them.
         """
+        self.chosen = True
         if self.part:
             if self.part in names:
                 return names.index(self.part)

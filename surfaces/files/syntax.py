@@ -60,7 +60,7 @@ class Dialect:
     functions: the fewest and the most arguments, and what a call makes of them
     names: constants
     right: the operators of which a chain is read from the right
-    unread: what to say of a function or a word that is not read
+    unread: what to say of a function, a word or an operator that is not read
     ignores_case: whether names in capitals are the same
     """
 
@@ -174,6 +174,8 @@ class Parser:
             operator = self.take()
             right = self.expression(strength - (operator.text in self.dialect.right))
             left = apply(left, right)
+        if (token := self.peek()).kind == "operator" and token.text in self.dialect.unread:
+            self.source.fail(f"{token.text!r} is not read: {self.dialect.unread[token.text]}", token.line)
         self.depth -= 1
         return left
 

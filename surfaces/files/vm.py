@@ -3,11 +3,13 @@
 The format is that of Matt Keeter's fidget (Context::from_text in fidget-core/src/context/mod.rs), known from the
 Prospero challenge: `#` begins a comment, the last line is the result. What each operation means is there too: `mod` is
 the least remainder that is not negative, `round` goes away from zero, `compare` is -1, 0 or 1, and `and` and `or` give
-one of their inputs. Viewers draw tapes in the cube from -1 to 1.
+one of their inputs. Viewers draw tapes in the cube from -1 to 1. Tapes of firsthit
+have their domain in a comment.
 """
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 
 from surfaces.files.expressions import (
@@ -113,11 +115,13 @@ def read(source: Source) -> Reading:
         values[name], depths[name] = value, depth
     if not axes:
         source.fail("the tape reads no var-x, var-y or var-z: it describes no surface")
-    source.remark("a tape has no domain; the cube from -1 to 1, in which its viewers draw, is taken")
+    ours = re.search(r"^# domain (\S+)\n# written by firsthit$", source.text, re.MULTILINE)  # as `titled` writes it
+    if ours is None:
+        source.remark("a tape has no domain; the cube from -1 to 1, in which its viewers draw, is taken")
     if absent := sorted(set("xyz") - axes):
         what = "a prism" if len(absent) == 1 else "planes"
         source.remark(f"the tape does not read {' and '.join(absent)}: the surface is {what} along it")
-    return Reading(parts.formula(values[last]), "box:1,1,1")
+    return Reading(parts.formula(values[last]), ours[1] if ours else "box:1,1,1")
 
 
 def _lines(source: Source) -> dict[str, tuple[int, str, list[str]]]:
@@ -127,8 +131,8 @@ def _lines(source: Source) -> dict[str, tuple[int, str, list[str]]]:
     """
     lines: dict[str, tuple[int, str, list[str]]] = {}
     for number, text in enumerate(source.text.split("\n"), 1):
-        words = text.split()
-        if not words or words[0].startswith("#"):
+        words = text.partition("#")[0].split()
+        if not words:
             continue
         if len(lines) == MAX_LINES:
             source.fail(f"more than {MAX_LINES} operations are not read", number)
