@@ -127,7 +127,8 @@ def _ended(arguments: Sequence[str], options: argparse.Namespace) -> int:
         else:
             told = f"{type(error).__name__}: {error}"
             traceback.print_exc()  # a mistake of ours; Python would end with 1, which says that a check does not hold
-    if options.json or "--json" in arguments:  # a usage that is wrong leaves `options` empty
+    # a usage that is wrong leaves `options` empty; argparse takes the beginning of an option for it
+    if options.json or any(len(word) > 2 and "--json".startswith(word) for word in arguments):
         from harness.commands import machine
 
         machine.write_error(options.command, code, told)

@@ -95,6 +95,13 @@ def test_a_usage_that_is_wrong_is_an_object_too(command, capsys, words, name):
     assert value["command"] == name and value["error"] in err and "usage: firsthit" in err
 
 
+def test_the_beginning_of_the_option_asks_for_an_object_too(command, capsys):
+    command(raising(AssertionError("it ran")))
+    with pytest.raises(SystemExit):
+        main(["try", "--js", "--count", "x"])
+    assert json.loads(capsys.readouterr().out)["exit_code"] == 2
+
+
 def test_a_command_that_returns_no_answer_and_one_that_takes_a_field_of_every_object_are_mistakes_of_ours(
     command, capsys
 ):
