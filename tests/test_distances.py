@@ -180,6 +180,7 @@ def test_a_distance_goes_with_a_formula_and_must_have_values(capsys) -> None:
     assert "--distance goes with --formula" in capsys.readouterr().err
 
 
+@pytest.mark.usefixtures("devices_found_once")
 def test_show_names_the_point_where_a_stated_distance_is_wrong(tmp_path, capsys) -> None:
     device = usable_devices()[0].name
     options = ["--method", "sphere_tracing", "--device", device, "--size", "16", "-o", str(tmp_path / "a.png")]

@@ -14,9 +14,9 @@ from harness.contract import FirsthitError
 from surfaces import formula
 from surfaces.evaluation import evaluate_tape
 from surfaces.model import Box, Sphere
-from surfaces.proofs.signs import ranges_of
+from surfaces.proofs.signs import Range, _own, ranges_of
 from surfaces.proofs.validity import undefined
-from surfaces.tape import Builder, Tape
+from surfaces.tape import Builder, Op, Tape
 
 
 @pytest.mark.parametrize(
@@ -66,6 +66,10 @@ def test_signs_that_show_in_the_structure_need_no_boxes(text: str) -> None:
         ("1/abs(x) - z", "a divisor"),
         ("z/(x^2 + max(y, 0))", "a divisor"),
         ("sqrt(x^2/y) - z", "a divisor|sqrt needs"),
+        ("x/sqrt(y - 12)", "sqrt needs"),  # has a value nowhere, nor have these
+        ("x/sqrt(y - 12) + 1/log(y - 12)", "sqrt needs|log needs"),
+        ("1/sqrt(sqrt(-2 - exp(x)) - y)", "sqrt needs"),
+        ("abs(x - 3)/(x - 12)^2.3", "a power"),
     ],
 )
 def test_what_may_have_no_value_is_still_refused(text: str, message: str) -> None:
@@ -198,3 +202,18 @@ def test_a_hundred_thousand_shared_operations_are_checked_in_linear_time() -> No
             value = b.select(b.below(value, x), value, b.abs(x))
     tape = b.tape(value)
     assert len(tape.ops) > 80_000 and undefined(tape, Sphere(1.0)) is None
+
+
+def test_ranges_of_what_has_no_value_end_in_no_error() -> None:
+    """Every operation on every pair of ranges, empty ones too, such as that of a root of a negative number."""
+    ends = (-np.inf, -1e308, -1.0, -1e-320, 0.0, 5e-324, 1.0, 710.0, np.inf)
+    odd = [Range(a, b, nonzero) for a in ends for b in ends for nonzero in (False, True)]
+    for name in ("neg", "sqr", "sqrt", "abs", "exp", "log", "sin", "cos", "tan", "floor", "sign"):
+        for a in odd:
+            assert isinstance(_own(Op(name, (0,)), [a]), Range)
+    for exponent in (2, 3, 8, Fraction(5, 2), Fraction(1, 7)):
+        for a in odd:
+            assert isinstance(_own(Op("powr" if isinstance(exponent, Fraction) else "powi", (0, exponent)), [a]), Range)
+    for name in ("add", "sub", "mul", "div", "min", "max", "atan2", "below"):
+        for a in odd[::2]:
+            assert all(isinstance(_own(Op(name, (0, 1)), [a, b]), Range) for b in odd)

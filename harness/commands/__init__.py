@@ -34,7 +34,10 @@ GROUPS: dict[str, dict[str, str]] = {
     "listing": {"list": "what there is to choose from"},
     "schema": {"schema": "print the JSON schema of configs, by which editors complete, explain and check them"},
     "completion": {"completion": "print what makes bash, zsh or fish complete commands, options, names and paths"},
-    "pictures": {"show": "draw a shaded picture", "sheet": "draw every surface of the catalog on one sheet"},
+    "pictures": {
+        "show": "say how a surface is read, and draw a shaded picture",
+        "sheet": "draw every surface of the catalog on one sheet",
+    },
     "files": {
         "import": "read a surface from another program's file, and say what was left out",
         "export": "write a surface in another program's language",

@@ -94,7 +94,7 @@ def _hits(surface: Surface, rng: np.random.Generator) -> tuple[Floats, Floats, F
 
 
 def _in_domain(surface: Surface, points: Floats) -> NDArray[np.bool_]:
-    from surfaces.proofs.validity import outside
+    from surfaces.proofs.boxes import outside
 
     return ~outside(surface.domain, points, points)
 

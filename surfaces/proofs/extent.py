@@ -17,9 +17,9 @@ from typing import Literal
 import numpy as np
 
 from surfaces.evaluation import Floats64, tape_of
-from surfaces.model import Box, Domain, FirsthitError, Sphere, Surface, domain_text
+from surfaces.model import Box, Domain, FirsthitError, Sphere, Surface, as_float32, domain_text
+from surfaces.proofs.boxes import corners, outside
 from surfaces.proofs.search import Bools, Hull, Searcher, hull, zero_beyond
-from surfaces.proofs.validity import corners, outside
 from surfaces.tape import Tape
 
 REACH = 4.0  # times the domain's radius: how far about its centre a cut surface is looked for
@@ -159,10 +159,19 @@ def _widened(domain: Domain, by: float) -> Domain:
 
 def _rounded(found: Hull) -> Box:
     """Return a box about the one found, whose ends are multiples of a short decimal step."""
-    size = max(float((found.upper - found.lower).max()), 1e-6 * (1.0 + float(np.abs(found.upper).max())))  # of a point
+    far = max(float(np.abs(found.lower).max()), float(np.abs(found.upper).max()))
+    size = max(float((found.upper - found.lower).max()), 1e-6 * far, 1e-30)  # which a point has none of
     power = Fraction(10) ** math.floor(math.log10(_STEP * size))
     step = max(factor * power for factor in (1, 2, 5) if float(factor * power) <= _STEP * size)
-    room = Fraction(size) / 10_000  # more than the box's numbers lose as float32
-    low = [float(math.floor((Fraction(v) - room) / step) * step) for v in found.lower]
-    high = [float(math.ceil((Fraction(v) + room) / step) * step) for v in found.upper]
+    room = Fraction(size) / 10_000
+    high = [_stepped(Fraction(v) + room, step, v) for v in found.upper]
+    low = [-_stepped(room - Fraction(v), step, -v) for v in found.lower]
     return Box((low[0], low[1], low[2]), (high[0], high[1], high[2]))
+
+
+def _stepped(value: Fraction, step: Fraction, least: float) -> float:
+    """Return the first multiple of a step from a value on that is above `least` as float32 too."""
+    count = math.ceil(value / step)
+    while as_float32(float(count * step)) <= least:  # far from the origin, floats lie farther apart than steps
+        count += 1
+    return float(count * step)

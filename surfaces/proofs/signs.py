@@ -216,9 +216,11 @@ def _times(a: Range, b: Range) -> Range:
 
 
 def _inverse(b: Range) -> Range:
-    """Return the range of 1 / b; a positive range that ends at 0 holds no number at all."""
+    """Return the range of 1 / b."""
+    if b.positive and b.high <= 0.0:  # the divisor has a value nowhere, such as a root of what is negative
+        return ANY
     if b.positive:
-        return Range(nextafter(1.0 / b.high, 0.0) if 0.0 < b.high < inf else 0.0, _reciprocal(b.low), True)
+        return Range(nextafter(1.0 / b.high, 0.0) if b.high < inf else 0.0, _reciprocal(b.low), True)
     if _negated(b).positive:
         return _negated(_inverse(_negated(b)))
     return Range(nonzero=True)
