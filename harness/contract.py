@@ -110,7 +110,8 @@ CLAIMS: dict[str, str] = {
     "finds_touch": "where a ray touches the surface without crossing it, that is a hit",
     "no_false_hit": "if f does not jump, no hit where the oracle proves that there is none, on rays that are neither"
     " grazing nor drowned",
-    "error_below_tolerance": "a right hit is off its root by at most Method.tolerance and what rounding must add",
+    "error_below_tolerance": "if f does not jump, a right hit is off its root by at most Method.tolerance and what"
+    " rounding must add",
     "conservative_bound": "no step is longer than a proved bound allows: no root of a ray that is neither grazing nor"
     " drowned is passed",
 }

@@ -171,10 +171,16 @@ def conservative_bound(_plugin: Plugin, hits: Hits, case: Case, precision: Preci
     return _claim("conservative_bound", _passed(hits, case) & there, there, rule, hits, case)
 
 
+def _jumps(case: Case) -> str | None:
+    """Say why claims of an f that does not jump are not checked; None where f does not."""
+    found = jumps(tape_of(case.surface))
+    return f"f may jump ({', '.join(found)}), and the claim is for an f that does not" if found else None
+
+
 def no_false_hit(_plugin: Plugin, hits: Hits, case: Case, precision: Precision, _knobs: Knobs) -> Finding:
     """Check the claim that no clear ray hits where the oracle proves a miss; it is made of an f that does not jump."""
-    if found := jumps(tape_of(case.surface)):
-        return not_checked("no_false_hit", f"f may jump ({', '.join(found)}), and the claim is for an f that does not")
+    if reason := _jumps(case):
+        return not_checked("no_false_hit", reason)
     misses = (case.truth.status == TruthStatus.MISS) & case.clear(case.judged(hits, precision))
     false = misses & ~np.isin(hits.status, (RayStatus.MISS, RayStatus.EXHAUSTED))
     return _claim("no_false_hit", false, misses, "hits where the oracle proves a miss, on clear rays", hits, case)
@@ -193,8 +199,13 @@ def rounding_adds(case: Case, precision: Precision) -> NDArray[np.float64]:
 
 
 def error_below_tolerance(plugin: Plugin, hits: Hits, case: Case, precision: Precision, knobs: Knobs) -> Finding:
-    """Check the claim that a right hit on a clear ray is off its root by at most Method.tolerance and rounding."""
+    """Check the claim that a right hit on a clear ray is off its root by at most Method.tolerance and rounding.
+
+    It is made of an f that does not jump: a jump across 0 close to the root may be taken for it.
+    """
     assert plugin.method.tolerance
+    if reason := _jumps(case):
+        return not_checked("error_below_tolerance", reason)
     tolerance = plugin.method.tolerance(case.surface, dict(plugin.variant(knobs).parameters))
     verdicts = case.judged(hits, precision)
     measured = case.clear(verdicts) & case.there & (verdicts.wrong == Wrong.RIGHT)
