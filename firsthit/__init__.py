@@ -11,7 +11,7 @@ in a ball of radius 1.5 about the origin, or as a Surface: `surfaces.get("torus"
 
 Rays are float32[n, 6]: an origin and a direction of length 1 each. Lengths are in the surface's own units, angles in
 degrees. What a caller can put right is raised as FirsthitError. A folder of methods of your own goes by `plugins`; its
-method.py imports Method and Parameter from here, see README.md.
+method.py imports Method and Parameter from here, see docs/methods.md.
 """
 
 from __future__ import annotations

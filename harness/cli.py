@@ -32,6 +32,7 @@ EXIT_CODES = """exit codes:
   141  who reads the output went away before its end
 """
 FULL = (errno.ENOSPC, errno.EDQUOT)  # of a disk or a quota: no mistake of ours
+SIGNED = ("--formula", "--distance", "--view")  # options whose value may begin with a minus sign
 RUN_CELLS = ("run", "gate", "bless", "recommend")  # commands that store a row as soon as its cell ends
 
 
@@ -135,8 +136,20 @@ def _ended(arguments: Sequence[str], options: argparse.Namespace) -> int:
     return code
 
 
+def _signed(arguments: Sequence[str]) -> list[str]:
+    """Join an option of SIGNED and its value where that begins with a minus sign: argparse takes it for an option."""
+    joined: list[str] = []
+    for word in arguments:
+        if joined and joined[-1] in SIGNED and word.startswith("-") and not word.startswith(("--", "-o", "-h")):
+            joined[-1] += f"={word}"
+        else:
+            joined.append(word)
+    return joined
+
+
 def _run(arguments: Sequence[str], options: argparse.Namespace) -> int:
     """Parse a command line into `options` and run the command; return its exit code."""
+    arguments = _signed(arguments)
     build_parser(arguments).parse_args(arguments, options)
     if options.json:
         from harness.commands import machine

@@ -10,9 +10,8 @@ This is the ground: it imports nothing else of the project. `model` says what a 
 `forms` hold the surfaces of the papers, `gallery` others of the literature, all written by means of `entries`.
 `formula` parses text into a `tape`, by means of the package `language`. `numbers` runs tapes in several number systems,
 and `lowering` turns them into other tapes: derivatives, coefficients along a ray. `evaluation` computes values.
-`validity` proves that a formula of one's own is defined all over its domain, by `signs`, `guards` and `ranges`;
-`lipschitz`, with `blending`, that it is a distance bound; `extent`, by `search`, that its domain cuts it, or finds a
-domain.
+`proofs` shows of a formula of one's own that it is defined all over its domain, whether it is a distance bound, and how
+it lies in its domain. `files` reads and writes the formats of other programs.
 """
 
 from __future__ import annotations
@@ -182,9 +181,9 @@ def from_formula(
 
     `parameters` are numbers or formulas of constants, as "1/3" and "sqrt(2)". `domain` is "sphere:R", "sphere:x,y,z:R"
     about another centre, "box:a,b,c" with half extents, "box:x0,y0,z0:x1,y1,z1", a Sphere or a Box, or "auto": a box
-    that is proved to hold the whole surface (surfaces.extent). `distance` is a formula as Surface.distance describes
-    it, with the same parameters; it is tested where it is used (harness.oracle.stated_distance). Without it, f is the
-    distance where that can be proved (surfaces.lipschitz).
+    that is proved to hold the whole surface (surfaces.proofs.extent). `distance` is a formula as Surface.distance
+    describes it, with the same parameters; it is tested where it is used (harness.oracle.stated_distance). Without it,
+    f is the distance where that can be proved (surfaces.proofs.lipschitz).
 
     Raises FirsthitError if the text is no formula, the domain is none, a parameter no constant or in no formula, if f
     does not depend on x, y and z, if f or the distance cannot be shown to be defined all over the domain, or if no
@@ -193,9 +192,9 @@ def from_formula(
     if not isinstance(text, str):
         raise FirsthitError(f"a formula is a text, as in 'x^2 + y^2 + z^2 - 1', not {text!r}")
     from surfaces import formula
-    from surfaces.extent import held_by
-    from surfaces.lipschitz import is_distance
-    from surfaces.validity import check, check_constants, undefined
+    from surfaces.proofs.extent import held_by
+    from surfaces.proofs.lipschitz import is_distance
+    from surfaces.proofs.validity import check, check_constants, undefined
 
     bound = _texts(parameters or {})
     found = formula.reading(text, bound)

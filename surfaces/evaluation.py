@@ -68,7 +68,7 @@ def tape_of(surface: Surface) -> Tape:
 
 @cache
 def expression(surface: Surface) -> sympy.Expr:
-    """Return f as an exact sympy expression in the symbols X, Y, Z of surfaces.formula."""
+    """Return f as an exact sympy expression in the symbols X, Y, Z of surfaces.formula. Raises as it does there."""
     value: sympy.Expr = formula.expression(tape_of(surface))
     return value
 

@@ -39,14 +39,12 @@ __all__ = [
 
 
 def __getattr__(name: str) -> Any:
-    """Return X, Y or Z, the sympy symbols of `expression`; sympy is imported when one is first asked for.
+    """Return X, Y or Z, the symbols of `expression`; sympy is imported when one is first asked for.
 
-    Raises AttributeError for any other name.
+    Raises FirsthitError without sympy, and AttributeError for any other name.
     """
     if name in ("X", "Y", "Z"):
-        import sympy
-
-        return sympy.Symbol(name.lower(), real=True)
+        return _sympy().Symbol(name.lower(), real=True)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
@@ -107,11 +105,21 @@ def parse(text: str, parameters: Mapping[str, str] | None = None, free: bool = F
 
 
 def expression(tape: Tape) -> Any:
-    """Return the exact sympy expression of a tape's first output, in the symbols X, Y, Z of this module."""
-    import sympy
+    """Return the exact sympy expression of a tape's first output, in the symbols X, Y, Z of this module.
 
-    symbols = {name: sympy.Symbol(name, real=True) for name in COORDINATES}
+    Raises FirsthitError without sympy, which nothing else needs.
+    """
+    symbols = {name: _sympy().Symbol(name, real=True) for name in COORDINATES}
     return walk(tape, Symbols(), symbols)[0]
+
+
+def _sympy() -> Any:
+    """Return the package sympy. Raises FirsthitError where it is not installed."""
+    try:
+        import sympy
+    except ImportError:
+        raise FirsthitError("an expression needs the package sympy: pip install 'firsthit[sympy]'") from None
+    return sympy
 
 
 def is_polynomial(tape: Tape) -> bool:

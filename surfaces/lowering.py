@@ -17,9 +17,7 @@ from surfaces.tape import LEAVES, Builder, Op, Tape, walk
 
 Enclosure = tuple[Fraction, Fraction]
 CONSTANT_BITS = 320
-LEAST_ROOT = Fraction(
-    1, 2**60
-)  # what derivatives of roots divide by at least: far below a kernel's rounding of lengths
+LEAST_ROOT = Fraction(1, 2**60)  # what roots' derivatives divide by at least: far below a kernel's rounding of lengths
 
 
 @cache

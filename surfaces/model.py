@@ -5,6 +5,7 @@ Lengths are in scene units, the surface's own coordinates.
 
 from __future__ import annotations
 
+import contextlib
 import math
 import struct
 from collections.abc import Iterable
@@ -101,6 +102,30 @@ class Box:
 
 
 Domain = Sphere | Box
+
+
+def domain_text(domain: Domain) -> str:
+    """Return the text of a domain, as `surfaces.from_formula` takes it; it reads back as the same domain."""
+    if isinstance(domain, Sphere):
+        center = [_point_text(domain.center)] if any(domain.center) else []
+        return ":".join(["sphere", *center, _number_text(domain.radius)])
+    if all(-a == b for a, b in zip(domain.lower, domain.upper, strict=True)):
+        return f"box:{_point_text(domain.upper)}"
+    return f"box:{_point_text(domain.lower)}:{_point_text(domain.upper)}"
+
+
+def _point_text(point: tuple[float, float, float]) -> str:
+    return ",".join(map(_number_text, point))
+
+
+def _number_text(value: float) -> str:
+    """Return the shortest decimal that float32 rounds to this number of a domain."""
+    for digits in range(1, 9):
+        text = f"{value:.{digits}g}"
+        with contextlib.suppress(OverflowError):
+            if as_float32(float(text)) == value:
+                return text
+    return f"{value:.9g}"
 
 
 @dataclass(frozen=True)

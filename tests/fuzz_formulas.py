@@ -1,9 +1,9 @@
 """Read random formulas: python tests/fuzz_formulas.py --count 1000000 --seed 1.
 
 A third is made by a grammar of its own, together with its value, a third are such formulas with mistakes in them, and a
-third is text of any characters. None may end in anything but a tape or a FirsthitError, take longer than LIMIT, or run
-code. What is read is written in canonical form and read again, which must give the same graph, and a made formula must
-have the value that it was made with.
+third is text of any characters. None may end in anything but a tape or a FirsthitError, take longer than --limit, or
+run code. What is read is written in canonical form and read again, which must give the same graph, and a made formula
+must have the value that it was made with.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from surfaces.model import FirsthitError
 from surfaces.numbers import Balls
 from surfaces.tape import Tape, walk
 
-LIMIT = 2.0  # seconds of the processor for one formula
+LIMIT = 2.0  # seconds of the processor for one formula, unless --limit says otherwise
 FORBIDDEN = ("compile", "exec", "import", "open", "os.", "subprocess.", "ctypes.", "socket.", "code.")
 PARAMETERS = {"a": "0.25", "b": "1/4", "e": "2", "R": "sqrt(4)", "xyz": "-0.5"}
 VALUES = {"a": 0.25, "b": 0.25, "e": 2.0, "R": 2.0, "xyz": -0.5}
@@ -312,8 +312,11 @@ def _unexpected(message: str) -> bool:
     return not any(word in message for word in ("bits", "degree", "division by zero", "root of", "above 0", "solid"))
 
 
-def fuzz(count: int, seed: int) -> tuple[Counter[str], list[str], float]:
-    """Read `count` random formulas. Return what became of them, what was wrong, and the longest time of one."""
+def fuzz(count: int, seed: int, limit: float) -> tuple[Counter[str], list[str], float]:
+    """Read `count` random formulas. Return what became of them, what was wrong, and the longest time of one.
+
+    One that takes more than `limit` seconds of the processor is wrong.
+    """
     pick, seen, problems, longest = random.Random(seed), Counter[str](), [], 0.0
     watching = [False]
     events: list[str] = []
@@ -338,7 +341,7 @@ def fuzz(count: int, seed: int) -> tuple[Counter[str], list[str], float]:
             watching[0] = False
             took = time.process_time() - start
             longest = max(longest, took)
-            if took > LIMIT:
+            if took > limit:
                 problem = f"took {took:.1f} s"
             if events:
                 problem = f"ran code: {sorted(set(events))}"
@@ -353,8 +356,9 @@ def main() -> int:
     parser = argparse.ArgumentParser(description="Read random formulas.")
     parser.add_argument("--count", type=int, default=100_000)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--limit", type=float, default=LIMIT, help="seconds of the processor for one formula")
     options = parser.parse_args()
-    seen, problems, longest = fuzz(options.count, options.seed)
+    seen, problems, longest = fuzz(options.count, options.seed, options.limit)
     for problem in problems[:50]:
         print(problem)
     told = ", ".join(f"{count:,} {what}" for what, count in seen.items())

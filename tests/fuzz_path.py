@@ -26,10 +26,10 @@ from harness.contract import Language, Precision, Surface, Truth, TruthStatus
 from harness.kernels.functions import FUNCTIONS, surface_sections, too_long, unsupported
 from harness.oracle import first_hits
 from surfaces import formula
-from surfaces.extent import remark, written
 from surfaces.lowering import gradient, real_tape
-from surfaces.model import FirsthitError
+from surfaces.model import FirsthitError, domain_text
 from surfaces.numbers import Balls
+from surfaces.proofs.extent import remark
 from surfaces.tape import JUMPS, walk
 from tests.fuzz_formulas import LIMIT, PARAMETERS, Maker, mutated
 
@@ -80,7 +80,7 @@ def taken(text: str, domain: str, pick: random.Random) -> Iterator[Step]:
 
     def extent() -> None:
         box = made["surface"].domain
-        assert surfaces.from_formula("x", written(box)).domain == box, f"{written(box)} is not its domain"
+        assert surfaces.from_formula("x", domain_text(box)).domain == box, f"{domain_text(box)} is not its domain"
         remark(made["surface"])
 
     def hits() -> None:

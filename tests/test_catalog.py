@@ -13,7 +13,7 @@ from harness.contract import Box, FirsthitError, Sphere, Surface
 from surfaces import formula, lowering
 from surfaces.entries import SYMMETRIES
 from surfaces.evaluation import evaluate_tape
-from surfaces.validity import check
+from surfaces.proofs.validity import check
 
 from .facts import scattered, singular_points
 

@@ -95,6 +95,7 @@ def test_bash_completes_options_and_every_kind_of_name(typed):
         "firsthit trace --method newton --knob MAX": ["MAX_EVALUATIONS="],
         "firsthit trace --device ": ["opencl:kept"],
         "firsthit --plugins plugins conform --method own": ["own_method"],
+        "firsthit sheet --group no": ["nodal"],
         "firsthit plan quick": ["quick", "quick-own.toml"],
         "firsthit why 01": ["0123abcd"],
         "firsthit report r": ["runs/"],

@@ -162,9 +162,9 @@ def test_a_method_may_have_stages_of_its_own(tmp_path):
         _load(tmp_path, GOOD.replace('name = "null"', 'name = "null"\nstages = ["beams"]'))
 
 
-def test_the_readmes_config_is_taken_as_printed(tmp_path):
-    page = (Path(__file__).parent.parent / "README.md").read_text(encoding="utf-8")
-    block = page.split("## Your own config\n\n")[1].split("\n\nA mistake is answered")[0]
+def test_the_config_of_the_docs_is_taken_as_printed(tmp_path):
+    page = (Path(__file__).parent.parent / "docs" / "configs.md").read_text(encoding="utf-8")
+    block = page.split("reports it.\n\n")[1].split("\n\nMistakes are answered")[0]
     (tmp_path / "mine.toml").write_text(textwrap.dedent(block), encoding="utf-8")
     experiment = reading.load(tmp_path / "mine.toml", find_methods())
     assert experiment.config.baseline == "ray_march"

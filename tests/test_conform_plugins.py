@@ -1,4 +1,4 @@
-"""conform as a plugin's author meets it: the README's example and a textbook method pass, a failing check says why."""
+"""conform as a plugin's author meets it: the docs' example and a textbook method pass, a failing check says why."""
 
 from __future__ import annotations
 
@@ -70,9 +70,9 @@ def _write(folder: Path, files: dict[str, str]) -> Path:
 
 
 def _example() -> dict[str, str]:
-    """method.py and kernel.glsl as the README prints them."""
-    section = (ROOT / "README.md").read_text(encoding="utf-8").split("## Your own method")[1].split("\n## ")[0]
-    blocks = [textwrap.dedent(block) for block in re.findall(r"(?:^(?: {4}.*)?\n)+", section, re.MULTILINE)]
+    """method.py and kernel.glsl as docs/methods.md prints them."""
+    page = (ROOT / "docs" / "methods.md").read_text(encoding="utf-8")
+    blocks = [textwrap.dedent(block) for block in re.findall(r"(?:^(?: {4}.*)?\n)+", page, re.MULTILINE)]
     description = next(block for block in blocks if "METHOD = " in block)
     kernel = next(block for block in blocks if "Hit first_hit(" in block)
     return {"method.py": description, "kernel.glsl": kernel}

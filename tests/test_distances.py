@@ -21,8 +21,8 @@ from harness.running.trace import Caster, cast
 from harness.scenes.camera import camera_for, rays_of
 from surfaces import formula
 from surfaces.evaluation import evaluate_tape
-from surfaces.lipschitz import is_distance_bound
 from surfaces.model import Box, Sphere
+from surfaces.proofs.lipschitz import is_distance_bound
 
 from .conftest import usable_devices
 from .distance_functions import random_shape
@@ -180,6 +180,7 @@ def test_a_distance_goes_with_a_formula_and_must_have_values(capsys) -> None:
     assert "--distance goes with --formula" in capsys.readouterr().err
 
 
+@pytest.mark.usefixtures("devices_found_once")
 def test_show_names_the_point_where_a_stated_distance_is_wrong(tmp_path, capsys) -> None:
     device = usable_devices()[0].name
     options = ["--method", "sphere_tracing", "--device", device, "--size", "16", "-o", str(tmp_path / "a.png")]

@@ -16,8 +16,8 @@ from harness.contract import FirsthitError
 from harness.recommend.model import Recommendation
 from harness.recommend.search import Search
 from surfaces import formula
-from surfaces.extent import Extent, extent, held_by, remark, written
-from surfaces.model import Box, Sphere
+from surfaces.model import Box, Sphere, domain_text
+from surfaces.proofs.extent import Extent, extent, held_by, remark
 
 from .conftest import usable_devices
 
@@ -123,8 +123,8 @@ def test_auto_finds_a_tight_box_of_short_decimals(text: str, box: tuple[tuple[fl
     lower, upper = map(np.array, box)
     assert (np.array(found.lower) < lower).all() and (np.array(found.upper) > upper).all()
     assert max((lower - found.lower).max(), (found.upper - upper).max()) <= 0.05 * (upper - lower).max()
-    assert all(len(number.lstrip("-").replace(".", "")) <= 6 for number in re.split("[,:]", written(found))[1:])
-    assert surfaces.from_formula(text, written(found)).domain == found
+    assert all(len(number.lstrip("-").replace(".", "")) <= 6 for number in re.split("[,:]", domain_text(found))[1:])
+    assert surfaces.from_formula(text, domain_text(found)).domain == found
 
 
 def test_a_found_box_holds_the_surface_as_float32_too_and_can_be_copied() -> None:
@@ -136,7 +136,7 @@ def test_a_found_box_holds_the_surface_as_float32_too_and_can_be_copied() -> Non
         found = surfaces.from_formula(f"{text} - {radius}^2", "auto")
         assert isinstance(found.domain, Box) and remark(found) is None
         assert (found.domain.lower < center - radius).all() and (center + radius < found.domain.upper).all()
-        assert surfaces.from_formula("x", written(found.domain)).domain == found.domain
+        assert surfaces.from_formula("x", domain_text(found.domain)).domain == found.domain
 
 
 @pytest.mark.parametrize("radius", [1e-9, 1e-15, 1e30])
@@ -157,8 +157,8 @@ def test_what_is_written_of_a_domain_makes_the_same_domain() -> None:
         a, b, c, d = (float(v) for v in rng.normal(size=4) * 10.0 ** rng.integers(-12, 12))
         box = Box((-abs(d), min(b, a), -abs(c)), (abs(a), max(b, a), abs(b)))
         for domain in (Sphere(abs(d), (a, b, c)), box):
-            assert surfaces.from_formula("x", written(domain)).domain == domain
-    assert written(Sphere(1.2)) == "sphere:1.2" and written(Box((-1.1, -1, -2), (1.1, 1, 2))) == "box:1.1,1,2"
+            assert surfaces.from_formula("x", domain_text(domain)).domain == domain
+    assert domain_text(Sphere(1.2)) == "sphere:1.2" and domain_text(Box((-1.1, -1, -2), (1.1, 1, 2))) == "box:1.1,1,2"
 
 
 @pytest.mark.parametrize(
@@ -175,9 +175,8 @@ def test_auto_refuses_what_no_box_holds(text: str, message: str) -> None:
         held_by(formula.parse(text))
 
 
-def test_show_and_plan_and_run_and_report_and_recommend_say_that_a_surface_is_cut(
-    tmp_path, capsys, monkeypatch
-) -> None:
+@pytest.mark.usefixtures("devices_found_once")
+def test_show_and_plan_and_run_and_recommend_say_that_a_surface_is_cut(tmp_path, capsys, monkeypatch) -> None:
     device, told = usable_devices()[0].name, "its domain sphere:1.8 cuts the surface; the domain box:1.22,1.22,1.22"
     one = ["--formula", CUT, "--domain", "sphere:1.8", "--device", device]
     assert main(["show", *one, "--method", "newton", "--size", "16", "-o", str(tmp_path / "a.png")]) == 0
@@ -224,10 +223,18 @@ def test_big_formulas_are_not_searched() -> None:
 
 def test_domains_about_other_centres_are_read_and_written() -> None:
     domain = surfaces.from_formula("x - 3", "sphere:3,-2,1/2:1.5").domain
-    assert domain == Sphere(1.5, (3.0, -2.0, 0.5)) and written(domain) == "sphere:3,-2,0.5:1.5"
+    assert domain == Sphere(1.5, (3.0, -2.0, 0.5)) and domain_text(domain) == "sphere:3,-2,0.5:1.5"
+    assert domain_text(Box((-1, -2, -0.1), (1, 2, 0.1))) == "box:1,2,0.1"
     for bad in ("sphere:1,2:3", "sphere:1,2,3", "sphere:1,2,3:0", "auto:1"):
         with pytest.raises(FirsthitError):
             surfaces.from_formula("x", bad)
+
+
+def test_remarks_name_the_domain_with_all_digits() -> None:
+    said = remark(surfaces.from_formula("x^2 + y^2 + z^2 - 100", Sphere(10**0.5)))
+    assert said and "its domain sphere:3.1622777 has nothing" in said
+    for radius in (3.4028234e38, 1e-45):
+        assert surfaces.from_formula("x", domain_text(Sphere(radius))).domain == Sphere(radius)
 
 
 def test_slopes_do_not_bound_what_jumps() -> None:

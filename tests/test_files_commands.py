@@ -28,7 +28,6 @@ MESHES = {
     "f.gltf": b'{"asset": {"version": "2.0"}, "meshes": [{"primitives": []}]}',
     "g.glb": b"glTF\x02\0\0\0",
     "h.3mf": b"PK\x03\x04....",
-    "i.step": b"ISO-10303-21;",
     "k.txt": b"solid part\n facet normal 0 0 1\n",
 }
 
@@ -124,6 +123,13 @@ def test_a_mesh_is_refused_in_a_sentence(here, name):
     with pytest.raises(FirsthitError, match=f"{name} is a.* [A-Za-z0-9]+; a mesh is no implicit surface"):
         files.load(name)
     assert "\n" not in meshes.WHAT_TO_DO
+
+
+def test_a_step_file_is_not_called_a_mesh(here):
+    (here / "i.step").write_bytes(b"ISO-10303-21;")
+    with pytest.raises(FirsthitError, match=r"i.step is a STEP; its patches are given by parameters") as caught:
+        files.load("i.step")
+    assert "mesh" not in str(caught.value) and "\n" not in str(caught.value)
 
 
 CONFIG = """title = "An egg"

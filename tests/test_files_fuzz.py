@@ -25,7 +25,6 @@ from surfaces import files
 from .foreign_files import OTHERS, POLYNOMIALS, WRITERS
 
 COUNT = int(os.environ.get("FIRSTHIT_FUZZ", "150"))
-SLOWEST = 2.0  # seconds for one file, on a machine with nothing else to do
 PIECES = (
     *"+-*/^%()[]{}<>=,;:!&|?.#@\"'\\\n\t \0é²√π",
     *("1e999", "1e-400", "9" * 400, "x", "y", "z", "t", "e", "pi", "let ", "if(", "if ", "goto ", "poly ", "surface"),
@@ -115,6 +114,7 @@ def answers(suffix: str, count: int, folder: Path, seed: int = 0) -> tuple[Count
     return told, slowest, which
 
 
+@pytest.mark.timeout(120 + COUNT)
 @pytest.mark.parametrize("suffix", sorted(seeds()))
 def test_no_file_brings_a_reader_down(suffix, tmp_path, monkeypatch):
     opened: list[str] = []
@@ -127,9 +127,8 @@ def test_no_file_brings_a_reader_down(suffix, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     files.load(_first(suffix, tmp_path))  # imports what it needs
     monkeypatch.setattr(builtins, "open", watched)
-    told, slowest, which = answers(suffix, COUNT, tmp_path)
+    told, _, _ = answers(suffix, COUNT, tmp_path)
     assert told["refused"] > 0.1 * COUNT
-    assert slowest < 10 * SLOWEST, which  # of processor time; other tests run beside this one
     assert not [name for name in opened if not name.startswith(str(tmp_path))]
     assert not (tmp_path / "hacked").exists()
 
@@ -141,6 +140,7 @@ def _first(suffix: str, folder: Path) -> Path:
     return path
 
 
+@pytest.mark.timeout(60)  # each takes under 2 s, and what grows with the square of its length minutes
 @pytest.mark.parametrize(
     ("content", "suffix"),
     [
@@ -164,10 +164,8 @@ def _first(suffix: str, folder: Path) -> Path:
 def test_large_and_deep_files_are_answered_soon(content, suffix, tmp_path):
     path = tmp_path / f"large{suffix}"
     path.write_bytes(content)
-    begin = time.process_time()
     with contextlib.suppress(FirsthitError):
         files.load(path)
-    assert time.process_time() - begin < 10 * SLOWEST
 
 
 def main() -> None:

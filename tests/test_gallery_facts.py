@@ -22,7 +22,7 @@ from surfaces import formula, lowering
 from surfaces.entries import SYMMETRIES
 from surfaces.evaluation import evaluate_tape
 from surfaces.gallery.polynomials import chebyshev, doubled, folded, folding
-from surfaces.validity import check
+from surfaces.proofs.validity import check
 
 from .conftest import opened, usable_devices
 from .facts import scattered, singular_points
@@ -194,6 +194,21 @@ def test_chebyshev_polynomials_are_those_of_cosines():
         for text, error in ((chebyshev(degree, "x"), 1e-6), (doubled(degree, "x"), 1e-13)):
             tape = lowering.real_tape(formula.parse(text))
             np.testing.assert_allclose(evaluate_tape(tape, at)[:, 0], np.cos(degree * angles), atol=error)
+
+
+def test_boys_surface_is_the_image_of_aperys_parameters_and_in_its_domain():
+    """F. Apéry, Models of the Real Projective Plane, 1987; at (0, 0, 2/3), three sheets meet."""
+    surface = surfaces.get("boy")
+    u, v = np.meshgrid(np.linspace(-np.pi / 2, np.pi / 2, 201), np.linspace(0.0, np.pi, 201))
+    scale = np.cos(v) / (np.sqrt(2.0) - np.sin(3.0 * u) * np.sin(2.0 * v)) * 2.0 / 3.0
+    x = scale * (np.cos(v) * np.cos(2.0 * u) + np.sqrt(2.0) * np.sin(v) * np.cos(u))
+    y = scale * (np.cos(v) * np.sin(2.0 * u) - np.sqrt(2.0) * np.sin(v) * np.sin(u))
+    points = np.stack((x, y, 1.5 * np.sqrt(2.0) * scale * np.cos(v)), axis=-1).reshape(-1, 3)
+    assert np.allclose(surfaces.evaluate(surface, points), 0.0, atol=1e-10)
+    assert np.linalg.norm(points - surface.domain.center, axis=1).max() < surface.domain.radius
+    on_axis = np.array([[0.0, 0.0, 2.0 / 3.0 + h] for h in (1e-3, 2e-3)])
+    values = surfaces.evaluate(surface, on_axis)
+    assert values[1] / values[0] == pytest.approx(8.0, rel=0.01)
 
 
 def test_folding_polynomials_multiply_angles():

@@ -54,7 +54,7 @@ FAULT = "rays the kernel ends only because this device's compiler removes a loop
 
 
 def _kernel(behind: str = "", front: str = "") -> str:
-    """The README's example with statements in front of its march and behind it."""
+    """The example of docs/methods.md with statements in front of its march and behind it."""
     text = HELPERS + _example()["kernel.glsl"]
     head, _, tail = text.rpartition("return hit;")
     text = f"{head}{behind} return hit;{tail}"

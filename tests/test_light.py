@@ -1,4 +1,4 @@
-"""`run` and `trace` need numpy, sympy, python-flint and a backend's binding, and nothing else."""
+"""`run` and `trace` need numpy, python-flint and a backend's binding, and nothing else."""
 
 import os
 import subprocess
@@ -13,7 +13,7 @@ from .conftest import usable_devices
 from .test_runner import CONFIG
 
 ROOT = Path(__file__).parent.parent
-NEEDED = ("numpy", "sympy", "mpmath", "python-flint")
+NEEDED = ("numpy", "python-flint")
 BINDINGS = ("moderngl", "glcontext", "pyopencl", "pytools", "platformdirs", "typing_extensions", "siphash24")
 DRIVERS = ("pocl-binary-distribution",)
 
@@ -40,7 +40,7 @@ def _python(environment, *arguments):
     return subprocess.run(command, capture_output=True, text=True, timeout=200, check=False, env=environment, cwd="/")
 
 
-@pytest.mark.parametrize("package", ["matplotlib", "pandas", "pyarrow", "typst", "PIL", "pyvista", "reports"])
+@pytest.mark.parametrize("package", ["matplotlib", "pandas", "pyarrow", "typst", "PIL", "pyvista", "sympy", "reports"])
 def test_everything_else_is_really_hidden(environment, package):
     assert f"No module named '{package}'" in _python(environment, "-c", f"import {package}").stderr
 

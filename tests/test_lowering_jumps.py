@@ -18,7 +18,7 @@ from harness.kernels.functions import libraries_for, surface_sections, too_long,
 from harness.kernels.printing import IntervalPrinter, RealPrinter
 from surfaces import lowering
 from surfaces.evaluation import evaluate_tape, tape_of
-from surfaces.slopes import jumps, steepest
+from surfaces.proofs.slopes import jumps, steepest
 from surfaces.tape import Builder
 from tests.test_lowering import MAPPED, PROBE
 

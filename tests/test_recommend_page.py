@@ -43,7 +43,7 @@ def asked(runs, monkeypatch):
 
 
 def test_answer_object_and_page_say_the_same(asked, runs, tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr("surfaces.extent.remark", lambda _: "formula: its domain cuts the surface")
+    monkeypatch.setattr("surfaces.proofs.extent.remark", lambda _: "formula: its domain cuts the surface")
     page = tmp_path / "page.html"
     value, _ = answered(capsys, *asked, "--error", "1e-3", "-o", str(page))
     Draft202012Validator(answer_schema("recommend")).validate(value)

@@ -14,9 +14,9 @@ from harness.contract import FirsthitError
 from surfaces import formula
 from surfaces.evaluation import evaluate_tape
 from surfaces.model import Box, Sphere
-from surfaces.signs import Range, _own, ranges_of
+from surfaces.proofs.signs import Range, _own, ranges_of
+from surfaces.proofs.validity import undefined
 from surfaces.tape import Builder, Op, Tape
-from surfaces.validity import undefined
 
 
 @pytest.mark.parametrize(
@@ -165,6 +165,19 @@ def test_a_guarded_part_needs_its_value_only_where_it_is_taken(condition: str, p
 )
 def test_a_guard_that_does_not_help_is_no_proof(condition: str, part: str, other: str) -> None:
     assert undefined(_choice(condition, part, other), Sphere(2.0))
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "if(x > 0, if(x <= 0, 1/x, 1), 2) + y",
+        "if(x > 0 && x <= 0, 1/x^2 + sqrt(x) + x^(1/3) + 1/abs(x), z)",
+        "if(x != 0, if(x >= 0 and x <= 0, 1/x, 1), y)",
+    ],
+)
+def test_a_part_that_is_never_taken_needs_no_value(text: str) -> None:
+    surface = surfaces.from_formula(text, "sphere:1")
+    assert np.isfinite(surfaces.evaluate(surface, np.random.default_rng(1).uniform(-1, 1, (50, 3)))).all()
 
 
 def test_one_use_outside_the_guard_needs_a_value_there() -> None:

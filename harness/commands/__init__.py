@@ -1,9 +1,9 @@
 """Offer what `firsthit` does: a module for each group of commands, with options and printing and nothing else.
 
 GROUPS says of every command what it does and which module holds it, so that a module is imported only where one of its
-commands is named: most of them import numpy, sympy and more. Each module has `add_parsers(add)`, which calls `add` for
-each of its commands, gives the parser the command's options, and sets as its default `run` the function that takes the
-parsed options and returns the exit code.
+commands is named: most of them import numpy, python-flint and more. Each module has `add_parsers(add)`, which calls
+`add` for each of its commands, gives the parser the command's options, and sets as its default `run` the function that
+takes the parsed options and returns the exit code.
 """
 
 from __future__ import annotations
@@ -34,7 +34,10 @@ GROUPS: dict[str, dict[str, str]] = {
     "listing": {"list": "what there is to choose from"},
     "schema": {"schema": "print the JSON schema of configs, by which editors complete, explain and check them"},
     "completion": {"completion": "print what makes bash, zsh or fish complete commands, options, names and paths"},
-    "pictures": {"show": "draw a shaded picture", "sheet": "draw every surface of the catalog on one sheet"},
+    "pictures": {
+        "show": "say how a surface is read, and draw a shaded picture",
+        "sheet": "draw every surface of the catalog, or of a group, on one sheet",
+    },
     "files": {
         "import": "read a surface from another program's file, and say what was left out",
         "export": "write a surface in another program's language",

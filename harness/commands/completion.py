@@ -89,6 +89,12 @@ def _surfaces(_options: Namespace) -> list[str]:
     return [form for name in names for form in (name, *surfaces.forms_of(name))]
 
 
+def _groups(_options: Namespace) -> list[str]:
+    import surfaces
+
+    return [*surfaces.groups(), surfaces.GALLERY]
+
+
 def _methods(options: Namespace) -> list[str]:
     from harness import plugins
 
@@ -156,6 +162,7 @@ def _last(options: Namespace, name: str) -> str:
 
 COMPLETERS: dict[str, Callable[[Namespace], Iterable[str]]] = {  # by the destinations of options and arguments
     "surface": _surfaces,
+    "group": _groups,
     "method": _methods,
     "device": _devices,
     "config": _configs,

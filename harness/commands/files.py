@@ -41,8 +41,9 @@ def _add_output(parser: argparse.ArgumentParser, help_: str) -> None:
 
 def _import(options: argparse.Namespace) -> int:
     from surfaces import files
-    from surfaces.extent import remark
     from surfaces.files import own
+    from surfaces.model import domain_text
+    from surfaces.proofs.extent import remark
 
     if options.output is not None:
         writable(options.output)
@@ -50,7 +51,7 @@ def _import(options: argparse.Namespace) -> int:
     surface = imported.surface
     degree = "no polynomial" if surface.degree is None else f"a polynomial of degree {surface.degree}"
     print(f"{surface.name}: read as {imported.form}, {degree}")
-    print(f"domain {own.domain_text(surface.domain)}")
+    print(f"domain {domain_text(surface.domain)}")
     for name, value in surface.parameters:
         print(f"parameter {name} = {value}")
     print(f"\n{surface.formula}")

@@ -55,9 +55,10 @@ def add_surface(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--parameter", action="append", default=[], metavar="NAME=VALUE", help="of the surface")
 
 
-def add_method(parser: argparse.ArgumentParser) -> None:
-    """Add the options that name a method and where it casts, which `caster_of` reads."""
-    parser.add_argument("--method", required=True, metavar="NAME", help="see `firsthit list methods`")
+def add_method(parser: argparse.ArgumentParser, default: str | None = None) -> None:
+    """Add the options that name a method and where it casts, which `caster_of` reads; `default` is a method."""
+    help_ = "see `firsthit list methods`" + (f" (default: {default})" if default else "")
+    parser.add_argument("--method", required=default is None, default=default, metavar="NAME", help=help_)
     parser.add_argument("--knob", action="append", default=[], metavar="NAME=VALUE", help="a parameter of the method")
     parser.add_argument("--device", metavar="NAME", help="see `firsthit list devices`; default: the first usable one")
     parser.add_argument("--precision", choices=PRECISIONS, default="float32")

@@ -22,24 +22,28 @@ from harness.commands.options import (
     whole,
     writable_png,
 )
-from harness.contract import FirsthitError, RayStatus, View
+from harness.contract import FirsthitError, RayStatus, Surface, View
 from harness.limits import FIELD_OF_VIEW, PICTURE, Within
 from harness.results.writing import write_atomically
 from harness.running.picture import picture
-from surfaces import reading
+from surfaces import AUTO, reading
+from surfaces.model import domain_text
+from surfaces.proofs.extent import remark
 
 if TYPE_CHECKING:
     from PIL.Image import Image
 
 
 COLUMNS = Within(1, 1000)
+ANY_SURFACE = "interval_march"  # a method that draws whatever can be read
 
 
 def add_parsers(add: Add) -> None:
-    parser = add("show", "firsthit show --surface torus --method newton -o a.png")
+    told = "Draw a shaded picture. Without -o, print how the surface is read and draw nothing."
+    parser = add("show", "firsthit show --surface torus --method newton -o a.png", told)
     add_surface(parser)
-    add_method(parser)
-    parser.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help=".png file to write")
+    add_method(parser, default=ANY_SURFACE)
+    parser.add_argument("-o", "--output", type=Path, metavar="FILE", help=".png file to write")
     parser.add_argument("--size", type=whole(PICTURE), default=512, help="pixels per side (default: 512)")
     parser.add_argument("--view", default="30,30", metavar="AZ,EL", help="angles in degrees (default: 30,30)")
     parser.add_argument("--fov", type=number(FIELD_OF_VIEW), default=30.0, help="full vertical angle (default: 30)")
@@ -50,7 +54,11 @@ def add_parsers(add: Add) -> None:
     parser.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help=".png file to write")
     parser.add_argument("--size", type=whole(PICTURE), default=160, help="pixels per side of each (default: 160)")
     parser.add_argument("--columns", type=whole(COLUMNS), default=8, help="pictures side by side (default: 8)")
-    parser.add_argument("--group", default="catalog", help="catalog, gallery, or one of the gallery's groups")
+    parser.add_argument(
+        "--group",
+        default="catalog",
+        help="catalog, gallery, or one of the gallery's groups, see `firsthit list surfaces`",
+    )
     parser.set_defaults(run=_sheet, view="30,30", fov=30.0)
 
 
@@ -79,10 +87,14 @@ def save(image: Image, output: Path) -> None:
 
 
 def _show(options: argparse.Namespace) -> int:
+    view, surface = _view(options), surface_of(options)
+    if options.output is None:
+        print("\n".join(_read(surface)))
+        return 0
     need_pillow()
     from PIL import Image
 
-    view, surface, output = _view(options), surface_of(options), writable_png(options.output)
+    output = writable_png(options.output)
     pixels, hits = picture(caster_of(options), surface, view, options.size, tell)
     save(Image.fromarray(pixels), output)
     exhausted = int((hits.status == RayStatus.EXHAUSTED).sum())
@@ -91,7 +103,20 @@ def _show(options: argparse.Namespace) -> int:
     print(f"{output}: {told}" + (f", {bad} invalid" if bad else ""))
     for line in reading(surface).told() if options.formula is not None else ():
         print(line)
+    if options.domain == AUTO:
+        print(f"domain: {domain_text(surface.domain)}")
     return 0
+
+
+def _read(surface: Surface) -> list[str]:
+    """Return lines that say how a surface is read, and how it lies in its domain."""
+    found = reading(surface)
+    degree = "no polynomial" if surface.degree is None else f"a polynomial of degree {surface.degree}"
+    distance = {None: "none is proved or stated", surface.formula: "the formula itself is one"}
+    lines = [f"read as: {found.canonical}", *(f"note: {note}" for note in found.notes), f"kind: {degree}"]
+    lines += [f"domain: {domain_text(surface.domain)}"]
+    lines += [f"distance bound: {distance.get(surface.distance, surface.distance)}"]
+    return [*lines, *filter(None, [remark(surface)])]
 
 
 def _sheet(options: argparse.Namespace) -> int:

@@ -149,12 +149,12 @@ def printed(found: Recommendation, wish: Wish, beside: Beside) -> str:
     told |= {"mind": telling.mind(found)} if found.extent else {}
     told |= telling.certainty(found, wish)
     parts = [_paragraph(name, text) for name, text in told.items()]
-    parts += [f"again      {beside.again}", *([f"ship       {beside.ship}"] if beside.ship else [])]
     if found.contenders:
         parts += ["", _table(found, wish)]
     parts += ["", "Why other variants are not recommended, a sentence for each method:"]
     for other in telling.others(found, wish):
         parts.append(textwrap.fill(other.sentence, WIDTH, initial_indent="- ", subsequent_indent="  "))
+    parts += ["", f"again      {beside.again}", *([f"ship       {beside.ship}"] if beside.ship else [])]
     return "\n".join(parts)
 
 

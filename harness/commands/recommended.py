@@ -39,7 +39,7 @@ def write_page(found: Recommendation, wish: Wish, beside: Beside, path: Path) ->
         size, largest = accuracy["size"], certified_error(accuracy, "max") or 0.0
         picture = f"{size}x{size} rays, {accuracy['truth_hits']:,} hits, largest error {largest:.2g}."
     page = Recommended(
-        f"What draws {wish.surface.title}?",
+        f"What draws {telling.subject(wish.surface)}?",
         f"firsthit {__version__} · {created[:10]} · {found.device.name}",
         telling.question(found, wish),
         telling.answer(found, wish),

@@ -14,7 +14,7 @@ from harness.contract import CLAIMS, UNIT_ROUNDOFF, Hits, Precision, RayStatus, 
 from harness.oracle.noise import root_shift
 from harness.plugins import Plugin
 from surfaces.evaluation import tape_of
-from surfaces.slopes import jumps
+from surfaces.proofs.slopes import jumps
 
 MOST_UNDECIDED = 0.01  # of the rays that hit or may: a pass needs decided hits
 MOST_WRONG = 0.002  # of a typical surface's clear rays

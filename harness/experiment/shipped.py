@@ -28,4 +28,6 @@ def located(config: str | Path) -> Path:
     if path.name in known:
         return FOLDER / f"{path.name}.toml"
     hint = suggestion(path.name, known, otherwise="see `firsthit list configs`")
+    if (beside := path.with_name(f"{path.name}.toml")).is_file():
+        hint = f"did you mean {str(beside)!r}?"
     raise FirsthitError(f"there is no config {path.name!r}, neither a file nor one that firsthit ships; {hint}")

@@ -11,7 +11,7 @@ import math
 from harness.contract import Box, Precision, Surface
 from surfaces.evaluation import tape_of
 from surfaces.numbers import Balls
-from surfaces.signs import ranges_of
+from surfaces.proofs.signs import ranges_of
 from surfaces.tape import LEAVES, Tape, walk
 
 SAFE = LEAVES | {"add", "sub", "mul", "sqr", "powi", "neg", "abs", "min", "max", "exp", "sin", "cos"}

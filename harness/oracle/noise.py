@@ -2,11 +2,16 @@
 
 **Theory.** Running error analysis, as in harness.kernels.rounding, but at given points instead of over balls, and for
 every formula. The bound covers one rounding each of the moved origin, of t·d and of their sum in every coordinate; one
-rounding of each constant that is no float32; and the error of each operation of the tape that kernels evaluate, for
-functions as large as OpenCL allows. Some methods evaluate a surface of degree 4 or less by its coefficients along the
-ray and Horner's rule, others by its tape; the larger of both bounds is taken. The bound depends on how f is written, as
-the errors do. It is a worst case to first order: at most points the errors are less than a tenth of it. It does not
-apply to a method that finds f's sign otherwise than by f's value.
+rounding of each constant that is no float32; and the error of each operation of the tape that kernels evaluate. Some
+methods evaluate a surface of degree 4 or less by its coefficients along the ray and Horner's rule, others by its tape;
+the larger of both bounds is taken. The bound depends on how f is written, as the errors do. It is a worst case to first
+order: at most points the errors are less than a tenth of it. It does not apply to a method that finds f's sign
+otherwise than by f's value.
+
+The errors of functions are the larger of what OpenCL and GLSL allow. GLSL states none of sin, cos, tan and atan: those
+of OpenCL stand for the first three, and twice the largest that was measured for atan. (Vulkan allows sin and cos an
+error of 2^-11, and atan one of 4096 units in the last place. A bound as wide would excuse answers that are wrong
+everywhere.) tests/test_function_errors.py measures every function on each device of the machine.
 
 A jump at a distance g, in the argument whose error is u·e for the unit roundoff u, may be taken for its other side once
 u·e reaches g. So its height times e/g bounds that error for every u.
@@ -29,9 +34,11 @@ Estimate = tuple[Numbers, Numbers]  # a value, and its error in unit roundoffs
 
 Rows = NDArray[np.intp] | slice  # an index of rays
 DIVISION = 5.0  # unit roundoffs of a quotient; OpenCL and GLSL allow 2.5 units in the last place
-FUNCTION = 10.0  # unit roundoffs of any other function; OpenCL allows up to 5 units in the last place
-ANGLE = 12.0  # unit roundoffs of atan2; OpenCL allows 6 units in the last place
-POWER = 32.0  # unit roundoffs of a general power; OpenCL allows 16 units in the last place
+FUNCTION = 10.0  # unit roundoffs of a function that has no line here; OpenCL allows up to 5 units in the last place
+EXPONENTIAL = (6.0, 4.0)  # unit roundoffs of exp(a) or exp2(a), and for each 1 of |a|: GLSL allows half as many ulp
+LOGARITHM = (6.0, 8.0)  # of log and log2, or in place of these 8 (2^-21) about 1: GLSL allows 3 ulp, and 2^-21
+ANGLE = 700.0  # unit roundoffs of atan2; Mesa's in GLSL was measured at 350, and OpenCL allows 6 ulp
+POWER = 32.0  # unit roundoffs of a general power in OpenCL, which allows 16 ulp; GLSL's is exp2(q log2(a))
 MOST_EXPANDED = 4  # the degree up to which kernels may expand f along the ray
 
 
@@ -90,11 +97,12 @@ class RunningErrors:
 
     def exp(self, a: Estimate) -> Estimate:
         value = np.exp(a[0])
-        return self._called(a, value, value, value)
+        own, each = EXPONENTIAL
+        return self._called(a, value, value, value * np.maximum(1.0, (own + each * np.abs(a[0])) / FUNCTION))
 
     def log(self, a: Estimate) -> Estimate:
         value = np.log(a[0])
-        return self._called(a, value, 1.0 / np.asarray(a[0]), np.abs(value))
+        return self._called(a, value, 1.0 / np.asarray(a[0]), np.maximum(np.abs(value), LOGARITHM[1] / FUNCTION))
 
     def sin(self, a: Estimate) -> Estimate:
         return self._called(a, np.sin(a[0]), np.cos(a[0]), 1.0)
@@ -117,9 +125,11 @@ class RunningErrors:
 
     def powr(self, a: Estimate, q: Fraction) -> Estimate:
         value = np.power(a[0], float(q))
-        # the exponent is rounded too, which moves the power by its logarithm
-        bend = np.where(value == 0.0, 0.0, np.abs(np.log(a[0])) * float(q) * np.abs(value))
-        return self._called(a, value, float(q) * value / np.asarray(a[0]), POWER / FUNCTION * np.abs(value) + bend)
+        size = np.where(value == 0.0, 0.0, np.abs(np.log2(a[0])))
+        bend = 2.0 * float(q) * size  # the exponent and its product with the logarithm are rounded too
+        bend = np.log(2.0) * (bend + float(q) * np.maximum(LOGARITHM[0] * size, LOGARITHM[1]))
+        own = np.maximum(POWER, EXPONENTIAL[0] + EXPONENTIAL[1] * float(q) * size)
+        return self._called(a, value, float(q) * value / np.asarray(a[0]), np.abs(value) * (own + bend) / FUNCTION)
 
     def floor(self, a: Estimate) -> Estimate:
         value = np.floor(a[0])

@@ -56,7 +56,7 @@ def refutation(surface: Surface) -> str | None:
 def _known(surface: Surface) -> bool:
     """Return whether a distance is proved, or recomputed by tests."""
     import surfaces
-    from surfaces.lipschitz import is_distance_bound
+    from surfaces.proofs.lipschitz import is_distance_bound
 
     if surface.distance == surface.formula and is_distance_bound(surfaces.tape_of(surface), surface.domain):
         return True
@@ -94,7 +94,7 @@ def _hits(surface: Surface, rng: np.random.Generator) -> tuple[Floats, Floats, F
 
 
 def _in_domain(surface: Surface, points: Floats) -> NDArray[np.bool_]:
-    from surfaces.validity import outside
+    from surfaces.proofs.boxes import outside
 
     return ~outside(surface.domain, points, points)
 

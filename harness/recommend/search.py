@@ -47,7 +47,7 @@ def recommend(
     Raises FirsthitError where `device` is no text and, with exit code 3, where there is no such device or a row cannot
     be stored.
     """
-    from surfaces.extent import remark
+    from surfaces.proofs.extent import remark
 
     if told := remark(wish.surface):
         watcher.warned(told)

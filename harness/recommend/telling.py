@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from harness.contract import CLAIMS, Precision, Variant
+from harness.contract import CLAIMS, Precision, Surface, Variant
 from harness.recommend.model import HEADROOM, Cause, Contender, Fallen, Recommendation, Wish, named
 
 BEST_FIRST = (
@@ -39,18 +39,23 @@ class Told:
     sentence: str
 
 
+def subject(surface: Surface) -> str:
+    """Return what sentences call a surface: its title, or "this surface" where that is a formula's start."""
+    return "this surface" if surface.title.endswith("...") else surface.title
+
+
 def question(found: Recommendation, wish: Wish) -> str:
     """Say what was asked for."""
     speed = f", at {wish.fps:g} frames a second or more" if wish.fps else ""
     claims = f", by a method that claims {' and '.join(wish.require)}" if wish.require else ""
     bound = f"with a {QUANTILE_NAMES[wish.quantile]} of at most {wish.error:.3g} along the ray"
-    return f"Which method draws {wish.surface.title} fastest on {found.device.name}, {bound}{speed}{claims}?"
+    return f"Which method draws {subject(wish.surface)} fastest on {found.device.name}, {bound}{speed}{claims}?"
 
 
 def answer(found: Recommendation, wish: Wish) -> str:
     """Say what is recommended and how fast it is, or that nothing is."""
     if not found.contenders:
-        return f"No method draws {wish.surface.title} so on {found.device.name}."
+        return f"No method draws {subject(wish.surface)} so on {found.device.name}."
     best = found.contenders[0]
     speed = f"{best.ms:.3g} ms a frame, {1e3 / best.ms:,.4g} frames a second at {wish.size}x{wish.size}"
     return f"{named(best.variant)} in {best.precision}: {speed}."

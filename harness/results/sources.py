@@ -44,7 +44,7 @@ NOT_DECIDING = {
 }
 TRUTH = ("harness/contract.py", "harness/limits.py", "harness/oracle", "surfaces")
 MESHES = ("harness/contract.py", "harness/limits.py", "harness/scenes/meshes.py", "surfaces")
-PACKAGES = ("numpy", "sympy", "python-flint")  # those of bindings and of the mesher stand elsewhere in a row's identity
+PACKAGES = ("numpy", "python-flint")  # those of bindings and of the mesher stand elsewhere in a row's identity
 LIBRARIES = ("site-packages", "dist-packages")  # folders that hold other people's modules beside a plugin's
 
 

@@ -22,7 +22,7 @@ from harness.results.writing import write_atomically
 if TYPE_CHECKING:
     from harness.devices.fingerprint import Fingerprint
 
-PACKAGES = ("numpy", "sympy", "python-flint", "moderngl", "pyopencl")
+PACKAGES = ("numpy", "python-flint", "moderngl", "pyopencl")
 
 
 def _git(*arguments: str) -> str | None:

@@ -40,7 +40,7 @@ def picture(
     that can be none magenta. `tell` is called with a sentence where the domain cuts the surface or has nothing of it,
     and where `cast` calls it. Raises FirsthitError for a size outside harness.limits.PICTURE, and where `cast` does.
     """
-    from surfaces.extent import remark
+    from surfaces.proofs.extent import remark
 
     size = held("size", size, Annotated[int, PICTURE])
     if told := remark(surface):

@@ -15,7 +15,8 @@ from harness.experiment.plan import Planned
 from harness.kernels.costs import operations_per_evaluation
 from harness.results import timings
 from harness.results.row import Accuracy, Build, CellRow, RungVerdict, Time
-from surfaces import extent
+from surfaces.model import domain_text
+from surfaces.proofs import extent
 
 
 @dataclass(eq=False)
@@ -83,7 +84,7 @@ def row_of(
         "surface_group": cell.surface.group,
         "formula": cell.surface.formula,
         "degree": cell.surface.degree,
-        "domain": extent.written(cell.surface.domain) if alone else None,
+        "domain": domain_text(cell.surface.domain) if alone else None,
         "extent": extent.remark(cell.surface) if alone else None,
         "view": cell.view.name,
         "view_set": cell.view.set,

@@ -229,7 +229,7 @@ def _run_part(part: Experiment, loaded: Loaded, runs: Path, command: str, again:
 
 def remarks(part: Experiment) -> list[str]:
     """Return a sentence for each surface of a config that its domain cuts, or that is not in it."""
-    from surfaces.extent import remark
+    from surfaces.proofs.extent import remark
 
     return [told for told in map(remark, part.surfaces) if told]
 

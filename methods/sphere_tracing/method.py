@@ -18,8 +18,8 @@ towards the other one. When it grows there after it fell, both minima are passed
   MAX_EVALUATIONS. A second start inside the torus turns back to the root behind it, as the signed distance does.
 - A start inside the surface marches by the absolute value of the distance, and has no second start.
 - Any surface with a distance is accepted: one that is stated, which is tested against certified hits, or f itself
-  where it is proved that f is nowhere greater than the distance (surfaces.lipschitz). A distance need not be exact: a
-  bound takes more steps. For surfaces without one see sphere_tracing_lipschitz.
+  where it is proved that f is nowhere greater than the distance (surfaces.proofs.lipschitz). A distance need not be
+  exact: a bound takes more steps. For surfaces without one see sphere_tracing_lipschitz.
 - Two starts are proved for the torus about the z axis and the sphere about the origin only, on which no third minimum
   can exist; t_M is nearest to the origin, wherever the domain is. Every other distance is marched from one start.
 - Rays begin at their point nearest the domain's centre (`origins` of a config). The paper's rays begin at the box, and

@@ -12,8 +12,8 @@ root. L is proved: |grad f| is bounded in ball arithmetic over boxes that cover 
 the bound is close to a gradient that occurs. The domain is cut into SHELLS concentric shells. A step is never longer
 than a shell is thick, so a step from one shell ends in the next one at the latest. Therefore the L used there is that
 of the whole ball that ends with the next shell (a ball is convex, so it holds the step). Through kinks, cone points
-and smooth minima the bound is that of surfaces/slopes.py, which for most distance functions is 1. An f that may jump is
-refused.
+and smooth minima the bound is that of surfaces/proofs/slopes.py, which for most distance functions is 1. An f that
+may jump is refused.
 
 **Changes against the paper**
 - Where |grad f| is far below L, |f| / L is far below the distance, and a threshold on it would end far from the root.
@@ -50,7 +50,7 @@ CLOSE = 1.05  # boxes are split until their bound is within this factor of a gra
 MAX_BOXES = 6000  # limit of boxes that are bounded; with fewer the bounds are as certain, but less tight
 MAX_OPERATIONS = 12_000_000  # of balls that are spent on them, which takes about a quarter of a minute
 AWAY = 2.0**-12  # of the radius
-KINKED = frozenset({"abs", "min", "max", "sqrt", "powr"})  # operations whose slopes surfaces.slopes bounds more tightly
+KINKED = frozenset({"abs", "min", "max", "sqrt", "powr"})  # whose slopes surfaces.proofs.slopes bounds more tightly
 
 
 @lru_cache(maxsize=128)
@@ -65,7 +65,7 @@ def ball_bounds(surface: Surface, shells: int) -> tuple[float, ...]:
     import surfaces
     from surfaces.lowering import gradient, real_tape
     from surfaces.numbers import Balls
-    from surfaces.slopes import steepest as bound_of_slope
+    from surfaces.proofs.slopes import steepest as bound_of_slope
     from surfaces.tape import walk
 
     value = real_tape(surfaces.tape_of(surface))
@@ -122,7 +122,7 @@ def ball_bounds(surface: Surface, shells: int) -> tuple[float, ...]:
 def accepts(surface: Surface) -> str | None:
     """Say why the surface is refused; None if f does not jump."""
     import surfaces
-    from surfaces.slopes import jumps
+    from surfaces.proofs.slopes import jumps
 
     found = jumps(surfaces.tape_of(surface))
     return f"f may jump ({', '.join(found)}), and a bound of its gradient says nothing of jumps" if found else None

@@ -99,7 +99,7 @@ def _opened(path: Path, part: str) -> tuple[Source, str]:
         raise FirsthitError(f"cannot read {path}: {getattr(error, 'strerror', None) or error}") from None
     suffix = path.suffix.lower()
     if kind := meshes.kind_of(content, suffix):
-        raise FirsthitError(f"{path} is {kind}; {meshes.WHAT_TO_DO}")
+        raise FirsthitError(f"{path} is {meshes.refusal(kind)}")
     if len(content) > MAX_BYTES:
         raise FirsthitError(f"{path} has more than {MAX_BYTES} bytes, the most that is read")
     try:

@@ -40,7 +40,6 @@ _LIMITS = ("Xmin", "Xmax", "Ymin", "Ymax", "Zmin", "Zmax")
 _KEYS = ("Fxyz", "Const", "Funct", "Component", "Name", *_LIMITS)
 _SILENT = ("Description", "Grid", "Vect", "Varu")  # about the text, the mesh, how fast it is made, older files
 _POINT = re.compile(r"DOTSYMBOL|\$DOT\$")  # how some collections write the point of a decimal
-_ARGUMENTS = ("x", "y", "z", "t")
 
 
 def _true(a: Text) -> Text:

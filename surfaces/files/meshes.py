@@ -19,11 +19,18 @@ SUFFIXES: tuple[str, ...] = (
     ".fbx",
     ".dae",
 )
-SUFFIXES += (".step", ".stp", ".iges", ".igs")
+PATCHES = (".step", ".stp", ".iges", ".igs")
 WHAT_TO_DO = (
-    "a mesh is no implicit surface: it has triangles and no equation. Take the formula that it was made from, or fit a "
-    "function to it with another program and bring that function's formula or tape"
+    "Take the formula that it was made from, or fit a function to it with another program and bring that function's "
+    "formula or tape"
 )
+
+
+def refusal(kind: str) -> str:
+    """Say why a file of a kind that `kind_of` returns is no implicit surface, and what to do."""
+    if f".{kind.split()[-1].lower()}" in PATCHES:
+        return f"{kind}; its patches are given by parameters u and v and by no equation of x, y and z. {WHAT_TO_DO}"
+    return f"{kind}; a mesh is no implicit surface: it has triangles and no equation. {WHAT_TO_DO}"
 
 
 def kind_of(content: bytes, suffix: str) -> str | None:
@@ -45,4 +52,4 @@ def kind_of(content: bytes, suffix: str) -> str | None:
         return "a 3MF" if suffix == ".3mf" else "an archive"
     if re.search(r"^v\s+[-+.0-9]", text, re.MULTILINE) and re.search(rb"^f\s+[0-9]", content, re.MULTILINE):
         return "an OBJ"
-    return f"a {suffix[1:].upper()}" if suffix in SUFFIXES else None
+    return f"a {suffix[1:].upper()}" if suffix in SUFFIXES + PATCHES else None

@@ -10,7 +10,7 @@ import tomllib
 from typing import Any
 
 from surfaces.files.source import Reading, Source
-from surfaces.model import Box, Domain, Surface, as_float32
+from surfaces.model import Surface, domain_text
 from surfaces.words import suggestion
 
 NAME = "a surface of ours"
@@ -78,21 +78,3 @@ def _quoted(text: str) -> str:
     escaped = text.replace("\\", "\\\\").replace('"', '\\"')
     escaped = "".join(c if c == "\n" or c.isprintable() else f"\\u{ord(c):04x}" for c in escaped)
     return f'"""\n{escaped}"""' if "\n" in text else f'"{escaped}"'
-
-
-def domain_text(domain: Domain) -> str:
-    """Return the text that describes a domain, as --domain takes it."""
-    if isinstance(domain, Box):
-        return f"box:{_point(domain.lower)}:{_point(domain.upper)}"
-    center = [_point(domain.center)] if any(domain.center) else []
-    return ":".join(["sphere", *center, short(domain.radius)])
-
-
-def _point(point: tuple[float, float, float]) -> str:
-    return ",".join(map(short, point))
-
-
-def short(value: float) -> str:
-    """Return the shortest decimal that float32 rounds to this number of a domain."""
-    texts = (f"{value:.{digits}g}" for digits in range(1, 10))
-    return next((text for text in texts if as_float32(float(text)) == value), repr(value))

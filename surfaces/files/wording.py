@@ -20,8 +20,7 @@ from surfaces.files.expressions import (
     sub,
     word,
 )
-from surfaces.files.own import domain_text
-from surfaces.model import FirsthitError, Surface
+from surfaces.model import FirsthitError, Surface, domain_text
 from surfaces.numbers import Arithmetic
 from surfaces.tape import LEAVES, Tape
 

@@ -28,10 +28,10 @@ SURFACES: tuple[Surface, ...] = (
         "24*z^2*(x^2 + y^2) + 36*sqrt(2)*y*z*(y^2 - 3*x^2) + 4*z^4) + (9*x^2 + 9*y^2 - 2*z^2)*(-81*(x^2 + "
         "y^2)^2 - 72*z^2*(x^2 + y^2) + 108*sqrt(2)*x*z*(x^2 - 3*y^2) + 4*z^4)",
         6,
-        Sphere(2.0),
-        _NORDSTRAND,
+        Sphere(1.6, (0.0, 0.0, 1.4)),
+        f"F. Apéry, Models of the Real Projective Plane, 1987; {_NORDSTRAND}",
         symmetries=("third_turn_z",),
-        singular_at=((0, 0, 0),),
+        singular_at=((0, 0, 0), (0, 0, 2 / 3)),
     ),
     entry(
         "moebius_band",

@@ -34,6 +34,7 @@ BUILT_IN: dict[str, int | None] = {
     "max": None,
     "length": None,
 }
+_NEEDS = "; a parameter needs a value: --parameter {0}=1, or {0} = 1; before the formula"
 RESERVED = ("and", "or", "not", "let")
 
 
@@ -135,5 +136,5 @@ class Names:
                 return f"unknown function {name[:40]!r}; did you mean {shown}*{function}(...)?"
         known = self.callables() if called else [*self.values(), *self.callables()]
         what, most = ("function", 16) if called else ("name", 8)
-        otherwise = f"known: {', '.join(known[:most])}, ..." + ("" if called else "; a parameter needs a value")
+        otherwise = f"known: {', '.join(known[:most])}, ..." + ("" if called else _NEEDS.format(name[:40]))
         return f"unknown {what} {name[:40]!r}; {suggestion(name.lower()[:40], known, otherwise=otherwise)}"

@@ -118,10 +118,15 @@ def tokens(text: str) -> list[Token]:
     return found
 
 
+_FROM_LATEX = r"write (a)/(b) for \frac{a}{b}, * for \cdot, sqrt(a) for \sqrt{a}"
+
+
 def _misplaced(text: str, column: int) -> str:
     """Return what is wrong with a character that begins no token."""
     character = text[column]
     hint = "; write ( ) around parts" if character in "[]{}" else ""
+    if character == "\\":
+        return f"'{character}' has no place in a formula, which is no LaTeX; {_FROM_LATEX}"
     if text[column : column + 2] in (".*", "./", ".^"):
         hint = "; operators have no dot"
     return f"{character!r} (U+{ord(character):04X}) has no place in a formula{hint}"

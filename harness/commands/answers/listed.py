@@ -176,7 +176,7 @@ class DeviceFacts:
 
     name: what `--device` and configs call it
     title: the hardware's own name
-    driver, compiler: as they name themselves
+    driver, compiler: the name that the driver, and the compiler, gives itself
     compute_units: how many; null where the driver does not say
     float64: whether it computes in float64
     clock: the one that is trusted there, the device's own or the host's; before its probes ran, what is assumed

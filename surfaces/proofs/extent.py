@@ -17,10 +17,10 @@ from typing import Literal
 import numpy as np
 
 from surfaces.evaluation import Floats64, tape_of
-from surfaces.model import Box, Domain, FirsthitError, Sphere, Surface, as_float32
-from surfaces.search import Bools, Hull, Searcher, hull, zero_beyond
+from surfaces.model import Box, Domain, FirsthitError, Sphere, Surface, as_float32, domain_text
+from surfaces.proofs.boxes import corners, outside
+from surfaces.proofs.search import Bools, Hull, Searcher, hull, zero_beyond
 from surfaces.tape import Tape
-from surfaces.validity import corners, outside
 
 REACH = 4.0  # times the domain's radius: how far about its centre a cut surface is looked for
 SECONDS = 0.1  # for asking whether a domain holds some of a surface, and whether it holds all
@@ -88,7 +88,7 @@ def remark(surface: Surface) -> str | None:
     if _as_stated(surface):
         return None
     found = extent(surface)
-    domain, box = f"its domain {written(surface.domain)}", found.box and written(found.box)
+    domain, box = f"its domain {domain_text(surface.domain)}", found.box and domain_text(found.box)
     if found.kind == "cut":
         return f"{surface.name}: {domain} cuts the surface; the domain {box} holds all of it"
     if found.kind == "missed" and box:
@@ -132,26 +132,6 @@ def held_by(tape: Tape) -> Box:
     if not max((found.inner - found.lower).max(), (found.upper - found.outer).max()) <= AUTO_LOOSE * size:
         raise FirsthitError(f"no tight box is found in {AUTO_SECONDS:g} s that holds the surface; {give}")
     return _rounded(found)
-
-
-def written(domain: Domain) -> str:
-    """Return the text of a domain, of which `surfaces.from_formula` makes the same domain again."""
-
-    def joined(values: tuple[float, ...]) -> str:
-        return ",".join(map(_decimal, values))
-
-    if isinstance(domain, Sphere):
-        radius = _decimal(domain.radius)
-        return f"sphere:{joined(domain.center)}:{radius}" if any(domain.center) else f"sphere:{radius}"
-    if all(-a == b for a, b in zip(domain.lower, domain.upper, strict=True)):
-        return f"box:{joined(domain.upper)}"
-    return f"box:{joined(domain.lower)}:{joined(domain.upper)}"
-
-
-def _decimal(value: float) -> str:
-    """Return a decimal of a float32: 7 digits, or the 8 or 9 that some need to be read as the same float32."""
-    texts = (f"{value:.{digits}g}" for digits in (7, 8, 9))
-    return next(text for text in texts if as_float32(float(text)) == value)
 
 
 def _ends(domain: Domain) -> tuple[Floats64, Floats64]:

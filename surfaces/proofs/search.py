@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from surfaces.evaluation import Floats64
 from surfaces.lowering import gradient, real_tape
-from surfaces.ranges import has_value, outputs, run, sides
+from surfaces.proofs.ranges import has_value, outputs, run, sides
 from surfaces.tape import JUMPS, Tape
 
 Bools = NDArray[np.bool_]

@@ -15,7 +15,7 @@ from fractions import Fraction
 from math import inf, nextafter
 from typing import Literal, NamedTuple
 
-from surfaces.ranges import bracket
+from surfaces.proofs.ranges import bracket
 from surfaces.tape import Op, Tape
 
 MOST_TERMS = 64  # of a sum that is looked through
@@ -216,6 +216,7 @@ def _times(a: Range, b: Range) -> Range:
 
 
 def _inverse(b: Range) -> Range:
+    """Return the range of 1 / b."""
     if b.positive and b.high <= 0.0:  # the divisor has a value nowhere, such as a root of what is negative
         return ANY
     if b.positive:

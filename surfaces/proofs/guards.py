@@ -12,7 +12,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from surfaces.signs import Fact, linear
+from surfaces.proofs.signs import Fact, linear
 from surfaces.tape import Op, Tape
 
 DEEPEST = 40  # conditions around one operation that are kept track of; more are left out, which proves less
@@ -139,7 +139,7 @@ def _compared(tape: Tape, a: int, b: int, how: Literal[">=", ">", "!="]) -> list
 def live_on(tape: Tape, values: list[Any], boxes: int) -> list[Any]:
     """Return for each operation on which boxes its value may be needed: True, or bool[boxes].
 
-    `values` are the ranges of the operations on the boxes, as surfaces.ranges computes them.
+    `values` are the ranges of the operations on the boxes, as surfaces.proofs.ranges computes them.
     """
     live: list[Any] = [False] * len(tape.ops)
     for output in tape.outputs:

@@ -8,18 +8,17 @@ operation say (`guards`), and on boxes that are halved (`ranges`).
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 from numpy.typing import NDArray
 
 from surfaces.evaluation import Floats64, tape_of
 from surfaces.formula import degree
-from surfaces.guards import Guards, facts_of, guards_of, live_on
 from surfaces.lowering import enclosures
-from surfaces.model import Box, Domain, FirsthitError, Surface
-from surfaces.ranges import halved, has_value, run, sides
-from surfaces.signs import Range, ranges_of
+from surfaces.model import Domain, FirsthitError, Surface
+from surfaces.proofs.boxes import box_about, corners, halved, outside
+from surfaces.proofs.guards import Guards, facts_of, guards_of, live_on
+from surfaces.proofs.ranges import has_value, run, sides
+from surfaces.proofs.signs import Range, ranges_of
 from surfaces.tape import Tape
 
 MAX_BOXES = 60_000
@@ -64,20 +63,12 @@ def undefined(tape: Tape, domain: Domain) -> str | None:
     )
     if not asked:
         return None
-    box = {axis: side for axis, side in zip("xyz", zip(*corners(domain), strict=True), strict=True)}
+    box = box_about(domain)
     known = ranges_of(tape, box)
     left = [(condition, user) for condition, user in asked if not shown(condition[0], known[condition[1]])]
     if left and any(op.name == "select" for op in tape.ops):
         left = _unguarded(tape, box, left)
     return _on_boxes(tape, domain, left) if left else None
-
-
-def corners(domain: Domain) -> tuple[tuple[float, ...], tuple[float, ...]]:
-    """Return the lower and the upper corner of the box about a domain."""
-    if isinstance(domain, Box):
-        return domain.lower, domain.upper
-    lower = tuple(math.nextafter(c - domain.radius, -math.inf) for c in domain.center)
-    return lower, tuple(math.nextafter(c + domain.radius, math.inf) for c in domain.center)
 
 
 def shown(name: str, known: Range) -> bool:
@@ -167,15 +158,6 @@ def _open(
                 first = condition
             open_ |= fails
     return open_, first
-
-
-def outside(domain: Domain, lower: Floats64, upper: Floats64) -> NDArray[np.bool_]:
-    """Return which boxes float64[n, 3] are proved to lie outside the domain: bool[n]."""
-    if isinstance(domain, Box):
-        return np.asarray((lower > domain.upper).any(axis=1) | (upper < domain.lower).any(axis=1))
-    center = np.asarray(domain.center)
-    gap = np.maximum(np.maximum(lower - center, center - upper), 0.0)
-    return np.asarray((gap * gap).sum(axis=1) > domain.radius * domain.radius * (1.0 + 1e-14))
 
 
 def _place(tape: Tape, condition: Condition, points: Floats64) -> Floats64:

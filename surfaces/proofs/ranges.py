@@ -198,12 +198,3 @@ def outputs(tape: Tape, lower: Floats, upper: Floats) -> tuple[Floats, Floats]:
     ends = (np.stack([np.broadcast_to(values[i][k], len(lower)) for i in tape.outputs], axis=1) for k in (0, 1))
     low, high = ends
     return low, high
-
-
-def halved(lower: Floats, upper: Floats, used: NDArray[np.bool_]) -> tuple[Floats, Floats]:
-    """Cut boxes float64[n, 3] in two across the longest of their `used` sides, bool[3]: float64[2 n, 3] each."""
-    rows, axis = np.arange(len(lower)), np.argmax(np.where(used, upper - lower, -1.0), axis=1)
-    middle = 0.5 * (lower[rows, axis] + upper[rows, axis])
-    first, second = upper.copy(), lower.copy()
-    first[rows, axis] = second[rows, axis] = middle
-    return np.concatenate((lower, second)), np.concatenate((first, upper))

@@ -17,14 +17,14 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from surfaces.blending import is_blend
 from surfaces.evaluation import Floats64, evaluate_tape
 from surfaces.lowering import gradient, real_tape
 from surfaces.model import Domain
-from surfaces.ranges import halved, outputs
-from surfaces.signs import MOST_TERMS, Range, ranges_of
+from surfaces.proofs.blending import is_blend
+from surfaces.proofs.boxes import box_about, corners, halved, outside
+from surfaces.proofs.ranges import outputs
+from surfaces.proofs.signs import MOST_TERMS, Range, ranges_of
 from surfaces.tape import JUMPS, Op, Tape
-from surfaces.validity import corners, outside
 
 ONE = 1.0 + 2.0**-30  # what rounding of the bounds themselves may add to 1; a float32 is wrong by 2^-24
 SECONDS, PER_OPERATION, PER_BOX = 0.3, 2e-5, 1e-7  # of bounding gradients on boxes, counted by the work
@@ -48,8 +48,7 @@ def is_distance_bound(tape: Tape, domain: Domain) -> bool:
     """Return whether a tape without undefined places is proved to have the Lipschitz constant 1 all over a domain."""
     if any(op.name in JUMPS for op in tape.ops) or not _plausible(tape, domain):
         return False
-    box = {axis: side for axis, side in zip("xyz", zip(*corners(domain), strict=True), strict=True)}
-    bound = _Bounds(tape, ranges_of(tape, box)).of(tape.outputs[0])
+    bound = _Bounds(tape, ranges_of(tape, box_about(domain))).of(tape.outputs[0])
     return (bound is not None and _largest(bound) <= ONE) or _on_boxes(tape, domain)
 
 
