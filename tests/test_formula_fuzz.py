@@ -46,7 +46,7 @@ def test_the_fuzz_of_the_way_sees_what_it_looks_for(monkeypatch: pytest.MonkeyPa
     monkeypatch.setattr(formula, "canonical", lambda _tape: "x + 1")
     assert "canonical ended in AssertionError" in found("x + 2")
     monkeypatch.undo()
-    monkeypatch.setattr(fuzz_path, "written", lambda _domain: "sphere:1.25")
+    monkeypatch.setattr(fuzz_path, "domain_text", lambda _domain: "sphere:1.25")
     assert "sphere:1.25 is not its domain" in found("x + 2*y")
     monkeypatch.undo()
     monkeypatch.setattr(fuzz_path, "remark", lambda _surface: 1 / 0)
