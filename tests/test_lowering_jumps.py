@@ -186,3 +186,14 @@ def test_powers_that_are_not_whole_keep_their_exponent() -> None:
     assert np.allclose(evaluate_tape(tape, np.array([[8.0, 0, 0], [0, 0, 0]]))[:, 0], [128.0, 0.0])
     slope = evaluate_tape(lowering.gradient(tape), np.array([[-8.0, 0, 0], [0, 0, 0]]))
     assert np.allclose(slope[:, 0], [-7 / 3 * 16.0, 0.0])
+
+
+def test_a_root_of_0_at_the_domain_s_end_is_0_although_rounding_is_under_0(device: Device) -> None:
+    """A ray's point at the face x = 0 of the domain may have x = -1e-8; a sum of squares needs no care."""
+    surface = surfaces.from_formula("x^(1/2) - y + sqrt((1 - y)*(1 + y)) + sqrt(x^2 + z^2)", "box:0,-1,-1:2,1,1")
+    sections = surface_sections(surface, MAPPED, "float32", device.language)
+    assert sections[1].text.count("sqrt(max(") == 2 and sections[1].text.count("sqrt(") == 3
+    program = map_program([*sections, PROBE], "float32", device.language, libraries_for(MAPPED))
+    rows = np.array([[-1e-8, 0, 0, 1, 0, 0, 0, 0, 0, 0], [1, 1.0000001, 0, 1, 0, 0, 0, 0, 0, 0]], np.float32)
+    found = map_rows(device, program, rows, 11)
+    assert np.isfinite(found).all() and np.allclose(found[:, 0], [1, 1], atol=1e-6)

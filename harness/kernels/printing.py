@@ -77,6 +77,26 @@ def function_text(head: str, lines: Sequence[str], *last: str) -> str:
     return "\n".join([f"{head} {{", *(f"    {line}" for line in (*lines, *last)), "}"])
 
 
+def _never_negative(tape: Tape) -> list[bool]:
+    """Return for each operation whether its value in floats is not negative, whatever the variables are."""
+    known: list[bool] = []
+    for op in tape.ops:
+        match op.name:
+            case "const":
+                known.append(op.args[0] >= 0)
+            case "sqr" | "abs" | "sqrt" | "exp" | "powr" | "below":
+                known.append(True)
+            case "add" | "mul" | "div" | "min":
+                known.append(all(known[i] for i in op.inputs))
+            case "max":
+                known.append(any(known[i] for i in op.inputs))
+            case "select":
+                known.append(known[op.inputs[1]] and known[op.inputs[2]])
+            case _:
+                known.append(False)
+    return known
+
+
 class RealPrinter:
     """Print a real tape as statements `real NAME = …;`. `variables` gives the text of each of the tape's variables."""
 
@@ -94,11 +114,15 @@ class RealPrinter:
         """Return the statements, and the tape's outputs as names or literals."""
         names: list[str] = []
         lines: list[str] = []
+        safe = _never_negative(tape)
         for op in tape.ops:
             if op.name == "var":
                 names.append(self.variables[op.args[0]])
             elif op.name == "const":
                 names.append(self.literal(op.args[0]))
+            elif op.name == "sqrt" and not safe[op.args[0]]:  # rounding may take it under 0, also that of a ray's point
+                names.append(f"a{len(lines)}")
+                lines.append(f"real {names[-1]} = sqrt(max({names[op.args[0]]}, {self.fixed[2]}));")
             else:
                 names.append(f"a{len(lines)}")
                 args = [names[i] for i in op.inputs] + [self.literal(q) for q in op.args[len(op.inputs) :]]
