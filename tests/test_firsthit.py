@@ -191,7 +191,7 @@ MISTAKES = {
     "EPSILON is a number, not True": lambda rays: firsthit.trace("torus", rays, "newton", knobs={"EPSILON": True}),
     "knobs are values by name": lambda rays: firsthit.trace("torus", rays, "newton", knobs=[0.1]),
     "column 3: '€'": lambda rays: firsthit.oracle("x²€+y²-1", rays),
-    "unknown name 'XX'; did you mean 'x'?": lambda rays: firsthit.oracle("XX^2+Y^2-1", rays),
+    "unknown name 'xq'": lambda rays: firsthit.oracle("xq^2+y^2-1", rays),
     "write /2*x or /(2*x)": lambda rays: firsthit.oracle("1/2x^2-1", rays),
     "config is a path, as a text": lambda _: firsthit.run(None),
     "devices is a list of names, not 'opencl:pocl'": lambda _: firsthit.run("quick", devices="opencl:pocl"),

@@ -200,7 +200,7 @@ def test_sections_hold_what_is_needed_and_nothing_else() -> None:
 def test_what_a_surface_lacks_is_said() -> None:
     barth = surfaces.get("barth_sextic")
     for need, reason in (
-        ("surface_distance", "states no distance"),
+        ("surface_distance", "has no distance function"),
         ("surface_coefficients_along", "of degree 6"),
         ("surface_volume", "no generated function"),
     ):
