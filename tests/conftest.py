@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 from collections.abc import Iterator
 from functools import cache
 from typing import Any
@@ -13,6 +14,10 @@ from harness.contract import DeviceInfo
 from harness.devices import kept_answers
 from harness.devices.executor import LocalExecutor
 from harness.devices.interface import INSTALL, Device, find_devices, open_device
+
+signal.signal(
+    signal.SIGINT, signal.default_int_handler
+)  # a shell's background jobs inherit it ignored, with all they start
 
 
 @cache
