@@ -15,9 +15,7 @@ from harness.devices import kept_answers
 from harness.devices.executor import LocalExecutor
 from harness.devices.interface import INSTALL, Device, find_devices, open_device
 
-signal.signal(
-    signal.SIGINT, signal.default_int_handler
-)  # a shell's background jobs inherit it ignored, with all they start
+signal.signal(signal.SIGINT, signal.default_int_handler)  # what a shell runs in the background ignores it otherwise
 
 
 @cache
