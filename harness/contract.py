@@ -142,6 +142,7 @@ class Method:
     """Describe a way to find a ray's first hit; the algorithm itself is `kernel.glsl` in the method's folder.
 
     source: the paper or book that publishes it
+    label: how people write its name in plots and tables, as in "EFT Yuksel"; "" makes it from the name
     needs: generated functions that the kernel calls (harness.kernels.functions.FUNCTIONS)
     libraries: files of harness/kernels/glsl/lib that the kernel includes, without their ending
     settings: the paper's own settings, by name: values of knobs
@@ -158,6 +159,7 @@ class Method:
 
     name: str
     source: str
+    label: str = ""
     needs: tuple[str, ...] = ()
     libraries: tuple[str, ...] = ()
     parameters: tuple[Parameter, ...] = ()

@@ -17,6 +17,7 @@ from reports import wording
 from reports.analysis import derive, rounds
 from reports.content import Block, Code, Column, Document, Section, Table, Text
 from reports.drawing import tables
+from reports.place import place
 from reports.reading import load
 from reports.reading.run import Plan, Run
 from reports.rendering import document, html
@@ -25,18 +26,18 @@ WORST = 10  # changes that the first page lists
 _PLACE = ["scene", "variant", "precision"]
 
 
-def build(a: Path, b: Path) -> Path:
-    """Write what changed from run `a` to run `b` into the folder `a`, as against-….pdf and .html.
+def build(a: Path, b: Path, output: Path | None = None) -> Path:
+    """Write what changed from run `a` to run `b` into the folder `output`, as report.pdf and report.html.
 
-    Returns the path of the PDF. Raises FirsthitError if either is no run folder, they have no cell in common, or `a`
-    cannot be written to.
+    Nothing is written into the runs; `output` is the folder `place(a, b)` where none is given. Returns the path of the
+    PDF. Raises FirsthitError if either is no run folder, they have no cell in common, or `output` cannot be written to.
     """
     content = report(load.load(a), load.load(b))
-    stem = name_of(a, b)
-    with replacing_together(a, "the report") as made:
-        document.write_pdf(content, made / "pdf", made / f"{stem}.pdf", "")
-        html.write_html(content, {}, made / f"{stem}.html")
-    return a / f"{stem}.pdf"
+    folder = place(a, b) if output is None else output
+    with replacing_together(folder, "the report") as made:
+        document.write_pdf(content, made / "pdf", made / "report.pdf", "")
+        html.write_html(content, {}, made / "report.html")
+    return folder / "report.pdf"
 
 
 def paired(a: Run, b: Run) -> tuple[pd.DataFrame, list[str]]:
@@ -98,12 +99,10 @@ def report(a: Run, b: Run) -> Document:
     order = timed.assign(size_of_change=(timed["ratio"] - 1.0).abs()).sort_values("size_of_change", ascending=False)
     shown = order[(order["ratio_low"] > 1.0) | (order["ratio_high"] < 1.0)]
     sections = [
-        Section(
-            "Speed", (_speed(shown.sort_values("ratio", ascending=False), by, "Cells clearly slower or faster."),), True
-        ),
-        Section("Answers", tuple(_answers(both, by)), True),
-        Section("In one run only", tuple(_alone(a, b, by)), True),
-        Section("Every cell in both", (_speed(timed, by, "Times of both, in A's order."),), True),
+        Section("Speed", (_speed(shown.sort_values("ratio", ascending=False), by, "Cells clearly slower or faster."),)),
+        Section("Answers", tuple(_answers(both, by))),
+        Section("In one run only", tuple(_alone(a, b, by))),
+        Section("Every cell in both", (_speed(timed, by, "Times of both, in A's order."),)),
     ]
     if len(shown):
         worst = shown.sort_values("size_of_change", ascending=False).head(WORST)
@@ -203,11 +202,3 @@ def _alone(a: Run, b: Run, by: list[str]) -> list[Block]:
         only = [cell for cell in own if cell not in other]
         blocks.append(Table(tuple(_places(by)), only[: tables.ROW_LIMIT], f"Only in {side}.", f"{len(only):,} cells."))
     return blocks
-
-
-def name_of(a: Path, b: Path) -> str:
-    """Return the stem of the comparison's files, which are written into A's folder."""
-    a, b = a.resolve(), b.resolve()
-    if a == b:
-        return "against-itself"
-    return f"against-{b.name}" if a.name != b.name else f"against-{b.parent.name}-{b.name}"

@@ -6,8 +6,8 @@ column formats them, so that a renderer can sort by value.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import Any
 
 from reports import wording
@@ -59,14 +59,45 @@ class Table:
 
 
 @dataclass(frozen=True)
+class Square:
+    """Hold a cell of a Matrix: its text, its colour as "#rrggbb" ("" for none), and what a reader who asks is told."""
+
+    text: str
+    color: str = ""
+    note: str = ""
+    strong: bool = False
+
+
+@dataclass(frozen=True)
+class Matrix:
+    """Hold a table of coloured squares, a line for each of `rows`: its heading, and a square for each of `columns`.
+
+    The colours stand for what the squares' texts say too, so that nothing is lost in greyscale. `corner` says what the
+    rows' headings are, and `key` what the colours mean: texts by colour.
+    """
+
+    columns: tuple[str, ...]
+    rows: Sequence[tuple[str, tuple[Square, ...]]]
+    title: str
+    caption: str = ""
+    corner: str = ""
+    key: Mapping[str, str] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
 class Figure:
-    """Hold a drawing as SVG text. `description` tells readers who cannot see it what it shows."""
+    """Hold a drawing as SVG text. `description` tells readers who cannot see it what it shows.
+
+    `chart` is the same drawing as a Vega-Lite specification with its data, which a renderer that can be pointed at may
+    show in the drawing's place.
+    """
 
     name: str
     svg: str
     description: str
     title: str = ""
     caption: str = ""
+    chart: Mapping[str, Any] | None = None
 
 
 @dataclass(frozen=True)
@@ -89,23 +120,38 @@ class Panel:
 
 @dataclass(frozen=True)
 class Gallery:
-    """Hold panels of pictures with one caption, and one legend of their colours if they need one."""
+    """Hold panels of pictures with one caption, and one legend of their colours if they need one.
+
+    `across` is how many panels a line of a page has; 0 leaves it to the renderer. The first panel of a gallery with a
+    `hero` is shown large, and the others beside and below it.
+    """
 
     panels: tuple[Panel, ...]
     caption: str
     legend: Figure | None = None
+    across: int = 0
+    hero: bool = False
 
 
-Block = Text | Code | Table | Figure | Gallery
+Block = Text | Code | Table | Matrix | Figure | Gallery
 
 
 @dataclass(frozen=True)
 class Section:
-    """Hold a titled part of a report. A `wide` section is set on landscape pages."""
+    """Hold a titled part of a report.
+
+    blocks: what everybody reads; a section without any is left out of the PDF
+    details: long tables and what else only some look up. The HTML page has them folded, the PDF in its appendix, which
+        is made on request
+    own_page: the section begins a page of the PDF
+    name: what contents call it where its title is too long; "" takes the title
+    """
 
     title: str
     blocks: tuple[Block, ...]
-    wide: bool = False
+    details: tuple[Block, ...] = ()
+    own_page: bool = False
+    name: str = ""
 
 
 @dataclass(frozen=True)

@@ -26,6 +26,7 @@ class Material:
     frame: pd.DataFrame  # what analysis.derive returns
     rungs: pd.DataFrame  # what analysis.breaks returns
     shelf: Shelf
+    focus: str = ""  # the method or variant that the report is about; "" for none
 
     @cached_property
     def marks(self) -> Mapping[str, Mark]:

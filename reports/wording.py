@@ -119,7 +119,12 @@ def minus(number: str) -> str:
 
 def power_of_ten(exponent: int) -> str:
     """Write 10 with a raised exponent: 10⁻⁶."""
-    return "10" + str(exponent).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+    return raised(10, exponent)
+
+
+def raised(base: int, exponent: int) -> str:
+    """Write a number with a raised exponent: 2⁻¹⁸."""
+    return str(base) + str(exponent).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
 
 
 def plural(n: int, noun: str) -> str:

@@ -42,8 +42,8 @@ LAYERS = (  # from the ground up; what stands in one line does not import each o
     ("harness.cli",),
 )
 REPORTS = (
-    ("reports.wording", "reports.published"),
-    ("reports.content",),
+    ("reports.wording", "reports.published", "reports.place"),
+    ("reports.content", "reports.labels"),
     ("reports.reading",),
     ("reports.analysis",),
     ("reports.drawing",),

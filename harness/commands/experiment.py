@@ -51,6 +51,11 @@ def add_parsers(add: Add) -> None:
         metavar="NAME",
         help="the method or variant that speed-ups are over (default: the config's, else ray_march)",
     )
+    parser.add_argument(
+        "--focus", metavar="NAME", help="the method or variant that the report is about (default: the config's)"
+    )
+    parser.add_argument("-o", "--output", type=Path, metavar="DIR", help="a folder (default: RUN.report, beside RUN)")
+    parser.add_argument("--appendix", action="store_true", help="end the PDF with the tables that else only HTML has")
     parser.set_defaults(run=_report)
 
 
@@ -154,11 +159,13 @@ def _report(options: argparse.Namespace) -> int:
         from reports import compare, report
 
         if options.other:
-            if options.baseline:
-                raise FirsthitError("--baseline goes with one run: of two, each cell is held against itself")
-            print(compare.build(options.folder, options.other))
+            for name in ("baseline", "focus", "appendix"):
+                if getattr(options, name):
+                    raise FirsthitError(f"--{name} goes with one run: of two, each cell is held against itself")
+            print(compare.build(options.folder, options.other, options.output))
         else:
-            print(report.build(options.folder, options.baseline))
+            about = {"baseline": options.baseline, "focus": options.focus, "appendix": options.appendix}
+            print(report.build(options.folder, options.output, **about))
     except ModuleNotFoundError as error:
         message = (
             f"a report needs the package {error.name}: pip install 'firsthit[report]'; runs/ can be copied elsewhere"

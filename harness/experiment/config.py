@@ -34,7 +34,7 @@ GONE: dict[tuple[str | int, ...], str] = {
 }
 
 
-BESIDE_INCLUDE = ("title", "include")  # all that a config may hold that includes others
+BESIDE_INCLUDE = ("title", "include", "focus")  # all that a config may hold that includes others
 DRAWN = ("surfaces", "scene", "families")  # each of them needs methods
 ASKED = (*DRAWN, "studies")  # of which a config names one at least
 
@@ -228,6 +228,7 @@ class Config:
     include: config files; with it, a config holds nothing else but a title. Each is run into its own folder, and one
         report collects them
     baseline: the method, or the variant by its label, that reports give speed-ups over
+    focus: the method, or the variant by its label, that reports are about: its wins and losses come first
     studies: computations of harness.studies
     method: the methods that are compared, each with its knobs
     surfaces, families: names, or ["all"]; of surfaces that is the catalog, and "gallery" and its groups are names too
@@ -254,6 +255,7 @@ class Config:
     title: str
     include: Annotated[list[str], Distinct(_paths)] = field(default_factory=list)
     baseline: str = BASELINE
+    focus: str = ""
     studies: Annotated[list[str], Known(_studies), Distinct()] = field(default_factory=list)
     method: list[MethodChoice] = field(default_factory=list)
     surfaces: Annotated[list[str], Offered(_surfaces_and_groups), Distinct()] = field(default_factory=list)

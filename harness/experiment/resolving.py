@@ -30,7 +30,7 @@ def resolve(config: Config, file: ConfigFile, catalog: Catalog) -> Experiment:
         lambda: _scenes(config, file, catalog, told),
     ]
     (variants, own_stages), chosen, scenes = gathered(parts, lambda part: part())
-    _check_baseline(config, file, catalog, variants)
+    _check_named(config, file, catalog, variants)
     return Experiment(
         file.path.stem,
         file.path,
@@ -138,16 +138,17 @@ def _grid(parameters: Mapping[str, list[float]]) -> list[dict[str, float]]:
     return grid
 
 
-def _check_baseline(config: Config, file: ConfigFile, catalog: Catalog, variants: list[Variant]) -> None:
-    """Raise FirsthitError where the config's baseline is none of its own methods and variants.
+def _check_named(config: Config, file: ConfigFile, catalog: Catalog, variants: list[Variant]) -> None:
+    """Raise FirsthitError where the config's baseline or focus is none of its own methods and variants.
 
-    A method that finds nothing, and measures the harness, cannot be a baseline.
+    A method that finds nothing, and measures the harness, can be neither.
     """
     answering = [variant for variant in variants if catalog.get(variant.method).method.answers]
     known = dict.fromkeys([*(variant.method for variant in answering), *map(str, answering)])
-    problem = Known(lambda: known).broken([config.baseline])
-    if "baseline" in file.table and problem:
-        raise file.error(("baseline",), f"baseline: {problem}")
+    for name, given in (("baseline", config.baseline), ("focus", config.focus)):
+        problem = Known(lambda: known).broken([given])
+        if name in file.table and problem:
+            raise file.error((name,), f"{name}: {problem}")
 
 
 def _surfaces(config: Config, file: ConfigFile, told: list[str]) -> list[Surface]:

@@ -46,11 +46,12 @@ def replacing(path: Path) -> Iterator[Path]:
 def replacing_together(folder: Path, what: str) -> Iterator[Path]:
     """Yield an empty folder for files that belong together; each takes the place of its namesake in `folder`.
 
-    All of them are complete before the first one is replaced; where the block raises, none is. What lies in folders of
-    its own there is thrown away. `what` says in the error what was to be written. Raises FirsthitError where nothing
-    can be written.
+    `folder` is made where it is missing. All files are complete before the first one is replaced; where the block
+    raises, none is. What lies in folders of its own there is thrown away. `what` says in the error what was to be
+    written. Raises FirsthitError where nothing can be written.
     """
     try:
+        folder.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryDirectory(prefix=".new-", dir=folder) as name:
             yield Path(name)
             files = sorted(path for path in Path(name).iterdir() if path.is_file())

@@ -28,6 +28,7 @@ _RULE = re.compile(r" *--+(?: +--+)+")
 def card(plugin: Plugin) -> dict[str, Any]:
     """Return what a report needs, JSON-able.
 
+    label: how people write the method's name
     title, summary: the page's first line, and what stands between it and the first part
     source: the part Source, or the method's own `source`
     doc: the other parts' text by name, a line for each paragraph and point
@@ -45,6 +46,7 @@ def card(plugin: Plugin) -> dict[str, Any]:
         doc[part] = _folded(said)
         tables += [{"part": part} | table for table in found]
     return {
+        "label": method.label,
         "title": title,
         "summary": _folded(summary),
         "source": doc.pop("Source", method.source),

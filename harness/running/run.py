@@ -194,6 +194,7 @@ def _described(experiment: Experiment, command: str, environment: Mapping[str, A
         "config": str(experiment.path),
         "config_text": experiment.text,
         "baseline": experiment.config.baseline,
+        "focus": experiment.config.focus,
         "command": command,
         "created": datetime.now(UTC).isoformat(timespec="seconds"),
         "environment": environment,

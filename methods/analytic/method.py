@@ -85,6 +85,7 @@ def accepts(surface: Surface) -> str | None:
 METHOD = Method(
     name="analytic",
     source="Loop and Blinn 2006, in toledo2007",
+    label="Analytic roots",
     needs=("surface_coefficients_along",),
     libraries=("closed_form",),
     parameters=(

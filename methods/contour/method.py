@@ -19,6 +19,7 @@ from harness.contract import MeshRecipe, Method, Parameter
 METHOD = Method(
     name="contour",
     source="Lorensen and Cline 1987",
+    label="Contour mesh",
     parameters=(Parameter("CELLS", 64, "grid cells along the longest side of the domain's box", finer="up"),),
     precisions=("float32",),
     casts="mesh",

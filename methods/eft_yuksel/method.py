@@ -102,6 +102,7 @@ def _accepts(surface: Surface) -> str | None:
 METHOD = Method(
     name="eft_yuksel",
     source="szente",
+    label="EFT Yuksel",
     needs=("surface_value",),
     libraries=("dual", "fit", "polynomial", "fit_samples", "fit_whole"),
     parameters=(

@@ -83,6 +83,7 @@ from harness.contract import Method, Parameter
 METHOD = Method(
     name="interval_adaptive",
     source="beamcasting",
+    label="Interval beams, adaptive",
     needs=("surface_range",),
     parameters=(
         Parameter(

@@ -36,6 +36,7 @@ from harness.contract import Method, Parameter
 METHOD = Method(
     name="interval_march",
     source="beamcasting",
+    label="Interval marching",
     needs=("surface_range_along",),
     parameters=(
         Parameter(

@@ -74,6 +74,7 @@ from harness.contract import Method, Parameter
 METHOD = Method(
     name="interval_uniform",
     source="beamcasting",
+    label="Interval beams, uniform",
     needs=("surface_range",),
     parameters=(
         Parameter(

@@ -124,6 +124,7 @@ def _accepts(surface: Surface) -> str | None:
 METHOD = Method(
     name="lu_lipschitz",
     source="szente",
+    label="LU Lipschitz",
     needs=("surface_value",),
     libraries=("interval", "dual", "fit", "polynomial", "lu", "fit_samples", "fit_whole"),
     parameters=(

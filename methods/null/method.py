@@ -10,4 +10,4 @@ the domain and writing the answer. Compare a method's time with this one.
 
 from harness.contract import Method
 
-METHOD = Method(name="null", source="harness", answers=False)
+METHOD = Method(name="null", source="harness", label="No method", answers=False)

@@ -27,6 +27,7 @@ def accepts(surface: Surface) -> str | None:
 METHOD = Method(
     name="polygon",
     source="toledo2007",
+    label="Polygon mesh",
     parameters=(
         Parameter("N", 64, "points of the mesh around the surface, in each of its two directions", finer="up"),
     ),

@@ -44,6 +44,7 @@ from harness.contract import Method, Parameter
 METHOD = Method(
     name="ray_march",
     source="szente",
+    label="Ray marching",
     needs=("surface_value", "surface_along", "surface_value_along"),
     parameters=(
         Parameter("STEPS", 10000, "steps across the domain's diameter", finer="up", sweep=(100, 300, 1000)),

@@ -137,6 +137,7 @@ def tables(surface: Surface, knobs: Mapping[str, float | int], _: Precision) -> 
 METHOD = Method(
     name="sphere_tracing_lipschitz",
     source="toledo2007",
+    label="Lipschitz sphere tracing",
     needs=("surface_along", "surface_value_along"),
     parameters=(
         Parameter(

@@ -40,7 +40,7 @@ def _casters(shelf: Shelf, frame: pd.DataFrame) -> list[Section]:
     blocks: list[Block] = [Text(MEANING), _table(rows)]
     if gallery := _gallery(shelf, rows[rows["casts"] == "quadtree"]):
         blocks.append(gallery)
-    return [Section("Beams", tuple(blocks), wide=True)]
+    return [Section("Beams", tuple(blocks))]
 
 
 def _table(rows: pd.DataFrame) -> Table:
@@ -137,4 +137,4 @@ def _prepass(frame: pd.DataFrame) -> list[Section]:
         "that with beams, in the rounds that timed both, where neither has a wrong ray; above 1× the prepass pays; it "
         "cannot where a method is hardly slower than it."
     )
-    return [Section("Where the prepass pays", (Table(columns, body, "The prepass.", caption, group=3),), wide=True)]
+    return [Section("Where the prepass pays", (Table(columns, body, "The prepass.", caption, group=3),))]

@@ -27,7 +27,7 @@ def sections(material: Material) -> list[Section]:
     """Make the section; [] where the run decides no claim."""
     if all(verdict.outcome is Outcome.UNTESTED for _, verdict in material.judged):
         return []
-    return [Section("The papers' claims", (Text(TOLD), _table(material.judged)), wide=True)]
+    return [Section("The papers' claims", (Text(TOLD), _table(material.judged)))]
 
 
 def _table(judged: list[tuple[claims.Claim, claims.Verdict]]) -> Table:

@@ -58,7 +58,7 @@ def sections(material: Material) -> list[Section]:
         Column(theirs, wording.error, numeric=True, over="largest error"),
     )
     table = Table(columns, body, "What our changes to the papers' methods are worth.", CAPTION, group=1)
-    return [Section("Deviations from the papers", (Text(TOLD), table), wide=True)]
+    return [Section("Deviations from the papers", (Text(TOLD), table))]
 
 
 def _lines(name: str, told: Mapping[str, Any], frame: pd.DataFrame) -> Iterator[tuple[Any, ...]]:

@@ -24,7 +24,7 @@ def sections(material: Material) -> list[Section]:
     """Make the section; [] unless two devices or more timed the same variant on the same scene."""
     timed = material.listed[material.listed["status"] == CellStatus.OK].dropna(subset=["median_ms"])
     table = _table(timed) if timed["device"].nunique() > 1 else None
-    return [Section("The same kernel on every device", (table,), wide=True)] if table else []
+    return [Section("The same kernel on every device", (table,))] if table else []
 
 
 def _table(timed: pd.DataFrame) -> Table | None:

@@ -17,7 +17,7 @@ def sections(material: Material) -> list[Section]:
     """Make the section, which every report has."""
     plan = material.run.plan
     tabled = (devices_table(plan), _environment(plan))
-    return [Section("Devices, environment, config", (*tabled, Code(plan.config_text, "toml")), wide=True)]
+    return [Section("Devices, environment, config", (*tabled, Code(plan.config_text, "toml")))]
 
 
 def devices_table(plan: Plan) -> Table:

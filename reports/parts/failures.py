@@ -26,7 +26,7 @@ def sections(material: Material) -> list[Section]:
     files = _unreadable([*run.unreadable, *material.shelf.damaged.values()])
     blocks = tuple(filter(None, (ended, files, _not_run(run.not_run))))
     nothing = Text("Nothing: every planned cell ran and gave a result.")
-    return [Section("Skipped, failed and missing", blocks or (nothing,), wide=True)]
+    return [Section("Skipped, failed and missing", blocks or (nothing,))]
 
 
 def _troubles(frame: pd.DataFrame, families: pd.DataFrame, facts: Mapping[str, Facts]) -> Table | None:

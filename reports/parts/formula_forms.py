@@ -56,7 +56,7 @@ def sections(material: Material) -> list[Section]:
         blocks += [Text(_narrowest(ranges, titles)), _ranges(ranges, rows, titles), _figure(ranges, titles)]
     if not rows.empty:
         blocks += [_work(rows), Text(WARNING), _errors(rows)]
-    return [Section("How a formula is written", tuple(blocks), wide=True)] if len(blocks) > 1 else []
+    return [Section("How a formula is written", tuple(blocks))] if len(blocks) > 1 else []
 
 
 def _picture(frame: pd.DataFrame) -> pd.DataFrame:

@@ -56,7 +56,7 @@ def sections(material: Material) -> list[Section]:
         "marks there show the share of undecidable rays answered as the oracle does, for what that is worth."
     )
     return [
-        Section("Where each method breaks", tuple(blocks), wide=True),
+        Section("Where each method breaks", tuple(blocks)),
         Section("Hard rays, family by family", (key, *drawn)),
     ]
 

@@ -31,9 +31,9 @@ def sections(material: Material) -> list[Section]:
             "Instances of surfaces, each with a transform, in one depth buffer. The image error is |t − t*| against "
             "the oracle's certified first hit over all instances, in pixel footprints, on the rays that fragments cast."
         )
-        made.append(Section("Scenes", (Text(lead), *blocks), wide=True))
+        made.append(Section("Scenes", (Text(lead), *blocks)))
     if loosened := _detail(rows[rows["pixel_tolerance"].notna()]):
-        made.append(Section("Detail where the scene needs it", (loosened,), wide=True))
+        made.append(Section("Detail where the scene needs it", (loosened,)))
     return made
 
 

@@ -67,7 +67,7 @@ def sections(material: Material) -> list[Section]:
         blocks += [by_variant(rows), by_scene(rows)]
     hard = families_held(material.rungs, material.run.plan.facts)
     blocks += [Text(_held(hard), strong=True), hard] if hard else []
-    return [Section("What the shift is worth", tuple(blocks), wide=True)] if blocks else []
+    return [Section("What the shift is worth", tuple(blocks))] if blocks else []
 
 
 def _mean(ratios: pd.Series) -> float:

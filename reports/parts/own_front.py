@@ -56,7 +56,7 @@ def _of(method: str, frame: pd.DataFrame) -> list[Section]:
         "timed both, where that has no such ray "
         f"either.{wording.zeros([line[6] for line in body], [line[9] for line in body])}"
     )
-    return [Section(f"{method} on the front", (*blocks, Table(columns, body, "By degree.", caption)), wide=True)]
+    return [Section(f"{method} on the front", (*blocks, Table(columns, body, "By degree.", caption)))]
 
 
 def _line(method: str, group: pd.DataFrame) -> tuple[Any, ...]:

@@ -42,7 +42,7 @@ def sections(material: Material) -> list[Section]:
     if len(shown) < len(scenes):
         told += f" The first {len(shown):,} of {len(scenes):,} scenes; results.csv has the samples and rounds of all."
     blocks: list[Block] = [Text(told), *tabled]
-    return [Section("Variants compared round by round", tuple(blocks), wide=True)] if tabled else []
+    return [Section("Variants compared round by round", tuple(blocks))] if tabled else []
 
 
 def _table(rows: pd.DataFrame) -> Table | None:

@@ -81,7 +81,7 @@ def sections(material: Material) -> list[Section]:
         for _, scene in own.groupby("comparison", sort=False):
             errors = units_table(scene)
             blocks += [results_table(scene), *([errors] if errors else [])]
-        made.append(Section(str(rows["surface_title"].iloc[0]), tuple(blocks), wide=True))
+        made.append(Section(str(rows["surface_title"].iloc[0]), tuple(blocks)))
     return made
 
 

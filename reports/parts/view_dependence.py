@@ -44,7 +44,7 @@ def sections(material: Material) -> list[Section]:
     tabled: list[Block] = [Text(EXPLANATION + cut)]
     for of in sets:
         tabled += filter(None, (dependence_table(of), wrong_rays_table(of)))
-    made = [Section("View dependence", tuple(tabled), wide=True)]
+    made = [Section("View dependence", tuple(tabled))]
     by_angle = [(i, of) for i, of in enumerate(sets) if of.kind == viewstats.ANGLES]
     lines = [viewplots.over_angle(of, material.marks, f"angles-{i}") for i, of in by_angle]
     mapped = [of for of in sets if of.kind == viewstats.DIRECTIONS][:MOST_MAPPED]
@@ -56,7 +56,7 @@ def sections(material: Material) -> list[Section]:
         for figure in viewplots.over_directions(of, scales, f"sphere-{i}")
     ]
     made += [Section("View dependence: over the projection angle", tuple(lines))] if lines else []
-    made += [Section("View dependence: over the sphere of directions", tuple(maps), wide=True)] if maps else []
+    made += [Section("View dependence: over the sphere of directions", tuple(maps))] if maps else []
     return made
 
 

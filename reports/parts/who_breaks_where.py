@@ -53,7 +53,7 @@ def sections(material: Material) -> list[Section]:
         judged = _worst(own)
         blocks += [_by_group(judged, place), _classes(judged, place), _matrix(judged, place)]
     refusals = _refusals(rows)
-    return [Section("Who breaks where", (*blocks, *([refusals] if refusals else [])), wide=True)]
+    return [Section("Who breaks where", (*blocks, *([refusals] if refusals else [])))]
 
 
 def _worst(rows: pd.DataFrame) -> pd.DataFrame:

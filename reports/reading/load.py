@@ -13,6 +13,7 @@ import pandas as pd
 
 from harness.contract import BASELINE, CellStatus, FirsthitError, suggestion
 from harness.results.schema import FAMILY, RUNG, SCHEMA, flatten
+from reports import labels
 from reports.reading import collect, export
 from reports.reading.run import Facts, Plan, Run, Unreadable
 
@@ -42,13 +43,25 @@ def over(frame: pd.DataFrame, baseline: str | None) -> pd.DataFrame:
 
     Raises FirsthitError where no row that answers has that baseline.
     """
-    if baseline is None:
-        return frame
+    return frame if baseline is None else frame.assign(baseline=_answering(frame, baseline, "--baseline"))
+
+
+def focus_of(run: Run, focus: str | None) -> str:
+    """Return the method or variant that the report of `run` is about: `focus`, else the config's; "" for none.
+
+    Raises FirsthitError where no row that answers has it.
+    """
+    named = run.plan.focus if focus is None else focus
+    return _answering(run.frame, named, "--focus" if focus else "focus") if named else ""
+
+
+def _answering(frame: pd.DataFrame, name: str, option: str) -> str:
+    """Return `name` where it is a method or variant of a row that answers. Raises FirsthitError where it is none."""
     answering = frame[frame["answers"].astype(bool)]
     known = list(dict.fromkeys([*answering["method"], *answering["variant"]]))
-    if baseline not in known:
-        raise FirsthitError(f"--baseline: unknown {baseline!r}; {suggestion(baseline, known)}")
-    return frame.assign(baseline=baseline)
+    if name not in known:
+        raise FirsthitError(f"{option}: unknown {name!r}; {suggestion(name, known)}")
+    return name
 
 
 @contextlib.contextmanager
@@ -100,8 +113,10 @@ def load_one(folder: Path, plan: Plan) -> Run:
     if not rows and not families and not studies:
         damaged = f" ({len(unreadable)} are unreadable: {unreadable[0].problem})" if unreadable else ""
         raise FirsthitError(f"{folder} holds no finished cell{damaged}; run `{plan.command}` first")
-    frames = (export.frame(SCHEMA, rows), export.frame(FAMILY, families), export.frame(RUNG, rungs))
-    return Run(folder, plan, *frames, tuple(unreadable), tuple(not_run), studies, {plan.name: folder})
+    made = (export.frame(schema, found) for schema, found in ((SCHEMA, rows), (FAMILY, families)))
+    views, ladders = (labels.labelled(frame, plan.methods) for frame in made)
+    broken, missing = tuple(unreadable), tuple(not_run)
+    return Run(folder, plan, views, ladders, export.frame(RUNG, rungs), broken, missing, studies, {plan.name: folder})
 
 
 def _ladder(document: dict[str, Any], facts: Mapping[str, Facts]) -> list[tuple[Any, ...]]:
@@ -164,6 +179,7 @@ def _plan(folder: Path) -> Plan:
             if not isinstance(name, str) or Path(name).name != name:  # it becomes a file's or a folder's name
                 raise ValueError(f"{name!r:.40} is no name")
         baseline = _typed({"baseline": BASELINE, **document}, "baseline", str)
+        focus = _typed({"focus": "", **document}, "focus", str)
         stated = _typed({"methods": {}, **document}, "methods", dict)
         methods = {name: _typed(stated, name, dict) for name in stated}
         told = {
@@ -173,7 +189,7 @@ def _plan(folder: Path) -> Plan:
             "slots": dict(cells),
             "facts": facts,
         }
-        return Plan(**texts, **told, studies=studies, include=include, baseline=baseline)
+        return Plan(**texts, **told, studies=studies, include=include, baseline=baseline, focus=focus)
     except FileNotFoundError as error:
         raise FirsthitError(f"{folder} is no run folder: it has no plan.json; name a folder under runs/") from error
     except (OSError, ValueError, RecursionError) as error:

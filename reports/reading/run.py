@@ -41,6 +41,7 @@ class Plan:
     methods: Mapping[str, Mapping[str, Any]]  # what the methods say of themselves, by name
     include: tuple[str, ...]  # run folders beside this one that its report collects
     baseline: str = BASELINE  # the method or variant that speed-ups are over
+    focus: str = ""  # the method or variant that the report is about; "" for none
 
     @property
     def peaks(self) -> dict[str, float]:

@@ -6,6 +6,7 @@ import itertools
 import json
 import shutil
 import tempfile
+from collections.abc import Sequence
 from datetime import datetime
 from pathlib import Path
 from typing import Any
@@ -13,21 +14,22 @@ from typing import Any
 import matplotlib
 import typst
 
-from reports.content import Block, Code, Document, Figure, Gallery, Section, Table, Text
+from reports.content import Block, Code, Document, Figure, Gallery, Matrix, Section, Table, Text
 
 HERE = Path(__file__).parent
 REPORT, ONE_PAGE = "report.typ", "one_page.typ"  # templates; both read blocks.typ
 PIXELS_PER_INCH = 144  # of a page that is a picture
 
 
-def write_pdf(document: Document, folder: Path, pdf: Path, created: str) -> None:
+def write_pdf(document: Document, folder: Path, pdf: Path, created: str, appendix: bool = False) -> None:
     """Write `document` as the file `pdf`; the template's inputs go into `folder`, which must not exist yet.
 
-    `created` becomes the PDF's date if it is one by ISO 8601, so that the same run gives the same bytes. Raises
-    ValueError where two figures or pictures of one name differ, and OSError where a file cannot be written.
+    With `appendix` the details of all sections are at its end. `created` becomes the PDF's date if it is one by ISO
+    8601, so that the same run gives the same bytes. Raises ValueError where two figures or pictures of one name differ,
+    and OSError where a file cannot be written.
     """
     folder.mkdir()
-    _lay_out(document, folder, REPORT)
+    _lay_out(document, folder, REPORT, appendix)
     typst.compile(folder / REPORT, output=pdf, timestamp=_timestamp(created), **_settings(folder))
 
 
@@ -45,15 +47,17 @@ def write_page(document: Document, path: Path, created: str) -> None:
         path.write_bytes(typst.compile(folder / ONE_PAGE, **settings))
 
 
-def _lay_out(document: Document, folder: Path, template: str) -> None:
+def _lay_out(document: Document, folder: Path, template: str, appendix: bool = False) -> None:
     """Put into `folder` what a template reads: its own files, the document as JSON, and the pictures."""
+    detailed = [section for section in document.sections if section.details] if appendix else []
     for file in (template, "blocks.typ"):
         shutil.copy(HERE / file, folder)
     data = {
         "title": document.title,
         "subtitle": document.subtitle,
-        "summary": _section(document.summary, folder),
-        "sections": [_section(section, folder) for section in document.sections],
+        "summary": _section(document.summary, document.summary.blocks, folder),
+        "sections": [_section(section, section.blocks, folder) for section in document.sections if section.blocks],
+        "appendix": [_section(section, section.details, folder) for section in detailed],
     }
     (folder / "report.json").write_text(json.dumps(data, ensure_ascii=False), encoding="utf-8", errors="replace")
 
@@ -72,9 +76,14 @@ def _timestamp(created: str) -> int | None:
         return None
 
 
-def _section(section: Section, folder: Path) -> dict[str, Any]:
-    """Return a section as the template reads it; its pictures go into `folder`."""
-    return {"title": section.title, "wide": section.wide, "blocks": [_block(block, folder) for block in section.blocks]}
+def _section(section: Section, blocks: Sequence[Block], folder: Path) -> dict[str, Any]:
+    """Return a section with these of its blocks as the template reads it; its pictures go into `folder`."""
+    return {
+        "title": section.title,
+        "name": section.name or section.title,
+        "own_page": section.own_page,
+        "blocks": [_block(block, folder) for block in blocks],
+    }
 
 
 def _block(block: Block, folder: Path) -> dict[str, Any]:
@@ -86,6 +95,8 @@ def _block(block: Block, folder: Path) -> dict[str, Any]:
             return {"kind": "code", "text": block.text, "language": block.language}
         case Table():
             return _table(block)
+        case Matrix():
+            return _matrix(block)
         case Figure():
             return _figure(block, folder)
         case Gallery():
@@ -117,6 +128,26 @@ def _table(table: Table) -> dict[str, Any]:
     }
 
 
+def _matrix(matrix: Matrix) -> dict[str, Any]:
+    """Return a matrix as the template reads it."""
+    rows = [
+        {
+            "heading": heading,
+            "squares": [{"text": s.text, "color": s.color or None, "strong": s.strong} for s in squares],
+        }
+        for heading, squares in matrix.rows
+    ]
+    return {
+        "kind": "matrix",
+        "columns": list(matrix.columns),
+        "rows": rows,
+        "corner": matrix.corner,
+        "key": [{"color": color, "text": text} for color, text in matrix.key.items()],
+        "title": matrix.title,
+        "caption": matrix.caption,
+    }
+
+
 def _figure(figure: Figure, folder: Path) -> dict[str, Any]:
     """Return a figure as the template reads it; its drawing goes into `folder`. Raises ValueError as `_write` does."""
     file = f"{figure.name}.svg"
@@ -141,4 +172,5 @@ def _gallery(gallery: Gallery, folder: Path) -> dict[str, Any]:
         pictures = [{"file": f"{picture.name}.png", "description": picture.description} for picture in panel.pictures]
         panels.append({"title": panel.title, "note": panel.note, "pictures": pictures})
     legend = None if gallery.legend is None else _figure(gallery.legend, folder)
-    return {"kind": "gallery", "panels": panels, "caption": gallery.caption, "legend": legend}
+    told = {"caption": gallery.caption, "across": gallery.across, "hero": gallery.hero}
+    return {"kind": "gallery", "panels": panels, "legend": legend, **told}

@@ -16,7 +16,7 @@ from typing import Any
 
 import pandas as pd
 
-from reports.content import Block, Code, Column, Document, Figure, Gallery, Panel, Picture, Section, Table, Text
+from reports.content import Block, Code, Column, Document, Figure, Gallery, Matrix, Panel, Picture, Section, Table, Text
 from reports.drawing.canvas import SERIES
 from reports.drawing.style import Mark
 
@@ -64,8 +64,11 @@ def _e(text: str) -> str:
 
 def _section(section: Section, number: int) -> str:
     """Write a section as HTML; `number` is in the ids within it."""
-    blocks = "".join(_block(block, f"b{number}-{i}") for i, block in enumerate(section.blocks))
-    return f"<h2>{_e(section.title)}</h2>{blocks}"
+    every = [*section.blocks, *section.details]
+    blocks = [_block(block, f"b{number}-{i}") for i, block in enumerate(every)]
+    shown, folded = "".join(blocks[: len(section.blocks)]), "".join(blocks[len(section.blocks) :])
+    details = f"<details><summary>Every figure</summary>{folded}</details>" if folded else ""
+    return f"<h2>{_e(section.title)}</h2>{shown}{details}"
 
 
 def _block(block: Block, name: str) -> str:
@@ -78,6 +81,8 @@ def _block(block: Block, name: str) -> str:
             return f"<pre><code>{_e(block.text)}</code></pre>"
         case Table():
             return _table(block)
+        case Matrix():
+            return _matrix(block)
         case Figure():
             return _figure(block, name)
         case Gallery():
@@ -106,6 +111,25 @@ def _table(table: Table) -> str:
     return (
         f'<figure class="table"><figcaption>{_caption(table.title, table.caption)}</figcaption>{box}{shown}'
         f'<div class="scroll"><table>{head}<tbody>{rows}</tbody></table></div></figure>'
+    )
+
+
+def _matrix(matrix: Matrix) -> str:
+    """Write a matrix as a table; what a square's note says is told under the pointer, and read aloud."""
+    head = "".join(f'<th scope="col">{_e(name)}</th>' for name in matrix.columns)
+    body = "".join(
+        f'<tr><th scope="row">{_e(heading)}</th>'
+        + "".join(
+            f'<td style="background:{square.color or "none"}" title="{_e(square.note)}">{_e(square.text)}</td>'
+            for square in squares
+        )
+        + "</tr>"
+        for heading, squares in matrix.rows
+    )
+    return (
+        f'<figure class="matrix"><figcaption>{_caption(matrix.title, matrix.caption)}</figcaption><div class="scroll">'
+        f'<table><thead><tr><th scope="col">{_e(matrix.corner)}</th>{head}</tr></thead><tbody>{body}</tbody></table>'
+        "</div></figure>"
     )
 
 

@@ -50,7 +50,6 @@ def _table_1_and_2(material: Material) -> Section | None:
     return Section(
         "szente, Tables 1 and 2",
         (*blocks, *verdict_tables(material.judged, "szente-tables-1-2.toml", "szente, Tables 1 and 2")),
-        wide=True,
     )
 
 
@@ -189,7 +188,7 @@ def _table_4(material: Material) -> Section | None:
         "the sphere, which is the catalog's.",
     )
     return Section(
-        "szente, Table 4", (table, *verdict_tables(material.judged, "szente-table4.toml", "szente, Table 4")), wide=True
+        "szente, Table 4", (table, *verdict_tables(material.judged, "szente-table4.toml", "szente, Table 4"))
     )
 
 
@@ -224,7 +223,7 @@ def _changes(material: Material) -> Section | None:
         "are sums, and errors are over the scene's radius. A change that helps alone may help less beside others.",
         group=1,
     )
-    return Section("szente, what our changes are worth", (table,), wide=True)
+    return Section("szente, what our changes are worth", (table,))
 
 
 def _change(evidence: Evidence, printed: Pick, change: Pick) -> tuple[Any, ...] | None:
@@ -284,7 +283,7 @@ def _table_5(material: Material) -> Section | None:
         "Domains are those of the authors' code, but for the sphere, which is the catalog's.",
     )
     return Section(
-        "szente, Table 5", (table, *verdict_tables(material.judged, "szente-table5.toml", "szente, Table 5")), wide=True
+        "szente, Table 5", (table, *verdict_tables(material.judged, "szente-table5.toml", "szente, Table 5"))
     )
 
 

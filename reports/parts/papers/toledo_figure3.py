@@ -31,7 +31,7 @@ def sections(material: Material) -> list[Section]:
         return []
     blocks: list[Block] = [_figure([row for row in rows if row["case"] != "sampled"])]
     blocks += verdict_tables(material.judged, CONFIG, "toledo2007, Figure 3")
-    return [Section("toledo2007, Figure 3", tuple(blocks), wide=True)]
+    return [Section("toledo2007, Figure 3", tuple(blocks))]
 
 
 def _figure(cases: list[dict[str, Any]]) -> Figure:

@@ -33,7 +33,7 @@ def sections(material: Material) -> list[Section]:
         _crossings(rows),
         *verdict_tables(material.judged, CONFIG, "toledo2007, Figure 6"),
     ]
-    return [Section("toledo2007, Figure 6", tuple(blocks), wide=True)]
+    return [Section("toledo2007, Figure 6", tuple(blocks))]
 
 
 def _times(rows: pd.DataFrame) -> Table:

@@ -32,7 +32,7 @@ def sections(material: Material) -> list[Section]:
     for config, told in ((CUBICS, "section 3"), (PROXIES, "proxies"), (NORMALS, "section 4.5")):
         if (material.frame["run"] == run_of(config)).any():
             blocks += verdict_tables(material.judged, config, f"toledo2007, {told}")
-    return [Section("toledo2007, piece by piece", tuple(blocks), wide=True)] if blocks else []
+    return [Section("toledo2007, piece by piece", tuple(blocks))] if blocks else []
 
 
 def _worth(piece: Piece, evidence: Evidence) -> tuple[Any, ...] | None:

@@ -32,11 +32,7 @@ def sections(material: Material) -> list[Section]:
     blocks: list[Block] = [_pixels(rows, angles), _frames(rows, angles), _rates(rows), _errors(rows)]
     if measured := material.evidence.studies.get("mesh_errors"):
         blocks.append(_meshes(measured))
-    return [
-        Section(
-            "toledo2007, Table 1", (*blocks, *verdict_tables(material.judged, CONFIG, "toledo2007, Table 1")), wide=True
-        )
-    ]
+    return [Section("toledo2007, Table 1", (*blocks, *verdict_tables(material.judged, CONFIG, "toledo2007, Table 1")))]
 
 
 def table_rows(evidence: Evidence) -> pd.DataFrame:
