@@ -46,6 +46,7 @@ def long_card(rows: pd.DataFrame, shelf: Shelf, told: pd.DataFrame) -> Panel | N
     if row is None or arrays is None:
         return None
     height, width = arrays.shade.shape
+    arrays = arrays.cropped(*images.outline([arrays]))
     notes = [
         *(wrong_methods(rows, len(rows)), hardness(row, arrays)),
         what(told, WHOLE),
@@ -66,7 +67,7 @@ def short_card(rows: pd.DataFrame, shelf: Shelf) -> Panel | None:
     arrays = None if row is None else shelf.get(row)
     if row is None or arrays is None:
         return None
-    drawn = images.png(images.hero(arrays, SMALL))
+    drawn = images.png(images.hero(_square(arrays), SMALL))
     picture = Picture(f"{row.key}-card", drawn, f"{row.surface_title} drawn by {row.label}")
     notes = (wrong_methods(rows, NAMED), what(rows, SHORT))
     return Panel(str(row.surface_title), (picture,), "\n".join(filter(None, notes)), winners(rows))
@@ -78,11 +79,22 @@ def thumbnail(rows: pd.DataFrame, shelf: Shelf) -> Panel | None:
     arrays = None if row is None else shelf.get(row)
     if row is None or arrays is None:
         return None
-    drawn = images.png(images.hero(arrays, SMALL))
+    drawn = images.png(images.hero(_square(arrays), SMALL))
     picture = Picture(f"{row.key}-card", drawn, f"{row.surface_title} drawn by {row.label}")
     time = "" if wording.absent(row.median_ms) else f", {wording.number(row.median_ms)} ms"
     wrong = "" if not row.wrong_rays or wording.absent(row.wrong_rays) else f", {wording.count(row.wrong_rays)} wrong"
     return Panel(str(row.surface_title), (picture,), f"{row.label}{time}{wrong}")
+
+
+def _square(arrays: Arrays) -> Arrays:
+    """Return the arrays without what is empty about the surface, as a square where they are one."""
+    down, across = images.outline([arrays])
+    side = max(down.stop - down.start, across.stop - across.start)
+    made = []
+    for kept, length in zip((down, across), arrays.truth.shape, strict=True):
+        start = min(max(0, (kept.start + kept.stop - side) // 2), max(0, length - side))
+        made.append(slice(start, min(length, start + side)))
+    return arrays.cropped(*made)
 
 
 def winners(rows: pd.DataFrame) -> list[tuple[str, ...]]:

@@ -21,7 +21,7 @@ from reports.drawing.canvas import NARROW, RC, ErrorAxis, label_decades, series,
 from reports.drawing.placing import place, text_size
 from reports.drawing.style import Mark
 
-HEIGHT = 4.2  # inches
+HEIGHT = 4.9  # inches
 LETTER = 7.0  # points
 WRONG = "#9a4a00"  # the name of a variant that answers rays wrongly
 
@@ -81,9 +81,12 @@ def _speed_against_error(shown: pd.DataFrame, marks: Mapping[str, Mark], focus: 
                 axes.tick_params(labelleft=False)
             unnamed += _draw_group(axes, group, axis, marks, focus, (72 * wide, 72 * high))
         drawing.supxlabel(
-            "more exact  ←  largest error |t − t*| away from silhouettes, scene units", y=0.11 / HEIGHT, va="center"
+            "more exact  ←  largest error |t − t*| away from silhouettes, scene units",
+            y=0.11 / HEIGHT,
+            va="center",
+            fontsize=7.5,
         )
-        drawing.supylabel("Mrays/s  →  faster", x=0.1 / NARROW, ha="center")
+        drawing.supylabel("Mrays/s  →  faster", x=0.1 / NARROW, ha="center", fontsize=7.5)
         return svg(drawing), unnamed
 
 
@@ -103,6 +106,7 @@ def _draw_group(
     y = group["mrays_per_s"]
     low, high = y * group["median_ms"] / group["upper_ms"], y * group["median_ms"] / group["lower_ms"]
     right = derive.all_right(group)
+    panel, joined = _Panel(axes, size), []
     for method, rows in x.sort_index().groupby(group["method"]):  # a line joins a method's settings in the plan's order
         names = group["variant"][rows.index]
         strong = not focus or focus in (method, *names)
@@ -111,12 +115,12 @@ def _draw_group(
         ends = low[rows.index], high[rows.index]
         axes.vlines(rows, *ends, color=color, lw=0.8, zorder=3, gid=series(str(method)))
         axes.plot(rows, y[rows.index], lw=0.5, gid=series(str(method), *names), **look)
+        joined.append(panel.points(rows, y[rows.index]))
         hollow = rows[~right[rows.index]]
         if len(hollow):
             own = series(str(method), *names[hollow.index])
             axes.plot(hollow, y[hollow.index], lw=0, markerfacecolor=style.PAPER, gid=own, **look)
-    panel = _Panel(axes, size)
-    notes = [*_front(panel, x[group["front"].astype(bool)].sort_values(), y), *_floor(panel, group)]
+    notes = [*joined, *_front(panel, x[group["front"].astype(bool)].sort_values(), y), *_floor(panel, group)]
     return _labels(panel, group.assign(x=x, right=right), focus, notes)
 
 
@@ -179,7 +183,8 @@ def _floor(panel: _Panel, group: pd.DataFrame) -> list[NDArray[np.float64]]:
     if height > panel.size[1] - 0.5 * LETTER:
         return []
     told = f"floor-bound: under {derive.FLOOR_FACTOR:g} times the harness's own time"
-    panel.write(4.0, height, told, color=style.FAINT, style="italic")
+    paper = {"facecolor": style.PAPER, "edgecolor": "none", "pad": 1.0}
+    panel.write(4.0, height, told, color=style.INK, style="italic", bbox=paper)
     return [_beneath(4.0, height, text_size(told, LETTER)[0])]
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 import matplotlib
@@ -80,6 +80,21 @@ def wrong_apart(row: Any) -> str:
     counts = {"grazing": row.grazing_wrong_rays, "drowned": row.drowned_wrong_rays}
     told = (f" · {wording.count(n)} wrong at {name}" for name, n in counts.items() if not wording.absent(n) and n > 0)
     return "".join(told)
+
+
+def outline(every: Sequence[Arrays]) -> tuple[slice, slice]:
+    """Return the rows and the columns that show what any of these hit, with a margin; all arrays are of one scene."""
+    height, width = every[0].truth.shape
+    shown = np.zeros((height, width), np.bool_)
+    for arrays in every:
+        shown |= (arrays.truth != TruthStatus.MISS) | (arrays.wrong > 0)
+    margin = max(1, max(height, width) // 40)
+    ends = []
+    for along, length in ((1, height), (0, width)):
+        (at,) = np.nonzero(shown.any(axis=along))
+        low, high = (int(at[0]), int(at[-1]) + 1) if at.size else (0, length)
+        ends.append(slice(max(0, low - margin), min(length, high + margin)))
+    return ends[0], ends[1]
 
 
 def shaded(arrays: Arrays) -> NDArray[np.float64]:

@@ -13,7 +13,8 @@ from reports.drawing import images, style
 from reports.reading.arrays import Arrays
 
 PART = 8  # a window's side is this part of the picture's
-SHARE = 0.42  # of the picture's side, of an inset
+SHARE = 0.42  # of the picture's longer side, of an inset, and at most
+MOST = 0.62  # of the shorter one
 PIXELS = 360  # of the longer side of a picture with an inset: at most 300 an inch where it is 32 mm wide
 LINE = 2  # pixels of a frame
 
@@ -51,7 +52,8 @@ def worst_window(arrays: Arrays, limit: float) -> Window | None:
 def framed(image: NDArray[np.float64], arrays: Arrays, window: Window) -> NDArray[np.float64]:
     """Return a picture of errors [h, w, 3] enlarged, with the window framed and shown larger in an empty corner."""
     times = max(1, PIXELS // max(image.shape[:2]))
-    zoom = max(times + 1, round(SHARE * times * min(image.shape[:2]) / window.side))
+    side = min(SHARE * max(image.shape[:2]), MOST * min(image.shape[:2]))
+    zoom = max(times + 1, round(times * side / window.side))
     height, width = (times * n for n in image.shape[:2])
     span = min(zoom * window.side, height - 2 * LINE, width - 2 * LINE)
     top, left = _corner(arrays, window, times, span + 2 * LINE)

@@ -56,7 +56,7 @@ def overview(frame: pd.DataFrame, marks: Mapping[str, Mark], titles: Mapping[str
         first.set_xscale("log")
         first.set_xlim(rows["mrays_per_s"].min() / 2, rows["mrays_per_s"].max() * 2)
         label_decades(first.xaxis, few=True)
-        drawing.supxlabel("Mrays/s", fontsize=6.5)
+        drawing.supxlabel("Mrays/s", fontsize=7)
         handles = [Line2D([], [], color=marks[m].color, marker=marks[m].marker, ms=4.5, lw=0) for m in _methods(rows)]
         drawing.legend(handles, _methods(rows), loc="outside upper center", ncols=9)
         drawn = svg(drawing)

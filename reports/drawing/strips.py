@@ -12,17 +12,32 @@ from reports.content import Gallery, Panel, Picture
 from reports.drawing import images, insets, plots, style
 from reports.reading.arrays import Arrays
 
-_ACROSS = ((8, 4), (15, 5), (18, 6), (28, 7))  # maps of a strip, and how many then stand in a line; 8 of still more
+ROOM = 142.0  # mm of a page that a strip below a hero may take
+WIDTH, GAP, TEXTS = 178.0, 4.0, 12.0  # mm: of the page, between maps, and of a map's title and note
 _PLURAL = {"miss": "misses", "false hit": "false hits", "wrong root": "wrong roots"}
 
 
 def strip(hero: Panel | None, cells: Sequence[tuple[Any, Arrays]], scale: tuple[int, int]) -> Gallery:
     """Make a gallery of the error maps of these rows, in their order, below the panel `hero` if there is one."""
     several = len({row.precision for row, _ in cells}) > 1
+    shape = cells[0][1].truth.shape
+    if all(arrays.truth.shape == shape for _, arrays in cells):
+        kept = images.outline([arrays for _, arrays in cells])
+        cells = [(row, arrays.cropped(*kept)) for row, arrays in cells]
     panels = [_panel(row, arrays, scale, several) for row, arrays in cells]
-    across = next((n for most, n in _ACROSS if len(panels) <= most), 8)
+    down, along = cells[0][1].truth.shape
+    across = _across(len(panels), down / along)
     first = [] if hero is None else [hero]
     return Gallery(tuple(first + panels), caption(cells), plots.error_legend(*scale), across, hero is not None)
+
+
+def _across(maps: int, aspect: float) -> int:
+    """Return how many maps, of this height over their width, stand in a line: as few as the page has room for."""
+    for across in range(3, 8):
+        high = aspect * (WIDTH - GAP * (across - 1)) / across + TEXTS
+        if -(-maps // across) * high <= ROOM:
+            return across
+    return 8
 
 
 def caption(cells: Sequence[tuple[Any, Arrays]]) -> str:

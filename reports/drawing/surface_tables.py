@@ -77,7 +77,9 @@ def compact_table(rows: pd.DataFrame) -> Table | None:
         told = {**row._asdict(), "spread": spread(row), "flags": flags(row)}
         body.append(tuple(told[name] for _, name in columns))
     cut = f" {len(kept)} of {every} variants: those on the front, and the fastest." if len(kept) < every else ""
-    over = f" {tables.speedup(kept)}" if timed else ""
+    over = (
+        f" Speed-up is over {tables.baseline(kept)}, round by round; – where one of the two is wrong." if timed else ""
+    )
     return Table(
         tuple(column for column, _ in columns),
         body,

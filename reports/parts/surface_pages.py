@@ -23,9 +23,8 @@ ORDER = 20
 FRONTS = 40  # plots of further scenes and devices in the details of all surfaces
 CARDS = 48  # a run with more surfaces has a picture with a name and a time for each, in place of a card
 GUIDE = (
-    "On each surface's pages: its picture as the fastest method draws it; the error of every method on one scale of "
-    "colours, the fastest first; speed against error by name; and the columns that matter. Every figure of every row, "
-    "in all units, is in report.html under “Every figure”, and in results.csv."
+    "Each surface has two pages: who is right where, then speed against error. Every figure, in all units, is in "
+    "report.html under “Every figure”."
 )
 
 
@@ -48,13 +47,16 @@ def sections(material: Material) -> list[Section]:
     made = [] if spread else [_atlas(material, surfaces)]
     room = FRONTS
     for i, (surface, rows) in enumerate(surfaces):
-        pages = _pages(material, rows, f"front-{i}") if surface in paged else []
+        first, second = _pages(material, rows, f"front-{i}") if surface in paged else ([], [])
         further, room = _further(material, rows, named, f"front-{i}", room if surface in paged else 0)
         figures = [*further, *_tables(printed[printed["surface"] == surface])]
         title = str(rows["surface_title"].iloc[0])
-        lead = [Text(GUIDE)] if spread and i == 0 else []
-        blocks, details = ((*lead, *pages), figures) if spread else ((), (*pages, *figures))
-        made.append(Section(title, tuple(blocks), tuple(details), own_page=True))
+        if not spread:
+            made.append(Section(title, (), (*first, *second, *figures)))
+            continue
+        lead = [Text(GUIDE)] if i == 0 else []
+        made.append(Section(title, tuple([*first[:1], *lead, *first[1:]]), own_page=True))
+        made.append(Section(f"{title}: speed against error", tuple(second), tuple(figures), True, f"{title}, speed"))
     return [*made, guide]
 
 
@@ -79,19 +81,20 @@ def fullest(rows: pd.DataFrame) -> pd.DataFrame:
     return derive.on_fullest_device(finished[finished["comparison"] == shown.fullest(finished)])
 
 
-def _pages(material: Material, rows: pd.DataFrame, name: str) -> list[Block]:
-    """Make what the pages of one surface show; `name` begins the name of its plot."""
+def _pages(material: Material, rows: pd.DataFrame, name: str) -> tuple[list[Block], list[Block]]:
+    """Make what the two pages of one surface show; `name` begins the name of its plot."""
     own = fullest(rows)
     if own.empty:
-        return [Text("No cell of this surface gave a result.")]
+        return [Text("No cell of this surface gave a result.")], []
     cells = [(row, read) for row in shown.in_strip(rows).itertuples() if (read := material.shelf.get(row)) is not None]
+    marks = style.marks(material.frame["method"])
+    plots = fronts.speed_against_error(own, marks, name, _title(own), material.focus)
     table = surface_tables.compact_table(own)
-    return [
-        *_pictures(material, own, rows, cells),
-        *_told(own),
-        *fronts.speed_against_error(own, style.marks(material.frame["method"]), name, _title(own), material.focus),
-        *([table] if table else []),
-    ]
+    first, second = _fastest(own), _risks(own)
+    return (
+        [*([Text(first)] if first else []), *_pictures(material, own, rows, cells)],
+        [*([Text(second)] if second else []), *plots, *([table] if table else [])],
+    )
 
 
 def _pictures(
@@ -109,32 +112,46 @@ def _title(rows: pd.DataFrame) -> str:
     return f"{first['surface_title']}, view {first['view']}"
 
 
-def _told(rows: pd.DataFrame) -> list[Block]:
-    """Say who is fastest within each of standing.ERRORS, and what is faster but wrong; [] where nothing is timed."""
+def _fastest(rows: pd.DataFrame) -> str:
+    """Say who is fastest within each of standing.ERRORS; "" where nothing is timed."""
     if not rows["median_ms"].notna().any():
-        return []
+        return ""
     loose, tight = (standing.fastest(rows, error) for error in standing.ERRORS)
     first, second = (wording.level(error) for error in standing.ERRORS)
     if loose is None:
-        sentences = [f"No method answers every ray away from silhouettes rightly within {first} of the scene's radius."]
-    elif tight is not None and tight.variant == loose.variant and tight.precision == loose.precision:
-        sentences = [f"Within {first} and within {second} of the scene's radius, {_won(rows, loose)}."]
-    elif tight is None:
-        sentences = [f"Within {first} of the scene's radius, {_won(rows, loose)}; none is within {second}."]
-    else:
-        slower = rounds.times_over(tight, loose)
-        more = "" if wording.absent(slower) else f", in {wording.factor(slower)} the time"
-        sentences = [
-            f"Within {first} of the scene's radius, {_won(rows, loose)}; within {second} it is {tight.label} "
-            f"({wording.number(tight.median_ms)} ms{more})."
-        ]
-    if loose is not None:
-        risks = [
-            f"{row.label} is {wording.factor(times)} as fast, with {wording.plural(int(row.wrong_rays), 'wrong ray')}"
-            for row, times in standing.gambles(rows, loose)[:2]
-        ]
-        sentences += [f"Faster but wrong: {wording.listed(risks)}."] if risks else []
-    return [Text(" ".join(sentences))]
+        return f"No method answers every ray away from silhouettes rightly within {first} of the scene's radius."
+    if tight is None:
+        best = standing.usable(rows, standing.ERRORS[0]).sort_values("error_max", kind="stable")
+        exact = next(best.itertuples())
+        most = f"; the most exact is {exact.label} ({_figures(exact)})" if exact.Index != loose.Index else ""
+        return f"Within {first} of the scene's radius, {_won(rows, loose)}. None is within {second}{most}."
+    if tight.Index == loose.Index:
+        return f"Within {first} and within {second} of the scene's radius, {_won(rows, loose)}."
+    slower = rounds.times_over(tight, loose)
+    more = "" if wording.absent(slower) else f", {wording.factor(slower)} the time"
+    return (
+        f"Within {first} of the scene's radius, {_won(rows, loose)}. Within {second} it is {tight.label} "
+        f"({_figures(tight)}{more})."
+    )
+
+
+def _figures(row: Any) -> str:
+    """Write a row's time and its largest error."""
+    return f"{wording.number(row.median_ms)} ms, error {wording.error(row.error_max)}"
+
+
+def _risks(rows: pd.DataFrame) -> str:
+    """Say what is faster than the fastest right method, and how wrong it is; "" where nothing is told."""
+    best = standing.fastest(rows, standing.ERRORS[0])
+    if best is None:
+        return ""
+    risks = [
+        f"{row.label} ({wording.factor(times)} as fast, {wording.plural(int(row.wrong_rays), 'wrong ray')})"
+        for row, times in standing.gambles(rows, best)[:3]
+    ]
+    if risks:
+        return f"Faster than {best.label}, but wrong: {wording.listed(risks)}."
+    return f"Nothing that answers rays wrongly is faster here than {best.label}, the fastest right method."
 
 
 def _won(rows: pd.DataFrame, row: Any) -> str:
