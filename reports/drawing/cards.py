@@ -10,7 +10,8 @@ import pandas as pd
 
 from harness.contract import UNIT_ROUNDOFF, CellStatus
 from reports import wording
-from reports.analysis import derive, standing
+from reports.analysis import choices, derive
+from reports.analysis.choices import ERRORS
 from reports.content import Panel, Picture
 from reports.drawing import images
 from reports.reading.arrays import Arrays, Shelf
@@ -24,16 +25,15 @@ SMALL = 256  # pixels of a side of a short card's picture, which is 31 mm wide
 def winner(rows: pd.DataFrame) -> Any | None:
     """Return the row of one scene and device that its picture is of, which has arrays; None without any.
 
-    It is the fastest within the first of standing.ERRORS, else the fastest of those with fewest wrong rays.
+    It is the one to take, by reports.analysis.choices; where nothing was timed, the most exact of those with fewest
+    wrong rays.
     """
-    drawn = rows[(rows["status"] == CellStatus.OK) & rows["answers"] & rows["arrays"].notna()]
+    drawn = rows[(rows["status"] == CellStatus.OK) & rows["answers"].astype(bool) & rows["arrays"].notna()]
     if drawn.empty:
         return None
-    best = standing.fastest(drawn, standing.ERRORS[0])
-    if best is not None:
-        return best
-    ordered = drawn.assign(unknown=drawn["wrong_rays"].isna())
-    return next(ordered.sort_values(["unknown", "wrong_rays", "median_ms", "error_max"], kind="stable").itertuples())
+    for choice in choices.choices(drawn):
+        return choice.pictured
+    return next(drawn.sort_values(["wrong_rays", "error_max"], kind="stable").itertuples())
 
 
 def long_card(rows: pd.DataFrame, shelf: Shelf, told: pd.DataFrame) -> Panel | None:
@@ -98,43 +98,42 @@ def _square(arrays: Arrays) -> Arrays:
 
 
 def winners(rows: pd.DataFrame) -> list[tuple[str, ...]]:
-    """Return the lines of a card: the fastest at each of standing.ERRORS, or where nothing was timed the most exact."""
-    several = rows["precision"].nunique() > 1
-
-    def named(row: Any) -> str:
-        return f"{row.label}, {row.precision}" if several else str(row.label)
-
-    if rows["median_ms"].notna().any():
-        lines: list[tuple[str, ...]] = [("error ≤", "fastest, all rays right", "ms", "max error")]
-        for error in standing.ERRORS:
-            row = standing.fastest(rows, error)
+    """Return the lines of a card: the fastest at each of ERRORS, or where nothing was timed the most exact."""
+    for choice in choices.choices(rows):
+        lines: list[tuple[str, ...]] = [("error ≤", "fastest right", "ms", "max error")]
+        for error, row in zip(ERRORS, choice.within, strict=True):
             figures = ("none", "", "")
             if row is not None:
-                figures = (named(row), wording.number(row.median_ms), wording.error(row.error_max))
+                time = wording.number(row.median_ms)
+                figures = (choices.written(row, rows), time, wording.error(row.error_max))
             lines.append((wording.level(error), *figures))
         return lines
     right = rows[derive.all_right(rows) & rows["error_max"].notna()].sort_values("error_max", kind="stable").head(3)
-    ranked = [(f"{i}.", named(row), wording.error(row.error_max)) for i, row in enumerate(right.itertuples(), 1)]
+    ranked = [
+        (f"{i}.", choices.written(row, rows), wording.error(row.error_max))
+        for i, row in enumerate(right.itertuples(), 1)
+    ]
     return [("", "most exact, all rays right", "max error"), *ranked] if ranked else []
 
 
 def wrong_methods(rows: pd.DataFrame, most: int) -> str:
-    """Name the variants with wrong rays, at most so many, those with most first; say it where there are none."""
-    wrong = rows[(rows["wrong_rays"] > 0).fillna(False)].sort_values("wrong_rays", ascending=False, kind="stable")
+    """Name the methods with wrong rays, at most so many, those with most first; say it where there are none."""
     judged = rows[rows["wrong_rays"].notna()]
     if judged.empty:
         return ""
+    checked = f"of {wording.count(judged['accuracy_rays'].max())} rays"
+    wrong = judged[judged["wrong_rays"] > 0].sort_values("wrong_rays", ascending=False, kind="stable")
     if wrong.empty:
-        return f"No method answers one of the {_checked(judged)} rays away from silhouettes wrongly."
-    several = rows["precision"].nunique() > 1
-    names = [f"{r.label}{f', {r.precision}' if several else ''}: {r.wrong_rays:,}" for r in wrong.itertuples()]
-    more = f"; and {len(names) - most} more" if len(names) > most else ""
-    return f"Wrong rays, of {_checked(judged)}: {'; '.join(names[:most])}{more}."
+        return f"No method is wrong, {checked}."
+    labels = dict.fromkeys(wrong["label"])
+    names = [f"{label} {_span(wrong.loc[wrong['label'] == label, 'wrong_rays'])}" for label in labels]
+    more = f"; {len(names) - most} more" if len(names) > most else ""
+    return f"Wrong, {checked}: {'; '.join(names[:most])}{more}."
 
 
-def _checked(judged: pd.DataFrame) -> str:
-    """Write how many rays were checked."""
-    return wording.count(judged["accuracy_rays"].max())
+def _span(counts: pd.Series) -> str:
+    """Write the least and the most of some counts."""
+    return " to ".join(dict.fromkeys((wording.count(counts.min()), wording.count(counts.max()))))
 
 
 def hardness(row: Any, arrays: Arrays) -> str:

@@ -32,7 +32,7 @@ def speed_against_error(
     """Draw one comparison: a figure for each device, with a panel for each precision, and a label at each mark.
 
     Returns [] for fewer than two rows, which leave nothing to compare. `marks` are by method; `name` begins the
-    figures' names. The method or variant `focus` is drawn stronger than the others, if there is one.
+    figures' names. The method or variant `focus` is named first, and in bold.
     """
     shown = derive.contenders(rows)
     shown = shown[shown["error_max"].notna() & np.isfinite(shown["mrays_per_s"]) & (shown["mrays_per_s"] > 0)]
@@ -109,8 +109,7 @@ def _draw_group(
     panel, joined = _Panel(axes, size), []
     for method, rows in x.sort_index().groupby(group["method"]):  # a line joins a method's settings in the plan's order
         names = group["variant"][rows.index]
-        strong = not focus or focus in (method, *names)
-        color = marks[str(method)].color if strong else style.FAINT
+        color = marks[str(method)].color
         look: dict[str, Any] = {"color": color, "marker": marks[str(method)].marker, "ms": 5.5, "mew": 1.0, "zorder": 4}
         ends = low[rows.index], high[rows.index]
         axes.vlines(rows, *ends, color=color, lw=0.8, zorder=3, gid=series(str(method)))

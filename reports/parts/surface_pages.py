@@ -12,10 +12,11 @@ import pandas as pd
 
 from harness.contract import CellStatus
 from reports import wording
-from reports.analysis import derive, rounds, shown, standing, ties
+from reports.analysis import choices, derive, rounds, shown, tradeoffs
+from reports.analysis.choices import ERRORS, Choice
 from reports.analysis.scene_names import scene_names
 from reports.content import Block, Gallery, Section, Text
-from reports.drawing import cards, fronts, strips, style, surface_tables, tables
+from reports.drawing import cards, error_maps, fronts, surface_tables, tables
 from reports.material import Material
 from reports.reading.arrays import Arrays
 
@@ -87,10 +88,9 @@ def _pages(material: Material, rows: pd.DataFrame, name: str) -> tuple[list[Bloc
     if own.empty:
         return [Text("No cell of this surface gave a result.")], []
     cells = [(row, read) for row in shown.in_strip(rows).itertuples() if (read := material.shelf.get(row)) is not None]
-    marks = style.marks(material.frame["method"])
-    plots = fronts.speed_against_error(own, marks, name, _title(own), material.focus)
+    plots = fronts.speed_against_error(own, material.method_marks, name, _title(own), material.focus)
     table = surface_tables.compact_table(own)
-    first, second = _fastest(own), _risks(own)
+    first, second = (" ".join(map(say, choices.choices(own))) for say in (_fastest, _risks))
     return (
         [*([Text(first)] if first else []), *_pictures(material, own, rows, cells)],
         [*([Text(second)] if second else []), *plots, *([table] if table else [])],
@@ -103,7 +103,7 @@ def _pictures(
     """Make the hero and the strip of error maps; what the surface is, in words, where no picture is stored."""
     if not cells:
         return [Text(cards.what(rows, cards.WHOLE))]
-    return [strips.strip(cards.long_card(own, material.shelf, rows), cells, material.error_scale)]
+    return [error_maps.strip(cards.long_card(own, material.shelf, rows), cells, material.error_scale)]
 
 
 def _title(rows: pd.DataFrame) -> str:
@@ -112,27 +112,25 @@ def _title(rows: pd.DataFrame) -> str:
     return f"{first['surface_title']}, view {first['view']}"
 
 
-def _fastest(rows: pd.DataFrame) -> str:
-    """Say who is fastest within each of standing.ERRORS; "" where nothing is timed."""
-    if not rows["median_ms"].notna().any():
-        return ""
-    loose, tight = (standing.fastest(rows, error) for error in standing.ERRORS)
-    first, second = (wording.level(error) for error in standing.ERRORS)
+def _fastest(choice: Choice) -> str:
+    """Say who is fastest within each of ERRORS."""
+    loose, tight = choice.within[0], choice.within[-1]
+    first, second = (wording.level(error) for error in ERRORS)
+    exact = (
+        f"; the most exact is {choice.nearest.label} ({_figures(choice.nearest)})" if choice.nearest is not None else ""
+    )
     if loose is None:
-        return f"No method answers every ray away from silhouettes rightly within {first} of the scene's radius."
+        return f"No method that answers every ray rightly is within {first} of the scene's radius{exact}."
+    won = _won(choice)
     if tight is None:
-        best = standing.usable(rows, standing.ERRORS[0]).sort_values("error_max", kind="stable")
-        exact = next(best.itertuples())
-        most = f"; the most exact is {exact.label} ({_figures(exact)})" if exact.Index != loose.Index else ""
-        return f"Within {first} of the scene's radius, {_won(rows, loose)}. None is within {second}{most}."
+        exact = "" if choice.nearest.Index == loose.Index else exact
+        return f"Within {first} of the scene's radius, {won}. None is within {second}{exact}."
     if tight.Index == loose.Index:
-        return f"Within {first} and within {second} of the scene's radius, {_won(rows, loose)}."
+        return f"Within {first} and within {second} of the scene's radius, {won}."
     slower = rounds.times_over(tight, loose)
     more = "" if wording.absent(slower) else f", {wording.factor(slower)} the time"
-    return (
-        f"Within {first} of the scene's radius, {_won(rows, loose)}. Within {second} it is {tight.label} "
-        f"({_figures(tight)}{more})."
-    )
+    tighter = choices.written(tight, choice.rows)
+    return f"Within {first} of the scene's radius, {won}. Within {second} it is {tighter} ({_figures(tight)}{more})."
 
 
 def _figures(row: Any) -> str:
@@ -140,30 +138,34 @@ def _figures(row: Any) -> str:
     return f"{wording.number(row.median_ms)} ms, error {wording.error(row.error_max)}"
 
 
-def _risks(rows: pd.DataFrame) -> str:
-    """Say what is faster than the fastest right method, and how wrong it is; "" where nothing is told."""
-    best = standing.fastest(rows, standing.ERRORS[0])
-    if best is None:
-        return ""
-    risks = [
-        f"{row.label} ({wording.factor(times)} as fast, {wording.plural(int(row.wrong_rays), 'wrong ray')})"
-        for row, times in standing.gambles(rows, best)[:3]
+def _won(choice: Choice) -> str:
+    """Say that the row within the looser error is the fastest, over which baseline, and what ties with it."""
+    row, gain = choice.within[0], ""
+    if not wording.absent(row.speedup) and row.baseline not in (row.variant, row.method):
+        gain = f", {wording.factor(row.speedup)} as fast as {tables.baseline(choice.rows)}"
+    tied = f", not told apart from {wording.listed(choice.tied[0])}" if choice.tied[0] else ""
+    name = choices.written(row, choice.rows)
+    return f"{name} is the fastest right method ({wording.number(row.median_ms)} ms{gain}){tied}"
+
+
+def _risks(choice: Choice) -> str:
+    """Say what is faster than the row to take, and how wrong it is."""
+    if choice.best is None:
+        return "Every method answers some rays wrongly."
+    best = choices.written(choice.best, choice.rows)
+    told = [
+        f"{choices.written(trade.row, choice.rows)} ({_gain(trade.times)}"
+        f"{wording.plural(int(trade.row.wrong_rays), 'wrong ray')})"
+        for trade in tradeoffs.faster(choice)
     ]
-    if risks:
-        return f"Faster than {best.label}, but wrong: {wording.listed(risks)}."
-    return f"Nothing that answers rays wrongly is faster here than {best.label}, the fastest right method."
+    if told:
+        return f"Faster than {best}, but wrong: {wording.listed(told)}."
+    return f"Nothing that answers rays wrongly is faster here than {best}, the fastest right method."
 
 
-def _won(rows: pd.DataFrame, row: Any) -> str:
-    """Say that a row is the fastest, how many times as fast as the baseline, and what is not told apart from it."""
-    gain = ""
-    if not wording.absent(row.speedup) and row.variant != row.baseline and row.method != row.baseline:
-        gain = f", {wording.factor(row.speedup)} as fast as {tables.baseline(rows)}"
-    right = standing.usable(rows[rows["precision"] == row.precision], standing.ERRORS[0])
-    labels = dict(zip(rows["variant"], rows["label"], strict=True))
-    alike = [str(labels[name]) for name in ties.tied(right, row)]
-    tied = f", not told apart from {wording.listed(alike)}" if alike else ""
-    return f"{row.label} is the fastest without a wrong ray ({wording.number(row.median_ms)} ms{gain}){tied}"
+def _gain(times: float) -> str:
+    """Write how many times as fast a row is that takes so many times the time, with a comma; "" where not known."""
+    return "" if wording.absent(times) else f"{wording.factor(1.0 / times)} as fast, "
 
 
 def _further(
@@ -172,7 +174,7 @@ def _further(
     """Draw at most `room` of the further scenes and devices of a surface; return the plots and what room is left."""
     made: list[Block] = []
     own = fullest(rows)
-    marks = style.marks(material.frame["method"])
+    marks = material.method_marks
     for j, (scene, of) in enumerate(rows.groupby("comparison", sort=False)):
         for k, (device, on) in enumerate(of.groupby("device", sort=False)):
             if len(made) >= room:

@@ -170,7 +170,7 @@ def _gallery(gallery: Gallery, folder: Path) -> dict[str, Any]:
         for picture in panel.pictures:
             _write(folder / f"{picture.name}.png", picture.png)
         pictures = [{"file": f"{picture.name}.png", "description": picture.description} for picture in panel.pictures]
-        told = {"title": panel.title, "notes": panel.note.split("\n"), "lines": [list(line) for line in panel.lines]}
+        told = {"title": panel.title, "note": panel.note, "lines": [list(line) for line in panel.lines]}
         key = [{"color": color, "text": text} for color, text in panel.key.items()]
         panels.append({**told, "key": key, "pictures": pictures})
     legend = None if gallery.legend is None else _figure(gallery.legend, folder)

@@ -7,12 +7,13 @@ from typing import Any
 
 from harness.results.schema import KINDS
 from reports import wording
-from reports.analysis import standing
+from reports.analysis.choices import ERRORS
 from reports.content import Gallery, Panel, Picture
 from reports.drawing import images, insets, plots, style
 from reports.reading.arrays import Arrays
 
-ROOM = 142.0  # mm of a page that a strip below a hero may take
+ROOM = 226.0  # mm of a page for a hero and the strip below it
+HERO = 84.0  # mm: the width of a hero
 WIDTH, GAP, TEXTS = 178.0, 4.0, 12.0  # mm: of the page, between maps, and of a map's title and note
 _PLURAL = {"miss": "misses", "false hit": "false hits", "wrong root": "wrong roots"}
 
@@ -33,9 +34,10 @@ def strip(hero: Panel | None, cells: Sequence[tuple[Any, Arrays]], scale: tuple[
 
 def _across(maps: int, aspect: float) -> int:
     """Return how many maps, of this height over their width, stand in a line: as few as the page has room for."""
+    room = ROOM - HERO * aspect
     for across in range(3, 8):
         high = aspect * (WIDTH - GAP * (across - 1)) / across + TEXTS
-        if -(-maps // across) * high <= ROOM:
+        if -(-maps // across) * high <= room:
             return across
     return 8
 
@@ -56,8 +58,8 @@ def caption(cells: Sequence[tuple[Any, Arrays]]) -> str:
 
 
 def _window(row: Any, arrays: Arrays) -> insets.Window | None:
-    """Return where a row breaks: its wrong rays, or an error above the looser of standing.ERRORS."""
-    return insets.worst_window(arrays, standing.ERRORS[0] * row.scene_radius)
+    """Return where a row breaks: at its wrong rays, else at an error above the looser of ERRORS."""
+    return insets.worst_window(arrays, ERRORS[0] * row.scene_radius)
 
 
 def _panel(row: Any, arrays: Arrays, scale: tuple[int, int], several: bool) -> Panel:
