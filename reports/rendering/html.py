@@ -167,11 +167,18 @@ def _picture(picture: Picture) -> str:
 
 
 def _panel(panel: Panel) -> str:
-    """Write a panel as HTML: its title, its pictures and its note."""
+    """Write a panel as HTML: its title, its pictures, its lines, its note and what colours mean."""
     pictures = "".join(_picture(picture) for picture in panel.pictures)
+    lines = "".join(f"<tr>{''.join(f'<td>{_e(cell)}</td>' for cell in line)}</tr>" for line in panel.lines)
+    key = "".join(
+        f'<span class="key"><span style="background:{color}">&nbsp;&nbsp;</span> {_e(text)}</span> '
+        for color, text in panel.key.items()
+    )
+    note = "<br>".join(_e(line) for line in panel.note.split("\n"))
     return (
         f'<div class="panel" data-title="{_e(panel.title)}"><strong>{_e(panel.title)}</strong>'
-        f'<div class="pictures">{pictures}</div><small>{_e(panel.note)}</small></div>'
+        f'<div class="pictures">{pictures}</div>{f"<table>{lines}</table>" if lines else ""}'
+        f"<small>{key}{note}</small></div>"
     )
 
 
