@@ -98,8 +98,8 @@ def _said(verdicts: pd.DataFrame, facts: Mapping[str, Facts]) -> list[str]:
         none, every = ([facts[str(f)].title for f in of.index[of]] for of in (~by_family.any(), by_family.all()))
         sentence = f"In {precision}, {named} {'hold' if len(best) > 1 else 'holds'} most"
         sentence += f", {tally.max()} of {by_family.ngroups} families."
-        sentence += f" Nobody holds {wording.listed(none)}." if none else ""
-        sentence += f" Everybody holds {wording.listed(every)}." if every else ""
+        sentence += f" No method holds {wording.listed(none)}." if none else ""
+        sentence += f" All that take them hold {wording.listed(every)}." if every else ""
         told.append(sentence)
     return told
 
@@ -132,7 +132,7 @@ def _matrix(
     rows = []
     for family in map(str, families.index):
         squares = [
-            _square(by_place.get((family, variant)), facts[family], refused.get((family, variant), "not run"))
+            _square(by_place.get((family, variant)), facts[family], refused.get((family, variant)))
             for variant, *_ in methods.index
         ]
         rows.append((facts[family].title, tuple(squares)))
@@ -148,10 +148,10 @@ def _matrix(
     )
 
 
-def _square(verdict: Any, facts: Facts, refusal: str) -> Square:
-    """Make a square of the share of a ladder that holds; `verdict` is None where the variant was not run."""
+def _square(verdict: Any, facts: Facts, refusal: str | None) -> Square:
+    """Make a square of the share of a ladder that holds; `verdict` is None where the variant has none."""
     if verdict is None:
-        return shades.silent(REFUSED, refusal)
+        return shades.silent("", "not run") if refusal is None else shades.silent(REFUSED, refusal)
     named = f"{verdict.label}, {facts.title}"
     if not verdict.rungs_decided:
         return shades.silent(UNDECIDED, f"{named}: {NOTHING_DECIDED}")
