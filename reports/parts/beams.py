@@ -37,15 +37,19 @@ MEANING = (
 def sections(material: Material) -> list[Section]:
     """Make up to two sections: of methods that cast beams, and of the prepass; [] where the run has neither."""
     frame = surface_names.printed_alone(material.frame)
-    printed = not material.run.plan.include  # a collection has the papers' own tables and figure of beams
-    return [*_casters(material.shelf, frame, printed), *_prepass(frame)]
+    return [*_casters(material.shelf, frame), *_prepass(frame)]
 
 
-def _casters(shelf: Shelf, frame: pd.DataFrame, printed: bool) -> list[Section]:
-    """Make one section where any finished row casts beams: its pictures are details unless they are to be `printed`."""
+def _casters(shelf: Shelf, frame: pd.DataFrame) -> list[Section]:
+    """Make one section where any finished row casts beams.
+
+    Its pictures are printed in a run about beams, where most rows that answer cast them, and else are details.
+    """
     rows = frame[(frame["status"] == CellStatus.OK) & frame["casts"].isin(["beams", "quadtree"])]
     if rows.empty:
         return []
+    answering = frame[(frame["status"] == CellStatus.OK) & frame["answers"].astype(bool)]
+    printed = 2 * len(rows) > len(answering)
     gallery = _gallery(shelf, rows[rows["casts"] == "quadtree"])
     pictures: tuple[Block, ...] = (gallery,) if gallery else ()
     told: tuple[Block, ...] = (Text(f"{levels.EXPLANATION} {_said(rows)}"), *pictures) if pictures and printed else ()

@@ -58,12 +58,15 @@ def sections(material: Material) -> list[Section]:
     maps = [viewplots.over_directions(of, scales, f"sphere-{i}") for i, of in enumerate(mapped) if scales]
     made = []
     if lines:
-        shown = (Text(f"{READ_LINES} {_said(by_angle[:PRINTED_LINES])}"), *lines[:PRINTED_LINES])
-        made.append(Section("View dependence", shown, tuple(lines[PRINTED_LINES:]), own_page=True))
+        angles: tuple[Block, ...] = (Text(f"{READ_LINES} {_said(by_angle[:PRINTED_LINES])}"), *lines[:PRINTED_LINES])
+        made.append(Section("View dependence", angles, tuple(lines[PRINTED_LINES:]), own_page=True))
     if maps:
-        shown = (Text(f"{READ_MAPS} {_said(mapped[:PRINTED_MAPS])}"), *itertools.chain(*maps[:PRINTED_MAPS]))
-        rest = tuple(itertools.chain(*maps[PRINTED_MAPS:]))
-        made.append(Section("View dependence over all directions", shown, rest, own_page=True, name="Directions"))
+        around: tuple[Block, ...] = (
+            Text(f"{READ_MAPS} {_said(mapped[:PRINTED_MAPS])}"),
+            *itertools.chain(*maps[:PRINTED_MAPS]),
+        )
+        rest: tuple[Block, ...] = tuple(itertools.chain(*maps[PRINTED_MAPS:]))
+        made.append(Section("View dependence over all directions", around, rest, own_page=True, name="Directions"))
     return [*made, Section("View dependence: every figure", (), tuple(tabled))]
 
 
