@@ -73,7 +73,8 @@ class Matrix:
     """Hold a table of coloured squares, a line for each of `rows`: its heading, and a square for each of `columns`.
 
     The colours stand for what the squares' texts say too, so that nothing is lost in greyscale. `corner` says what the
-    rows' headings are, and `key` what the colours mean: texts by colour.
+    rows' headings are, and `key` what the colours mean: texts by colour. A line without squares is a heading over the
+    lines below it.
     """
 
     columns: tuple[str, ...]
