@@ -28,14 +28,14 @@ def verdict_tables(judged: Iterable[tuple[Claim, Verdict]], config: str, of_what
 
 
 def counted(judged: Iterable[tuple[Claim, Verdict]], *configs: str) -> list[Text]:
-    """Count in a sentence the claims that the rows of `configs` confirm and refute; [] where they decide none."""
+    """Count in a sentence the claims that the rows of `configs` test, by outcome; [] where they decide none."""
     counts = Counter(verdict.outcome for claim, verdict in judged if claim.config in configs)
     held, failed = (counts[outcome] for outcome in DECIDED)
     if not held + failed:
         return []
-    which = f"Of {wording.plural(held + failed, 'claim')} of the paper that these rows decide"
-    more = f"; {counts[Outcome.UNDECIDED]} more stay open" if counts[Outcome.UNDECIDED] else ""
-    return [Text(f"{which}, {held} confirmed and {failed} refuted{more}: see “The papers’ claims”.")]
+    told = [f"{n} {outcome}" for n, outcome in ((held, "confirmed"), (failed, "refuted")) if n]
+    told += [f"{counts[Outcome.UNDECIDED]} left open"] if counts[Outcome.UNDECIDED] else []
+    return [Text(f"Claims of the paper that these rows test: {wording.listed(told)}; see “The papers’ claims”.")]
 
 
 def brief(figure: str) -> str:

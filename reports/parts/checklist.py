@@ -11,7 +11,7 @@ from reports.claims.verdict_tables import DECIDED, brief
 from reports.content import Block, Column, Section, Table, Text
 from reports.material import Material
 
-ORDER = 60
+ORDER = 66
 LEADS = True
 TOLD = (
     "Each paper's claims, in our words, judged by the rows of this run: confirmed, refuted, not decided, or not "
@@ -39,22 +39,22 @@ def sections(material: Material) -> list[Section]:
 
 
 def _counted(decided: list[tuple[Claim, Verdict]]) -> str:
-    """Say how many claims of each paper hold."""
+    """Say how many claims of each paper are confirmed."""
     papers: dict[str, list[bool]] = {}
     for claim, verdict in decided:
         papers.setdefault(claim.paper, []).append(verdict.outcome is Outcome.CONFIRMED)
     held = sum(map(sum, papers.values()))
     each = wording.listed([f"{sum(of)} of {len(of)} of {paper}" for paper, of in papers.items()])
-    return f"Of {wording.plural(len(decided), 'claim')} that this run decides, {held} hold here: {each}."
+    return f"Of {wording.plural(len(decided), 'claim')} that this run decides, {held} are confirmed: {each}."
 
 
 def _rest(others: list[Verdict]) -> str:
     """Say in a sentence what became of the claims that the run does not decide; "" where there are none."""
     open_ones = sum(verdict.outcome is Outcome.UNDECIDED for verdict in others)
     untold = len(others) - open_ones
-    told = [f"{open_ones} stay open, because its rows do not tell"] if open_ones else []
-    told += [f"of {untold} it says nothing"] if untold else []
-    return f"Of the other {wording.plural(len(others), 'claim')}, {wording.listed(told)}." if others else ""
+    told = [f"{open_ones} stay open (their rows do not tell)"] if open_ones else []
+    told += [f"{untold} have no rows in this run"] if untold else []
+    return f"Of {wording.plural(len(others), 'more claim')}, {wording.listed(told)}." if others else ""
 
 
 def _decided(decided: list[tuple[Claim, Verdict]]) -> Table:

@@ -10,7 +10,6 @@ import pandas as pd
 
 from harness.contract import CellStatus
 from reports import wording
-from reports.analysis.scene_names import scene_names
 from reports.content import Block, Column, Table, Text
 from reports.drawing import tables
 from reports.material import Material
@@ -19,7 +18,7 @@ from reports.reading.run import Unreadable
 REASON_LIMIT = 500  # characters of a reason; a compiler's full log is in the cell's file
 SHORT_LIMIT = 180  # characters of the reason of a group of cells
 GROUPS = 12  # reasons that the page has room for
-NAMED = 4  # methods or places that are named; more are counted
+NAMED = 3  # methods or places that are named; more are counted
 _REFUSED = re.compile(r"the method refuses the surface [^:]+: ")
 _NOTHING_FAILED = "Every planned cell ran and gave a result."
 
@@ -40,9 +39,9 @@ def details(material: Material) -> tuple[Block, ...]:
 
 
 def _troubles(material: Material) -> pd.DataFrame:
-    """Return the cells that did not end as `ok`, with their `place`: the scene or the family."""
+    """Return the cells that did not end as `ok`, with their `place`: the surface, scene or family."""
     frame, families, facts = material.frame, material.run.families, material.run.plan.facts
-    views = frame.assign(place=frame["comparison"].map(scene_names(frame)))
+    views = frame.assign(place=frame["surface_title"])
     hard = families.assign(place=[f"family: {facts[name].title}" for name in families["family"]])
     told = ["status", "reason", "device", "precision", "place", "variant", "label", "method_label"]
     rows = pd.concat([of[of["status"] != CellStatus.OK][told] for of in (views, hard)])
@@ -53,9 +52,10 @@ def _ended(rows: pd.DataFrame) -> str:
     """Count the cells without a result by how they ended; "" where there are none."""
     if rows.empty:
         return ""
-    counts = wording.listed([f"{count:,} {status}" for status, count in rows["status"].value_counts().items()])
+    each = [f"{count:,} {status}" for status, count in rows["status"].value_counts().items()]
+    counts = f"all {rows['status'].iloc[0]}" if len(each) == 1 else wording.listed(each)
     return (
-        f"{wording.plural(len(rows), 'cell')} without a result ({counts}). A skipped cell was refused before it ran; "
+        f"{wording.plural(len(rows), 'cell')} without a result: {counts}. A skipped cell was refused before it ran; "
         "one that failed, crashed or ran out of time costs only itself."
     )
 

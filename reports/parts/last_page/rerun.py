@@ -23,7 +23,7 @@ def blocks(material: Material) -> tuple[Block, ...]:
     lines = [f"git checkout {commit}"] if commit else []
     lines += ["make .venv/ready", plan.command, f"firsthit report {shlex.quote(_folder(plan))}"]
     told = (
-        "Finished cells are reused, so that the run goes on where it stopped; `--force` runs all "
+        "Finished cells are reused, so that the run goes on where it stopped; --force runs all "
         "again. Times differ from machine to machine; answers on one device do not."
     )
     dirty = (

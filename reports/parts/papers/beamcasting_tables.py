@@ -12,7 +12,7 @@ from reports.analysis import derive, idle_lanes
 from reports.claims import picks
 from reports.claims.evidence import run_of
 from reports.claims.verdict_tables import counted, verdict_tables
-from reports.content import Column, Gallery, Section, Table, Text
+from reports.content import Block, Column, Gallery, Section, Table, Text
 from reports.drawing import levels
 from reports.material import Material
 
@@ -78,7 +78,7 @@ def _tables(material: Material) -> list[Section]:
     ]
     table = Table(
         (
-            Column("size", square),
+            Column("size", wording.square),
             Column("samples", wording.count, numeric=True),
             Column("surface"),
             *pairs,
@@ -92,7 +92,7 @@ def _tables(material: Material) -> list[Section]:
         group=2,
     )
     verdicts = verdict_tables(material.judged, "beamcasting-tables.toml", "beamcasting")
-    blocks = (Text(_SEEN), table, *counted(material.judged, "beamcasting-tables.toml"))
+    blocks: tuple[Block, ...] = (Text(_SEEN), table, *counted(material.judged, "beamcasting-tables.toml"))
     return [Section("beamcasting, Tables I and II", blocks, (Text(_TOLD), *verdicts))]
 
 
@@ -118,7 +118,7 @@ def _figure_1(material: Material) -> list[Section]:
         body.append((row.size, "surface", None, float(hit.mean())))
     table = Table(
         (
-            Column("size", square),
+            Column("size", wording.square),
             Column("eliminated at level"),
             Column("pixels a side\nof its boxes", wording.count, numeric=True),
             Column("share of\nthe picture", wording.percentage, numeric=True),
@@ -129,11 +129,6 @@ def _figure_1(material: Material) -> list[Section]:
         group=1,
     )
     return [Section("beamcasting, Figure 1", (told, gallery), (table,), name="Fig. 1")]
-
-
-def square(size: Any) -> str:
-    """Write the size of a square picture by its side: 512 × 512."""
-    return f"{size} × {size}"
 
 
 _SETTINGS = (picks.UNIFORM_IN_ROWS, picks.UNIFORM, picks.ADAPTIVE, picks.REMAPPED, picks.ADAPTIVE_OURS)
@@ -212,8 +207,8 @@ def _divergence(material: Material) -> list[Section]:
         "are least alike.",
         group=1,
     )
-    blocks = (Text(_IDLE_SEEN), whole, *counted(material.judged, config))
-    details = (
+    blocks: tuple[Block, ...] = (Text(_IDLE_SEEN), whole, *counted(material.judged, config))
+    details: tuple[Block, ...] = (
         Text(_IDLE),
         *([level_table] if by_level else []),
         *verdict_tables(material.judged, config, "beamcasting"),

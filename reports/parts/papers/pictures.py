@@ -24,6 +24,7 @@ from reports.reading.arrays import Arrays
 
 ORDER = 30
 ACROSS = 6  # pictures on a line of a page
+PAIRS = 3  # pairs of pictures on a line
 Drawn = tuple[Any, Arrays]  # a row, and its arrays
 
 
@@ -42,29 +43,39 @@ def _section(material: Material, title: str, found: list[tuple[Figure, pd.DataFr
     blocks: list[Block] = []
     details: list[Block] = []
     for figure, rows in found:
-        pictures = _galleries(material, figure, rows)
+        legend = not any(isinstance(block, Gallery) for block in blocks)  # one for all parts
+        pictures = _galleries(material, figure, rows, legend)
         blocks += [Text(f"{figure.told} {figure.caption}"), *pictures]
-        details += [_counts(rows, figure.title)]
+        details += [*([Text(figure.made)] if figure.made else []), _counts(rows, figure.title)]
         details += verdict_tables(material.judged, figure.config, figure.title) if figure.judged else []
     blocks += counted(material.judged, *(figure.config for figure, _ in found if figure.judged))
     return Section(title, tuple(blocks), tuple(details), name=title)
 
 
-def _galleries(material: Material, figure: Figure, rows: pd.DataFrame) -> list[Gallery]:
-    """Make a gallery for each line of pictures; [] where no row has any. The first has the key of colours."""
+def _galleries(material: Material, figure: Figure, rows: pd.DataFrame, legend: bool) -> list[Gallery]:
+    """Make galleries of full lines of pictures; [] where no row has any. The first has the key of errors if `legend`.
+
+    A line that is not full has a gallery of its own, so that what comes after it begins a line.
+    """
     drawn = [(row, arrays) for row in rows.itertuples() if (arrays := material.shelf.get(row)) is not None]
     if not drawn:
         return []
     painter = Painter(f"{run_of(figure.config)}-", material.error_scale, _titles(drawn))
     if figure.surfaces == tuple(picks.BEAM_SURFACES):
-        lines = [painter.shades(line, noted=True) for line in _batched(drawn)]
-        return [Gallery(line, "", across=ACROSS) for line in lines]
+        return [Gallery(painter.shades(drawn, noted=True), "", across=ACROSS)]
     one_surface = rows["surface"].nunique() == 1
-    by_view = one_surface and rows["view"].nunique() > 1 and rows["setting"].nunique() > 1
-    lines = painter.view_by_view(drawn) if by_view else painter.one_by_one(drawn)
-    told = f"Errors in scene units, from blue to yellow. {wording.ZERO}"
-    first = Gallery(lines[0], told, plots.error_legend(*material.error_scale), ACROSS)
-    return [first, *(Gallery(line, "", across=ACROSS) for line in lines[1:])]
+    if one_surface and rows["view"].nunique() > 1 and rows["setting"].nunique() > 1:
+        lines = painter.view_by_view(drawn)
+    elif len(drawn) <= PAIRS:
+        lines = [painter.pairs(drawn)]
+    else:
+        lines = [panels for line in _batched(drawn) for panels in (painter.shades(line), painter.errors(line))]
+    across = PAIRS if len(lines) == 1 else ACROSS
+    full = all(len(line) == across for line in lines)
+    galleries = [tuple(panel for line in lines for panel in line)] if full else lines
+    told = f"Errors in scene units, from blue to yellow. {wording.ZERO}" if legend else ""
+    first = Gallery(galleries[0], told, plots.error_legend(*material.error_scale) if legend else None, across)
+    return [first, *(Gallery(panels, "", across=across) for panels in galleries[1:])]
 
 
 @dataclass(frozen=True)
@@ -94,13 +105,12 @@ class Painter:
             title, (Picture(f"{self.place}{row.key}-{what}", images.png(painted), told),), _note(row) if noted else ""
         )
 
-    def one_by_one(self, drawn: list[Drawn]) -> list[tuple[Panel, ...]]:
-        """Return lines of what the rows drew, each with the line of their errors below it, or beside it if it fits."""
-        lines = []
-        for line in _batched(drawn):
-            shades, errors = self.shades(line), self.errors(line)
-            lines += [(*shades, *errors)] if 2 * len(line) <= ACROSS else [shades, errors]
-        return lines
+    def pairs(self, drawn: Iterable[Drawn]) -> tuple[Panel, ...]:
+        """Show what each row drew and its errors beside each other, with its title and its note."""
+        shown = zip(self.shades(drawn), self.errors(drawn), strict=True)
+        return tuple(
+            replace(errors, title=shade.title, pictures=shade.pictures + errors.pictures) for shade, errors in shown
+        )
 
     def view_by_view(self, drawn: list[Drawn]) -> list[tuple[Panel, ...]]:
         """Return a line of what the first setting drew from each view, and one of errors for each setting."""

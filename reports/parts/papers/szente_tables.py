@@ -8,7 +8,6 @@ from typing import Any
 import pandas as pd
 
 from reports import published, wording
-from reports.analysis.scene_names import picture_size
 from reports.claims import picks
 from reports.claims.evidence import Evidence, Pick
 from reports.claims.model import counted as summed
@@ -205,10 +204,10 @@ def _table_4(material: Material) -> Section | None:
         ),
         [*body, mean],
         "The fit against ray marching, as printed, and both at our best.",
-        f"Ours on {march['device'].iloc[0]}, {picture_size(march.iloc[0])}; the paper's on an NVIDIA 1660 Ti mobile.",
+        f"Ours on {_where(march)}; the paper's on an NVIDIA 1660 Ti mobile.",
     )
     verdicts = verdict_tables(material.judged, "szente-table4.toml", "szente, Table 4")
-    blocks = (Text(SEEN_4), table, *counted(material.judged, "szente-table4.toml"))
+    blocks: tuple[Block, ...] = (Text(SEEN_4), table, *counted(material.judged, "szente-table4.toml"))
     return Section("szente, Table 4", blocks, (Text(TOLD_4), *verdicts))
 
 
@@ -271,7 +270,7 @@ def _table_5(material: Material) -> Section | None:
     if ratios.empty:
         return None
     march = evidence.ratios(picks.MARCH, picks.LU, picks.TABLE_5).set_index("comparison")
-    blocks = evidence.ratios(picks.MARCH_OURS, picks.LU, picks.TABLE_5).set_index("comparison")
+    in_blocks = evidence.ratios(picks.MARCH_OURS, picks.LU, picks.TABLE_5).set_index("comparison")
     best = evidence.ratios(picks.LU, picks.LU_OURS, picks.TABLE_5).set_index("comparison")
     body: list[tuple[Any, ...]] = []
     for row in _in_order(ratios, picks.TABLE_5):
@@ -281,7 +280,11 @@ def _table_5(material: Material) -> Section | None:
         theirs = _lookup("szente_table5_lu", "lu_speedup", row)
         told += [row.ratio, theirs, None if theirs is None else row.ratio / theirs]
         over = march["ratio"].get(row.comparison)
-        told += [over, _lookup("szente_table5_lu", "speedup_over_raymarch", row), blocks["ratio"].get(row.comparison)]
+        told += [
+            over,
+            _lookup("szente_table5_lu", "speedup_over_raymarch", row),
+            in_blocks["ratio"].get(row.comparison),
+        ]
         body.append((*told, *(best[name].get(row.comparison) for name in ("fast_ms", "ratio"))))
     mean = _means(body, (6, 7, 9, 10, 11, 13), 8)
     table = Table(
@@ -299,11 +302,16 @@ def _table_5(material: Material) -> Section | None:
         ),
         [*body, mean],
         "Lipschitz tracing by two bounds.",
-        f"Ours on {ratios['device'].iloc[0]}, {picture_size(ratios.iloc[0])}; the paper's on an NVIDIA 1660 Ti mobile.",
+        f"Ours on {_where(ratios)}; the paper's on an NVIDIA 1660 Ti mobile.",
     )
     verdicts = verdict_tables(material.judged, "szente-table5.toml", "szente, Table 5")
-    blocks = (Text(SEEN_5), table, *counted(material.judged, "szente-table5.toml"))
+    blocks: tuple[Block, ...] = (Text(SEEN_5), table, *counted(material.judged, "szente-table5.toml"))
     return Section("szente, Table 5", blocks, (Text(TOLD_5), *verdicts))
+
+
+def _where(rows: pd.DataFrame) -> str:
+    """Write the device and the size of the first of these rows."""
+    return f"{rows['device'].iloc[0]}, {wording.square(rows['size'].iloc[0])}"
 
 
 def _in_order(ratios: pd.DataFrame, surfaces: tuple[str, ...]) -> list[Any]:

@@ -52,7 +52,7 @@ def _panel(row: Any, arrays: Arrays) -> Panel:
     tori = 1 if pd.isna(row.instances) else int(row.instances)
     title = row.view.replace("angle ", "tilted by ") + "°" if tori == 1 else f"{tori:,} tori"
     wasted = wording.share(row.fragments_discarded / row.fragments)
-    told = f"{wording.count(row.fragments)} fragments,\n{wasted} wasted, at {row.size} × {row.size}"
+    told = f"{wording.count(row.fragments)} fragments,\n{wasted} wasted, at {wording.square(row.size)}"
     picture = Picture(f"boxes-{row.key}", images.png(boxed(arrays)), f"{title}, and the fragments of the box")
     return Panel(title, (picture,), told)
 

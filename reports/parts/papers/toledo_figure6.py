@@ -16,7 +16,7 @@ from reports import wording
 from reports.claims import picks
 from reports.claims.toledo_tori import CONFIG, OURS, PICKS, crossing, curve, tori
 from reports.claims.verdict_tables import counted, verdict_tables
-from reports.content import Column, Figure, Section, Table, Text
+from reports.content import Block, Column, Figure, Section, Table, Text
 from reports.drawing.canvas import NARROW, RC, label_decades, svg
 from reports.material import Material
 
@@ -39,8 +39,8 @@ def sections(material: Material) -> list[Section]:
     rows = tori(material.evidence.of(CONFIG))
     if rows.empty:
         return []
-    blocks = (Text(SEEN), _drawn(rows), _crossings(rows), *counted(material.judged, CONFIG))
-    details = (_times(rows), *verdict_tables(material.judged, CONFIG, "toledo2007, Figure 6"))
+    blocks: tuple[Block, ...] = (Text(SEEN), _drawn(rows), _crossings(rows), *counted(material.judged, CONFIG))
+    details: tuple[Block, ...] = (_times(rows), *verdict_tables(material.judged, CONFIG, "toledo2007, Figure 6"))
     return [Section("toledo2007, Figure 6", blocks, details, name="Fig. 6")]
 
 
@@ -53,7 +53,10 @@ def _drawn(rows: pd.DataFrame) -> Figure:
         for (name, own), color in zip(curves.items(), itertools.cycle(COLORS), strict=False):
             axes.loglog(own.index, own, color=color, ls=":" if name == OURS.words else "-", marker="o", ms=3, lw=1.0)
         _name_ends(axes, curves)
-        axes.set_xlim(right=axes.get_xlim()[1] * 4)  # room for the names
+        low, high = axes.get_ylim()
+        axes.set_ylim(low, high * 2.0)
+        axes.set_xlim(right=axes.get_xlim()[1] * 6)  # room for the names
+        axes.spines[["top", "right"]].set_visible(False)
         axes.set_xlabel("tori")
         axes.set_ylabel("ms a frame")
         for axis in (axes.xaxis, axes.yaxis):
@@ -64,15 +67,17 @@ def _drawn(rows: pd.DataFrame) -> Figure:
 
 
 def _name_ends(axes: Axes, curves: Mapping[str, pd.Series]) -> None:
-    """Write each curve's name to the right of its last point, names that would overlap one above the other."""
+    """Write each curve's name in a column on the right, in the order of the last points, to which lines lead."""
     low, high = np.log10(axes.get_ylim())
-    least = 0.06 * (high - low)  # a line of text
+    least = 0.075 * (high - low)  # a line of text
+    column = 1.8 * max(own.index[-1] for own in curves.values())
     above = -np.inf
     ends = zip(curves.items(), itertools.cycle(COLORS), strict=False)
     for (name, own), color in sorted(ends, key=lambda one: one[0][1].iloc[-1]):
         above = max(float(np.log10(own.iloc[-1])), above + least)
-        place = (own.index[-1] * 1.25, 10.0**above)
-        axes.annotate(name, (own.index[-1], own.iloc[-1]), place, color=color, va="center", annotation_clip=False)
+        leader = {"arrowstyle": "-", "color": color, "lw": 0.4, "shrinkA": 0.0, "relpos": (0.0, 0.5)}
+        place = (column, 10.0**above)
+        axes.annotate(name, (own.index[-1], own.iloc[-1]), place, color=color, va="center", arrowprops=leader)
 
 
 def _times(rows: pd.DataFrame) -> Table:

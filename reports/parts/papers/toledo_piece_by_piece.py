@@ -7,7 +7,6 @@ from typing import Any
 import pandas as pd
 
 from reports import wording
-from reports.analysis.scene_names import picture_size
 from reports.claims import toledo_pieces
 from reports.claims.evidence import Evidence, run_of
 from reports.claims.toledo_pieces import CUBICS, NORMALS, PIECES, PROXIES, Piece
@@ -95,8 +94,8 @@ def _proxies(rows: pd.DataFrame) -> Table:
         ),
         body,
         "The torus by Newton 0.001 in a box, a sphere and a tetrahedron.",
-        f"On {rows['device'].iloc[0]}, {picture_size(rows.iloc[0])}. The tetrahedron is the smallest about the box; "
-        "Loop and Blinn's is about a piece of the surface, and may be smaller.",
+        f"On {rows['device'].iloc[0]}, {wording.square(rows['size'].iloc[0])}. The tetrahedron is the smallest about "
+        "the box; Loop and Blinn's is about a piece of the surface, and may be smaller.",
         group=1,
     )
 
@@ -108,7 +107,9 @@ def _normals(rows: pd.DataFrame) -> Table:
         own = rows[rows["view"] == view].set_index("normal")["median_ms"]
         times = tuple(own.get(name) for name in ("core_circle", "distance", "gradient"))
         ratios = toledo_pieces.shaded(rows[rows["view"] == view], "gradient", "core_circle")["ratio"]
-        body.append((view, *times, ratios.iloc[0] if len(ratios) else None))
+        body.append(
+            (f"{view}°" if view.startswith("tilted") else view, *times, ratios.iloc[0] if len(ratios) else None)
+        )
     return Table(
         (
             Column("view"),
@@ -119,6 +120,6 @@ def _normals(rows: pd.DataFrame) -> Table:
         ),
         body,
         "The torus by Newton 0.001, shaded by three normals.",
-        f"On {rows['device'].iloc[0]}, {picture_size(rows.iloc[0])}. f is written in factors here; the paper calls "
-        "its partial derivatives expensive and does not print them.",
+        f"On {rows['device'].iloc[0]}, {wording.square(rows['size'].iloc[0])}. f is written in factors here; the paper "
+        "calls its partial derivatives expensive and does not print them.",
     )
