@@ -13,6 +13,7 @@ from reports.material import Material
 
 ORDER = 66
 LEADS = True
+TITLE = "The papers’ claims"
 TOLD = (
     "Each paper's claims, in our words, judged by the rows of this run: confirmed, refuted, not decided, or not "
     "testable here. A verdict is over all rows that its claim asks for: every device, size and view of the run. Only "
@@ -35,7 +36,7 @@ def sections(material: Material) -> list[Section]:
         return []
     rest = _rest([verdict for _, verdict in judged if verdict.outcome not in DECIDED])
     blocks: list[Block] = [Text(_counted(decided), strong=True), _decided(decided), *([Text(rest)] if rest else [])]
-    return [Section("The papers’ claims", tuple(blocks), (Text(TOLD), _table(judged)), name="Claims")]
+    return [Section(TITLE, tuple(blocks), (Text(TOLD), _table(judged)), name="Claims")]
 
 
 def _counted(decided: list[tuple[Claim, Verdict]]) -> str:
