@@ -19,7 +19,7 @@ from harness.results import schema
 from reports import content, first_page, report
 from reports.analysis import derive, shown, ties
 from reports.drawing import choice, images, tables
-from reports.parts import surface_pages, winners
+from reports.parts import last_page, surface_pages, winners
 from reports.reading import arrays, load
 from tests.synthetic_run import cell, plan, printed, reported, retime, tiny_run, troubled, write_run
 
@@ -81,11 +81,14 @@ def test_the_report_says_what_happened(run: Path) -> None:
     by_title = {section.title: printed(section.blocks) for section in report.sections}
     assert "firsthit run configs/quick.toml" in printed(report.summary.blocks)
     assert "_odd#[STEP_$=0.5,RELAXATION_OF_THE_LAST_STEP=1.25]" in by_title["Torus"]
-    troubles = by_title["Skipped, failed and missing"]
+    last = report.sections[-1]
+    assert last.title == last_page.TITLE
+    troubles = printed(last.details)
     for reason in ("opencl:gpu#0_$ has no float64", "the worker died of signal 11", "still running after 20 s"):
         assert reason in troubles
     assert "use of `$x` @ *p = a_b[#i] <7:3> ^~~~ kernel" in troubles, "folded, and without terminal colours"
-    assert "opencl:gpu#0_$ | 2" in troubles, "cells not run yet, by device"
+    assert "2 planned cells not run yet (2 on opencl:gpu#0_$)" in printed(last.blocks)
+    assert last.own_page and 'title = "quick"  # a comment' in troubles, "the config's text"
     titles = [section.title for section in report.sections]
     assert titles[:5] == [
         "Winners",
@@ -94,7 +97,6 @@ def test_the_report_says_what_happened(run: Path) -> None:
         "Torus",
         "Barth #6 $extic_* @65 <b>",
     ]
-    assert titles[-3:] == ["Devices, environment, config", "Skipped, failed and missing", "How to run it again"]
     for section in report.sections[2:5]:
         kinds = {type(block) for block in section.blocks}
         assert {content.Figure, content.Gallery, content.Table} <= kinds, "speed, pictures and figures on one page"
@@ -290,7 +292,7 @@ def test_large_runs_print_only_what_matters(run: Path, frame: pd.DataFrame, monk
     finished = frame[frame["status"] == "ok"]
     kept = int((finished["front"] | finished["method"].isin(["ray_march", "null"])).sum())
     assert f"Printed are {kept} of {len(finished)} rows" in by_title["How to read the surfaces' pages"]
-    assert "The first 10 of" in by_title["Skipped, failed and missing"]
+    assert "The first 10 of" in printed(report.sections[-1].details)
     for title in ("The same kernel on every device", "Variants compared round by round"):
         assert "The first " in by_title[title]
 
