@@ -18,7 +18,7 @@ import vl_convert
 from harness.contract import FirsthitError
 from harness.results.writing import write_atomically
 
-_GLOBAL = "window.vegaEmbed=vegaEmbed;"  # Vega itself is vegaEmbed.vega
+_GLOBAL = "window.vegaEmbed=vegaEmbed;"
 _END = re.compile(r"window\.vegaEmbed=[\w$]+;$")  # joining the modules shortens their names
 
 
