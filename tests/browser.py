@@ -100,9 +100,7 @@ class Browser:
     def look(self, width: int, dark: bool, height: int = 900) -> None:
         """Make the window `width` × `height` CSS pixels, up to 600 wide a phone's, and its colours dark or light."""
         phone = width <= 600
-        self.call(
-            "Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=phone
-        )
+        self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=phone)
         scheme = {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}
         self.call("Emulation.setEmulatedMedia", features=[scheme])
 

@@ -1,7 +1,7 @@
 """Specify charts of the HTML page: in Vega-Lite, which draws them in the reader's browser.
 
 A specification is a plain dictionary. One that has a parameter `kept` is told which methods the reader has chosen, by
-their names; it is empty for all. Charts are drawn as on white paper, and the page turns their colours for a dark screen.
+their names; it is empty for all. Charts are drawn as on white paper; the page turns their colours for a dark screen.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ import math
 from collections.abc import Hashable, Mapping, Sequence
 from typing import Any
 
+import numpy as np
 import pandas as pd
 from matplotlib.markers import MarkerStyle
 
@@ -40,6 +41,7 @@ _NUMBERS = {  # columns of a row that the explorer has as numbers, by their name
     "accuracy_rays": "rays",
 }
 CONFIG: dict[str, Any] = {  # how every chart looks
+    "aria": False,  # a page says of the whole chart what it shows, and has the numbers in tables
     "background": style.PAPER,
     "font": f"system-ui, {style.FONT}, sans-serif",
     "view": {"stroke": style.FAINT},
@@ -73,8 +75,8 @@ def explorer(rows: pd.DataFrame) -> Explorer | None:
     note = (
         ""
         if len(shown) == len(timed)
-        else f"These are {len(shown):,} of {len(timed):,} rows: those of the first {wording.plural(len(kept), 'scene')} "
-        f"of {len(order):,}. results.parquet has all."
+        else f"These are {len(shown):,} of {len(timed):,} rows, of the first {wording.plural(len(kept), 'scene')} of "
+        f"{len(order):,}. results.parquet has all."
     )
     return Explorer(_columns(shown), scatter(), note)
 
@@ -83,7 +85,8 @@ def _columns(rows: pd.DataFrame) -> dict[str, Sequence[Any]]:
     """Return the explorer's columns by name: texts, and numbers of DIGITS digits, None where there is none."""
     several = rows["run"].nunique() > 1
     sizes = [
-        f"{picture_size(row)}, {row.stage}{f', of {row.run}' if several else ''}" for row in rows.itertuples(index=False)
+        f"{picture_size(row)}, {row.stage}{f', of {row.run}' if several else ''}"
+        for row in rows.itertuples(index=False)
     ]
     names = scene_names(rows)
     texts: dict[str, Sequence[Any]] = {
@@ -207,9 +210,10 @@ def outline(mark: Mark) -> str:
     """Return the outline of a mark as an SVG path within the square from −1 to 1, which Vega takes for a shape too."""
     marker = MarkerStyle(mark.marker)
     path = marker.get_path().transformed(marker.get_transform())
-    far = max(abs(value) for polygon in path.to_polygons(closed_only=False) for point in polygon for value in point)
+    polygons = [np.asarray(polygon) for polygon in path.to_polygons(closed_only=False)]
+    far = max(float(np.abs(polygon).max()) for polygon in polygons)
     words = []
-    for polygon in path.to_polygons(closed_only=False):
+    for polygon in polygons:
         points = [f"{x / far:.2f},{0.0 - y / far:.2f}" for x, y in polygon]
         words.append("M" + "L".join(points) + ("Z" if len(polygon) > 2 else ""))
     return "".join(words).replace("-0.00", "0.00")

@@ -72,7 +72,7 @@
       const { color, shape } = methods[row.method] ?? { color: "#555", shape: "circle" };
       const right = row.wrong === 0;
       return { x: row.x || zero, y: row.y, low: speed.low(row) || row.y, high: speed.high(row) || row.y, method: row.method,
-        color, shape, fill: right ? color : "white", row: row.row };
+        color, shape, fill: right ? color : "white", row: String(row.row) };
     });
     const beats = (a, b) => (speed.less ? a < b : a > b);
     const front = [];

@@ -17,7 +17,11 @@ EXPLORER = "explore"  # the id of the explorer's section
 
 
 def write_html(
-    document: Document, marks: Mapping[str, Mark], path: Path, labels: Mapping[str, str] | None = None, library: str = ""
+    document: Document,
+    marks: Mapping[str, Mark],
+    path: Path,
+    labels: Mapping[str, str] | None = None,
+    library: str = "",
 ) -> None:
     """Write `document` as the file `path`; see `page`. Raises OSError where the file cannot be written."""
     path.write_text(page(document, marks, labels, library), encoding="utf-8", errors="replace")
@@ -35,7 +39,8 @@ def page(
     live = bool(library) and (document.explorer is not None or _charts(document))
     sections = [(f"s{i}", section) for i, section in enumerate((document.summary, *document.sections))]
     written = [
-        (name, section.name or section.title, _section(section, name.replace("s", "b"), live)) for name, section in sections
+        (name, section.name or section.title, _section(section, name.replace("s", "b"), live))
+        for name, section in sections
     ]
     if live and document.explorer is not None:
         written.insert(1, (EXPLORER, html_explorer.TITLE, html_explorer.explorer(document.explorer)))
@@ -59,7 +64,9 @@ def _file(name: str) -> str:
 
 def _charts(document: Document) -> bool:
     """Tell whether any figure of the document has a chart."""
-    blocks = [block for section in (document.summary, *document.sections) for block in (*section.blocks, *section.details)]
+    blocks = [
+        block for section in (document.summary, *document.sections) for block in (*section.blocks, *section.details)
+    ]
     return any(isinstance(block, Figure) and block.chart is not None for block in blocks)
 
 

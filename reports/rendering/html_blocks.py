@@ -19,7 +19,7 @@ _NAMED = re.compile(f'<g id="{re.escape(SERIES)}([^"]*)"')
 
 
 def block(of: Block, name: str, live: bool) -> str:
-    """Write a block as HTML; `name` begins the ids within it. With `live` a figure's chart stands in for its drawing."""
+    """Write a block as HTML; `name` begins the ids within it. With `live` a figure shows its chart, if it has one."""
     match of:
         case Text():
             told = escaped(of.text)
@@ -87,5 +87,5 @@ def _gallery(gallery: Gallery, name: str) -> str:
     return (
         f'<figure class="gallery">{legend}<figcaption>{escaped(gallery.caption)}</figcaption>'
         f'<div class="{kind}"{across}>{panels}</div>'
-        f"<details class=\"sliding\" open><summary>Compare two pictures by a slider</summary>{compare}</details></figure>"
+        f'<details class="sliding" open><summary>Compare two pictures by a slider</summary>{compare}</details></figure>'
     )

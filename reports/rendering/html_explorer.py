@@ -15,15 +15,21 @@ _SPEEDS = {
 }
 _ERRORS = {"max": "largest", "p999": "99.9th percentile", "p99": "99th percentile"}
 _UNITS = {"scene": "scene units", "radius": "over the scene's radius", "pixels": "pixels"}
-_ROWS = {"device": "device", "precision": "precision", "setting": "size and stage", "surface": "surface", "view": "view"}
+_ROWS = {
+    "device": "device",
+    "precision": "precision",
+    "setting": "size and stage",
+    "surface": "surface",
+    "view": "view",
+}
 
 
 def explorer(of: Explorer) -> str:
     """Write the explorer as a section; without scripts it says that it needs them."""
     told = (
         "Each point is a timed variant, hollow where some ray is answered wrongly. The line is the front: no variant "
-        "with all rays right is both faster and more exact. Point at a mark, or tap it, for its numbers; choose methods "
-        "above."
+        "with all rays right is both faster and more exact. Point at a mark, or tap it, for its numbers. The buttons "
+        "above choose methods."
     )
     moved = "Drag to move, hold Ctrl and turn the wheel to zoom, double-click to see all again."
     chosen = "".join(
@@ -43,7 +49,8 @@ def explorer(of: Explorer) -> str:
         f'<h2>{TITLE}</h2><p>{told}</p>{note}<div id="explorer" hidden><div class="choices">{chosen}'
         f'<span class="zoom" role="group" aria-label="zoom">{buttons}</span></div>'
         '<p class="said" role="status"></p><div class="charts"></div>'
-        f'<p class="hint">{moved}</p><details class="numbers"><summary>The points\' numbers as a table</summary></details>'
+        f'<p class="hint">{moved}</p>'
+        '<details class="numbers"><summary>The numbers of these points as a table</summary></details>'
         f"</div><noscript><p>The explorer needs JavaScript.</p></noscript>"
         f"{data('explorer-rows', charts.coded(of.columns))}{data('explorer-chart', of.chart)}"
     )

@@ -38,7 +38,9 @@ def _boxed(kind: str, title: str, told: str, rows: str) -> str:
     """Put the rows of a table into a box of their own, which scrolls sideways where the page is too narrow."""
     heading = f"<caption><div>{told}</div></caption>" if told else ""
     name = f'role="region" aria-label="{escaped(title)}"' if title else 'role="group" aria-label="table"'
-    return f'<figure class="{kind}"><div class="scroll" tabindex="0" {name}><table>{heading}{rows}</table></div></figure>'
+    return (
+        f'<figure class="{kind}"><div class="scroll" tabindex="0" {name}><table>{heading}{rows}</table></div></figure>'
+    )
 
 
 def _head(columns: Sequence[Column]) -> str:

@@ -1,4 +1,4 @@
-"""Make the pictures of a page small: lossless, with each repeated pixel once, since browsers repeat pixels themselves."""
+"""Make the pictures of a page small: lossless, with each repeated pixel once, since browsers repeat it themselves."""
 
 from __future__ import annotations
 
@@ -23,7 +23,9 @@ def held(png: bytes) -> tuple[str, int, int]:
     pixels = np.asarray(picture)
     times = next((n for n in range(8, 1, -1) if _consists_of_squares(pixels, n)), 1)
     made = io.BytesIO()
-    Image.fromarray(np.ascontiguousarray(pixels[::times, ::times])).save(made, "WEBP", lossless=True, method=2, quality=20)
+    Image.fromarray(np.ascontiguousarray(pixels[::times, ::times])).save(
+        made, "WEBP", lossless=True, method=2, quality=20
+    )
     return f"data:image/webp;base64,{base64.b64encode(made.getvalue()).decode()}", width, height
 
 
