@@ -10,13 +10,13 @@ from harness.results.writing import replacing_together
 from reports import first_page, parts
 from reports.analysis import breaks, derive
 from reports.content import Document
-from reports.drawing import style
+from reports.drawing import charts, style
 from reports.material import Material
 from reports.place import place
 from reports.reading import export, load
 from reports.reading.arrays import Shelf
 from reports.reading.run import Run
-from reports.rendering import document, html
+from reports.rendering import bundle, document, html
 
 
 def build(
@@ -44,7 +44,8 @@ def build(
     folder = place(run) if output is None else output
     with replacing_together(folder, "the report") as made:
         document.write_pdf(content, made / "pdf", made / "report.pdf", loaded.plan.created, appendix)
-        html.write_html(content, style.marks([*frame["method"], *loaded.families["method"]]), made / "report.html")
+        marks = style.marks([*frame["method"], *loaded.families["method"]])
+        html.write_html(content, marks, made / "report.html", _labels(loaded), bundle.library())
         export.write(frame, made / "results.csv", made / "results.parquet")
         if not rungs.empty:
             rungs.to_csv(made / "stability.csv", index=False)
@@ -60,7 +61,14 @@ def report(run: Run, frame: pd.DataFrame, rungs: pd.DataFrame, focus: str = "") 
     """
     material = Material(run, frame, rungs, Shelf(run.folders), focus)
     sections = tuple(parts.sections(material))
-    return Document(run.plan.title or run.plan.name, _subtitle(run), first_page.section(material), sections)
+    title, first = run.plan.title or run.plan.name, first_page.section(material)
+    return Document(title, _subtitle(run), first, sections, charts.explorer(material.listed))
+
+
+def _labels(run: Run) -> dict[str, str]:
+    """Return the written name of each method."""
+    named = pd.concat([of[["method", "method_label"]] for of in (run.frame, run.families)])
+    return dict(named.drop_duplicates().itertuples(index=False, name=None))
 
 
 def _subtitle(run: Run) -> str:
