@@ -20,8 +20,7 @@ _NAMES = "(g => JSON.parse(decodeURIComponent(g.dataset.series)))"  # method and
 @pytest.fixture(scope="module")
 def page(tmp_path_factory: pytest.TempPathFactory) -> Path:
     run = write_run(tmp_path_factory.mktemp("runs") / "quick")
-    report.build(run)
-    return run / "report.html"
+    return report.build(run).with_name("report.html")
 
 
 @pytest.fixture(scope="module")
@@ -60,7 +59,7 @@ def test_the_page_needs_nothing_beside_it(page: Path) -> None:
 
 
 def test_the_page_says_what_the_pdf_says(page: Path) -> None:
-    _, report = reported(page.parent)
+    _, report = reported(page.parent.with_name("quick"))
     text = page.read_text(encoding="utf-8")
     for section in (report.summary, *report.sections):
         assert f"<h2>{html._e(section.title)}</h2>" in text
