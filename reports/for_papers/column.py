@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+import textwrap
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
 import matplotlib
@@ -15,6 +16,7 @@ from matplotlib.figure import Figure as Drawing
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Rectangle
 from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullLocator
+from numpy.typing import NDArray
 
 from reports.analysis import derive
 from reports.analysis.fits import Power
@@ -37,7 +39,7 @@ SETTINGS: dict[Any, Any] = RC | {
 }
 INSIDE = np.array([2.69, 2.3])  # inches, width and height of the axes of speed against error
 FLOOR: dict[str, Any] = {"facecolor": "none", "edgecolor": style.FAINT, "hatch": "/////", "linewidth": 0}
-_LETTER = 0.62 * SIZE / 72  # inches, of a letter on the average
+FOLD = 22  # letters of a line of a long label
 _PALE = 0.55  # how far what is not in focus fades to white
 
 
@@ -64,18 +66,19 @@ def _pale(color: str) -> tuple[float, float, float]:
 
 
 def keyed(
-    height: float, entries: Sequence[tuple[Artist, str]], left: float, below: float, above: float = 0.08
+    height: float, entries: Sequence[tuple[Artist, str]], left: float, below: float, right: float = 0.06
 ) -> tuple[Drawing, Axes]:
     """Return a drawing with axes `height` inches high, and below them a key in as many columns as fit.
 
-    `left`, `below` and `above` are the inches that the axes' labels take.
+    `left`, `below` and `right` are the inches that the axes' labels take.
     """
     handles, labels = [list(part) for part in zip(*entries, strict=True)] if entries else ([], [])
     columns = _columns(labels)
-    key = LINE_HEIGHT * -(-len(labels) // columns) + 0.04
+    lines = max((sum(1 + label.count("\n") for label in own) for own in np.array_split(labels, columns)), default=0)
+    key, above = LINE_HEIGHT * lines + 0.04, 0.08
     whole = above + height + below + key
     drawing = Drawing(figsize=(WIDTH, whole))
-    axes = drawing.add_axes((left / WIDTH, (below + key) / whole, 1 - (left + 0.06) / WIDTH, height / whole))
+    axes = drawing.add_axes((left / WIDTH, (below + key) / whole, 1 - (left + right) / WIDTH, height / whole))
     if labels:
         told: dict[str, Any] = {"ncols": columns, "borderaxespad": 0.0, "handlelength": 1.6, "columnspacing": 1.0}
         told |= {"handletextpad": 0.4, "labelspacing": 0.25, "borderpad": 0.0}
@@ -85,11 +88,21 @@ def keyed(
 
 def _columns(labels: Sequence[str]) -> int:
     """Return in how many columns a key of these labels fits, at least 1; they fill one column after the other."""
-    widths = [placing.text_size(label, SIZE)[0] / 72 + 0.38 for label in labels]
+    widths = [_wide(label) + 0.38 for label in labels]
     for columns in range(len(widths), 1, -1):
         if sum(max(own) for own in np.array_split(widths, columns)) < WIDTH:
             return columns
     return 1
+
+
+def _folded(label: str) -> str:
+    """Break a long label into lines."""
+    return textwrap.fill(label, FOLD)
+
+
+def _wide(label: str, bold: bool = False) -> float:
+    """Return the width of a label's longest line, inches."""
+    return max(placing.text_size(line, SIZE, bold)[0] for line in label.split("\n")) / 72
 
 
 def _handle(look: Mapping[str, Any]) -> Line2D:
@@ -166,7 +179,7 @@ def _name(axes: Axes, told: Mapping[Any, tuple[str, placing.Place]], rows: pd.Da
 
 
 def _floor(rows: pd.DataFrame) -> float:
-    """Return the Mrays/s from which on a row of this scene and device is floor-bound; infinity where it is not known."""
+    """Return the Mrays/s from which on a row of this scene is floor-bound; infinity where none is known."""
     row = next(rows.head(1).itertuples())
     return row.mrays_per_s * row.median_ms / (derive.FLOOR_FACTOR * row.floor_ms) if row.floor_ms > 0 else math.inf
 
@@ -198,34 +211,35 @@ def matrix(shares: pd.DataFrame, told: pd.DataFrame, strong: Sequence[str]) -> D
 
     Rows are named by the index, those in `strong` in bold, and columns by the columns.
     """
-    side = LINE_HEIGHT * 1.25
-    left = 0.1 + _LETTER * max(len(str(name)) for name in shares.index)
-    cell = min(0.42, (WIDTH - left - 0.05) / len(shares.columns))
-    top = 0.12 + 0.95 * _LETTER * max(len(str(name)) for name in shares.columns)
-    height = side * len(shares) + top + 0.05
+    names, heads = ([_folded(str(name)) for name in of] for of in (shares.index, shares.columns))
+    bold = [name in strong for name in shares.index]
+    edges = _edges(names)
+    left, top = 0.1 + max(map(_wide, names, bold)), 0.2 + max(map(_wide, heads))
+    cell = min(0.42, (WIDTH - left - 0.05) / len(heads))
+    height = edges[-1] + top + 0.05
     with matplotlib.rc_context(SETTINGS):
         drawing = Drawing(figsize=(WIDTH, height))
-        axes = drawing.add_axes(
-            (left / WIDTH, 0.05 / height, cell * len(shares.columns) / WIDTH, side * len(shares) / height)
-        )
-        axes.set_xlim(0, len(shares.columns))
-        axes.set_ylim(len(shares), 0)
-        axes.grid(visible=False)
-        for spine in axes.spines.values():
-            spine.set_visible(False)
-        for i, (name, line) in enumerate(shares.iterrows()):
-            for j, share in enumerate(line):
+        axes = drawing.add_axes((left / WIDTH, 0.05 / height, cell * len(heads) / WIDTH, edges[-1] / height))
+        axes.set_xlim(0, len(heads))
+        axes.set_ylim(edges[-1], 0)
+        axes.set_axis_off()
+        for i, y in enumerate((edges[1:] + edges[:-1]) / 2):
+            for j, share in enumerate(shares.iloc[i]):
                 color = "#eeeeee" if math.isnan(share) else matplotlib.colormaps["cividis"](0.12 + 0.85 * (1 - share))
-                axes.add_patch(Rectangle((j, i), 1, 1, facecolor=color, edgecolor=style.PAPER, linewidth=1.0))
+                square = Rectangle((j, edges[i]), 1, edges[i + 1] - edges[i], facecolor=color, edgecolor=style.PAPER)
+                axes.add_patch(square)
                 ink = style.PAPER if not math.isnan(share) and share > 0.55 else style.INK
-                axes.text(j + 0.5, i + 0.52, str(told.iloc[i, j]), ha="center", va="center", color=ink)
-            weight = "bold" if name in strong else "normal"
-            axes.text(-0.12, i + 0.52, str(name), ha="right", va="center", color=style.INK, weight=weight)
-        for j, name in enumerate(shares.columns):
-            axes.text(j + 0.5, -0.2, str(name), rotation=90, ha="center", va="bottom", color=style.INK)
-        axes.set_xticks([])
-        axes.set_yticks([])
+                axes.text(j + 0.5, y, str(told.iloc[i, j]), ha="center", va="center", color=ink)
+            weight = "bold" if bold[i] else "normal"
+            axes.text(-0.04 / cell, y, names[i], ha="right", va="center", color=style.INK, weight=weight)
+        for j, head in enumerate(heads):
+            axes.text(j + 0.5, -0.06, head, rotation=90, ha="center", va="bottom", color=style.INK)
     return drawing
+
+
+def _edges(names: Sequence[str]) -> NDArray[np.float64]:
+    """Return where the lines of these names begin and end, in inches from the first, as float64[n + 1]."""
+    return np.cumsum([0.0, *(LINE_HEIGHT * (0.35 + 0.95 * (1 + name.count("\n"))) for name in names)])
 
 
 def over_views(lines: Sequence[tuple[str, str, pd.DataFrame]], look: Look) -> Drawing:
@@ -233,22 +247,25 @@ def over_views(lines: Sequence[tuple[str, str, pd.DataFrame]], look: Look) -> Dr
 
     A line has the variant, its label and its rows. Views with wrong rays have hollow marks.
     """
-    left = 0.12 + _LETTER * max(len(label) for _, label, _ in lines)
+    labels = [_folded(label) for _, label, _ in lines]
+    edges, left = _edges(labels), 0.12 + max(map(_wide, labels))
+    middles = (edges[1:] + edges[:-1]) / 2
     with matplotlib.rc_context(SETTINGS):
-        drawing, axes = keyed(LINE_HEIGHT * 1.35 * len(lines), [], left=left, below=0.46)
-        ratios = [rows["us_per_ray"] / rows["us_per_ray"].mean() for *_, rows in lines]
-        for i, ((variant, _, rows), ratio) in enumerate(zip(lines, ratios, strict=True)):
+        drawing, axes = keyed(edges[-1], [], left=left, below=0.42)
+        for (variant, _, rows), y in zip(lines, middles, strict=True):
+            ratio = rows["us_per_ray"] / rows["us_per_ray"].mean()
             told = look.of(variant) | {"ls": "none", "ms": 3.6}
             wrong = (rows["wrong_rays"].fillna(0) > 0).to_numpy(bool)
-            axes.plot([ratio.min(), ratio.max()], [i, i], color=told["color"], lw=0.8)
-            axes.plot(ratio[~wrong], np.full((~wrong).sum(), i), **told)
-            axes.plot(ratio[wrong], np.full(wrong.sum(), i), **told | {"markerfacecolor": style.PAPER})
-        axes.set_yticks(range(len(lines)), [label for _, label, _ in lines])
-        axes.set_ylim(len(lines) - 0.5, -0.5)
+            axes.plot([ratio.min(), ratio.max()], [y, y], color=told["color"], lw=0.8)
+            axes.plot(ratio[~wrong], np.full((~wrong).sum(), y), **told)
+            axes.plot(ratio[wrong], np.full(wrong.sum(), y), **told | {"markerfacecolor": style.PAPER})
+        axes.set_yticks(middles, labels)
+        axes.set_ylim(edges[-1], 0)
+        axes.margins(x=0.1)
         axes.xaxis.set_major_locator(MaxNLocator(4, min_n_ticks=3))
         axes.xaxis.set_major_formatter(FuncFormatter(lambda x, _: f"{x:g}×"))
         axes.axvline(1.0, color=style.FAINT, lw=0.6, zorder=1)
-        drawing.supxlabel("time per ray in the domain, over the variant's mean", y=0.04, va="bottom", fontsize=SIZE)
+        drawing.text(0.98, 0.04 / drawing.get_figheight(), "time per ray in the domain, over the mean", ha="right")
     return drawing
 
 
@@ -259,9 +276,11 @@ def growth(
 
     `look` is by variant; `squares` writes a number of pixels as the square of its side.
     """
-    entries: list[tuple[Artist, str]] = [(_handle(look.of(c.variant)), labels[c.variant]) for c in curves]
+    entries: list[tuple[Artist, str]] = [
+        (_handle(look.of(c.variant)), textwrap.fill(labels[c.variant], 2 * FOLD)) for c in curves
+    ]
     with matplotlib.rc_context(SETTINGS):
-        drawing, axes = keyed(1.9, entries, left=0.58, below=0.42)
+        drawing, axes = keyed(1.9, entries, left=0.58, below=0.42, right=0.16)
         for curve in curves:
             told = look.of(curve.variant)
             axes.plot(curve.x, curve.ms, **told | {"ls": "none"})
@@ -271,9 +290,9 @@ def growth(
         every = np.concatenate([curve.x for curve in curves])
         axes.set_xscale("log")
         axes.set_xlim(every.min() / 1.2, every.max() * 1.2)
-        axes.xaxis.set_major_locator(FixedLocator(list(_spaced(sorted(set(every))))))
-        axes.xaxis.set_minor_locator(NullLocator())
         show = (lambda x, _: f"{round(x**0.5)}²") if squares else (lambda x, _: f"{x:,.0f}")
+        axes.xaxis.set_major_locator(FixedLocator(list(_spaced(sorted(set(every)), show, 2.4))))
+        axes.xaxis.set_minor_locator(NullLocator())
         axes.xaxis.set_major_formatter(FuncFormatter(show))
         axes.set_yscale("log")
         label_decades(axes.yaxis)
@@ -282,10 +301,12 @@ def growth(
     return drawing
 
 
-def _spaced(ticks: Sequence[float]) -> Iterator[float]:
-    """Yield of ascending ticks those whose labels do not touch the one before, on a logarithmic axis."""
+def _spaced(ticks: Sequence[float], show: Callable[[float, object], str], inches: float) -> Iterator[float]:
+    """Yield of ascending ticks those whose labels do not touch the one before; so many inches lie between the ends."""
     last = -math.inf
     for tick in ticks:
-        if math.log(tick) - last > 0.14 * math.log(ticks[-1] / ticks[0]):
-            last = math.log(tick)
+        at = inches * math.log(tick / ticks[0]) / math.log(ticks[-1] / ticks[0])
+        half = _wide(show(tick, None)) / 2 + 0.03
+        if at - half > last:
+            last = at + half
             yield tick
