@@ -28,7 +28,7 @@ from harness.experiment.cells import Cell, FamilyCell
 from harness.experiment.config import Config, Experiment
 from harness.experiment.kinds import Asked, Casting
 from harness.experiment.kinds.model import NOT_RASTERED, Rastering
-from harness.experiment.targets import devices_of
+from harness.experiment.targets import choose_devices, devices_of
 from harness.hardcases import groups
 from harness.plugins import Catalog
 from harness.scenes.model import Scene
@@ -139,7 +139,7 @@ def grid(experiment: Experiment, catalog: Catalog, found: list[DeviceInfo]) -> l
     Raises FirsthitError as `plan` does.
     """
     devices = devices_of(experiment, found, kinds.only_rasters(experiment))
-    casters = list(_casters(experiment, catalog, list(devices)))
+    casters = list(_casters(experiment, catalog, found))
     cells = itertools.chain(
         _views_of_surfaces(experiment, catalog, casters),
         _scenes(experiment, catalog, casters),
@@ -159,9 +159,11 @@ class _Caster:
     precision: Precision
 
 
-def _casters(experiment: Experiment, catalog: Catalog, devices: list[str]) -> Iterator[_Caster]:
+def _casters(experiment: Experiment, catalog: Catalog, found: list[DeviceInfo]) -> Iterator[_Caster]:
+    rasterises = kinds.only_rasters(experiment)
     for variant, before in itertools.product(experiment.variants, experiment.prepasses):
         origins = kinds.of_method(catalog.get(variant.method).method).origins(experiment)
+        devices = choose_devices(list(experiment.devices_of(variant)), found, rasterises)
         for origin, device, precision in itertools.product(origins, devices, experiment.precisions):
             yield _Caster(variant, before, origin, device, precision)
 

@@ -12,7 +12,7 @@ from harness.contract import FirsthitError
 from harness.devices.discovery import discover_devices
 from harness.devices.executor import LocalExecutor
 from harness.experiment import plan, reading
-from harness.experiment.config import Experiment
+from harness.experiment.config import FASTEST, Experiment
 from harness.experiment.plan import Planned
 from harness.gate.baseline import Baseline
 from harness.gate.chosen import Only
@@ -26,6 +26,7 @@ from harness.running import batch
 from harness.running.due import UNFINISHED
 from harness.running.environment import describe, fingerprinted
 from harness.running.failures import first_line
+from harness.running.fastest import settled
 from harness.running.run import Watcher
 
 
@@ -132,12 +133,12 @@ def prepare(config: Path, plugins: Path | None, devices: Sequence[str], watcher:
     experiment = reading.load(config, catalog)
     for line in catalog.warnings:
         watcher.warned(line)
-    if devices:
-        chosen = dataclasses.replace(experiment.config, devices=list(devices))
-        experiment = dataclasses.replace(experiment, config=chosen)
-    found, wanted = discover_devices(experiment.config.devices), experiment.config.devices
-    if not {"all", "any", *(info.name for info in found)} & set(wanted):
+    experiment = experiment.on(devices)
+    wanted = experiment.wanted_devices()
+    found = discover_devices(wanted)
+    if not {"all", "any", FASTEST, *(info.name for info in found)} & set(wanted):
         here = ", ".join(f"--device {name}" for name in others(set(wanted))) or "no device here can be used"
         raise FirsthitError(f"there is no device {', '.join(wanted)} here; name one that is: {here}", exit_code=3)
+    (experiment,) = settled([experiment], found, watcher).parts
     planned = plan.plan(experiment, catalog, found, timed=False)
     return Prepared(experiment, catalog, planned, planned)

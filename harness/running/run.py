@@ -8,7 +8,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
@@ -29,6 +29,7 @@ from harness.running.cards import card
 from harness.running.due import UNFINISHED, Again, due, estimate_seconds, studies_due
 from harness.running.environment import describe, probed
 from harness.running.failures import failure_of, mistakes
+from harness.running.fastest import Tried, settled
 from harness.running.runner import Runner
 
 
@@ -40,6 +41,7 @@ class Loaded:
     parts: tuple[Experiment, ...]  # the config itself, or those that it includes
     catalog: Catalog
     devices: list[DeviceInfo]  # of the backends that the config names
+    tried: Mapping[str, Tried] = field(default_factory=dict)  # what was measured to find the fastest, by device
 
 
 @dataclass(frozen=True, eq=False)
@@ -146,13 +148,12 @@ def load(
         )
     for line in catalog.warnings:
         hears.warned(line)
-    if devices:
-        chosen = list(devices)
-        parts = [dataclasses.replace(p, config=dataclasses.replace(p.config, devices=chosen)) for p in parts]
-    named = {device for part in parts for device in part.config.devices}
+    parts = [part.on(devices) for part in parts]
+    named = {device for part in parts for device in part.wanted_devices()}
     with hears.doing(f"{whole.path}: looking for devices"):
         found = discover_devices(named)
-    return Loaded(whole, tuple(parts), catalog, found)
+    made = settled(parts, found, hears)
+    return Loaded(whole, made.parts, catalog, found, made.tried)
 
 
 def run(
@@ -208,13 +209,14 @@ def _run_part(part: Experiment, loaded: Loaded, runs: Path, command: str, again:
     try:
         chosen = targets.devices_of(part, loaded.devices, kinds.only_rasters(part)) if part.variants else {}
         with hears.doing(_announced(part, loaded.catalog, chosen)):
-            tried = [probed(executor, info, store.folder / "probes") for info in chosen.values() if info]
+            here = [info for info in chosen.values() if info]
+            tried = [loaded.tried.get(i.name) or probed(executor, i, store.folder / "probes") for i in here]
             planned = plan.plan(part, loaded.catalog, [info for info, _ in tried]) if part.variants else []
         for told in remarks(part):
             hears.warned(told)
         store.write_plan(
             _described(part, command, environment)
-            | {"devices": [_device(info, found) for info, found in tried]}
+            | {"devices": [_device(info, found) for info, found in tried], "peaks": dict(part.peaks)}
             | _named(part, planned, loaded.catalog)
         )
         _run_studies(part.config.studies, store.folder, again == "everything", hears)
