@@ -86,7 +86,8 @@ def _planned(part: config.Experiment, loaded: Loaded, runs: Path) -> experiments
     """Say which cells a config has, and which have a row below `runs`; on standard error what domains leave out."""
     for told in remarks(part):
         tell(f"firsthit: {told}")
-    planned = plan.plan(part, loaded.catalog, loaded.devices)
+    with console.doing(f"{part.path}: preparing cells") as tell_step:
+        planned = plan.plan(part, loaded.catalog, loaded.devices, tell=tell_step)
     store = Store(runs / part.name)
     found = due(planned, store)
     seconds = estimates(found.todo, store, part.config.budget.seconds)
@@ -162,10 +163,13 @@ def _report(options: argparse.Namespace) -> int:
             for name in ("baseline", "focus", "appendix"):
                 if getattr(options, name):
                     raise FirsthitError(f"--{name} goes with one run: of two, each cell is held against itself")
-            print(compare.build(options.folder, options.other, options.output))
+            with console.doing(f"comparing {options.folder} and {options.other}"):
+                made = compare.build(options.folder, options.other, options.output)
         else:
             about = {"baseline": options.baseline, "focus": options.focus, "appendix": options.appendix}
-            print(report.build(options.folder, options.output, **about))
+            with console.doing(f"reading {options.folder}") as tell_step:
+                made = report.build(options.folder, options.output, **about, tell=tell_step)
+        print(made)
     except ModuleNotFoundError as error:
         message = (
             f"a report needs the package {error.name}: pip install 'firsthit[report]'; runs/ can be copied elsewhere"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import itertools
 import random
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -125,12 +125,24 @@ def _planned(cell: Cell, info: DeviceInfo | None, catalog: Catalog, experiment: 
     return dataclasses.replace(planned, key=digest(cell.slot, identity), identity=identity)
 
 
-def plan(experiment: Experiment, catalog: Catalog, found: list[DeviceInfo], timed: bool = True) -> list[Planned]:
+def plan(
+    experiment: Experiment,
+    catalog: Catalog,
+    found: list[DeviceInfo],
+    timed: bool = True,
+    tell: Callable[[str], None] = lambda _: None,
+) -> list[Planned]:
     """Plan every cell of the grid, comparison by comparison; families last. Untimed cells are only checked.
 
-    Raises FirsthitError where none of the devices that the config names is among those `found`.
+    `tell` hears of each cell before its programs are made, since a surface's tables may take seconds. Raises
+    FirsthitError where none of the devices that the config names is among those `found`.
     """
-    return [_planned(cell, info, catalog, experiment, timed) for cell, info in grid(experiment, catalog, found)]
+    cells, planned = grid(experiment, catalog, found), []
+    for number, (cell, info) in enumerate(cells, 1):
+        where = cell.comparison.partition(" ")[0] if cell.family is None else cell.comparison
+        tell(f"preparing [{number}/{len(cells)}] {cell.variant.method} on {where}, {cell.device}")
+        planned.append(_planned(cell, info, catalog, experiment, timed))
+    return planned
 
 
 def grid(experiment: Experiment, catalog: Catalog, found: list[DeviceInfo]) -> list[tuple[Cell, DeviceInfo | None]]:

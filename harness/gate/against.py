@@ -248,10 +248,12 @@ def _run(
     planned = [pair.then for pair in pairs if pair.then]
     found = due(planned, store, "everything" if force else "unfinished")
     if found.todo:
-        watcher.starts(len(found.todo), 1.0 * len(found.todo))
+        watcher.starts(len(found.todo), 1.0 * len(found.todo), Counter(p.cell.device for p in found.todo))
     environment = describe() | {"commit": there.commit[:12], "dirty": False}
     config = checked.experiment.config
-    rows = Runner(config, checked.catalog, store, executor, environment, watcher.cell).run(found.todo)
+    rows = Runner(config, checked.catalog, store, executor, environment, watcher.cell, watcher.hears_builds).run(
+        found.todo
+    )
     by_key = found.kept | {row["key"]: row for row in rows}
     for pair in pairs:
         if pair.then:
