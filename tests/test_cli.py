@@ -277,7 +277,7 @@ def test_lists_name_what_is_there(capsys, what):
     assert expected.get(what, usable_devices()[0].name) in out
 
 
-@pytest.mark.parametrize("config", ["configs/quick.toml", "quick"])
+@pytest.mark.parametrize("config", ["configs/speed.toml", "speed"])
 def test_plan_prints_cells_and_an_estimate_and_runs_nothing(tmp_path, capsys, config):
     code, out, _ = told(capsys, "plan", config, "--runs", tmp_path)
     assert code == 0

@@ -12,6 +12,8 @@ import argparse
 from pathlib import Path
 from typing import Protocol
 
+QUIET = "write errors and final results only"
+VERBOSE = "write every cell and check, also those that were skipped or reused, and what compilers say"
 PLUGINS = "a folder of further methods, one folder each, or the folder of one; stands before or after the command"
 
 GROUPS: dict[str, dict[str, str]] = {
@@ -71,6 +73,9 @@ def adder(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> Add:
         parser = commands.add_parser(name, help=text, description=description or text, epilog=epilog)
         # Without a default of its own: it is given here, or before the command, or not at all; the last one counts.
         parser.add_argument("--plugins", type=Path, metavar="DIR", default=argparse.SUPPRESS, help=PLUGINS)
+        tells = parser.add_mutually_exclusive_group()
+        tells.add_argument("-q", "--quiet", action="store_true", help=QUIET)
+        tells.add_argument("-v", "--verbose", action="store_true", help=VERBOSE)
         return parser
 
     return add
