@@ -14,9 +14,10 @@ def add_parsers(add: Add) -> None:
     parser = add(
         "publish",
         "firsthit publish runs/papers runs/front -o site",
-        "Make a static site from many runs, of any machines, devices and commits: a leaderboard with filters, a page for "
-        "each surface, method and run, pictures with error maps, and all rows as Parquet and CSV. It needs no server. A "
-        "run that cannot be read is named, there and on standard error, and the others are shown. Runs nothing.",
+        "Make a static site from many runs, of any machines, devices and commits: a leaderboard with filters, a page "
+        "for each surface, method and run, pictures with error maps, and all rows as Parquet and CSV. It needs no "
+        "server. A run that cannot be read is named, there and on standard error, and the others are shown. Runs "
+        "nothing.",
     )
     parser.add_argument("folders", type=Path, metavar="RUN", nargs="+", help="a folder below runs/")
     parser.add_argument(
@@ -38,6 +39,6 @@ def _publish(options: argparse.Namespace) -> int:
         raise FirsthitError(message, exit_code=3) from None
     index, problems = build.build(options.folders, options.output, options.title or build.TITLE, options.contact)
     for problem in problems:
-        tell(f"firsthit: left out: {problem}")
+        tell(f"firsthit: {problem}")
     print(index)
     return 0

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import json
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 from reports import wording
-from reports.analysis import derive, ties
+from reports.analysis import ties
 from reports.site.cells import BOUNDS, Site, risk, row_link, speed
 from reports.site.gather import DEGREES, HIGHER, NO_POLYNOMIAL, SCENES
 from reports.site.markup import Head, Html, Line, folded, join, link, table, tag
@@ -23,7 +23,7 @@ def body(site: Site) -> list[Html]:
     """Write the page's content."""
     if not site.cells:
         return [tag("p", "No run here has a timed row with answers, so that there is nothing to rank.")]
-    baseline = derive.baseline_of(site.data.frame)
+    baseline = site.baseline(site.data.frame)
     return [
         _lead(site),
         _filters(site),
@@ -155,9 +155,10 @@ def said(found: Standing) -> tuple[str, str, str, str]:
     return f"{found.won}{tied}", f"{found.usable} of {found.raced}", wording.factor(found.speedup), wrong
 
 
-def _at_levels(write: Any) -> Html:
-    """Write something at each level, of which the page shows that which is chosen."""
-    return join(*(tag("div", *write(name), class_="at", data_level=name) for name, _ in LEVELS))
+def _at_levels(cells: Iterable[Sequence[object]]) -> Html:
+    """Write what a cell says at each of LEVELS, of which the page shows that which is chosen."""
+    every = zip(LEVELS, cells, strict=True)
+    return join(*(tag("div", *cell, class_="at", data_level=name) for (name, _), cell in every))
 
 
 def _classes(site: Site) -> Html:
@@ -172,7 +173,7 @@ def _classes(site: Site) -> Html:
                 for r in site.cells
                 if (r.first.kind, r.first.on, r.first.precision) == (kind, column.on, column.precision)
             ]
-            cells.append(_at_levels(lambda level, own=own: _class_cell(site, own, level)) if own else wording.NONE)
+            cells.append(_at_levels(_class_cell(site, own, name) for name, _ in LEVELS) if own else "")
         lines.append(Line(cells, kind="kind"))
     heads = [Head("surfaces"), *(Head(site.place(column)) for column in columns)]
     caption = "Which methods win how often, by class of surface: alone, or not told apart from the fastest."
@@ -209,17 +210,25 @@ def _winners(site: Site) -> Html:
             cells: list[object] = [link(f"surfaces/{page}.html", title)]
             for column in columns:
                 race = at.get((page, column.on, column.precision))
-                cells.append(
-                    _at_levels(lambda level, race=race: _winner_cell(site, race, level)) if race else wording.NONE
-                )
+                told = [_winner_cell(site, race, name) for name, _ in LEVELS] if race else []
+                cells.append(_at_levels(told) if told else "")
             lines.append(Line(cells, kind="cell"))
         heads = [Head("surface"), *(Head(site.place(column)) for column in columns)]
-        caption = f"{kind}: the fastest with every clear ray right, its time, and its speed-up."
+        caption = f"Winners of the class {kind}."
         sections.append(
             tag("section", tag("h3", kind, id=_kind_id(kind)), table(caption, heads, lines), data_kind=kind)
         )
-    told = [{"device": column.on, "precision": column.precision, "machine": column.machine} for column in columns]
-    return tag("section", tag("h2", "Winner of each surface"), *sections, id="winners", data_columns=json.dumps(told))
+    named = json.dumps(
+        [{"device": column.on, "precision": column.precision, "machine": column.machine} for column in columns]
+    )
+    lead = tag(
+        "p",
+        "The fastest setting with every clear ray right, its time and its speed-up. Behind ≈ stand methods that are "
+        "not told to be slower. In red: what is faster, and answers some rays wrongly.",
+        class_="faint",
+    )
+    title = tag("h2", "Winner of each surface")
+    return tag("section", title, lead, *sections, id="winners", class_="quiet", data_columns=named)
 
 
 def _winner_cell(site: Site, race: Race, level: str) -> list[object]:
@@ -246,14 +255,15 @@ def _rules(baseline: str) -> Html:
         ),
         tag(
             "p",
-            "The error is the largest |t − t*| over the radius of the scene, of rays that neither graze the surface nor "
-            "drown in rounding; a ray counts as wrong where it is a miss, a false hit, given up, a wrong root or an "
-            f"impossible answer. A setting with one wrong ray does not win. Speed-ups are over {baseline}.",
+            "The error is the largest |t − t*| over the radius of the scene, of rays that neither graze the surface "
+            "nor drown in rounding; a ray counts as wrong where it is a miss, a false hit, given up, a wrong root or "
+            "an impossible answer. A setting with one wrong ray does not win, and a method that was timed alone wins "
+            f"nothing. Speed-ups are over {baseline}.",
         ),
         tag(
             "p",
-            "Of several runs of one scene on one device that counts which timed most methods and, of equals, the newest; "
-            "the page of the surface lists the others. Devices with one name and different hardware, driver or machine "
-            "are told apart.",
+            "Of several runs of one scene on one device that counts which timed most methods and, of equals, the "
+            "newest; the page of the surface lists the others. Devices with one name and different hardware, driver "
+            "or machine are told apart.",
         ),
     )

@@ -69,7 +69,7 @@ def _write(folder: Path, data: Gathered, frame: Frame, contact: str) -> tuple[st
 def _pages(site: Site, folder: Path) -> dict[str, str]:
     """Return every page by its path; the data is written before, so that its page knows the sizes."""
     (folder / "data").mkdir()
-    export.write(site.data.frame, folder / CSV, folder / PARQUET, other_pages.MORE)
+    export.write(site.data.frame, folder / CSV, folder / PARQUET, other_pages.MORE, other_pages.BARE)
     sizes = {path: (folder / path).stat().st_size for path in (PARQUET, CSV)}
     page = site.frame.page
     made = {

@@ -55,6 +55,12 @@ class Site:
         """Write a method's mark, and its name as a link to its page; `up` leads to the site's folder."""
         return join(chip(self.marks[name]), link(f"{up}methods/{self.pages[name]}.html", self.label(name)))
 
+    def baseline(self, rows: pd.DataFrame) -> str:
+        """Name the method or variant that the speed-ups of these rows are over; several are joined by "or"."""
+        variants = dict(zip(self.data.frame["variant"], self.data.frame["label"], strict=True))
+        named = (str(name) for name in dict.fromkeys(rows["baseline"]))
+        return " or ".join(dict.fromkeys(self.label(n) if n in self.pages else variants.get(n, n) for n in named))
+
     @property
     def several_precisions(self) -> bool:
         """Tell whether devices are named with a precision."""
@@ -78,7 +84,7 @@ def speed(row: Any) -> str:
 
 def risk(won: Won) -> str:
     """Write what is faster than the winner and answers wrongly; "" where nothing is."""
-    if won.faster is None:
+    if won.faster is None or won.winner is None:
         return ""
     times = won.winner.median_ms / won.faster.median_ms
     rays = f"{wording.count(won.faster.wrong_rays)} of {wording.count(won.faster.accuracy_rays)} rays wrong"

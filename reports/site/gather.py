@@ -103,9 +103,10 @@ def gather(folders: Sequence[Path]) -> Gathered:
     ]
     methods: dict[str, Mapping[str, Any]] = {}
     for part in sorted(parts, key=lambda part: part.plan.created):
-        methods |= part.plan.methods
+        for name, told in part.plan.methods.items():
+            methods[name] = {"label": methods.get(name, {}).get("label"), **told}  # older runs store none
     every = pd.concat([part.rows for part in parts], ignore_index=True)
-    every = every.assign(on=_devices(every), page=_pages(every))
+    every = labels.labelled(every.assign(on=_devices(every), page=_pages(every)), methods)
     shelf = Shelf({part.id: part.folder for part in parts})
     return Gathered(every, parts, methods, verdicts, tuple(dict.fromkeys(problems)), shelf)
 
@@ -156,7 +157,10 @@ def _parts(loaded: Iterable[tuple[Run, pd.DataFrame]]) -> tuple[Part, ...]:
 
 
 def _own_keys(frame: pd.DataFrame) -> pd.Series:
-    """Tell for each row whether its key is the hash of its slot and of what decides it: bool, with the frame's index."""
+    """Tell for each row whether its key is the hash of its slot and of what decides it.
+
+    Returns bool with the index of `frame`.
+    """
     own = [
         isinstance(row.identity, str) and digest(row.slot, json.loads(row.identity)) == row.key
         for row in frame.itertuples()
@@ -190,7 +194,7 @@ def _rows(frame: pd.DataFrame, run: str, machine: str, plan: Plan) -> pd.DataFra
     prefix = f"{plan.name}: "
     plain = [str(text).removeprefix(prefix) for text in frame["comparison"]]
     scenes = [_scene(*pair) for pair in zip(plain, frame["identity"], strict=True)]
-    made = frame.assign(
+    return frame.assign(
         comparison=[f"{run}: {text}" for text in plain],
         run=run,
         at=run,
@@ -201,7 +205,6 @@ def _rows(frame: pd.DataFrame, run: str, machine: str, plan: Plan) -> pd.DataFra
         scene_id=pd.Series(scenes, frame.index, dtype=object),
         kind=pd.Series([_class(row) for row in frame.itertuples()], frame.index, dtype=object),
     )
-    return labels.labelled(made, plan.methods)
 
 
 def _scene(comparison: str, identity: Any) -> str:

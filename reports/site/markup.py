@@ -191,6 +191,6 @@ def _quiet(script: str) -> str:
     return script.replace("<", "\\u003c")
 
 
-def day(text: object) -> str:
+def day(text: object) -> Html:
     """Return the day of an ISO 8601 time; a dash where there is none."""
-    return wording.NONE if wording.absent(text) else str(text)[:10]
+    return tag("time", wording.NONE if wording.absent(text) else str(text)[:10])

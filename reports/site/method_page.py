@@ -7,13 +7,13 @@ from typing import Any
 
 from harness.contract import CLAIMS
 from reports import wording
-from reports.analysis import derive
 from reports.claims import Outcome
 from reports.parts import method_cards
 from reports.site import cells
 from reports.site.board import FIRST, places, said
 from reports.site.cells import BOUNDS, RADIUS, Site, row_link
 from reports.site.markup import Head, Html, Line, folded, join, paragraphs, table, tag
+from reports.site.pictures import anchor
 from reports.site.scatter import Point, chip, scatter
 from reports.site.standings import LEVELS, Race, standings
 
@@ -75,7 +75,7 @@ def _here(site: Site, name: str, own: Sequence[Race]) -> Html:
         heads += [Head(f"{title}, {BOUNDS[level]}", True) for title in ("fastest", "within", "speed-up")]
     caption = (
         "In how many cells it is the fastest, in how many a setting of it keeps the bound with every clear ray right, "
-        f"and its median speed-up over {derive.baseline_of(site.data.frame)} there."
+        f"and its median speed-up over {site.baseline(site.data.frame)} there."
     )
     return join(
         tag("h2", "How it did"),
@@ -95,8 +95,9 @@ def _plot(site: Site, name: str, own: Sequence[Race]) -> Html:
         row = _best(race, name)
         if wording.absent(row.relative_error_max) or wording.absent(row.wrong_rays):
             continue
-        title = f"{row.surface_title}: {row.label}, {cells.speed(row)}, largest error {wording.error(row.relative_error_max)}"
-        to = f"{UP}surfaces/{row.page}.html#{cells.anchor(row)}"
+        title = f"{row.surface_title}: {row.label}, {cells.speed(row)}, "
+        title += f"largest error {wording.error(row.relative_error_max)}"
+        to = f"{UP}surfaces/{row.page}.html#{anchor(row)}"
         points.append(
             Point(
                 row.median_ms,

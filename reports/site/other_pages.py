@@ -17,6 +17,7 @@ MORE: tuple[Field, ...] = (  # the columns that only a site's data has, beside t
     Field("driver", "text", ("driver",), "the device's driver"),
     Field("created", "text", ("created",), "when the run was planned, ISO 8601"),
 )
+BARE = ("identity",)  # what CSV lacks, since it is longer than all other columns together
 EXAMPLE = """import pandas
 rows = pandas.read_parquet("results.parquet")
 right = rows[(rows.status == "ok") & (rows.wrong_rays == 0)]
@@ -40,12 +41,16 @@ def data(site: Site, sizes: Mapping[str, int]) -> list[Html]:
     return [
         tag(
             "p",
-            f"{count} of {wording.plural(len(site.data.parts), 'run')}: all that these pages are made of, and more. A row is a "
-            "variant on a view of a surface, on a device. Lengths are in scene units, the surface's own coordinates, "
-            "unless a column says otherwise.",
+            f"{count} of {wording.plural(len(site.data.parts), 'run')}: all that these pages are made of, and more. A "
+            "row is a variant on a view of a surface, on a device. Lengths are in scene units, the surface's own "
+            "coordinates, unless a column says otherwise.",
             class_="lead",
         ),
-        table("Downloads. Both hold the same columns.", (Head("file"), Head("size", True)), lines),
+        table(
+            "Downloads. Only Parquet has the column identity, all that decides a row.",
+            (Head("file"), Head("size", True)),
+            lines,
+        ),
         tag("p", "In Parquet missing values are nulls; in CSV they are empty, and lists and objects are JSON."),
         tag("h2", "In Python"),
         code(EXAMPLE),
@@ -91,8 +96,8 @@ def submit(site: Site) -> list[Html]:
         code(RUN),
         tag(
             "p",
-            "The second command lists the devices here and whether they can be used; the third runs the config quick on all of them. "
-            "Any other config does too: ",
+            "The second command lists the devices here and whether they can be used; the third runs the config quick "
+            "on all of them. Any other config does too: ",
             tag("code", "firsthit list configs"),
             " names them. A run that was stopped goes on where it was.",
         ),
@@ -104,34 +109,35 @@ def submit(site: Site) -> list[Html]:
             "p",
             whom,
             " The folder holds rows, answers ray by ray, the config, versions, and the names of processor, devices and "
-            "drivers. It holds no user name and no host name, but for what you write into a config, and the paths in the command that you typed.",
+            "drivers. User and host names are not among them, but for what you write into a config, and the paths that "
+            "you typed.",
         ),
         tag("h2", "What is looked at"),
         tag(
             "ul",
             tag(
                 "li",
-                "Each row's key is a hash of all that decides the row: surface, view, kernel and harness sources, device, driver, "
-                "versions. ",
+                "Each row's key is a hash of all that decides the row: surface, view, kernel and harness sources, "
+                "device, driver, versions. ",
                 tag("code", "firsthit publish"),
                 " computes it anew, and leaves a row out whose key is not its own.",
             ),
             tag(
                 "li",
-                "The answers that a row has pictures of are counted anew: wrong rays by kind, and the largest error. A row whose "
-                "figures are not those of its answers is named on the page of runs.",
+                "The answers that a row has pictures of are counted anew: wrong rays by kind, and the largest error. A "
+                "row whose figures are not those of its answers is named on the page of runs.",
             ),
             tag(
                 "li",
-                "The certified first hits follow from surface and view alone. Whoever keeps the site runs the same config at the same "
-                "commit: on a device with the same arithmetic the answers agree to the last digit, on any other the errors stay in "
-                "the gate's tolerance. ",
+                "The certified first hits follow from surface and view alone. Whoever keeps the site runs the "
+                "same config at the same commit: on a device with the same arithmetic the answers agree to the last "
+                "digit, on any other the errors stay in the gate's tolerance. ",
                 tag("code", "firsthit report"),
                 " with both runs lists every answer that changed.",
             ),
             tag(
                 "li",
-                "Times cannot be checked from afar. They stand beside the machine, the driver and the commit that they are of.",
+                "Times cannot be checked from afar. They stand beside machine, driver and commit.",
             ),
             tag("li", "A file that is damaged is named, and the rest is shown."),
         ),

@@ -36,8 +36,8 @@ def index(site: Site) -> list[Html]:
         Head("on the leaderboard"),
     )
     problems = [tag("li", problem) for problem in site.data.problems]
-    told = join(tag("h2", "What could not be used"), tag("ul", *problems, class_="problems")) if problems else None
-    return [part for part in (table("All runs, the newest first.", heads, lines), told) if part]
+    below = [tag("h2", "What could not be used"), tag("ul", *problems, class_="problems")] if problems else []
+    return [table("All runs, the newest first.", heads, lines), *below]
 
 
 def _shows(site: Site, part: Part) -> str:
@@ -53,35 +53,28 @@ def _shows(site: Site, part: Part) -> str:
 
 
 def _nothing(part: Part) -> str:
-    """Say what a run holds that the leaderboard does not show."""
-    held = [wording.plural(part.families, "ladder") + " of hard rays"] if part.families else []
-    held += (
-        [f"the {'study' if len(part.studies) == 1 else 'studies'} {wording.listed(part.studies)}"]
-        if part.studies
-        else []
-    )
-    return f"it holds {wording.listed(held)}, and no timed view" if held else "it has no timed row with answers"
+    """Say what a run holds in place of rows that race."""
+    held = wording.listed(_held(part))
+    return f"it holds {held}, and no timed view" if held else "it has no timed row with answers"
+
+
+def _held(part: Part) -> list[str]:
+    """Say what a run holds that its report shows, and this site does not."""
+    ladders = [f"{wording.plural(part.families, 'ladder')} of hard rays"] if part.families else []
+    return ladders + ([f"results of {wording.listed(part.studies)}"] if part.studies else [])
 
 
 def body(site: Site, part: Part) -> list[Html]:
     """Write a run's page."""
     plan = part.plan
     missing = f"{wording.plural(part.not_run, 'planned cell')} had not run." if part.not_run else ""
-    where = (
-        "its report has them: firsthit report shows what this site does not." if part.families or part.studies else ""
-    )
     made: list[Html | None] = [
-        tag("p", f"Made on {day(plan.created)} on {part.machine}, at commit {part.commit}.", class_="lead"),
+        tag("p", "Made on ", day(plan.created), f" on {part.machine}, at commit {part.commit}.", class_="lead"),
         tag("p", f"On the leaderboard: {_shows(site, part)}. {missing}"),
-        tag(
-            "p",
-            f"It holds {wording.plural(part.families, 'ladder')} of hard rays and {wording.plural(len(part.studies), 'study').replace('studys', 'studies')}; {where}",
-        )
-        if where
-        else None,
+        _elsewhere(part),
         _surfaces(site, part),
         tag("h2", "To run it again"),
-        cells.code("\n".join(cells.commands(part))),
+        code("\n".join(cells.commands(part))),
         tag("p", "The command of this run was ", tag("code", plan.command), "."),
         tag("h2", "Machine and software"),
         _environment(plan),
@@ -91,6 +84,12 @@ def body(site: Site, part: Part) -> list[Html]:
         _problems(part),
     ]
     return [one for one in made if one is not None]
+
+
+def _elsewhere(part: Part) -> Html | None:
+    """Say where one finds what this site does not show of a run."""
+    held = wording.listed(_held(part))
+    return tag("p", f"Its report, not this site, shows {held}.") if held else None
 
 
 def _surfaces(site: Site, part: Part) -> Html | None:

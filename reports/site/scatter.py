@@ -13,10 +13,10 @@ from reports import wording
 from reports.drawing.style import Mark
 from reports.site.markup import Html, join, tag
 
-WIDTH, HEIGHT = 640, 380
-LEFT, RIGHT, TOP, BOTTOM = 58, 16, 14, 46
+WIDTH, HEIGHT = 560, 360
+LEFT, RIGHT, TOP, BOTTOM = 76, 14, 12, 48
 SIZE = 5.5  # of a mark, half its side
-LETTER, LINE = 6.2, 13.0  # the size of a label's letters, on average
+LETTER, LINE = 7.0, 15.0  # the size of a label's letters, on average
 
 
 @dataclass(frozen=True)
@@ -130,7 +130,8 @@ def _path(mark: Mark, x: float, y: float) -> str:
     extent = float(np.abs(path.vertices).max()) or 1.0
     letters = {1: "M", 2: "L", 3: "Q", 4: "C"}
     told = []
-    for numbers, kind in path.iter_segments(curves=True):
+    for numbers, code in path.iter_segments(curves=True):
+        kind = int(code)
         if kind not in letters:
             told.append("Z")
             continue
@@ -146,9 +147,9 @@ def _labels(points: Sequence[Point], spots: Sequence[tuple[float, float]]) -> li
     for point, (x, y) in zip(points, spots, strict=True):
         width = LETTER * len(point.label)
         for left, top, at in (
-            (x + 9, y - 7, "start"),
-            (x - 9 - width, y - 7, "end"),
-            (x - width / 2, y - 21, "middle"),
+            (x + 9, y - 8, "start"),
+            (x - 9 - width, y - 8, "end"),
+            (x - width / 2, y - 23, "middle"),
             (x - width / 2, y + 8, "middle"),
         ):
             box = (left, top, left + width, top + LINE)
@@ -156,7 +157,7 @@ def _labels(points: Sequence[Point], spots: Sequence[tuple[float, float]]) -> li
             if inside and not any(_meet(box, other) for other in boxes):
                 boxes.append(box)
                 place = {"start": x + 9, "end": x - 9, "middle": x}[at]
-                made.append(tag("text", point.label, x=f"{place:.1f}", y=f"{top + 11:.1f}", text_anchor=at))
+                made.append(tag("text", point.label, x=f"{place:.1f}", y=f"{top + 12.5:.1f}", text_anchor=at))
                 break
     return made
 

@@ -196,18 +196,19 @@ def _counted(race: Race) -> dict[str, Any]:
     """Return what the leaderboard counts of a cell, for the site's script too, by method:
 
     w: for each level 2 where the method wins alone, 1 where it wins and is not told apart from others, or is one of
-        these, else 0
+        these, else 0; a method that races alone wins nothing
     v: for each level the speed-up of its fastest usable variant, 0 where that is not known; null without such a variant
     x, n: wrong rays of its fastest variant, and how many were checked
     """
     told: dict[str, Any] = {}
     for method, row in race.methods.items():
         wins, speedups = [], []
+        against = len(race.methods) > 1
         for name, _ in LEVELS:
             won = race.won[name]
             first = won.winner is not None and won.winner.method == method
             beside = any(other.method == method for other in won.tied)
-            wins.append(2 if first and not won.tied else 1 if first or beside else 0)
+            wins.append(against * (2 if first and not won.tied else 1 if first or beside else 0))
             own = won.usable.get(method)
             speedups.append(None if own is None else _rounded(own.speedup))
         told[method] = {"w": wins, "v": speedups, "x": int(_zero(row.wrong_rays)), "n": int(_zero(row.accuracy_rays))}

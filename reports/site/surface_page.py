@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from reports import wording
-from reports.analysis import derive
 from reports.analysis.scene_names import picture_size
-from reports.site import cells, pictures
-from reports.site.cells import BOUNDS, RADIUS, Site, risk, rows_table
+from reports.site import board, cells, pictures
+from reports.site.cells import BOUNDS, RADIUS, Site, risk, row_link, rows_table
 from reports.site.markup import Head, Html, Line, code, day, folded, join, link, table, tag
 from reports.site.standings import LEVELS, Race
 
@@ -17,18 +16,28 @@ UP = "../"
 
 def index(site: Site) -> list[Html]:
     """Write the list of all surfaces that have a cell."""
+    order = board.kinds(site)
+    every = by_surface(site.cells)
     lines = []
-    for page, own in by_surface(site.cells).items():
-        first = own[0].first
-        best = [row for race in own for won in race.won.values() if (row := won.winner) is not None]
-        pair = next((p for row in best if (p := site.pictures.get((row.at, row.key)))), None)
-        drawn = _thumbnail(pair, first.surface_title) if pair else ""
-        name = link(f"surfaces/{page}.html", drawn, " ", first.surface_title)
-        methods = {m for race in own for m in race.methods}
-        told = (first.kind, wording.text(first.degree), len(methods), len({race.first.on for race in own}))
-        lines.append(Line((name, *told)))
-    heads = (Head("surface"), Head("class"), Head("degree", True), Head("methods", True), Head("devices", True))
-    return [table("Every surface that was timed, in the order of the runs.", heads, lines)]
+    for page in sorted(every, key=lambda page: order.index(every[page][0].first.kind)):
+        own = every[page]
+        race = max(own, key=lambda race: race.size)
+        winner = race.won[board.FIRST].winner
+        pair = site.pictures.get((winner.at, winner.key)) if winner is not None else None
+        drawn = _thumbnail(pair) if pair else ""
+        best = "none" if winner is None else row_link(winner, "")
+        methods = {m for one in own for m in one.methods}
+        told = (race.first.kind, wording.text(race.first.degree), len(methods), len({one.first.on for one in own}))
+        lines.append(Line((link(f"surfaces/{page}.html", drawn, race.first.surface_title), *told, best)))
+    heads = (
+        Head("surface"),
+        Head("class"),
+        Head("degree", True),
+        Head("methods", True),
+        Head("devices", True),
+        Head(f"fastest, {BOUNDS[board.FIRST]}"),
+    )
+    return [table("Every surface that was timed, class by class; the fastest where most methods were.", heads, lines)]
 
 
 def by_surface(races: Sequence[Race]) -> dict[str, list[Race]]:
@@ -40,12 +49,12 @@ def by_surface(races: Sequence[Race]) -> dict[str, list[Race]]:
 
 
 def fullest(races: Sequence[Race]) -> list[Race]:
-    """Return for each surface the race with most methods, the first of several: pictures of all its methods are shown."""
+    """Return for each surface the race with most methods, the first of several; it shows pictures of all of them."""
     return [max(own, key=lambda race: race.size) for own in by_surface(races).values()]
 
 
-def _thumbnail(pair: pictures.Pair, title: str) -> Html:
-    return tag("img", src=pair.shade, alt="", width=48, height=48, loading="lazy", class_="thumb", title=title)
+def _thumbnail(pair: pictures.Pair) -> Html:
+    return tag("img", src=pair.shade, alt="", width=48, height=48, loading="lazy", class_="thumb")
 
 
 def body(site: Site, page: str) -> list[Html]:
@@ -82,7 +91,7 @@ def _race(site: Site, race: Race, opened: bool) -> Html:
         _answers(race) if opened else None,
         cells.error_plot(site, race.rows, f"{row.surface_title} on {row.on}"),
         _gallery(site, race),
-        rows_table(site, f"Every setting timed, fastest first: {what}. {_baseline(race)}", race.rows),
+        rows_table(site, f"Every setting timed, fastest first: {what}. {_baseline(site, race)}", race.rows),
         _source(site, race),
     ]
     title = f"{row.on}, {row.precision}"
@@ -93,8 +102,8 @@ def _race(site: Site, race: Race, opened: bool) -> Html:
     return folded(tag("span", f"{title}: {what}", id=_id(race)), *parts)
 
 
-def _baseline(race: Race) -> str:
-    return f"Speed-ups are over {derive.baseline_of(race.rows)}."
+def _baseline(site: Site, race: Race) -> str:
+    return f"Speed-ups are over {site.baseline(race.rows)}."
 
 
 def _answers(race: Race) -> Html:
@@ -158,4 +167,4 @@ def _older(race: Race) -> Html:
         else "no setting with every ray right"
     )
     run = link(f"{UP}runs/{row.at}.html", row.at)
-    return tag("li", run, f", {day(row.created)}, {wording.plural(race.size[0], 'method')}: {fastest}")
+    return tag("li", run, ", ", day(row.created), f", {wording.plural(race.size[0], 'method')}: {fastest}")
