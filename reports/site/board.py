@@ -13,7 +13,7 @@ from reports.site.cells import BOUNDS, Site, risk, row_link, speed
 from reports.site.gather import DEGREES, HIGHER, NO_POLYNOMIAL, SCENES
 from reports.site.markup import Head, Html, Line, folded, join, link, table, tag
 from reports.site.scatter import chip
-from reports.site.standings import LEVELS, Race, Standing, standings
+from reports.site.standings import FULL, LEVELS, Race, Standing, standings
 
 FIRST = LEVELS[0][0]  # the level that a page shows before anything is chosen
 NAMED = 3  # methods that a class names
@@ -262,8 +262,9 @@ def _rules(baseline: str) -> Html:
         ),
         tag(
             "p",
-            "Of several runs of one scene on one device that counts which timed most methods and, of equals, the "
-            "newest; the page of the surface lists the others. Devices with one name and different hardware, driver "
-            "or machine are told apart.",
+            f"A surface is shown from the view that most methods were timed at, in a frame of {FULL} pixels a side or "
+            "more where there is one. Of several runs of one scene on one device that counts which timed most methods "
+            "and, of equals, the newest; the page of the surface lists the others. Devices with one name and different "
+            "hardware, driver or machine are told apart.",
         ),
     )

@@ -161,4 +161,4 @@ def commands(part: Part, device: str = "") -> list[str]:
     outside = sorted({str(told["outside"]) for told in part.plan.methods.values() if told.get("outside")})
     plugins = ["--plugins", str(PurePath(outside[0]).parent)] if outside else []
     on = ["--device", device] if device else []
-    return ["make .venv/ready", *lines, shlex.join([".venv/bin/firsthit", "run", config, *plugins, *on])]
+    return [*lines, "make .venv/ready", shlex.join([".venv/bin/firsthit", "run", config, *plugins, *on])]

@@ -183,10 +183,11 @@ def _doc(told: Mapping[str, Any]) -> list[Html]:
     made = []
     for part, text in told.get("doc", {}).items():
         tables = [found for found in told.get("tables", []) if found["part"] == part]
-        made += [tag("h2", part), paragraphs(text)]
+        made += [tag("h2", part), paragraphs(text)]  # which says of its tables what they show
         for found in tables:
             lines = [Line(tuple(row)) for row in found["rows"]]
-            made.append(table(f"{part}.", [Head(title) for title in found["header"]], lines))
+            own = table(f"{part}.", [Head(title) for title in found["header"]], lines)
+            made.append(tag("div", own, class_="quiet"))
     return made
 
 

@@ -17,6 +17,7 @@ LEVELS: tuple[tuple[str, float], ...] = (  # how a bound is written in a page's 
     *((f"{error:.0e}".replace("e-0", "e-"), error) for error in choice.ERRORS),
     ("any", math.inf),
 )
+FULL = 256
 RISKY = 0.01  # the largest share of wrong rays of a variant that is named beside a winner
 
 
@@ -98,7 +99,8 @@ def races(frame: pd.DataFrame) -> list[Race]:
 def cells(every: Sequence[Race]) -> list[Race]:
     """Return the race that stands for each surface on each device in each precision on the leaderboard.
 
-    It is that with most methods, then variants, then pixels.
+    It is that with most methods, then pixels, then variants. Frames of fewer than FULL pixels a side come last, since
+    their times are more of a launch than of casting.
     """
     best: dict[tuple[str, str, str], Race] = {}
     for race in every:
@@ -108,8 +110,10 @@ def cells(every: Sequence[Race]) -> list[Race]:
     return list(best.values())
 
 
-def _worth(race: Race) -> tuple[int, int, int]:
-    return (*race.size, int(race.first.size))
+def _worth(race: Race) -> tuple[bool, int, int, int]:
+    methods, variants = race.size
+    pixels = int(race.first.size)
+    return pixels >= FULL, methods, pixels, variants
 
 
 def usable(rows: pd.DataFrame, bound: float) -> pd.DataFrame:
