@@ -19,6 +19,7 @@ from reports.claims.model import where
 from reports.content import Block, Column, Figure, Section, Table
 from reports.drawing import style
 from reports.drawing.canvas import NARROW, RC, Key, line_of, svg
+from reports.labels import method_label
 from reports.material import Material
 
 ORDER = 70
@@ -27,14 +28,14 @@ LONG_CELL = 24  # characters of a table's cell that may be broken
 
 
 def sections(material: Material) -> list[Section]:
-    """Make the section; [] where the run, made by an older version, does not store its methods' cards."""
+    """Make the section, which is all details; [] where the run, made by an older version, stores no cards."""
     told = material.run.plan.methods
     if not told:
         return []
-    blocks: list[Block] = [_key(sorted(told))]
+    blocks: list[Block] = [_key(told)]
     for name in sorted(told):
         blocks += _card(name, told[name], material.frame[material.frame["method"] == name], material.judged)
-    return [Section("Methods", tuple(blocks))]
+    return [Section("Methods", (), tuple(blocks))]
 
 
 def _card(name: str, told: Mapping[str, Any], rows: pd.DataFrame, judged: list[tuple[Claim, Verdict]]) -> list[Block]:
@@ -57,8 +58,9 @@ def _card(name: str, told: Mapping[str, Any], rows: pd.DataFrame, judged: list[t
                     f"{claim.text} {verdict.outcome.value.capitalize()}: {verdict.figure}.",
                 )
             )
-    title = f"{name}: {told.get('title', '')}"
-    own = [_table(name, table, told["doc"].get(table["part"], "")) for table in tables]
+    known = method_label(name, {name: told})
+    title = f"{known}: {told.get('title', '')}"
+    own = [_table(known, table, told["doc"].get(table["part"], "")) for table in tables]
     return [Table((Column(""), Column("", stretch=1)), body, title), *own]
 
 
@@ -93,10 +95,11 @@ def _points(text: str) -> str:
     return "\n".join(wording.excerpt(re.sub("^- ", "• ", line), TEXT_LIMIT) for line in text.split("\n"))
 
 
-def _key(names: list[str]) -> Figure:
-    """Draw the mark of each method."""
-    marks = style.marks(names)
-    key = Key([line_of(marks[name]) for name in names], names, NARROW)
+def _key(told: Mapping[str, Mapping[str, Any]]) -> Figure:
+    """Draw the mark of each method; `told` is what the plan stores of each."""
+    marks = style.marks(sorted(told))
+    names = [method_label(name, told) for name in marks]
+    key = Key([line_of(mark) for mark in marks.values()], names, NARROW)
     with matplotlib.rc_context(RC):
         drawing = Drawing(figsize=(NARROW, key.height + 0.06))
         key.draw(drawing)
