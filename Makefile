@@ -12,7 +12,7 @@ CLEAR := --clear
 endif
 endif
 
-.PHONY: quick papers test bench gate check format clean
+.PHONY: quick papers guide test bench gate check format clean
 quick: $(READY)
 	$(BIN)/firsthit run configs/quick.toml
 	$(BIN)/firsthit report runs/quick
@@ -20,6 +20,10 @@ quick: $(READY)
 papers: $(READY)
 	$(BIN)/firsthit run configs/papers.toml
 	$(BIN)/firsthit report runs/papers
+
+guide: $(READY)
+	$(BIN)/python -m sphinx --fail-on-warning --nitpicky --quiet docs build/guide
+	@echo build/guide/index.html
 
 test: $(READY)
 	$(BIN)/python -m pytest -q -n auto
@@ -48,6 +52,6 @@ $(READY): pyproject.toml constraints.txt drivers.sh
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' \
 		|| { echo "firsthit needs Python 3.11 or newer; try: make PYTHON=python3.13"; exit 2; }
 	$(PYTHON) -m venv $(CLEAR) .venv
-	$(BIN)/python -m pip install --quiet --constraint constraints.txt --editable '.[opengl,opencl,mesh,report,dev]'
+	$(BIN)/python -m pip install --quiet --constraint constraints.txt --editable '.[opengl,opencl,mesh,report,guide,dev]'
 	sh drivers.sh $(BIN)/python
 	touch $@
