@@ -73,7 +73,8 @@ class Matrix:
     """Hold a table of coloured squares, a line for each of `rows`: its heading, and a square for each of `columns`.
 
     The colours stand for what the squares' texts say too, so that nothing is lost in greyscale. `corner` says what the
-    rows' headings are, and `key` what the colours mean: texts by colour.
+    rows' headings are, and `key` what the colours mean: texts by colour. A line without squares is a heading over the
+    lines below it.
     """
 
     columns: tuple[str, ...]
@@ -139,6 +140,20 @@ class Gallery:
     hero: bool = False
 
 
+@dataclass(frozen=True)
+class Explorer:
+    """Hold points of speed against error, which a reader of the HTML page compares by axes of his own choice.
+
+    columns: the points' values by column, which reports.drawing.charts names; all have the same length
+    chart: the Vega-Lite specification of a panel, whose data the page's script gives
+    note: which rows are left out; "" for none
+    """
+
+    columns: Mapping[str, Sequence[Any]]
+    chart: Mapping[str, Any]
+    note: str = ""
+
+
 Block = Text | Code | Table | Matrix | Figure | Gallery
 
 
@@ -168,3 +183,4 @@ class Document:
     subtitle: str
     summary: Section  # the first page; a reader in a hurry reads nothing else
     sections: tuple[Section, ...]
+    explorer: Explorer | None = None  # which stands behind the summary, on the HTML page alone

@@ -9,7 +9,6 @@ import pandas as pd
 
 from harness.contract import CellStatus
 from reports import wording
-from reports.analysis import choices
 from reports.analysis.choices import Choice
 from reports.claims import Outcome
 from reports.content import Block, Column, Section, Table, Text
@@ -20,13 +19,14 @@ from reports.sentences import accuracy, answer
 
 PANELS = 8  # surfaces with a picture and a plot; a run with more shows the most telling ones
 PLOTS = {1: 3.4, 2: 3.2, 3: 2.9, 4: 3.8}  # height of so many plots, inches
-PLOTS_LOW, PLOTS_HIGH = 3.3, 4.0  # of at most 6, and of more
-TABLE = 12  # surfaces in the table of a run with more of them than PANELS
+PLOTS_LOW, PLOTS_HIGH = 3.2, 3.9  # of at most 6, and of more
+PLOTTED = 6  # surfaces with a plot, of a run with more than PANELS
+LESS = 0.35  # that plots are lower where there is a sentence more
 
 
 def section(material: Material) -> Section:
     """Make the first page."""
-    found = choices.choices(material.frame)
+    found = material.choices
     blocks: list[Block] = []
     if found:
         blocks += _timed(material, found)
@@ -45,16 +45,18 @@ def _timed(material: Material, found: Sequence[Choice]) -> list[Block]:
     """Make the page of a run that timed something: the answer, pictures, plots and a table."""
     several = material.frame["device"].nunique() > 1
     blocks: list[Block] = [Text(answer.lead(found), strong=True)]
-    if material.focus:
-        blocks.append(Text(answer.focus(found, material.focus, material.focus_method), strong=True))
+    about = answer.focus(found, material.focus, material.focus_method) if material.focus else ""
+    blocks += [Text(about, strong=True)] if about else []
     blocks.append(_facts(material, found))
     telling = found if len(found) <= PANELS else most_telling(found, PANELS)
     pictures = strip.strip(material.shelf, telling)
     blocks += [pictures] if pictures else []
-    height = PLOTS.get(len(telling), PLOTS_LOW if len(telling) <= 6 else PLOTS_HIGH)
-    figure = multiples.figure(telling, material.method_marks, height, material.focus_method)
+    drawn = telling if len(found) <= PANELS else most_telling(telling, PLOTTED)
+    height = PLOTS.get(len(drawn), PLOTS_LOW if len(drawn) <= PLOTTED else PLOTS_HIGH)
+    height -= LESS * (bool(about) + (len(found) > PANELS))
+    figure = multiples.figure(drawn, material.method_marks, height, material.focus_method)
     blocks += [figure] if figure else []
-    blocks.append(choice.made(found, several, len(found) if len(found) <= PANELS else TABLE))
+    blocks.append(choice.made(telling, several, len(found)))
     return blocks
 
 
@@ -72,7 +74,7 @@ def most_telling(found: Sequence[Choice], count: int) -> list[Choice]:
     highest degree comes first.
     """
     by_winner: dict[str, list[Choice]] = {}
-    for one in sorted(found, key=lambda c: (-c.rows["method"].nunique(), -int(c.rows["degree"].iloc[0]))):
+    for one in sorted(found, key=lambda one: (-one.rows["method"].nunique(), -_degree(one))):
         by_winner.setdefault(str(one.best.method) if one.best is not None else "", []).append(one)
     queues = sorted(by_winner.values(), key=len, reverse=True)
     taken: list[Choice] = []
@@ -81,6 +83,12 @@ def most_telling(found: Sequence[Choice], count: int) -> list[Choice]:
             if queue and len(taken) < count:
                 taken.append(queue.pop(0))
     return [one for one in found if any(one is other for other in taken)]
+
+
+def _degree(one: Choice) -> int:
+    """Return the degree of a surface; 0 for one that is not algebraic."""
+    degree = one.rows["degree"].iloc[0]
+    return 0 if wording.absent(degree) else int(degree)
 
 
 def _claims(material: Material) -> str:

@@ -9,7 +9,8 @@ from functools import cached_property
 import pandas as pd
 
 from reports import claims
-from reports.analysis import shown, surface_names, viewstats
+from reports.analysis import choices, shown, surface_names, viewstats
+from reports.analysis.choices import Choice
 from reports.claims import Claim, Verdict, figures
 from reports.claims.evidence import Evidence
 from reports.drawing import images, style
@@ -45,6 +46,11 @@ class Material:
         """Return the method that the report is about, or whose variant it is about; "" for none."""
         of = self.frame.loc[self.frame["variant"] == self.focus, "method"]
         return str(of.iloc[0]) if len(of) and self.focus not in set(self.frame["method"]) else self.focus
+
+    @cached_property
+    def choices(self) -> list[Choice]:
+        """Return what to take for each surface that was timed."""
+        return choices.choices(self.frame)
 
     @cached_property
     def listed(self) -> pd.DataFrame:

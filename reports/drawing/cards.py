@@ -34,7 +34,7 @@ def winner(rows: pd.DataFrame, choice: Choice | None) -> Any | None:
     wrong rays.
     """
     if choice is not None and not wording.absent(choice.pictured.arrays):
-        return choice.pictured
+        return next(rows.loc[[choice.pictured.Index]].itertuples())
     drawn = rows[(rows["status"] == CellStatus.OK) & rows["answers"].astype(bool) & rows["arrays"].notna()]
     return next(drawn.sort_values(["wrong_rays", "error_max"], kind="stable").head(1).itertuples(), None)
 

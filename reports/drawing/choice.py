@@ -14,6 +14,7 @@ from reports.analysis.scene_names import picture_size
 from reports.content import Column, Table
 
 LINES = 26  # surfaces that fit on the first page
+TIED = 1  # names of variants that are not told apart from the winner
 
 
 def table(frame: pd.DataFrame) -> Table | None:
@@ -22,35 +23,35 @@ def table(frame: pd.DataFrame) -> Table | None:
     return made(found, frame["device"].nunique() > 1) if found else None
 
 
-def made(found: Sequence[Choice], several: bool, lines: int = LINES) -> Table:
+def made(found: Sequence[Choice], several: bool, surfaces: int = 0) -> Table:
     """Make the table of these choices, of which there is at least one; `several` tells that the run has more devices.
 
-    At most `lines` of them are printed.
+    `surfaces` is how many the run has, 0 where these are all. At most LINES of them are printed.
     """
-    body = [_line(choice) for choice in found]
-    printed = body[:lines]
+    printed = [_line(choice) for choice in found[:LINES]]
     rows = pd.concat([choice.rows for choice in found])
-    more = "" if len(printed) == len(body) else f" {len(printed)} of {len(body)} surfaces; “Winners” has all."
+    every = max(surfaces, len(found))
+    more = "" if len(printed) == every else f" {len(printed)} of {every} surfaces; “Winners” has all."
     columns: list[Column] = [Column("surface")]
     for error in ERRORS:
         over = f"error at most {wording.level(error)} of the radius"
         columns += [
             Column("fastest", stretch=1, over=over),
             Column("ms", wording.number, numeric=True, over=over),
-            Column("max error", wording.error, numeric=True, over=over),
+            Column("error", wording.error, numeric=True, over=over),
         ]
     columns.append(Column("cost", wording.factor, numeric=True))
-    nearest = any(choice.within[-1] is None and choice.nearest is not None for choice in found[:lines])
-    where = f"{rows['device'].iloc[0]}{', the first with most results' if several else ''}"
+    nearest = any(choice.within[-1] is None and choice.nearest is not None for choice in found[:LINES])
+    where = f"{rows['device'].iloc[0]}{', the device with most results' if several else ''}"
     return Table(
         tuple(columns),
         printed,
         f"Which method, at which error, on {where}.",
-        f"{_shared(rows)}Fastest of the variants with every ray away from silhouettes right; max error is in scene "
-        "units; cost is the time of the second over that of the first, in the rounds that timed both."
+        f"{_shared(rows)}Fastest of the variants with every ray away from silhouettes right. Error is the largest "
+        "over the radius; cost is the time of the second over that of the first, in the rounds that timed both."
         + (" “None” stands before the most exact variant of this run." if nearest else "")
-        + (" “≈” stands before variants whose times are not told apart." if _any_tied(found[:lines]) else "")
-        + _bound(found[:lines])
+        + (" “≈” stands before variants whose times are not told apart." if _any_tied(found[:LINES]) else "")
+        + _bound(found[:LINES])
         + wording.zeros([row[i] for row in printed for i in (3, 6)])
         + more,
     )
@@ -61,15 +62,24 @@ def _line(choice: Choice) -> tuple[Any, ...]:
     cells: list[Any] = [choice.name]
     for won, tied in zip(choice.within, choice.tied, strict=True):
         if won is not None:
-            cells += [" ≈ ".join([choices.written(won, choice.rows), *tied]), won.median_ms, won.error_max]
+            cells += [
+                " ≈ ".join([choices.written(won, choice.rows), *_few(tied)]),
+                won.median_ms,
+                won.relative_error_max,
+            ]
         elif choice.nearest is not None:
             near = choice.nearest
-            cells += [f"none; {choices.written(near, choice.rows)}", near.median_ms, near.error_max]
+            cells += [f"none; {choices.written(near, choice.rows)}", near.median_ms, near.relative_error_max]
         else:
             cells += ["none", None, None]
     loose, tight = choice.within[0], choice.within[-1]
     cells.append(None if loose is None or tight is None else rounds.times_over(tight, loose))
     return tuple(cells)
+
+
+def _few(names: Sequence[str]) -> list[str]:
+    """Return at most TIED names, and behind them how many more there are."""
+    return [*names[:TIED], *([f"{len(names) - TIED} more"] if len(names) > TIED else [])]
 
 
 def _any_tied(found: Sequence[Choice]) -> bool:
@@ -90,4 +100,8 @@ def _shared(rows: pd.DataFrame) -> str:
     told = [f"View {rows['view'].iloc[0]}"] if rows["view"].nunique() == 1 else []
     sizes = {picture_size(row) for row in rows.itertuples()}
     told += sizes if len(sizes) == 1 else []
+    precisions = {choices.precision_of(own) for _, own in rows.groupby("surface")}
+    told += (
+        [f"{precisions.pop()} where no other is named"] if rows["precision"].nunique() > 1 == len(precisions) else []
+    )
     return f"{', '.join(told)}. " if told else ""

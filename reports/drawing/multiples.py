@@ -35,37 +35,72 @@ def figure(found: Sequence[Choice], marks: Mapping[str, Mark], height: float, fo
 
     `marks` are by method, `height` is in inches, and `focus` is the method that the report is about.
     """
-    rows = [_drawn(choice.rows) for choice in found]
+    rows = [_drawn(choice) for choice in found]
     if not 0 < len(found) <= MOST or sum(map(len, rows)) < 2:
         return None
     every = pd.concat(rows)
-    scales = _Scales.of(every, len(found), height)
-    with matplotlib.rc_context({**RC, "font.size": TEXT, "axes.titlesize": 7.6}):
-        drawing = Drawing(figsize=(NARROW, height))
-        unnamed: dict[str, str] = {}
-        for at, (choice, own) in enumerate(zip(found, rows, strict=True)):
-            unnamed |= _panel(drawing, at, at + scales.across >= len(found), choice, own, scales, marks, focus)
-        if unnamed:
-            handles = [
-                Line2D([], [], color=marks[m].color, marker=marks[m].marker, ms=2 * RADIUS - 1, lw=0) for m in unnamed
-            ]
-            drawing.legend(handles, list(unnamed.values()), loc="lower left", ncols=6, fontsize=TEXT, borderaxespad=0)
-        drawing.text(0.5, 0.035 / height, _X_LABEL, ha="center", va="bottom", fontsize=TEXT)
-        drawing.text(0.03 / NARROW, 0.5, "ms a frame, faster is up", ha="left", va="center", rotation=90, fontsize=TEXT)
+    drawing, unnamed = _drawing(found, rows, marks, height, focus, {})
+    if unnamed:
+        drawing, _ = _drawing(found, rows, marks, height, focus, unnamed)
+    with matplotlib.rc_context(RC):
         drawn = svg(drawing)
     return Figure("multiples", drawn, _description(found), "Speed against error.", _caption(every))
 
 
+def _drawing(
+    found: Sequence[Choice],
+    rows: Sequence[pd.DataFrame],
+    marks: Mapping[str, Mark],
+    height: float,
+    focus: str,
+    key: Mapping[str, str],
+) -> tuple[Drawing, dict[str, str]]:
+    """Draw all panels, above a key of the methods `key`; return also the methods whose names found no place."""
+    lines = _key_lines(list(key.values()))
+    below = 0.14 * len(set(line for line, _ in lines))
+    scales = _Scales.of(pd.concat(rows), len(found), height, below)
+    unnamed: dict[str, str] = {}
+    with matplotlib.rc_context({**RC, "font.size": TEXT, "axes.titlesize": 7.6}):
+        drawing = Drawing(figsize=(NARROW, height))
+        for at, (choice, own) in enumerate(zip(found, rows, strict=True)):
+            unnamed |= _panel(drawing, at, at + scales.across >= len(found), choice, own, scales, marks, focus)
+        for (method, label), (line, x) in zip(key.items(), lines, strict=True):
+            y, mark = (below - 0.14 * line - 0.07) / height, marks[method]
+            size: dict[str, Any] = {"ms": 2 * RADIUS - 1, "transform": drawing.transFigure}
+            drawing.add_artist(Line2D([(x + 0.06) / NARROW], [y], color=mark.color, marker=mark.marker, lw=0, **size))
+            drawing.text((x + 0.15) / NARROW, y, label, va="center", fontsize=TEXT, gid=series(method))
+        drawing.text(0.5, (below + 0.03) / height, _X_LABEL, ha="center", va="bottom", fontsize=TEXT)
+        drawing.text(0.03 / NARROW, 0.5, _Y_LABEL, ha="left", va="center", rotation=90, fontsize=TEXT)
+    return drawing, unnamed
+
+
+def _key_lines(labels: Sequence[str]) -> list[tuple[int, float]]:
+    """Return the line of each label of the key, and where it begins on it, in inches."""
+    found, line, x = [], 0, _LEFT
+    for label in labels:
+        width = 0.3 + placing.text_size(label, TEXT)[0] / 72
+        if x + width > NARROW and x > _LEFT:
+            line, x = line + 1, _LEFT
+        found.append((line, x))
+        x += width
+    return found
+
+
+_Y_LABEL = "ms a frame, faster is up"
 _X_LABEL = "largest error over the scene's radius, more exact is left"
 
 
-def _drawn(rows: pd.DataFrame) -> pd.DataFrame:
-    """Select the rows that have a place, fastest first, with the columns `series` and `name` of what they belong to."""
-    rows = rows[rows["relative_error_max"].notna() & np.isfinite(rows["relative_error_max"])]
-    beams = rows["prepass"] == "beams"
-    named = rows["method_label"] + np.where(beams, " behind beams", "")
-    if rows["precision"].nunique() > 1:
-        named = named + ", " + rows["precision"]
+def _drawn(choice: Choice) -> pd.DataFrame:
+    """Select the rows that have a place, fastest first, with the column `name` of what they belong to.
+
+    They are those in the precision of most rows, and winners in others.
+    """
+    main = choices.precision_of(choice.rows)
+    rows = choice.rows[choice.rows["relative_error_max"].notna() & np.isfinite(choice.rows["relative_error_max"])]
+    winners = [row.Index for row in choice.within if row is not None]
+    rows = rows[(rows["precision"] == main) | rows.index.isin(winners)]
+    named = rows["method_label"] + np.where(rows["prepass"] == "beams", " behind beams", "")
+    named = named + np.where(rows["precision"] == main, "", ", " + rows["precision"])
     return rows.assign(name=named).sort_values("median_ms", kind="stable")
 
 
@@ -83,12 +118,12 @@ class _Scales:
     ms: tuple[float, float]  # shortest and longest time
 
     @classmethod
-    def of(cls, rows: pd.DataFrame, panels: int, height: float) -> _Scales:
-        """Lay out so many panels."""
+    def of(cls, rows: pd.DataFrame, panels: int, height: float, below: float) -> _Scales:
+        """Lay out so many panels in a drawing of this height, with room `below` them."""
         across = panels if panels < 4 else 2 if panels == 4 else 3
         down = -(-panels // across)
         width = (NARROW - _LEFT - _RIGHT - (across - 1) * _BETWEEN[0]) / across
-        each = (height - _BOTTOM - down * _TOP - (down - 1) * (_BETWEEN[1] - _TOP)) / down
+        each = (height - below - _BOTTOM - down * _TOP - (down - 1) * (_BETWEEN[1] - _TOP)) / down
         ms = float(rows["median_ms"].min()) / 1.7, float(rows["median_ms"].max()) * 1.7
         errors = rows["relative_error_max"]
         return cls(across, down, width, each, height, ErrorAxis.of(errors), bool((errors == 0).any()), ms)
@@ -243,6 +278,8 @@ def _caption(rows: pd.DataFrame) -> str:
     """Say how to read the figure."""
     told = "Up is faster, left is more exact. The black line is the Pareto front: what lies below and right of it is "
     told += "beaten in both."
+    if rows["precision"].nunique() > 1:
+        told += f" In {choices.precision_of(rows)} where no other precision is named."
     if (~derive.all_right(rows)).any():
         told += " Hollow marks answer some rays wrongly."
     if (derive.FLOOR_FACTOR * rows["floor_ms"] > rows["median_ms"].min() / 1.7).any():

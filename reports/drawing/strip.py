@@ -18,6 +18,7 @@ from reports.drawing import images
 from reports.reading.arrays import Arrays, Shelf
 
 PIXELS = 1400  # of all pictures of a strip side by side
+FEW = 4  # pictures that are wide enough for the names of variants
 EDGE = 0.03  # of the picture's side is left free around what is seen
 
 
@@ -29,16 +30,17 @@ def strip(shelf: Shelf, found: Sequence[Choice]) -> Gallery | None:
     shown = [(choice, choice.pictured) for choice in found]
     read = [(choice, row, shelf.get(row)) for choice, row in shown if not wording.absent(row.arrays)]
     side = PIXELS // max(4, len(read) or 1)
-    panels = [_panel(choice, row, arrays, side) for choice, row, arrays in read if arrays is not None]
+    panels = [_panel(choice, row, arrays, side, len(read) <= FEW) for choice, row, arrays in read if arrays is not None]
     return Gallery(tuple(panels), "", across=len(panels)) if panels else None
 
 
-def _panel(choice: Choice, row: Any, arrays: Arrays, side: int) -> Panel:
-    """Show one surface."""
+def _panel(choice: Choice, row: Any, arrays: Arrays, side: int, large: bool) -> Panel:
+    """Show one surface; below a `large` picture there is room for the whole name of the variant."""
     name = choices.written(row, choice.rows)
     picture = Picture(f"{row.key}-teaser", _png(cropped(arrays), side), f"{choice.name} drawn by {name}")
     wrong = "" if choice.best is not None else f"{wording.plural(int(row.wrong_rays), 'wrong ray')}, "
-    told = f"{name}, {wording.number(row.median_ms)} ms\n{wrong}error {wording.error(row.error_max)}"
+    head = f"{name}, " if large else f"{row.method_label}\n"
+    told = f"{head}{wording.number(row.median_ms)} ms\n{wrong}error {wording.error(row.relative_error_max)}"
     return Panel(choice.name, (picture,), told)
 
 

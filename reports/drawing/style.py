@@ -55,7 +55,23 @@ _HOUSE: dict[str, Mark] = {
     "contour": Mark(_SKY, (4, 1, 0)),  # a star with four points
 }
 _SPARE_COLORS = (_PURPLE, _GREEN, _VERMILLION, _SKY, _ORANGE, _BLUE, _YELLOW)
-_SPARE_MARKERS = ("p", ">", "X", "H", "D", "v", "s", "o", "^", "<", "P", "*", (3, 1, 0), (4, 1, 0), (6, 1, 0))
+_SPARE_MARKERS: tuple[str | tuple[int, Literal[0, 1, 2], int], ...] = (
+    "p",
+    ">",
+    "X",
+    "H",
+    "D",
+    "v",
+    "s",
+    "o",
+    "^",
+    "<",
+    "P",
+    "*",
+    (3, 1, 0),
+    (4, 1, 0),
+    (6, 1, 0),
+)
 _SPARE = [
     mark for mark in (Mark(c, m) for m in _SPARE_MARKERS for c in _SPARE_COLORS) if mark not in _HOUSE.values()
 ]  # pairs of a colour and a marker that no method of the suite has

@@ -86,7 +86,7 @@ def _pages(material: Material, rows: pd.DataFrame, name: str) -> tuple[list[Bloc
     plots = fronts.speed_against_error(own, material.method_marks, name, _title(own), material.focus)
     table = surface_tables.compact_table(own)
     choice = cards.chosen(own)
-    first, second = ("", "") if choice is None else (_fastest(choice), _risks(choice))
+    first, second = ("", "") if choice is None else (_fastest(choice, own), _risks(choice))
     return (
         [*([Text(first)] if first else []), *_pictures(material, own, choice, rows, cells)],
         [*([Text(second)] if second else []), *plots, *([table] if table else [])],
@@ -112,8 +112,8 @@ def _title(rows: pd.DataFrame) -> str:
     return f"{first['surface_title']}, view {first['view']}"
 
 
-def _fastest(choice: Choice) -> str:
-    """Say who is fastest within each of ERRORS."""
+def _fastest(choice: Choice, rows: pd.DataFrame) -> str:
+    """Say who is fastest within each of ERRORS; `rows` are those of the scene and device."""
     loose, tight = choice.within[0], choice.within[-1]
     first, second = (wording.level(error) for error in ERRORS)
     exact = (
@@ -121,7 +121,7 @@ def _fastest(choice: Choice) -> str:
     )
     if loose is None:
         return f"No method that answers every ray rightly is within {first} of the scene's radius{exact}."
-    won = _won(choice)
+    won = _won(choice, rows)
     if tight is None:
         exact = "" if choice.nearest.Index == loose.Index else exact
         return f"Within {first} of the scene's radius, {won}. None is within {second}{exact}."
@@ -138,11 +138,12 @@ def _figures(row: Any) -> str:
     return f"{wording.number(row.median_ms)} ms, error {wording.error(row.error_max)}"
 
 
-def _won(choice: Choice) -> str:
+def _won(choice: Choice, rows: pd.DataFrame) -> str:
     """Say that the row within the looser error is the fastest, over which baseline, and what ties with it."""
     row, gain = choice.within[0], ""
-    if not wording.absent(row.speedup) and row.baseline not in (row.variant, row.method):
-        gain = f", {wording.factor(row.speedup)} as fast as {tables.baseline(choice.rows)}"
+    times = rows.at[row.Index, "speedup"]
+    if not wording.absent(times) and row.baseline not in (row.variant, row.method):
+        gain = f", {wording.factor(times)} as fast as {tables.baseline(rows)}"
     tied = f", not told apart from {wording.listed(choice.tied[0])}" if choice.tied[0] else ""
     name = choices.written(row, choice.rows)
     return f"{name} is the fastest right method ({wording.number(row.median_ms)} ms{gain}){tied}"

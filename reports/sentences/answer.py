@@ -9,11 +9,12 @@ from typing import Any
 import pandas as pd
 
 from reports import wording
-from reports.analysis import choices, tradeoffs
+from reports.analysis import choices, derive, tradeoffs
 from reports.analysis.choices import ERRORS, Choice
 from reports.analysis.scene_names import picture_size, rays_checked
 
 NAMED = 8  # a run with more surfaces counts them
+MOST = 4  # methods that are counted one by one
 PROMISES = {  # what the claims of harness.contract come to
     "no_missed_root": "miss no root",
     "finds_touch": "find roots that only touch",
@@ -28,6 +29,7 @@ def lead(found: Sequence[Choice]) -> str:
     rows = found[0].rows
     device, sizes = rows["device"].iloc[0], {picture_size(row) for one in found for row in one.rows.itertuples()}
     where = f"On {device}" + (f", for {sizes.pop()} pixels" if len(sizes) == 1 else "")
+    where += f", of {len(found)} surfaces" if len(found) > NAMED else ""
     if all(one.rows["method"].nunique() < 2 for one in found):
         names = wording.listed(sorted({str(label) for one in found for label in one.rows["method_label"]}))
         return f"{where}, nothing is compared: {names} takes {_span(found)}."
@@ -38,32 +40,28 @@ def lead(found: Sequence[Choice]) -> str:
 
 def _winners(found: Sequence[Choice], level: int) -> str:
     """Name the winner of each surface at one of ERRORS: surface by surface, or how often each method wins."""
-    won = [(one, one.within[level]) for one in found]
+    won = [(one, one.within[level]) for one in found if one.within[level] is not None]
+    if not won:
+        return "no variant"
     by_label: dict[str, list[tuple[Choice, Any]]] = {}
     for one, row in won:
-        if row is not None and not one.tied[level]:
-            by_label.setdefault(_name(one, row, len(found)), []).append((one, row))
-    parts = []
-    several = len(found) > NAMED
-    for label, pairs in sorted(by_label.items(), key=lambda item: -len(item[1]) if several else 0):
-        if not several:
-            parts.append(f"{label} on {wording.listed([f'{one.name} ({_ms(row)})' for one, row in pairs])}")
-        else:
-            parts.append(f"{label} on {len(pairs)} of {len(found)} surfaces ({_range(pairs)})")
-    tied = [(one, row) for one, row in won if row is not None and one.tied[level]]
-    if tied and not several:
-        parts += [
-            f"{' or '.join([_name(one, row, 1), *one.tied[level]])}, not told apart, on {one.name} ({_ms(row)})"
-            for one, row in tied
+        named = len(found) <= NAMED
+        label = inline(row, one.rows) if named else str(row.method_label)
+        label = " or ".join([label, *one.tied[level]]) if named else label
+        by_label.setdefault(label, []).append((one, row))
+    if len(found) <= NAMED:
+        parts = [
+            f"{label} on {wording.listed([f'{one.name} ({_ms(row)})' for one, row in pairs])}"
+            for label, pairs in by_label.items()
         ]
-    elif tied:
-        parts.append(f"several methods, not told apart, on {len(tied)}")
-    return wording.listed(parts) if parts else "no variant"
-
-
-def _name(one: Choice, row: Any, surfaces: int) -> str:
-    """Write the variant of a winner, or its method where surfaces are counted."""
-    return inline(row, one.rows) if surfaces <= NAMED else str(row.method_label)
+        apart = " (“or”: times that are not told apart)" if any(one.tied[level] for one, _ in won) else ""
+        return wording.listed(parts) + apart
+    ordered = sorted(by_label.items(), key=lambda item: -len(item[1]))
+    parts = [f"{label} on {len(pairs)} ({_range(pairs)})" for label, pairs in ordered[:MOST]]
+    rest = sum(len(pairs) for _, pairs in ordered[MOST:])
+    parts += [f"others on {rest}"] if rest else []
+    shared = sum(bool(one.tied[level]) for one, _ in won)
+    return wording.listed(parts) + (f"; on {shared} another method is not told apart" if shared else "")
 
 
 def inline(row: Any, rows: pd.DataFrame | None = None) -> str:
@@ -130,8 +128,8 @@ def risk(found: Sequence[Choice], methods: Mapping[str, Mapping[str, Any]]) -> s
     if best:
         rays = rays_checked(_best_rows(found))
         apart = sum(_count(row.grazing_wrong_rays) + _count(row.drowned_wrong_rays) for row in best)
-        told.append(f"Of {rays} rays checked on each surface, no clear one is wrong")
-        told[0] += f", and {apart:,} of those that graze a silhouette or drown in rounding." if apart else "."
+        edge = f"but for {apart:,} that graze a silhouette or drown in rounding" if apart else "grazing ones included"
+        told.append(f"Of {rays} rays checked on each surface, none is wrong, {edge}.")
         told += _promises({str(row.method): str(row.method_label) for row in best}, methods)
     if lost:
         where = _fewest(lost) if len(lost) < 4 else ""
@@ -198,30 +196,41 @@ def _gain(trade: tradeoffs.Trade) -> str:
 
 
 def focus(found: Sequence[Choice], focus: str, method: str) -> str:
-    """Say in a sentence where the method or variant that the report is about wins, ties and loses."""
-    wins, ties, losses, absent = [], [], [], []
-    label = method
+    """Say in a sentence where the method or variant that the report is about wins, ties and loses.
+
+    `method` is its method; the sentence is "" where none of the choices has a row of it.
+    """
+    wins: list[str] = []
+    shared: list[str] = []
+    wrong: list[str] = []
+    beaten: dict[str, list[str]] = {}
+    label = ""
     for one in found:
         own = one.rows[(one.rows["variant"] == focus) | (one.rows["method"] == focus)]
-        if own.empty or one.best is None:
-            absent.append(one.name)
+        if own.empty:
             continue
         label = str(own["label"].iloc[0] if focus != method else own["method_label"].iloc[0])
-        if one.best.Index in own.index:
-            (ties if one.tied[0] else wins).append(one.name)
+        if not derive.all_right(own).any():
+            wrong.append(one.name)
+        elif one.best.Index in own.index:
+            (shared if one.tied[0] else wins).append(one.name)
         elif set(own["label"]) & set(one.tied[0]):
-            ties.append(one.name)
+            shared.append(one.name)
         else:
-            losses.append(f"{one.name} (by {inline(one.best)})")
-    told = [f"is the fastest right answer on {_some(wins)}"]
-    told += [f"is not told apart from others on {_some(ties)}"] if ties else []
-    told += [f"is beaten on {_some(losses)}"] if losses else []
-    told += [f"has nothing to compare on {_some(absent)}"] if absent else []
-    return f"{label} {wording.listed(told)}."
+            beaten.setdefault(inline(one.best) if len(found) <= NAMED else str(one.best.method_label), []).append(
+                one.name
+            )
+    told = [f"is the fastest right answer on {_some(wins)}"] if wins else []
+    told += [f"is not told apart from the fastest on {_some(shared)}"] if shared else []
+    if beaten:
+        ordered = sorted(beaten.items(), key=lambda item: -len(item[1]))
+        told.append(f"is beaten {wording.listed([f'by {who} on {_some(where)}' for who, where in ordered[:4]])}")
+        rest = sum(len(where) for _, where in ordered[4:])
+        told[-1] += f" and by others on {rest} more" if rest else ""
+    told += [f"answers some rays wrongly on {_some(wrong)}"] if wrong else []
+    return f"{label} {'; it '.join(told)}." if told else ""
 
 
 def _some(names: Sequence[str]) -> str:
     """Name up to four surfaces, or count them."""
-    if not names:
-        return "no surface"
     return wording.listed(list(names)) if len(names) <= 4 else f"{len(names)} surfaces"
