@@ -80,7 +80,8 @@ def place(
     at, size = np.asarray(anchors, float).reshape(-1, 2), np.asarray(sizes, float).reshape(-1, 2)
     others = np.concatenate([at, np.asarray(marks, float).reshape(-1, 2)])
     along = np.concatenate([np.zeros((0, 2)), *(_dotted(np.asarray(line, float)) for line in lines)])
-    options = [_Options.of(at[i], size[i], area, radius, np.delete(others, i, 0), along) for i in range(len(at))]
+    foreign = [others[(np.abs(others - own) > 1e-6).any(axis=1)] for own in at]  # the own mark may be among `marks`
+    options = [_Options.of(at[i], size[i], area, radius, foreign[i], along) for i in range(len(at))]
     placed: list[Place | None] = [None] * len(at)
     kept = [i for i, own in enumerate(options) if len(own.cost)]
     between = {(i, j): _between(options[i], options[j]) for i, j in itertools.combinations(kept, 2)}
