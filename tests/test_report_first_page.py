@@ -223,6 +223,7 @@ def test_a_run_that_timed_nothing_opens_with_who_is_right(tmp_path: Path) -> Non
     told = printed(made.summary.blocks)
     assert told.startswith("Right on every ray away from silhouettes: Sturm. The others answer some wrongly.")
     assert "Newton | float32 | 0 | 1 | 3 | 2,304" in told
+    assert "Newton | 3 wrong" in told and "Sturm | right" in told
 
 
 def test_runs_of_hard_rays_and_of_the_harness_alone_have_a_first_page(tmp_path: Path) -> None:
