@@ -12,6 +12,7 @@ from typing import Any
 import pandas as pd
 
 from reports import labels, wording
+from reports.analysis import rounds
 from reports.drawing.style import Mark
 from reports.site.gather import Gathered, Part
 from reports.site.markup import Frame, Head, Html, Line, code, join, link, table, tag
@@ -86,9 +87,10 @@ def risk(won: Won) -> str:
     """Write what is faster than the winner and answers wrongly; "" where nothing is."""
     if won.faster is None or won.winner is None:
         return ""
-    times = won.winner.median_ms / won.faster.median_ms
+    times = rounds.times_over(won.winner, won.faster)
+    by = "faster" if wording.absent(times) else f"{wording.factor(times)} faster"  # they may share no round
     rays = f"{wording.count(won.faster.wrong_rays)} of {wording.count(won.faster.accuracy_rays)} rays wrong"
-    return f"{won.faster.label}: {wording.factor(times)} faster, {rays}"
+    return f"{won.faster.label}: {by}, {rays}"
 
 
 ROW_HEADS = (
