@@ -6,6 +6,7 @@ import math
 import shlex
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import PurePath
 from typing import Any
 
@@ -58,11 +59,15 @@ class Site:
 
     def baseline(self, rows: pd.DataFrame) -> str:
         """Name the method or variant that the speed-ups of these rows are over; several are joined by "or"."""
-        variants = dict(zip(self.data.frame["variant"], self.data.frame["label"], strict=True))
         named = (str(name) for name in dict.fromkeys(rows["baseline"]))
-        return " or ".join(dict.fromkeys(self.label(n) if n in self.pages else variants.get(n, n) for n in named))
+        return " or ".join(dict.fromkeys(self.label(n) if n in self.pages else self._variants.get(n, n) for n in named))
 
-    @property
+    @cached_property
+    def _variants(self) -> dict[str, str]:
+        """Return the label of each variant."""
+        return dict(zip(self.data.frame["variant"], self.data.frame["label"], strict=True))
+
+    @cached_property
     def several_precisions(self) -> bool:
         """Tell whether devices are named with a precision."""
         return len({race.first.precision for race in self.cells}) > 1
