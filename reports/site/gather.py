@@ -90,8 +90,8 @@ def gather(folders: Sequence[Path]) -> Gathered:
     for folder in folders:
         try:
             run = load.load(folder)
-            for part in run.folders.values():
-                _hold_stated(load.plan_of(part))
+            for own in run.folders.values():
+                _hold_stated(load.plan_of(own))
             loaded.append((run, derive.derive(run.frame, run.plan.peaks)))
         except FirsthitError as error:
             problems.append(str(error))
