@@ -97,7 +97,7 @@ def _square(row: Any, printed: Any) -> Square:
     told = _times(row, printed)
     if told is None:
         return shades.silent(wording.NONE, "not timed")
-    wrong = f",\n{wording.count(row.wrong_rays)} wrong" if row.wrong_rays else ""
+    wrong = f", {wording.count(row.wrong_rays)} wrong" if row.wrong_rays else ""
     note = f"{row.label}: {wording.number(row.median_ms)} ms, {wording.count(row.wrong_rays)} wrong rays"
     over = 1.0 if row.surface == printed.surface else rounds.times_over(row, printed)
     return Square(told + wrong, shades.shade(0.5 + math.log(over) / (2.0 * math.log(TOP))), note)

@@ -285,12 +285,12 @@ def _figure(
     labels = {curve.variant: curve.label for curve in found}
     key = Key([line_of(marks[v]) for v in variants], [labels[v] for v in variants], NARROW)
     above = key.height + 0.22
-    height = above + 0.4 + 1.9 * lines
+    height = above + 0.4 + 1.45 * lines
     every = np.concatenate([curve.x for curve in found])
     with matplotlib.rc_context(RC | {"font.size": 7.0}):
         drawing = Drawing(figsize=(NARROW, height))
         panels = drawing.subplots(lines, columns, sharex=True, sharey=True, squeeze=False)
-        drawing.subplots_adjust(0.5 / NARROW, 0.42 / height, 1 - 0.05 / NARROW, 1 - above / height, 0.06, 0.16)
+        drawing.subplots_adjust(0.62 / NARROW, 0.42 / height, 1 - 0.05 / NARROW, 1 - above / height, 0.06, 0.22)
         for axes, place in zip(panels.flat, places, strict=False):
             axes.set_title(named[place], color=style.INK, fontsize=7)
             for curve in (curve for curve in found if curve.place == place):

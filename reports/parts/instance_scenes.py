@@ -54,15 +54,11 @@ def _said(full: Table) -> str:
     if not last:
         return "Nowhere do both keep one of these errors in the same rounds."
     each = [
-        f"{scene}, under {wording.number(row[1])} pixels: {row[2]} takes {wording.number(row[4])} ms, "
-        + (
-            f"{row[6]} {wording.factor(row[-1])} as long"
-            if row[-1] >= 1
-            else f"{row[6]} {wording.factor(row[-1])} that"
-        )
+        f"on {scene}, under {wording.number(row[1])} pixels, {row[2]} takes {wording.number(row[4])} ms, and {row[6]} "
+        f"takes {wording.factor(row[-1])} that"
         for scene, row in last.items()
     ]
-    return f"At the smallest error that both keep: {'; '.join(each)}."
+    return f"At the smallest error that both keep, {'; '.join(each)}."
 
 
 def _short(full: Table) -> Table:

@@ -120,7 +120,7 @@ def _square(row: Any, best: Any, *, sound: bool) -> tuple[float, Square]:
     ratio = rounds.ratio(row, best)
     if not sound:
         wrong = f"{wording.count(row.wrong_rays)} wrong"
-        told = wrong if ratio is None else f"{_short(ratio.median)},\n{wrong}"
+        told = wrong if ratio is None else f"{_short(ratio.median)}, {wrong}"
         return 2.0, shades.silent(told, f"{row.label}: {wording.number(row.median_ms)} ms, {wrong} rays")
     if ratio is None:
         return 1.0, shades.silent(NOT_PAIRED, f"{row.label}: no round timed it and the fastest")
