@@ -336,3 +336,12 @@ def _apart(ticks: list[float]) -> list[float]:
         if not kept or np.log(tick / kept[-1]) > 0.07 * np.log(ticks[-1] / ticks[0]):
             kept.append(tick)
     return kept
+
+
+def of_run(frame: pd.DataFrame) -> Iterator[tuple[Axis, list[Curve], dict[tuple[Any, ...], str]]]:
+    """Yield each axis along which some variant was timed at FEWEST places, its curves, and their places' names."""
+    titles = frame.drop_duplicates("surface").set_index("surface")["surface_title"].to_dict()
+    for axis in (_of_run(axis, frame) for axis in AXES):
+        found = _curves(axis, _points(frame, axis)[0])
+        if found:
+            yield axis, found, _places(axis, found, titles)
