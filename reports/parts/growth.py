@@ -177,7 +177,7 @@ def sections(material: Material) -> list[Section]:
         rows, left_out = _points(frame, axis)
         found = _curves(axis, rows)
         if found or left_out:
-            figures = list(_figures(axis, found, material.marks, titles))
+            figures = list(_figures(axis, found, material.marks, titles)) if found else []
             fitted = [curve for curve in found if isinstance(curve.fit, Power)]
             shown: tuple[Block, ...] = (Text(_said(axis, fitted, titles)), figures[0]) if fitted else ()
             details: list[Block] = [Text(LEAD.format(unit=axis.unit, wrongly=axis.wrongly) + _told_left_out(left_out))]
