@@ -128,8 +128,10 @@ def _square(row: Any, best: Any, *, sound: bool) -> tuple[float, Square]:
     interval = f", 95 % {wording.factor(ratio.lower)} to {wording.factor(ratio.upper)}" if ratio.proved else ""
     outcome = ties.verdict(ratio)
     note = f"{row.label}: {wording.factor(ratio.median)}{interval}; {outcome}"
+    if outcome in (ties.ALIKE, ties.TORN):
+        return badness, Square(EVEN, shades.shade(0.0), note)
     text = _short(ratio.median) + (" ?" if ratio.pairs < ties.NEEDED else "")
-    return badness, Square(EVEN if outcome in (ties.ALIKE, ties.TORN) else text, shades.shade(badness), note)
+    return badness, Square(text, shades.shade(badness), note)
 
 
 def _short(factor: float) -> str:
