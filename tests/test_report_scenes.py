@@ -73,7 +73,7 @@ def test_the_fastest_that_keeps_the_error_stands_for_its_kind():
     assert lines[0.01][9] == 4000
     text, short = sections(rows)[0].blocks
     assert "on Nine pipes, under 0.0100 pixels, Newton takes 10.0 ms, and Polygon b takes 4.00× that" in text.text
-    assert [row[:4] for row in short.rows][2] == ("Nine pipes", 0.01, "Newton", 10.0)
+    assert [row[:4] for row in short.rows] == [("Nine pipes", 0.01, "Newton", 10.0)]
 
 
 def test_times_of_different_rounds_make_no_ratio():

@@ -18,7 +18,7 @@ from reports.material import Material
 
 ORDER = 32
 TITLE = "Variants compared round by round"
-MOST_SCENES = 40  # of the matrix
+MOST_SCENES = 30  # of the matrix
 TOP = 100.0  # the factor that has the brightest colour
 EVEN, NOT_PAIRED = "even", "–"
 READ = (
