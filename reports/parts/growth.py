@@ -285,6 +285,7 @@ def _figure(
     found = [curve for curve in found if isinstance(curve.fit, Power)] if many else found
     variants = [variant for variant in marks if any(curve.variant == variant for curve in found)][:MOST_LINES]
     found = [curve for curve in found if curve.variant in variants]
+    places = [place for place in places if any(curve.place == place for curve in found)] or places
     columns = min(ACROSS, len(places))
     lines = -(-len(places) // columns)
     labels = {curve.variant: curve.label for curve in found}

@@ -62,9 +62,9 @@ def sections(material: Material) -> list[Section]:
         if not shown:
             worst = _broken_surfaces(judged)
             told = f"The surfaces on which a method is wrong, {place}."
-            shown = [Text(f"{_said(judged)} {KEY}"), *_shortened(broken), groups]
+            shown = [Text(f"{_said(judged)} {KEY}"), *_shortened(broken), *([groups] if len(groups.rows) > 1 else [])]
             shown += [_matrix(worst, told)] if len(worst) else []
-            details += [_classes(by_variant, place), every]
+            details += [*([] if len(groups.rows) > 1 else [groups]), _classes(by_variant, place), every]
         else:
             details += [groups, _classes(by_variant, place), every]
     refusals = _refusals(rows)
@@ -88,7 +88,7 @@ def _said(judged: pd.DataFrame) -> str:
 
 def _shortened(told: Sequence[Text]) -> list[Text]:
     """Return these texts, each cut to what a line or two hold."""
-    return [Text(wording.excerpt(text.text, 260), text.strong) for text in told]
+    return [Text(wording.excerpt(text.text, 260)) for text in told]
 
 
 def _broken_surfaces(judged: pd.DataFrame) -> pd.DataFrame:
@@ -158,9 +158,9 @@ def _columns(judged: pd.DataFrame) -> dict[str, str]:
     return {str(variant): str(heading) for variant, heading in zip(named["variant"], told, strict=True)}
 
 
-def _titles(material: pd.DataFrame) -> dict[str, str]:
+def _titles(judged: pd.DataFrame) -> dict[str, str]:
     """Return the written name of each group of surfaces, in their order."""
-    return {str(group): str(group).replace("_", " ").capitalize() for group in material["group"].unique()}
+    return {str(group): str(group).replace("_", " ").capitalize() for group in judged["group"].unique()}
 
 
 def _by_group(judged: pd.DataFrame, place: str) -> Matrix:
@@ -229,7 +229,8 @@ def _matrix(judged: pd.DataFrame, title: str) -> Matrix:
     missing = shades.silent("", "not run")
     body: list[tuple[str, tuple[Square, ...]]] = []
     for group, grouped in judged.groupby("group", sort=False):
-        body.append((titles[str(group)], ()))
+        if judged["group"].nunique() > 1:
+            body.append((titles[str(group)], ()))
         for _, own in grouped.groupby("surface", sort=False):
             squares = {row.variant: _square(row) for row in own.itertuples()}
             name = wording.excerpt(str(own["surface_title"].iloc[0]), 30)
