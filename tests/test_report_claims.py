@@ -80,11 +80,11 @@ def test_times_that_were_not_taken_in_turns_are_left_out_and_counted(tmp_path: P
 
 def test_a_page_of_claims_has_those_that_the_run_decides_and_counts_the_others(tmp_path: Path) -> None:
     cells = [planted(pick, "torus", ms) for pick, ms in ((picks.ONE_RAY, 2.0), (picks.TWO_RAYS, 1.0))]
-    run, report = reported(tiny_run(tmp_path / "run", *cells))
+    _, report = reported(tiny_run(tmp_path / "run", *cells))
     (section,) = [section for section in report.sections if section.title == checklist.TITLE]
     text, whole = printed(section.blocks), printed(section.details)
     (lead, table, rest) = section.blocks
-    assert printed((lead,)) == "Of 1 claim that this run decides, 1 are confirmed: 1 of 1 of toledo2007."
+    assert printed((lead,)) == "Of 1 claim that this run decides, 1 is confirmed: 1 of 1 of toledo2007."
     assert "toledo2007 | confirmed | 4.3 | Two starts for each ray are faster than one." in printed((table,))
     assert f"{len(claims.CLAIMS) - 1} have no rows in this run" in printed((rest,))
     assert Outcome.UNTESTED.value not in text
