@@ -389,6 +389,9 @@ def printed(blocks: tuple[content.Block, ...]) -> str:
             case content.Table():
                 rows = [[c.show(v) for c, v in zip(block.columns, row, strict=True)] for row in block.rows]
                 words += [block.title, block.caption, *(" | ".join(row) for row in rows)]
+            case content.Matrix():
+                lines = [" | ".join((heading, *(square.text for square in squares))) for heading, squares in block.rows]
+                words += [block.title, block.caption, *lines]
             case content.Figure() | content.Gallery():
                 words.append(block.caption)
     return "\n".join(words)

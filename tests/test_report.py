@@ -40,20 +40,17 @@ def frame(loaded: load.Run) -> pd.DataFrame:
 
 
 def test_build_writes_four_files_and_nothing_else(run: Path) -> None:
-    before = {path.name for path in run.iterdir()}
+    before = {path: path.stat().st_mtime_ns for path in run.rglob("*")}
     pdf = report.build(run)
-    assert pdf == run / "report.pdf"
-    assert {path.name for path in run.iterdir()} == before | {
-        "report.pdf",
-        "report.html",
-        "results.csv",
-        "results.parquet",
-    }
+    made = run.parent / "quick.report"
+    assert pdf == made / "report.pdf"
+    assert {path.name for path in made.iterdir()} == {"report.pdf", "report.html", "results.csv", "results.parquet"}
+    assert {path: path.stat().st_mtime_ns for path in run.rglob("*")} == before, "a run is only read"
     first = pdf.read_bytes()
     assert first.startswith(b"%PDF")
     assert report.build(run).read_bytes() == first, "the same run must give the same PDF"
 
-    csv, parquet = pd.read_csv(run / "results.csv"), pq.read_table(run / "results.parquet")
+    csv, parquet = pd.read_csv(made / "results.csv"), pq.read_table(made / "results.parquet")
     names = [field.name for field in (*schema.SCHEMA, *schema.DERIVED)]
     assert list(csv.columns) == parquet.column_names == names
     for key, samples, text in zip(csv["key"], parquet["samples_ms"].to_pylist(), csv["samples_ms"], strict=True):
@@ -254,12 +251,13 @@ def test_runs_with_nothing_to_show_still_make_a_report(tmp_path: Path) -> None:
     bare = cell("ray_march", "torus", "opencl:intel", "float32") | {"accuracy": None, "arrays": "arrays/gone.npz"}
     assert report.build(tiny_run(tmp_path / "skipped", skipped)).stat().st_size > 0
     folder = tiny_run(tmp_path / "bare", bare)
-    (folder / "report.pdf").mkdir()
+    made = tmp_path / "bare.report"
+    (made / "report.pdf").mkdir(parents=True)
     with pytest.raises(FirsthitError, match="cannot write the report") as raised:
         report.build(folder)
     assert raised.value.exit_code == 3
-    assert not list(folder.glob(".*"))
-    (folder / "report.pdf").rmdir()
+    assert not list(made.glob(".*"))
+    (made / "report.pdf").rmdir()
     assert report.build(folder).stat().st_size > 0
 
 

@@ -52,7 +52,12 @@ def focus_of(run: Run, focus: str | None) -> str:
     Raises FirsthitError where no row that answers has it.
     """
     named = run.plan.focus if focus is None else focus
-    return _answering(run.frame, named, "--focus" if focus else "focus") if named else ""
+    told = ["answers", "method", "variant"]
+    return (
+        _answering(pd.concat([run.frame[told], run.families[told]]), named, "--focus" if focus else "focus")
+        if named
+        else ""
+    )
 
 
 def _answering(frame: pd.DataFrame, name: str, option: str) -> str:
