@@ -196,7 +196,7 @@ def test_a_report_has_the_explorer_and_a_comparison_does_without(
     run: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(parts, "sections", lambda _: [])  # they take long, and are others' matter
-    monkeypatch.setattr(document, "write_pdf", lambda _, __, path, *more: path.touch())
+    monkeypatch.setattr(document, "write_pdf", lambda _, __, path, *_more: path.touch())
     report.build(run, tmp_path / "one")
     text = (tmp_path / "one" / "report.html").read_text(encoding="utf-8")
     assert 'id="explorer"' in text
