@@ -129,4 +129,4 @@ def test_long_names_break_where_a_column_is_narrow(tmp_path: Path) -> None:
 def test_what_may_break_is_as_wide_as_what_may_not(tmp_path: Path, text: str) -> None:
     """No comma hangs over what comes after it."""
     plain, breaking = measured(tmp_path, f'("{text}", breakable("{text}")).map(one => measure(one).width / 1pt)')
-    assert breaking == pytest.approx(plain, abs=0.2)
+    assert breaking == pytest.approx(plain, rel=0.005)

@@ -28,7 +28,7 @@ def verdict_tables(judged: Iterable[tuple[Claim, Verdict]], config: str, of_what
 
 
 def introduced(seen: str, judged: Iterable[tuple[Claim, Verdict]], *configs: str) -> Text:
-    """Return the text `seen`, with a count of the claims that the rows of `configs` test, by outcome, if there are any."""
+    """Return the text `seen`, with a count of the claims that the rows of `configs` test, if they test any."""
     counts = Counter(verdict.outcome for claim, verdict in judged if claim.config in configs)
     held, failed = (counts[outcome] for outcome in DECIDED)
     if not held + failed:
