@@ -15,6 +15,7 @@ from reports.rendering.escaping import data, escaped
 
 _ID = re.compile(r'\bid="([^"]+)"')
 _REFERENCE = re.compile(r'(url\(#|href="#)([^")]+)')
+_WIDTH = re.compile(r'<svg(\s[^>]*?)width="([\d.]+pt)"')
 _NAMED = re.compile(f'<g id="{re.escape(SERIES)}([^"]*)"')
 
 
@@ -52,7 +53,8 @@ def _svg(svg: str, name: str) -> str:
     own = svg[svg.index("<svg") :]
     own = _NAMED.sub(lambda found: f'<g class="series" data-series="{found[1]}"', own)
     own = _ID.sub(rf'id="{name}-\1"', own)
-    return _REFERENCE.sub(rf"\1{name}-\2", own)
+    own = _REFERENCE.sub(rf"\1{name}-\2", own)
+    return _WIDTH.sub(lambda found: f'<svg style="--own:{found[2]}"{found[1]} ', own, count=1)
 
 
 def _picture(picture: Picture) -> str:
