@@ -65,11 +65,18 @@ def _picture(picture: Picture) -> str:
 
 
 def _panel(panel: Panel) -> str:
-    """Write a panel: its title, its pictures and its note."""
+    """Write a panel: its title, its pictures, its lines, what its colours mean, and its note."""
     images = "".join(_picture(picture) for picture in panel.pictures)
+    lines = "".join(f"<tr>{''.join(f'<td>{escaped(cell)}</td>' for cell in line)}</tr>" for line in panel.lines)
+    key = "".join(
+        f'<span class="key"><span style="background:{color}">&nbsp;&nbsp;</span> {escaped(text)}</span> '
+        for color, text in panel.key.items()
+    )
+    note = "<br>".join(escaped(line) for line in panel.note.split("\n"))
     return (
         f'<div class="panel" data-title="{escaped(panel.title)}"><strong>{escaped(panel.title)}</strong>'
-        f'<div class="pictures">{images}</div><small>{escaped(panel.note)}</small></div>'
+        f'<div class="pictures">{images}</div>{f"<table>{lines}</table>" if lines else ""}'
+        f"<small>{key}{note}</small></div>"
     )
 
 
