@@ -61,12 +61,16 @@ def made(run: Path) -> tuple[Document, dict[str, style.Mark]]:
     rows = [(f"row {i} {EVIL}", (7 * i) % 5 + i / 10, i, f"{i} " * 30) for i in range(6)]
     table = Table((Column("name"), number, replace(number, title="other"), Column("text")), rows, "A table.", "Told.")
     squares = tuple(Square(f"{i}", color, f"note {i} {EVIL}") for i, color in enumerate(("#0072B2", "#f0e442", "")))
-    lines = [("newton", (*squares, Square("none"))), ("ray_march", squares[::-1] + squares[:1])]
+    lines = [("of a kind", ()), ("newton", (*squares, Square("none"))), ("ray_march", squares[::-1] + squares[:1])]
     matrix = Matrix(tuple("abcd"), lines, "A matrix.", "Colours.", "method", {"#0072B2": "good", "#f0e442": "bad"})
     panels = tuple(
         Panel(f"{name} {EVIL}", (picture(f"{name} drawn", 40 * i), picture(f"{name} error", 40 * i + 9)), "a note")
-        for i, name in enumerate(("newton", "ray_march", "_odd#"))
+        for i, name in enumerate(("newton, 2", "newton, 3", "_odd#"))
     )
+    card = (("error", "fastest"), ("10⁻³", "newton"))
+    hero = Panel("large", (picture("large", 90),), "one note\nanother note", card, {"#0072B2": "a miss"})
+    heroic = Gallery((hero, *panels), "Heroic.", hero=True, across=3)
+    legend = Figure("legend", drawing(), "a legend")
     figure = Figure("figure", drawing(), "a drawing", "Drawn.", "A line and a point.")
     chart = {
         "data": {"values": [{"a": 1, "b": 2}, {"a": 3, "b": 4}]},
@@ -77,7 +81,7 @@ def made(run: Path) -> tuple[Document, dict[str, style.Mark]]:
     summary = Section("Summary", (Text("The answer.", strong=True), Code("firsthit run quick --runs " + "x" * 200)))
     sections = (
         Section(f"Tables {EVIL}", (table, matrix), name="Tables"),
-        Section("Drawings", (figure, charted, Gallery(panels, "Pictures."), Gallery(panels[:2], "Two.", across=4))),
+        Section("Drawings", (figure, charted, Gallery(panels, "Pictures.", legend), heroic)),
         Section("Long", tuple(Text("word " * 120) for _ in range(8)), (table,)),
     )
     marks = style.marks(["newton", "ray_march", "_odd#", "null"])

@@ -77,7 +77,7 @@ def test_the_same_run_gives_the_same_page(text: str, run: Path) -> None:
 def test_a_report_has_the_explorer_and_a_comparison_does_without(
     run: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(parts, "sections", lambda _: [])  # they take long, and are others' matter
+    monkeypatch.setattr(parts, "sections", lambda *_: [])  # they take long, and are others' matter
     monkeypatch.setattr(document, "write_pdf", lambda _, __, path, *_more: path.touch())
     report.build(run, tmp_path / "one")
     text = (tmp_path / "one" / "report.html").read_text(encoding="utf-8")
@@ -145,7 +145,16 @@ def test_pictures_lose_nothing_but_repeated_pixels() -> None:
 def test_tables_have_captions_and_headings_of_rows(text: str) -> None:
     tables = re.findall(r"<table><caption>.*?</table>", text, re.DOTALL)
     assert [table.count('<th scope="row"') for table in tables] == [6, 2, 6]
+    assert tables[1].count('<th scope="rowgroup" colspan="5">of a kind</th>') == 1
     assert all('<th scope="col"' in table for table in tables)
+
+
+def test_a_large_panel_comes_first_with_all_its_texts(text: str) -> None:
+    hero = text[text.index('class="hero"') :]
+    hero = hero[: hero.index("Heroic.")]
+    for told in ("one note</small>", "another note</small>", '<th scope="row">10⁻³</th><td>newton</td>', "a miss</li>"):
+        assert told in hero
+    assert hero.count("<img") == 1
 
 
 def test_text_on_a_square_is_read_on_any_colour() -> None:

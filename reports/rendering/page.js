@@ -102,7 +102,7 @@ document.querySelectorAll(".scroll").forEach((box) => boxes.observe(box));
 
 // Matrices: squares tell their notes; one square of a matrix is reached by Tab, the others by the arrow keys.
 for (const matrix of document.querySelectorAll("figure.matrix")) {
-  const rows = [...matrix.querySelectorAll("tbody tr")].map((row) => [...row.cells].slice(1));
+  const rows = [...matrix.querySelectorAll("tbody tr")].map((row) => [...row.cells].slice(1)).filter((row) => row.length);
   const square = (cell) => cell?.querySelector(".square");
   const all = rows.flat().map(square).filter(Boolean);
   const arrows = { ArrowLeft: [0, -1], ArrowRight: [0, 1], ArrowUp: [-1, 0], ArrowDown: [1, 0] };
@@ -132,8 +132,8 @@ for (const matrix of document.querySelectorAll("figure.matrix")) {
 }
 
 // Galleries: two pictures over each other, and a slider where the one ends and the other begins. It starts with the
-// last pictures of two panels, which are of two methods; a gallery of one panel starts with its two pictures.
-for (const gallery of document.querySelectorAll("figure.gallery")) {
+// last pictures of two panels of two methods, whose titles begin with the method; one of one panel with its two pictures.
+for (const gallery of document.querySelectorAll("figure.gallery:has(.sliding)")) {
   const panels = [...gallery.querySelectorAll(".panel")];
   const pictures = [];
   const lasts = [];
@@ -149,8 +149,10 @@ for (const gallery of document.querySelectorAll("figure.gallery")) {
     gallery.querySelector(".sliding").hidden = true;
     continue;
   }
-  const alike = gallery.querySelector(".panels.hero") && lasts.length > 2 ? lasts.slice(1) : lasts;
-  const firsts = alike.length > 1 ? alike : [0, 1];
+  const alike = gallery.querySelector(".hero") && lasts.length > 2 ? lasts.slice(1) : lasts;
+  const method = (i) => pictures[i][0].split(/[,[]/)[0];
+  const other = alike.find((i) => method(i) !== method(alike[0])) ?? alike[1];
+  const firsts = alike.length > 1 ? [alike[0], other] : [0, 1];
   gallery.querySelector(".compare").hidden = false;
   [["left", "under", firsts[0]], ["right", "above", firsts[1]]].forEach(([side, layer, first]) => {
     const select = gallery.querySelector(`.${side}`);
