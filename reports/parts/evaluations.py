@@ -64,7 +64,9 @@ def sections(material: Material) -> list[Section]:
         for name in surfaces
         for row, a in [cell for cell in fastest if cell[0].surface == name][:per_surface]
     ]
-    cut = "" if len(page) == len(cells) else f"The fastest {per_surface} variants of each surface."
+    if len(page) == len(cells):
+        return [Section(TITLE, (*told, Text(EXPLANATION), Gallery(tuple(page), "", legend)), own_page=True)]
+    cut = f"The fastest {per_surface} variants of each surface."
     return [Section(TITLE, (*told, Gallery(tuple(page), cut, legend)), tuple(every), own_page=True)]
 
 
