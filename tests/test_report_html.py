@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import io
 import re
+import sys
 from html.parser import HTMLParser
 from pathlib import Path
 
@@ -12,6 +13,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from harness import cli
 from reports import compare, parts, report
 from reports.analysis import derive
 from reports.content import Document
@@ -88,6 +90,16 @@ def test_a_report_has_the_explorer_and_a_comparison_does_without(
     assert 'id="explorer"' not in text
     assert "vegaEmbed" not in text
     assert len(text) < 200_000
+
+
+def test_a_report_without_the_library_names_the_package(run: Path, monkeypatch: pytest.MonkeyPatch, capsys) -> None:
+    for module in ("reports.report", "reports.rendering.bundle"):
+        monkeypatch.delitem(sys.modules, module)
+        room, _, name = module.rpartition(".")
+        monkeypatch.delattr(sys.modules[room], name)
+    monkeypatch.setitem(sys.modules, "vl_convert", None)
+    assert cli.main(["report", str(run)]) == 3
+    assert "a report needs the package vl_convert: pip install 'firsthit[report]'" in capsys.readouterr().err
 
 
 def test_the_library_is_made_once_for_a_version(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:

@@ -60,7 +60,8 @@ def _head(columns: Sequence[Column]) -> str:
 
 
 def _kind(column: Column) -> str:
-    return ' class="n"' if column.numeric else ""
+    """Return the class of a column's cells: numbers, or long texts, which are not squeezed where the page is narrow."""
+    return ' class="n"' if column.numeric else ' class="long"' if column.stretch else ""
 
 
 def _cells(columns: Sequence[Column], row: tuple[Any, ...]) -> str:

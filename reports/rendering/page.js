@@ -9,7 +9,8 @@ if (bar) {
   new ResizeObserver(keepHeight).observe(bar);
   keepHeight();
 }
-if (matchMedia("(max-width: 60rem)").matches) document.querySelector("nav details").open = false;
+const contents = document.querySelector("nav details");
+if (contents && matchMedia("(max-width: 60rem)").matches) contents.open = false;
 
 // The tip: what is told of the thing that is pointed at, tapped or focused. Content is a text or an element.
 function tell(content, x, y) {
@@ -140,8 +141,9 @@ for (const gallery of document.querySelectorAll("figure.gallery:has(.sliding)"))
   for (const panel of panels) {
     const images = [...panel.querySelectorAll("img")];
     images.forEach((image, i) => {
-      const kind = images.length < 2 ? "" : i === 0 ? " – drawn" : " – error";
-      pictures.push([panel.dataset.title + kind, image]);
+      const kind = images.length < 2 ? "" : i === 0 ? "drawn" : "error";
+      const title = panels.length > 1 || !kind ? panel.dataset.title : "";
+      pictures.push([[title, kind].filter(Boolean).join(" – "), image]);
     });
     if (images.length) lasts.push(pictures.length - 1);
   }
