@@ -82,6 +82,7 @@ def made(run: Path) -> tuple[Document, dict[str, style.Mark]]:
     sections = (
         Section(f"Tables {EVIL}", (table, matrix), name="Tables"),
         Section("Drawings", (figure, charted, Gallery(panels, "Pictures.", legend), heroic)),
+        Section("Folded", (), (table,)),
         Section("Long", tuple(Text("word " * 120) for _ in range(8)), (table,)),
     )
     marks = style.marks(["newton", "ray_march", "_odd#", "null"])

@@ -82,8 +82,11 @@ def _section(section: Section, name: str, live: bool) -> str:
     every = [*section.blocks, *section.details]
     blocks = [html_blocks.block(block, f"{name}-{i}", live) for i, block in enumerate(every)]
     shown, folded = "".join(blocks[: len(section.blocks)]), "".join(blocks[len(section.blocks) :])
+    heading = f"<h2>{escaped(section.title)}</h2>"
+    if folded and not shown:
+        return f'<details class="every"><summary>{heading}</summary>{folded}</details>'
     details = f'<details class="every"><summary>Every figure</summary>{folded}</details>' if folded else ""
-    return f"<h2>{escaped(section.title)}</h2>{shown}{details}"
+    return f"{heading}{shown}{details}"
 
 
 def _chips(marks: Mapping[str, Mark], labels: Mapping[str, str]) -> str:
