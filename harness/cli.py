@@ -88,7 +88,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         from harness.commands import completion
 
         completion.complete(build_parser)
-    options = argparse.Namespace(command=None, force=False, json=False)
+    options = argparse.Namespace(command=None, force=False, json=False, quiet=False, verbose=False)
     try:
         try:
             return _ended(sys.argv[1:] if arguments is None else arguments, options)
@@ -117,15 +117,16 @@ def _ended(arguments: Sequence[str], options: argparse.Namespace) -> int:
         usage, code, told = error, USAGE, error.message
     except KeyboardInterrupt:
         code, told = INTERRUPTED, _stopped(options)
-        print(f"\nfirsthit: {told}", file=sys.stderr)
+        _told(f"firsthit: {told}")
     except Exception as error:
         if isinstance(error, BrokenPipeError) or (_is_full(error) and error.filename is None):
             raise
         code, told = _known(error)
         if told:
-            print(f"firsthit: {told}", file=sys.stderr)
+            _told(f"firsthit: {told}")
         else:
             told = f"{type(error).__name__}: {error}"
+            _cleared()
             traceback.print_exc()  # a mistake of ours; Python would end with 1, which says that a check does not hold
     # a usage that is wrong leaves `options` empty; argparse takes the beginning of an option for it
     if options.json or any(len(word) > 2 and "--json".startswith(word) for word in arguments):
@@ -152,12 +153,29 @@ def _run(arguments: Sequence[str], options: argparse.Namespace) -> int:
     """Parse a command line into `options` and run the command; return its exit code."""
     arguments = _signed(arguments)
     build_parser(arguments).parse_args(arguments, options)
+    if options.quiet or options.verbose or "harness.terminal" in sys.modules:  # another run of this process may be done
+        from harness.terminal import SCREEN
+
+        SCREEN.level = "quiet" if options.quiet else "verbose" if options.verbose else "normal"
     if options.json:
         from harness.commands import machine
 
         return machine.run(options.run, options)
     code: int = options.run(options)
     return code
+
+
+def _cleared() -> None:
+    """Clear the live lines, which go on in a thread of their own where a command was left by an error."""
+    from harness.terminal import SCREEN
+
+    SCREEN.show(None)
+
+
+def _told(line: str) -> None:
+    """Write what went wrong, with nothing behind it that was live. Raises OSError where it cannot be written."""
+    _cleared()
+    print(line, file=sys.stderr)
 
 
 def _is_full(error: Exception) -> TypeGuard[OSError]:

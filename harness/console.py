@@ -1,29 +1,29 @@
-"""Print what commands show: plain aligned tables, a line of progress, and warnings about rows."""
+"""Print what commands show: plain aligned tables, what goes on, and warnings about rows."""
 
 from __future__ import annotations
 
 import contextlib
-import shutil
 import sys
-import threading
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
+
+from harness.terminal import SCREEN, fitting, is_live, padded, painted, plain, size, width
 
 if TYPE_CHECKING:
     from harness.results.store import Row
 
-CLEAR = "\r\x1b[K"  # the line on a terminal
-LIVE_SECONDS = 0.2  # between two states of a live line
-FIRST_SECONDS, NEXT_SECONDS = 2.0, 10.0  # before the first plain line of what goes on, and between two
-WIDEST = 200  # characters of a live line on a terminal that does not say how wide it is
+Tell = Callable[[str], None]
+SHOWN_SECONDS = 2.0  # of a step, before its live line says how long it takes
+PRIOR = 0.3  # of the estimated seconds that the first cells must take before they change the estimate much
+UNFINISHED = ("failed", "timeout", "crashed")
 
 
 def table(header: Sequence[str], rows: Sequence[Sequence[object]]) -> str:
     """Return a table as text, in aligned columns two spaces apart."""
     cells = [[str(cell) for cell in row] for row in (header, *rows)]
-    widths = [max(map(len, column)) for column in zip(*cells, strict=True)]
-    return "\n".join("  ".join(c.ljust(w) for c, w in zip(row, widths, strict=True)).rstrip() for row in cells)
+    widths = [max(map(width, column)) for column in zip(*cells, strict=True)]
+    return "\n".join("  ".join(map(padded, row, widths)).rstrip() for row in cells)
 
 
 def duration(seconds: float) -> str:
@@ -33,67 +33,55 @@ def duration(seconds: float) -> str:
     return f"{hours}:{minutes:02}:{rest:02}" if hours else f"{minutes}:{rest:02}"
 
 
+class _Steps:
+    """Hold what goes on now, and since when."""
+
+    def __init__(self, what: str) -> None:
+        self.now, self._since = what, time.monotonic()
+
+    def tell(self, what: str) -> None:
+        """Say what goes on from now on; "" where something is to be printed."""
+        self.now, self._since = what, time.monotonic()
+        if not what:
+            SCREEN.show(self.lines)  # which clears the line at once
+
+    def lines(self) -> list[str]:
+        """Return the line that says it, with the seconds that it has taken so far."""
+        if not self.now:
+            return []
+        seconds = int(time.monotonic() - self._since)
+        took = f" ({seconds} s)" if seconds >= SHOWN_SECONDS and is_live(sys.stderr) else ""
+        return [f"firsthit: {self.now}{took}"]
+
+
 @contextlib.contextmanager
-def doing(what: str) -> Iterator[None]:
-    """Say what goes on while the block runs: a live line on a terminal, which is gone afterwards; a line elsewhere."""
-    live = sys.stderr.isatty()
-    _write(CLEAR + fitting(f"firsthit: {what}") if live else f"firsthit: {what}\n")
+def doing(what: str) -> Iterator[Tell]:
+    """Say what goes on while the block runs, at once; the block may tell more: `with doing("x") as tell: tell("y")`.
+
+    On a terminal it is one live line, which is gone afterwards; elsewhere it is a line now and then.
+    """
+    SCREEN.begin(f"firsthit: {what}")
+    with _showing(_Steps(what)) as tell:
+        yield tell
+
+
+@contextlib.contextmanager
+def working() -> Iterator[Tell]:
+    """Say what goes on while a block runs, as `doing` does, but for a block that may take no longer than a moment.
+
+    Nothing is said at once; `tell("")` clears the live line, before something is printed.
+    """
+    with _showing(_Steps("")) as tell:
+        yield tell
+
+
+@contextlib.contextmanager
+def _showing(steps: _Steps) -> Iterator[Tell]:
+    before = SCREEN.show(steps.lines)
     try:
-        yield
+        yield steps.tell
     finally:
-        if live:
-            _write(CLEAR)
-
-
-class Working:
-    """Say what goes on while a block runs that takes longer than a moment: `with Working() as tell: tell("step 1")`.
-
-    On a terminal it is one live line, which is gone afterwards; elsewhere it is a line now and then. Another thread
-    writes it, so that a step that hangs is named too. `tell("")` clears the live line, before something is printed.
-    """
-
-    def __init__(self) -> None:
-        self._live = sys.stderr.isatty()
-        self._now, self._ended, self._lock = "", threading.Event(), threading.Lock()
-        self._thread = threading.Thread(target=self._show, daemon=True)
-
-    def __enter__(self) -> Callable[[str], None]:
-        self._thread.start()
-        return self._tell
-
-    def __exit__(self, *_: object) -> None:
-        self._ended.set()
-        self._thread.join()
-        self._tell("")
-
-    def _tell(self, what: str) -> None:
-        with self._lock:
-            self._now = what
-            if self._live and not what:
-                _write(CLEAR)
-
-    def _show(self) -> None:
-        shown, pause = "", LIVE_SECONDS if self._live else FIRST_SECONDS
-        while not self._ended.wait(pause):
-            with self._lock:
-                if self._now and self._now != shown:
-                    shown = self._now
-                    _write(CLEAR + fitting(f"firsthit: {shown}") if self._live else f"firsthit: {shown}\n")
-                    pause = LIVE_SECONDS if self._live else NEXT_SECONDS
-
-
-def fitting(line: str, end: str = "") -> str:
-    """Shorten a line to what a terminal shows in one line; `end` always stands at its end.
-
-    A live line that is wider than the terminal could not be cleared.
-    """
-    room = shutil.get_terminal_size((WIDEST, 24)).columns - 1 - len(end)
-    return (line if len(line) <= room else f"{line[: max(room - 1, 0)]}…") + end
-
-
-def _write(text: str) -> None:
-    sys.stderr.write(text)
-    sys.stderr.flush()
+        SCREEN.show(before)
 
 
 def outcome(row: Row) -> str:
@@ -105,40 +93,87 @@ def outcome(row: Row) -> str:
 
 
 class Progress:
-    """Show how many cells are done, the current cell, and the time left.
+    """Show how many cells are done, the current cell of each device, and the time left.
 
-    On a terminal it is one line that is written again and again, and above it a line for each finished cell; elsewhere,
-    a line for each finished cell, which also tells the time.
+    On a terminal these are live lines, and above them stays a line for each finished cell; elsewhere, only that line,
+    which also tells the time. Skipped cells have a line on a verbose screen, since they are a plan's and not a run's.
     """
 
-    def __init__(self, total: int, estimate: float) -> None:
-        self._total, self._estimate = total, estimate
-        self._done = 0
+    def __init__(self, total: int, estimate: float, devices: Mapping[str, int]) -> None:
+        self._total, self._estimate, self._of = total, estimate, devices
+        self._done, self._done_on = 0, dict.fromkeys(devices, 0)
+        self._now = ""
         self._told: set[str] = set()  # what was said of cells so far; a reason is said once
         self._start = time.perf_counter()
-        self._live = sys.stderr.isatty()
+        self._shown = False
 
     def __call__(self, slot: str, row: Row | None) -> None:
         """Show that a cell is the current one, if `row` is None, or that it has ended with this row."""
-        elapsed = time.perf_counter() - self._start
         if row is None:
-            if self._live:
-                _write(CLEAR + fitting(f"{self._head(elapsed)} {slot}"))
+            self._now = slot
+            if not self._shown:
+                self._shown = True
+                SCREEN.show(self.lines)
             return
         self._done += 1
+        device = _device(slot)
+        self._done_on[device] = self._done_on.get(device, 0) + 1
+        if row["status"] != "skipped" or SCREEN.level == "verbose":
+            SCREEN.say(self._ended(slot, device, row))
+        if self._done >= self._total:
+            self.pause()
+
+    def pause(self) -> None:
+        """Clear the live lines, until the next cell."""
+        if self._shown:
+            self._shown = False
+            SCREEN.show(None)
+
+    def lines(self) -> list[str]:
+        """Return the live lines: the whole, and each device where there are several."""
+        head = self._head()
+        if len(self._of) < 2 or not is_live(sys.stderr):
+            return [f"{head} {self._now}"]
+        widest, current = max(map(width, self._of)), _device(self._now)
+        counts = {name: f"[{self._done_on[name]}/{of}]" for name, of in self._of.items()}
+        room = max(map(width, counts.values()))
+        lines = [f"  {padded(name, widest)} {padded(told, room)}" for name, told in counts.items()]
+        at = list(self._of).index(current) if current in self._of else None
+        if at is not None:
+            lines[at] += f" {self._now.removesuffix(current).rstrip()}"
+        return [head.rstrip(":"), *lines]
+
+    def _ended(self, slot: str, device: str, row: Row) -> str:
         told = outcome(row)
         if row["reason"] and told in self._told:
             told = f"{row['status']}, as above"
         self._told.add(told)
-        if self._live:  # the live line tells the time
-            line = f"[{self._done}/{self._total}] {slot}"
-            _write(f"{CLEAR}{line}: {told}\n" if row["reason"] else f"{CLEAR}{fitting(line, f': {told}')}\n")
-        else:
-            _write(f"{self._head(elapsed)} {slot}: {told}\n")
+        if not is_live(sys.stderr):
+            line = f"{self._head()} {slot}: {told}"
+        else:  # the live line tells the time
+            cell = f"[{self._done}/{self._total}] {slot.removesuffix(device).rstrip()}"
+            line = fitting(plain(cell), size(sys.stderr)[0] - 1, plain(f" {device}: {told}"))
+        return painted(line, "red") if row["status"] in UNFINISHED else line
 
-    def _head(self, elapsed: float) -> str:
-        left = elapsed / self._done * (self._total - self._done) if self._done else self._estimate
+    def _head(self) -> str:
+        elapsed = time.perf_counter() - self._start
+        left = _left(elapsed, self._estimate, self._done / self._total if self._total else 1.0)
         return f"[{self._done}/{self._total}] {duration(elapsed)}, about {duration(left)} left:"
+
+
+def _device(slot: str) -> str:
+    """Return the name of the device in a cell's slot, which ends with it."""
+    return slot.rpartition(" ")[2]
+
+
+def _left(elapsed: float, estimate: float, done: float) -> float:
+    """Estimate the seconds left after a share of the cells is done: by the estimate first, by what they took later.
+
+    Cells that are compared end together, so that the first of them comes late, and says little of the others.
+    """
+    if estimate <= 0.0:
+        return elapsed * (1.0 - done) / done if done else 0.0
+    return estimate * (1.0 - done) * (PRIOR * estimate + elapsed) / (PRIOR * estimate + done * estimate)
 
 
 def warnings(rows: Sequence[Row]) -> list[str]:

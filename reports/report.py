@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import pandas as pd
@@ -12,14 +12,14 @@ from harness.results.writing import replacing_together
 from reports import first_page, parts
 from reports.analysis import breaks, derive
 from reports.content import Document
-from reports.drawing import style
+from reports.drawing import charts, style
 from reports.for_papers import files
 from reports.material import Material
 from reports.place import checked, place
 from reports.reading import export, load
 from reports.reading.arrays import Shelf
 from reports.reading.run import Run
-from reports.rendering import document, html
+from reports.rendering import bundle, document, html
 
 
 def build(
@@ -31,6 +31,7 @@ def build(
     appendix: bool = False,
     figures: Sequence[str] = (),
     tables: Sequence[str] = (),
+    tell: Callable[[str], None] = lambda _: None,
 ) -> Path:
     """Write report.pdf, report.html, results.csv and results.parquet into the folder `output`; return the PDF's path.
 
@@ -38,6 +39,7 @@ def build(
     rays also gets stability.csv, with a line for each rung. No older file is replaced before all new ones are complete.
     Speed-ups are over `baseline`, and the report is about `focus`, each a method or variant of the run; None takes the
     one that the run's config names. With `appendix` the PDF ends with the tables that only the HTML page has else.
+    `tell` hears what goes on, in a few words.
 
     With `figures`, forms of for_papers.files.FIGURES, each figure is a file of its own in the folder `figures`, one
     column of a paper wide, and with `tables`, forms of TABLES there, each table in the folder `tables`. Both folders
@@ -48,13 +50,18 @@ def build(
     """
     folder = checked(place(run) if output is None else output)
     loaded = load.load(run)
+    tell(f"deriving figures of {len(loaded.frame):,} rows")
     frame = derive.derive(load.over(loaded.frame, baseline), loaded.plan.peaks)
     rungs = breaks.derive(loaded.families, loaded.rungs)
     material = Material(loaded, frame, rungs, Shelf(loaded.folders), load.focus_of(loaded, focus))
-    content = document_of(material)
+    content = document_of(material, tell)
     with replacing_together(folder, "the report") as made:
+        tell("typesetting the PDF")
         document.write_pdf(content, made / "pdf", made / "report.pdf", loaded.plan.created, appendix)
-        html.write_html(content, style.marks([*frame["method"], *loaded.families["method"]]), made / "report.html")
+        tell("writing the page")
+        marks = style.marks([*frame["method"], *loaded.families["method"]])
+        html.write_html(content, marks, made / "report.html", _labels(loaded), bundle.library())
+        tell("writing the tables")
         export.write(frame, made / "results.csv", made / "results.parquet")
         if not rungs.empty:
             rungs.to_csv(made / "stability.csv", index=False)
@@ -87,11 +94,18 @@ def report(run: Run, frame: pd.DataFrame, rungs: pd.DataFrame, focus: str = "") 
     return document_of(Material(run, frame, rungs, Shelf(run.folders), focus))
 
 
-def document_of(material: Material) -> Document:
-    """Make the whole report of what `material` holds."""
+def document_of(material: Material, tell: Callable[[str], None] = lambda _: None) -> Document:
+    """Make the whole report of what `material` holds; `tell` hears of each part before it is drawn."""
     plan = material.run.plan
-    sections = tuple(parts.sections(material))
-    return Document(plan.title or plan.name, _subtitle(material.run), first_page.section(material), sections)
+    sections = tuple(parts.sections(material, tell))
+    title, first = plan.title or plan.name, first_page.section(material)
+    return Document(title, _subtitle(material.run), first, sections, charts.explorer(material.listed))
+
+
+def _labels(run: Run) -> dict[str, str]:
+    """Return the written name of each method."""
+    named = pd.concat([of[["method", "method_label"]] for of in (run.frame, run.families)])
+    return dict(named.drop_duplicates().itertuples(index=False, name=None))
 
 
 def _subtitle(run: Run) -> str:

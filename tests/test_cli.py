@@ -14,7 +14,7 @@ from .conftest import usable_devices
 pytestmark = pytest.mark.usefixtures("devices_found_once")
 
 COMMANDS = ("devices", "list", "plan", "run", "why", "report", "show", "sheet", "trace", "oracle", "compile")
-COMMANDS += ("gate", "bless", "history", "recommend", "kernel")
+COMMANDS += ("gate", "bless", "history", "recommend", "kernel", "publish")
 
 
 @pytest.fixture
@@ -43,6 +43,7 @@ def test_every_command_explains_itself_with_an_example(command, capsys):
 LEAST = {  # what a command cannot be parsed without
     "list": ["methods"],
     "report": ["runs/quick"],
+    "publish": ["runs/quick", "-o", "x"],
     "show": ["--surface", "torus", "--method", "newton", "-o", "x.png"],
     "sheet": ["--method", "newton", "-o", "x.png"],
     "trace": ["--surface", "torus", "--method", "newton", "--rays", "r.npy", "-o", "x.npz"],
@@ -277,7 +278,7 @@ def test_lists_name_what_is_there(capsys, what):
     assert expected.get(what, usable_devices()[0].name) in out
 
 
-@pytest.mark.parametrize("config", ["configs/quick.toml", "quick"])
+@pytest.mark.parametrize("config", ["configs/speed.toml", "speed"])
 def test_plan_prints_cells_and_an_estimate_and_runs_nothing(tmp_path, capsys, config):
     code, out, _ = told(capsys, "plan", config, "--runs", tmp_path)
     assert code == 0

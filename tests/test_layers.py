@@ -46,12 +46,12 @@ REPORTS = (
     ("reports.content", "reports.labels"),
     ("reports.reading",),
     ("reports.analysis",),
-    ("reports.drawing",),
+    ("reports.drawing", "reports.sentences"),
     ("reports.claims",),
     ("reports.material",),
     ("reports.parts", "reports.rendering"),
     ("reports.first_page", "reports.for_papers"),
-    ("reports.report", "reports.compare", "reports.history", "reports.recommended"),
+    ("reports.report", "reports.compare", "reports.history", "reports.recommended", "reports.site"),
 )
 OTHERS = {  # rooms beside the tower, and all that they may import of ours
     "methods": ("firsthit", "harness.contract", "harness.kernels", "harness.scenes.meshes", "surfaces"),

@@ -12,6 +12,8 @@ import argparse
 from pathlib import Path
 from typing import Protocol
 
+QUIET = "write errors and final results only"
+VERBOSE = "write every cell and check, also those that were skipped or reused, and what compilers say"
 PLUGINS = "a folder of further methods, one folder each, or the folder of one; stands before or after the command"
 
 GROUPS: dict[str, dict[str, str]] = {
@@ -20,6 +22,9 @@ GROUPS: dict[str, dict[str, str]] = {
         "run": "run a config; finished cells are reused",
         "why": "say what would make a cell run again, or what set it apart from its last result",
         "report": "make the PDF, HTML, CSV and Parquet of a run, or hold two runs against each other; runs nothing",
+    },
+    "publish": {
+        "publish": "make a static site from many runs: who wins where, with pictures and the data; runs nothing"
     },
     "gate": {
         "gate": "fail where a config's results are worse than its blessed baseline",
@@ -71,6 +76,9 @@ def adder(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> Add:
         parser = commands.add_parser(name, help=text, description=description or text, epilog=epilog)
         # Without a default of its own: it is given here, or before the command, or not at all; the last one counts.
         parser.add_argument("--plugins", type=Path, metavar="DIR", default=argparse.SUPPRESS, help=PLUGINS)
+        tells = parser.add_mutually_exclusive_group()
+        tells.add_argument("-q", "--quiet", action="store_true", help=QUIET)
+        tells.add_argument("-v", "--verbose", action="store_true", help=VERBOSE)
         return parser
 
     return add

@@ -34,7 +34,6 @@ def add_parsers(add: Add) -> None:
     )
     parser.add_argument("--device", action="append", metavar="NAME", help="may be repeated (default: every usable one)")
     add_timeout(parser)
-    parser.add_argument("--verbose", action="store_true", help="print every check, also those that hold")
     parser.set_defaults(run=_conform)
 
 
@@ -51,7 +50,7 @@ def _conform(options: argparse.Namespace) -> int:
     rows: list[tuple[str, str, Finding]] = []
     ended: list[Failure] = []
     try:
-        with console.Working() as tell:
+        with console.working() as tell:
             for plugin, info in itertools.product(plugins, devices):
                 bench = conformance.bench_on(executor, info)
                 found = []

@@ -112,7 +112,8 @@ def _planned(part: config.Experiment, loaded: Loaded, runs: Path) -> experiments
     """Say which cells a config has, and which have a row below `runs`; on standard error what domains leave out."""
     for told in remarks(part):
         tell(f"firsthit: {told}")
-    planned = plan.plan(part, loaded.catalog, loaded.devices)
+    with console.doing(f"{part.path}: preparing cells") as tell_step:
+        planned = plan.plan(part, loaded.catalog, loaded.devices, tell=tell_step)
     store = Store(runs / part.name)
     found = due(planned, store)
     seconds = estimates(found.todo, store, part.config.budget.seconds)
@@ -188,10 +189,13 @@ def _report(options: argparse.Namespace) -> int:
             for name in ("baseline", "focus", "appendix", "figures", "tables"):
                 if getattr(options, name):
                     raise FirsthitError(f"--{name} goes with one run: of two, each cell is held against itself")
-            print(compare.build(options.folder, options.other, options.output))
+            with console.doing(f"comparing {options.folder} and {options.other}"):
+                made = compare.build(options.folder, options.other, options.output)
         else:
             names = ("baseline", "focus", "appendix", "figures", "tables")
-            made = report.build(options.folder, options.output, **{name: getattr(options, name) for name in names})
+            about = {name: getattr(options, name) for name in names}
+            with console.doing(f"reading {options.folder}") as tell_step:
+                made = report.build(options.folder, options.output, **about, tell=tell_step)
             print(made, *(made.with_name(name) for name in ("figures", "tables") if getattr(options, name)), sep="\n")
     except ModuleNotFoundError as error:
         message = (

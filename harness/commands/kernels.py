@@ -35,7 +35,7 @@ def _compile(options: argparse.Namespace) -> int:
     chosen = [named_surface(name) for name in options.surface or (TYPICAL if options.formula is None else ())]
     chosen += [] if options.formula is None else [surfaces.from_formula(options.formula, options.domain)]
     usable = usable_devices(options.device or ())
-    with console.Working() as tell:
+    with console.working() as tell:
         done = compile_all(plugins, chosen, usable, tell, options.timeout)
     broken = [] if options.method else list(catalog.broken)
     for paragraph in mistakes(done.failed, "programs"):

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import TypeVar
@@ -12,6 +11,7 @@ from harness.contract import ORIGINS, PRECISIONS, FirsthitError, Surface, Varian
 from harness.limits import TIMEOUT, Limit
 from harness.plugins import Catalog, find_methods
 from harness.running.trace import Caster, usable_device
+from harness.terminal import SCREEN
 
 N = TypeVar("N", int, float)
 SURFACE_OPTIONS = ("surface", "formula", "domain", "distance")  # of add_surface, but for the parameters
@@ -198,8 +198,8 @@ def history_of(options: argparse.Namespace, config: Path) -> Path:
 
 
 def tell(line: str) -> None:
-    """Print a line that is not a result, on standard error."""
-    print(line, file=sys.stderr)
+    """Write a line that is not a result, on standard error; a quiet screen leaves it out."""
+    SCREEN.say(line)
 
 
 def writable_png(path: Path) -> Path:

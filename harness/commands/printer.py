@@ -2,42 +2,55 @@
 
 from __future__ import annotations
 
-import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import AbstractContextManager
 
 from harness import console
 from harness.results.store import Row
 from harness.running.failures import failure_of, mistakes
 from harness.running.run import Run, Watcher
+from harness.terminal import SCREEN
 
 
 class Printer(Watcher):
     """Prints what a run does: progress and warnings on standard error, results on standard output."""
 
     def __init__(self) -> None:
-        self._progress = console.Progress(0, 0.0)
+        self._progress = console.Progress(0, 0.0, {})
+        if SCREEN.level == "verbose":
+            self.hears_builds = lambda slot, message: SCREEN.say(f"{slot}: {message}")
 
-    def doing(self, what: str) -> AbstractContextManager[None]:
+    def doing(self, what: str) -> AbstractContextManager[console.Tell]:
         return console.doing(what)
 
     def told(self, line: str) -> None:
-        print(line)
+        self._progress.pause()
+        if SCREEN.level != "quiet":
+            print(line)
 
     def warned(self, line: str) -> None:
-        print(f"firsthit: {line}", file=sys.stderr)
+        SCREEN.say(f"firsthit: {line}")
 
-    def starts(self, cells: int, seconds: float) -> None:
-        self._progress = console.Progress(cells, seconds)
+    def wrong(self, line: str) -> None:
+        SCREEN.say(f"firsthit: {line}", error=True)
+
+    def starts(self, cells: int, seconds: float, devices: Mapping[str, int]) -> None:
+        self._progress.pause()
+        self._progress = console.Progress(cells, seconds, devices)
 
     def cell(self, slot: str, row: Row | None) -> None:
         self._progress(slot, row)
 
     def failed(self, rows: Sequence[Row]) -> None:
+        self._progress.pause()
         for paragraph in mistakes(map(failure_of, rows), "cells"):
-            print(paragraph, file=sys.stderr)
+            SCREEN.say(paragraph, error=True)
 
     def ended(self, part: Run) -> None:
+        self._progress.pause()
+        if SCREEN.level == "verbose":
+            for row in part.reused:
+                SCREEN.say(f"reused: {row['slot']}: {console.outcome(row)}")
         told = ", ".join(f"{count} {status}" for status, count in part.counts.items() if count)
         if told:
             print(f"{part.folder}: {len(part.rows)} cells run, {len(part.reused)} reused; {told}")

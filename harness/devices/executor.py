@@ -86,6 +86,14 @@ class LocalExecutor:
         compile_ms: float = self._call(device, "build", program)
         return compile_ms
 
+    def builds(self, device: str) -> list[str]:
+        """Return a line for each program that a device has built since this was last asked, with its compiler's words.
+
+        Returns [] where no worker holds the device.
+        """
+        found: list[str] = self._call(device, "builds") if device in self._processes else []
+        return found
+
     def check(self, device: str, check: Check[Answer]) -> Checked[Answer]:
         """Build a check's programs and run it. Raises CellError if that fails, or if two runs answer differently."""
         checked: Checked[Answer] = self._call(device, "check", check)

@@ -109,6 +109,11 @@ class Device(ABC):
     def build(self, program: Program) -> Built:
         """Compile a program, for launches of this device only. Raises BuildError if the driver's compiler refuses."""
 
+    def said(self, built: Built) -> str:
+        """Return what the compiler said of a program that it built; "" where the binding does not tell."""
+        del built
+        return ""
+
     @abstractmethod
     def launch_steps(
         self, buffers: Sequence[Array | Reserved], outputs: Sequence[int], steps: Sequence[Step]

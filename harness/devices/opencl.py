@@ -184,6 +184,11 @@ class OpenCLDevice(Device):
         except cl.Error as error:
             raise BuildError(explained(program, str(error))) from None
 
+    def said(self, built: Built) -> str:
+        source, _ = built
+        told: str = source.get_build_info(self._context.devices[0], _binding().program_build_info.LOG)
+        return told
+
     def launch_steps(
         self, buffers: Sequence[Array | Reserved], outputs: Sequence[int], steps: Sequence[Step]
     ) -> Launch:

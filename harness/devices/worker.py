@@ -37,6 +37,7 @@ class Worker:
     def __init__(self, name: str) -> None:
         self._name = name
         self._frames: dict[str, Launch] = {}
+        self._builds: list[str] = []
         self._built: OrderedDict[str, tuple[Built, float]] = OrderedDict()  # by hash; the first was used longest ago
 
     @cached_property
@@ -63,6 +64,11 @@ class Worker:
         """Compile a program; return the milliseconds that it took, with what the driver leaves to the first launch."""
         return self._build(program)[1]
 
+    def builds(self) -> list[str]:
+        """Return a line for each program that was built since this was last asked."""
+        told, self._builds = self._builds, []
+        return told
+
     def _build(self, program: Program) -> tuple[Built, float]:
         """Return the built program, and the milliseconds that compiling took, now or when this worker first did it."""
         if program.hash not in self._built:
@@ -73,6 +79,10 @@ class Worker:
                 trial = trial_launch(self._device, program, built)
                 compile_ms += trial.run().wall_ms
                 trial.release()
+            said = " ".join(self._device.said(built).split())
+            self._builds.append(
+                f"built {program.entry} in {compile_ms / 1e3:.2f} s; {said or 'the compiler says nothing'}"
+            )
             self._built[program.hash] = built, compile_ms
             if len(self._built) > KEPT_PROGRAMS:
                 self._built.popitem(last=False)

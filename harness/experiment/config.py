@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from math import inf
 from pathlib import Path
 from typing import Annotated
@@ -35,6 +35,7 @@ GONE: dict[tuple[str | int, ...], str] = {
 
 
 BESIDE_INCLUDE = ("title", "include", "focus")  # all that a config may hold that includes others
+FASTEST = "fastest"  # stands for a device, until harness.running.fastest has found which
 DRAWN = ("surfaces", "scene", "families")  # each of them needs methods
 ASKED = (*DRAWN, "studies")  # of which a config names one at least
 
@@ -85,7 +86,7 @@ def _surfaces_and_groups() -> Iterable[str]:
 
 
 def _devices() -> Iterable[str]:
-    return ["all", "any"]
+    return ["all", "any", FASTEST]
 
 
 def _paths(names: list[str]) -> list[Path]:
@@ -109,6 +110,7 @@ class MethodChoice:
     parameters: values of its knobs, by the knobs' names
     settings: the papers' own settings, by the names that the method gives them
     stages: of this method, if they are not the experiment's
+    devices: that this method runs on, if they are not the experiment's
     deviations: add the default, and each knob that we changed at the value that the method's source prints
     """
 
@@ -116,6 +118,7 @@ class MethodChoice:
     parameters: dict[str, list[float]] = field(default_factory=dict)
     settings: list[str] = field(default_factory=list)
     stages: Annotated[list[Stage], Distinct()] = field(default_factory=list)
+    devices: Annotated[list[str], Offered(_devices), Distinct()] = field(default_factory=list)
     deviations: bool = False
 
 
@@ -243,7 +246,8 @@ class Config:
     prepass: beams: beams of tiles narrow the rays to where they cannot exclude the surface
     origins: of rays; beams have none
     proxies, tolerances, normals: of stage raster
-    devices: names of `firsthit devices`, "all", or "any" for the first that works
+    devices: names of `firsthit devices`, "all", "any" for the first that works, or "fastest" for the one with the
+        highest measured peak rate, a GPU if one is here
     seed: of the order in which cells are timed
     accuracy: how answers are checked
     budget: what one cell may cost
@@ -286,6 +290,9 @@ class Experiment:
     """Hold a config with every name in it resolved. One that includes others has nothing but `included`.
 
     own_stages: the stages of variants whose stages are not `stages`
+    own_devices: the devices, by the words of the config, of variants whose devices are not the config's
+    peaks: in Gflop/s, by the names of the devices that "fastest" was chosen from, the chosen one first; empty where the
+        config does not say fastest
     left_out: a sentence for each thing that a surface's file has and that is not carried over
     """
 
@@ -304,8 +311,25 @@ class Experiment:
     normals: tuple[Normal, ...] = ("distance",)
     scenes: tuple[Scene, ...] = ()
     own_stages: Mapping[Variant, tuple[Stage, ...]] = field(default_factory=dict)
+    own_devices: Mapping[Variant, tuple[str, ...]] = field(default_factory=dict)
+    peaks: Mapping[str, float] = field(default_factory=dict)
     left_out: tuple[str, ...] = ()
 
     def stages_of(self, variant: Variant) -> tuple[Stage, ...]:
         """Return the stages that a variant is cast in."""
         return self.own_stages.get(variant, self.stages)
+
+    def devices_of(self, variant: Variant) -> tuple[str, ...]:
+        """Return the devices that a variant is cast on, by the words of the config."""
+        return self.own_devices.get(variant, tuple(self.config.devices))
+
+    def wanted_devices(self) -> list[str]:
+        """List every word by which the config names devices that its cells run on."""
+        own = (name for variant in self.variants for name in self.devices_of(variant))
+        return list(dict.fromkeys(own)) if self.variants else self.config.devices
+
+    def on(self, devices: Sequence[str]) -> Experiment:
+        """Return the same experiment with all methods on `devices`; the config's own where these are none."""
+        if not devices:
+            return self
+        return replace(self, config=replace(self.config, devices=list(devices)), own_devices={})

@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import itertools
 import random
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -28,7 +28,7 @@ from harness.experiment.cells import Cell, FamilyCell
 from harness.experiment.config import Config, Experiment
 from harness.experiment.kinds import Asked, Casting
 from harness.experiment.kinds.model import NOT_RASTERED, Rastering
-from harness.experiment.targets import devices_of
+from harness.experiment.targets import choose_devices, devices_of
 from harness.hardcases import groups
 from harness.plugins import Catalog
 from harness.scenes.model import Scene
@@ -125,12 +125,24 @@ def _planned(cell: Cell, info: DeviceInfo | None, catalog: Catalog, experiment: 
     return dataclasses.replace(planned, key=digest(cell.slot, identity), identity=identity)
 
 
-def plan(experiment: Experiment, catalog: Catalog, found: list[DeviceInfo], timed: bool = True) -> list[Planned]:
+def plan(
+    experiment: Experiment,
+    catalog: Catalog,
+    found: list[DeviceInfo],
+    timed: bool = True,
+    tell: Callable[[str], None] = lambda _: None,
+) -> list[Planned]:
     """Plan every cell of the grid, comparison by comparison; families last. Untimed cells are only checked.
 
-    Raises FirsthitError where none of the devices that the config names is among those `found`.
+    `tell` hears of each cell before its programs are made, since a surface's tables may take seconds. Raises
+    FirsthitError where none of the devices that the config names is among those `found`.
     """
-    return [_planned(cell, info, catalog, experiment, timed) for cell, info in grid(experiment, catalog, found)]
+    cells, planned = grid(experiment, catalog, found), []
+    for number, (cell, info) in enumerate(cells, 1):
+        where = cell.comparison.partition(" ")[0] if cell.family is None else cell.comparison
+        tell(f"preparing [{number}/{len(cells)}] {cell.variant.method} on {where}, {cell.device}")
+        planned.append(_planned(cell, info, catalog, experiment, timed))
+    return planned
 
 
 def grid(experiment: Experiment, catalog: Catalog, found: list[DeviceInfo]) -> list[tuple[Cell, DeviceInfo | None]]:
@@ -139,7 +151,7 @@ def grid(experiment: Experiment, catalog: Catalog, found: list[DeviceInfo]) -> l
     Raises FirsthitError as `plan` does.
     """
     devices = devices_of(experiment, found, kinds.only_rasters(experiment))
-    casters = list(_casters(experiment, catalog, list(devices)))
+    casters = list(_casters(experiment, catalog, found))
     cells = itertools.chain(
         _views_of_surfaces(experiment, catalog, casters),
         _scenes(experiment, catalog, casters),
@@ -159,9 +171,11 @@ class _Caster:
     precision: Precision
 
 
-def _casters(experiment: Experiment, catalog: Catalog, devices: list[str]) -> Iterator[_Caster]:
+def _casters(experiment: Experiment, catalog: Catalog, found: list[DeviceInfo]) -> Iterator[_Caster]:
+    rasterises = kinds.only_rasters(experiment)
     for variant, before in itertools.product(experiment.variants, experiment.prepasses):
         origins = kinds.of_method(catalog.get(variant.method).method).origins(experiment)
+        devices = choose_devices(list(experiment.devices_of(variant)), found, rasterises)
         for origin, device, precision in itertools.product(origins, devices, experiment.precisions):
             yield _Caster(variant, before, origin, device, precision)
 

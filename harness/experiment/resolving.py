@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
-from harness.contract import FirsthitError, Stage, Surface, Variant, View
+from harness.contract import FirsthitError, Surface, Variant, View
 from harness.experiment.config import ASKED, BESIDE_INCLUDE, DRAWN, Config, Experiment, MethodChoice, SurfaceChoice
 from harness.experiment.toml_file import ConfigFile, Where, gathered
 from harness.limits import Distinct, Known
@@ -29,7 +29,7 @@ def resolve(config: Config, file: ConfigFile, catalog: Catalog) -> Experiment:
         lambda: _surfaces(config, file, told),
         lambda: _scenes(config, file, catalog, told),
     ]
-    (variants, own_stages), chosen, scenes = gathered(parts, lambda part: part())
+    (variants, own), chosen, scenes = gathered(parts, lambda part: part())
     _check_named(config, file, catalog, variants)
     return Experiment(
         file.path.stem,
@@ -45,7 +45,8 @@ def resolve(config: Config, file: ConfigFile, catalog: Catalog) -> Experiment:
         proxies=tuple(config.proxies),
         normals=tuple(config.normals),
         scenes=tuple(scenes),
-        own_stages=own_stages,
+        own_stages={variant: tuple(choice.stages) for variant, choice in own.items() if choice.stages},
+        own_devices={variant: tuple(choice.devices) for variant, choice in own.items() if choice.devices},
         left_out=tuple(dict.fromkeys(told)),
     )
 
@@ -90,12 +91,10 @@ def _check_that_something_is_asked(config: Config, file: ConfigFile) -> None:
         raise file.error((), "the top level lacks 'method'")
 
 
-def _variants(
-    config: Config, file: ConfigFile, catalog: Catalog
-) -> tuple[list[Variant], dict[Variant, tuple[Stage, ...]]]:
+def _variants(config: Config, file: ConfigFile, catalog: Catalog) -> tuple[list[Variant], dict[Variant, MethodChoice]]:
     """Bind every method's knobs.
 
-    Returns all variants, and the stages of those that have their own. Raises FirsthitError for an unknown method or
+    Returns all variants, and what the config says of each one's method. Raises FirsthitError for an unknown method or
     knob, and where a variant is named twice.
     """
 
@@ -107,14 +106,10 @@ def _variants(
 
     chosen = gathered(enumerate(config.method), of)
     variants = [variant for own in chosen for variant in own]
-    own_stages: dict[Variant, tuple[Stage, ...]] = {}
-    for choice, own in zip(config.method, chosen, strict=True):
-        if choice.stages:
-            own_stages |= dict.fromkeys(own, tuple(choice.stages))
     bound = [(variant.method, variant.parameters) for variant in variants]
     if twice := [variant for variant, key in zip(variants, bound, strict=True) if bound.count(key) > 1]:
         raise file.error(("method",), f"{twice[0]} is named twice")
-    return variants, own_stages
+    return variants, {v: choice for choice, own in zip(config.method, chosen, strict=True) for v in own}
 
 
 def _variants_of(choice: MethodChoice, catalog: Catalog, beside: Path) -> list[Variant]:

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from harness.contract import DeviceInfo, FirsthitError
 from harness.devices.interface import RASTERISES, no_device
-from harness.experiment.config import Experiment
+from harness.experiment.config import FASTEST, Experiment
+
+AS_FAST = 0.9  # share of the highest peak from which on a device counts as fast: two probes of a device differ by more
 
 
 def choose_devices(
@@ -13,18 +17,19 @@ def choose_devices(
     """Return the devices to run on by name; None for a named one that is not here.
 
     `any` is the first one that works and, with `rasterises`, draws triangles. `all` leaves out a broken double of a
-    working device (one driver that is installed twice).
+    working device (one driver that is installed twice). Raises ValueError for `fastest`, which is no choice before
+    peaks are measured: harness.running.fastest puts a name in its place.
     """
     by_name = {info.name: info for info in found}
     chosen: dict[str, DeviceInfo | None] = {}
     working = {info.name.split("-")[0] for info in found if not info.problem}
     for name in wanted:
+        if name == FASTEST:
+            raise ValueError("the fastest device must be found before cells are planned")
         if name == "all":
             chosen |= {i.name: i for i in found if not i.problem or i.name.split("-")[0] not in working}
         elif name == "any":
-            chosen |= dict(
-                [(info.name, info) for info in found if not info.problem and (able(info) or not rasterises)][:1]
-            )
+            chosen |= {info.name: info for info in usable(found, rasterises)[:1]}
         else:
             chosen[name] = by_name.get(name)
     return chosen
@@ -35,15 +40,42 @@ def able(info: DeviceInfo) -> bool:
     return info.name.partition(":")[0] in RASTERISES
 
 
+def usable(found: list[DeviceInfo], rasterises: bool) -> list[DeviceInfo]:
+    """List the devices that work and, with `rasterises`, draw triangles."""
+    return [info for info in found if not info.problem and (able(info) or not rasterises)]
+
+
+def ranked(measured: Mapping[DeviceInfo, float]) -> list[DeviceInfo]:
+    """Sort devices by their peaks, with the one that is `fastest` first; `measured` is in the order of finding.
+
+    A GPU comes before a device that is none. Of devices whose peaks are within AS_FAST of the highest the first that
+    was found is the fastest, so that noise does not choose between two drivers of one GPU.
+    """
+    falling = sorted(measured, key=lambda info: (info.resident is None, -measured[info]))
+    highest = falling[:1]
+    alike = [
+        info
+        for info in measured
+        for best in highest
+        if (info.resident is None) == (best.resident is None) and measured[info] >= AS_FAST * measured[best]
+    ]
+    return list(dict.fromkeys((*alike[:1], *falling)))
+
+
 def devices_of(experiment: Experiment, found: list[DeviceInfo], rasterises: bool) -> dict[str, DeviceInfo | None]:
     """Return the devices that a config's cells run on; with `rasterises`, `any` is one that draws triangles.
 
     Raises FirsthitError if none of the devices that the config names is among those `found`.
     """
-    wanted = experiment.config.devices
+    wanted = experiment.wanted_devices()
     chosen = choose_devices(wanted, found, rasterises)
     if not any(chosen.values()):
         if not set(wanted) <= {"all", "any"}:
             raise no_device(", ".join(wanted), (info.name for info in found))
-        raise FirsthitError("no usable device found on this machine; see `firsthit devices`", exit_code=3)
+        raise none_usable()
     return chosen
+
+
+def none_usable() -> FirsthitError:
+    """Return the error for a machine that has no device that works."""
+    return FirsthitError("no usable device found on this machine; see `firsthit devices`", exit_code=3)

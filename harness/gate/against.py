@@ -34,6 +34,7 @@ from harness.results.figures import SPEED, figures
 from harness.results.store import Row, Store
 from harness.running.due import due
 from harness.running.environment import describe, probed
+from harness.running.fastest import settled
 from harness.running.run import Watcher
 from harness.running.runner import Runner
 
@@ -134,13 +135,16 @@ def at(name: str, config: Path, plugins: Path | None, devices: Sequence[str], wa
     there = revision.found(name, plugins)
     catalog = find_methods(plugins)
     experiment = reading.load(config, catalog)
-    chosen = replace(experiment.config, devices=list(devices) or experiment.config.devices)
-    cells = plan.grid(replace(experiment, config=chosen), catalog, discover_devices(chosen.devices))
+    experiment = experiment.on(devices)
+    found = discover_devices(experiment.wanted_devices())
+    (experiment,) = settled([experiment], found, watcher).parts
+    cells = plan.grid(experiment, catalog, found)
     here = dict.fromkeys(info.name for _, info in cells if info)
     if not here:
         raise FirsthitError(f"--against: {config} has no cell on a device that is here", exit_code=3)
     with watcher.doing(f"making the programs of {name}"):
-        return Other(there, revision.programs_at(there, config, list(here)))
+        own = {str(variant): names for variant, names in experiment.own_devices.items()}
+        return Other(there, revision.programs_at(there, config, experiment.config.devices if own else list(here), own))
 
 
 def compare(checked: Checked, other: Other, only: Only, watcher: Watcher, force: bool = False) -> Compared:
@@ -244,10 +248,12 @@ def _run(
     planned = [pair.then for pair in pairs if pair.then]
     found = due(planned, store, "everything" if force else "unfinished")
     if found.todo:
-        watcher.starts(len(found.todo), 1.0 * len(found.todo))
+        watcher.starts(len(found.todo), 1.0 * len(found.todo), Counter(p.cell.device for p in found.todo))
     environment = describe() | {"commit": there.commit[:12], "dirty": False}
     config = checked.experiment.config
-    rows = Runner(config, checked.catalog, store, executor, environment, watcher.cell).run(found.todo)
+    rows = Runner(config, checked.catalog, store, executor, environment, watcher.cell, watcher.hears_builds).run(
+        found.todo
+    )
     by_key = found.kept | {row["key"]: row for row in rows}
     for pair in pairs:
         if pair.then:

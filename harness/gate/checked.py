@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Sequence
+from contextlib import nullcontext
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
@@ -12,7 +13,7 @@ from harness.contract import FirsthitError
 from harness.devices.discovery import discover_devices
 from harness.devices.executor import LocalExecutor
 from harness.experiment import plan, reading
-from harness.experiment.config import Experiment
+from harness.experiment.config import FASTEST, Experiment
 from harness.experiment.plan import Planned
 from harness.gate.baseline import Baseline
 from harness.gate.chosen import Only
@@ -24,8 +25,9 @@ from harness.plugins import Catalog, find_methods
 from harness.results.store import Row
 from harness.running import batch
 from harness.running.due import UNFINISHED
-from harness.running.environment import describe, fingerprinted
+from harness.running.environment import describe, fingerprinted, kept_fingerprint
 from harness.running.failures import first_line
+from harness.running.fastest import settled
 from harness.running.run import Watcher
 
 
@@ -66,7 +68,11 @@ class Prepared:
         executor = LocalExecutor(self.experiment.config.budget.timeout)
         usable = {p.device.name: p.device for p in self.planned if p.device and not p.device.problem}
         try:
-            arithmetic = {name: fingerprinted(executor, info, folder / "probes") for name, info in usable.items()}
+            arithmetic = {}
+            for name, info in usable.items():
+                kept = kept_fingerprint(info, folder / "probes")[0]
+                with nullcontext() if kept else watcher.doing(f"taking the fingerprint of {name}'s arithmetic"):
+                    arithmetic[name] = fingerprinted(executor, info, folder / "probes")
             rows, earlier = batch.rows_of(self.planned, self.experiment, self.catalog, folder, executor, watcher, force)
         finally:
             executor.close()
@@ -131,13 +137,14 @@ def prepare(config: Path, plugins: Path | None, devices: Sequence[str], watcher:
     catalog = find_methods(plugins)
     experiment = reading.load(config, catalog)
     for line in catalog.warnings:
-        watcher.warned(line)
-    if devices:
-        chosen = dataclasses.replace(experiment.config, devices=list(devices))
-        experiment = dataclasses.replace(experiment, config=chosen)
-    found, wanted = discover_devices(experiment.config.devices), experiment.config.devices
-    if not {"all", "any", *(info.name for info in found)} & set(wanted):
-        here = ", ".join(f"--device {name}" for name in others(set(wanted))) or "no device here can be used"
-        raise FirsthitError(f"there is no device {', '.join(wanted)} here; name one that is: {here}", exit_code=3)
-    planned = plan.plan(experiment, catalog, found, timed=False)
+        watcher.wrong(line)
+    experiment = experiment.on(devices)
+    wanted = experiment.wanted_devices()
+    with watcher.doing(f"{config}: looking for devices and preparing cells") as tell:
+        found = discover_devices(wanted)
+        if not {"all", "any", FASTEST, *(info.name for info in found)} & set(wanted):
+            here = ", ".join(f"--device {name}" for name in others(set(wanted))) or "no device here can be used"
+            raise FirsthitError(f"there is no device {', '.join(wanted)} here; name one that is: {here}", exit_code=3)
+        (experiment,) = settled([experiment], found, watcher).parts
+        planned = plan.plan(experiment, catalog, found, timed=False, tell=tell)
     return Prepared(experiment, catalog, planned, planned)

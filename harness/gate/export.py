@@ -1,7 +1,7 @@
 """Write a config's programs as JSON. This runs as a script inside another revision's tree.
 
-The script's arguments are the config, the plugins folder or "", a folder that takes WRITTEN and arrays, and the names
-of devices. It uses only what the harness has in every revision, under the name that it has in each. What a revision
+The script's arguments are the config, the plugins folder or "", a folder that takes WRITTEN and arrays, and the devices
+as JSON. It uses only what the harness has in every revision, under the name that it has in each. What a revision
 lacks is left out, and whoever reads the JSON says so. Methods may print what they like.
 """
 
@@ -179,14 +179,20 @@ def _cell(planned: Any, catalog: Any, folder: Path, name: str) -> dict[str, Any]
     }
 
 
-def export(path: Path, plugins: str, folder: Path, devices: list[str]) -> dict[str, Any]:
-    """Return each cell by its slot, and what was left out, by its name. Raises FirsthitError as `load` does."""
+def export(path: Path, plugins: str, folder: Path, devices: list[str], own: dict[str, list[str]]) -> dict[str, Any]:
+    """Return each cell by its slot, and what was left out, by its name. Raises FirsthitError as `load` does.
+
+    Cells are on `devices`, and those of the variants named in `own` on the devices there.
+    """
     catalog = _catalog(Path(plugins) if plugins else None)
     experiment, left_out = load(path, catalog, folder)
     if experiment is None:
         return {"cells": {}, "left_out": left_out}
     experiment = dataclasses.replace(experiment, config=dataclasses.replace(experiment.config, devices=devices))
-    found = _module(DISCOVERY).discover_devices(experiment.config.devices)
+    if hasattr(experiment, "own_devices"):
+        of = {variant: tuple(own[str(variant)]) for variant in experiment.variants if str(variant) in own}
+        experiment = dataclasses.replace(experiment, own_devices=of)
+    found = _module(DISCOVERY).discover_devices([*devices, *(name for names in own.values() for name in names)])
     planned = _module(PLAN).plan(experiment, catalog, found)
     cells = {p.cell.slot: _cell(p, catalog, folder, str(i)) for i, p in enumerate(planned)}
     return {"cells": cells, "left_out": left_out}
@@ -194,7 +200,7 @@ def export(path: Path, plugins: str, folder: Path, devices: list[str]) -> dict[s
 
 if __name__ == "__main__":
     try:
-        cells = export(Path(sys.argv[1]), sys.argv[2], Path(sys.argv[3]), sys.argv[4:])
+        cells = export(Path(sys.argv[1]), sys.argv[2], Path(sys.argv[3]), **json.loads(sys.argv[4]))
         Path(sys.argv[3], WRITTEN).write_text(json.dumps(cells), encoding="utf-8")
     except FirsthitError as error:
         print(" ".join(str(error).split()), file=sys.stderr)

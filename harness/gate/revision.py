@@ -7,7 +7,7 @@ import os
 import subprocess
 import sys
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -102,8 +102,12 @@ def found(name: str, plugins: Path | None) -> Revision:
     return Revision(name, commit, revision.repository, revision.plugins)
 
 
-def programs_at(revision: Revision, config: Path, devices: list[str]) -> Formers:
+def programs_at(
+    revision: Revision, config: Path, devices: list[str], own: Mapping[str, Sequence[str]] | None = None
+) -> Formers:
     """Return each cell of a config at a git revision. The config is read as it stands now.
+
+    Its cells are on `devices`, and those of variants in `own` on the devices there; `fastest` is no name of one.
 
     Where plugins are in a repository of their own, the harness that plans them is the present one. Raises
     FirsthitError, with exit code 3, where the revision cannot be checked out, or its code cannot plan the config.
@@ -114,7 +118,12 @@ def programs_at(revision: Revision, config: Path, devices: list[str]) -> Formers
         _held(revision, tree)
         code, arrays = tree if revision.holds_harness else ROOT, Path(name) / "arrays"
         arrays.mkdir()
-        arguments = [str(config.resolve()), str(there or ""), str(arrays), *devices]
+        arguments = [
+            str(config.resolve()),
+            str(there or ""),
+            str(arrays),
+            json.dumps({"devices": devices, "own": own or {}}),
+        ]
         command = [sys.executable, "-c", EXPORT.read_text(encoding="utf-8"), *arguments]
         environment = {**os.environ, "PYTHONPATH": os.pathsep.join([str(code), *_own(revision, tree)])}
         ran = subprocess.run(command, cwd=code, env=environment, capture_output=True, text=True, check=False)

@@ -32,6 +32,7 @@ NOT_DECIDING = {
     "harness/commands": "read options and print; what an option changes is in the config, and so in the identity",
     "harness/conformance": "checks methods and stores no row",
     "harness/console.py": "prints tables and progress",
+    "harness/terminal.py": "prints lines",
     "harness/experiment/schema.py": "tells editors what a config may hold, and reads none",
     "harness/gate": "judges finished rows",
     "harness/recommend": "chooses among finished rows",

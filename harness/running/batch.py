@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from pathlib import Path
 
 from harness.devices.executor import LocalExecutor
@@ -32,6 +33,7 @@ def rows_of(
     store = Store(folder)
     found = due(planned, store, "everything" if force else "unfinished")
     if found.todo:
-        watcher.starts(len(found.todo), 1.0 * len(found.todo))
-    rows = Runner(experiment.config, catalog, store, executor, describe(), watcher.cell).run(found.todo)
+        watcher.starts(len(found.todo), 1.0 * len(found.todo), Counter(p.cell.device for p in found.todo))
+    told = watcher.cell, watcher.hears_builds
+    rows = Runner(experiment.config, catalog, store, executor, describe(), *told).run(found.todo)
     return found.kept | {row["key"]: row for row in rows}, frozenset(found.kept)

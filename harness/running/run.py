@@ -6,9 +6,10 @@ Nothing is printed here. A Watcher is told what happens, and may print it.
 from __future__ import annotations
 
 import dataclasses
+from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
@@ -29,6 +30,7 @@ from harness.running.cards import card
 from harness.running.due import UNFINISHED, Again, due, estimate_seconds, studies_due
 from harness.running.environment import describe, probed
 from harness.running.failures import failure_of, mistakes
+from harness.running.fastest import Tried, settled
 from harness.running.runner import Runner
 
 
@@ -40,6 +42,7 @@ class Loaded:
     parts: tuple[Experiment, ...]  # the config itself, or those that it includes
     catalog: Catalog
     devices: list[DeviceInfo]  # of the backends that the config names
+    tried: Mapping[str, Tried] = field(default_factory=dict)  # what was measured to find the fastest, by device
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,12 +71,17 @@ class Run:
 
 
 class Watcher:
-    """Hear what a run does, and do nothing about it. A caller overrides the methods that it needs."""
+    """Hear what a run does, and do nothing about it. A caller overrides the methods that it needs.
 
-    def doing(self, what: str) -> AbstractContextManager[None]:
-        """Hear what goes on while a block runs that takes long."""
+    hears_builds: what to call with a cell's slot and what was built for it; None: nothing
+    """
+
+    hears_builds: Callable[[str, str], None] | None = None
+
+    def doing(self, what: str) -> AbstractContextManager[Callable[[str], None]]:
+        """Hear what goes on while a block runs that takes long; the block tells more to what it is given."""
         del what
-        return nullcontext()
+        return nullcontext(lambda _: None)
 
     def told(self, line: str) -> None:
         """Hear what was done beside running cells."""
@@ -81,8 +89,12 @@ class Watcher:
     def warned(self, line: str) -> None:
         """Hear what the caller should know before the results are used."""
 
-    def starts(self, cells: int, seconds: float) -> None:
-        """Hear how many cells will be run, and an estimate of how long that takes."""
+    def wrong(self, line: str) -> None:
+        """Hear what is wrong, though the work goes on."""
+        self.warned(line)
+
+    def starts(self, cells: int, seconds: float, devices: Mapping[str, int]) -> None:
+        """Hear how many cells will be run, an estimate of how long that takes, and how many each device has."""
 
     def cell(self, slot: str, row: Row | None) -> None:
         """Hear which cell is worked on or, with a `row`, that the cell has ended and what its row is."""
@@ -106,7 +118,8 @@ class Teller(Watcher):
     def warned(self, line: str) -> None:
         self._tell(line)
 
-    def starts(self, cells: int, seconds: float) -> None:
+    def starts(self, cells: int, seconds: float, devices: Mapping[str, int]) -> None:
+        del devices
         self._left = cells
         self._tell(f"{cells} cells to run, about {console.duration(seconds)}")
 
@@ -145,14 +158,13 @@ def load(
             f"{nested[0]} includes configs itself, so {whole.path} cannot include it; name them instead"
         )
     for line in catalog.warnings:
-        hears.warned(line)
-    if devices:
-        chosen = list(devices)
-        parts = [dataclasses.replace(p, config=dataclasses.replace(p.config, devices=chosen)) for p in parts]
-    named = {device for part in parts for device in part.config.devices}
+        hears.wrong(line)
+    parts = [part.on(devices) for part in parts]
+    named = {device for part in parts for device in part.wanted_devices()}
     with hears.doing(f"{whole.path}: looking for devices"):
         found = discover_devices(named)
-    return Loaded(whole, tuple(parts), catalog, found)
+    made = settled(parts, found, hears)
+    return Loaded(whole, made.parts, catalog, found, made.tried)
 
 
 def run(
@@ -207,22 +219,28 @@ def _run_part(part: Experiment, loaded: Loaded, runs: Path, command: str, again:
     executor = LocalExecutor(part.config.budget.timeout)
     try:
         chosen = targets.devices_of(part, loaded.devices, kinds.only_rasters(part)) if part.variants else {}
-        with hears.doing(_announced(part, loaded.catalog, chosen)):
-            tried = [probed(executor, info, store.folder / "probes") for info in chosen.values() if info]
-            planned = plan.plan(part, loaded.catalog, [info for info, _ in tried]) if part.variants else []
-        for told in remarks(part):
-            hears.warned(told)
+        with hears.doing(_announced(part, loaded.catalog, chosen)) as tell:
+            here = [info for info in chosen.values() if info]
+            tried = []
+            for info in here:
+                tell(f"trying the arithmetic and the clock of {info.name}")
+                tried.append(loaded.tried.get(info.name) or probed(executor, info, store.folder / "probes"))
+            planned = plan.plan(part, loaded.catalog, [i for i, _ in tried], tell=tell) if part.variants else []
+        for remark in remarks(part):
+            hears.warned(remark)
         store.write_plan(
             _described(part, command, environment)
-            | {"devices": [_device(info, found) for info, found in tried]}
+            | {"devices": [_device(info, found) for info, found in tried], "peaks": dict(part.peaks)}
             | _named(part, planned, loaded.catalog)
         )
         _run_studies(part.config.studies, store.folder, again == "everything", hears)
         found = due(planned, store, again)
         for message in store.unreadable.values():
             hears.warned(f"{message}; running that cell again")
-        hears.starts(len(found.todo), estimate_seconds(found.todo, store, part.config.budget.seconds))
-        rows = Runner(part.config, loaded.catalog, store, executor, environment, hears.cell).run(found.todo)
+        seconds = estimate_seconds(found.todo, store, part.config.budget.seconds)
+        hears.starts(len(found.todo), seconds, Counter(p.cell.device for p in found.todo))
+        told = hears.cell, hears.hears_builds
+        rows = Runner(part.config, loaded.catalog, store, executor, environment, *told).run(found.todo)
     finally:
         executor.close()
     return Run(store.folder, tuple(rows), tuple(found.kept.values()))

@@ -48,7 +48,8 @@ class Runner:
     """Run cells and store their rows.
 
     `report` is called with a cell's slot and None when the cell is worked on, and with its slot and row when the row is
-    stored. `environment` is stored in every row.
+    stored. `built` is called with a cell's slot and a line for each program that was built for it, with what the
+    compiler said. `environment` is stored in every row.
     """
 
     def __init__(
@@ -59,10 +60,11 @@ class Runner:
         executor: LocalExecutor,
         environment: dict[str, Any],
         report: Callable[[str, Row | None], None],
+        built: Callable[[str, str], None] | None = None,
     ) -> None:
         self._config, self._catalog, self._store = config, catalog, store
         self._executor, self._environment, self._report = executor, environment, report
-        self._session = ""
+        self._built, self._session = built, ""
 
     def run(self, planned: Iterable[Planned]) -> list[Row]:
         """Run cells and return their rows, in the order in which they ended.
@@ -114,6 +116,9 @@ class Runner:
             return state.outcome.reason
         finally:
             state.preparing = time.perf_counter() - start
+            if self._built:
+                for line in self._executor.builds(planned.cell.device):
+                    self._built(planned.cell.slot, line)
 
     def _time(self, live: dict[str, _Live]) -> list[Row]:
         """Time cells in interleaved rounds, each of which visits every unfinished cell once, in random order.

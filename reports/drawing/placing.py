@@ -19,11 +19,12 @@ from numpy.typing import ArrayLike, NDArray
 from reports.drawing import style
 
 _REACHES = (1.5, 4.0, 7.0, 11.0, 16.0, 22.0, 29.0, 38.0, 50.0, 64.0)  # between a mark and its label
-_ANGLES = np.linspace(0.0, 2.0 * np.pi, 16, endpoint=False)
+_ANGLES = np.linspace(0.0, 2.0 * np.pi, 24, endpoint=False)
 _GAP = 1.0  # between labels
+_ALONG = 1.5  # a leader so near to a line is taken for a part of it
 _AFAR = 3.0  # a label farther than this from its mark has a leader
 _SWEEPS = 12
-_ON_LABEL, _ON_MARK, _UNDER_LEADER, _ON_LINE = 1000.0, 300.0, 60.0, 6.0  # costs; a reach costs its length
+_ON_LABEL, _ON_MARK, _UNDER_LEADER, _ON_LINE = 4000.0, 2000.0, 60.0, 6.0  # costs; a reach costs its length
 
 
 @dataclass(frozen=True)
@@ -121,7 +122,9 @@ class _Options:
         cost += _ON_MARK * _count(boxes, marks, radius) + _ON_LINE * np.minimum(_count(boxes, lines, 0.0), 5)
         near: Any = (np.abs(leaders[:, :, None] - marks[None, None]) < radius).all(axis=3)
         touched = near.any(axis=1).sum(axis=1)
-        return cls(boxes, leaders, far, cost + np.where(far, _UNDER_LEADER * touched, 0.0))
+        met: Any = (np.abs(leaders[:, :, None] - lines[None, None]) < _ALONG).all(axis=3)
+        under = _UNDER_LEADER * np.minimum(touched, 4) + _ON_LINE * met.any(axis=2).sum(axis=1)
+        return cls(boxes, leaders, far, cost + np.where(far, under, 0.0))
 
     def place(self, option: int) -> Place:
         """Return one of the places."""

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import importlib
 import pkgutil
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from typing import Protocol, cast
 
 from reports.content import Section
@@ -33,9 +33,13 @@ def found(package: str, folders: Iterable[str]) -> list[Part]:
     return sorted(parts, key=lambda part: (part.ORDER, part.__name__))
 
 
-def sections(material: Material) -> list[Section]:
-    """Return the sections of every part, in the order of the parts."""
+def sections(material: Material, tell: Callable[[str], None] = lambda _: None) -> list[Section]:
+    """Return the sections of every part, in the order of the parts; `tell` hears of each before it is drawn."""
     parts = found(__name__, __path__)
     if material.run.plan.include:
         parts.sort(key=lambda part: not hasattr(part, "LEADS"))
-    return [section for part in parts for section in part.sections(material)]
+    made: list[Section] = []
+    for number, part in enumerate(parts, 1):
+        tell(f"drawing [{number}/{len(parts)}] {part.__name__.rpartition('.')[2].replace('_', ' ')}")
+        made += part.sections(material)
+    return made

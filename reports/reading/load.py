@@ -25,7 +25,7 @@ def load(folder: Path) -> Run:
 
     Raises FirsthitError where it is no run folder, or where nothing is finished.
     """
-    plan = _plan(folder)
+    plan = plan_of(folder)
     if not plan.include:
         return load_one(folder, plan)
     runs: list[Run] = []
@@ -158,7 +158,7 @@ def _study(path: Path) -> list[dict[str, Any]]:
     return rows
 
 
-def _plan(folder: Path) -> Plan:
+def plan_of(folder: Path) -> Plan:
     """Read a run's plan. Raises FirsthitError where there is none, or where it is damaged."""
     path = folder / "plan.json"
     if not folder.is_dir():
