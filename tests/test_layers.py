@@ -50,7 +50,7 @@ REPORTS = (
     ("reports.claims",),
     ("reports.material",),
     ("reports.parts", "reports.rendering"),
-    ("reports.first_page",),
+    ("reports.first_page", "reports.for_papers"),
     ("reports.report", "reports.compare", "reports.history", "reports.recommended", "reports.site"),
 )
 OTHERS = {  # rooms beside the tower, and all that they may import of ours
