@@ -86,7 +86,7 @@ def _planned(part: config.Experiment, loaded: Loaded, runs: Path) -> experiments
     """Say which cells a config has, and which have a row below `runs`; on standard error what domains leave out."""
     for told in remarks(part):
         tell(f"firsthit: {told}")
-    with console.doing(f"{part.path}: preparing cells") as tell_step:
+    with console.doing(f"preparing the cells of {part.path}") as tell_step:
         planned = plan.plan(part, loaded.catalog, loaded.devices, tell=tell_step)
     store = Store(runs / part.name)
     found = due(planned, store)
@@ -163,11 +163,13 @@ def _report(options: argparse.Namespace) -> int:
             for name in ("baseline", "focus", "appendix"):
                 if getattr(options, name):
                     raise FirsthitError(f"--{name} goes with one run: of two, each cell is held against itself")
-            with console.doing(f"comparing {options.folder} and {options.other}"):
+        about = {"baseline": options.baseline, "focus": options.focus, "appendix": options.appendix}
+        with console.working() as tell_step:
+            if options.other:
+                tell_step(f"comparing {options.folder} with {options.other}")
                 made = compare.build(options.folder, options.other, options.output)
-        else:
-            about = {"baseline": options.baseline, "focus": options.focus, "appendix": options.appendix}
-            with console.doing(f"reading {options.folder}") as tell_step:
+            else:
+                tell_step(f"reading {options.folder}")
                 made = report.build(options.folder, options.output, **about, tell=tell_step)
         print(made)
     except ModuleNotFoundError as error:
