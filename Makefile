@@ -1,5 +1,6 @@
-# make quick: from a fresh clone to a PDF. make check, make test, make gate: what .ci/run calls. Each sets up what it
-# needs, with the interpreter PYTHON. A .venv of another interpreter than the PYTHON that is named is made anew.
+# make quick: from a fresh clone to a PDF. make site: pages of what `make papers` and configs/front.toml left. make check,
+# make test, make gate: what .ci/run calls. Each sets up what it needs, with the interpreter PYTHON. A .venv of another
+# interpreter than the PYTHON that is named is made anew.
 PYTHON ?= python3
 BIN := .venv/bin
 READY := .venv/ready
@@ -12,7 +13,7 @@ CLEAR := --clear
 endif
 endif
 
-.PHONY: quick papers test bench gate check format clean
+.PHONY: quick papers site test bench gate check format clean
 quick: $(READY)
 	$(BIN)/firsthit run configs/quick.toml
 	$(BIN)/firsthit report runs/quick
@@ -20,6 +21,12 @@ quick: $(READY)
 papers: $(READY)
 	$(BIN)/firsthit run configs/papers.toml
 	$(BIN)/firsthit report runs/papers
+
+RUNS := runs/papers runs/front
+site: $(READY)
+	@for run in $(RUNS); do test -f $$run/plan.json || echo "$$run is not there, and no part of the site;" \
+		"$(BIN)/firsthit run configs/$${run#runs/}.toml makes it"; done
+	$(BIN)/firsthit publish $(patsubst %/plan.json,%,$(wildcard $(RUNS:=/plan.json))) -o site
 
 test: $(READY)
 	$(BIN)/python -m pytest -q -n auto
@@ -42,7 +49,7 @@ format: $(READY)
 	$(BIN)/ruff check --fix .
 
 clean:
-	rm -rf .venv runs build *.egg-info
+	rm -rf .venv runs site build *.egg-info
 
 $(READY): pyproject.toml constraints.txt drivers.sh
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' \

@@ -17,7 +17,7 @@ from reports import wording
 from reports.analysis import derive, rounds
 from reports.content import Block, Code, Column, Document, Section, Table, Text
 from reports.drawing import tables
-from reports.place import place
+from reports.place import checked, place
 from reports.reading import load
 from reports.reading.run import Plan, Run
 from reports.rendering import document, html
@@ -30,10 +30,11 @@ def build(a: Path, b: Path, output: Path | None = None) -> Path:
     """Write what changed from run `a` to run `b` into the folder `output`, as report.pdf and report.html.
 
     Nothing is written into the runs; `output` is the folder `place(a, b)` where none is given. Returns the path of the
-    PDF. Raises FirsthitError if either is no run folder, they have no cell in common, or `output` cannot be written to.
+    PDF. Raises FirsthitError if either is no run folder, they have no cell in common, or `output` is a
+    file, lies in a run or cannot be written to.
     """
+    folder = checked(place(a, b) if output is None else output)
     content = report(load.load(a), load.load(b))
-    folder = place(a, b) if output is None else output
     with replacing_together(folder, "the report") as made:
         document.write_pdf(content, made / "pdf", made / "report.pdf", "")
         html.write_html(content, {}, made / "report.html")

@@ -73,7 +73,8 @@ class Matrix:
     """Hold a table of coloured squares, a line for each of `rows`: its heading, and a square for each of `columns`.
 
     The colours stand for what the squares' texts say too, so that nothing is lost in greyscale. `corner` says what the
-    rows' headings are, and `key` what the colours mean: texts by colour.
+    rows' headings are, and `key` what the colours mean: texts by colour. A line without squares is a heading over the
+    lines below it.
     """
 
     columns: tuple[str, ...]
@@ -111,11 +112,17 @@ class Picture:
 
 @dataclass(frozen=True)
 class Panel:
-    """Hold pictures to be set side by side, with one title above and one note below."""
+    """Hold pictures to be set side by side, with one title above and one note below.
+
+    `lines` are a small table that belongs to the pictures: texts, the first line headings. `key` says what colours in
+    the pictures mean: texts by colour. A note may have several paragraphs, each on a line of its own.
+    """
 
     title: str
     pictures: tuple[Picture, ...]
     note: str
+    lines: Sequence[tuple[str, ...]] = ()
+    key: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -123,7 +130,7 @@ class Gallery:
     """Hold panels of pictures with one caption, and one legend of their colours if they need one.
 
     `across` is how many panels a line of a page has; 0 leaves it to the renderer. The first panel of a gallery with a
-    `hero` is shown large, and the others beside and below it.
+    `hero` is shown large, with its texts beside it; then come legend and caption, which are of the others, below it.
     """
 
     panels: tuple[Panel, ...]
@@ -131,6 +138,20 @@ class Gallery:
     legend: Figure | None = None
     across: int = 0
     hero: bool = False
+
+
+@dataclass(frozen=True)
+class Explorer:
+    """Hold points of speed against error, which a reader of the HTML page compares by axes of his own choice.
+
+    columns: the points' values by column, which reports.drawing.charts names; all have the same length
+    chart: the Vega-Lite specification of a panel, whose data the page's script gives
+    note: which rows are left out; "" for none
+    """
+
+    columns: Mapping[str, Sequence[Any]]
+    chart: Mapping[str, Any]
+    note: str = ""
 
 
 Block = Text | Code | Table | Matrix | Figure | Gallery
@@ -162,3 +183,4 @@ class Document:
     subtitle: str
     summary: Section  # the first page; a reader in a hurry reads nothing else
     sections: tuple[Section, ...]
+    explorer: Explorer | None = None  # which stands behind the summary, on the HTML page alone

@@ -9,7 +9,8 @@ from functools import cached_property
 import pandas as pd
 
 from reports import claims
-from reports.analysis import shown, surface_names, viewstats
+from reports.analysis import choices, shown, surface_names, viewstats
+from reports.analysis.choices import Choice
 from reports.claims import Claim, Verdict, figures
 from reports.claims.evidence import Evidence
 from reports.drawing import images, style
@@ -32,7 +33,24 @@ class Material:
     def marks(self) -> Mapping[str, Mark]:
         """Return the mark of each variant, by the variant's name."""
         variants = pd.concat([of[["method", "variant"]] for of in (self.frame, self.run.families)])
-        return style.variant_marks(variants.drop_duplicates().itertuples(index=False, name=None))
+        pairs = variants.drop_duplicates().itertuples(index=False, name=None)
+        return style.variant_marks(pairs, self.focus_method)
+
+    @cached_property
+    def method_marks(self) -> Mapping[str, Mark]:
+        """Return the mark of each method, by the method's name."""
+        return style.marks([*self.frame["method"], *self.run.families["method"]], self.focus_method)
+
+    @cached_property
+    def focus_method(self) -> str:
+        """Return the method that the report is about, or whose variant it is about; "" for none."""
+        of = self.frame.loc[self.frame["variant"] == self.focus, "method"]
+        return str(of.iloc[0]) if len(of) and self.focus not in set(self.frame["method"]) else self.focus
+
+    @cached_property
+    def choices(self) -> list[Choice]:
+        """Return what to take for each surface that was timed."""
+        return choices.choices(self.frame)
 
     @cached_property
     def listed(self) -> pd.DataFrame:

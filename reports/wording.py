@@ -65,6 +65,11 @@ def level(value: float) -> str:
     return f"{value:.{5 if value >= 1 else 2}g}" if 0.001 <= value < 1e5 else error(value)
 
 
+def square(side: Any) -> str:
+    """Write the size of a square picture by its side: 512 × 512."""
+    return NONE if absent(side) else f"{side} × {side}"
+
+
 def hundredths(value: Any) -> str:
     """Write two decimals: −0.25."""
     return NONE if absent(value) else minus(f"{value:.2f}")

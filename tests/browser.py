@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import fcntl
 import json
 import os
@@ -95,6 +96,24 @@ class Browser:
         while self.run("document.readyState") != "complete" or self.run("location.protocol") != "file:":
             assert time.monotonic() < end, "the page did not load"
             time.sleep(0.05)
+
+    def look(self, width: int, dark: bool, height: int = 900) -> None:
+        """Make the window `width` × `height` CSS pixels, up to 600 wide a phone's, and its colours dark or light."""
+        phone = width <= 600
+        self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=phone)
+        scheme = {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}
+        self.call("Emulation.setEmulatedMedia", features=[scheme])
+
+    def wait(self, script: str) -> None:
+        """Wait until a JavaScript expression is true. Fails after SECONDS."""
+        end = time.monotonic() + SECONDS
+        while not self.run(script):
+            assert time.monotonic() < end, f"never true: {script}"
+            time.sleep(0.05)
+
+    def picture(self, path: Path) -> None:
+        """Write what the window shows as a PNG file."""
+        path.write_bytes(base64.b64decode(self.call("Page.captureScreenshot", format="png")["data"]))
 
     def run(self, script: str) -> Any:
         """Return the value of a JavaScript expression in the page. Fails where the page raises an exception."""

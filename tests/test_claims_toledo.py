@@ -108,7 +108,8 @@ def test_figure_3_is_drawn_from_its_study_and_its_words_are_judged(tmp_path: Pat
     (section,) = [section for section in report.sections if section.title == "toledo2007, Figure 3"]
     (figure,) = [block for block in section.blocks if isinstance(block, content.Figure)]
     assert all(row["case"] in figure.svg for row in rows[:-1])
-    told = printed(section.blocks)
+    told = printed(section.details)
+    assert "Claims of the paper that these rows test: 1 confirmed and 1 refuted;" in printed(section.blocks)
     assert "local minima: 2 at most, local maxima: 1 at most" in told
     assert told.count("confirmed") == 1 and told.count("refuted") == 1
     other = [rows[-1] | {"case": "sampled", "minima": 1, "maxima": 2}]

@@ -14,7 +14,7 @@ from .conftest import usable_devices
 pytestmark = pytest.mark.usefixtures("devices_found_once")
 
 COMMANDS = ("devices", "list", "plan", "run", "why", "report", "show", "sheet", "trace", "oracle", "compile")
-COMMANDS += ("gate", "bless", "history", "recommend", "kernel")
+COMMANDS += ("gate", "bless", "history", "recommend", "kernel", "publish")
 
 
 @pytest.fixture
@@ -43,6 +43,7 @@ def test_every_command_explains_itself_with_an_example(command, capsys):
 LEAST = {  # what a command cannot be parsed without
     "list": ["methods"],
     "report": ["runs/quick"],
+    "publish": ["runs/quick", "-o", "x"],
     "show": ["--surface", "torus", "--method", "newton", "-o", "x.png"],
     "sheet": ["--method", "newton", "-o", "x.png"],
     "trace": ["--surface", "torus", "--method", "newton", "--rays", "r.npy", "-o", "x.npz"],

@@ -138,8 +138,10 @@ def test_ctrl_c_in_a_step_of_a_worker_is_130_and_keeps_what_finished(endless, co
 @pytest.mark.skipif(sys.platform != "linux", reason="looks for processes in /proc")
 def test_ctrl_c_while_a_report_is_made_is_130_and_leaves_the_folder_as_it_was(tmp_path):
     write_run(tmp_path / "quick")
+    (tmp_path / "quick.report").mkdir()
     before = sorted(tmp_path.rglob("*"))
-    code, told = _stopped(tmp_path, ["report", "quick"], lambda _: True, lambda: [*tmp_path.glob("quick/.new-*")])
+    begun = "quick.report/.new-*"
+    code, told = _stopped(tmp_path, ["report", "quick"], lambda _: True, lambda: [*tmp_path.glob(begun)])
     assert (code, told.strip()) == (130, "firsthit: stopped")
     assert sorted(tmp_path.rglob("*")) == before
 

@@ -52,7 +52,7 @@ REPORTS = (
     ("reports.material",),
     ("reports.parts", "reports.rendering"),
     ("reports.first_page",),
-    ("reports.report", "reports.compare", "reports.history", "reports.recommended"),
+    ("reports.report", "reports.compare", "reports.history", "reports.recommended", "reports.site"),
 )
 OTHERS = {  # rooms beside the tower, and all that they may import of ours
     "methods": ("firsthit", "harness.contract", "harness.kernels", "harness.scenes.meshes", "surfaces"),

@@ -19,7 +19,7 @@ from harness.results import schema
 from reports import content, first_page, report
 from reports.analysis import derive, shown, ties
 from reports.drawing import choice, images, tables
-from reports.parts import surface_pages, winners
+from reports.parts import last_page, surface_pages, winners
 from reports.reading import arrays, load
 from tests.synthetic_run import cell, plan, printed, reported, retime, tiny_run, troubled, write_run
 
@@ -40,20 +40,17 @@ def frame(loaded: load.Run) -> pd.DataFrame:
 
 
 def test_build_writes_four_files_and_nothing_else(run: Path) -> None:
-    before = {path.name for path in run.iterdir()}
+    before = {path: path.stat().st_mtime_ns for path in run.rglob("*")}
     pdf = report.build(run)
-    assert pdf == run / "report.pdf"
-    assert {path.name for path in run.iterdir()} == before | {
-        "report.pdf",
-        "report.html",
-        "results.csv",
-        "results.parquet",
-    }
+    made = run.parent / "quick.report"
+    assert pdf == made / "report.pdf"
+    assert {path.name for path in made.iterdir()} == {"report.pdf", "report.html", "results.csv", "results.parquet"}
+    assert {path: path.stat().st_mtime_ns for path in run.rglob("*")} == before, "a run is only read"
     first = pdf.read_bytes()
     assert first.startswith(b"%PDF")
     assert report.build(run).read_bytes() == first, "the same run must give the same PDF"
 
-    csv, parquet = pd.read_csv(run / "results.csv"), pq.read_table(run / "results.parquet")
+    csv, parquet = pd.read_csv(made / "results.csv"), pq.read_table(made / "results.parquet")
     names = [field.name for field in (*schema.SCHEMA, *schema.DERIVED)]
     assert list(csv.columns) == parquet.column_names == names
     for key, samples, text in zip(csv["key"], parquet["samples_ms"].to_pylist(), csv["samples_ms"], strict=True):
@@ -81,11 +78,14 @@ def test_the_report_says_what_happened(run: Path) -> None:
     by_title = {section.title: printed(section.blocks) for section in report.sections}
     assert "firsthit run configs/quick.toml" in printed(report.summary.blocks)
     assert "_odd#[STEP_$=0.5,RELAXATION_OF_THE_LAST_STEP=1.25]" in by_title["Torus"]
-    troubles = by_title["Skipped, failed and missing"]
+    last = report.sections[-1]
+    assert last.title == last_page.TITLE
+    troubles = printed(last.details)
     for reason in ("opencl:gpu#0_$ has no float64", "the worker died of signal 11", "still running after 20 s"):
         assert reason in troubles
     assert "use of `$x` @ *p = a_b[#i] <7:3> ^~~~ kernel" in troubles, "folded, and without terminal colours"
-    assert "opencl:gpu#0_$ | 2" in troubles, "cells not run yet, by device"
+    assert "2 planned cells not run yet (2 on opencl:gpu#0_$)" in printed(last.blocks)
+    assert last.own_page and 'title = "quick"  # a comment' in troubles, "the config's text"
     titles = [section.title for section in report.sections]
     assert titles[:5] == [
         "Winners",
@@ -94,7 +94,6 @@ def test_the_report_says_what_happened(run: Path) -> None:
         "Torus",
         "Barth #6 $extic_* @65 <b>",
     ]
-    assert titles[-3:] == ["Devices, environment, config", "Skipped, failed and missing", "How to run it again"]
     for section in report.sections[2:5]:
         kinds = {type(block) for block in section.blocks}
         assert {content.Figure, content.Gallery, content.Table} <= kinds, "speed, pictures and figures on one page"
@@ -252,12 +251,13 @@ def test_runs_with_nothing_to_show_still_make_a_report(tmp_path: Path) -> None:
     bare = cell("ray_march", "torus", "opencl:intel", "float32") | {"accuracy": None, "arrays": "arrays/gone.npz"}
     assert report.build(tiny_run(tmp_path / "skipped", skipped)).stat().st_size > 0
     folder = tiny_run(tmp_path / "bare", bare)
-    (folder / "report.pdf").mkdir()
+    made = tmp_path / "bare.report"
+    (made / "report.pdf").mkdir(parents=True)
     with pytest.raises(FirsthitError, match="cannot write the report") as raised:
         report.build(folder)
     assert raised.value.exit_code == 3
-    assert not list(folder.glob(".*"))
-    (folder / "report.pdf").rmdir()
+    assert not list(made.glob(".*"))
+    (made / "report.pdf").rmdir()
     assert report.build(folder).stat().st_size > 0
 
 
@@ -290,7 +290,7 @@ def test_large_runs_print_only_what_matters(run: Path, frame: pd.DataFrame, monk
     finished = frame[frame["status"] == "ok"]
     kept = int((finished["front"] | finished["method"].isin(["ray_march", "null"])).sum())
     assert f"Printed are {kept} of {len(finished)} rows" in by_title["How to read the surfaces' pages"]
-    assert "The first 10 of" in by_title["Skipped, failed and missing"]
+    assert "The first 10 of" in printed(report.sections[-1].details)
     for title in ("The same kernel on every device", "Variants compared round by round"):
         assert "The first " in by_title[title]
 

@@ -1,4 +1,5 @@
-"""What a claim's figure says of itself: which rays it counts, on which devices, and which times are no part of it."""
+"""What a claim's figure says of itself: which rays it counts, on which devices, and which times are no part of it; and
+which claims a reader of a report is told of."""
 
 from __future__ import annotations
 
@@ -9,6 +10,9 @@ from harness.contract import digest
 from reports import claims
 from reports.claims import Outcome, picks
 from reports.claims.evidence import Pick
+from reports.claims.verdict_tables import BRIEF, brief
+from reports.parts import checklist
+from tests.synthetic_run import printed, reported, tiny_run
 
 from .test_claims import claim, evidence, planted
 
@@ -72,3 +76,30 @@ def test_times_that_were_not_taken_in_turns_are_left_out_and_counted(tmp_path: P
     assert told.figure.endswith("left out: 1 pair of rows not timed in the same rounds")
     again = claims.judge(fit, evidence(tmp_path / "again", *mixed[:2]))
     assert "left out" not in again.figure
+
+
+def test_a_page_of_claims_has_those_that_the_run_decides_and_counts_the_others(tmp_path: Path) -> None:
+    cells = [planted(pick, "torus", ms) for pick, ms in ((picks.ONE_RAY, 2.0), (picks.TWO_RAYS, 1.0))]
+    _, report = reported(tiny_run(tmp_path / "run", *cells))
+    (section,) = [section for section in report.sections if section.title == checklist.TITLE]
+    text, whole = printed(section.blocks), printed(section.details)
+    (lead, table, rest) = section.blocks
+    assert printed((lead,)) == "Of 1 claim that this run decides, 1 are confirmed: 1 of 1 of toledo2007."
+    assert "toledo2007 | confirmed | 4.3 | Two starts for each ray are faster than one." in printed((table,))
+    assert f"{len(claims.CLAIMS) - 1} have no rows in this run" in printed((rest,))
+    assert Outcome.UNTESTED.value not in text
+    assert whole.count(Outcome.UNTESTED.value) >= len(claims.CLAIMS) - 1, "the whole checklist is among the details"
+
+
+def test_a_run_that_decides_no_claim_has_no_page_of_claims(tmp_path: Path) -> None:
+    _, report = reported(tiny_run(tmp_path / "run", planted(Pick("x", "other"), "plane", 1.0)))
+    assert checklist.TITLE not in [section.title for section in report.sections]
+
+
+def test_a_figure_told_in_brief_keeps_what_the_paper_says_and_how_ours_at_its_best_is_judged() -> None:
+    first = "Newton is 2.61× as fast as Loop-Blinn in float32 on opencl:intel"
+    long = f"{first}; {'wrong rays, ' * 12}none; the paper: 2.6×. Ours at its best, forwards: 3.3× (confirmed)"
+    assert brief(long) == f"{first}; the paper: 2.6×. Ours at its best: confirmed."
+    assert brief(long.replace("(confirmed)", "(not decided)")).endswith("Ours at its best: not decided.")
+    assert brief("43 of 43") == "43 of 43."
+    assert len(brief("word " * 100)) <= BRIEF + 1

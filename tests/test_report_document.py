@@ -18,11 +18,11 @@ def test_one_name_stands_for_one_figure(tmp_path: Path) -> None:
     """Two galleries with scales of their own have keys of their own; one name for both would show the last for all."""
     keys = [plots.error_legend(*scale) for scale in ((-7, -3), (-4, 0), (-4, 0))]
     shown = content.Section("", tuple(content.Gallery((), "", key) for key in keys))
-    document._section(shown, tmp_path)
+    document._section(shown, shown.blocks, tmp_path)
     assert len(list(tmp_path.iterdir())) == 2
     clash = content.Section("", (content.Figure("a", "<svg/>", ""), content.Figure("a", "<svg></svg>", "")))
     with pytest.raises(ValueError, match="two figures of one report are named a"):
-        document._section(clash, tmp_path)
+        document._section(clash, clash.blocks, tmp_path)
 
 
 def test_repeated_group_values_are_printed_once(tmp_path: Path) -> None:

@@ -16,6 +16,7 @@ from harness.plugins import find_methods
 from harness.running.cards import card
 from reports import report
 from reports.analysis import breaks
+from reports.parts import last_page
 from reports.reading import load
 from tests import synthetic_run
 from tests.synthetic_run import family_cell, printed, reported, stability_run, tiny_run
@@ -92,9 +93,7 @@ def test_a_run_of_families_alone_makes_a_report(hard: Path) -> None:
     assert list(by_title) == [
         "Where each method breaks",
         "Hard rays, family by family",
-        "Devices, environment, config",
-        "Skipped, failed and missing",
-        "How to run it again",
+        last_page.TITLE,
     ]
     page = by_title["Where each method breaks"]
     assert "All devices agree on every count of every rung they ran: opencl:intel and opencl:pocl" in page
@@ -104,20 +103,19 @@ def test_a_run_of_families_alone_makes_a_report(hard: Path) -> None:
     for facts in synthetic_run.FAMILIES.values():
         assert facts["why"] in page and facts["why"] in by_title["Hard rays, family by family"]
     assert "In float32 none of these rays can be decided" in by_title["Hard rays, family by family"]
-    assert "skipped | no *interval* extension" in by_title["Skipped, failed and missing"]
-    assert "family: Grazing #rays_ $*" in by_title["Skipped, failed and missing"]
+    assert "1 | skipped | no *interval* extension" in by_title[last_page.TITLE]
+    assert "family: Grazing #rays_ $*" in by_title[last_page.TITLE]
 
-    before = {path.name for path in hard.iterdir()}
-    report.build(hard)
+    folder = report.build(hard).parent
     made = {"report.pdf", "report.html", "results.csv", "results.parquet", "stability.csv"}
-    assert {path.name for path in hard.iterdir()} == before | made
-    csv = pd.read_csv(hard / "stability.csv")
+    assert {path.name for path in folder.iterdir()} == made
+    csv = pd.read_csv(folder / "stability.csv")
     cells = [json.loads((hard / "cells" / f"{key}.json").read_text()) for key in csv["key"].unique()]
     assert len(csv) == sum(len(cell["rungs"]) for cell in cells) == len(run.rungs)
     first = csv[csv["key"] == cells[-1]["key"]].sort_values("level")
     assert first["parameter"].tolist() == [rung["parameter"] for rung in cells[-1]["rungs"]]
     assert first["right"].tolist() == [rung["right"] for rung in cells[-1]["rungs"]]
-    assert pd.read_csv(hard / "results.csv").empty
+    assert pd.read_csv(folder / "results.csv").empty
 
 
 def test_a_run_of_families_alone_says_what_its_methods_are(tmp_path: Path) -> None:
@@ -127,7 +125,7 @@ def test_a_run_of_families_alone_says_what_its_methods_are(tmp_path: Path) -> No
     }
     (folder / "plan.json").write_text(json.dumps(told))
     _, told = reported(folder)
-    page = next(printed(section.blocks) for section in told.sections if section.title == "Methods")
+    page = next(printed(section.details) for section in told.sections if section.title == "Methods")
     assert f"• no false hit: {CLAIMS['no_false_hit']}. Not counted in this run; `firsthit conform" in page
 
 
@@ -137,13 +135,13 @@ def test_families_without_a_result_still_make_a_report(tmp_path: Path) -> None:
     folder = tiny_run(tmp_path / "run", skipped)
     _, told = reported(folder)
     assert [section.title for section in told.sections] == [
-        "Devices, environment, config",
-        "Skipped, failed and missing",
-        "How to run it again",
+        last_page.TITLE,
     ]
-    (folder / "stability.csv").write_text("from an earlier plan")
-    report.build(folder)
-    assert not (folder / "stability.csv").exists()
+    made = tmp_path / "made"
+    made.mkdir()
+    (made / "stability.csv").write_text("from an earlier plan")
+    report.build(folder, made)
+    assert not (made / "stability.csv").exists()
 
 
 def test_a_method_that_answers_nothing_breaks_nowhere(tmp_path: Path) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -11,9 +12,9 @@ import numpy as np
 from reports import content, published
 from reports.claims import figures, picks
 from reports.claims.evidence import Pick
-from reports.parts import checklist
-from reports.parts.papers import szente_tables
-from tests.synthetic_run import printed, reported, tiny_run
+from reports.parts import checklist, papers
+from reports.parts.papers import pictures, szente_tables
+from tests.synthetic_run import plan, printed, reported, tiny_run
 
 from .test_claims import ROOT, planted
 
@@ -24,9 +25,11 @@ def test_beamcastings_tables_stand_on_the_printed_descent_beside_ours(tmp_path: 
     for made in cells:
         made["size"] = 512
     _, report = reported(tiny_run(tmp_path / "run", *cells))
-    told = next(printed(s.blocks) for s in report.sections if s.title == "beamcasting, Tables I and II")
-    line = next(line for line in told.splitlines() if line.startswith("512 | 1 | sphere | 167 | 860"))
+    section = next(s for s in report.sections if s.title == "beamcasting, Tables I and II")
+    lines = printed(section.blocks).splitlines()
+    line = next(line for line in lines if line.startswith("512 × 512 | 1 | sphere | 167 | 860"))
     assert line.endswith("| 250 | 1,120 | 1.50× | 1.30× | 1.15× | 2.00× | 3.00×")
+    told = printed(section.details)
     assert "perspective frustum" in told and "nothing is shaded" in told
 
 
@@ -37,7 +40,11 @@ def test_the_checklist_and_the_tables_stand_in_the_report(tmp_path: Path) -> Non
     cells += [planted(pick, "flirt", ms) for pick, ms in ((picks.CONTROL, 3.5), (picks.LU, 2.0), (picks.MARCH, 23.2))]
     _, report = reported(tiny_run(tmp_path / "run", *cells))
     by_title = {section.title: printed(section.blocks) for section in report.sections}
-    assert "23.6 times as fast as ray marching, in the mean. | confirmed" in by_title["The papers' claims"]
+    claims_page = next(section for section in report.sections if section.title == checklist.TITLE)
+    assert "| confirmed | 4 | 23.6 times as fast as ray marching, in the mean." in printed(claims_page.blocks)
+    table_4 = next(section for section in report.sections if section.title == "szente, Table 4")
+    assert "confirmed | 4 | 23.6 times as fast" in printed(table_4.details), "verdicts are among the details"
+    assert "Claims of the paper that these rows test: " in printed(table_4.blocks)
     line = next(line for line in by_title["szente, Table 4"].splitlines() if line.startswith("sphere"))
     assert line.endswith("38.4× | 38.4× | 1.00× | 28.0 | 28.0× | 0.400 | 70.0×"), (
         "ours, the paper's, their ratio; our best"
@@ -80,7 +87,7 @@ def test_the_levels_of_beamcastings_figure_1_add_up_to_the_picture(tmp_path: Pat
     np.savez_compressed(folder / made["arrays"], level=level, status=status, **blank)
     _, report = reported(folder)
     (section,) = [section for section in report.sections if section.title == "beamcasting, Figure 1"]
-    (table,) = [block for block in section.blocks if isinstance(block, content.Table)]
+    (table,) = [block for block in section.details if isinstance(block, content.Table)]
     assert table.rows == [(8, 1, 4, 0.5), (8, 2, 2, 0.0), (8, 3, 1, 0.25), (8, "surface", None, 0.25)]
     (gallery,) = [block for block in section.blocks if isinstance(block, content.Gallery)]
     assert [panel.title for panel in gallery.panels] == ["octdong, 8 × 8"]
@@ -109,3 +116,51 @@ def test_the_front_says_where_our_own_method_is_not_on_it_and_who_wins(tmp_path:
     lines = [line for line in told.splitlines() if " | " in line]
     assert [line.split(" | ")[3] for line in lines] == ["no", "yes"]
     assert lines[0].endswith("0.500×") and lines[1].endswith("6.00×")
+
+
+def test_the_tori_of_figure_1_are_shown_beside_rows_of_other_runs(tmp_path: Path) -> None:
+    """Their rays begin at boxes; rows of another run, from another origin, must not put them out of the report."""
+    boxed = planted(picks.STURM, "torus", 1.0) | {"stage": "raster", "proxy": "box", "origin": "entry", "size": 8}
+    boxed |= {"arrays": f"arrays/{boxed['key']}.npz", "raster": None, "instances": 2}
+    boxed["accuracy"] |= {"fragments": 40, "fragments_discarded": 10}
+    other = planted(picks.STURM, "sphere", 1.0) | {"origin": "nearest"}
+    for name, made in (("toledo-fig1", boxed), ("choice", other)):
+        folder = tiny_run(tmp_path / name, made)
+        told = json.loads((folder / "plan.json").read_text()) | {"name": name}
+        (folder / "plan.json").write_text(json.dumps(told))
+    (tmp_path / "toledo-fig1" / "arrays").mkdir()
+    blank = dict.fromkeys(("truth", "wrong", "status"), np.zeros((8, 8), np.uint8))
+    blank |= dict.fromkeys(("error", "shade"), np.zeros((8, 8), np.float32))
+    blank |= {"grazing": np.zeros((8, 8), bool), "evaluations": np.ones((8, 8), np.int32)}
+    np.savez_compressed(tmp_path / "toledo-fig1" / boxed["arrays"], **blank)
+    (tmp_path / "all").mkdir()
+    whole = plan([]) | {"name": "all", "include": ["toledo-fig1", "choice"]}
+    (tmp_path / "all" / "plan.json").write_text(json.dumps(whole))
+    _, report = reported(tmp_path / "all")
+    (section,) = [section for section in report.sections if section.title == "toledo2007, Figures 1 and 5"]
+    (gallery,) = [block for block in section.blocks if isinstance(block, content.Gallery)]
+    assert [panel.title for panel in gallery.panels] == ["2 tori"]
+
+
+def test_pictures_stand_in_full_lines_with_short_titles() -> None:
+    rows = [
+        SimpleNamespace(key=f"{surface} {setting}", surface=surface, surface_title=surface, view="a", setting=setting)
+        for surface in ("octic", "decic")
+        for setting in ("EFT without EVAL", "EFT without EVAL, Bernstein")
+    ]
+    titles = pictures._titles([(row, None) for row in rows])
+    assert list(titles.values())[:2] == ["octic, EFT alone", "octic, EFT alone, Bernstein"]
+    assert pictures._angle("angle 18") == "18°" and pictures._angle("front") == "front"
+    assert list(map(len, pictures._batched([(row, None) for row in rows * 4]))) == [6, 6, 4]
+
+
+def test_papers_stand_one_after_the_other(tmp_path: Path) -> None:
+    cells = [planted(pick, "torus", 1.0, f"angle {n}") for pick in (picks.ONE_RAY, picks.TWO_RAYS) for n in (0, 18)]
+    cells += [planted(pick, "sphere", ms) for pick, ms in ((picks.MARCH, 38.4), (picks.FIT, 1.0))]
+    cells += [planted(pick, "sphere", ms) | {"size": 512} for pick, ms in ((picks.UNIFORM, 6.0), (picks.ADAPTIVE, 4.0))]
+    _, report = reported(tiny_run(tmp_path / "run", *cells))
+    named = [section.title.partition(",")[0] for section in report.sections]
+    found = [name for name in named if name in papers.PAPERS]
+    assert found == sorted(found, key=papers.PAPERS.index) and set(found) == set(papers.PAPERS)
+    titles = [section.title for section in report.sections]
+    assert titles.index(checklist.TITLE) > named.index("beamcasting")

@@ -17,7 +17,8 @@ from harness.scenes.views import DirectionChoice, by_direction
 from reports import content, first_page, wording
 from reports.analysis import derive, viewstats
 from reports.drawing import choice, plots, style, viewplots
-from reports.parts import conditions, environment, method_cards, own_front, rerun, surface_pages
+from reports.parts import conditions, method_cards, own_front, surface_pages
+from reports.parts.last_page import environment, rerun
 from reports.reading import load
 from reports.report import Material, Shelf
 from tests.synthetic_run import SURFACES, cell, printed, reported, retime, tiny_run, write_run
@@ -176,7 +177,7 @@ def test_the_rerun_page_names_methods_and_configs_that_are_no_part_of_the_commit
     def page(folder: Path) -> str:
         run = load.load(folder)
         material = Material(run, derive.derive(run.frame), pd.DataFrame(), Shelf(run.folders))
-        return printed(rerun.sections(material)[0].blocks)
+        return printed(rerun.blocks(material))
 
     told = page(folder)
     assert f"No part of the commit, which does not hold what lies outside the project: mine from {plugin}" in told

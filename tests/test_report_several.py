@@ -54,8 +54,8 @@ def test_two_runs_are_held_against_each_other(tmp_path: Path) -> None:
     by_title = {section.title: printed(section.blocks) for section in document.sections}
     assert "2.00×" in by_title["Speed"]
     assert "newton[EPSILON=0.001]" in by_title["In one run only"]
-    assert compare.build(first, second) == first / "against-b.pdf"
-    assert (first / "against-b.html").stat().st_size > 0
+    assert compare.build(first, second) == tmp_path / "a-to-b.report" / "report.pdf"
+    assert (tmp_path / "a-to-b.report" / "report.html").stat().st_size > 0
     back = printed(compare.report(load.load(second), load.load(first)).summary.blocks)
     assert "clearly slower in 0 and clearly faster in 1 of 1" in back
     b["time"] = b["time"] | {name: a["time"][name] / 4 for name in ("median_ms", "lower_ms", "upper_ms")}

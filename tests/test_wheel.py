@@ -149,7 +149,7 @@ def test_a_run_and_its_report_work_there_and_name_no_commit_of_others(installed)
     plan = json.loads((installed.work / "runs/one/plan.json").read_text())
     assert plan["environment"]["commit"] is None and plan["environment"]["dirty"] is False
     installed.run("firsthit", "report", "runs/one")
-    made = {path.name for path in (installed.work / "runs/one").iterdir()}
+    made = {path.name for path in (installed.work / "runs/one.report").iterdir()}
     assert {"report.pdf", "report.html", "results.csv", "results.parquet"} <= made
 
 

@@ -190,25 +190,26 @@ def test_a_report_is_replaced_as_a_whole(tmp_path):
     from reports import report
     from tests.synthetic_run import cell, tiny_run
 
-    run = tiny_run(tmp_path / "run", cell("ray_march", "sphere", "opencl:pocl", "float32"))
+    run, made = tiny_run(tmp_path / "run", cell("ray_march", "sphere", "opencl:pocl", "float32")), tmp_path / "made"
+    made.mkdir()
     names = ("report.pdf", "report.html", "results.csv", "results.parquet", "stability.csv")
     for name in names:
-        (run / name).write_text("old")
-    before = {path: path.is_file() and path.read_bytes() for path in run.rglob("*")}
+        (made / name).write_text("old")
+    before = {path: path.is_file() and path.read_bytes() for path in tmp_path.rglob("*")}
     for broken in ("export.write", "html.write_html", "document.write_pdf"):
         with pytest.MonkeyPatch.context() as patch:
             patch.setattr(f"reports.report.{broken}", stop)
             with pytest.raises(Stopped):
-                report.build(run)
-        assert {path: path.is_file() and path.read_bytes() for path in run.rglob("*")} == before
+                report.build(run, made)
+        assert {path: path.is_file() and path.read_bytes() for path in tmp_path.rglob("*")} == before
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(writing, "_flush", fill)
         with pytest.raises(FirsthitError, match=r"cannot write the report into .*: No space left"):
-            report.build(run)
-    assert {path: path.is_file() and path.read_bytes() for path in run.rglob("*")} == before
-    report.build(run)
-    assert not [name for name in names[:-1] if (run / name).read_bytes() == b"old"]
-    assert not (run / "stability.csv").exists(), "of an earlier plan"
+            report.build(run, made)
+    assert {path: path.is_file() and path.read_bytes() for path in tmp_path.rglob("*")} == before
+    report.build(run, made)
+    assert not [name for name in names[:-1] if (made / name).read_bytes() == b"old"]
+    assert not (made / "stability.csv").exists(), "of an earlier plan"
 
 
 KILLED = """

@@ -23,6 +23,9 @@ GROUPS: dict[str, dict[str, str]] = {
         "why": "say what would make a cell run again, or what set it apart from its last result",
         "report": "make the PDF, HTML, CSV and Parquet of a run, or hold two runs against each other; runs nothing",
     },
+    "publish": {
+        "publish": "make a static site from many runs: who wins where, with pictures and the data; runs nothing"
+    },
     "gate": {
         "gate": "fail where a config's results are worse than its blessed baseline",
         "bless": "make a config's present results the baseline of its gate",

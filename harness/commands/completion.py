@@ -174,5 +174,5 @@ COMPLETERS: dict[str, Callable[[Namespace], Iterable[str]]] = {  # by the destin
     "cell": _cells,
     "require": _claims,
 }
-FOLDERS = ("folder", "other")  # arguments that are folders
+FOLDERS = ("folder", "folders", "other")  # arguments that are folders
 FILES = ("surface", "cell")  # names that may be files

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import shlex
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from harness import console
@@ -22,6 +22,8 @@ from harness.results.history import past_of
 from harness.results.store import Row, Store
 from harness.running.due import due, estimates
 from harness.running.run import Loaded, load, remarks, run
+
+FIGURES, TABLES = ("svg", "pdf", "png"), ("latex", "csv", "markdown")  # forms; reports.for_papers.files writes them
 
 
 def add_parsers(add: Add) -> None:
@@ -43,7 +45,15 @@ def add_parsers(add: Add) -> None:
     add_json(parser)
     parser.set_defaults(run=_why)
 
-    parser = add("report", "firsthit report runs/quick")
+    parser = add(
+        "report",
+        "firsthit report runs/quick -o paper --figures svg,pdf --tables latex",
+        "Write report.pdf, report.html, results.csv and results.parquet about a run, or about what changed from one to "
+        "another. Nothing is written into a run. With --figures and --tables there are also folders for a paper: a "
+        "file for each figure and table, named by what it shows (figures/speed-error-torus.pdf, "
+        "tables/results-torus.tex), with captions.md, and captions.tex to copy floats from. Figures are 84 mm wide, "
+        "with text of 8 points; pictures are PNG, whatever the forms. The tables of LaTeX need booktabs and graphicx.",
+    )
     parser.add_argument("folder", type=Path, metavar="RUN", help="a folder below runs/")
     parser.add_argument("other", type=Path, metavar="OTHER", nargs="?", help="report what changed from RUN to OTHER")
     parser.add_argument(
@@ -56,7 +66,23 @@ def add_parsers(add: Add) -> None:
     )
     parser.add_argument("-o", "--output", type=Path, metavar="DIR", help="a folder (default: RUN.report, beside RUN)")
     parser.add_argument("--appendix", action="store_true", help="end the PDF with the tables that else only HTML has")
+    for what, forms in (("figures", FIGURES), ("tables", TABLES)):
+        told = f"write each of the {what} of a paper as a file too, in some of {', '.join(forms)}: FORM,FORM"
+        parser.add_argument(f"--{what}", type=_forms(forms), default=(), metavar="FORM", help=told)
     parser.set_defaults(run=_report)
+
+
+def _forms(known: Sequence[str]) -> Callable[[str], tuple[str, ...]]:
+    """Return what reads a list of forms, separated by commas; an unknown one is an error that names the `known`."""
+
+    def read(text: str) -> tuple[str, ...]:
+        named = tuple(dict.fromkeys(form.strip().lower() for form in text.split(",") if form.strip()))
+        unknown = next((form for form in named if form not in known), None)
+        if unknown is not None or not named:
+            raise argparse.ArgumentTypeError(f"unknown form {unknown or text!r}; known: {', '.join(known)}")
+        return named
+
+    return read
 
 
 def _add_config(parser: argparse.ArgumentParser) -> None:
@@ -160,18 +186,19 @@ def _report(options: argparse.Namespace) -> int:
         from reports import compare, report
 
         if options.other:
-            for name in ("baseline", "focus", "appendix"):
+            for name in ("baseline", "focus", "appendix", "figures", "tables"):
                 if getattr(options, name):
                     raise FirsthitError(f"--{name} goes with one run: of two, each cell is held against itself")
-        about = {"baseline": options.baseline, "focus": options.focus, "appendix": options.appendix}
         with console.working() as tell_step:
             if options.other:
                 tell_step(f"comparing {options.folder} with {options.other}")
                 made = compare.build(options.folder, options.other, options.output)
             else:
                 tell_step(f"reading {options.folder}")
+                names = ("baseline", "focus", "appendix", "figures", "tables")
+                about = {name: getattr(options, name) for name in names}
                 made = report.build(options.folder, options.output, **about, tell=tell_step)
-        print(made)
+        print(made, *(made.with_name(name) for name in ("figures", "tables") if getattr(options, name)), sep="\n")
     except ModuleNotFoundError as error:
         message = (
             f"a report needs the package {error.name}: pip install 'firsthit[report]'; runs/ can be copied elsewhere"

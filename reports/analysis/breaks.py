@@ -16,6 +16,7 @@ HELD = 0.99
 COUNTS = ["rays", "decided", "right", *KINDS, "undecidable", "undecidable_right", "undecided"]
 LADDER = ["family", "precision", "variant"]
 ALL_DEVICES = "all devices"
+_NAMES = ["method", "label", "method_label", "device"]
 
 
 def derive(families: pd.DataFrame, rungs: pd.DataFrame) -> pd.DataFrame:
@@ -25,6 +26,7 @@ def derive(families: pd.DataFrame, rungs: pd.DataFrame) -> pd.DataFrame:
     `families` has a row for each cell, `rungs` the rungs of all cells; methods that answer nothing are left out.
     """
     told = ["key", "slot", "family", "method", "variant", "parameters", "origin", "precision", "device"]
+    told += ["label", "method_label"]
     rows = families.loc[families["answers"].astype(bool), told].merge(rungs, on="key", sort=False)
     return rows.assign(share_right=_share(rows["right"], rows["decided"]))
 
@@ -45,15 +47,32 @@ def by_device(rungs: pd.DataFrame) -> dict[str, pd.DataFrame]:
 def verdicts(rungs: pd.DataFrame) -> pd.DataFrame:
     """Return a row for each ladder (family, precision and variant) of one device's `rungs`.
 
-    A row has `method`, `device`, the sums of COUNTS over the ladder, `share_right`, the largest `worst_ratio`, and
-    `breaks_at`: the parameter of the first rung, in order of growing difficulty, that breaks the variant; NaN where
-    none does.
+    A row has _NAMES, the sums of COUNTS over the ladder, `share_right`, and the largest `worst_ratio`. It counts the
+    rungs with decided rays, `rungs_decided`, and of these those that do not break the variant, `rungs_held`. Of the
+    first rung that does, in order of growing difficulty, it has the parameter, `breaks_at`, and the kind of most of its
+    wrong answers, `breaks_by`; both are missing where the variant holds.
     """
-    ladders = rungs.groupby(LADDER, sort=False)
-    rows = ladders[["method", "device"]].first().join(ladders[COUNTS].sum()).join(ladders["worst_ratio"].max())
-    broken = rungs[rungs["share_right"] < HELD].sort_values("level", kind="stable").drop_duplicates(LADDER)
-    rows = rows.join(broken.set_index(LADDER)["parameter"].rename("breaks_at"))
-    return rows.assign(share_right=_share(rows["right"], rows["decided"])).reset_index()
+    breaking = (rungs["share_right"] < HELD).astype(int)
+    ladders = rungs.assign(rungs_decided=rungs["share_right"].notna().astype(int), broken=breaking).groupby(
+        LADDER, sort=False
+    )
+    rows = ladders[_NAMES].first().join(ladders[[*COUNTS, "rungs_decided", "broken"]].sum())
+    rows = rows.join(ladders["worst_ratio"].max())
+    first = rungs[breaking == 1].sort_values("level", kind="stable").drop_duplicates(LADDER).set_index(LADDER)
+    rows = rows.join(first["parameter"].rename("breaks_at"))
+    rows = rows.join(first[list(KINDS)].astype("float64").fillna(0.0).idxmax(axis=1).rename("breaks_by"))
+    held = rows["rungs_decided"] - rows.pop("broken")
+    return rows.assign(rungs_held=held, share_right=_share(rows["right"], rows["decided"])).reset_index()
+
+
+def best_of_each_method(verdicts: pd.DataFrame) -> pd.DataFrame:
+    """Keep of each method the variant that holds most rungs, of several the first.
+
+    `verdicts` are those of one device and precision.
+    """
+    held = verdicts.groupby(["method", "variant"], sort=False)["rungs_held"].sum()
+    best = held.groupby(level="method", sort=False).idxmax()
+    return verdicts[verdicts["variant"].isin([variant for _, variant in best])]
 
 
 def _share(part: pd.Series, whole: pd.Series) -> pd.Series:

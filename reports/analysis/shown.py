@@ -7,6 +7,10 @@ import pandas as pd
 from harness.contract import CellStatus
 from reports.analysis.derive import casters, on_fullest_device
 
+SPREADS = 8  # a run with at most so many surfaces has two pages for each; one with more has an atlas
+FOLDED = 12  # the surfaces of an atlas whose pages are in the details, which are HTML alone
+EVERY_VARIANT = 20  # a strip of error maps has all variants if there are at most so many, else one of each method
+MOST_MAPS = 40  # maps of one strip
 EVERY_VIEW = 3  # a surface with so many views or fewer has maps of all; else each variant has one of its worst view
 MOST_SURFACES = 4  # a run with more surfaces has no maps of evaluations
 
@@ -40,9 +44,28 @@ def fullest(rows: pd.DataFrame) -> str:
     return str(counted.sort_values(["method", "variant"], ascending=False, kind="stable").index[0])
 
 
+def in_strip(rows: pd.DataFrame) -> pd.DataFrame:
+    """Select the rows of one surface whose error maps are shown, the fastest first in each precision.
+
+    They are all variants of the scene and the device of `of_surface`, or, of more than EVERY_VARIANT, one of each
+    method; at most MOST_MAPS.
+    """
+    every = of_surface(rows, EVERY_VARIANT)
+    kept = every if len(every) <= EVERY_VARIANT else of_surface(rows)
+    return kept.sort_values(["precision", "median_ms", "error_max"], kind="stable").head(MOST_MAPS)
+
+
+def with_pages(frame: pd.DataFrame) -> list[str]:
+    """Return the names of the surfaces that have pages of their own: all of SPREADS, else the first FOLDED."""
+    names = [str(name) for name in dict.fromkeys(frame["surface"])]
+    return names if len(names) <= SPREADS else names[:FOLDED]
+
+
 def in_galleries(frame: pd.DataFrame) -> pd.DataFrame:
-    """Select the rows that the galleries on the surfaces' pages show."""
-    return pd.concat([frame.head(0), *(of_surface(rows) for _, rows in frame.groupby("surface", sort=False))])
+    """Select the rows whose error maps the surfaces' pages show."""
+    kept = with_pages(frame)
+    own = (in_strip(rows) for name, rows in frame.groupby("surface", sort=False) if name in kept)
+    return pd.concat([frame.head(0), *own])
 
 
 def in_evaluation_maps(frame: pd.DataFrame) -> pd.DataFrame:

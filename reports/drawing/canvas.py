@@ -29,8 +29,8 @@ from reports.drawing.style import Mark
 
 RC: dict[Any, Any] = {
     "font.family": style.FONT,
-    "font.size": 6.5,
-    "axes.titlesize": 7,
+    "font.size": 7,
+    "axes.titlesize": 7.5,
     "axes.titleweight": "bold",
     "axes.edgecolor": style.FAINT,
     "axes.labelcolor": style.INK,

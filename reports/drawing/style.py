@@ -1,11 +1,13 @@
 """Define how things look: a colour and marker for each method, dashes for variants, a colour for a kind of wrong ray.
 
 The colours are Okabe and Ito's, which colour-blind readers can tell apart. There are more methods than colours. So each
-method of the suite has a marker that no other has, which tells them apart in greyscale too.
+method of the suite has a marker that no other method of the suite has, which tells them apart in greyscale too. Plugins
+have pairs of a colour and a marker that are left over.
 """
 
 from __future__ import annotations
 
+import hashlib
 from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
@@ -53,43 +55,74 @@ _HOUSE: dict[str, Mark] = {
     "contour": Mark(_SKY, (4, 1, 0)),  # a star with four points
 }
 _SPARE_COLORS = (_PURPLE, _GREEN, _VERMILLION, _SKY, _ORANGE, _BLUE, _YELLOW)
-_SPARE_MARKERS = (
+_SPARE_MARKERS: tuple[str | tuple[int, Literal[0, 1, 2], int], ...] = (
     "p",
     ">",
     "X",
-    "8",
     "H",
     "D",
     "v",
     "s",
-)  # 7 colours and 8 markers have no common factor, which gives 56 pairs
+    "o",
+    "^",
+    "<",
+    "P",
+    "*",
+    (3, 1, 0),
+    (4, 1, 0),
+    (6, 1, 0),
+)
 _SPARE = [
-    mark
-    for mark in (Mark(_SPARE_COLORS[i % 7], _SPARE_MARKERS[i % 8]) for i in range(56))
-    if mark not in _HOUSE.values()
-]
+    mark for mark in (Mark(c, m) for m in _SPARE_MARKERS for c in _SPARE_COLORS) if mark not in _HOUSE.values()
+]  # pairs of a colour and a marker that no method of the suite has
+_PALER = 0.6  # how far towards white the methods beside the focus are
 
 
-def marks(methods: Iterable[str]) -> dict[str, Mark]:
-    """Return a mark for each method, by name.
+def marks(methods: Iterable[str], focus: str = "") -> dict[str, Mark]:
+    """Return a mark for each method, by name; no two share colour and marker, up to len(_SPARE) plugins.
 
-    The suite's methods have the same mark in every report; plugins take spare ones.
+    The suite's methods have the same mark in every report. A plugin's mark is chosen by its name, so that it is the
+    same in every report in which no other plugin's name chooses that mark too. With a method `focus` all other methods
+    are paler.
     """
     names = sorted(set(methods))
-    spares = {name: _SPARE[i % len(_SPARE)] for i, name in enumerate(n for n in names if n not in _HOUSE)}
-    return {name: _HOUSE.get(name) or spares[name] for name in names}
+    found = {name: _HOUSE[name] for name in names if name in _HOUSE}
+    free = list(_SPARE)
+    for name in names:
+        if name not in found:
+            wanted = _SPARE[_number(name) % len(_SPARE)]
+            found[name] = wanted if wanted in free else free[_number(name) % len(free)]
+            free = [mark for mark in free if mark != found[name]] or list(_SPARE)
+    return {name: found[name] if focus in ("", name) else _paler(found[name]) for name in names}
+
+
+def _number(name: str) -> int:
+    """Return a number that a name has in every run."""
+    return int.from_bytes(hashlib.sha256(name.encode()).digest()[:6])
+
+
+def _paler(mark: Mark) -> Mark:
+    """Return the mark in a paler colour."""
+    return replace(mark, color=pale(mark.color, _PALER))
+
+
+def pale(color: str, share: float) -> str:
+    """Return a colour "#rrggbb" moved by `share` of the way to white."""
+    parts = (int(color[i : i + 2], 16) for i in (1, 3, 5))
+    return "#" + "".join(f"{round(part + share * (255 - part)):02x}" for part in parts)
 
 
 _LINES = ("-", "--", ":", "-.")
 
 
-def variant_marks(variants: Iterable[tuple[str, str]]) -> dict[str, Mark]:
+def variant_marks(variants: Iterable[tuple[str, str]], focus: str = "") -> dict[str, Mark]:
     """Return a mark for each variant of the pairs (method, variant), by the variant's name.
 
     It is the method's mark; the variants of a method have different dashes, as long as there are enough.
+    `focus` is as for `marks`.
     """
     pairs = list(dict.fromkeys(variants))
-    own = marks(method for method, _ in pairs)
+    own = marks((method for method, _ in pairs), focus)
     seen: Counter[str] = Counter()
     made = {}
     for method, variant in pairs:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pandas as pd
 
+from reports import labels
 from reports.analysis import derive
 
 ROW_LIMIT = 1_500  # rows of the longest table; results.csv has all
@@ -16,10 +17,20 @@ WRONG = {  # headings of columns, by the kind of wrong rays
 }
 
 
+def baseline(rows: pd.DataFrame) -> str:
+    """Name what the speed-ups of these rows are over, as people write it; several are joined by "or"."""
+    names = dict(zip(rows["variant"], rows["label"], strict=True))
+    names = dict(zip(rows["method"], rows["method_label"], strict=True)) | names
+    told = derive.baseline_of(rows)
+    return " or ".join(
+        str(names.get(name) or labels.label(name, name.partition("[")[0], {})) for name in told.split(" or ")
+    )
+
+
 def speedup(rows: pd.DataFrame) -> str:
     """Explain in a sentence, for captions, what the speed-ups of these rows are."""
     return (
-        f"Speed-up is {derive.baseline_of(rows)}'s time over this one's on the same device, in the same precision: the "
+        f"Speed-up is {baseline(rows)}'s time over this one's on the same device, in the same precision: the "
         "median of the ratios within the rounds that timed both, which need not be the ratio of the two medians; "
         "– where one of the two answers a ray away from silhouettes wrongly, was not timed or shares no round with the "
         "other."

@@ -1,4 +1,4 @@
-"""Draw time, error and wrong rays over the projection angle, and maps of them over the sphere of directions."""
+"""Draw time and error over the projection angle, and maps of them over the sphere of directions."""
 
 from __future__ import annotations
 
@@ -13,74 +13,73 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure as Drawing
 from matplotlib.lines import Line2D
-from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
+from matplotlib.ticker import FuncFormatter
 from numpy.typing import NDArray
 
 from reports import wording
 from reports.analysis.scene_names import rays_checked
 from reports.analysis.viewstats import ViewSet
 from reports.content import Figure
-from reports.drawing import style
-from reports.drawing.canvas import LINE, NARROW, RC, WIDE, ErrorAxis, Key, label_decades, line_of, svg
+from reports.drawing import line_labels, style
+from reports.drawing.canvas import LINE, NARROW, RC, ErrorAxis, label_decades, series, svg
 from reports.drawing.style import Mark
 
 DODGE = 0.3  # the share of the step between angles over which marks of one angle are spread, so that all are seen
-ACROSS, DOWN = 4, 4  # variants in one figure of maps
+ACROSS, DOWN = 3, 8  # variants in one figure of maps
+NAMES = 1.75  # the width that the names of lines take, inches
+SIZES = {"font.size": 7.0}
+ANGLE_TITLES = ("time per ray in the domain, ns", "largest |t − t*|, scene units; red cross: some rays are wrong")
 MAP_PIXELS = (90, 180)  # height and width of a map; each pixel shows the nearest direction
 TIME_MAP = "viridis"
 Limits = tuple[float, float]  # the ends of a colour scale, as decimal exponents
 
 
 def over_angle(of: ViewSet, marks: Mapping[str, Mark], name: str) -> Figure:
-    """Draw time per ray, largest error and wrong rays against the projection angle, a line for each variant."""
+    """Draw time per ray and largest error against the projection angle, a line for each variant, named at its end.
+
+    A red cross marks an angle with wrong rays.
+    """
     variants = dict(of.variants())
     angles = sorted(of.rows["angle"].unique())
     step = min(np.diff(angles), default=1.0)
-    key = Key([line_of(marks[v]) for v in variants], list(variants), NARROW)
-    above = key.height + 0.2
-    height = above + 0.36 + 2.4
     axis = ErrorAxis.of(of.rows["error_max"].dropna())
-    with matplotlib.rc_context(RC):
+    panel = max(1.55, 0.1 + len(variants) * line_labels.STEP / 72)
+    height = 2 * panel + 0.8
+    ends: tuple[list[Any], list[Any]] = ([], [])
+    with matplotlib.rc_context(RC | SIZES):
         drawing = Drawing(figsize=(NARROW, height))
-        times, errors, wrongs = drawing.subplots(1, 3, sharex=True)
-        drawing.subplots_adjust(0.48 / NARROW, 0.36 / height, 1 - 0.06 / NARROW, 1 - above / height, 0.24)
+        times, errors = drawing.subplots(2, 1, sharex=True)
+        drawing.subplots_adjust(0.5 / NARROW, 0.36 / height, 1 - NAMES / NARROW, 1 - 0.2 / height, hspace=0.26 / panel)
         axis.dress(errors, "y")
         for i, (variant, rows) in enumerate(variants.items()):
-            rows, mark = rows.sort_values("angle"), marks[variant]
-            x = rows["angle"] + DODGE * step * ((i + 0.5) / len(variants) - 0.5)
+            rows, mark, label = rows.sort_values("angle"), marks[variant], rows["label"].iloc[0]
             look: dict[str, Any] = {"color": mark.color, "marker": mark.marker, "ls": mark.line, **LINE}
+            look["gid"] = series(str(rows["method"].iloc[0]), variant)
             times.plot(rows["angle"], 1e3 * rows["us_per_ray"], **look)
-            known = rows["error_max"].notna()
-            errors.plot(x[known], axis.position(rows["error_max"][known]), **look)
-            if rows["answers"].iloc[0]:
-                wrongs.plot(x, rows["wrong_rays"].fillna(0).astype(float), **look)
+            ends[0].append((angles[-1], 1e3 * rows["us_per_ray"].iloc[-1], label, mark.color))
+            known = rows[rows["error_max"].notna()]
+            if known.empty:
+                continue
+            x, y = known["angle"] + DODGE * step * ((i + 0.5) / len(variants) - 0.5), axis.position(known["error_max"])
+            errors.plot(x, y, **look)
+            wrong = (known["wrong_rays"].fillna(0) > 0).to_numpy(bool)
+            errors.plot(x[wrong], y[wrong], ls="none", marker="x", color=style.WRONG[0].color, ms=7, mew=1.4, zorder=4)
+            ends[1].append((x.iloc[-1], y[-1], label, mark.color))
         times.set_yscale("log")
         label_decades(times.yaxis)
-        wrongs.set_yscale("symlog", linthresh=1.0)
-        most = float(of.rows["wrong_rays"].fillna(0).max())
-        top = max(12.0, 2 * most)
-        wrongs.set_ylim(-0.15, top)
-        wrongs.yaxis.set_major_locator(FixedLocator([0, *(10.0**e for e in range(int(math.log10(top)) + 1))]))
-        wrongs.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,.0f}"))
-        wrongs.yaxis.set_minor_locator(NullLocator())
-        for axes, title in zip(
-            (times, errors, wrongs),
-            ("ns per ray in the domain", "largest |t − t*|, scene units", "wrong rays"),
-            strict=True,
-        ):
-            axes.set_title(title, color=style.INK)
+        for axes, title, own in zip((times, errors), ANGLE_TITLES, ends, strict=True):
+            axes.set_title(title, color=style.INK, loc="left")
             axes.set_xticks(angles)
             axes.xaxis.set_major_formatter(FuncFormatter(lambda angle, _: f"{angle:g}°"))
-        drawing.supxlabel("projection angle: 0° looks down the z axis", y=0.08 / height, va="center", fontsize=6.5)
-        key.draw(drawing)
+            line_labels.write(axes, own)
+        drawing.text(0.5 / NARROW, 0.04 / height, "projection angle: 0° looks down the z axis", fontsize=7)
         drawn = svg(drawing)
     return Figure(
         name,
         drawn,
-        f"Time, error and wrong rays of {wording.listed(list(variants))} against the projection angle.",
+        f"Time and error of {wording.listed([end[2] for end in ends[0]])} against the projection angle.",
         f"{of.place}.",
-        "A level line does not depend on the view. On the right, marks of one angle stand side by side; counts are of "
-        f"the {rays_checked(of.rows)} rays of each angle's check." + wording.zeros(of.rows["error_max"]),
+        f"Of the {rays_checked(of.rows)} rays of each angle's check.{wording.zeros(of.rows['error_max'])}",
     )
 
 
@@ -168,54 +167,52 @@ def over_directions(of: ViewSet, scales: Scales, name: str) -> list[Figure]:
 
 def _maps(of: ViewSet, variants: Mapping[str, pd.DataFrame], scales: Scales, name: str) -> Figure:
     """Draw the maps of at most ACROSS × DOWN variants."""
-    ratios = {variant: _over_mean(rows) for variant, rows in variants.items()}
+    labels = [str(rows["label"].iloc[0]) for rows in variants.values()]
     lines = -(-len(variants) // ACROSS)
-    line, below, above = 1.12, 0.5, 0.05
-    height = above + line * lines + below
-    with matplotlib.rc_context(RC):
-        drawing = Drawing(figsize=(WIDE, height))
-        times, errors = scales.times, scales.errors
-        cell = WIDE / ACROSS
-        for i, (variant, rows) in enumerate(variants.items()):
-            left, top = cell * (i % ACROSS), height - above - line * (i // ACROSS)
-            drawing.text((left + 0.06) / WIDE, (top - 0.12) / height, _name(variant), weight="bold", fontsize=6.5)
+    cell = NARROW / ACROSS
+    wide, high = (cell - 0.2) / 2, (cell - 0.2) / 4
+    line, below = high + 0.42, 0.48
+    height = line * lines + below
+    with matplotlib.rc_context(RC | SIZES):
+        drawing = Drawing(figsize=(NARROW, height))
+        for i, (label, rows) in enumerate(zip(labels, variants.values(), strict=True)):
+            left, top = cell * (i % ACROSS), height - line * (i // ACROSS)
+            drawing.text((left + 0.03) / NARROW, (top - 0.13) / height, _name(label), weight="bold", fontsize=7)
             sphere = Sphere.of(rows["azimuth"].to_numpy(float), rows["elevation"].to_numpy(float))
-            error = rows["error_max"].to_numpy(float)
-            exponents = np.where(error > 0, np.log10(np.where(error > 0, error, 1.0)), -np.inf)
-            exponents[np.isnan(error)] = np.nan
-            wrong = rows["wrong_rays"].fillna(0).to_numpy(float)
-            wide, high = (cell - 0.14) / 2, (cell - 0.14) / 4
-            for j, (values, scale, cmap) in enumerate(
-                ((np.log10(ratios[variant]), times, TIME_MAP), (exponents, errors, style.ERROR_MAP))
-            ):
-                box = (
-                    (left + 0.05 + j * (wide + 0.04)) / WIDE,
-                    (top - 0.2 - high) / height,
-                    wide / WIDE,
-                    high / height,
-                )
-                _map(drawing.add_axes(box), sphere, values, scale, cmap, wrong)
-                told = _told_times(rows, ratios[variant]) if j == 0 else _told_errors(rows, wrong)
-                drawing.text(box[0], (top - 0.25 - high) / height, told, fontsize=5.6, va="top", color=style.INK)
-        _scales(drawing, times, errors, height)
-        drawn = svg(drawing)
+            wrong, ratio = rows["wrong_rays"].fillna(0).to_numpy(float), _over_mean(rows)
+            told = (_told_times(ratio), _told_errors(rows, wrong))
+            drawn = ((np.log10(ratio), scales.times, TIME_MAP), (_exponents(rows), scales.errors, style.ERROR_MAP))
+            for j, (values, scale, cmap) in enumerate(drawn):
+                x, y = left + 0.02 + j * (wide + 0.05), top - 0.19 - high
+                _map(drawing.add_axes((x / NARROW, y / height, wide / NARROW, high / height)), sphere, values, scale,
+                     cmap, wrong)  # fmt: skip
+                middle = (x + wide / 2) / NARROW
+                drawing.text(middle, (y - 0.03) / height, told[j], fontsize=7, va="top", ha="center", color=style.INK)
+        _scales(drawing, scales, height)
+        made = svg(drawing)
     return Figure(
         name,
-        drawn,
-        f"Maps over the sphere of directions of time and error of {wording.listed(list(variants))}.",
+        made,
+        f"Maps over the sphere of directions of time and error of {wording.listed(labels)}.",
         f"{of.place}, {len(of.views)} directions.",
-        "Mollweide's equal-area projection: the z axis is up, azimuth 0 in the middle; a place has the colour of the "
-        "nearest direction, a dot. Left, the time per ray in the domain over the variant's own mean, on one scale "
-        "for all maps of this report: an even map does not depend on the view. Right, the largest error, in "
-        f"the colours of all pictures of this report; pale is an error of 0. {wording.ZERO} Red crosses are directions "
-        f"with wrong rays, larger where there are more; the count adds them up, of {rays_checked(of.rows)} rays of "
-        "each direction's check.",
+        "Each pair: left the time per ray over the variant's own mean, right the largest error. All directions lie in "
+        "an ellipse (Mollweide's equal-area map), the z axis up; a dot is a direction, and its colour fills the places "
+        "nearest to it. Red crosses are directions with wrong rays, larger where there are more, of "
+        f"{rays_checked(of.rows)} rays each; pale is an error of 0.{wording.zeros(of.rows['error_max'])}",
     )
 
 
-def _name(variant: str) -> str:
+def _exponents(rows: pd.DataFrame) -> NDArray[np.float64]:
+    """Return the decimal exponents of the rows' largest errors, float64[n]: -inf for 0, NaN where none is known."""
+    error = rows["error_max"].to_numpy(float)
+    exponents = np.where(error > 0, np.log10(np.where(error > 0, error, 1.0)), -np.inf)
+    exponents[np.isnan(error)] = np.nan
+    return exponents
+
+
+def _name(label: str) -> str:
     """Shorten a name that is too long for the title of a map."""
-    return variant if len(variant) <= 42 else f"{variant[:40]} …"
+    return label if len(label) <= 38 else f"{label[:36]} …"
 
 
 def _map(
@@ -250,36 +247,36 @@ def _map(
     axes.axis("off")
 
 
-def _told_times(rows: pd.DataFrame, ratio: NDArray[np.float64]) -> str:
-    """Write the mean time per ray; of `ratio` [n], the rows' times over that mean, write the least and the largest."""
-    return f"mean {wording.number(1e3 * rows['us_per_ray'].mean())} ns, {ratio.min():.2f} to {ratio.max():.2f}"
+def _told_times(ratio: NDArray[np.float64]) -> str:
+    """Write the least and the largest of `ratio` [n], times per ray over their mean."""
+    return f"{ratio.min():.2f} to {ratio.max():.2f}×"
 
 
 def _told_errors(rows: pd.DataFrame, wrong: NDArray[np.float64]) -> str:
-    """Write the least and the largest of the rows' largest errors, and the sum of `wrong` [n], the rows' wrong rays."""
+    """Write the largest of the rows' largest errors, and the sum of `wrong` [n], the rows' wrong rays."""
     if not rows["answers"].iloc[0]:
         return "finds nothing"
-    error = rows["error_max"].astype("float64")
-    told = f"{wording.error(error.min())} to {wording.error(error.max())}"
+    told = f"to {wording.error(rows['error_max'].astype('float64').max())}"
     return f"{told}, {wording.count(wrong.sum())} wrong" if wrong.any() else told
 
 
-def _scales(drawing: Drawing, times: Limits, errors: Limits, height: float) -> None:
+def _scales(drawing: Drawing, scales: Scales, height: float) -> None:
     """Draw the two colour bars below the maps, and what a cross means."""
+    times, errors = scales.times, scales.errors
     reach = 10.0 ** times[1]
     levels = (0.7, 0.8, 0.9, 1.0, 1.1, 1.25, 1.4) if reach < 1.6 else (0.1, 0.2, 0.3, 0.5, 0.7, 1.0, 1.4, 2.0, 3.0, 5.0)
     ratios = [level for level in levels if 1 / reach <= level <= reach]
     steps = range(int(errors[0]), int(errors[1]) + 1, max(1, round((errors[1] - errors[0]) / 6)))
     for left, limits, cmap, title, ticks in (
-        (0.1, times, TIME_MAP, "time per ray in the domain over its mean", [(math.log10(r), f"{r:g}") for r in ratios]),
-        (3.7, errors, style.ERROR_MAP, "largest |t − t*|, scene units", [(e, wording.power_of_ten(e)) for e in steps]),
+        (0.1, times, TIME_MAP, "time per ray over its mean", [(math.log10(r), f"{r:g}") for r in ratios]),
+        (3.1, errors, style.ERROR_MAP, "largest |t − t*|, scene units", [(e, wording.power_of_ten(e)) for e in steps]),
     ):
-        axes = drawing.add_axes((left / WIDE, 0.2 / height, 3.0 / WIDE, 0.09 / height))
+        axes = drawing.add_axes((left / NARROW, 0.18 / height, 2.6 / NARROW, 0.09 / height))
         axes.imshow(np.linspace(0, 1, 256)[None], aspect="auto", cmap=cmap, extent=(*limits, 0, 1))
         axes.grid(visible=False)
         axes.set_yticks([])
         axes.set_xticks(*zip(*ticks, strict=True))
         axes.tick_params(length=2, pad=1)
-        axes.set_title(title, fontsize=6, weight="normal", pad=2, color=style.INK)
+        axes.set_title(title, fontsize=7, weight="normal", pad=2, color=style.INK)
     cross = Line2D([], [], color=style.WRONG[0].color, marker="x", ms=4, lw=0)
-    drawing.legend([cross], ["wrong rays"], loc="center left", bbox_to_anchor=(7.1 / WIDE, 0.3 / height))
+    drawing.legend([cross], ["wrong rays"], loc="center left", bbox_to_anchor=(5.95 / NARROW, 0.25 / height))

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import itertools
+import math
+from collections import Counter
+from collections.abc import Mapping
 from typing import Any
 
 import pandas as pd
@@ -11,11 +14,13 @@ from harness.contract import CellStatus
 from reports import wording
 from reports.analysis import derive, rounds
 from reports.analysis.scene_names import scene_names
-from reports.content import Column, Section, Table
-from reports.drawing import tables
+from reports.content import Block, Column, Matrix, Section, Square, Table, Text
+from reports.drawing import shades, tables
 from reports.material import Material
 
 ORDER = 30
+TOP = 30.0  # the factor that has the brightest colour
+READ = "A line without bright squares is a method that needs no particular device."
 
 _KERNEL = ["comparison", "variant", "precision"]
 
@@ -24,7 +29,68 @@ def sections(material: Material) -> list[Section]:
     """Make the section; [] unless two devices or more timed the same variant on the same scene."""
     timed = material.listed[material.listed["status"] == CellStatus.OK].dropna(subset=["median_ms"])
     table = _table(timed) if timed["device"].nunique() > 1 else None
-    return [Section("The same kernel on every device", (table,))] if table else []
+    if table is None:
+        return []
+    right = timed[derive.all_right(timed) & timed["answers"].astype(bool)]
+    right = right[right["precision"] == right["precision"].iloc[0]] if len(right) else right
+    means = _means(right)
+    shown: tuple[Block, ...] = (Text(_said(means)), _matrix(means, right["precision"].iloc[0])) if means else ()
+    return [Section("The same kernel on every device", shown, (table,), name="Devices")]
+
+
+def _means(right: pd.DataFrame) -> dict[str, dict[str, tuple[float, int]]]:
+    """Return by label and device the geometric mean of a variant's times over its fastest device's, and of how many.
+
+    Only scenes count that two devices or more answered rightly in the same rounds. `right` is of one precision.
+    """
+    logs: dict[str, dict[str, list[float]]] = {}
+    rows = right.drop_duplicates([*_KERNEL, "device"]).sort_values("median_ms", kind="stable")
+    for _, own in rows.groupby(_KERNEL, sort=False):
+        first, *rest = own.itertuples()
+        ratios = {str(row.device): rounds.times_over(row, first) for row in rest}
+        ratios = {device: ratio for device, ratio in ratios.items() if not math.isnan(ratio)}
+        for device, ratio in ({str(first.device): 1.0} | ratios).items() if ratios else ():
+            logs.setdefault(str(first.label), {}).setdefault(device, []).append(math.log(ratio))
+    return {
+        label: {device: (math.exp(sum(of) / len(of)), len(of)) for device, of in own.items()}
+        for label, own in logs.items()
+    }
+
+
+def _fastest(means: Mapping[str, Mapping[str, tuple[float, int]]]) -> list[tuple[str, int]]:
+    """Return each device and for how many variants it has the smallest mean, those with most first."""
+    firsts = Counter(min(own, key=lambda device: own[device][0]) for own in means.values())
+    devices = dict.fromkeys(device for own in means.values() for device in own)
+    return sorted(((device, firsts[device]) for device in devices), key=lambda found: -found[1])
+
+
+def _said(means: Mapping[str, Mapping[str, tuple[float, int]]]) -> str:
+    """Say what to see, and which device is fastest for how many of the variants."""
+    (first, count), *rest = _fastest(means)
+    others = [f"{device} for {firsts}" for device, firsts in rest if firsts]
+    told = f"{first} is the fastest for {count} of {wording.plural(len(means), 'variant')}"
+    return f"{READ} {told}{f', {wording.listed(others)}' if others else ''}."
+
+
+def _matrix(means: Mapping[str, Mapping[str, tuple[float, int]]], precision: str) -> Matrix:
+    """Make a line for each variant and a column for each device, those on the left that are fastest most often."""
+    order = [device for device, _ in _fastest(means)]
+    missing = shades.silent(wording.NONE, "wrong, or not timed in the same rounds")
+    return Matrix(
+        tuple(order),
+        [(label, tuple(_square(*own[d]) if d in own else missing for d in order)) for label, own in means.items()],
+        f"Time over that of the variant's fastest device, {precision}.",
+        "The geometric mean over the scenes that two devices or more answered rightly in the same rounds.",
+        "method",
+        shades.key({0.0: "the fastest", 0.5: f"{TOP**0.5:.2g}×", 1.0: f"{TOP:g}× and more"}),
+    )
+
+
+def _square(mean: float, scenes: int) -> Square:
+    """Return a device's square for a variant: the mean of its times over the fastest device's."""
+    return Square(
+        wording.factor(mean), shades.shade(math.log(mean) / math.log(TOP)), f"mean of {wording.plural(scenes, 'scene')}"
+    )
 
 
 def _table(timed: pd.DataFrame) -> Table | None:
@@ -33,11 +99,11 @@ def _table(timed: pd.DataFrame) -> Table | None:
     named = scene_names(timed)
     body: list[tuple[Any, ...]] = []
     timed = timed.assign(comparable=derive.all_right(timed) | ~timed["answers"].astype(bool))
-    kept = [*_KERNEL, "device", "median_ms", *rounds.COLUMNS, "overhead_share", "comparable"]
+    kept = [*_KERNEL, "device", "label", "median_ms", *rounds.COLUMNS, "overhead_share", "comparable"]
     timed = timed[kept].drop_duplicates([*_KERNEL, "device"])
     shared = timed[timed.groupby(_KERNEL)["device"].transform("size") > 1]
     groups = shared.groupby(_KERNEL, sort=False)
-    for (scene, variant, precision), rows in itertools.islice(groups, tables.ROW_LIMIT):
+    for (scene, _, precision), rows in itertools.islice(groups, tables.ROW_LIMIT):
         by_device = rows.set_index("device")
         slowest = rows[rows["comparable"]].nlargest(1, "median_ms")
         cells: list[float | None] = []
@@ -48,7 +114,7 @@ def _table(timed: pd.DataFrame) -> Table | None:
             else:
                 faster = rounds.times_over(slowest.iloc[0], here) if here.comparable else None
                 cells += [here.median_ms, faster, here.overhead_share]
-        body.append((named[str(scene)], precision, variant, *cells))
+        body.append((named[str(scene)], precision, rows["label"].iloc[0], *cells))
     if not body:
         return None
     columns = [Column("surface"), Column("precision"), Column("variant", stretch=1)]

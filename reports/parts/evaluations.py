@@ -20,11 +20,16 @@ from reports.material import Material
 from reports.reading.arrays import Arrays
 
 ORDER = 27
+PAGED = 2  # a run with more surfaces has its maps in the details
+PANELS = 12  # of a page, the fastest variants
 COLORS = "viridis"
+TITLE = "Evaluations, ray by ray"
+SEEN = (
+    "Each pair: how often a ray evaluates f, from dark to bright on one logarithmic scale, and its error. Bright rings "
+    "along silhouettes are rays that nearly touch the surface, where iterations creep (toledo2007, Fig. 4)."
+)
 EXPLANATION = (
-    "Evaluations of f that each ray costs, from dark to bright on one logarithmic scale, and beside it its error, in "
-    f"the colours of all pictures of this report. {wording.ZERO} Bright rings along silhouettes are rays that nearly "
-    "touch the surface: sphere tracing's critical case, in toledo2007's Fig. 4. Wrong rays are those away from "
+    f"Errors are in the colours of all pictures of this report. {wording.ZERO} Wrong rays are those away from "
     "silhouettes; grazing and drowned ones are counted apart, and “max” leaves them out. “Per ray cast” counts those "
     "that pass the domain by too, as every table of this report does. Of the device with most results, in its first "
     "precision."
@@ -32,7 +37,10 @@ EXPLANATION = (
 
 
 def sections(material: Material) -> list[Section]:
-    """Make a section with a gallery for each surface; [] where no row stores its evaluations."""
+    """Make a section with the maps of each surface; [] where no row stores its evaluations.
+
+    A page shows the fastest variants of at most PAGED surfaces; all maps are in the details.
+    """
     cells: list[tuple[Any, Arrays]] = []
     for row in shown.in_evaluation_maps(material.frame).itertuples():
         arrays = material.shelf.get(row)
@@ -41,13 +49,23 @@ def sections(material: Material) -> list[Section]:
     if not cells:
         return []
     errors = material.error_scale
-    most = max(int(arrays.evaluations.max()) for _, arrays in cells if arrays.evaluations is not None)
-    counted = _legend(max(most, 2))
-    blocks: list[Block] = [Text(EXPLANATION), counted]
-    for surface in dict.fromkeys(row.surface for row, _ in cells):
-        own_panels = tuple(_panel(row, a, max(most, 2), errors) for row, a in cells if row.surface == surface)
-        blocks.append(Gallery(own_panels, "", plots.error_legend(*errors)))
-    return [Section("Evaluations, ray by ray", tuple(blocks))]
+    most = max(2, *(int(arrays.evaluations.max()) for _, arrays in cells if arrays.evaluations is not None))
+    surfaces = list(dict.fromkeys(row.surface for row, _ in cells))
+    panels = {name: [_panel(row, a, most, errors) for row, a in cells if row.surface == name] for name in surfaces}
+    legend = plots.error_legend(*errors)
+    every: list[Block] = [Text(EXPLANATION), *(Gallery(tuple(own), "", legend) for own in panels.values())]
+    told = [Text(SEEN), _legend(most)]
+    if len(surfaces) > PAGED:
+        return [Section(TITLE, (), (*told, *every))]
+    fastest = sorted(cells, key=lambda cell: (wording.absent(cell[0].median_ms), cell[0].median_ms))
+    per_surface = PANELS // len(surfaces)
+    page = [
+        _panel(row, a, most, errors)
+        for name in surfaces
+        for row, a in [cell for cell in fastest if cell[0].surface == name][:per_surface]
+    ]
+    cut = "" if len(page) == len(cells) else f"The fastest {per_surface} variants of each surface."
+    return [Section(TITLE, (*told, Gallery(tuple(page), cut, legend)), tuple(every), own_page=True)]
 
 
 def evaluation_map(evaluations: NDArray[np.int32], most: int) -> NDArray[np.float64]:
@@ -61,7 +79,7 @@ def evaluation_map(evaluations: NDArray[np.int32], most: int) -> NDArray[np.floa
 def _panel(row: Any, arrays: Arrays, most: int, errors: tuple[int, int]) -> Panel:
     """Show the evaluations of one row beside its errors."""
     assert arrays.evaluations is not None
-    name = f"{row.variant}, {row.surface_title}, {row.view}"
+    name = f"{row.label}, {row.surface_title}, {row.view}"
     pictures = (
         Picture(
             f"{row.key}-evaluations", images.png(evaluation_map(arrays.evaluations, most)), f"Evaluations of {name}"
@@ -93,5 +111,5 @@ def _legend(most: int) -> Figure:
         ticks = [d * 10**e for e in range(int(top) + 1) for d in within if d * 10**e <= most]
         bar.xaxis.set_major_locator(FixedLocator([float(np.log10(tick)) for tick in ticks]))
         bar.xaxis.set_major_formatter(FuncFormatter(lambda place, _: f"{round(10**place):,}"))
-        drawing.text(0.41, 0.68, "evaluations of f on a ray; white: none", va="center", fontsize=6.5)
+        drawing.text(0.41, 0.68, "evaluations of f on a ray; white: none", va="center", fontsize=7)
         return Figure(f"evaluations-legend-{most}", svg(drawing), "Colours of evaluation counts.")

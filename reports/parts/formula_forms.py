@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
@@ -16,9 +17,9 @@ from harness.contract import CellStatus
 from reports import wording
 from reports.analysis import rounds, ties
 from reports.analysis.surface_names import PRINTED, base_of, form_of
-from reports.content import Block, Column, Figure, Section, Table, Text
-from reports.drawing import style
-from reports.drawing.canvas import LINE, RC, WIDE, svg
+from reports.content import Block, Column, Figure, Matrix, Section, Square, Table, Text
+from reports.drawing import line_labels, shades, style
+from reports.drawing.canvas import LINE, NARROW, RC, svg
 from reports.material import Material
 
 ORDER = 22
@@ -32,6 +33,12 @@ _STYLES = (  # colour, marker and dashes; a form takes the next, and keeps it in
     ("#CC79A7", "v", (0, (5, 1))),
     ("#B8A800", "P", (0, (1, 1))),
 )
+TOP = 4.0  # the factor that has the brightest colour, and its inverse the darkest
+READ_RANGES = (
+    "How much wider than f's range a form's interval extension is, as boxes shrink: the gap between two forms at the "
+    "right is one that no subdivision closes."
+)
+READ_COST = "Dark squares are faster than the form as printed, bright ones slower; all forms were timed in turns."
 LEAD = (
     "One polynomial may be written in many ways, and exact arithmetic cannot tell them apart; a test expands them "
     "all. Two things differ. An interval extension treats each place in the formula where a variable stands as if it "
@@ -50,13 +57,50 @@ def sections(material: Material) -> list[Section]:
     """Make the section; [] unless the run has two forms of a surface in one picture, or the study of ranges."""
     rows = _picture(material.evidence.of("forms.toml").frame)
     ranges = pd.DataFrame(material.run.studies.get("form_ranges", []))
-    blocks: list[Block] = [Text(LEAD)]
+    shown: list[Block] = []
+    details: list[Block] = [Text(LEAD)]
     if not ranges.empty:
         titles = dict(zip(material.frame["surface"], material.frame["surface_title"], strict=True))
-        blocks += [Text(_narrowest(ranges, titles)), _ranges(ranges, rows, titles), _figure(ranges, titles)]
+        shown += [Text(f"{READ_RANGES} {_narrowest(ranges, titles)}"), _figure(ranges, titles)]
+        details.append(_ranges(ranges, rows, titles))
     if not rows.empty:
-        blocks += [_work(rows), Text(WARNING), _errors(rows)]
-    return [Section("How a formula is written", tuple(blocks))] if len(blocks) > 1 else []
+        shown += [Text(READ_COST), _cost(rows)]
+        details += [_work(rows), Text(WARNING), _errors(rows)]
+    return [Section("How a formula is written", tuple(shown), tuple(details), name="Forms")] if shown else []
+
+
+def _cost(rows: pd.DataFrame) -> Matrix:
+    """Make a line for each form and a column for each variant: its time over that of the form as printed."""
+    variants = dict(zip(rows["variant"], rows["label"], strict=True))
+    missing = shades.silent(wording.NONE, "not timed")
+    body: list[tuple[str, tuple[Square, ...]]] = []
+    for _, forms in rows.groupby("base", sort=False):
+        title = str(forms["surface_title"].iloc[0]).removesuffix(f", {forms['form'].iloc[0]}")
+        printed = _by_name(forms[forms["form"] == PRINTED].itertuples())
+        for form, own in forms.groupby("form", sort=False):
+            found = _by_name(own.itertuples())
+            squares = (_square(found[v], printed.get(v)) if v in found else missing for v in variants)
+            body.append((f"{title}, {form}", tuple(squares)))
+    return Matrix(
+        tuple(variants.values()),
+        body,
+        "What a form costs: its time over that of the form as printed.",
+        f"“Even”: the rounds do not tell the two apart; “?”: fewer than {ties.NEEDED} rounds timed both. "
+        + _where(rows),
+        "surface, form",
+        shades.key({0.0: f"{TOP:g}× as fast", 0.5: "the same", 1.0: f"{TOP:g}× as slow"}),
+    )
+
+
+def _square(row: Any, printed: Any) -> Square:
+    """Return the square of a form; `printed` is the row of the same variant with the form as printed, or None."""
+    told = _times(row, printed)
+    if told is None:
+        return shades.silent(wording.NONE, "not timed")
+    wrong = f",\n{wording.count(row.wrong_rays)} wrong" if row.wrong_rays else ""
+    note = f"{row.label}: {wording.number(row.median_ms)} ms, {wording.count(row.wrong_rays)} wrong rays"
+    over = 1.0 if row.surface == printed.surface else rounds.times_over(row, printed)
+    return Square(told + wrong, shades.shade(0.5 + math.log(over) / (2.0 * math.log(TOP))), note)
 
 
 def _picture(frame: pd.DataFrame) -> pd.DataFrame:
@@ -115,43 +159,51 @@ def _figure(ranges: pd.DataFrame, titles: dict[str, str]) -> Figure:
     bases = list(dict.fromkeys(ranges["surface"]))
     forms = list(dict.fromkeys(ranges["form"].map(form_of)))
     looks = {form: _STYLES[i % len(_STYLES)] for i, form in enumerate(forms)}
-    height = 2.1
-    with matplotlib.rc_context(RC):
-        drawing = Drawing(figsize=(WIDE, height))
-        panels = drawing.subplots(1, len(bases), squeeze=False)[0]
-        drawing.subplots_adjust(0.6 / WIDE, 0.42 / height, 1 - 0.05 / WIDE, 1 - 0.22 / height, 0.16)
-        for axes, base in zip(panels, bases, strict=True):
-            _panel(axes, ranges[ranges["surface"] == base], looks)
+    across = min(2, len(bases))
+    lines = -(-len(bases) // across)
+    height = 0.4 + 1.5 * lines
+    with matplotlib.rc_context(RC | {"font.size": 7.0}):
+        drawing = Drawing(figsize=(NARROW, height))
+        panels = drawing.subplots(lines, across, squeeze=False)
+        drawing.subplots_adjust(0.6 / NARROW, 0.42 / height, 1 - 0.9 / NARROW, 1 - 0.2 / height, 0.5, 0.4)
+        for axes, base in zip(panels.flat, bases, strict=False):
             axes.set_title(titles.get(base, base), color=style.INK)
-        drawing.supxlabel("side of the boxes over the domain's radius", y=0.1 / height, va="center", fontsize=6.5)
-        drawing.supylabel("width over the range's", x=0.08 / WIDE, ha="center", fontsize=6.5)
+            _panel(axes, ranges[ranges["surface"] == base], looks)
+        for axes in list(panels.flat)[len(bases) :]:
+            axes.axis("off")
+        drawing.supxlabel("side of the boxes over the domain's radius", y=0.1 / height, va="center", fontsize=7)
+        drawing.supylabel("width over the range's", x=0.08 / NARROW, ha="center", fontsize=7)
         drawn = svg(drawing)
     return Figure(
         "forms-range",
         drawn,
         f"Overestimation of the ranges of {wording.listed([titles.get(base, base) for base in bases])} by form.",
         "Overestimation against the size of boxes.",
-        "1 is exact. Look for the distance between forms at the left ends: no subdivision closes it.",
+        "1× is exact.",
     )
 
 
 def _panel(axes: Axes, own: pd.DataFrame, looks: Mapping[str, tuple[str, str, Any]]) -> None:
-    """Draw the overestimation of one surface's forms; `looks` has the style of each form."""
+    """Draw the overestimation of one surface's forms, named at their ends; `looks` has the style of each form."""
+    ends = []
     for form, line in own.groupby(own["form"].map(form_of), sort=False):
         color, marker, dashes = looks[str(form)]
-        axes.plot(line["side"], line["factor"], color=color, marker=marker, ls=dashes, label=form, **LINE)
+        line = line.sort_values("side")
+        axes.plot(line["side"], line["factor"], color=color, marker=marker, ls=dashes, **LINE)
+        ends.append((line["side"].iloc[0], line["factor"].iloc[0], str(form), color))
     axes.set_xscale("log")
     axes.set_yscale("log")
+    axes.invert_xaxis()
     sides = sorted(set(own["side"]))[::2]
     axes.xaxis.set_major_locator(FixedLocator(sides))
     axes.xaxis.set_minor_locator(NullLocator())
     axes.xaxis.set_major_formatter(FuncFormatter(lambda side, _: f"1/{1 / side:.0f}"))
     high = own["factor"].max()
-    axes.set_ylim(0.95, high * 1.1 * high**0.35)  # room for the key
+    axes.set_ylim(0.95, high * 1.1)
     axes.yaxis.set_major_locator(FixedLocator([1, 1.2, 1.5, 2] if high < 3 else [1, 2, 5, 10, 20, 50, 100]))
     axes.yaxis.set_minor_locator(NullLocator())
     axes.yaxis.set_major_formatter(FuncFormatter(lambda factor, _: f"{factor:g}×"))
-    axes.legend(loc="upper left", borderaxespad=0.2, handlelength=3.2, ncols=2)
+    line_labels.write(axes, ends)
 
 
 def _work(rows: pd.DataFrame) -> Table:
@@ -208,7 +260,7 @@ def _by_variant(
     `told` returns the two values of a cell; it is given the row, and the row of the same variant with the form as
     printed, or None without one.
     """
-    variants = list(dict.fromkeys(rows["variant"]))
+    variants = dict(zip(rows["variant"], rows["label"], strict=True))
     body: list[tuple[Any, ...]] = []
     for _, forms in rows.groupby("base", sort=False):
         title = str(forms["surface_title"].iloc[0]).removesuffix(f", {forms['form'].iloc[0]}")
@@ -218,7 +270,7 @@ def _by_variant(
             cells = [told(found[v], printed.get(v)) if v in found else (None, None) for v in variants]
             body.append((title, form, *(value for pair in cells for value in pair)))
     named = (Column("surface"), Column("form"))
-    pairs = (Column(head.title, head.show, numeric=True, over=variant) for variant in variants for head in heads)
+    pairs = (Column(head.title, head.show, numeric=True, over=label) for label in variants.values() for head in heads)
     return (*named, *pairs), body
 
 

@@ -26,7 +26,13 @@ from reports.material import Material
 
 ORDER = 26
 PANELS = 6  # of one figure
-MOST_FIGURES = 4  # for one axis
+LEAD = (
+    "Time t against {unit} n, on logarithmic axes, and the line t = c·nᵏ that fits the logarithms best. The exponent k "
+    "stands with its 95 % interval, and is told only where that is no wider than k itself. The points of a line are of "
+    "different pictures, which were timed one after the other: what slowed the machine down meanwhile is in the "
+    "scatter. No point is of a row {wrongly}."
+)
+MOST_FIGURES = 4  # for one axis; the first is printed
 ACROSS = 3  # panels beside each other
 
 
@@ -90,6 +96,7 @@ class Curve:
 
     place: tuple[Any, ...]  # the values of the axis's `fixed`, in their order
     variant: str
+    label: str
     x: NDArray[np.float64]  # [n], growing
     ms: NDArray[np.float64]  # [n]
     fit: Power | Refusal
@@ -149,12 +156,13 @@ def _curves(axis: Axis, rows: pd.DataFrame) -> list[Curve]:
     by = _line(axis)
     if rows.empty:
         return []
-    rows = rows.loc[rows.groupby(by, sort=False)["x"].transform("nunique") >= FEWEST, [*by, "x", "ms"]]
+    rows = rows.loc[rows.groupby(by, sort=False)["x"].transform("nunique") >= FEWEST, [*by, "label", "x", "ms"]]
     found = []
     for (*place, variant), own in rows.groupby(by, sort=False):
         own = own.sort_values("x", kind="stable")
         fit = power_law(own["x"], own["ms"])
-        found.append(Curve(tuple(place), str(variant), own["x"].to_numpy(), own["ms"].to_numpy(), fit))
+        told = str(variant), str(own["label"].iloc[0])
+        found.append(Curve(tuple(place), *told, own["x"].to_numpy(), own["ms"].to_numpy(), fit))
     return found
 
 
@@ -169,17 +177,30 @@ def sections(material: Material) -> list[Section]:
         rows, left_out = _points(frame, axis)
         found = _curves(axis, rows)
         if found or left_out:
-            lead = (
-                f"Time t against {axis.unit} n, on logarithmic axes, and the line t = c·nᵏ that fits the logarithms "
-                "best. The exponent k stands with its 95 % interval, and is told only where that is no wider than k "
-                f"itself. {axis.expected} The points of a line are of different pictures, which were timed one after "
-                "the other: what slowed the machine down meanwhile is in the scatter. No point is of a row "
-                f"{axis.wrongly}.{_told_left_out(left_out)}"
-            )
-            blocks: list[Block] = [Text(lead)]
-            blocks += [*_figures(axis, found, material.marks, titles), _table(axis, found, titles)] if found else []
-            made.append(Section(TITLES[axis.name], tuple(blocks)))
+            figures = list(_figures(axis, found, material.marks, titles))
+            fitted = [curve for curve in found if isinstance(curve.fit, Power)]
+            shown: tuple[Block, ...] = (Text(_said(axis, fitted, titles)), figures[0]) if fitted else ()
+            details: list[Block] = [Text(LEAD.format(unit=axis.unit, wrongly=axis.wrongly) + _told_left_out(left_out))]
+            details += [*figures[1 if fitted else 0 :], _table(axis, found, titles)] if found else []
+            made.append(Section(TITLES[axis.name], shown, tuple(details)))
     return made
+
+
+def _said(axis: Axis, fitted: list[Curve], titles: Mapping[str, str]) -> str:
+    """Say which cost grows least and which most, from the curves with an exponent; there is at least one."""
+    named = _places(axis, fitted, titles)
+    least, *_, most = sorted([*fitted, *fitted[:1]], key=_exponent)
+    told = f"Time grows as nᵏ with the {axis.unit} n; the line of each method shows k. {axis.expected} "
+    if least is most:
+        return wording.minus(f"{told}Here k is {_exponent(least):.2f}, of {least.label}, {named[least.place]}.")
+    ends = [f"{_exponent(c):.2f} ({c.label}, {named[c.place]})" for c in (least, most)]
+    return wording.minus(f"{told}Here k goes from {ends[0]} to {ends[1]}.")
+
+
+def _exponent(curve: Curve) -> float:
+    """Return the exponent of a curve that has one."""
+    assert isinstance(curve.fit, Power)
+    return curve.fit.exponent
 
 
 def _of_run(axis: Axis, frame: pd.DataFrame) -> Axis:
@@ -208,7 +229,7 @@ def _table(axis: Axis, found: list[Curve], titles: Mapping[str, str]) -> Table:
             Column("scatter", wording.share, numeric=True),
             Column("why there is none", stretch=2),
         ),
-        [(named[c.place], c.variant, c.fit.points, *_told(c.fit)) for c in lines[: tables.ROW_LIMIT]],
+        [(named[c.place], c.label, c.fit.points, *_told(c.fit)) for c in lines[: tables.ROW_LIMIT]],
         f"Exponents of time over {axis.name}.",
         "The fastest growing first. ± is half the 95 % interval; scatter, the standard deviation of the points' times "
         "about the line, as a share of the time."
@@ -261,16 +282,17 @@ def _figure(
     variants = [variant for variant in marks if any(curve.variant == variant for curve in found)]
     columns = min(ACROSS, len(places))
     lines = -(-len(places) // columns)
-    key = Key([line_of(marks[v]) for v in variants], variants, NARROW)
+    labels = {curve.variant: curve.label for curve in found}
+    key = Key([line_of(marks[v]) for v in variants], [labels[v] for v in variants], NARROW)
     above = key.height + 0.22
-    height = above + 0.4 + 2.3 * lines
+    height = above + 0.4 + 1.9 * lines
     every = np.concatenate([curve.x for curve in found])
-    with matplotlib.rc_context(RC):
+    with matplotlib.rc_context(RC | {"font.size": 7.0}):
         drawing = Drawing(figsize=(NARROW, height))
         panels = drawing.subplots(lines, columns, sharex=True, sharey=True, squeeze=False)
         drawing.subplots_adjust(0.5 / NARROW, 0.42 / height, 1 - 0.05 / NARROW, 1 - above / height, 0.06, 0.16)
         for axes, place in zip(panels.flat, places, strict=False):
-            axes.set_title(named[place], color=style.INK, fontsize=6)
+            axes.set_title(named[place], color=style.INK, fontsize=7)
             for curve in (curve for curve in found if curve.place == place):
                 mark = marks[curve.variant]
                 axes.plot(curve.x, curve.ms, color=mark.color, marker=mark.marker, **LINE | {"lw": 0})
@@ -289,10 +311,8 @@ def _figure(
         show = (lambda x, _: f"{round(x**0.5)}²") if axis.name == "pixels" else (lambda x, _: f"{x:,.0f}")
         first.xaxis.set_major_formatter(FuncFormatter(show))
         label_decades(first.yaxis)
-        drawing.supxlabel(axis.unit, y=0.1 / height, va="center", fontsize=6.5)
-        drawing.supylabel(
-            "ms above the floor" if axis.above_floor else "ms", x=0.08 / NARROW, ha="center", fontsize=6.5
-        )
+        drawing.supxlabel(axis.unit, y=0.1 / height, va="center", fontsize=7)
+        drawing.supylabel("ms above the floor" if axis.above_floor else "ms", x=0.08 / NARROW, ha="center", fontsize=7)
         key.draw(drawing)
         drawn = svg(drawing)
     exponents = [curve.fit.exponent for curve in found if isinstance(curve.fit, Power)]
@@ -303,9 +323,9 @@ def _figure(
     return Figure(
         name,
         drawn,
-        f"Time of {wording.listed(variants)} against {axis.unit}, with lines where one fits.",
+        f"Time of {wording.listed(list(labels.values()))} against {axis.unit}, with lines where one fits.",
         f"Time against {axis.unit}.",
-        wording.minus(f"{told}; the table below has each."),
+        wording.minus(f"{told}."),
     )
 
 
@@ -316,3 +336,12 @@ def _apart(ticks: list[float]) -> list[float]:
         if not kept or np.log(tick / kept[-1]) > 0.07 * np.log(ticks[-1] / ticks[0]):
             kept.append(tick)
     return kept
+
+
+def of_run(frame: pd.DataFrame) -> Iterator[tuple[Axis, list[Curve], dict[tuple[Any, ...], str]]]:
+    """Yield each axis along which some variant was timed at FEWEST places, its curves, and their places' names."""
+    titles = frame.drop_duplicates("surface").set_index("surface")["surface_title"].to_dict()
+    for axis in (_of_run(axis, frame) for axis in AXES):
+        found = _curves(axis, _points(frame, axis)[0])
+        if found:
+            yield axis, found, _places(axis, found, titles)

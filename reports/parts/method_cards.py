@@ -19,6 +19,7 @@ from reports.claims.model import where
 from reports.content import Block, Column, Figure, Section, Table
 from reports.drawing import style
 from reports.drawing.canvas import NARROW, RC, Key, line_of, svg
+from reports.labels import method_label
 from reports.material import Material
 
 ORDER = 70
@@ -27,14 +28,14 @@ LONG_CELL = 24  # characters of a table's cell that may be broken
 
 
 def sections(material: Material) -> list[Section]:
-    """Make the section; [] where the run, made by an older version, does not store its methods' cards."""
+    """Make the section, which is all details; [] where the run, made by an older version, stores no cards."""
     told = material.run.plan.methods
     if not told:
         return []
-    blocks: list[Block] = [_key(sorted(told))]
+    blocks: list[Block] = [_key(told)]
     for name in sorted(told):
         blocks += _card(name, told[name], material.frame[material.frame["method"] == name], material.judged)
-    return [Section("Methods", tuple(blocks))]
+    return [Section("Methods", (), tuple(blocks))]
 
 
 def _card(name: str, told: Mapping[str, Any], rows: pd.DataFrame, judged: list[tuple[Claim, Verdict]]) -> list[Block]:
@@ -47,7 +48,7 @@ def _card(name: str, told: Mapping[str, Any], rows: pd.DataFrame, judged: list[t
         ("source", told.get("source")),
         *((part.lower(), _points(text)) for part, text in said.items()),
         ("knobs, with defaults", knobs or "none"),
-        ("claims", _claims(name, told.get("claims", []), _default(told, rows))),
+        ("claims", _claims(name, told.get("claims", []), at_defaults(told, rows))),
     ]
     for claim, verdict in judged:
         if name in claim.methods and verdict.outcome is not Outcome.UNTESTED:
@@ -57,8 +58,9 @@ def _card(name: str, told: Mapping[str, Any], rows: pd.DataFrame, judged: list[t
                     f"{claim.text} {verdict.outcome.value.capitalize()}: {verdict.figure}.",
                 )
             )
-    title = f"{name}: {told.get('title', '')}"
-    own = [_table(name, table, told["doc"].get(table["part"], "")) for table in tables]
+    known = method_label(name, {name: told})
+    title = f"{known}: {told.get('title', '')}"
+    own = [_table(known, table, told["doc"].get(table["part"], "")) for table in tables]
     return [Table((Column(""), Column("", stretch=1)), body, title), *own]
 
 
@@ -93,10 +95,11 @@ def _points(text: str) -> str:
     return "\n".join(wording.excerpt(re.sub("^- ", "• ", line), TEXT_LIMIT) for line in text.split("\n"))
 
 
-def _key(names: list[str]) -> Figure:
-    """Draw the mark of each method."""
-    marks = style.marks(names)
-    key = Key([line_of(marks[name]) for name in names], names, NARROW)
+def _key(told: Mapping[str, Mapping[str, Any]]) -> Figure:
+    """Draw the mark of each method; `told` is what the plan stores of each."""
+    marks = style.marks(sorted(told))
+    names = [method_label(name, told) for name in marks]
+    key = Key([line_of(mark) for mark in marks.values()], names, NARROW)
     with matplotlib.rc_context(RC):
         drawing = Drawing(figsize=(NARROW, key.height + 0.06))
         key.draw(drawing)
@@ -105,7 +108,7 @@ def _key(names: list[str]) -> Figure:
     return Figure("methods-key", drawn, f"Marks of {wording.listed(names)}.", "How each method is drawn.", caption)
 
 
-def _default(told: Mapping[str, Any], rows: pd.DataFrame) -> pd.DataFrame:
+def at_defaults(told: Mapping[str, Any], rows: pd.DataFrame) -> pd.DataFrame:
     """Select the rows that a method's claims are about: every knob at its default, rays from the nearest point."""
     rows = rows[rows["origin"].fillna("nearest") == "nearest"]
     defaults = {knob["name"]: knob["default"] for knob in told.get("parameters", [])}
@@ -129,16 +132,16 @@ def _claims(method: str, stated: list[str], rows: pd.DataFrame) -> str:
     lines = []
     for name in sorted(stated):
         meaning = f": {CLAIMS[name]}" if name in CLAIMS else ""
-        lines.append(f"• {name.replace('_', ' ')}{meaning}. {_held(method, name, rows)}")
+        lines.append(f"• {name.replace('_', ' ')}{meaning}. {held(method, name, rows)}")
     return "\n".join(lines)
 
 
-def _held(method: str, name: str, rows: pd.DataFrame) -> str:
-    """Say whether the counts of `rows` contradict one claim."""
+def held(method: str, name: str, rows: pd.DataFrame, among: str = "this run") -> str:
+    """Say whether the counts of `rows`, which are those of `among`, contradict one claim."""
     columns = list(BROKEN_BY.get(name, ()))
     known = rows[rows["accuracy_rays"].notna()] if columns else rows.head(0)
     if known.empty or not columns:
-        return f"Not counted in this run; `firsthit conform --method {method}` checks it."
+        return f"Not counted in {among}; `firsthit conform --method {method}` checks it."
     if known[columns].isna().any(axis=None):
         return "A row here does not count what would break it."
     bad = int(known[columns].sum().sum())
@@ -146,7 +149,7 @@ def _held(method: str, name: str, rows: pd.DataFrame) -> str:
     of = int(known["truth_hits" if every else "judged"].sum())
     asked = "rays that meet the surface" if every else "decided rays that are neither grazing nor drowned"
     surfaces = wording.plural(int(known["surface"].nunique()), "surface")
-    in_rows = f"{wording.plural(len(known), 'row')} of this run ({surfaces} {where(known)})"
+    in_rows = f"{wording.plural(len(known), 'row')} of {among} ({surfaces} {where(known)})"
     told = f"{'Held on' if bad == 0 else f'broken by {bad:,} of'} {of:,} {asked} in {in_rows}"
     passed = known[_PASSED.get(name, [])].sum().sum()
     told += f"; of {wording.plural(int(passed), 'wrong root')} it is not counted which are later ones" if passed else ""

@@ -33,13 +33,19 @@ _CAPTION = (
 def paired(frame: pd.DataFrame) -> pd.DataFrame:
     """Select the timed rows of variants whose rays began at several origins in one comparison.
 
-    Adds `caster`, the variant without its origin, and `cost`, its time over that from the eye.
+    Adds `caster`, the variant without its origin, `told`, the label without it, and `cost`, its time over that from the
+    eye.
     """
     rows = frame[(frame["status"] == CellStatus.OK) & frame["median_ms"].notna() & frame["origin"].notna()]
-    rows = rows.assign(caster=derive.casters(rows))
+    rows = rows.assign(caster=derive.casters(rows), told=_without_origin(rows))
     rows["silhouette_wrong_rays"] = rows["grazing_wrong_rays"] + rows["drowned_wrong_rays"]
     several = rows.groupby([*derive.GROUP, "caster"])["origin"].transform("nunique") > 1
     return rows[several.astype(bool)].assign(cost=lambda kept: _costs(kept).reindex(kept.index))
+
+
+def _without_origin(rows: pd.DataFrame) -> pd.Series:
+    """Return the rows' labels without the words for where rays begin: texts, with the index of `rows`."""
+    return derive.casters(rows.assign(variant=rows["label"]))
 
 
 def _costs(rows: pd.DataFrame) -> pd.Series:
@@ -61,13 +67,16 @@ def _costs(rows: pd.DataFrame) -> pd.Series:
 def sections(material: Material) -> list[Section]:
     """Make the section; [] unless rays of one variant began at several origins."""
     rows = paired(material.frame)
-    blocks: list[Block] = []
+    shown: list[Block] = []
+    details: list[Block] = []
     if len(rows):
-        blocks += [Text(told, strong=True) for told in conclusions(rows)]
-        blocks += [by_variant(rows), by_scene(rows)]
+        shown += [*map(Text, conclusions(rows)), by_variant(rows)]
+        details.append(by_scene(rows))
     hard = families_held(material.rungs, material.run.plan.facts)
-    blocks += [Text(_held(hard), strong=True), hard] if hard else []
-    return [Section("What the shift is worth", tuple(blocks))] if blocks else []
+    if hard:
+        shown.append(Text(_held(hard)))
+        details.append(hard)
+    return [Section("What the shift is worth", tuple(shown), tuple(details), name="Origins")] if shown else []
 
 
 def _mean(ratios: pd.Series) -> float:
@@ -154,11 +163,11 @@ def _changed(
 
     Each has its name and its wrong rays before and after; the largest changes are first.
     """
-    names = list(dict.fromkeys(after["caster"]))
+    names = dict(zip(after["caster"], after["told"], strict=True))
     better: list[tuple[str, int, int]] = []
     worse: list[tuple[str, int, int]] = []
-    for name in names:
-        one, other = (rows[rows["caster"] == name] for rows in (before, after))
+    for caster, name in names.items():
+        one, other = (rows[rows["caster"] == caster] for rows in (before, after))
         was, now = _wrong(one), _wrong(other)
         rays = int(one["accuracy_rays"].sum()), int(other["accuracy_rays"].sum())
         if count_tests.exceeds(was, rays[0], now, rays[1], tries=2 * len(names)):
@@ -215,11 +224,11 @@ def by_variant(rows: pd.DataFrame) -> Table:
     body = [
         (
             *(own[name].iloc[0] for name in several),
-            caster,
+            own["told"].iloc[0],
             own["comparison"].nunique(),
             *_line(own, origins),
         )
-        for (*_, caster), own in rows.groupby(_OF, sort=False)
+        for _, own in rows.groupby(_OF, sort=False)
     ]
     head = (*(Column(name) for name in several), Column("variant", stretch=1), Column("scenes", wording.count, True))
     return Table((*head, *_columns(origins)), body, "What the shift is worth to each method.", _CAPTION, len(several))
@@ -230,8 +239,8 @@ def by_scene(rows: pd.DataFrame) -> Table:
     origins, named = _present(rows), scene_names(rows)
     several = [name for name in ("device", "precision") if rows[name].nunique() > 1]
     body = [
-        (named[str(comparison)], *(own[name].iloc[0] for name in several), caster, *_line(own, origins))
-        for (comparison, *_, caster), own in rows.groupby(["comparison", *_OF], sort=False)
+        (named[str(comparison)], *(own[name].iloc[0] for name in several), own["told"].iloc[0], *_line(own, origins))
+        for (comparison, *_), own in rows.groupby(["comparison", *_OF], sort=False)
     ]
     head = (Column("scene", stretch=1), *(Column(name) for name in several), Column("variant", stretch=1))
     return Table(
@@ -254,7 +263,7 @@ def families_held(rungs: pd.DataFrame, facts: Mapping[str, Facts]) -> Table | No
         verdicts = breaks.verdicts(own)
         verdicts = verdicts[verdicts["decided"] > 0].assign(origin=lambda rows: rows["variant"].map(origin_of))
         verdicts = verdicts.assign(caster=derive.casters(verdicts), held=verdicts["breaks_at"].isna())
-        for (precision, caster), rows in verdicts.groupby(["precision", "caster"], sort=False):
+        for (precision, _), rows in verdicts.groupby(["precision", "caster"], sort=False):
             by = rows.pivot_table(index="family", columns="origin", values="held", aggfunc="all").dropna()
             if {*by} >= {"nearest", "eye"}:
                 lost, won = (
@@ -262,7 +271,7 @@ def families_held(rungs: pd.DataFrame, facts: Mapping[str, Facts]) -> Table | No
                     for one, other in (("nearest", "eye"), ("eye", "nearest"))
                 )
                 held = (int(by[origin].sum()) if origin in by else None for origin in origins)
-                body.append((precision, device, caster, len(by), *held, lost, won))
+                body.append((precision, device, _without_origin(rows).iloc[0], len(by), *held, lost, won))
     columns = (
         Column("precision"),
         Column("device"),

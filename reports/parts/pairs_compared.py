@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -10,15 +11,23 @@ import pandas as pd
 from harness.results.timings import Ratio
 from reports import wording
 from reports.analysis import derive, rounds, ties
-from reports.analysis.scene_names import scene_title
-from reports.content import Block, Column, Section, Table, Text
-from reports.drawing import tables
+from reports.analysis.scene_names import scene_names, scene_title
+from reports.content import Block, Column, Matrix, Section, Square, Table, Text
+from reports.drawing import shades, tables
 from reports.material import Material
 
 ORDER = 32
+TITLE = "Variants compared round by round"
+MOST_SCENES = 40  # of the matrix
+TOP = 100.0  # the factor that has the brightest colour
+EVEN, NOT_PAIRED = "even", "–"
+READ = (
+    "How many times the time of the fastest variant with every ray right each method takes, by the rounds that timed "
+    "both: dark squares are as good as the fastest, and each step brighter is more time."
+)
 _NEEDED = [
     *("comparison", "device", "precision", "key", "method", "variant", "wrong_rays", *ties.COLUMNS),
-    *("surface_title", "view", "size", "samples_per_pixel", "stage"),
+    *("label", "method_label", "surface", "surface_title", "view", "size", "samples_per_pixel", "stage", "run"),
 ]
 
 
@@ -41,8 +50,100 @@ def sections(material: Material) -> list[Section]:
     )
     if len(shown) < len(scenes):
         told += f" The first {len(shown):,} of {len(scenes):,} scenes; results.csv has the samples and rounds of all."
-    blocks: list[Block] = [Text(told), *tabled]
-    return [Section("Variants compared round by round", tuple(blocks))] if tabled else []
+    matrix = _matrix(frame)
+    if not tabled or matrix is None:
+        return []
+    shown_blocks: tuple[Block, ...] = (Text(f"{READ} {_said(matrix)}"), matrix)
+    return [Section(TITLE, shown_blocks, (Text(told), *tabled), name="Comparisons")]
+
+
+def _matrix(frame: pd.DataFrame) -> Matrix | None:
+    """Make a line for each scene and a column for each method, of the device with most rows and its first precision.
+
+    The methods that are fastest in most scenes are on the left. None where no scene has a pair of methods.
+    """
+    rows = derive.contenders(frame)[_NEEDED]
+    if rows.empty:
+        return None
+    rows = derive.on_fullest_device(rows)
+    rows = rows[rows["precision"] == rows["precision"].iloc[0]]
+    by_scene = {scene: own for scene, own in rows.groupby("comparison", sort=False) if own["method"].nunique() > 1}
+    scenes = [scene for scene in dict.fromkeys(frame["comparison"]) if scene in by_scene][:MOST_SCENES]
+    squares = {scene: found for scene in scenes if (found := _squares(by_scene[scene]))}
+    if not squares:
+        return None
+    names = scene_names(rows)
+    ranks = {method: sum(of[method][0] for of in squares.values() if method in of) for method in rows["method"]}
+    seen = {method: sum(method in of for of in squares.values()) for method in ranks}
+    methods = sorted((m for m in ranks if seen[m]), key=lambda m: ranks[m] / seen[m])
+    titles = dict(zip(rows["method"], rows["method_label"], strict=True))
+    body = [
+        (names[str(scene)], tuple(of[m][1] if m in of else shades.silent("", "not timed") for m in methods))
+        for scene, of in squares.items()
+    ]
+    return Matrix(
+        tuple(titles[m] for m in methods),
+        body,
+        f"Times over the fastest, {rows['precision'].iloc[0]} on {rows['device'].iloc[0]}.",
+        "Of each method its fastest variant with every ray right, else its fastest, with the wrong rays. “Even”: the "
+        f"rounds do not tell it from the fastest; “?”: fewer than {ties.NEEDED} rounds timed both; "
+        "empty: the method refuses the scene, or was not timed." + wording.first_of(len(body), len(by_scene)),
+        "scene",
+        shades.key({0.0: "the fastest", 0.5: f"{TOP**0.5:g}×", 1.0: f"{TOP:g}× and more"}),
+    )
+
+
+def _squares(rows: pd.DataFrame) -> dict[str, tuple[float, Square]]:
+    """Return how bad each method is, 0 to 2, and its square, for the rows of one scene, fastest first.
+
+    Empty where no row answers every ray rightly.
+    """
+    right = rows[derive.all_right(rows)]
+    if right.empty:
+        return {}
+    best = ties.best(right)
+    found: dict[str, tuple[float, Square]] = {}
+    for method, own in rows.groupby("method", sort=False):
+        sound = own[derive.all_right(own)]
+        row = next((sound if len(sound) else own).head(1).itertuples())
+        if row.method == best.method:
+            row = next(own[own["key"] == best.key].itertuples())
+        found[str(method)] = _square(row, best, sound=len(sound) > 0)
+    return found
+
+
+def _square(row: Any, best: Any, *, sound: bool) -> tuple[float, Square]:
+    """Return how bad a row is beside the fastest, 0 to 2, and its square."""
+    if row.key == best.key:
+        told = f"{wording.number(row.median_ms)} ms"
+        return 0.0, Square(told, shades.shade(0.0), f"{row.label}: the fastest with every ray right", strong=True)
+    ratio = rounds.ratio(row, best)
+    if not sound:
+        wrong = f"{wording.count(row.wrong_rays)} wrong"
+        told = wrong if ratio is None else f"{_short(ratio.median)},\n{wrong}"
+        return 2.0, shades.silent(told, f"{row.label}: {wording.number(row.median_ms)} ms, {wrong} rays")
+    if ratio is None:
+        return 1.0, shades.silent(NOT_PAIRED, f"{row.label}: no round timed it and the fastest")
+    badness = min(max(math.log(ratio.median) / math.log(TOP), 0.0), 1.0)
+    interval = f", 95 % {wording.factor(ratio.lower)} to {wording.factor(ratio.upper)}" if ratio.proved else ""
+    outcome = ties.verdict(ratio)
+    note = f"{row.label}: {wording.factor(ratio.median)}{interval}; {outcome}"
+    text = _short(ratio.median) + (" ?" if ratio.pairs < ties.NEEDED else "")
+    return badness, Square(EVEN if outcome in (ties.ALIKE, ties.TORN) else text, shades.shade(badness), note)
+
+
+def _short(factor: float) -> str:
+    """Write a factor for a narrow square: 1.07×, 12×, 1,234×."""
+    return f"{factor:.2f}×" if factor < 9.995 else f"{factor:,.0f}×"
+
+
+def _said(matrix: Matrix) -> str:
+    """Say in how many scenes the fastest method is proved to be alone, and where it is not."""
+    even = [heading for heading, squares in matrix.rows if any(square.text == EVEN for square in squares)]
+    alone = len(matrix.rows) - len(even)
+    told = f"In {alone} of {wording.plural(len(matrix.rows), 'scene')} one method leads alone"
+    named = wording.listed(even[:3]) if len(even) <= 3 else f"{', '.join(even[:3])} and {len(even) - 3} more"
+    return f"{told}; the first are not told apart on {named}." if even else f"{told}."
 
 
 def _table(rows: pd.DataFrame) -> Table | None:
@@ -53,12 +154,13 @@ def _table(rows: pd.DataFrame) -> Table | None:
         if right.empty:
             continue
         best = ties.best(right)
+        labels = dict(zip(group["key"], group["label"], strict=True))
         for row in group.itertuples():
             if row.key != best.key and (ratio := rounds.ratio(row, best)):
                 sound = row.key in set(right["key"])
                 figures = _figures(ratio) if sound else (None, None, None, None, ratio.pairs)
                 told = ties.verdict(ratio) if sound else f"{wording.count(row.wrong_rays)} wrong rays: not compared"
-                body.append((device, precision, best.variant, row.variant, *figures, told))
+                body.append((device, precision, labels[best.key], row.label, *figures, told))
     if not body:
         return None
     columns = (

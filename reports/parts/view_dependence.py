@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+
 import pandas as pd
 
 from reports import wording
@@ -14,7 +16,7 @@ from reports.material import Material
 
 ORDER = 25
 MOST_SETS = 6  # a run with more sets of views shows one for each surface, at most so many
-MOST_MAPPED = 4  # sets whose maps are drawn
+PRINTED_LINES, PRINTED_MAPS = 2, 2  # sets whose drawings are printed; those of others are details
 PRINTED_WRONG = 40  # lines of the table of wrong rays
 EXPLANATION = (
     "Every surface, device, precision and size that was timed from at least three views of one set. The spread is the "
@@ -25,6 +27,8 @@ EXPLANATION = (
     "everywhere, is noise. Elsewhere in this report its first view stands for a set of "
     f"more than {viewstats.MOST_LISTED}."
 )
+READ_LINES = "A level line is a method that does not depend on the view."
+READ_MAPS = "An even map is a method that does not depend on the view."
 
 
 def _kept(sets: list[ViewSet]) -> list[ViewSet]:
@@ -35,7 +39,10 @@ def _kept(sets: list[ViewSet]) -> list[ViewSet]:
 
 
 def sections(material: Material) -> list[Section]:
-    """Make a section of tables and up to two of pictures; [] where the run has no set of views."""
+    """Make a section of lines over angles and one of maps over directions, with tables as details.
+
+    [] where the run has no set of views.
+    """
     every = viewstats.view_sets(material.frame)
     if not every:
         return []
@@ -44,26 +51,55 @@ def sections(material: Material) -> list[Section]:
     tabled: list[Block] = [Text(EXPLANATION + cut)]
     for of in sets:
         tabled += filter(None, (dependence_table(of), wrong_rays_table(of)))
-    made = [Section("View dependence", tuple(tabled))]
-    by_angle = [(i, of) for i, of in enumerate(sets) if of.kind == viewstats.ANGLES]
-    lines = [viewplots.over_angle(of, material.marks, f"angles-{i}") for i, of in by_angle]
-    mapped = [of for of in sets if of.kind == viewstats.DIRECTIONS][:MOST_MAPPED]
+    by_angle = [of for of in sets if of.kind == viewstats.ANGLES]
+    mapped = [of for of in sets if of.kind == viewstats.DIRECTIONS]
+    lines = [viewplots.over_angle(of, material.marks, f"angles-{i}") for i, of in enumerate(by_angle)]
     scales = viewplots.Scales.of(mapped, material.error_scale) if mapped else None
-    maps = [
-        figure
-        for i, of in enumerate(mapped)
-        if scales
-        for figure in viewplots.over_directions(of, scales, f"sphere-{i}")
-    ]
-    made += [Section("View dependence: over the projection angle", tuple(lines))] if lines else []
-    made += [Section("View dependence: over the sphere of directions", tuple(maps))] if maps else []
-    return made
+    maps = [viewplots.over_directions(of, scales, f"sphere-{i}") for i, of in enumerate(mapped) if scales]
+    made = []
+    if lines:
+        angles: tuple[Block, ...] = (Text(f"{READ_LINES} {_said(by_angle[:PRINTED_LINES])}"), *lines[:PRINTED_LINES])
+        made.append(Section("View dependence", angles, tuple(lines[PRINTED_LINES:]), own_page=True))
+    if maps:
+        around: tuple[Block, ...] = (
+            Text(f"{READ_MAPS} {_said(mapped[:PRINTED_MAPS])}"),
+            *itertools.chain(*maps[:PRINTED_MAPS]),
+        )
+        rest: tuple[Block, ...] = tuple(itertools.chain(*maps[PRINTED_MAPS:]))
+        made.append(Section("View dependence over all directions", around, rest, own_page=True, name="Directions"))
+    return [*made, Section("View dependence: every figure", (), tuple(tabled))]
+
+
+def _said(sets: list[ViewSet]) -> str:
+    """Say for each set which variant depends most on the view, which least, and by how much."""
+    return " ".join(told for of in sets if (told := _said_of(of)))
+
+
+def _said_of(of: ViewSet) -> str:
+    """Say which variant of a set depends most on the view; "" where fewer than two that answer were timed."""
+    named = [rows for _, rows in of.variants() if rows["answers"].iloc[0]]
+    if len(named) < 2:
+        return ""
+    least, *_, most = sorted(named, key=lambda rows: _reach(rows["us_per_ray"]))
+    slow = most.loc[most["us_per_ray"].idxmax(), "view"]
+    told = (
+        f"On {of.first.surface_title} the view matters most to {most['label'].iloc[0]}: a ray takes "
+        f"{wording.factor(_reach(most['us_per_ray']))} as long from {slow} as from its best view. It matters least to "
+        f"{least['label'].iloc[0]}, {wording.factor(_reach(least['us_per_ray']))}"
+    )
+    noise = [_reach(rows["median_ms"]) for _, rows in of.variants() if not rows["answers"].iloc[0]]
+    return told + (f"; of an empty frame's time, {wording.factor(max(noise))} is noise." if noise else ".")
+
+
+def _reach(values: pd.Series) -> float:
+    """Return the largest of `values`, which are positive, over the smallest."""
+    return float(values.max() / values.min())
 
 
 def dependence_table(of: ViewSet) -> Table:
     """Make a line for each variant, the most view-dependent first."""
     body = []
-    for variant, rows in of.variants():
+    for _, rows in of.variants():
         slow = rows.loc[rows["us_per_ray"].idxmax()]
         rates = [f(rows[f"{name}_rate"]) for name in viewstats.RATES for f in (pd.Series.mean, viewstats.spread)]
         errors = rows["error_max"].astype("float64")
@@ -73,7 +109,7 @@ def dependence_table(of: ViewSet) -> Table:
         answers = bool(rows["answers"].iloc[0])
         body.append(
             (
-                variant,
+                rows["label"].iloc[0],
                 *rates,
                 float(((rows["upper_ms"] - rows["lower_ms"]) / (2 * rows["median_ms"])).max()),
                 slow["view"],
@@ -139,7 +175,7 @@ def wrong_rays_table(of: ViewSet) -> Table | None:
     kinds = derive.kinds(rows)
     apart = ("grazing_wrong_rays", "drowned_wrong_rays")
     body = [
-        (r.variant, r.view, r.wrong_rays, *(getattr(r, name) for name in (*kinds, *apart)))
+        (r.label, r.view, r.wrong_rays, *(getattr(r, name) for name in (*kinds, *apart)))
         for r in rows.head(PRINTED_WRONG).itertuples()
     ]
     titles = ("wrong", *(kind.replace("_", " ") for kind in kinds), "grazing wrong", "drowned wrong")

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import pandas as pd
@@ -12,8 +13,8 @@ import pandas as pd
 from harness.contract import CellStatus
 from harness.results.schema import KINDS
 from reports import wording
-from reports.content import Block, Column, Section, Table, Text
-from reports.drawing import tables
+from reports.content import Block, Column, Matrix, Section, Square, Table, Text
+from reports.drawing import shades
 from reports.material import Material
 
 ORDER = 9  # before the winners: what is right comes before what is fast
@@ -33,11 +34,13 @@ BREAKS = {  # what a broken claim is, by the kind of wrong ray that breaks it
     "no_missed_root": "misses",
 }
 KEY = (
-    f"{RIGHT}: right on every ray that is neither grazing nor drowned. A share: of these rays, how many are wrong, and "
-    "how most of them are: m missed the surface, f hit where nothing is, e gave up, r a later root or none, i an "
-    f"impossible answer. {REFUSED}: the method refuses the surface. {NOTHING}: the cell failed, or has nothing to "
+    f"{RIGHT}: right on every ray that is neither grazing nor drowned. A number: how many per cent of these rays are "
+    "wrong, and how most of them are: m missed the surface, f hit where nothing is, e gave up, r a later root or none, "
+    f"i an impossible answer. {REFUSED}: the method refuses the surface. {NOTHING}: the cell failed, or has nothing to "
     "judge; its reason is listed at the end of the report."
 )
+MOST_PRINTED = 110  # surfaces; the matrix of all is among the details
+FIRST_WRONG = 0.35  # how bad, from 0 to 1, the colour is of a surface with 1 in 1,000 rays wrong
 
 
 def sections(material: Material) -> list[Section]:
@@ -47,13 +50,53 @@ def sections(material: Material) -> list[Section]:
     if rows.empty or (set(groups) <= {CATALOG} and rows["surface"].nunique() < MANY):
         return []
     rows = rows.assign(group=rows["surface_group"].fillna(OTHERS))
-    blocks: list[Block] = [Text(KEY), *_broken(rows, material)]
+    broken, undecided = _broken(rows, material), _undecided(rows)
+    shown: list[Block] = []
+    details: list[Block] = [*broken, undecided]
     for (precision, device), own in rows.groupby(["precision", "device"], sort=False):
         place = f"{precision} on {device}"
         judged = _worst(own)
-        blocks += [_by_group(judged, place), _classes(judged, place), _matrix(judged, place)]
+        groups, every = _by_group(judged, place), _matrix(judged, f"Every surface and method, {place}.")
+        if not shown:
+            worst = _broken_surfaces(judged)
+            told = f"The surfaces on which a method is wrong, {place}."
+            shown = [Text(f"{_said(judged)} {KEY}"), *_shortened(broken), groups]
+            shown += [_matrix(worst, told)] if len(worst) else []
+            details += [_classes(judged, place), every]
+        else:
+            details += [groups, _classes(judged, place), every]
     refusals = _refusals(rows)
-    return [Section("Who breaks where", (*blocks, *([refusals] if refusals else [])))]
+    details += [refusals] if refusals else []
+    return [Section("Who breaks where", tuple(shown), tuple(details), own_page=True)]
+
+
+def _said(judged: pd.DataFrame) -> str:
+    """Say which method is right on most surfaces, and which is wrong on most."""
+    taken = judged[judged["share"].notna()]
+    if taken.empty:
+        return ""
+    right = (taken["share"] == 0).groupby(taken["label"], sort=False).agg(["sum", "size"])
+    best, worst = right["sum"].idxmax(), (right["size"] - right["sum"]).idxmax()
+    surfaces = judged["surface"].nunique()
+    told = f"{best} is right on every ray of most surfaces: {right['sum'][best]} of the {right['size'][best]} it takes"
+    wrong = int(right["size"][worst] - right["sum"][worst])
+    least = f"; {worst} is wrong on most: {wrong} of {right['size'][worst]}" if wrong else ""
+    return f"Of {wording.plural(surfaces, 'surface')}, {told}{least}."
+
+
+def _shortened(told: Sequence[Text]) -> list[Text]:
+    """Return these texts, each cut to what a line or two hold."""
+    return [Text(wording.excerpt(text.text, 260), text.strong) for text in told]
+
+
+def _broken_surfaces(judged: pd.DataFrame) -> pd.DataFrame:
+    """Return the rows of the surfaces on which a method is wrong: at most MOST_PRINTED, those that break most methods.
+
+    They keep their order.
+    """
+    wrong = (judged["share"] > 0).fillna(False).groupby(judged["surface"], sort=False).sum()
+    kept = wrong[wrong > 0].sort_values(ascending=False, kind="stable").head(MOST_PRINTED)
+    return judged[judged["surface"].isin(set(kept.index))]
 
 
 def _worst(rows: pd.DataFrame) -> pd.DataFrame:
@@ -72,52 +115,70 @@ def _main_kind(row: Any) -> str:
     return max(KINDS, key=lambda kind: 0 if wording.absent(getattr(row, kind)) else int(getattr(row, kind)))
 
 
-def _mark(row: Any) -> str:
-    """Write what became of a variant on a surface, as KEY explains."""
+def _square(row: Any) -> Square:
+    """Make the square of a variant on a surface, as KEY explains."""
+    named = f"{row.label}, {row.surface_title}"
     if row.status == CellStatus.SKIPPED:
-        return REFUSED
+        return shades.silent(REFUSED, f"{named}: refused, {wording.excerpt(str(row.reason), 200)}")
     if wording.absent(row.share):
-        return NOTHING
-    return RIGHT if row.share == 0 else f"{wording.share(row.share)} {LETTERS[_main_kind(row)]}"
+        return shades.silent(NOTHING, f"{named}: {row.status}, nothing judged")
+    if row.share == 0:
+        return Square(RIGHT, shades.shade(0.0), f"{named}: every ray right")
+    kind = _main_kind(row)
+    badness = FIRST_WRONG + (1.0 - FIRST_WRONG) * (1.0 + math.log10(max(float(row.share), 1e-3)) / 3.0)
+    note = f"{named}: {wording.share(row.share)} wrong, most of them {WORDS[kind]}"
+    return Square(f"{_percent(row.share)} {LETTERS[kind]}", shades.shade(badness), note)
 
 
-def _heading(variant: str) -> str:
-    """Break a variant's name where a narrow column may break it."""
-    return variant.replace("_", "_\n").replace("[", "\n[")
+def _percent(share: float) -> str:
+    """Write a share of one in per cent, without the sign."""
+    return wording.share(share).replace(" %", "").replace("< ", "<")
 
 
-def _by_group(judged: pd.DataFrame, place: str) -> Table:
+def _columns(judged: pd.DataFrame) -> dict[str, str]:
+    """Return the heading of each variant: its method's name, or its label where the method has several."""
+    named = judged.drop_duplicates("variant")
+    several = named["method"].duplicated(keep=False)
+    told = named["label"].where(several, named["method_label"])
+    return {str(variant): str(heading) for variant, heading in zip(named["variant"], told, strict=True)}
+
+
+def _titles(material: pd.DataFrame) -> dict[str, str]:
+    """Return the written name of each group of surfaces, in their order."""
+    return {str(group): str(group).replace("_", " ").capitalize() for group in material["group"].unique()}
+
+
+def _by_group(judged: pd.DataFrame, place: str) -> Matrix:
     """Make a line for each group: on how many of its surfaces each variant is right on every ray."""
-    variants = list(dict.fromkeys(judged["variant"]))
+    columns, titles = _columns(judged), _titles(judged)
     body = []
     for group, own in judged.groupby("group", sort=False):
-        cells: list[str] = []
-        for variant in variants:
+        squares = []
+        for variant in columns:
             taken = own[(own["variant"] == variant) & own["share"].notna()]
             right = int((taken["share"] == 0).sum())
-            cells.append(f"{right} / {len(taken)}" if len(taken) else REFUSED)
-        body.append((str(group).replace("_", " "), own["surface"].nunique(), *cells))
-    return Table(
-        (
-            Column("group"),
-            Column("surfaces", wording.count, numeric=True),
-            *(Column(_heading(v), numeric=True) for v in variants),
-        ),
+            note = f"right on {right} of the {len(taken)} surfaces that it takes and was judged on"
+            share = right / max(len(taken), 1)
+            made = Square(f"{right}/{len(taken)}", shades.shade(1.0 - share), note)
+            squares.append(made if len(taken) else shades.silent(REFUSED, "takes none of them"))
+        body.append((f"{titles[str(group)]}, {own['surface'].nunique()}", tuple(squares)))
+    return Matrix(
+        tuple(columns.values()),
         body,
-        f"How many surfaces of each group a method draws rightly, {place}.",
-        "The first number counts surfaces with every ray right, the second those that the method takes and was judged "
-        f"on; {REFUSED} where it takes none.",
-        group=1,
+        f"On how many surfaces of each group every ray is right, {place}.",
+        f"Of those that the method takes; {REFUSED} it takes none.",
+        "group, surfaces",
+        shades.key({0.0: "right on all", 0.5: "on half of them", 1.0: "on none"}),
     )
 
 
 def _classes(judged: pd.DataFrame, place: str) -> Table:
     """Make a line for each variant: on how many surfaces it is wrong, and the groups where it breaks, in words."""
     body = []
-    for variant, own in judged.groupby("variant", sort=False):
+    for _, own in judged.groupby("variant", sort=False):
         taken = own[own["share"].notna()]
         wrong = taken[taken["share"] > 0]
-        body.append((variant, len(taken), len(wrong), _told(taken, wrong)))
+        body.append((own["label"].iloc[0], len(taken), len(wrong), _told(taken, wrong)))
     body.sort(key=lambda line: (line[2] / max(line[1], 1), -line[1]))
     return Table(
         (
@@ -142,31 +203,29 @@ def _told(taken: pd.DataFrame, wrong: pd.DataFrame) -> str:
     for group, own in wrong.groupby("group", sort=False):
         of = int((taken["group"] == group).sum())
         worst = next(own.sort_values("share", ascending=False, kind="stable").head(1).itertuples())
-        what = f"{worst.surface} {wording.share(worst.share)}, {WORDS[_main_kind(worst)]}"
+        what = f"{worst.surface_title} {wording.share(worst.share)}, {WORDS[_main_kind(worst)]}"
         told.append((len(own) / of, f"{str(group).replace('_', ' ')} {len(own)} of {of} ({what})"))
     return "; ".join(text for _, text in sorted(told, key=lambda item: -item[0]))
 
 
-def _matrix(judged: pd.DataFrame, place: str) -> Table:
+def _matrix(judged: pd.DataFrame, title: str) -> Matrix:
     """Make a line for each surface and a column for each variant, with the marks of KEY."""
-    variants = list(dict.fromkeys(judged["variant"]))
-    body = []
-    for (group, surface), own in judged.groupby(["group", "surface"], sort=False):
-        marks = {row.variant: _mark(row) for row in own.itertuples()}
-        degree = next(iter(own["degree"]))
-        told = None if wording.absent(degree) else int(degree)
-        body.append((str(group).replace("_", " "), surface, told, *(marks.get(v) for v in variants)))
-    return Table(
-        (
-            Column("group"),
-            Column("surface"),
-            Column("degree", numeric=True),
-            *(Column(_heading(v), numeric=True) for v in variants),
-        ),
-        body[: tables.ROW_LIMIT],
-        f"Every surface and method, {place}.",
-        f"Of several views, the worst.{wording.first_of(min(len(body), tables.ROW_LIMIT), len(body))}",
-        group=1,
+    columns, titles = _columns(judged), _titles(judged)
+    missing = shades.silent("", "not run")
+    body: list[tuple[str, tuple[Square, ...]]] = []
+    for group, grouped in judged.groupby("group", sort=False):
+        body.append((titles[str(group)], ()))
+        for _, own in grouped.groupby("surface", sort=False):
+            squares = {row.variant: _square(row) for row in own.itertuples()}
+            name = wording.excerpt(str(own["surface_title"].iloc[0]), 30)
+            body.append((name, tuple(squares.get(variant, missing) for variant in columns)))
+    return Matrix(
+        tuple(columns.values()),
+        body,
+        title,
+        "Per cent of the clear rays that are wrong. Of several views, the worst.",
+        "surface",
+        shades.key({0.0: "every ray right", FIRST_WRONG: "0.1 % wrong", 1.0: "all wrong"}),
     )
 
 
@@ -178,9 +237,9 @@ def _refusals(rows: pd.DataFrame) -> Table | None:
     reasons = [_shared(str(row.reason), str(row.surface)) for row in refused.itertuples()]
     refused = refused.assign(reason=reasons).drop_duplicates(["surface", "method", "reason"])
     body = []
-    for (method, reason), own in refused.groupby(["method", "reason"], sort=True):
+    for (_, reason), own in refused.groupby(["method", "reason"], sort=True):
         told = ", ".join(f"{str(group).replace('_', ' ')} {n}" for group, n in Counter(own["group"]).most_common())
-        body.append((method, wording.excerpt(str(reason), 200), own["surface"].nunique(), told))
+        body.append((own["method_label"].iloc[0], wording.excerpt(str(reason), 200), own["surface"].nunique(), told))
     return Table(
         (
             Column("method"),
@@ -203,16 +262,17 @@ def _broken(rows: pd.DataFrame, material: Material) -> list[Text]:
     """Say of each method that claims something whether rays of this run break it, and where the oracle is undecided."""
     found = []
     for method, own in rows[rows["accuracy_rays"].notna()].groupby("method", sort=True):
+        name = own["method_label"].iloc[0]
         claims: list[str] = list(_stated(material.run.plan.methods, str(method)))
         for claim in claims:
             kind = BREAKS.get(claim)
             against = own[own[kind] > 0] if kind else own.head(0)
             if len(against):
-                where = ", ".join(dict.fromkeys(against["surface"]))
-                found.append(
-                    Text(f"{method} claims {claim}, and {WORDS[str(kind)]} of clear rays break it on: {where}.", True)
-                )
-    return [*found, _undecided(rows)]
+                where = ", ".join(dict.fromkeys(against["surface_title"]))
+                claimed = claim.replace("_", " ")
+                told = f"{name} claims {claimed}, and {WORDS[str(kind)]} of clear rays break it on: {where}."
+                found.append(Text(told, True))
+    return found
 
 
 def _stated(methods: Mapping[str, Mapping[str, Any]], method: str) -> list[str]:
@@ -224,7 +284,7 @@ def _stated(methods: Mapping[str, Mapping[str, Any]], method: str) -> list[str]:
 def _undecided(rows: pd.DataFrame) -> Text:
     """Say on which surfaces the oracle is undecided on more than 0.1 % of the rays."""
     known = rows[rows["undecided"].notna() & (rows["accuracy_rays"] > 0)]
-    shares = (known["undecided"] / known["accuracy_rays"]).groupby(known["surface"]).max()
+    shares = (known["undecided"] / known["accuracy_rays"]).groupby(known["surface_title"]).max()
     over = shares[shares > 0.001].sort_values(ascending=False)
     if over.empty:
         return Text("On no surface does the oracle leave more than 0.1 % of the rays undecided.")

@@ -1,8 +1,9 @@
-"""Tell who wins in every group of rows."""
+"""Tell who wins in every group of rows, what beating the winner costs, and how much other devices take."""
 
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Mapping
 from typing import Any
 
 import pandas as pd
@@ -10,23 +11,144 @@ import pandas as pd
 from reports import wording
 from reports.analysis import derive, ties
 from reports.analysis.scene_names import rays_checked, scene_names
-from reports.content import Column, Section, Table, Text
-from reports.drawing import tables
+from reports.content import Block, Column, Matrix, Section, Square, Table, Text
+from reports.drawing import standings, style, tables, trades_tables
 from reports.material import Material
 
 ORDER = 10
 ONE_BY_ONE = 20  # a run with more groups has a table that counts the winners too
+LINES = 30  # scenes of the matrix that is printed, and surfaces with trade-offs; details have all
+TWO_LINES = 12  # a matrix of so many scenes has room for two lines a square
+COLUMNS = 6  # devices and precisions that a page is wide enough for
+PALE = 0.68  # how far the colour of a square is from its method's, towards white
 
 
 def sections(material: Material) -> list[Section]:
     """Make the section; [] where no row was timed."""
-    rows = derive.contenders(material.listed)
-    if rows.empty:
+    if derive.contenders(material.listed).empty:
         return []
     leading = ties.leaders(material.listed)
-    several = len(rows.drop_duplicates(derive.GROUP)) > ONE_BY_ONE
-    counted = (wins_table(leading),) if several and len(leading) else ()
-    return [Section("Winners", (Text(f"{ties.RULE}."), *counted, winners_table(material.listed, leading)))]
+    found = material.choices
+    whole = matrix(material, leading)
+    each = standings.matrix(found, material.focus_method) if len(found) <= standings.MOST else None
+    one_each = {str(one.rows["comparison"].iloc[0]): one.name for one in found}
+    many = len(whole.rows) > LINES
+    printed = matrix(material, leading, one_each) if many else whole
+    blocks: list[Block] = [Text(_seen(leading[leading["comparison"].isin(list(one_each))] if many else leading))]
+    blocks += [_first(printed, LINES)] if each is None or len(printed.columns) > 1 else []
+    blocks += [each] if each is not None else []
+    details: list[Block] = [] if len(whole.rows) <= LINES else [whole]
+    trades = trades_tables.trades(found)
+    if trades is not None:
+        blocks.append(_cut(trades, LINES // 2))
+        details += [trades] if len(trades.rows) > LINES // 2 else []
+    elsewhere = trades_tables.devices(material.listed)
+    blocks += [elsewhere] if elsewhere is not None else []
+    several = len(derive.contenders(material.listed).drop_duplicates(derive.GROUP)) > ONE_BY_ONE
+    if several and len(leading):
+        details.append(wins_table(leading))
+    details += [Text(f"{ties.RULE}."), winners_table(material.listed, leading)]
+    return [
+        Section(
+            "Who wins where, and what beating it costs", tuple(blocks), tuple(details), not material.focus, "Winners"
+        )
+    ]
+
+
+def _seen(leading: pd.DataFrame) -> str:
+    """Say what to see in the matrix; `leading` is what ties.leaders returns."""
+    if leading.empty:
+        return (
+            "No variant answers every ray away from silhouettes rightly: the matrix names the fastest of those timed."
+        )
+    alone = leading[leading["tied"].map(len) == 0]
+    counted = Counter(alone["method_label"]).most_common(3)
+    most = [f"{label} on {count}" for label, count in counted]
+    shared = len(leading) - len(alone)
+    rest = f"; on {shared} the times of several methods are not told apart (≈)" if shared else ""
+    won = f"fastest are {wording.listed(most)}" if most else "no method is fastest alone"
+    several = len(leading.drop_duplicates(["device", "precision"])) > 1
+    cells = wording.plural(len(leading), "combination") + " of surface, device and precision" * several
+    cells = cells if several else wording.plural(len(leading), "surface")
+    return f"Of {cells} on which some variant answers every ray away from silhouettes rightly, {won}{rest}."
+
+
+def matrix(material: Material, leading: pd.DataFrame, scenes_of: Mapping[str, str] | None = None) -> Matrix:
+    """Make a square for each scene, device and precision: the fastest method with every ray right, and its time.
+
+    `leading` is what ties.leaders returns. `scenes_of` has the names of the scenes to show, None for all. A group in
+    which every variant is wrong somewhere has a grey square.
+    """
+    frame = material.listed
+    rows = derive.contenders(frame)
+    if scenes_of is not None:
+        rows = rows[rows["comparison"].isin(list(scenes_of))]
+    named, safest = (
+        scenes_of or scene_names(frame),
+        {(r.comparison, r.device, r.precision): r for r in leading.itertuples()},
+    )
+    groups = {key: own for key, own in rows.groupby(derive.GROUP)}
+    scenes = [name for name in named if name in set(rows["comparison"])]
+    pairs = list(dict.fromkeys(zip(rows["device"], rows["precision"], strict=True)))
+    pairs.sort(key=lambda pair: -int(((rows["device"] == pair[0]) & (rows["precision"] == pair[1])).sum()))
+    pairs, cut = pairs[:COLUMNS], len(pairs) - COLUMNS
+    several = len({precision for _, precision in pairs}) > 1
+    labels = dict(zip(rows["variant"], rows["label"], strict=True))
+    apart = "\n" if len(scenes) <= TWO_LINES else " "
+    body = []
+    for scene in scenes:
+        squares = []
+        for device, precision in pairs:
+            own, won = groups.get((scene, device, precision)), safest.get((scene, device, precision))
+            squares.append(_square(own, won, material, labels, apart))
+        body.append((named[scene], tuple(squares)))
+    columns = tuple(f"{device}\n{precision}" if several else device for device, precision in pairs)
+    one = "" if several else f" All in {pairs[0][1]}."
+    more = f" {cut} more devices and precisions are in the details." if cut > 0 else ""
+    return Matrix(
+        columns,
+        body,
+        "The fastest method with no wrong ray, and its ms.",
+        f"≈: not told apart from others. Grey: every variant timed there is wrong on some ray.{one}{more}",
+        "surface",
+    )
+
+
+def _square(own: pd.DataFrame | None, won: Any, material: Material, labels: dict[str, str], apart: str) -> Square:
+    """Make the square of one group: its rows, fastest first, and the one that wins."""
+    if own is None:
+        return Square(wording.NONE, note="not timed")
+    if won is None:
+        fewest = next(own.sort_values("wrong_rays", kind="stable").itertuples())
+        if wording.absent(fewest.wrong_rays):
+            return Square("not judged", "#e4e4e4", "no answers were checked")
+        told = f"{fewest.label}: {int(fewest.wrong_rays):,} wrong rays of {wording.count(fewest.accuracy_rays)}"
+        return Square("all wrong\nsomewhere" if apart == "\n" else "all wrong", "#e4e4e4", f"fewest: {told}")
+    tied = [labels[variant] for variant in won.tied]
+    sign = "≈ " if tied else ""
+    note = f"{won.label}, largest error {wording.error(won.error_max)} scene units"
+    note += f"; not told apart from {wording.listed(tied)}" if tied else ""
+    note += "; floor-bound: mostly the harness's own time" if won.floor_bound else ""
+    color = style.pale(material.method_marks[str(won.method)].color, PALE)
+    text = f"{sign}{won.method_label}{apart}{wording.number(won.median_ms)}"
+    focused = material.focus != "" and str(won.method) == material.focus_method
+    return Square(text, color, note, strong=focused)
+
+
+def _first(whole: Matrix, lines: int) -> Matrix:
+    """Return the first lines of a matrix, which says so."""
+    if len(whole.rows) <= lines:
+        return whole
+    caption = f"{whole.caption} The first {lines} of {len(whole.rows)}; the appendix and the HTML page have all."
+    return Matrix(whole.columns, whole.rows[:lines], whole.title, caption, whole.corner, whole.key)
+
+
+def _cut(whole: Table, lines: int) -> Table:
+    """Return the first lines of a table, which says so."""
+    if len(whole.rows) <= lines:
+        return whole
+    caption = f"{whole.caption} The first {lines} of {len(whole.rows)}; the appendix and the HTML page have all."
+    return Table(whole.columns, whole.rows[:lines], whole.title, caption, whole.group)
 
 
 def winners_table(frame: pd.DataFrame, leading: pd.DataFrame) -> Table:
@@ -38,16 +160,16 @@ def winners_table(frame: pd.DataFrame, leading: pd.DataFrame) -> Table:
     fastest = ties.fastest(frame)
     safest = {(r.comparison, r.device, r.precision): r for r in leading.itertuples()}
     body: list[tuple[Any, ...]] = []
-    named = scene_names(frame)
+    named, labels = scene_names(frame), dict(zip(rows["variant"], rows["label"], strict=True))
     fastest = fastest.assign(planned=fastest["comparison"].map({name: i for i, name in enumerate(named)}))
     shown = fastest.sort_values(["planned", "precision", "device"], kind="stable").head(tables.ROW_LIMIT)
     for row in shown.itertuples():
         safe = safest.get((row.comparison, row.device, row.precision))
-        instead = ("none", None, None) if safe is None else (safe.variant, safe.median_ms, ", ".join(safe.tied) or None)
+        instead = ("none", None, None) if safe is None else (safe.label, safe.median_ms, _tied(safe, labels))
         if safe is not None and safe.variant == row.variant:
             instead = ("the same", None, instead[2])
         values = (row.median_ms, row.speedup, row.error_max, row.wrong_rays)
-        body.append((named[row.comparison], row.precision, row.device, row.variant, *values, *instead))
+        body.append((named[row.comparison], row.precision, row.device, row.label, *values, *instead))
     columns: tuple[Column, ...] = (
         Column("surface", stretch=4),
         Column("precision"),
@@ -80,6 +202,11 @@ def winners_table(frame: pd.DataFrame, leading: pd.DataFrame) -> Table:
     )
 
 
+def _tied(row: Any, labels: dict[str, str]) -> str | None:
+    """Name the variants whose times are not told apart from a row's; None where there are none."""
+    return "; ".join(labels[variant] for variant in row.tied) or None
+
+
 def wins_table(leading: pd.DataFrame) -> Table:
     """Make a line for each device and precision: how often each method is fastest there.
 
@@ -88,7 +215,7 @@ def wins_table(leading: pd.DataFrame) -> Table:
     body = []
     for (device, precision), rows in leading.groupby(["device", "precision"], sort=False):
         alone = rows[rows["tied"].map(len) == 0]
-        counted = ", ".join(f"{method} {n}" for method, n in Counter(alone["method"]).most_common()) or "none"
+        counted = ", ".join(f"{method} {n}" for method, n in Counter(alone["method_label"]).most_common()) or "none"
         shared = len(rows) - len(alone)
         body.append((device, precision, len(rows), counted, shared, rows["speedup"].median(), rows["error_max"].max()))
     return Table(

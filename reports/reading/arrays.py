@@ -5,7 +5,7 @@ from __future__ import annotations
 import zipfile
 import zlib
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
 from typing import Any
 
@@ -36,6 +36,19 @@ class Arrays:
     def apart(self) -> NDArray[np.bool_]:
         """Return bool[h, w]: the rays whose wrong answers are counted apart."""
         return self.grazing if self.drowned is None else self.grazing | self.drowned
+
+    def cropped(self, down: slice, across: slice) -> Arrays:
+        """Return these rows and columns of every array; slices have both ends."""
+        kept = {
+            one.name: array[down, across]
+            for one in fields(self)
+            if one.name != "samples" and (array := getattr(self, one.name)) is not None
+        }
+        if self.samples is None:
+            return replace(self, **kept)
+        times = len(self.samples) // len(self.truth)
+        finer = (slice(times * s.start, times * s.stop) for s in (down, across))
+        return replace(self, **kept, samples=self.samples[tuple(finer)])
 
 
 NEEDED = ("truth", "error", "wrong", "grazing", "shade")

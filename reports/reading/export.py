@@ -41,15 +41,16 @@ def frame(fields: Sequence[Field], rows: Sequence[tuple[Any, ...]]) -> pd.DataFr
     return pd.DataFrame({f.name: pd.Series(c, dtype=_DTYPES[f.kind]) for f, c in zip(fields, columns, strict=True)})
 
 
-def write(frame: pd.DataFrame, csv: Path, parquet: Path) -> None:
+def write(frame: pd.DataFrame, csv: Path, parquet: Path, more: Sequence[Field] = (), bare: Sequence[str] = ()) -> None:
     """Write every column of every cell, as CSV and as Parquet. Raises OSError where a file cannot be written.
 
-    In Parquet time samples are a list and missing values are nulls. In CSV lists and objects are JSON and missing
-    values are empty.
+    The columns are those of SCHEMA and DERIVED, and then `more`; CSV has all but `bare`. In Parquet time samples are a
+    list and missing values are nulls. In CSV lists and objects are JSON and missing values are empty.
     """
-    schema = pa.schema([(field.name, _ARROW[field.kind]) for field in (*SCHEMA, *DERIVED)])
+    schema = pa.schema([(field.name, _ARROW[field.kind]) for field in (*SCHEMA, *DERIVED, *more)])
     table = pa.Table.from_pandas(frame, schema=schema, preserve_index=False).replace_schema_metadata(None)
     pq.write_table(table, parquet)
     samples = pa.array([None if value is None else json.dumps(value) for value in frame["samples_ms"]], pa.string())
     at = schema.get_field_index("samples_ms")
-    pa_csv.write_csv(table.set_column(at, "samples_ms", samples), csv, pa_csv.WriteOptions(quoting_style="needed"))
+    flat = table.set_column(at, "samples_ms", samples).drop_columns(list(bare))
+    pa_csv.write_csv(flat, csv, pa_csv.WriteOptions(quoting_style="needed"))

@@ -25,7 +25,7 @@ def load(folder: Path) -> Run:
 
     Raises FirsthitError where it is no run folder, or where nothing is finished.
     """
-    plan = _plan(folder)
+    plan = plan_of(folder)
     if not plan.include:
         return load_one(folder, plan)
     runs: list[Run] = []
@@ -52,7 +52,12 @@ def focus_of(run: Run, focus: str | None) -> str:
     Raises FirsthitError where no row that answers has it.
     """
     named = run.plan.focus if focus is None else focus
-    return _answering(run.frame, named, "--focus" if focus else "focus") if named else ""
+    told = ["answers", "method", "variant"]
+    return (
+        _answering(pd.concat([run.frame[told], run.families[told]]), named, "--focus" if focus else "focus")
+        if named
+        else ""
+    )
 
 
 def _answering(frame: pd.DataFrame, name: str, option: str) -> str:
@@ -153,7 +158,7 @@ def _study(path: Path) -> list[dict[str, Any]]:
     return rows
 
 
-def _plan(folder: Path) -> Plan:
+def plan_of(folder: Path) -> Plan:
     """Read a run's plan. Raises FirsthitError where there is none, or where it is damaged."""
     path = folder / "plan.json"
     if not folder.is_dir():

@@ -170,7 +170,9 @@ def _gallery(gallery: Gallery, folder: Path) -> dict[str, Any]:
         for picture in panel.pictures:
             _write(folder / f"{picture.name}.png", picture.png)
         pictures = [{"file": f"{picture.name}.png", "description": picture.description} for picture in panel.pictures]
-        panels.append({"title": panel.title, "note": panel.note, "pictures": pictures})
+        told = {"title": panel.title, "note": panel.note, "lines": [list(line) for line in panel.lines]}
+        key = [{"color": color, "text": text} for color, text in panel.key.items()]
+        panels.append({**told, "key": key, "pictures": pictures})
     legend = None if gallery.legend is None else _figure(gallery.legend, folder)
-    told = {"caption": gallery.caption, "across": gallery.across, "hero": gallery.hero}
-    return {"kind": "gallery", "panels": panels, "legend": legend, **told}
+    shape = {"across": gallery.across, "hero": gallery.hero}
+    return {"kind": "gallery", "panels": panels, "legend": legend, "caption": gallery.caption, **shape}

@@ -1,6 +1,63 @@
 "use strict";
+// The bar of methods: its height is kept, so that headings that are jumped to stand below it.
+const tip = document.getElementById("tip");
+const bar = document.getElementById("chips");
+const chips = [...document.querySelectorAll(".chip")];
+if (bar) {
+  bar.hidden = false;
+  const keepHeight = () => document.documentElement.style.setProperty("--bar", `${bar.offsetHeight + 6}px`);
+  new ResizeObserver(keepHeight).observe(bar);
+  keepHeight();
+}
+if (matchMedia("(max-width: 60rem)").matches) document.querySelector("nav details").open = false;
+
+// The tip: what is told of the thing that is pointed at, tapped or focused. Content is a text or an element.
+function tell(content, x, y) {
+  tip.replaceChildren(content);
+  tip.hidden = false;
+  const [wide, high] = [tip.offsetWidth, tip.offsetHeight];
+  const left = x + 14 + wide > innerWidth ? x - 14 - wide : x + 14;
+  const top = y + 14 + high > innerHeight ? y - 14 - high : y + 14;
+  tip.style.left = `${Math.max(2, Math.min(left, innerWidth - wide - 2))}px`;
+  tip.style.top = `${Math.max(2, top)}px`;
+}
+function hush() { tip.hidden = true; }
+addEventListener("keydown", (event) => { if (event.key === "Escape") hush(); });
+addEventListener("scroll", hush, { capture: true, passive: true });
+
+// Methods: those that are chosen stay, and all others fade, in drawings and in charts.
+const series = [...document.querySelectorAll(".series")];
+const named = new Map(series.map((group) => [group, JSON.parse(decodeURIComponent(group.dataset.series))]));
+const kept = new Set();
+const onKept = []; // what charts do when the choice changes
+const everyone = document.getElementById("everyone");
+function show() {
+  chips.forEach((chip) => chip.setAttribute("aria-pressed", String(kept.has(chip.dataset.method))));
+  series.forEach((group) => group.classList.toggle("faded", kept.size > 0 && !kept.has(named.get(group)[0])));
+  if (everyone) everyone.hidden = kept.size === 0;
+  onKept.forEach((follow) => follow([...kept]));
+}
+function keep(method) {
+  if (!kept.delete(method)) kept.add(method);
+  show();
+}
+chips.forEach((chip) => chip.addEventListener("click", () => keep(chip.dataset.method)));
+everyone?.addEventListener("click", () => { kept.clear(); show(); chips[0].focus(); });
+
+// Drawings: the pointer on a mark names its variant; a click on it chooses its method.
+for (const group of series) {
+  const [method, ...variants] = named.get(group);
+  const marks = [...group.querySelectorAll("use")];
+  group.addEventListener("click", () => keep(method));
+  group.addEventListener("pointermove", (event) => {
+    const own = variants.length === 1 ? variants[0] : variants[marks.indexOf(event.target)];
+    tell(own ?? method, event.clientX, event.clientY);
+  });
+  group.addEventListener("pointerleave", hush);
+}
+
 // Tables: a click on a heading sorts by value, a second one the other way; a text filters rows.
-for (const figure of document.querySelectorAll("figure.table")) {
+function makeSortable(figure) {
   const body = figure.querySelector("tbody");
   const count = figure.querySelector(".count");
   const headings = [...figure.querySelectorAll("th[scope=col]")];
@@ -35,43 +92,67 @@ for (const figure of document.querySelectorAll("figure.table")) {
     count.textContent = words.length ? `${shown} of ${body.rows.length} rows` : "";
   });
 }
+document.querySelectorAll("figure.table").forEach(makeSortable);
 
-// Drawings: the pointer on a mark names its variant; a click on a method, or on its mark, fades the others.
-const tip = document.getElementById("tip");
-const chips = [...document.querySelectorAll(".chip")];
-const series = [...document.querySelectorAll(".series")];
-const named = new Map(series.map((group) => [group, JSON.parse(decodeURIComponent(group.dataset.series))]));
-let kept = null;
-function keep(method) {
-  kept = kept === method ? null : method;
-  chips.forEach((chip) => chip.setAttribute("aria-pressed", String(chip.dataset.method === kept)));
-  series.forEach((group) => group.classList.toggle("faded", kept !== null && named.get(group)[0] !== kept));
-}
-chips.forEach((chip) => chip.addEventListener("click", () => keep(chip.dataset.method)));
-for (const group of series) {
-  const [method, ...variants] = named.get(group);
-  const marks = [...group.querySelectorAll("use")];
-  group.addEventListener("click", () => keep(method));
-  group.addEventListener("pointermove", (event) => {
-    const own = variants.length === 1 ? variants[0] : variants[marks.indexOf(event.target)];
-    tip.textContent = own ?? method;
-    tip.hidden = false;
-    tip.style.left = `${event.clientX + 12}px`;
-    tip.style.top = `${event.clientY + 12}px`;
-  });
-  group.addEventListener("pointerleave", () => { tip.hidden = true; });
-}
+// A caption is as wide as its table's box, not as its table, which may be wider.
+const boxes = new ResizeObserver((entries) => {
+  for (const { target } of entries) target.style.setProperty("--wide", `${target.clientWidth}px`);
+});
+document.querySelectorAll(".scroll").forEach((box) => boxes.observe(box));
 
-// Galleries: two pictures over each other, and a slider where the one ends and the other begins.
-for (const gallery of document.querySelectorAll("figure.gallery")) {
-  const pictures = [];
-  for (const panel of gallery.querySelectorAll(".panel")) {
-    panel.querySelectorAll("img").forEach((image, i) => {
-      pictures.push([`${panel.dataset.title} – ${i === 0 ? "drawn" : "error"}`, image]);
+// Matrices: squares tell their notes; one square of a matrix is reached by Tab, the others by the arrow keys.
+for (const matrix of document.querySelectorAll("figure.matrix")) {
+  const rows = [...matrix.querySelectorAll("tbody tr")].map((row) => [...row.cells].slice(1));
+  const square = (cell) => cell?.querySelector(".square");
+  const all = rows.flat().map(square).filter(Boolean);
+  const arrows = { ArrowLeft: [0, -1], ArrowRight: [0, 1], ArrowUp: [-1, 0], ArrowDown: [1, 0] };
+  const describe = (button) => {
+    const box = button.getBoundingClientRect();
+    tell(button.querySelector(".note").textContent, box.left + box.width / 2, box.bottom - 10);
+  };
+  all.forEach((button, i) => {
+    button.tabIndex = i === 0 ? 0 : -1;
+    button.addEventListener("pointerenter", () => describe(button));
+    button.addEventListener("click", () => describe(button));
+    button.addEventListener("pointerleave", hush);
+    button.addEventListener("focus", () => describe(button));
+    button.addEventListener("blur", hush);
+    button.addEventListener("keydown", (event) => {
+      const step = arrows[event.key];
+      if (!step) return;
+      event.preventDefault();
+      let [r, c] = [rows.findIndex((row) => row.includes(button.parentElement)), button.parentElement.cellIndex - 1];
+      do { r += step[0]; c += step[1]; } while (rows[r]?.[c] && !square(rows[r][c]));
+      const next = square(rows[r]?.[c]);
+      if (!next) return;
+      all.forEach((other) => { other.tabIndex = other === next ? 0 : -1; });
+      next.focus();
     });
+  });
+}
+
+// Galleries: two pictures over each other, and a slider where the one ends and the other begins. It starts with the
+// last pictures of two panels, which are of two methods; a gallery of one panel starts with its two pictures.
+for (const gallery of document.querySelectorAll("figure.gallery")) {
+  const panels = [...gallery.querySelectorAll(".panel")];
+  const pictures = [];
+  const lasts = [];
+  for (const panel of panels) {
+    const images = [...panel.querySelectorAll("img")];
+    images.forEach((image, i) => {
+      const kind = images.length < 2 ? "" : i === 0 ? " – drawn" : " – error";
+      pictures.push([panel.dataset.title + kind, image]);
+    });
+    if (images.length) lasts.push(pictures.length - 1);
   }
-  const sides = [["left", "under", 0], ["right", "above", Math.min(1, pictures.length - 1)]];
-  for (const [side, layer, first] of sides) {
+  if (pictures.length < 2) {
+    gallery.querySelector(".sliding").hidden = true;
+    continue;
+  }
+  const alike = gallery.querySelector(".panels.hero") && lasts.length > 2 ? lasts.slice(1) : lasts;
+  const firsts = alike.length > 1 ? alike : [0, 1];
+  gallery.querySelector(".compare").hidden = false;
+  [["left", "under", firsts[0]], ["right", "above", firsts[1]]].forEach(([side, layer, first]) => {
     const select = gallery.querySelector(`.${side}`);
     const target = gallery.querySelector(`.${layer}`);
     const choose = () => {
@@ -81,7 +162,7 @@ for (const gallery of document.querySelectorAll("figure.gallery")) {
     pictures.forEach(([title], i) => select.add(new Option(title, i, false, i === first)));
     select.addEventListener("change", choose);
     choose();
-  }
+  });
   const [above, edge] = [gallery.querySelector(".above"), gallery.querySelector(".edge")];
   gallery.querySelector(".slider").addEventListener("input", (event) => {
     above.style.clipPath = `inset(0 0 0 ${event.target.value}%)`;

@@ -11,7 +11,7 @@ from reports import published, wording
 from reports.analysis import derive, idle_lanes
 from reports.claims import picks
 from reports.claims.evidence import run_of
-from reports.claims.verdict_tables import verdict_tables
+from reports.claims.verdict_tables import counted, verdict_tables
 from reports.content import Block, Column, Gallery, Section, Table, Text
 from reports.drawing import levels
 from reports.material import Material
@@ -24,6 +24,10 @@ def sections(material: Material) -> list[Section]:
     return [*_tables(material), *_figure_1(material), *_divergence(material)]
 
 
+_SEEN = (
+    "Adaptive beams against uniform ones on twelve surfaces. Compare the ratios of the two methods; frames per second "
+    "are of two devices, and ours leave out the shading that both methods share."
+)
 _TOLD = (
     "A beam here is a perspective frustum: all rays from one eye through a rectangle of the picture. The paper's is a "
     "right prism in image space, U × V × T with T = [−1, 1], and its camera is not printed. Times here are of casting "
@@ -74,26 +78,22 @@ def _tables(material: Material) -> list[Section]:
     ]
     table = Table(
         (
-            Column("size", wording.count, numeric=True),
+            Column("size", wording.square),
             Column("samples", wording.count, numeric=True),
-            Column("surface", stretch=1),
+            Column("surface"),
             *pairs,
             Column("ours over\npaper", wording.factor, numeric=True),
             Column("the ratio in\nevaluations", wording.factor, numeric=True),
             Column("from the\nparent's piece", wording.factor, numeric=True),
         ),
         body,
-        "beamcasting, Tables I and II: adaptive beams against uniform ones.",
-        f"Ours on {ratios['device'].iloc[0]}; the paper's on an NVIDIA GTX 470. Frames per second are of two devices; "
-        "the ratio of the two methods is what is compared.",
+        "Adaptive beams against uniform ones.",
+        f"Ours on {ratios['device'].iloc[0]}; the paper's on an NVIDIA GTX 470.",
         group=2,
     )
-    return [
-        Section(
-            "beamcasting, Tables I and II",
-            (Text(_TOLD), table, *verdict_tables(material.judged, "beamcasting-tables.toml", "beamcasting")),
-        )
-    ]
+    verdicts = verdict_tables(material.judged, "beamcasting-tables.toml", "beamcasting")
+    blocks: tuple[Block, ...] = (Text(_SEEN), table, *counted(material.judged, "beamcasting-tables.toml"))
+    return [Section("beamcasting, Tables I and II", blocks, (Text(_TOLD), *verdicts))]
 
 
 def _figure_1(material: Material) -> list[Section]:
@@ -105,8 +105,9 @@ def _figure_1(material: Material) -> list[Section]:
     if not found:
         return []
     told = Text(
-        "The paper shows the Octdong with each pixel coloured by the level at which its box was eliminated, and white "
-        "where the subdivision reaches the surface. Here the same at three sizes; the paper prints no shares."
+        "The Octdong with each pixel coloured by the level at which its box was eliminated, and white where the "
+        "subdivision reaches the surface, at three sizes. Larger pictures add levels near the surface only: the share "
+        "that large boxes throw away stays. The paper prints no shares."
     )
     gallery = Gallery(tuple(levels.panel(row, arrays, "figure-1-") for row, arrays in found), levels.EXPLANATION)
     body: list[tuple[Any, ...]] = []
@@ -117,21 +118,24 @@ def _figure_1(material: Material) -> list[Section]:
         body.append((row.size, "surface", None, float(hit.mean())))
     table = Table(
         (
-            Column("size", wording.count, numeric=True),
-            Column("eliminated at level", stretch=1),
+            Column("size", wording.square),
+            Column("eliminated at level"),
             Column("pixels a side\nof its boxes", wording.count, numeric=True),
             Column("share of\nthe picture", wording.percentage, numeric=True),
         ),
         body,
-        "beamcasting, Figure 1: where boxes are eliminated.",
-        f"Of {wording.count(rows['accuracy_rays'].iloc[0])} pixels of each picture. Larger pictures add levels near "
-        "the surface only: the share that large boxes throw away stays.",
+        "Where boxes are eliminated.",
+        f"Of {wording.count(rows['accuracy_rays'].iloc[0])} pixels of each picture.",
         group=1,
     )
-    return [Section("beamcasting, Figure 1", (told, gallery, table))]
+    return [Section("beamcasting, Figure 1", (told, gallery), (table,), name="Fig. 1")]
 
 
 _SETTINGS = (picks.UNIFORM_IN_ROWS, picks.UNIFORM, picks.ADAPTIVE, picks.REMAPPED, picks.ADAPTIVE_OURS)
+_IDLE_SEEN = (
+    "How many lanes of a processor's vector or a GPU's warp wait while another evaluates f: each group takes as many "
+    "turns as its busiest lane. Grouping by place lowers the share; shares are lower bounds."
+)
 _IDLE = (
     "Work items that run in step, in a processor's vector or a GPU's warp, wait for the one that evaluates f most "
     "often. Each lane of a group takes as many turns as the lane with most evaluations; idle is the share of turns in "
@@ -166,13 +170,13 @@ def _divergence(material: Material) -> list[Section]:
     whole = Table(
         (
             Column("surface"),
-            Column("setting", stretch=1),
+            Column("setting"),
             Column("evals per\npixel", wording.number, numeric=True),
             *shares,
             Column("ms", wording.number, numeric=True),
         ),
         body,
-        "beamcasting, divergence: lanes that wait.",
+        "Lanes that wait.",
         f"On {rows[0][1].device}. Row by row is what the paper's grouping by place (III.E) is held against; remapped: "
         "quarters of a cell that evaluated f more than 16 times come after the others (its plan, V).",
         group=1,
@@ -191,7 +195,7 @@ def _divergence(material: Material) -> list[Section]:
     ]
     level_table = Table(
         (
-            Column("setting", stretch=1),
+            Column("setting"),
             Column("level", wording.count, numeric=True),
             Column("work\nitems", wording.count, numeric=True),
             Column("evals\nper item", wording.number, numeric=True),
@@ -203,13 +207,13 @@ def _divergence(material: Material) -> list[Section]:
         "are least alike.",
         group=1,
     )
-    blocks: tuple[Block, ...] = (
+    blocks: tuple[Block, ...] = (Text(_IDLE_SEEN), whole, *counted(material.judged, config))
+    details: tuple[Block, ...] = (
         Text(_IDLE),
-        whole,
         *([level_table] if by_level else []),
         *verdict_tables(material.judged, config, "beamcasting"),
     )
-    return [Section("beamcasting, divergence", blocks)]
+    return [Section("beamcasting, divergence", blocks, details, name="divergence")]
 
 
 def _shares(row: Any) -> tuple[float | None, ...]:

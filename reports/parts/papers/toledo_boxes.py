@@ -24,32 +24,23 @@ BOX = "#cfe3f2"  # a fragment without a hit
 
 
 def sections(material: Material) -> list[Section]:
-    """Make up to two sections, of scenes of tori and of Table 1's views; [] where the run has neither."""
-    found = []
-    for config, title, told in (
-        (
-            SCENES,
-            "toledo2007, Figures 1 and 5, right",
-            "Tori on a lattice, and the faces of their boxes that trigger the fragments which cast rays. A fragment "
-            "without a hit is discarded; here it is pale blue.",
-        ),
-        (
-            VIEWS,
-            "toledo2007, Figure 5, left",
-            "The torus and its box from Table 1's six angles: as many pixels as are blue or grey run the ray caster, "
-            "and those that are blue are its waste.",
-        ),
-    ):
-        panels = tuple(_panels(material, config))
-        if panels:
-            gallery = Gallery(panels, "Pale blue: fragments of the box without a hit. Drawn by Sturm as printed.")
-            found.append(Section(title, (Text(told), gallery)))
-    return found
+    """Make the section, of scenes of tori and of Table 1's views; [] where the run has neither."""
+    panels = tuple(_panels(material, SCENES) + _panels(material, VIEWS))
+    if not panels:
+        return []
+    told = (
+        "Tori and the faces of their boxes, which trigger the fragments that cast rays: scenes on a lattice, and the "
+        "torus from Table 1's six angles. As many pixels as are blue or grey run the ray caster; those that are blue "
+        "find nothing and are its waste."
+    )
+    return [
+        Section("toledo2007, Figures 1 and 5", (Text(told), Gallery(panels, "", across=4)), name="toledo2007, Fig. 1")
+    ]
 
 
 def _panels(material: Material, config: str) -> list[Panel]:
     """Make a panel for each view or scene that Sturm drew by the fragments of boxes in the run of `config`."""
-    rows = material.evidence.rows(picks.STURM)
+    rows = material.evidence.of(config).rows(picks.STURM)
     rows = rows[(rows["run"] == run_of(config)) & (rows["stage"] == "raster") & (rows["proxy"] == "box")]
     rows = derive.on_first_device(rows)
     drawn = [(row, arrays) for row in rows.itertuples() if (arrays := material.shelf.get(row)) is not None]
@@ -60,8 +51,8 @@ def _panel(row: Any, arrays: Arrays) -> Panel:
     """Show one row's picture, with its fragments of boxes."""
     tori = 1 if pd.isna(row.instances) else int(row.instances)
     title = row.view.replace("angle ", "tilted by ") + "°" if tori == 1 else f"{tori:,} tori"
-    told = f"{wording.count(row.fragments)} fragments, {wording.share(row.fragments_discarded / row.fragments)} wasted"
-    told += f", at {row.size} × {row.size}"
+    wasted = wording.share(row.fragments_discarded / row.fragments)
+    told = f"{wording.count(row.fragments)} fragments,\n{wasted} wasted, at {wording.square(row.size)}"
     picture = Picture(f"boxes-{row.key}", images.png(boxed(arrays)), f"{title}, and the fragments of the box")
     return Panel(title, (picture,), told)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from typing import Any
 
 import matplotlib
@@ -10,14 +11,24 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure as Drawing
 from matplotlib.lines import Line2D
 
-from reports.claims.verdict_tables import verdict_tables
-from reports.content import Block, Figure, Section
+from reports.claims.verdict_tables import counted, verdict_tables
+from reports.content import Block, Figure, Section, Text
 from reports.drawing import style
-from reports.drawing.canvas import RC, WIDE, svg
+from reports.drawing.canvas import NARROW, RC, svg
 from reports.material import Material
 
 ORDER = 11
 CONFIG = "toledo-fig3.toml"
+SEEN = (
+    "T and its two derivatives along rays through the torus. As printed, t_M parts each ray for bisection; ours parts "
+    "it at the roots of T″. Where no minimum reaches 0, Newton's signed steps turn back and stay in the dip."
+)
+TOLD = (
+    "T′ and T″ are scaled to T's height. Bisection looks at the two ends of a piece. Where f has different signs at "
+    "them, it ends at a root; else it ends at an extreme of f, on the side towards 0. In the last case but one the "
+    "first minimum only touches; in the last none reaches 0."
+)
+TITLE = 22  # characters of a line of a panel's title
 ACROSS = 4  # panels beside each other
 BEYOND = 0.15  # curves go on by this share of the stretch between the outermost marks
 CURVES = ((0, "T", "#0072B2", "-"), (1, "T′", "#E69F00", "--"), (2, "T″", "#009E73", ":"))
@@ -29,16 +40,17 @@ def sections(material: Material) -> list[Section]:
     rows = material.evidence.studies.get("torus_along_rays")
     if not rows:
         return []
-    blocks: list[Block] = [_figure([row for row in rows if row["case"] != "sampled"])]
-    blocks += verdict_tables(material.judged, CONFIG, "toledo2007, Figure 3")
-    return [Section("toledo2007, Figure 3", tuple(blocks))]
+    drawn = _figure([row for row in rows if row["case"] != "sampled"])
+    verdicts = tuple(verdict_tables(material.judged, CONFIG, "toledo2007, Figure 3"))
+    blocks: tuple[Block, ...] = (Text(SEEN), drawn, *counted(material.judged, CONFIG))
+    return [Section("toledo2007, Figure 3", blocks, (Text(TOLD), *verdicts), name="Fig. 3")]
 
 
 def _figure(cases: list[dict[str, Any]]) -> Figure:
     """Draw a panel for each case, a row of the study."""
     down = -(-len(cases) // ACROSS)
-    with matplotlib.rc_context(RC):
-        drawing = Drawing(figsize=(WIDE, 0.4 + 1.5 * down), layout="constrained")
+    with matplotlib.rc_context(RC | {"font.size": 7}):
+        drawing = Drawing(figsize=(NARROW, 0.3 + 1.25 * down), layout="constrained")
         panels = drawing.subplots(down, ACROSS, squeeze=False).ravel()
         for axes, case in zip(panels, cases, strict=False):
             _case(axes, case)
@@ -54,11 +66,6 @@ def _figure(cases: list[dict[str, Any]]) -> Figure:
         "toledo-figure-3",
         drawn,
         f"T and its two derivatives along {len(cases)} rays, with the roots of each.",
-        "toledo2007, Figure 3: T along rays through the torus.",
-        "T′ and T″ are scaled to T's height. Bisection looks at the two ends of a piece. Where f has different signs "
-        "at them, it ends at a root; else it ends at an extreme of f, on the side towards 0. t_M parts each ray as "
-        "printed; ours parts it at the roots of T″. In the last case but one the first minimum only touches. In the "
-        "last none reaches 0: there Newton's signed steps turn back and stay in the dip.",
     )
 
 
@@ -76,5 +83,5 @@ def _case(axes: Axes, case: dict[str, Any]) -> None:
         axes.plot(at, np.polyval(case["coefficients"], at), color=style.INK, marker=mark, ms=3.5, lw=0)
     axes.axhline(0.0, color=style.FAINT, lw=0.6)
     axes.axvline(case["t_m"], color=style.FAINT, lw=0.8, ls="-.")
-    axes.set_title(case["case"], color=style.INK)
+    axes.set_title(textwrap.fill(case["case"], TITLE), color=style.INK)
     axes.set_yticks([])

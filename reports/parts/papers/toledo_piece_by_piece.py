@@ -10,11 +10,15 @@ from reports import wording
 from reports.claims import toledo_pieces
 from reports.claims.evidence import Evidence, run_of
 from reports.claims.toledo_pieces import CUBICS, NORMALS, PIECES, PROXIES, Piece
-from reports.claims.verdict_tables import verdict_tables
-from reports.content import Block, Column, Section, Table
+from reports.claims.verdict_tables import counted, verdict_tables
+from reports.content import Block, Column, Section, Table, Text
 from reports.material import Material
 
 ORDER = 13
+SEEN = (
+    "What each piece of the paper's methods is worth: the method with the piece and without it are timed in turns, all "
+    "else as printed. A factor over 1× says that the piece makes the method faster."
+)
 
 
 def sections(material: Material) -> list[Section]:
@@ -29,10 +33,14 @@ def sections(material: Material) -> list[Section]:
     rows = toledo_pieces.by_normal(material.evidence.of(NORMALS))
     if not rows.empty:
         blocks.append(_normals(rows))
+    if not blocks:
+        return []
+    details: list[Block] = []
     for config, told in ((CUBICS, "section 3"), (PROXIES, "proxies"), (NORMALS, "section 4.5")):
         if (material.frame["run"] == run_of(config)).any():
-            blocks += verdict_tables(material.judged, config, f"toledo2007, {told}")
-    return [Section("toledo2007, piece by piece", tuple(blocks))] if blocks else []
+            details += verdict_tables(material.judged, config, f"toledo2007, {told}")
+    blocks += counted(material.judged, CUBICS, PROXIES, NORMALS)
+    return [Section("toledo2007, piece by piece", (Text(SEEN), *blocks), tuple(details), name="Pieces")]
 
 
 def _worth(piece: Piece, evidence: Evidence) -> tuple[Any, ...] | None:
@@ -52,7 +60,7 @@ def _pieces(worth: list[tuple[Any, ...]]) -> Table:
     """Make the table of what each piece is worth."""
     return Table(
         (
-            Column("piece", stretch=2),
+            Column("piece"),
             Column("whose"),
             Column("cases", wording.count, numeric=True),
             Column("mean", wording.factor, numeric=True, over="time without over with"),
@@ -65,8 +73,7 @@ def _pieces(worth: list[tuple[Any, ...]]) -> Table:
         ),
         worth,
         "What the pieces of toledo2007's methods are worth.",
-        "Each method is timed with the piece and without it, in turns; all else is as the paper prints it. Cases are "
-        "views or surfaces; wrong rays are neither grazing nor drowned, and are summed over the cases.",
+        "Cases are views or surfaces; wrong rays are neither grazing nor drowned, and are summed over the cases.",
     )
 
 
@@ -79,7 +86,7 @@ def _proxies(rows: pd.DataFrame) -> Table:
     return Table(
         (
             Column("angle"),
-            Column("proxy", stretch=1),
+            Column("proxy"),
             Column("fragments", wording.count, numeric=True),
             Column("without a hit", wording.percentage, numeric=True),
             Column("ms", wording.number, numeric=True),
@@ -87,8 +94,8 @@ def _proxies(rows: pd.DataFrame) -> Table:
         ),
         body,
         "The torus by Newton 0.001 in a box, a sphere and a tetrahedron.",
-        f"On {rows['device'].iloc[0]}, {rows['size'].iloc[0]} pixels square. The tetrahedron is the smallest about the "
-        "box; Loop and Blinn's is about a piece of the surface, and may be smaller.",
+        f"On {rows['device'].iloc[0]}, {wording.square(rows['size'].iloc[0])}. The tetrahedron is the smallest about "
+        "the box; Loop and Blinn's is about a piece of the surface, and may be smaller.",
         group=1,
     )
 
@@ -100,10 +107,12 @@ def _normals(rows: pd.DataFrame) -> Table:
         own = rows[rows["view"] == view].set_index("normal")["median_ms"]
         times = tuple(own.get(name) for name in ("core_circle", "distance", "gradient"))
         ratios = toledo_pieces.shaded(rows[rows["view"] == view], "gradient", "core_circle")["ratio"]
-        body.append((view, *times, ratios.iloc[0] if len(ratios) else None))
+        body.append(
+            (f"{view}°" if view.startswith("tilted") else view, *times, ratios.iloc[0] if len(ratios) else None)
+        )
     return Table(
         (
-            Column("view", stretch=1),
+            Column("view"),
             Column("core circle,\nequation 6", wording.number, numeric=True, over="ms, shaded by"),
             Column("gradient of\nthe distance", wording.number, numeric=True, over="ms, shaded by"),
             Column("gradient\nof f", wording.number, numeric=True, over="ms, shaded by"),
@@ -111,6 +120,6 @@ def _normals(rows: pd.DataFrame) -> Table:
         ),
         body,
         "The torus by Newton 0.001, shaded by three normals.",
-        f"On {rows['device'].iloc[0]}, {rows['size'].iloc[0]} pixels square. f is written in factors here; the paper "
+        f"On {rows['device'].iloc[0]}, {wording.square(rows['size'].iloc[0])}. f is written in factors here; the paper "
         "calls its partial derivatives expensive and does not print them.",
     )

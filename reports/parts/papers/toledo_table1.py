@@ -12,8 +12,8 @@ from reports.analysis import derive
 from reports.analysis.viewstats import spread
 from reports.claims import picks
 from reports.claims.evidence import Evidence, Pick
-from reports.claims.verdict_tables import verdict_tables
-from reports.content import Block, Column, Section, Table
+from reports.claims.verdict_tables import counted, verdict_tables
+from reports.content import Column, Section, Table, Text
 from reports.material import Material
 
 ORDER = 10
@@ -21,6 +21,17 @@ CONFIG = "toledo-table1.toml"
 PICKS = (*picks.TABLE_1, *picks.OURS_OF_TABLE_1, *picks.POLYGONS)
 REFERENCE = picks.NEWTON_3  # the technique that ratios are over
 OURS, PAPER = "ours", "paper"
+SEEN = (
+    "Eleven ways to draw one torus, from six angles. Frames per second are of two devices: compare the last column, a "
+    f"technique's mean over that of {REFERENCE.words}. Rows that the paper lacks are ours at its best, to the same "
+    "error."
+)
+TOLD = (
+    "The paper does not state its camera; distance 5.584 with a field of view of 30° gives its pixels. Pixels are "
+    "counted on the device as the technique with the fewest wrong rays draws them. A polygon's error along a ray is "
+    "more than its distance from the torus, and most where the ray is nearly tangent; the paper's figure for polygons "
+    "is a formula, held against measured distances here."
+)
 
 
 def sections(material: Material) -> list[Section]:
@@ -29,10 +40,10 @@ def sections(material: Material) -> list[Section]:
     if rows.empty:
         return []
     angles = list(dict.fromkeys(rows["view"]))
-    blocks: list[Block] = [_pixels(rows, angles), _frames(rows, angles), _rates(rows), _errors(rows)]
-    if measured := material.evidence.studies.get("mesh_errors"):
-        blocks.append(_meshes(measured))
-    return [Section("toledo2007, Table 1", (*blocks, *verdict_tables(material.judged, CONFIG, "toledo2007, Table 1")))]
+    blocks = (Text(SEEN), _pixels(rows, angles), _frames(rows, angles), _rates_and_errors(rows))
+    measured = material.evidence.studies.get("mesh_errors")
+    details = ([_meshes(measured)] if measured else []) + verdict_tables(material.judged, CONFIG, "toledo2007, Table 1")
+    return [Section("toledo2007, Table 1", (*blocks, *counted(material.judged, CONFIG)), (Text(TOLD), *details))]
 
 
 def table_rows(evidence: Evidence) -> pd.DataFrame:
@@ -91,12 +102,10 @@ def _pixels(rows: pd.DataFrame, angles: list[str]) -> Table:
                 )
             )
     return Table(
-        (Column("", stretch=1), Column(""), *(Column(_title(view), _one_digit, numeric=True) for view in angles)),
+        (Column("pixels"), Column(""), *(Column(_title(view), _one_digit, numeric=True) for view in angles)),
         body,
-        "toledo2007, Table 1: pixels of box and torus, by projection angle.",
-        "1024 × 1024, distance 5.584, field of view 30°: the paper does not state its camera; this one gives its "
-        f"pixels. Counted on the device as {technique} draws them, which has the fewest wrong rays here. Waste is the "
-        "share of the box's fragments that are discarded.",
+        "Pixels of box and torus, by projection angle.",
+        f"Counted as {technique} draws them. Waste is the share of the box's fragments that are discarded.",
         group=1,
     )
 
@@ -127,91 +136,72 @@ def _frames(rows: pd.DataFrame, angles: list[str]) -> Table:
         body += [(pick.words, PAPER, *theirs, mean, over)] if mean else []  # the paper has no row of ours at its best
     return Table(
         (
-            Column("technique", stretch=1),
+            Column("technique"),
             Column(""),
             *(Column(_title(view), wording.number, numeric=True, over="frames per second") for view in angles),
             Column("mean", wording.number, numeric=True, over="frames per second"),
             Column(f"over\n{REFERENCE.words}", wording.factor, numeric=True),
         ),
         body,
-        "toledo2007, Table 1: frames per second, by projection angle.",
-        f"Ours on {rows['device'].iloc[0]}, shaded by equation 6's normal, with depth; the paper's on a GeForce 7900. "
-        "Frames per second are of two devices; what is compared is the last column, a technique's mean over that of "
-        f"{REFERENCE.words}. Rows that the paper lacks are ours at its best, to the same error.",
+        "Frames per second, by projection angle.",
+        f"Ours on {rows['device'].iloc[0]}, shaded by equation 6's normal, with depth; the paper's on a GeForce 7900.",
         group=1,
     )
 
 
-def _rates(rows: pd.DataFrame) -> Table:
-    """Compare our pixels per second, and their spread over the views, with the paper's."""
-    paper, body = published.table("toledo2007_table1_megapixels"), []
-    for pick in (*picks.TABLE_1, *picks.OURS_OF_TABLE_1):
-        own = _of(rows, pick)
-        if own.empty:
-            continue
-        rate = own["frames_per_s"] * own["fragments"].astype("float64") / 1e6
-        name = {"D.D. Bisection": "Bisection"}.get(pick.words, pick.words)
-        name = name if paper.number("average", technique=name) is not None else pick.words
-        theirs = [paper.number(c, technique=name) for c in ("average", "stddev_over_average_percent")]
-        noise = float(((own["upper_ms"] - own["lower_ms"]) / (2.0 * own["median_ms"])).max())
-        body.append(
-            (pick.words, rate.mean(), theirs[0], spread(rate), None if theirs[1] is None else theirs[1] / 100.0, noise)
-        )
+def _rates_and_errors(rows: pd.DataFrame) -> Table:
+    """Compare pixels per second, their spread over the views, and errors with the paper's, technique by technique."""
+    body = [(pick.words, *_rate(pick, own), *_error(pick, own)) for pick in PICKS if len(own := _of(rows, pick))]
+    rate, spread_over, by_r, by_both = "megapixels/s, mean", "StdDev / Average", "error over r", "error over R + r"
     return Table(
         (
-            Column("technique", stretch=1),
-            Column(OURS, wording.number, numeric=True, over="megapixels per second, mean"),
-            Column(PAPER, wording.number, numeric=True, over="megapixels per second, mean"),
-            Column(OURS, wording.percentage, numeric=True, over="StdDev / Average"),
-            Column(PAPER, wording.percentage, numeric=True, over="StdDev / Average"),
+            Column("technique"),
+            Column(OURS, wording.number, numeric=True, over=rate),
+            Column(PAPER, wording.number, numeric=True, over=rate),
+            Column(OURS, wording.share, numeric=True, over=spread_over),
+            Column(PAPER, wording.share, numeric=True, over=spread_over),
             Column("noise,\n±", wording.share, numeric=True),
-        ),
-        body,
-        "toledo2007, Table 1: megapixels per second, and how they depend on the view.",
-        "Frames per second times the pixels of the box: how often the ray caster ran. The spread over six angles is "
-        "the paper's measure of view dependence; it says something only well above the noise of a single view.",
-    )
-
-
-def _errors(rows: pd.DataFrame) -> Table:
-    """Compare our errors with the paper's."""
-    paper, body = published.table("toledo2007_table1_fps"), []
-    for pick in PICKS:
-        own = _of(rows, pick)
-        if own.empty:
-            continue
-        theirs = [paper.number(c, technique=pick.words) for c in ("error_r_1e-6", "error_Rr_1e-6")]
-        printed = [None if value is None else 1e-6 * value for value in theirs]
-        wrong = own["wrong_rays"].astype("float64")
-        body.append(
-            (
-                pick.words,
-                own["feature_error_max"].max(),
-                own["feature_error_p99"].max(),
-                printed[0],
-                own["relative_error_max"].max(),
-                printed[1],
-                wrong.sum() / own["accuracy_rays"].astype("float64").sum(),
-                wrong.idxmax() if wrong.max() > 0 else None,
-            )
-        )
-    return Table(
-        (
-            Column("technique", stretch=1),
-            Column("largest", wording.error, numeric=True, over="error over r"),
-            Column("99 %", wording.error, numeric=True, over="error over r"),
-            Column(PAPER, wording.error, numeric=True, over="error over r"),
-            Column("largest", wording.error, numeric=True, over="error over R + r"),
-            Column(PAPER, wording.error, numeric=True, over="error over R + r"),
-            Column("wrong, of\nall rays", wording.share, numeric=True),
+            Column("largest", wording.error, numeric=True, over=by_r),
+            Column("99 %", wording.error, numeric=True, over=by_r),
+            Column(PAPER, wording.error, numeric=True, over=by_r),
+            Column("largest", wording.error, numeric=True, over=by_both),
+            Column(PAPER, wording.error, numeric=True, over=by_both),
+            Column("wrong\nrays", wording.share, numeric=True),
             Column("most at"),
         ),
         body,
-        "toledo2007, Table 1: errors, against certified first hits.",
-        "Ours are |t − t*| along the rays that the fragments cast, outside the grazing class, over all angles. A "
-        "polygon's error along a ray is more than its distance from the torus, and most where the ray is nearly "
-        "tangent; the paper's figure for polygons is a formula, held against measured distances below.",
+        "Megapixels per second, how they depend on the view, and errors.",
+        "Megapixels are frames per second times the box's pixels; their spread over six angles says something only "
+        "well above the noise of one view. Errors are |t − t*| over all angles, against certified first hits.",
     )
+
+
+def _rate(pick: Pick, own: pd.DataFrame) -> tuple[float | None, ...]:
+    """Return a technique's megapixels per second, ours and the paper's, their spreads, and the noise of one view.
+
+    All are None for polygons, whose time does not depend on pixels.
+    """
+    if pick in picks.POLYGONS:
+        return (None,) * 5
+    paper = published.table("toledo2007_table1_megapixels")
+    rate = own["frames_per_s"] * own["fragments"].astype("float64") / 1e6
+    name = {"D.D. Bisection": "Bisection"}.get(pick.words, pick.words)
+    name = name if paper.number("average", technique=name) is not None else pick.words
+    mean, percent = (paper.number(c, technique=name) for c in ("average", "stddev_over_average_percent"))
+    noise = float(((own["upper_ms"] - own["lower_ms"]) / (2.0 * own["median_ms"])).max())
+    return (rate.mean(), mean, spread(rate), None if percent is None else percent / 100.0, noise)
+
+
+def _error(pick: Pick, own: pd.DataFrame) -> tuple[Any, ...]:
+    """Return a technique's errors, ours and the paper's, the share of wrong rays, and the angle with most of them."""
+    paper = published.table("toledo2007_table1_fps")
+    theirs = [paper.number(c, technique=pick.words) for c in ("error_r_1e-6", "error_Rr_1e-6")]
+    by_r, by_both = (None if value is None else 1e-6 * value for value in theirs)
+    wrong = own["wrong_rays"].astype("float64")
+    largest = (own["feature_error_max"].max(), own["feature_error_p99"].max(), by_r)
+    most = _title(str(wrong.idxmax())) if wrong.max() > 0 else None
+    share = wrong.sum() / own["accuracy_rays"].astype("float64").sum()
+    return (*largest, own["relative_error_max"].max(), by_both, share, most)
 
 
 def _meshes(measured: list[dict[str, Any]]) -> Table:
@@ -232,7 +222,7 @@ def _meshes(measured: list[dict[str, Any]]) -> Table:
             Column("mesh to\ntorus", wording.error, numeric=True, over="measured, over R + r"),
             Column("torus to\nmesh", wording.error, numeric=True, over="measured, over R + r"),
             Column("measured less\nboth chords", lambda x: wording.minus(f"{100 * x:+.1f} %"), numeric=True),
-            Column("bytes", wording.count, numeric=True, stretch=1),
+            Column("bytes", wording.count, numeric=True),
         ),
         body,
         "Errors of polygonal tori: the paper's formula, geometry's, and what is measured.",

@@ -9,21 +9,21 @@ from pathlib import PurePath
 import pandas as pd
 
 from reports import wording
-from reports.content import Code, Section, Text
+from reports.content import Block, Code, Text
 from reports.material import Material
 from reports.reading.run import Plan
 
-ORDER = 95
+LINE = 100  # characters of a line of a command, which the page must not break
 
 
-def sections(material: Material) -> list[Section]:
-    """Make the section, which every report has."""
+def blocks(material: Material) -> tuple[Block, ...]:
+    """Give the commands to copy, and say what the commit does not hold."""
     plan = material.run.plan
     commit = str(plan.environment.get("commit") or "")
     lines = [f"git checkout {commit}"] if commit else []
-    lines += ["make .venv/ready", plan.command, f"firsthit report runs/{plan.name}"]
+    lines += ["make .venv/ready", plan.command, f"firsthit report {shlex.quote(_folder(plan))}"]
     told = (
-        "Finished cells are reused, so that the run goes on where it stopped; `--force` runs all "
+        "Finished cells are reused, so that the run goes on where it stopped; --force runs all "
         "again. Times differ from machine to machine; answers on one device do not."
     )
     dirty = (
@@ -32,7 +32,31 @@ def sections(material: Material) -> list[Section]:
         else ""
     )
     texts = filter(None, (told, dirty, _plugins(material), _config(plan)))
-    return [Section("How to run it again", (Code("\n".join(lines)), *map(Text, texts)))]
+    return (Code("\n".join(map(folded, lines))), Text(" ".join(texts)))
+
+
+def folded(command: str) -> str:
+    """Fold a command at spaces into lines of at most LINE characters, each but the last ended by a backslash.
+
+    A shell reads it as it reads the command. A word that is longer than a line has a line of its own.
+    """
+    if len(command) <= LINE:
+        return command
+    words = [shlex.quote(word) for word in shlex.split(command)]
+    lines = [words[0]]
+    for word in words[1:]:
+        if len(lines[-1]) + len(word) + 3 > LINE:
+            lines.append(f"    {word}")
+        else:
+            lines[-1] += f" {word}"
+    return " \\\n".join(lines)
+
+
+def _folder(plan: Plan) -> str:
+    """Return the folder of the run that the plan's command makes: below the folder after --runs, if it names one."""
+    words = shlex.split(plan.command.replace("--runs=", "--runs "))
+    runs = words[words.index("--runs") + 1] if "--runs" in words[:-1] else "runs"
+    return str(PurePath(runs) / plan.name)
 
 
 def _plugins(material: Material) -> str:
@@ -67,4 +91,4 @@ def _config(plan: Plan) -> str:
     """Say that a config outside the project is no part of the commit; "" for a config inside the project."""
     if not PurePath(plan.config).is_absolute():
         return ""
-    return f"The config {plan.config} is no part of the commit either; its text is in “Devices, environment, config”."
+    return f"The config {plan.config} is no part of the commit either; its text is among the details of this page."

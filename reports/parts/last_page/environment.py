@@ -6,18 +6,57 @@ from collections.abc import Mapping
 from typing import Any
 
 from reports import wording
-from reports.content import Code, Column, Section, Table
-from reports.material import Material
+from reports.content import Block, Code, Column, Table, Text
 from reports.reading.run import Plan
 
-ORDER = 80
+PROBLEM_LIMIT = 120  # characters of why a device cannot be used
 
 
-def sections(material: Material) -> list[Section]:
-    """Make the section, which every report has."""
-    plan = material.run.plan
-    tabled = (devices_table(plan), _environment(plan))
-    return [Section("Devices, environment, config", (*tabled, Code(plan.config_text, "toml")))]
+def blocks(plan: Plan) -> tuple[Block, ...]:
+    """Make a line for each device, and a sentence on the machine and the software."""
+    return (_devices(plan), Text(_made_with(plan)))
+
+
+def details(plan: Plan) -> tuple[Block, ...]:
+    """Tell all that is known of the devices and the machine, and the config's text."""
+    return (devices_table(plan), _environment(plan), Code(plan.config_text, "toml"))
+
+
+def _devices(plan: Plan) -> Table:
+    """Make a line for each device with what a reader needs to know of it."""
+    body: list[tuple[Any, ...]] = []
+    for device in plan.devices:
+        peak = (device.get("probes") or {}).get("peak_gflops")
+        problem = device.get("problem")
+        told = (device.get("title"), device.get("driver"), device.get("compute_units"), peak)
+        last = wording.excerpt(problem, PROBLEM_LIMIT) if problem else "yes" if device.get("float64") else "no"
+        body.append((device.get("name"), *told, last))
+    return Table(
+        (
+            Column("device"),
+            Column("hardware", stretch=3),
+            Column("driver", stretch=3),
+            Column("units", wording.count, numeric=True),
+            Column("peak,\nGFLOP/s", _two_digits, numeric=True),
+            Column("float64" if not any(device.get("problem") for device in plan.devices) else "float64 or problem"),
+        ),
+        body,
+        "Devices of this run.",
+    )
+
+
+def _made_with(plan: Plan) -> str:
+    """Write in a sentence or two which machine and which software the run was made with."""
+    told = plan.environment
+    dirty = " with uncommitted changes" if told.get("dirty") else ""
+    commit = f"commit {told['commit']}{dirty}" if told.get("commit") else ""
+    own = [f"firsthit {told.get('firsthit') or ''}".strip(), commit]
+    versions = [f"{name} {version}" for name, version in _pairs(told.get("versions"))]
+    python = f"Python {told['python']}" if told.get("python") else ""
+    software = ", ".join(filter(None, (*own, python, *versions)))
+    machine = ", ".join(filter(None, (told.get("cpu"), told.get("platform"))))
+    where = f" on {machine}" if machine else ""
+    return f"Made on {plan.created[:16].replace('T', ' ')} by {software}{where}."
 
 
 def devices_table(plan: Plan) -> Table:

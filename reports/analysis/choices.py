@@ -1,0 +1,109 @@
+"""Choose which variant to take for which surface, at which error."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import pandas as pd
+
+from reports.analysis import derive, shown, ties
+from reports.analysis.scene_names import picture_size
+
+ERRORS = (1e-3, 1e-6)  # largest |t − t*| over the scene's radius
+_COLUMNS = [
+    *("run", "key", "slot", "arrays", "comparison", "device", "precision", "baseline", "prepass", "origin"),
+    *("surface", "surface_title", "degree", "view", "size", "samples_per_pixel", "stage"),
+    *("method", "variant", "label", "method_label", *ties.COLUMNS, "floor_ms", "floor_bound"),
+    *("wrong_rays", "grazing_wrong_rays", "drowned_wrong_rays", "accuracy_rays"),
+    *("error_max", "relative_error_max", "front"),
+]  # of a choice's rows
+
+
+@dataclass(frozen=True, eq=False)
+class Choice:
+    """Hold what to take for one surface on one device: rows as named tuples of the frame.
+
+    name: the surface's title, with the view, size and stage where those of the choices differ
+    rows: the timed rows of the scene that answer, fastest first, with the columns _COLUMNS
+    within: the fastest row with every ray away from silhouettes right, at each of ERRORS; None where none is so exact
+    tied: the labels of variants of other methods whose times are not told apart from it, at each of ERRORS
+    nearest: the most exact row with every such ray right, None where there is none
+    """
+
+    surface: str
+    name: str
+    rows: pd.DataFrame
+    within: tuple[Any, ...]
+    tied: tuple[tuple[str, ...], ...]
+    nearest: Any
+
+    @property
+    def best(self) -> Any:
+        """Return the row to take where nothing is said of the error; None where every variant is wrong somewhere."""
+        return next((row for row in self.within if row is not None), self.nearest)
+
+    @property
+    def pictured(self) -> Any:
+        """Return the row that shows the surface: the best, else that with fewest wrong rays."""
+        if self.best is not None:
+            return self.best
+        return next(self.rows.sort_values("wrong_rays", kind="stable").itertuples())
+
+
+def choices(frame: pd.DataFrame) -> list[Choice]:
+    """Make a choice for each surface that was timed, in the plan's order.
+
+    Rows are of the surface's fullest scene, on the device that has most rows of all.
+    """
+    rows = fullest_scenes(frame)
+    if rows.empty:
+        return []
+    order, named = list(dict.fromkeys(frame["surface"])), _names(rows)
+    by_surface = dict(iter(rows.groupby("surface", sort=False)))
+    return [_choice(str(surface), named, by_surface[surface]) for surface in order if surface in by_surface]
+
+
+def _names(rows: pd.DataFrame) -> dict[str, str]:
+    """Return the name of each scene of `rows`, which has one scene of each surface."""
+    scenes = rows.drop_duplicates("comparison")
+    told = {"view": scenes["view"], "size": scenes.apply(picture_size, axis=1), "stage": scenes["stage"]}
+    differing = [values for values in told.values() if values.nunique() > 1]
+    names = [", ".join(map(str, parts)) for parts in zip(scenes["surface_title"], *differing, strict=True)]
+    return dict(zip(scenes["comparison"], names, strict=True))
+
+
+def fullest_scenes(frame: pd.DataFrame) -> pd.DataFrame:
+    """Return the contenders of each surface's fullest scene, on the device that has most rows of all."""
+    rows = derive.contenders(frame)
+    if rows.empty:
+        return rows
+    rows = derive.on_fullest_device(rows)[_COLUMNS]
+    in_plan_order = rows.sort_index()
+    fullest = [shown.fullest(own) for _, own in in_plan_order.groupby("surface", sort=False)]
+    return rows[rows["comparison"].isin(fullest)]
+
+
+def _choice(surface: str, named: dict[str, str], rows: pd.DataFrame) -> Choice:
+    """Choose among the rows of one scene."""
+    rows = rows.sort_values("median_ms", kind="stable")
+    usable = [rows[derive.all_right(rows) & (rows["relative_error_max"] <= error)] for error in ERRORS]
+    within = tuple(None if own.empty else next(own.loc[[ties.best(own).Index]].itertuples()) for own in usable)
+    labels = dict(zip(rows["variant"], rows["label"], strict=True))
+    tied = tuple(
+        () if won is None else tuple(labels[variant] for variant in ties.tied(own, won))
+        for own, won in zip(usable, within, strict=True)
+    )
+    right = rows[derive.all_right(rows) & rows["relative_error_max"].notna()]
+    nearest = next(right.sort_values("relative_error_max", kind="stable").itertuples(), None)
+    return Choice(surface, named[str(rows["comparison"].iloc[0])], rows, within, tied, nearest)
+
+
+def precision_of(rows: pd.DataFrame) -> str:
+    """Return the precision that most of the rows have, the plan's first of several."""
+    return str(rows.sort_index()["precision"].value_counts(sort=False).idxmax())
+
+
+def written(row: Any, rows: pd.DataFrame) -> str:
+    """Write the variant of a row, with its precision where that is not the one of most rows of its scene."""
+    return str(row.label) if row.precision == precision_of(rows) else f"{row.label}, {row.precision}"

@@ -1,0 +1,92 @@
+"""Make the tables of what one gains and pays beside the winners, and of how long other devices take."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import pandas as pd
+
+from reports import wording
+from reports.analysis import choices, derive, tradeoffs
+from reports.analysis.scene_names import scene_names
+from reports.content import Column, Table
+
+
+def trades(found: Sequence[choices.Choice]) -> Table | None:
+    """Make a line for each variant to take in place of a surface's winner; None where there is none."""
+    body = []
+    for one in found:
+        if one.best is None:
+            continue
+        best = f"{choices.written(one.best, one.rows)}, {wording.number(one.best.median_ms)} ms"
+        error = one.best.relative_error_max
+        for trade in tradeoffs.faster(one):
+            row = trade.row
+            gained = "faster" if wording.absent(trade.times) else f"{wording.factor(1 / trade.times)} as fast"
+            wrong = wording.plural(int(row.wrong_rays), "wrong ray")
+            paid = f"{wrong} of {wording.count(row.accuracy_rays)}"
+            body.append((one.name, best, choices.written(row, one.rows), gained, paid, row.relative_error_max))
+        for trade in tradeoffs.exacter(one):
+            row = trade.row
+            less = error / row.relative_error_max if row.relative_error_max else float("inf")
+            gained = f"error {wording.factor(less)} smaller" if less < float("inf") else "an error of 0"
+            paid = "more time" if wording.absent(trade.times) else f"{wording.factor(trade.times)} the time"
+            body.append((one.name, best, choices.written(row, one.rows), gained, paid, row.relative_error_max))
+    if not body:
+        return None
+    columns = (
+        Column("surface"),
+        Column("the winner", stretch=3),
+        Column("instead of it", stretch=3),
+        Column("gains", stretch=3),
+        Column("and pays", stretch=3),
+        Column("error", wording.error, numeric=True),
+    )
+    device = found[0].rows["device"].iloc[0]
+    return Table(
+        columns,
+        body,
+        f"Trade-offs on {device}.",
+        "What is faster than the winner answers some rays wrongly; what is more exact takes longer. Ratios of times "
+        "are of the rounds that timed both; error is the largest over the scene's radius."
+        + wording.zeros([row[-1] for row in body]),
+        group=2,
+    )
+
+
+def devices(frame: pd.DataFrame) -> Table | None:
+    """Make a line for each device but the one with most rows: how long the same variants take there.
+
+    None where there is nothing to compare. Only variants that are right on both devices are compared.
+    """
+    rows = derive.contenders(frame)
+    fullest = str(derive.on_fullest_device(rows)["device"].iloc[0])
+    rows = rows[derive.all_right(rows)]
+    kernel = ["comparison", "variant", "precision"]
+    first = rows[rows["device"] == fullest].drop_duplicates(kernel)
+    body: list[tuple[Any, ...]] = []
+    named = scene_names(frame)
+    for device, own in rows[rows["device"] != fullest].groupby("device", sort=False):
+        both = own.drop_duplicates(kernel).merge(first, on=kernel, suffixes=("", "_first"))
+        if both.empty:
+            continue
+        times = both["median_ms"] / both["median_ms_first"]
+        low, high = both.loc[times.idxmin()], both.loc[times.idxmax()]
+        told = f"{low.label} on {named[low.comparison]}; {high.label} on {named[high.comparison]}"
+        body.append((device, len(both), times.median(), times.min(), times.max(), told))
+    if not body:
+        return None
+    columns = (
+        Column("device"),
+        Column("compared", wording.count, numeric=True),
+        Column("median", wording.factor, numeric=True, over=f"time over that on {fullest}"),
+        Column("least", wording.factor, numeric=True, over=f"time over that on {fullest}"),
+        Column("most", wording.factor, numeric=True, over=f"time over that on {fullest}"),
+        Column("least and most are of", stretch=1),
+    )
+    caption = (
+        "The same variant on the same scene, right on both. These are ratios of two medians, which other devices' "
+        "loads may shift; above 1× is slower."
+    )
+    return Table(columns, body, "The other devices.", caption)

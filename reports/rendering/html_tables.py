@@ -1,0 +1,113 @@
+"""Render tables and matrices as HTML: their cells have headings of rows and columns, and a caption of their own."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Sequence
+from typing import Any
+
+import pandas as pd
+
+from reports.content import Column, Matrix, Square, Table
+from reports.rendering.escaping import escaped
+
+FILTERED = 4  # rows from which on a table has a box to filter them
+_DARK, _LIGHT = "#111111", "#ffffff"  # what is written on a coloured square
+
+
+def caption(title: str, told: str) -> str:
+    """Write title and caption of a figure or a table; "" without either."""
+    return f"<strong>{escaped(title)}</strong> {escaped(told)}" if title or told else ""
+
+
+def table(of: Table) -> str:
+    """Write a table whose cells have their values beside their texts, so that numbers sort as numbers."""
+    titled = any(column.title for column in of.columns)
+    box = (
+        '<span class="filtering"><input class="filter" type="search" placeholder="filter rows" '
+        f'aria-label="filter the rows of: {escaped(of.title)}"> <span class="count" role="status"></span></span>'
+        if titled and len(of.rows) >= FILTERED
+        else ""
+    )
+    rows = "".join(f"<tr>{_cells(of.columns, row)}</tr>" for row in of.rows)
+    head = _head(of.columns) if titled else ""
+    return _boxed("table", of.title, f"{caption(of.title, of.caption)}{box}", f"{head}<tbody>{rows}</tbody>")
+
+
+def _boxed(kind: str, title: str, told: str, rows: str) -> str:
+    """Put the rows of a table into a box of their own, which scrolls sideways where the page is too narrow."""
+    heading = f"<caption><div>{told}</div></caption>" if told else ""
+    name = f'role="region" aria-label="{escaped(title)}"' if title else 'role="group" aria-label="table"'
+    return (
+        f'<figure class="{kind}"><div class="scroll" tabindex="0" {name}><table>{heading}{rows}</table></div></figure>'
+    )
+
+
+def _head(columns: Sequence[Column]) -> str:
+    """Write the headings: one line, or two where adjacent columns share a heading."""
+    over = [(name, len(list(own))) for name, own in itertools.groupby(columns, key=lambda column: column.over)]
+    groups = "".join(
+        f'<th class="over" colspan="{span}" scope="colgroup">{escaped(name)}</th>'
+        if name
+        else f'<td class="over" colspan="{span}"></td>'
+        for name, span in over
+    )
+    titles = "".join(
+        f'<th scope="col"{_kind(column)}><button type="button" class="sort">{escaped(column.title)}</button></th>'
+        for column in columns
+    )
+    return f"<thead>{f'<tr>{groups}</tr>' if len(over) > 1 else ''}<tr>{titles}</tr></thead>"
+
+
+def _kind(column: Column) -> str:
+    return ' class="n"' if column.numeric else ""
+
+
+def _cells(columns: Sequence[Column], row: tuple[Any, ...]) -> str:
+    """Write the cells of one row, each with its value if that is a number. The first one is the row's heading."""
+    cells = []
+    for i, (column, value) in enumerate(zip(columns, row, strict=True)):
+        number = not isinstance(value, str | bool) and not pd.isna(value)
+        key = f' data-v="{float(value)!r}"' if number else ""
+        tag, scope = ("td", "") if i else ("th", ' scope="row"')
+        cells.append(f"<{tag}{scope}{_kind(column)}{key}>{escaped(column.show(value))}</{tag}>")
+    return "".join(cells)
+
+
+def matrix(of: Matrix) -> str:
+    """Write a matrix as a table. What a square's note says is shown to who points at it, taps it or reaches it by keys.
+
+    It is in the page as text, so that it is read aloud and found.
+    """
+    head = "".join(f'<th scope="col">{escaped(name)}</th>' for name in of.columns)
+    body = "".join(
+        f'<tr><th scope="row">{escaped(heading)}</th>{"".join(map(_square, squares))}</tr>'
+        for heading, squares in of.rows
+    )
+    key = "".join(
+        f'<li><span style="background:{escaped(color)}"></span>{escaped(told)}</li>' for color, told in of.key.items()
+    )
+    return _boxed(
+        "matrix",
+        of.title,
+        caption(of.title, of.caption) + (f'<ul class="key">{key}</ul>' if key else ""),
+        f'<thead><tr><th scope="col">{escaped(of.corner)}</th>{head}</tr></thead><tbody>{body}</tbody>',
+    )
+
+
+def _square(square: Square) -> str:
+    """Write one cell of a matrix."""
+    style = f' style="background:{square.color};color:{on(square.color)}"' if square.color else ""
+    text = f"<b>{escaped(square.text)}</b>" if square.strong else escaped(square.text)
+    if not square.note:
+        return f"<td{style}>{text}</td>"
+    note = f'<span class="note">{escaped(square.note)}</span>'
+    return f'<td{style}><button type="button" class="square">{text}{note}</button></td>'
+
+
+def on(color: str) -> str:
+    """Return the colour for text on a ground of `color`, "#rrggbb": dark or light, whichever is read more easily."""
+    shares = [int(color[i : i + 2], 16) / 255 for i in (1, 3, 5)]
+    red, green, blue = (c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in shares)
+    luminance = 0.2126 * red + 0.7152 * green + 0.0722 * blue
+    return _DARK if luminance > 0.1833 else _LIGHT  # where both have the same contrast

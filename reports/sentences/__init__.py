@@ -1,0 +1,1 @@
+"""Write the sentences of the first page."""

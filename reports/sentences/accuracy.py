@@ -1,0 +1,60 @@
+"""Open the report of a run that timed nothing: who is right."""
+
+from __future__ import annotations
+
+import pandas as pd
+
+from harness.contract import CellStatus
+from reports import wording
+from reports.analysis import derive
+from reports.content import Block, Column, Table, Text
+
+
+def blocks(frame: pd.DataFrame) -> list[Block]:
+    """Return a sentence on which variants answer every ray rightly, and a table of all; `frame` has a row or more."""
+    rows = frame[(frame["status"] == CellStatus.OK) & frame["answers"].astype(bool) & frame["wrong_rays"].notna()]
+    if rows.empty:
+        harness = frame[(frame["status"] == CellStatus.OK) & ~frame["answers"].astype(bool)]
+        only = "This run has the harness alone: a method that answers nothing" if len(harness) else ""
+        return [Text(f"{only or 'No cell of this run has a result that can be judged'}.", strong=True)]
+    body = []
+    for (label, precision), own in rows.groupby(["label", "precision"], sort=False):
+        right = derive.all_right(own)
+        wrong, worst = int(own["wrong_rays"].sum()), own["error_max"].max()
+        surfaces = own["surface"].nunique()
+        held = surfaces - own.loc[~right, "surface"].nunique()
+        body.append((label, precision, held, surfaces, wrong, int(own["accuracy_rays"].sum()), worst))
+    body.sort(key=lambda line: (line[4] / max(1, line[5]), line[6]))
+    perfect = [f"{line[0]}" for line in body if line[4] == 0]
+    named = list(dict.fromkeys(perfect))
+    if not named:
+        first = body[0]
+        lead = f"No variant is right on every ray; {first[0]} has fewest wrong: {first[4]:,} of {first[5]:,}."
+    elif len(named) == len({line[0] for line in body}):
+        lead = f"Every variant is right on every ray away from silhouettes: {_few(named)}."
+    else:
+        lead = f"Right on every ray away from silhouettes: {_few(named)}. The others answer some wrongly."
+    told = "This run timed nothing. Answers are held, ray by ray, against first hits certified in ball arithmetic."
+    columns = (
+        Column("variant", stretch=1),
+        Column("precision"),
+        Column("surfaces\nall right", wording.count, numeric=True),
+        Column("of", wording.count, numeric=True),
+        Column("wrong\nrays", wording.count, numeric=True),
+        Column("of", wording.count, numeric=True),
+        Column("max\nerror", wording.error, numeric=True),
+    )
+    caption = "Rays that graze a silhouette or drown in f's rounding are not counted; max error is in scene units."
+    zeros = wording.zeros([line[6] for line in body])
+    shown = body[:LINES]
+    table = Table(columns, shown, "Who is right.", f"{caption}{zeros}{wording.first_of(len(shown), len(body))}")
+    return [Text(lead, strong=True), Text(told), table]
+
+
+LINES = 36
+
+
+def _few(names: list[str]) -> str:
+    """Name up to eight variants, and count the rest."""
+    rest = [f"{len(names) - 8} more"] if len(names) > 8 else []
+    return wording.listed([*names[:8], *rest])

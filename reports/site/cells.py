@@ -1,0 +1,164 @@
+"""Hold what pages are made from, and write what several of them show: winners, rows, and how to run them again."""
+
+from __future__ import annotations
+
+import math
+import shlex
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import PurePath
+from typing import Any
+
+import pandas as pd
+
+from reports import labels, wording
+from reports.drawing.style import Mark
+from reports.site.gather import Gathered, Part
+from reports.site.markup import Frame, Head, Html, Line, code, join, link, table, tag
+from reports.site.pictures import Pair, anchor
+from reports.site.scatter import Point, chip, scatter
+from reports.site.standings import LEVELS, Race, Won
+
+BOUNDS = {  # how people write the levels
+    name: "any error" if math.isinf(bound) else f"error ≤ {wording.power_of_ten(round(math.log10(bound)))}"
+    for name, bound in LEVELS
+}
+RADIUS = "of the scene's radius"
+
+
+@dataclass(frozen=True, eq=False)
+class Site:
+    """Hold what pages are made from.
+
+    races: all that count; `cells` are those of the leaderboard
+    marks: how each method is drawn
+    pages: the name of each method's page
+    pictures: those of rows, by run and key; `scale` has the decades of errors that their colours span
+    contact: whom one sends a run to, as text or as an address; "" where the site does not say
+    """
+
+    frame: Frame
+    data: Gathered
+    races: Sequence[Race]
+    cells: Sequence[Race]
+    marks: Mapping[str, Mark]
+    pages: Mapping[str, str]
+    pictures: Mapping[tuple[str, str], Pair]
+    scale: tuple[int, int]
+    contact: str
+
+    def label(self, name: str) -> str:
+        """Return how people write a method's name."""
+        return labels.method_label(name, self.data.methods)
+
+    def method(self, name: str, up: str) -> Html:
+        """Write a method's mark, and its name as a link to its page; `up` leads to the site's folder."""
+        return join(chip(self.marks[name]), link(f"{up}methods/{self.pages[name]}.html", self.label(name)))
+
+    def baseline(self, rows: pd.DataFrame) -> str:
+        """Name the method or variant that the speed-ups of these rows are over; several are joined by "or"."""
+        variants = dict(zip(self.data.frame["variant"], self.data.frame["label"], strict=True))
+        named = (str(name) for name in dict.fromkeys(rows["baseline"]))
+        return " or ".join(dict.fromkeys(self.label(n) if n in self.pages else variants.get(n, n) for n in named))
+
+    @property
+    def several_precisions(self) -> bool:
+        """Tell whether devices are named with a precision."""
+        return len({race.first.precision for race in self.cells}) > 1
+
+    def place(self, row: Any) -> str:
+        """Write the device of a row, and its precision where there are several."""
+        return f"{row.on}, {row.precision}" if self.several_precisions else str(row.on)
+
+
+def row_link(row: Any, up: str, text: object = None) -> Html:
+    """Write a variant as a link to its row on its surface's page."""
+    return link(f"{up}surfaces/{row.page}.html#{anchor(row)}", row.label if text is None else text)
+
+
+def speed(row: Any) -> str:
+    """Write a row's time and, where it is known, its speed-up."""
+    over = "" if wording.absent(row.speedup) else f", {wording.factor(row.speedup)}"
+    return f"{wording.number(row.median_ms)} ms{over}"
+
+
+def risk(won: Won) -> str:
+    """Write what is faster than the winner and answers wrongly; "" where nothing is."""
+    if won.faster is None or won.winner is None:
+        return ""
+    times = won.winner.median_ms / won.faster.median_ms
+    rays = f"{wording.count(won.faster.wrong_rays)} of {wording.count(won.faster.accuracy_rays)} rays wrong"
+    return f"{won.faster.label}: {wording.factor(times)} faster, {rays}"
+
+
+ROW_HEADS = (
+    Head("variant"),
+    Head("ms", True, "median time of one frame"),
+    Head("speed-up", True, "the baseline's time over this one's, in the rounds that timed both; of right answers only"),
+    Head("largest error", True, f"of |t − t*| over clear rays, {RADIUS}"),
+    Head("99 % of errors", True, f"99th percentile of |t − t*|, {RADIUS}"),
+    Head("wrong rays", True, "clear rays answered wrongly, of whatever kind"),
+    Head("Mrays/s", True, "millions of rays a second, by the median time"),
+    Head("evaluations", True, "of f, for each ray cast, in the mean"),
+)
+
+
+def rows_table(site: Site, caption: object, rows: pd.DataFrame) -> Html:
+    """Write the rows of a race, fastest first."""
+    lines = []
+    for row in rows.itertuples():
+        name = join(chip(site.marks[row.method]), tag("span", row.label, title=row.variant))
+        told = (
+            wording.number(row.median_ms),
+            wording.factor(row.speedup),
+            wording.error(row.relative_error_max),
+            wording.error(row.relative_error_p99),
+            wording.count(row.wrong_rays),
+            wording.number(row.mrays_per_s),
+            wording.number(row.evaluations_mean),
+        )
+        kind = None if wording.absent(row.wrong_rays) or row.wrong_rays == 0 else "wrong"
+        lines.append(Line((name, *told), anchor(row), kind))
+    return table(caption, ROW_HEADS, lines)
+
+
+def error_plot(site: Site, rows: pd.DataFrame, what: str) -> Html:
+    """Draw the times of a race's rows against their largest errors."""
+    points = [
+        Point(
+            row.median_ms,
+            row.relative_error_max,
+            site.marks[row.method],
+            row.label,
+            f"{row.label}: {speed(row)}, largest error {wording.error(row.relative_error_max)} {RADIUS}, "
+            f"{wording.count(row.wrong_rays)} wrong rays",
+            f"#{anchor(row)}",
+            bool(row.wrong_rays > 0),
+        )
+        for row in rows[rows["relative_error_max"].notna() & rows["wrong_rays"].notna()].itertuples()
+    ]
+    drawn = scatter(points, "ms a frame", f"largest error, {RADIUS}", f"Time against error of each variant: {what}")
+    return plot(drawn, "Fast is left, exact is low. A hollow mark answers some rays wrongly.")
+
+
+def plot(drawn: Html, caption: object) -> Html:
+    """Frame a drawing with its caption; "" where nothing is drawn."""
+    return tag("figure", drawn, tag("figcaption", caption), class_="plot") if drawn else Html("")
+
+
+def reproduce(part: Part, device: str) -> Html:
+    """Write the commands that make the rows of a run on a device again."""
+    return code("\n".join(commands(part, device)))
+
+
+def commands(part: Part, device: str = "") -> list[str]:
+    """Return the commands that make a run again, on one device or on all of its config."""
+    config = part.plan.config
+    lines = [f"git checkout {part.plan.environment['commit']}"] if part.plan.environment.get("commit") else []
+    if PurePath(config).is_absolute():
+        config = PurePath(config).name
+        lines.append(f"# save the config, which is on the page of this run, as {config}")
+    outside = sorted({str(told["outside"]) for told in part.plan.methods.values() if told.get("outside")})
+    plugins = ["--plugins", str(PurePath(outside[0]).parent)] if outside else []
+    on = ["--device", device] if device else []
+    return [*lines, "make .venv/ready", shlex.join([".venv/bin/firsthit", "run", config, *plugins, *on])]
