@@ -13,7 +13,7 @@ CLEAR := --clear
 endif
 endif
 
-.PHONY: quick papers site test bench gate check format clean
+.PHONY: quick papers site guide test bench gate check format clean
 quick: $(READY)
 	$(BIN)/firsthit run configs/quick.toml
 	$(BIN)/firsthit report runs/quick
@@ -27,6 +27,10 @@ site: $(READY)
 	@for run in $(RUNS); do test -f $$run/plan.json || echo "$$run is not there, and no part of the site;" \
 		"$(BIN)/firsthit run configs/$${run#runs/}.toml makes it"; done
 	$(BIN)/firsthit publish $(patsubst %/plan.json,%,$(wildcard $(RUNS:=/plan.json))) -o site
+
+guide: $(READY)
+	$(BIN)/python -m sphinx --fail-on-warning --nitpicky --quiet docs build/guide
+	@echo build/guide/index.html
 
 test: $(READY)
 	$(BIN)/python -m pytest -q -n auto
@@ -55,6 +59,6 @@ $(READY): pyproject.toml constraints.txt drivers.sh
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' \
 		|| { echo "firsthit needs Python 3.11 or newer; try: make PYTHON=python3.13"; exit 2; }
 	$(PYTHON) -m venv $(CLEAR) .venv
-	$(BIN)/python -m pip install --quiet --constraint constraints.txt --editable '.[opengl,opencl,mesh,report,dev]'
+	$(BIN)/python -m pip install --quiet --constraint constraints.txt --editable '.[opengl,opencl,mesh,report,guide,dev]'
 	sh drivers.sh $(BIN)/python
 	touch $@

@@ -36,8 +36,10 @@ def section(material: Material) -> Section:
         blocks.append(Text(hard_rays.verdict(material.rungs), strong=True))
         if not found:
             blocks.append(hard_rays.summary_table(material.rungs, material.run.plan.facts))
-    told = [_claims(material), _ended(material)]
-    blocks.append(Text(" ".join(filter(None, told))))
+    run = material.run
+    cells = ended(pd.concat([material.frame["status"], run.families["status"]]), len(run.unreadable), len(run.not_run))
+    again = f"To run it again: {run.plan.command}"  # nothing behind it, so that it can be copied
+    blocks.append(Text(" ".join(filter(None, [_claims(material), cells, again]))))
     return Section("Summary", tuple(blocks))
 
 
@@ -62,8 +64,9 @@ def _timed(material: Material, found: Sequence[Choice]) -> list[Block]:
 
 def _facts(material: Material, found: Sequence[Choice]) -> Table:
     """Say beside each other how exact the answer is, what it risks, and what is faster but wrong."""
-    told = (answer.exact(found), answer.risk(found, material.run.plan.methods), answer.bought(found))
-    titles = "How exact it is", "What it risks", "What is faster, but wrong"
+    fast = " ".join(filter(None, [answer.gain(found), answer.exact(found)]))
+    told = (fast, answer.risk(found, material.run.plan.methods), answer.bought(found))
+    titles = "How fast and how exact it is", "What it risks", "What is faster, but wrong"
     return Table(tuple(Column(title, stretch=1) for title in titles), [told], "")
 
 
@@ -103,11 +106,9 @@ def _claims(material: Material) -> str:
     )
 
 
-def _ended(material: Material) -> str:
-    """Say in a sentence how the cells of the run ended."""
-    run = material.run
-    ended = pd.concat([material.frame["status"], run.families["status"]])
-    counts = {str(status): int((ended == status).sum()) for status in CellStatus}
-    counts |= {"unreadable": len(run.unreadable), "not run yet": len(run.not_run)}
+def ended(statuses: pd.Series, unreadable: int, not_run: int) -> str:
+    """Say in a sentence how the cells of the run ended: each status that occurs, and always `ok`."""
+    counts = {str(status): int((statuses == status).sum()) for status in CellStatus}
+    counts |= {"unreadable": unreadable, "not run yet": not_run}
     told = [f"{count:,} {name}" for name, count in counts.items() if count or name == CellStatus.OK]
-    return f"Of {wording.plural(sum(counts.values()), 'cell')} {wording.listed(told)}."
+    return f"{wording.plural(sum(counts.values()), 'cell')}: {wording.listed(told)}."

@@ -391,8 +391,8 @@ def printed(blocks: tuple[content.Block, ...]) -> str:
                 rows = [[c.show(v) for c, v in zip(block.columns, row, strict=True)] for row in block.rows]
                 words += [block.title, block.caption, *(" | ".join(row) for row in rows)]
             case content.Matrix():
-                lines = [" | ".join((heading, *(square.text for square in squares))) for heading, squares in block.rows]
-                words += [block.title, block.caption, *lines]
+                rows = [[heading, *(square.text for square in squares)] for heading, squares in block.rows]
+                words += [block.title, block.caption, " | ".join(block.columns), *(" | ".join(row) for row in rows)]
             case content.Figure() | content.Gallery():
                 words.append(block.caption)
     return "\n".join(words)

@@ -47,7 +47,7 @@ REPORTS = (
     ("reports.content", "reports.labels"),
     ("reports.reading",),
     ("reports.analysis",),
-    ("reports.drawing",),
+    ("reports.drawing", "reports.sentences"),
     ("reports.claims",),
     ("reports.material",),
     ("reports.parts", "reports.rendering"),

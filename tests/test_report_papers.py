@@ -5,13 +5,11 @@ from __future__ import annotations
 import json
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Any
 
 import numpy as np
 
 from reports import content, published
 from reports.claims import figures, picks
-from reports.claims.evidence import Pick
 from reports.parts import checklist, papers
 from reports.parts.papers import pictures, szente_tables
 from tests.synthetic_run import plan, printed, reported, tiny_run
@@ -91,31 +89,6 @@ def test_the_levels_of_beamcastings_figure_1_add_up_to_the_picture(tmp_path: Pat
     assert table.rows == [(8, 1, 4, 0.5), (8, 2, 2, 0.0), (8, 3, 1, 0.25), (8, "surface", None, 0.25)]
     (gallery,) = [block for block in section.blocks if isinstance(block, content.Gallery)]
     assert [panel.title for panel in gallery.panels] == ["octdong, 8 × 8"]
-
-
-def test_the_front_says_where_our_own_method_is_not_on_it_and_who_wins(tmp_path: Path) -> None:
-    from reports.parts import own_front
-
-    def timed(method: str, surface: str, degree: int, median: float, error: float | None) -> dict[str, Any]:
-        made = planted(Pick(method, method), surface, median)
-        return made | {"degree": degree, "accuracy": made["accuracy"] | {"error": {"max": error}}}
-
-    cells = [timed("bernstein", "decic", 10, 1.0, 1e-6), timed("eft_yuksel", "decic", 10, 6.0, 1e-6)]
-    cells += [timed("bernstein", "ball", 2, 1.0, 1e-6), timed("newton", "ball", 2, 0.5, 1e-7)]
-    cells += [timed("bernstein", "thread", 4, 1.0, None), timed("newton", "thread", 4, 0.5, None)]
-    run = tiny_run(tmp_path / "run", *cells)
-    plan = json.loads((run / "plan.json").read_text())
-    plan["methods"] = {"bernstein": {"source": own_front.OWN}, "newton": {"source": "toledo2007"}}
-    (run / "plan.json").write_text(json.dumps(plan))
-    _, report = reported(run)
-    told = next(printed(section.blocks) for section in report.sections if section.title == "bernstein on the front")
-    assert (
-        "on the front in 1 of 2 comparisons; it is not at degree 2; there newton wins. 1 more comparison without"
-        in told
-    )
-    lines = [line for line in told.splitlines() if " | " in line]
-    assert [line.split(" | ")[3] for line in lines] == ["no", "yes"]
-    assert lines[0].endswith("0.500×") and lines[1].endswith("6.00×")
 
 
 def test_the_tori_of_figure_1_are_shown_beside_rows_of_other_runs(tmp_path: Path) -> None:

@@ -14,13 +14,14 @@ from harness.contract import CLAIMS, View, digest
 from harness.plugins import find_methods
 from harness.running.cards import card
 from harness.scenes.views import DirectionChoice, by_direction
-from reports import content, first_page, wording
-from reports.analysis import derive, viewstats
+from reports import content, wording
+from reports.analysis import choices, derive, viewstats
 from reports.drawing import choice, plots, style, viewplots
-from reports.parts import conditions, method_cards, own_front, surface_pages
+from reports.parts import conditions, method_cards, surface_pages
 from reports.parts.last_page import environment, rerun
 from reports.reading import load
 from reports.report import Material, Shelf
+from reports.sentences import answer
 from tests.synthetic_run import SURFACES, cell, printed, reported, retime, tiny_run, write_run
 
 
@@ -91,9 +92,9 @@ def test_a_row_bound_by_the_floor_is_no_largest_gain(tmp_path: Path) -> None:
     assert "The largest gain with no wrong ray: newton on opencl:intel" in figure.caption
     assert "20.0× as fast as ray_march" in figure.caption
     assert "of its 2.00 ms the harness's floor is 0.500 ms. 1 floor-bound row left out" in figure.caption
-    told = first_page._verdict(frame)
-    assert "bound is fastest in 1 of 1" in told and "50.0×" not in told
-    assert "where every time is floor-bound: under 2 times the harness's floor of 0.500 ms" in told
+    found = choices.choices(frame)
+    assert "come from Bound on Torus (0.800 ms, floor-bound)" in answer.lead(found)
+    assert answer.gain(found).startswith("Every time is floor-bound")
     alone = framed(tmp_path / "alone", *cells[:3])
     (figure,) = plots.speed_against_error(alone, style.marks(alone["method"]), "torus", "Torus")
     assert "Every gain over ray_march is floor-bound here" in figure.caption
@@ -107,10 +108,8 @@ def test_a_headline_counts_the_floor_bound_rows_that_its_gain_leaves_out(tmp_pat
     for surface, floor in (("torus", 0.9), ("sphere", 0.1)):
         cells += [timed("null", surface, floor), timed("ray_march", surface, 20.0), timed("newton", surface, 1.0)]
     cells[4] = timed("ray_march", "sphere", 8.0)
-    told = first_page._verdict(framed(tmp_path / "run", *cells))
-    assert (
-        "8.00× as fast as ray_march there (1 left out, whose times are floor-bound: under 2 times the harness's" in told
-    )
+    found = choices.choices(framed(tmp_path / "run", *cells))
+    assert answer.gain(found) == "8.00× as fast as Ray march (1 left out, whose time is floor-bound)."
 
 
 # ---- an error of 0
@@ -118,11 +117,11 @@ def test_a_headline_counts_the_floor_bound_rows_that_its_gain_leaves_out(tmp_pat
 
 def test_an_error_of_0_is_explained_wherever_one_is_printed(tmp_path: Path) -> None:
     cells = [timed("ray_march", "torus", 9.0, 0.0), timed("newton", "torus", 1.0, 0.0)]
-    run, report = reported(planned(tiny_run(tmp_path / "run", *cells), methods={"newton": {"source": own_front.OWN}}))
+    run, report = reported(tiny_run(tmp_path / "run", *cells))
     shown = 0
     for section in (report.summary, *report.sections):
-        for table in (block for block in section.blocks if isinstance(block, content.Table)):
-            errors = [i for i, column in enumerate(table.columns) if "error" in column.title and not column.over]
+        for table in (block for block in (*section.blocks, *section.details) if isinstance(block, content.Table)):
+            errors = [i for i, column in enumerate(table.columns) if "error" in column.title]
             if any(row[i] == 0.0 for row in table.rows for i in errors):
                 shown += 1
                 assert wording.ZERO in table.caption, table.title
@@ -133,7 +132,7 @@ def test_an_error_of_0_is_explained_wherever_one_is_printed(tmp_path: Path) -> N
         wording.ZERO
         not in surface_pages.results_table(framed(tmp_path / "other", timed("newton", "torus", 1.0))).caption
     )
-    text = "\n".join(printed(section.blocks) for section in report.sections)
+    text = "\n".join(printed(section.blocks + section.details) for section in report.sections)
     assert text.count(wording.ZERO) > shown, "in how to read the pages too"
 
 
@@ -201,8 +200,8 @@ def test_the_first_page_says_which_pictures_its_times_are_of(tmp_path: Path) -> 
     ]
     table = choice.table(framed(tmp_path / "run", *cells))
     assert table is not None
-    assert table.rows[0][:3] == ("Torus, 64 × 64", "newton", 1.0), "the plan's first of equally full scenes"
-    assert "view front, 64 × 64" in table.caption
+    assert table.rows[0][:3] == ("Torus", "Newton", 1.0), "the plan's first of equally full scenes"
+    assert "View front, 64 × 64" in table.caption
     assert table.title == "Which method, at which error, on opencl:intel."
 
 
@@ -217,8 +216,8 @@ def test_surfaces_stand_in_the_plans_order_on_every_page(tmp_path: Path) -> None
     pairs = next(section for section in report.sections if section.title == "Variants compared round by round")
     assert [block.title.split(",")[0] for block in pairs.blocks if isinstance(block, content.Table)] == titles
     winners = next(section for section in report.sections if section.title == "Winners")
-    (table,) = [block for block in winners.blocks if isinstance(block, content.Table)]
-    assert [row[0] for row in table.rows] == titles
+    (matrix,) = [block for block in winners.blocks if isinstance(block, content.Matrix)]
+    assert list(matrix.columns) == titles
     assert [section.title for section in report.sections if section.title in titles] == titles
 
 

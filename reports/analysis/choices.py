@@ -16,7 +16,7 @@ _COLUMNS = [
     *("surface", "surface_title", "degree", "view", "size", "samples_per_pixel", "stage"),
     *("method", "variant", "label", "method_label", *ties.COLUMNS, "floor_ms", "floor_bound"),
     *("wrong_rays", "grazing_wrong_rays", "drowned_wrong_rays", "accuracy_rays"),
-    *("error_max", "relative_error_max", "front"),
+    *("error_max", "relative_error_max", "front", "speedup"),
 ]  # of a choice's rows
 
 

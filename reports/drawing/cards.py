@@ -11,7 +11,7 @@ import pandas as pd
 from harness.contract import UNIT_ROUNDOFF, CellStatus
 from reports import wording
 from reports.analysis import choices, derive
-from reports.analysis.choices import ERRORS
+from reports.analysis.choices import ERRORS, Choice
 from reports.content import Panel, Picture
 from reports.drawing import images
 from reports.reading.arrays import Arrays, Shelf
@@ -22,26 +22,29 @@ WHOLE = 320  # and on a long one
 SMALL = 256  # pixels of a side of a short card's picture, which is 31 mm wide
 
 
-def winner(rows: pd.DataFrame) -> Any | None:
+def chosen(rows: pd.DataFrame) -> Choice | None:
+    """Return what to take of the rows of one scene and device; None where nothing was timed."""
+    return next(iter(choices.choices(rows)), None)
+
+
+def winner(rows: pd.DataFrame, choice: Choice | None) -> Any | None:
     """Return the row of one scene and device that its picture is of, which has arrays; None without any.
 
-    It is the one to take, by reports.analysis.choices; where nothing was timed, the most exact of those with fewest
+    It is that of `choice`; where nothing was timed, or the picture is not stored, the most exact of those with fewest
     wrong rays.
     """
+    if choice is not None and not wording.absent(choice.pictured.arrays):
+        return next(rows.loc[[choice.pictured.Index]].itertuples())
     drawn = rows[(rows["status"] == CellStatus.OK) & rows["answers"].astype(bool) & rows["arrays"].notna()]
-    if drawn.empty:
-        return None
-    for choice in choices.choices(drawn):
-        return choice.pictured
-    return next(drawn.sort_values(["wrong_rays", "error_max"], kind="stable").itertuples())
+    return next(drawn.sort_values(["wrong_rays", "error_max"], kind="stable").head(1).itertuples(), None)
 
 
-def long_card(rows: pd.DataFrame, shelf: Shelf, told: pd.DataFrame) -> Panel | None:
+def long_card(rows: pd.DataFrame, choice: Choice | None, shelf: Shelf, told: pd.DataFrame) -> Panel | None:
     """Make the card of a surface's own page; None where the winner has no picture.
 
-    `rows` are those of one scene and device, `told` all rows of the surface.
+    `rows` are those of one scene and device, `choice` is what to take of them, `told` are all rows of the surface.
     """
-    row = winner(rows)
+    row = winner(rows, choice)
     arrays = None if row is None else shelf.get(row)
     if row is None or arrays is None:
         return None
@@ -55,27 +58,27 @@ def long_card(rows: pd.DataFrame, shelf: Shelf, told: pd.DataFrame) -> Panel | N
     ]
     time = "" if wording.absent(row.median_ms) else f" in {wording.number(row.median_ms)} ms"
     picture = Picture(f"{row.key}-hero", images.png(images.hero(arrays)), f"{row.surface_title} drawn by {row.label}")
-    return Panel(f"Drawn by {row.label}{time}", (picture,), "\n".join(filter(None, notes)), winners(rows))
+    return Panel(f"Drawn by {row.label}{time}", (picture,), "\n".join(filter(None, notes)), winners(rows, choice))
 
 
-def short_card(rows: pd.DataFrame, shelf: Shelf) -> Panel | None:
+def short_card(rows: pd.DataFrame, choice: Choice | None, shelf: Shelf) -> Panel | None:
     """Make the card of a surface in an atlas; None where the winner has no picture.
 
     `rows` are those of one scene and device.
     """
-    row = winner(rows)
+    row = winner(rows, choice)
     arrays = None if row is None else shelf.get(row)
     if row is None or arrays is None:
         return None
     drawn = images.png(images.hero(_square(arrays), SMALL))
     picture = Picture(f"{row.key}-card", drawn, f"{row.surface_title} drawn by {row.label}")
     notes = (wrong_methods(rows, NAMED), what(rows, SHORT))
-    return Panel(str(row.surface_title), (picture,), "\n".join(filter(None, notes)), winners(rows))
+    return Panel(str(row.surface_title), (picture,), "\n".join(filter(None, notes)), winners(rows, choice))
 
 
-def thumbnail(rows: pd.DataFrame, shelf: Shelf) -> Panel | None:
+def thumbnail(rows: pd.DataFrame, choice: Choice | None, shelf: Shelf) -> Panel | None:
     """Make a picture with the winner's name and time; None where the winner has no picture."""
-    row = winner(rows)
+    row = winner(rows, choice)
     arrays = None if row is None else shelf.get(row)
     if row is None or arrays is None:
         return None
@@ -97,9 +100,9 @@ def _square(arrays: Arrays) -> Arrays:
     return arrays.cropped(*made)
 
 
-def winners(rows: pd.DataFrame) -> list[tuple[str, ...]]:
+def winners(rows: pd.DataFrame, choice: Choice | None) -> list[tuple[str, ...]]:
     """Return the lines of a card: the fastest at each of ERRORS, or where nothing was timed the most exact."""
-    for choice in choices.choices(rows):
+    if choice is not None:
         lines: list[tuple[str, ...]] = [("error ≤", "fastest right", "ms", "max error")]
         for error, row in zip(ERRORS, choice.within, strict=True):
             figures = ("none", "", "")

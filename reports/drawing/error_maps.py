@@ -14,7 +14,7 @@ from reports.reading.arrays import Arrays
 
 ROOM = 226.0  # mm of a page for a hero and the strip below it
 HERO = 84.0  # mm: the width of a hero
-WIDTH, GAP, TEXTS = 178.0, 4.0, 12.0  # mm: of the page, between maps, and of a map's title and note
+WIDTH, GAP, LINE, LETTER = 178.0, 4.0, 3.4, 1.45  # mm: of the page, between maps, of a line of text and of a letter
 _PLURAL = {"miss": "misses", "false hit": "false hits", "wrong root": "wrong roots"}
 
 
@@ -27,19 +27,27 @@ def strip(hero: Panel | None, cells: Sequence[tuple[Any, Arrays]], scale: tuple[
         cells = [(row, arrays.cropped(*kept)) for row, arrays in cells]
     panels = [_panel(row, arrays, scale, several) for row, arrays in cells]
     down, along = cells[0][1].truth.shape
-    across = _across(len(panels), down / along)
+    across = _across(panels, down / along)
     first = [] if hero is None else [hero]
     return Gallery(tuple(first + panels), caption(cells), plots.error_legend(*scale), across, hero is not None)
 
 
-def _across(maps: int, aspect: float) -> int:
+def _across(maps: Sequence[Panel], aspect: float) -> int:
     """Return how many maps, of this height over their width, stand in a line: as few as the page has room for."""
     room = ROOM - HERO * aspect
     for across in range(3, 8):
-        high = aspect * (WIDTH - GAP * (across - 1)) / across + TEXTS
-        if -(-maps // across) * high <= room:
+        wide = (WIDTH - GAP * (across - 1)) / across
+        lines = [maps[i : i + across] for i in range(0, len(maps), across)]
+        if sum(aspect * wide + max(_texts(one, wide) for one in line) for line in lines) <= room:
             return across
     return 8
+
+
+def _texts(panel: Panel, wide: float) -> float:
+    """Return about how high a map's title, note and key are where the map is so wide, in mm."""
+    lines = [-(-len(text) * LETTER // wide) for text in (panel.title, panel.note)]
+    keyed = -(-sum(4 + len(text) for text in panel.key.values()) * LETTER // wide) if panel.key else 0.0
+    return LINE * (sum(lines) + keyed) + 6.0
 
 
 def caption(cells: Sequence[tuple[Any, Arrays]]) -> str:

@@ -23,6 +23,7 @@ from reports.drawing.style import Mark
 
 HEIGHT = 4.9  # inches
 LETTER = 7.0  # points
+MOST_NAMED = 24  # marks of one panel
 WRONG = "#9a4a00"  # the name of a variant that answers rays wrongly
 
 
@@ -200,11 +201,14 @@ def _labels(panel: _Panel, rows: pd.DataFrame, focus: str, lines: Sequence[NDArr
     own = (rows["method"] == focus) | (rows["variant"] == focus)
     ordered = rows.assign(late=~own, beaten=~rows["front"].astype(bool), wrong=~rows["right"])
     ordered = ordered.sort_values(["late", "beaten", "wrong", "median_ms"], kind="stable")
+    marks = panel.points(ordered["x"], ordered["mrays_per_s"])
+    ordered = ordered[["label", "wrong_rays", "right", "late", "beaten"]].head(MOST_NAMED)
     told = [_label(row) for row in ordered.itertuples()]
     bold = [not row.beaten or not row.late for row in ordered.itertuples()]
     sizes = [text_size(text, LETTER, heavy) for text, heavy in zip(told, bold, strict=True)]
-    at = panel.points(ordered["x"], ordered["mrays_per_s"])
-    places = place(at, sizes, (2.0, 2.0, panel.size[0] - 2.0, panel.size[1] - 2.0), radius=3.4, lines=lines)
+    area = (2.0, 2.0, panel.size[0] - 2.0, panel.size[1] - 2.0)
+    at, others = marks[: len(ordered)], marks[len(ordered) :]
+    places = place(at, sizes, area, radius=3.4, marks=others, lines=lines)
     for text, heavy, right, found in zip(told, bold, ordered["right"], places, strict=True):
         if found is None:
             continue
@@ -214,7 +218,7 @@ def _labels(panel: _Panel, rows: pd.DataFrame, focus: str, lines: Sequence[NDArr
             x0, y0, x1, y1 = found.leader
             ends = (np.array([x0, x1]) / panel.size[0], np.array([y0, y1]) / panel.size[1])
             panel.axes.plot(*ends, transform=panel.axes.transAxes, color=style.FAINT, lw=0.4, zorder=3)
-    return sum(found is None for found in places)
+    return sum(found is None for found in places) + len(others)
 
 
 def _label(row: Any) -> str:

@@ -86,7 +86,8 @@ def compact_table(rows: pd.DataFrame) -> Table | None:
         scene_title(rows),
         f"{'The fastest first; ± is the 95 % interval of the median. ' if timed else ''}Errors are |t − t*| in scene "
         f"units, of {wording.count(kept['accuracy_rays'].max())} rays, away from "
-        f"silhouettes.{wording.zeros(kept['error_max'], kept['error_p99'])}{over}{cut}",
+        f"silhouettes.{wording.zeros(kept['error_max'], kept['error_p99'])}{over}{cut} "
+        "All columns, units, devices and views are in report.html, under “Every figure”.",
         group=1 if several else 0,
     )
 

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import matplotlib
 import numpy as np
+import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure as Drawing
 from matplotlib.lines import Line2D
@@ -18,7 +19,7 @@ from numpy.typing import NDArray
 from harness.contract import UNIT_ROUNDOFF
 from reports import wording
 from reports.analysis import shown, surface_names
-from reports.content import Block, Figure, Section, Text
+from reports.content import Block, Figure, Matrix, Section, Square, Text
 from reports.drawing import style
 from reports.drawing.canvas import LINE, NARROW, RC, ErrorAxis, Key, line_of, series, svg
 from reports.drawing.style import Mark
@@ -26,16 +27,22 @@ from reports.material import Material
 from reports.reading.arrays import Shelf
 
 ORDER = 40
+TITLE = "Error against condition"
+ONE_PAGE = 24  # a run with more surfaces has no figure beside the matrix
 BINS = 12  # of equal width in the logarithm of the condition, over the range of one surface's conditions
 VARIANTS = 4  # the most that are drawn of one method
 DODGE = 0.6  # the share of a bin's width over which its marks are spread, so that all are seen
 _ROUNDOFF: Mapping[str, float] = {str(name): unit for name, unit in UNIT_ROUNDOFF.items()}
+ALONE, ATLAS = 2, 8  # a run with at most ALONE or more than ATLAS surfaces has a page; else all is in the details
+MOST_DRAWN = 4  # surfaces with a figure in the details: those with the largest ratios
+NEAR, FAR = 10.0, 1000.0  # ratios that are told apart by colour
+_COLORS = {"#dbe9f6": f"up to {NEAR:g}", "#fdf0c8": f"up to {FAR:,.0f}", "#f6c9ad": "more"}
 EXPLANATION = (
-    "The error |t − t*| over the radius of each ray that hits the right root, against the condition number of its "
-    "root: how far the root moves when the terms of f change by a relative amount. The black line is condition × unit "
-    "roundoff (condition at least 1), what the problem allows. A mark is the largest error among the rays of a narrow "
-    "range of condition; the thin line below it reaches down to their median. A method along the line is as bad as the "
-    "problem and no worse; one that stays high above it is unstable, or stops early. "
+    "The condition number of a root says how far it moves when the terms of f change by a relative amount. Condition × "
+    "unit roundoff (condition at least 1) is the error, over the radius, that the problem allows at a ray: what no "
+    "method avoids that rounds f's terms. A method near it is as bad as the problem and no worse; one far above it is "
+    "unstable, or stops early. In figures the black line is what the problem allows; a mark is the largest error among "
+    "the rays of a narrow range of condition, and the thin line below it reaches down to their median. "
     + wording.ZERO
     + " Rays at silhouettes are included: they have the largest "
     f"conditions. Of the device with most results, and at most {VARIANTS} variants of each method."
@@ -48,6 +55,8 @@ class Cloud:
 
     method: str
     variant: str
+    label: str
+    method_label: str
     precision: str
     condition: NDArray[np.float64]  # [n]
     error: NDArray[np.float64]  # [n], over the domain's radius
@@ -64,15 +73,90 @@ def allowed(condition: NDArray[np.float64], precision: str) -> NDArray[np.float6
 
 
 def sections(material: Material) -> list[Section]:
-    """Make a section with a figure for each surface whose conditions are known; [] where none are."""
+    """Make a section with a matrix of the worst ratios, and a figure of the surface that tells most; [] without any."""
     frame = surface_names.printed_alone(material.frame)
-    figures: list[Block] = []
+    found: list[tuple[list[Cloud], pd.Series]] = []
     for _, rows in frame.groupby("surface", sort=False):
         drawn = shown.of_surface(rows, VARIANTS)
         clouds = [cloud for row in drawn.itertuples() if (cloud := _cloud(material.shelf, row)) is not None]
         if clouds:
-            figures.append(_figure(f"condition-{len(figures)}", clouds, material.marks, drawn.iloc[0]))
-    return [Section("Error against condition", (Text(EXPLANATION), *figures))] if figures else []
+            found.append((clouds, drawn.iloc[0]))
+    if not found:
+        return []
+    ranked = sorted(found, key=lambda pair: -max(cloud.excess for cloud in pair[0]))[:MOST_DRAWN]
+    kept = [pair for pair in found if any(pair is one for one in ranked)]
+    figures = [_figure(f"condition-{i}", clouds, material.marks, row) for i, (clouds, row) in enumerate(kept)]
+    first = next(i for i, pair in enumerate(kept) if pair is ranked[0])
+    every = [cloud for clouds, _ in found for cloud in clouds]
+    precision, *others = sorted({cloud.precision for cloud in every})
+    told = seen([cloud for cloud in every if cloud.precision == precision])
+    page: tuple[Block, ...] = (Text(told), matrix(found, precision))
+    further = (matrix(found, name) for name in others)
+    rest: tuple[Block, ...] = (Text(EXPLANATION), *further, *figures[:first], *figures[first + 1 :])
+    if ALONE < len(found) <= ATLAS:
+        return [Section(TITLE, (), (*page, figures[first], *rest))]
+    room = (figures[first],) if len(found) <= ONE_PAGE else ()
+    return [Section(TITLE, (*page, *room), (*rest, *([] if room else [figures[first]])))]
+
+
+def seen(clouds: Sequence[Cloud]) -> str:
+    """Say which methods stay near the error that the problem allows, and which go far above it.
+
+    The clouds are those of one precision.
+    """
+    worst: dict[str, float] = {}
+    for cloud in clouds:
+        worst[cloud.method_label] = max(cloud.excess, worst.get(cloud.method_label, 0.0))
+    near = [label for label, excess in worst.items() if excess <= NEAR]
+    far = sorted((label for label, excess in worst.items() if excess > FAR), key=lambda label: -worst[label])
+    told = []
+    if near:
+        told.append(f"Never more than {NEAR:g} times what a root's condition allows: the errors of {_few(near)}.")
+    if far:
+        named = [f"{label} (up to {wording.short(worst[label])})" for label in far]
+        told.append(f"More than {FAR:,.0f} times above it, unstable or ended early: {_few(named)}.")
+    return (
+        " ".join(told) or f"Every method's worst error is {NEAR:g} to {FAR:,.0f} times what a root's condition allows."
+    )
+
+
+def _few(names: Sequence[str]) -> str:
+    """Name up to six, and count the rest."""
+    rest = [f"{len(names) - 6} more"] if len(names) > 6 else []
+    return wording.listed([*names[:6], *rest])
+
+
+def matrix(found: Sequence[tuple[list[Cloud], pd.Series]], precision: str) -> Matrix:
+    """Make a line for each surface, and a column for each method: its worst error over the allowed one.
+
+    Of several variants of a method a square has the worst.
+    """
+    methods = {cloud.method: cloud.method_label for clouds, _ in found for cloud in clouds}
+    lines = []
+    for clouds, row in found:
+        title = str(row["surface_title"])
+        own = [cloud for cloud in clouds if cloud.precision == precision]
+        squares = tuple(_square([cloud for cloud in own if cloud.method == method], title) for method in methods)
+        if own:
+            lines.append((title, squares))
+    return Matrix(
+        tuple(methods.values()),
+        lines,
+        f"Worst error over what the problem allows, in {precision}.",
+        "Of all rays that hit the right root; of a method's variants the worst. Small is stable.",
+        "surface",
+        _COLORS,
+    )
+
+
+def _square(clouds: Sequence[Cloud], surface: str) -> Square:
+    """Write the worst ratio of some variants of a method on one surface; a dash where it has none."""
+    if not clouds:
+        return Square(wording.NONE)
+    worst = max(clouds, key=lambda cloud: cloud.excess)
+    color = list(_COLORS)[(worst.excess > NEAR) + (worst.excess > FAR)]
+    note = f"{worst.label} on {surface}: its worst error is {wording.short(worst.excess)} times what is allowed"
+    return Square(wording.short(worst.excess), color, note)
 
 
 def _cloud(shelf: Shelf, row: Any) -> Cloud | None:
@@ -85,20 +169,25 @@ def _cloud(shelf: Shelf, row: Any) -> Cloud | None:
     if wording.absent(radius) or not known.any():
         return None
     condition, error = (array[known].astype(np.float64) for array in (arrays.condition, arrays.error))
-    return Cloud(row.method, row.variant, row.precision, condition, error / radius)
+    return Cloud(row.method, row.variant, row.label, row.method_label, row.precision, condition, error / radius)
 
 
 def _figure(name: str, clouds: list[Cloud], marks: Mapping[str, Mark], row: Any) -> Figure:
     """Draw the clouds of one surface, a panel for each precision; `row` is one of its rows."""
     radius = "scene's" if wording.absent(row["domain_radius"]) else "domain's"
-    variants = [variant for variant in marks if any(cloud.variant == variant for cloud in clouds)]
+    labels = {cloud.variant: cloud.label for cloud in clouds}
+    variants = [variant for variant in marks if variant in labels]
     precisions = sorted({cloud.precision for cloud in clouds})
     every = np.log10(np.concatenate([cloud.condition for cloud in clouds]))
     edges = np.linspace(every.min(), max(every.max(), every.min() + 0.1), BINS + 1)
     limits = np.concatenate([allowed(10.0 ** edges[[0, -1]], precision) for precision in precisions])
     axis = ErrorAxis.of(np.concatenate([limits, *(np.concatenate(_spread(c, edges)[1:]) for c in clouds)]))
     line = Line2D([], [], color=style.INK, lw=1.1)
-    key = Key([*(line_of(marks[v]) for v in variants), line], [*variants, "condition × unit roundoff"], NARROW)
+    key = Key(
+        [*(line_of(marks[v]) for v in variants), line],
+        [*(labels[v] for v in variants), "condition × unit roundoff"],
+        NARROW,
+    )
     above = key.height + 0.2
     height = above + 0.36 + 1.7
     with matplotlib.rc_context(RC):
@@ -112,14 +201,15 @@ def _figure(name: str, clouds: list[Cloud], marks: Mapping[str, Mark], row: Any)
                 if cloud.precision == precision:
                     place = (variants.index(cloud.variant) + 0.5) / len(variants) - 0.5
                     _draw(axes, cloud, edges, DODGE * place * (edges[1] - edges[0]), axis, marks[cloud.variant])
-        drawing.supxlabel("condition number", y=0.08 / height, va="center", fontsize=6.5)
-        drawing.supylabel(f"|t − t*| over the {radius} radius", x=0.08 / NARROW, ha="center", fontsize=6.5)
+        drawing.supxlabel("condition number", y=0.08 / height, va="center", fontsize=7)
+        drawing.supylabel(f"|t − t*| over the {radius} radius", x=0.08 / NARROW, ha="center", fontsize=7)
         key.draw(drawing)
         drawn = svg(drawing)
+    names = wording.listed([labels[v] for v in variants])
     return Figure(
         name,
         drawn,
-        f"Largest and median error of {wording.listed(variants)} on {row['surface_title']}, against condition.",
+        f"Largest and median error of {names} on {row['surface_title']}, against condition.",
         f"{row['surface_title']}, view {row['view']}, on {row['device']}.",
         _caption(clouds, radius),
     )
@@ -178,7 +268,7 @@ def _caption(clouds: list[Cloud], radius: str) -> str:
     told = []
     for precision in sorted({cloud.precision for cloud in clouds}):
         own = [cloud for cloud in clouds if cloud.precision == precision]
-        figures = {cloud.variant: wording.short(cloud.excess) for cloud in sorted(own, key=lambda c: c.excess)}
+        figures = {cloud.label: wording.short(cloud.excess) for cloud in sorted(own, key=lambda c: c.excess)}
         lowest, highest = (figures[variant] for variant in (next(iter(figures)), next(reversed(figures))))
         low, high = (
             f"{end} ({wording.listed([v for v, figure in figures.items() if figure == end])})"

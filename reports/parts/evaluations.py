@@ -54,7 +54,7 @@ def sections(material: Material) -> list[Section]:
     panels = {name: [_panel(row, a, most, errors) for row, a in cells if row.surface == name] for name in surfaces}
     legend = plots.error_legend(*errors)
     every: list[Block] = [Text(EXPLANATION), *(Gallery(tuple(own), "", legend) for own in panels.values())]
-    told = [Text(SEEN), _legend(most)]
+    told: list[Block] = [Text(SEEN), _legend(most)]
     if len(surfaces) > PAGED:
         return [Section(TITLE, (), (*told, *every))]
     fastest = sorted(cells, key=lambda cell: (wording.absent(cell[0].median_ms), cell[0].median_ms))
@@ -64,7 +64,9 @@ def sections(material: Material) -> list[Section]:
         for name in surfaces
         for row, a in [cell for cell in fastest if cell[0].surface == name][:per_surface]
     ]
-    cut = "" if len(page) == len(cells) else f"The fastest {per_surface} variants of each surface."
+    if len(page) == len(cells):
+        return [Section(TITLE, (*told, Text(EXPLANATION), Gallery(tuple(page), "", legend)), own_page=True)]
+    cut = f"The fastest {per_surface} variants of each surface."
     return [Section(TITLE, (*told, Gallery(tuple(page), cut, legend)), tuple(every), own_page=True)]
 
 

@@ -263,7 +263,7 @@ def _places(axis: Axis, found: list[Curve], titles: Mapping[str, str]) -> dict[t
 
 def _figures(axis: Axis, found: list[Curve], marks: Mapping[str, Mark], titles: Mapping[str, str]) -> Iterator[Figure]:
     """Draw the curves of the first places, PANELS to a figure; `marks` are by variant, `titles` by surface."""
-    named = _places(axis, found, titles)
+    named = _places(axis, found, titles) if found else {}
     places = list(named)
     for start in range(0, min(len(places), MOST_FIGURES * PANELS), PANELS):
         batch = places[start : start + PANELS]

@@ -21,12 +21,8 @@ from reports.material import Material
 from reports.reading.arrays import Arrays
 
 ORDER = 20
-FRONTS = 40  # plots of further scenes and devices in the details of all surfaces
+FRONTS = 16  # plots of further scenes and devices, in the details of all surfaces that have pages
 CARDS = 48  # a run with more surfaces has a picture with a name and a time for each, in place of a card
-GUIDE = (
-    "Each surface has two pages: who is right where, then speed against error. Every figure, in all units, is in "
-    "report.html under “Every figure”."
-)
 
 
 def sections(material: Material) -> list[Section]:
@@ -46,17 +42,16 @@ def sections(material: Material) -> list[Section]:
     spread = len(surfaces) <= shown.SPREADS
     named = scene_names(frame)
     made = [] if spread else [_atlas(material, surfaces)]
-    room = FRONTS
+    room = FRONTS if spread else 0
     for i, (surface, rows) in enumerate(surfaces):
         first, second = _pages(material, rows, f"front-{i}") if surface in paged else ([], [])
-        further, room = _further(material, rows, named, f"front-{i}", room if surface in paged else 0)
+        further, room = _further(material, rows, named, f"front-{i}", room)
         figures = [*further, *_tables(printed[printed["surface"] == surface])]
         title = str(rows["surface_title"].iloc[0])
         if not spread:
             made.append(Section(title, (), (*first, *second, *figures)))
             continue
-        lead = [Text(GUIDE)] if i == 0 else []
-        made.append(Section(title, tuple([*first[:1], *lead, *first[1:]]), own_page=True))
+        made.append(Section(title, tuple(first), own_page=True))
         made.append(Section(f"{title}: speed against error", tuple(second), tuple(figures), True, f"{title}, speed"))
     return [*made, guide]
 
@@ -90,20 +85,25 @@ def _pages(material: Material, rows: pd.DataFrame, name: str) -> tuple[list[Bloc
     cells = [(row, read) for row in shown.in_strip(rows).itertuples() if (read := material.shelf.get(row)) is not None]
     plots = fronts.speed_against_error(own, material.method_marks, name, _title(own), material.focus)
     table = surface_tables.compact_table(own)
-    first, second = (" ".join(map(say, choices.choices(own))) for say in (_fastest, _risks))
+    choice = cards.chosen(own)
+    first, second = ("", "") if choice is None else (_fastest(choice, own), _risks(choice))
     return (
-        [*([Text(first)] if first else []), *_pictures(material, own, rows, cells)],
+        [*([Text(first)] if first else []), *_pictures(material, own, choice, rows, cells)],
         [*([Text(second)] if second else []), *plots, *([table] if table else [])],
     )
 
 
 def _pictures(
-    material: Material, own: pd.DataFrame, rows: pd.DataFrame, cells: list[tuple[Any, Arrays]]
+    material: Material,
+    own: pd.DataFrame,
+    choice: Choice | None,
+    rows: pd.DataFrame,
+    cells: list[tuple[Any, Arrays]],
 ) -> list[Block]:
     """Make the hero and the strip of error maps; what the surface is, in words, where no picture is stored."""
     if not cells:
         return [Text(cards.what(rows, cards.WHOLE))]
-    return [error_maps.strip(cards.long_card(own, material.shelf, rows), cells, material.error_scale)]
+    return [error_maps.strip(cards.long_card(own, choice, material.shelf, rows), cells, material.error_scale)]
 
 
 def _title(rows: pd.DataFrame) -> str:
@@ -112,8 +112,8 @@ def _title(rows: pd.DataFrame) -> str:
     return f"{first['surface_title']}, view {first['view']}"
 
 
-def _fastest(choice: Choice) -> str:
-    """Say who is fastest within each of ERRORS."""
+def _fastest(choice: Choice, rows: pd.DataFrame) -> str:
+    """Say who is fastest within each of ERRORS; `rows` are those of the scene and device."""
     loose, tight = choice.within[0], choice.within[-1]
     first, second = (wording.level(error) for error in ERRORS)
     exact = (
@@ -121,7 +121,7 @@ def _fastest(choice: Choice) -> str:
     )
     if loose is None:
         return f"No method that answers every ray rightly is within {first} of the scene's radius{exact}."
-    won = _won(choice)
+    won = _won(choice, rows)
     if tight is None:
         exact = "" if choice.nearest.Index == loose.Index else exact
         return f"Within {first} of the scene's radius, {won}. None is within {second}{exact}."
@@ -138,11 +138,12 @@ def _figures(row: Any) -> str:
     return f"{wording.number(row.median_ms)} ms, error {wording.error(row.error_max)}"
 
 
-def _won(choice: Choice) -> str:
+def _won(choice: Choice, rows: pd.DataFrame) -> str:
     """Say that the row within the looser error is the fastest, over which baseline, and what ties with it."""
     row, gain = choice.within[0], ""
-    if not wording.absent(row.speedup) and row.baseline not in (row.variant, row.method):
-        gain = f", {wording.factor(row.speedup)} as fast as {tables.baseline(choice.rows)}"
+    times = rows.at[row.Index, "speedup"]
+    if not wording.absent(times) and row.baseline not in (row.variant, row.method):
+        gain = f", {wording.factor(times)} as fast as {tables.baseline(rows)}"
     tied = f", not told apart from {wording.listed(choice.tied[0])}" if choice.tied[0] else ""
     name = choices.written(row, choice.rows)
     return f"{name} is the fastest right method ({wording.number(row.median_ms)} ms{gain}){tied}"
@@ -201,7 +202,8 @@ def _atlas(material: Material, surfaces: list[tuple[str, pd.DataFrame]]) -> Sect
         own = fullest(rows)
         made = None
         if len(own):
-            made = cards.thumbnail(own, material.shelf) if short else cards.short_card(own, material.shelf)
+            card = cards.thumbnail if short else cards.short_card
+            made = card(own, cards.chosen(own), material.shelf)
         if made is None:
             without.append(str(rows["surface_title"].iloc[0]) or name)
         else:

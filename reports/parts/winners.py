@@ -48,11 +48,7 @@ def sections(material: Material) -> list[Section]:
     if several and len(leading):
         details.append(wins_table(leading))
     details += [Text(f"{ties.RULE}."), winners_table(material.listed, leading)]
-    return [
-        Section(
-            "Who wins where, and what beating it costs", tuple(blocks), tuple(details), not material.focus, "Winners"
-        )
-    ]
+    return [Section("Winners", tuple(blocks), tuple(details), not material.focus)]
 
 
 def _seen(leading: pd.DataFrame) -> str:

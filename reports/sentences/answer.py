@@ -106,6 +106,36 @@ def exact(found: Sequence[Choice]) -> str:
     return f"{told}. {tight} is reached by {_winners(there, -1)}.{rest}"
 
 
+def gain(found: Sequence[Choice]) -> str:
+    """Say how many times as fast as the baseline the winners are, where both are right; "" where that is not known.
+
+    A winner whose time is floor-bound is left out, since the harness is measured there more than the method.
+    """
+    rows = [one.best for one in found if one.best is not None and not wording.absent(one.best.speedup)]
+    rows = [row for row in rows if row.baseline not in (row.method, row.variant)]
+    told = sorted(row.speedup for row in rows if not row.floor_bound)
+    if not rows:
+        return ""
+    name = _baseline(found)
+    if not told:
+        return f"Every time is floor-bound, mostly the harness's own, so that no gain over {name} is told."
+    low, high = wording.factor(told[0]), wording.factor(told[-1])
+    left = len(rows) - len(told)
+    rest = f" ({left} left out, whose {'time is' if left == 1 else 'times are'} floor-bound)" if left else ""
+    where = "" if len(rows) == len(found) else f", on {len(rows)} of {len(found)} surfaces on which that is right too"
+    return f"{low if low == high else f'{low} to {high}'} as fast as {name}{where}{rest}."
+
+
+def _baseline(found: Sequence[Choice]) -> str:
+    """Return the label of the baseline that the rows name."""
+    rows = pd.concat([one.rows for one in found])
+    name = derive.baseline_of(rows)
+    own = rows[(rows["method"] == name) | (rows["variant"] == name)]
+    if own.empty:
+        return name
+    return str(own["method_label"].iloc[0] if name in set(own["method"]) else own["label"].iloc[0])
+
+
 def _others(found: Sequence[Choice], some: Sequence[Choice]) -> list[Choice]:
     """Return the choices that are not among `some`."""
     names = {one.name for one in some}

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from reports import wording
-from reports.parts import environment
+from reports.parts.last_page import environment
 from reports.reading.run import Plan
 from reports.site import cells
 from reports.site.cells import Site

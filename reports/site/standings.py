@@ -11,10 +11,10 @@ from typing import Any
 import pandas as pd
 
 from reports.analysis import derive, surface_names, ties, viewstats
-from reports.drawing import choice
+from reports.analysis.choices import ERRORS
 
 LEVELS: tuple[tuple[str, float], ...] = (  # how a bound is written in a page's address, and the bound
-    *((f"{error:.0e}".replace("e-0", "e-"), error) for error in choice.ERRORS),
+    *((f"{error:.0e}".replace("e-0", "e-"), error) for error in ERRORS),
     ("any", math.inf),
 )
 FULL = 256
