@@ -27,6 +27,7 @@ LAYERS = (  # from the ground up; what stands in one line does not import each o
     ("harness.contract", "harness.__init__"),
     ("harness.stated",),
     ("harness.plugins", "harness.results"),
+    ("harness.terminal",),
     ("harness.console", "harness.hardcases"),
     ("harness.oracle",),
     ("harness.kernels",),
