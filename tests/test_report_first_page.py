@@ -10,14 +10,16 @@ import pytest
 import typst
 
 from harness.contract import digest
-from reports import content, report
+from reports import content, first_page
 from reports.analysis import breaks, choices, derive, tradeoffs
 from reports.drawing import multiples, style
-from reports.parts import focus
+from reports.material import Material
+from reports.parts import focus, winners
 from reports.reading import load
+from reports.reading.arrays import Shelf
 from reports.rendering import document
 from reports.sentences import answer
-from tests.synthetic_run import SURFACES, cell, printed, reported, retime, stability_run, tiny_run, write_run
+from tests.synthetic_run import SURFACES, cell, printed, retime, stability_run, tiny_run, write_run
 
 
 def timed(
@@ -39,10 +41,13 @@ def chosen(folder: Path, *cells: dict[str, Any]) -> list[choices.Choice]:
     return choices.choices(derive.derive(load.load(tiny_run(folder, *cells)).frame))
 
 
-def about(folder: Path, name: str) -> content.Document:
+def about(folder: Path, name: str = "") -> content.Document:
+    """Make the first page, the page of a focus and the winners alone: other parts take longer than all three."""
     run = load.load(folder)
-    frame = derive.derive(run.frame)
-    return report.report(run, frame, breaks.derive(run.families, run.rungs), name)
+    frame, rungs = derive.derive(run.frame), breaks.derive(run.families, run.rungs)
+    material = Material(run, frame, rungs, Shelf(run.folders), name)
+    sections = (*focus.sections(material), *winners.sections(material))
+    return content.Document(run.plan.title, "", first_page.section(material), sections)
 
 
 # ---- the answer
@@ -54,7 +59,7 @@ def test_the_first_page_says_what_a_winner_costs_and_risks(tmp_path: Path) -> No
     folder = tiny_run(tmp_path / "run", *cells)
     plan = json.loads((folder / "plan.json").read_text())
     (folder / "plan.json").write_text(json.dumps(plan | {"methods": {"newton": {"claims": ["no_false_hit"]}}}))
-    _, made = reported(folder)
+    made = about(folder)
     told = printed(made.summary.blocks)
     assert (
         "On opencl:intel, for 256 × 256 pixels, the fastest right answers come from Newton on Torus (2.00 ms)." in told
@@ -108,7 +113,7 @@ def test_trade_offs_are_faster_and_wrong_or_slower_and_more_exact(tmp_path: Path
     assert [trade.row.variant for trade in tradeoffs.faster(one)] == ["quickest", "quick"]
     assert [trade.times for trade in tradeoffs.faster(one)] == pytest.approx([0.25, 0.5], rel=0.05)
     assert [trade.row.variant for trade in tradeoffs.exacter(one)] == ["sturm"], "nothing slower that is not exacter"
-    _, made = reported(tmp_path / "run")
+    made = about(tmp_path / "run")
     told = next(printed(section.blocks) for section in made.sections if section.title == "Winners")
     assert "Torus | Newton, 2.00 ms | Quickest | 4.00× as fast | 80 wrong rays of 2,304" in told
     assert "Sturm | error 100× smaller | 4.00× the time" in told
@@ -129,7 +134,7 @@ def test_the_winners_matrix_names_method_and_time_and_notes_ties(tmp_path: Path)
         )
     ]
     cells.append(timed("newton", "sphere", 1.0, misses=5))
-    _, made = reported(tiny_run(tmp_path / "run", *cells))
+    made = about(tiny_run(tmp_path / "run", *cells))
     section = next(section for section in made.sections if section.title == "Winners")
     matrix = next(block for block in section.blocks if isinstance(block, content.Matrix))
     assert matrix.columns == ("opencl:intel", "opencl:pocl")
@@ -219,7 +224,7 @@ def test_one_row_alone_has_no_plot(tmp_path: Path) -> None:
 
 def test_a_run_that_timed_nothing_opens_with_who_is_right(tmp_path: Path) -> None:
     cells = [timed("newton", "torus", 1.0, misses=3), timed("sturm", "torus", 1.0)]
-    _, made = reported(tiny_run(tmp_path / "run", *(one | {"time": None} for one in cells)))
+    made = about(tiny_run(tmp_path / "run", *(one | {"time": None} for one in cells)))
     told = printed(made.summary.blocks)
     assert told.startswith("Right on every ray away from silhouettes: Sturm. The others answer some wrongly.")
     assert "Newton | float32 | 0 | 1 | 3 | 2,304" in told
@@ -227,10 +232,10 @@ def test_a_run_that_timed_nothing_opens_with_who_is_right(tmp_path: Path) -> Non
 
 
 def test_runs_of_hard_rays_and_of_the_harness_alone_have_a_first_page(tmp_path: Path) -> None:
-    _, made = reported(stability_run(tmp_path / "stability"))
+    made = about(stability_run(tmp_path / "stability"))
     assert made.summary.blocks[0].strong and any(isinstance(b, content.Table) for b in made.summary.blocks)
     null = cell("null", "torus", "opencl:intel", "float32")
-    _, made = reported(tiny_run(tmp_path / "null", null))
+    made = about(tiny_run(tmp_path / "null", null))
     assert printed(made.summary.blocks).startswith("This run has the harness alone: a method that answers nothing.")
 
 
@@ -238,8 +243,8 @@ def test_runs_of_hard_rays_and_of_the_harness_alone_have_a_first_page(tmp_path: 
 def test_the_first_page_is_one_page(tmp_path: Path, surfaces: int) -> None:
     methods = ("newton", "sturm", "yuksel", "eft_yuksel", "ray_march")
     cells = [timed(m, f"surface_{i}", 1.0 + k + i % 3) for i in range(surfaces) for k, m in enumerate(methods)]
-    _, made = reported(tiny_run(tmp_path / "run", *cells))
-    bare = tuple(content.Section(section.title, (content.Text("…"),)) for section in made.sections)
+    made = about(tiny_run(tmp_path / "run", *cells))
+    bare = tuple(content.Section(f"A section of {word}", (content.Text("…"),)) for word in "abcdefghijklmnopqrst")
     made = content.Document(made.title, made.subtitle, made.summary, bare)  # contents are as long as they are
     document.write_pdf(made, tmp_path / "pdf", tmp_path / "report.pdf", "2026-01-01")
     (end,) = json.loads(
@@ -249,7 +254,7 @@ def test_the_first_page_is_one_page(tmp_path: Path, surfaces: int) -> None:
 
 
 def test_pictures_of_the_first_page_are_of_the_winners(tmp_path: Path) -> None:
-    _, made = reported(write_run(tmp_path / "run"))
+    made = about(write_run(tmp_path / "run"))
     (strip,) = [block for block in made.summary.blocks if isinstance(block, content.Gallery)]
     assert strip.across == len(strip.panels) == 3
     assert all("ms\nerror" in panel.note for panel in strip.panels)
