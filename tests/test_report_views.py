@@ -239,7 +239,7 @@ def test_evaluations_are_drawn_and_the_worst_of_many_views_chosen(tmp_path: Path
     )
     (gallery,) = [block for block in section.blocks if isinstance(block, content.Gallery)]
     (panel,) = gallery.panels
-    assert panel.title == "ray_march, Torus, angle 54" and "4 wrong" in panel.note
+    assert panel.title == "Ray march, Torus, angle 54" and "4 wrong" in panel.note
     image = evaluations.evaluation_map(np.array([[0, 1, 10, 100]], np.int32), 100)
     assert image[0, 0].tolist() == [1, 1, 1]
     assert image[0, 1].sum() < image[0, 2].sum() < image[0, 3].sum(), "more is brighter"
