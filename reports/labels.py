@@ -9,11 +9,13 @@ from typing import Any
 
 import pandas as pd
 
+from harness.contract import FROM_ORIGIN
 from reports import wording
 
 _SYMBOLS = {"EPSILON": "ε"}
 _BEHIND = "+beams"
 _NAMED = re.compile(r"(?P<method>[^\[\s+]+)(?:\[(?P<knobs>[^\]]*)\])?(?P<rest>.*)", re.DOTALL)
+_PHRASES = re.compile(r"( from the (?:entry|eye)| shaded by | to [0-9.e-]+ pixels| in a (?=\w+))")
 SMALL = 0.01  # below it a power of two is written as one
 
 
@@ -33,21 +35,45 @@ def label(variant: str, method: str, methods: Mapping[str, Mapping[str, Any]]) -
     """
     found = _NAMED.fullmatch(variant)
     if found is None or found["method"] != method:
-        return variant.replace(_BEHIND, " behind beams")
+        return _rest(variant)
     knobs = [_knob(*bound.partition("=")[::2]) for bound in (found["knobs"] or "").split(",") if bound]
-    return ", ".join([method_label(method, methods), *knobs]) + found["rest"].replace(_BEHIND, " behind beams")
+    return ", ".join([method_label(method, methods), *knobs]) + _rest(found["rest"])
+
+
+def _rest(words: str) -> str:
+    """Write what a variant's name says behind the knobs: a phrase each behind a comma."""
+    return _PHRASES.sub(r",\1", words.replace(_BEHIND, ", behind beams")).replace("core_circle", "the core circle")
 
 
 def labelled(frame: pd.DataFrame, methods: Mapping[str, Mapping[str, Any]]) -> pd.DataFrame:
-    """Return `frame`, which has the columns method and variant, with the columns `label` and `method_label`."""
+    """Return `frame`, which has the columns method and variant, with the columns `label` and `method_label`.
+
+    Labels leave out where rays begin, and by what they are shaded, where that is the same for all that cast rays.
+    """
+    shared = _shared(frame)
     pairs = frame[["method", "variant"]].drop_duplicates().itertuples(index=False, name=None)
-    labels = {(method, variant): label(str(variant), str(method), methods) for method, variant in pairs}
+    labels = {}
+    for method, variant in pairs:
+        short = str(variant)
+        for words in shared:
+            short = short.replace(words, "")
+        labels[method, variant] = label(short, str(method), methods)
     names = {method: method_label(str(method), methods) for method in frame["method"].unique()}
     told = [labels[pair] for pair in zip(frame["method"], frame["variant"], strict=True)]
     return frame.assign(
         label=pd.Series(told, frame.index, dtype=object),
         method_label=pd.Series([names[method] for method in frame["method"]], frame.index, dtype=object),
     )
+
+
+def _shared(frame: pd.DataFrame) -> list[str]:
+    """Return the words of variants that say what all rows of `frame` that cast rays and answer have in common."""
+    if not {"casts", "origin", "normal"} <= set(frame):
+        return []
+    rays = frame[(frame["casts"] == "rays") & frame["answers"].astype(bool)]
+    shadings = [f" shaded by {name}" for name in rays["normal"].dropna().unique()]
+    origins = [FROM_ORIGIN.get(name, "") for name in rays["origin"].dropna().unique()]
+    return [words for own in (shadings, origins) if len(own) == 1 for words in own if words]
 
 
 def _knob(name: str, value: str) -> str:

@@ -12,7 +12,7 @@ from harness.results.writing import replacing_together
 from reports import first_page, parts
 from reports.analysis import breaks, derive
 from reports.content import Document
-from reports.drawing import charts, style
+from reports.drawing import charts
 from reports.for_papers import files
 from reports.material import Material
 from reports.place import checked, place
@@ -59,8 +59,7 @@ def build(
         tell("typesetting the PDF")
         document.write_pdf(content, made / "pdf", made / "report.pdf", loaded.plan.created, appendix)
         tell("writing the page")
-        marks = style.marks([*frame["method"], *loaded.families["method"]])
-        html.write_html(content, marks, made / "report.html", _labels(loaded), bundle.library())
+        html.write_html(content, material.method_marks, made / "report.html", _labels(loaded), bundle.library())
         tell("writing the tables")
         export.write(frame, made / "results.csv", made / "results.parquet")
         if not rungs.empty:

@@ -19,7 +19,19 @@ from .conftest import usable_devices
 
 ROOT = Path(__file__).parents[1]
 EXAMPLE = ROOT / "docs/example.py"
-HEAVY = ("argparse", "flint", "matplotlib", "moderngl", "pandas", "PIL", "pyarrow", "pyopencl", "sympy", "typst")
+HEAVY = (
+    "argparse",
+    "flint",
+    "matplotlib",
+    "moderngl",
+    "pandas",
+    "PIL",
+    "pyarrow",
+    "pyopencl",
+    "sympy",
+    "typst",
+    "vl_convert",
+)
 ENVIRONMENT = os.environ | {"PYTHONPATH": str(ROOT), "MPLBACKEND": "Agg"}
 
 needs_a_device = pytest.mark.skipif(not usable_devices(), reason="no device")

@@ -40,7 +40,9 @@ def _python(environment, *arguments):
     return subprocess.run(command, capture_output=True, text=True, timeout=200, check=False, env=environment, cwd="/")
 
 
-@pytest.mark.parametrize("package", ["matplotlib", "pandas", "pyarrow", "typst", "PIL", "pyvista", "sympy", "reports"])
+@pytest.mark.parametrize(
+    "package", ["matplotlib", "pandas", "pyarrow", "typst", "vl_convert", "PIL", "pyvista", "sympy", "reports"]
+)
 def test_everything_else_is_really_hidden(environment, package):
     assert f"No module named '{package}'" in _python(environment, "-c", f"import {package}").stderr
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from reports.content import Document, Figure, Section
@@ -49,13 +49,20 @@ def page(
         "title": escaped(document.title),
         "subtitle": escaped(document.subtitle),
         "style": _file("page.css"),
-        "links": "".join(f'<li><a href="#{name}">{escaped(title)}</a></li>' for name, title, _ in written),
+        "contents": _contents([(name, title) for name, title, _ in written]),
         "chips": _chips(marks, labels or {}) if marks else "",
         "body": "".join(f'<section id="{name}">{body}</section>' for name, _, body in written),
         "library": f"<script>{library}</script>" if live else "",
         "script": "".join(map(_file, scripts)),
     }
     return re.sub(r"\{\{(\w+)\}\}", lambda found: parts[found[1]], _file("page.html"))
+
+
+def _contents(sections: Sequence[tuple[str, str]]) -> str:
+    """Write links to the sections, each an id and a title; "" where there is only one."""
+    links = "".join(f'<li><a href="#{name}">{escaped(title)}</a></li>' for name, title in sections)
+    folded = f"<details open><summary>Contents</summary><ul>{links}</ul></details>"
+    return f'<nav aria-label="contents">{folded}</nav>' if len(sections) > 1 else ""
 
 
 def _file(name: str) -> str:
@@ -75,8 +82,11 @@ def _section(section: Section, name: str, live: bool) -> str:
     every = [*section.blocks, *section.details]
     blocks = [html_blocks.block(block, f"{name}-{i}", live) for i, block in enumerate(every)]
     shown, folded = "".join(blocks[: len(section.blocks)]), "".join(blocks[len(section.blocks) :])
+    heading = f"<h2>{escaped(section.title)}</h2>"
+    if folded and not shown:
+        return f'<details class="every"><summary>{heading}</summary>{folded}</details>'
     details = f'<details class="every"><summary>Every figure</summary>{folded}</details>' if folded else ""
-    return f"<h2>{escaped(section.title)}</h2>{shown}{details}"
+    return f"{heading}{shown}{details}"
 
 
 def _chips(marks: Mapping[str, Mark], labels: Mapping[str, str]) -> str:

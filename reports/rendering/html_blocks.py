@@ -15,6 +15,17 @@ from reports.rendering.escaping import data, escaped
 
 _ID = re.compile(r'\bid="([^"]+)"')
 _REFERENCE = re.compile(r'(url\(#|href="#)([^")]+)')
+_SLIDER = (
+    '<details class="sliding" open><summary>Compare two pictures by a slider</summary><div class="compare" hidden>'
+    '<label>left <select class="left"></select></label> <label>right <select class="right"></select></label>'
+    '<div class="stack"><img class="under" alt=""><img class="above" alt=""><div class="edge"></div></div>'
+    '<input class="slider" type="range" min="0" max="100" value="50" aria-label="where left ends and right begins">'
+    "</div></details>"
+)
+_UNSEEN = re.compile(r"<metadata>.*?</metadata>|<!--.*?-->", re.DOTALL)
+_PATH = re.compile(r'\bd="[^"]*"')
+_DIGITS = re.compile(r"(\.\d\d)\d+")
+_WIDTH = re.compile(r'<svg(\s[^>]*?)width="([\d.]+pt)"')
 _NAMED = re.compile(f'<g id="{re.escape(SERIES)}([^"]*)"')
 
 
@@ -48,11 +59,16 @@ def _figure(figure: Figure, name: str, live: bool) -> str:
 
 
 def _svg(svg: str, name: str) -> str:
-    """Return a drawing as a part of the page: `name` begins its ids, and its series become data attributes."""
-    own = svg[svg.index("<svg") :]
+    """Return a drawing as a part of the page: `name` begins its ids, and its series become data attributes.
+
+    What no browser shows is left out, and curves have hundredths of a point.
+    """
+    own = _UNSEEN.sub("", svg[svg.index("<svg") :])
+    own = _PATH.sub(lambda found: _DIGITS.sub(r"\1", found[0]), re.sub(r">\s+<", "><", own))
     own = _NAMED.sub(lambda found: f'<g class="series" data-series="{found[1]}"', own)
     own = _ID.sub(rf'id="{name}-\1"', own)
-    return _REFERENCE.sub(rf"\1{name}-\2", own)
+    own = _REFERENCE.sub(rf"\1{name}-\2", own)
+    return _WIDTH.sub(lambda found: f'<svg style="--own:{found[2]}"{found[1]} ', own, count=1)
 
 
 def _picture(picture: Picture) -> str:
@@ -63,36 +79,44 @@ def _picture(picture: Picture) -> str:
 
 
 def _panel(panel: Panel) -> str:
-    """Write a panel: its title, its pictures, its lines, what its colours mean, and its note."""
+    """Write a panel: its title, its pictures and its texts, which stand beside the pictures where there are many."""
     images = "".join(_picture(picture) for picture in panel.pictures)
-    lines = "".join(f"<tr>{''.join(f'<td>{escaped(cell)}</td>' for cell in line)}</tr>" for line in panel.lines)
-    key = "".join(
-        f'<span class="key"><span style="background:{color}">&nbsp;&nbsp;</span> {escaped(text)}</span> '
-        for color, text in panel.key.items()
-    )
-    note = "<br>".join(escaped(line) for line in panel.note.split("\n"))
+    notes = "".join(f"<small>{escaped(note)}</small>" for note in panel.note.split("\n") if note)
+    kind = "panel card" if panel.lines else "panel"
     return (
-        f'<div class="panel" data-title="{escaped(panel.title)}"><strong>{escaped(panel.title)}</strong>'
-        f'<div class="pictures">{images}</div>{f"<table>{lines}</table>" if lines else ""}'
-        f"<small>{key}{note}</small></div>"
+        f'<div class="{kind}" data-title="{escaped(panel.title)}"><strong>{escaped(panel.title)}</strong>'
+        f'<div class="pictures">{images}</div>'
+        f'<div class="told">{_lines(panel)}{notes}{html_tables.key(panel.key)}</div></div>'
     )
+
+
+def _lines(panel: Panel) -> str:
+    """Write a panel's small table; "" where it has none."""
+    if not panel.lines:
+        return ""
+    first, *rest = panel.lines
+    head = "".join(f'<th scope="col">{escaped(cell)}</th>' for cell in first)
+    rows = "".join(
+        f'<tr><th scope="row">{escaped(name)}</th>{"".join(f"<td>{escaped(cell)}</td>" for cell in cells)}</tr>'
+        for name, *cells in rest
+    )
+    hidden = f'<caption class="unseen">{escaped(panel.title)}</caption>'
+    return f'<table class="lines">{hidden}<thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table>'
 
 
 def _gallery(gallery: Gallery, name: str) -> str:
-    """Write the panels, and before them a comparison of two pictures by a slider, which the script fills."""
+    """Write the panels, and behind them a comparison of two pictures by a slider, which the script fills.
+
+    A hero stands first and large; the legend and the caption are of the others. Pictures with a legend of errors show
+    one surface in one view, and only those are compared.
+    """
     legend = "" if gallery.legend is None else f'<div class="legend">{_svg(gallery.legend.svg, name)}</div>'
-    compare = (
-        '<div class="compare" hidden><label>left <select class="left"></select></label> '
-        '<label>right <select class="right"></select></label>'
-        '<div class="stack"><img class="under" alt=""><img class="above" alt=""><div class="edge"></div></div>'
-        '<input class="slider" type="range" min="0" max="100" value="50" aria-label="where left ends and right begins">'
-        "</div>"
-    )
+    slider = "" if gallery.legend is None else _SLIDER
     across = f' style="--across:{gallery.across}"' if gallery.across else ""
-    kind = "panels hero" if gallery.hero else "panels"
-    panels = "".join(_panel(panel) for panel in gallery.panels)
+    panels = [_panel(panel) for panel in gallery.panels]
+    heroes = 1 if gallery.hero else 0
+    hero = f'<div class="hero">{panels[0]}</div>' if heroes and panels else ""
     return (
-        f'<figure class="gallery">{legend}<figcaption>{escaped(gallery.caption)}</figcaption>'
-        f'<div class="{kind}"{across}>{panels}</div>'
-        f'<details class="sliding" open><summary>Compare two pictures by a slider</summary>{compare}</details></figure>'
+        f'<figure class="gallery">{hero}{legend}<figcaption>{escaped(gallery.caption)}</figcaption>'
+        f'<div class="panels"{across}>{"".join(panels[heroes:])}</div>{slider}</figure>'
     )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import pandas as pd
@@ -60,7 +60,8 @@ def _head(columns: Sequence[Column]) -> str:
 
 
 def _kind(column: Column) -> str:
-    return ' class="n"' if column.numeric else ""
+    """Return the class of a column's cells: numbers, or long texts, which are not squeezed where the page is narrow."""
+    return ' class="n"' if column.numeric else ' class="long"' if column.stretch else ""
 
 
 def _cells(columns: Sequence[Column], row: tuple[Any, ...]) -> str:
@@ -82,17 +83,25 @@ def matrix(of: Matrix) -> str:
     head = "".join(f'<th scope="col">{escaped(name)}</th>' for name in of.columns)
     body = "".join(
         f'<tr><th scope="row">{escaped(heading)}</th>{"".join(map(_square, squares))}</tr>'
+        if squares
+        else f'</tbody><tbody><tr><th scope="rowgroup" colspan="{1 + len(of.columns)}">{escaped(heading)}</th></tr>'
         for heading, squares in of.rows
-    )
-    key = "".join(
-        f'<li><span style="background:{escaped(color)}"></span>{escaped(told)}</li>' for color, told in of.key.items()
     )
     return _boxed(
         "matrix",
         of.title,
-        caption(of.title, of.caption) + (f'<ul class="key">{key}</ul>' if key else ""),
-        f'<thead><tr><th scope="col">{escaped(of.corner)}</th>{head}</tr></thead><tbody>{body}</tbody>',
+        caption(of.title, of.caption) + key(of.key),
+        f'<thead><tr><th scope="col">{escaped(of.corner)}</th>{head}</tr></thead>'
+        + f"<tbody>{body}</tbody>".replace("<tbody></tbody>", ""),
     )
+
+
+def key(colors: Mapping[str, str]) -> str:
+    """Write what colours mean: a square and a text for each; "" for none."""
+    entries = "".join(
+        f'<li><span style="background:{escaped(color)}"></span>{escaped(told)}</li>' for color, told in colors.items()
+    )
+    return f'<ul class="key">{entries}</ul>' if entries else ""
 
 
 def _square(square: Square) -> str:

@@ -9,7 +9,8 @@ if (bar) {
   new ResizeObserver(keepHeight).observe(bar);
   keepHeight();
 }
-if (matchMedia("(max-width: 60rem)").matches) document.querySelector("nav details").open = false;
+const contents = document.querySelector("nav details");
+if (contents && matchMedia("(max-width: 60rem)").matches) contents.open = false;
 
 // The tip: what is told of the thing that is pointed at, tapped or focused. Content is a text or an element.
 function tell(content, x, y) {
@@ -102,7 +103,7 @@ document.querySelectorAll(".scroll").forEach((box) => boxes.observe(box));
 
 // Matrices: squares tell their notes; one square of a matrix is reached by Tab, the others by the arrow keys.
 for (const matrix of document.querySelectorAll("figure.matrix")) {
-  const rows = [...matrix.querySelectorAll("tbody tr")].map((row) => [...row.cells].slice(1));
+  const rows = [...matrix.querySelectorAll("tbody tr")].map((row) => [...row.cells].slice(1)).filter((row) => row.length);
   const square = (cell) => cell?.querySelector(".square");
   const all = rows.flat().map(square).filter(Boolean);
   const arrows = { ArrowLeft: [0, -1], ArrowRight: [0, 1], ArrowUp: [-1, 0], ArrowDown: [1, 0] };
@@ -132,16 +133,17 @@ for (const matrix of document.querySelectorAll("figure.matrix")) {
 }
 
 // Galleries: two pictures over each other, and a slider where the one ends and the other begins. It starts with the
-// last pictures of two panels, which are of two methods; a gallery of one panel starts with its two pictures.
-for (const gallery of document.querySelectorAll("figure.gallery")) {
+// last pictures of two panels of two methods, whose titles begin with the method; one of one panel with its two pictures.
+for (const gallery of document.querySelectorAll("figure.gallery:has(.sliding)")) {
   const panels = [...gallery.querySelectorAll(".panel")];
   const pictures = [];
   const lasts = [];
   for (const panel of panels) {
     const images = [...panel.querySelectorAll("img")];
     images.forEach((image, i) => {
-      const kind = images.length < 2 ? "" : i === 0 ? " – drawn" : " – error";
-      pictures.push([panel.dataset.title + kind, image]);
+      const kind = images.length < 2 ? "" : i === 0 ? "drawn" : "error";
+      const title = panels.length > 1 || !kind ? panel.dataset.title : "";
+      pictures.push([[title, kind].filter(Boolean).join(" – "), image]);
     });
     if (images.length) lasts.push(pictures.length - 1);
   }
@@ -149,8 +151,10 @@ for (const gallery of document.querySelectorAll("figure.gallery")) {
     gallery.querySelector(".sliding").hidden = true;
     continue;
   }
-  const alike = gallery.querySelector(".panels.hero") && lasts.length > 2 ? lasts.slice(1) : lasts;
-  const firsts = alike.length > 1 ? alike : [0, 1];
+  const alike = gallery.querySelector(".hero") && lasts.length > 2 ? lasts.slice(1) : lasts;
+  const method = (i) => pictures[i][0].split(/[,[]/)[0];
+  const other = alike.find((i) => method(i) !== method(alike[0])) ?? alike[1];
+  const firsts = alike.length > 1 ? [alike[0], other] : [0, 1];
   gallery.querySelector(".compare").hidden = false;
   [["left", "under", firsts[0]], ["right", "above", firsts[1]]].forEach(([side, layer, first]) => {
     const select = gallery.querySelector(`.${side}`);

@@ -24,7 +24,7 @@ def held(png: bytes) -> tuple[str, int, int]:
     times = next((n for n in range(8, 1, -1) if _consists_of_squares(pixels, n)), 1)
     made = io.BytesIO()
     Image.fromarray(np.ascontiguousarray(pixels[::times, ::times])).save(
-        made, "WEBP", lossless=True, method=2, quality=20
+        made, "WEBP", lossless=True, method=3, quality=50
     )
     return f"data:image/webp;base64,{base64.b64encode(made.getvalue()).decode()}", width, height
 
