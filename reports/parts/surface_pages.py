@@ -206,9 +206,9 @@ def _atlas(material: Material, surfaces: list[tuple[str, pd.DataFrame]]) -> Sect
     shows = ", with its name and its time" if short else ", who that is at two errors, and who is wrong"
     scale = "" if short else " Errors “at most” are over the scene's radius, “max error” is in scene units."
     told = (
-        f"Each surface as the fastest method without a wrong ray draws it{shows}. Of each the scene with most methods, on "
-        f"the device with most results.{scale} Wrong rays are those away from silhouettes. Plots, error maps and tables "
-        "are in report.html."
+        f"Each surface as the fastest method without a wrong ray draws it{shows}. Of each the scene with most methods, "
+        f"on the device with most results.{scale} Wrong rays are those away from silhouettes. Plots, error maps and "
+        "tables are in report.html."
     )
     blocks: list[Block] = [Text(told)]
     blocks += [Gallery(tuple(panels), "", across=6 if short else 2)] if panels else []
