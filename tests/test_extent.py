@@ -207,11 +207,13 @@ def test_a_reports_page_of_a_surface_has_the_note() -> None:
     pytest.importorskip("pandas")
     import pandas as pd
 
-    from reports.parts.surface_pages import _facts
+    from reports.drawing.cards import what
 
     rows = pd.DataFrame({"degree": [2, 2], "formula": ["x", "x"], "extent": ["mine: its domain cuts it", None]})
-    assert _facts(rows) == "Degree 2: x = 0. Note: mine: its domain cuts it."
-    assert _facts(rows.drop(columns="extent")) == "Degree 2: x = 0."
+    assert what(rows, 99) == "Degree 2: x = 0. Note: mine: its domain cuts it."
+    assert what(rows.drop(columns="extent"), 99) == "Degree 2: x = 0."
+    cut = rows.assign(domain="sphere:0,1,0:1.5", formula="x + y")
+    assert what(cut, 4).startswith("Degree 2: x … = 0, in a ball of radius 1.5 about (0,1,0). Note")
 
 
 def test_big_formulas_are_not_searched() -> None:

@@ -19,7 +19,8 @@ from harness.contract import FirsthitError, digest
 from harness.results import schema
 from reports import content, first_page, report
 from reports.analysis import derive, shown, ties
-from reports.drawing import choice, images, tables
+from reports.drawing import choice, surface_tables, tables
+from reports.material import Material
 from reports.parts import last_page, surface_pages, winners
 from reports.reading import arrays, load
 from tests.synthetic_run import cell, plan, printed, reported, retime, tiny_run, troubled, write_run
@@ -78,7 +79,7 @@ def test_the_report_says_what_happened(run: Path) -> None:
     _, report = reported(run)
     by_title = {section.title: printed(section.blocks) for section in report.sections}
     assert "firsthit run configs/quick.toml" in printed(report.summary.blocks)
-    assert "_odd#[STEP_$=0.5,RELAXATION_OF_THE_LAST_STEP=1.25]" in by_title["Torus"]
+    assert "Odd#, step $ = 0.5, relaxation of the last step = 1.25" in by_title["Torus: speed against error"]
     last = report.sections[-1]
     assert last.title == last_page.TITLE
     troubles = printed(last.details)
@@ -88,16 +89,14 @@ def test_the_report_says_what_happened(run: Path) -> None:
     assert "2 planned cells not run yet (2 on opencl:gpu#0_$)" in printed(last.blocks)
     assert last.own_page and 'title = "quick"  # a comment' in troubles, "the config's text"
     titles = [section.title for section in report.sections]
-    assert titles[:5] == [
-        "Winners",
-        "How to read the surfaces' pages",
-        "Sphere",
-        "Torus",
-        "Barth #6 $extic_* @65 <b>",
-    ]
-    for section in report.sections[2:5]:
-        kinds = {type(block) for block in section.blocks}
-        assert {content.Figure, content.Gallery, content.Table} <= kinds, "speed, pictures and figures on one page"
+    surfaces = ["Sphere", "Torus", "Barth #6 $extic_* @65 <b>"]
+    assert titles[:7] == ["Winners", *(page for name in surfaces for page in (name, f"{name}: speed against error"))]
+    for first, second in zip(report.sections[1:7:2], report.sections[2:7:2], strict=True):
+        (gallery,) = [block for block in first.blocks if isinstance(block, content.Gallery)]
+        assert gallery.hero and len(gallery.panels) > 3
+        assert {content.Figure, content.Table} <= {type(block) for block in second.blocks}
+        assert sum(isinstance(block, content.Table) for block in second.details) >= 2, "every figure, and every unit"
+        assert first.own_page and second.own_page
 
 
 def test_winners_name_the_fastest_and_the_fastest_with_no_wrong_ray(frame: pd.DataFrame) -> None:
@@ -149,7 +148,7 @@ def test_derived_columns(tmp_path: Path) -> None:
     assert np.isnan(rows["peak_share"]["null"]) and not rows["peak_too_low"].any()
     low = derive.derive(loaded.frame, loaded.plan.peaks).set_index("variant")
     assert np.isnan(low["peak_share"]["b"]) and low["peak_too_low"]["b"], "a share above 100 % is no share"
-    assert "the probe's peak is too low" in surface_pages.flags(next(low.loc[["b"]].itertuples()))
+    assert "the probe's peak is too low" in surface_tables.flags(next(low.loc[["b"]].itertuples()))
 
 
 def test_the_share_of_peak_is_absent_where_no_peak_is_known(frame: pd.DataFrame) -> None:
@@ -161,10 +160,10 @@ def test_the_share_of_peak_is_absent_where_no_peak_is_known(frame: pd.DataFrame)
 
 
 def test_flags_say_what_to_know_of_a_row(frame: pd.DataFrame) -> None:
-    flagged = {word for table_row in frame.itertuples() for word in surface_pages.flags(table_row).split(", ")}
+    flagged = {word for table_row in frame.itertuples() for word in surface_tables.flags(table_row).split(", ")}
     assert flagged - {"drifts", "1 outlier"} == {"", "floor", "front", "interval wide", "overhead 12 %"}
     for row in frame[frame["status"] == "ok"].itertuples():
-        words = surface_pages.flags(row).split(", ")
+        words = surface_tables.flags(row).split(", ")
         assert ("interval wide" in words) == (not row.narrow)
         assert ("front" in words) == bool(row.front)
         assert ("floor" in words) == (row.method == "null")
@@ -181,11 +180,11 @@ def test_no_error_is_told_of_a_method_that_answers_nothing(loaded: load.Run, fra
     assert frame.loc[null, accuracy].isna().all(axis=None)
     kept = frame.loc[~null, accuracy]
     pd.testing.assert_frame_equal(kept, loaded.frame.loc[~null, accuracy])
-    table = surface_pages.results_table(finished)
+    table = surface_tables.results_table(finished)
     titles = [column.title for column in table.columns]
     first, last = titles.index("max\nerror"), titles.index("evals per\nray cast")
     for row in table.rows:
-        assert all(pd.isna(value) for value in row[first : last + 1]) == (row[2] == "null")
+        assert all(pd.isna(value) for value in row[first : last + 1]) == (row[2] == "Null")
 
 
 def test_fronts_are_what_a_comparison_of_all_pairs_finds(frame: pd.DataFrame) -> None:
@@ -271,28 +270,31 @@ def test_a_damaged_array_file_is_listed_and_the_other_pictures_drawn(tmp_path: P
             broken.write_bytes(broken.read_bytes()[:200])
     loaded = load.load(folder)
     frame = derive.derive(loaded.frame)
-    drawn = pd.concat([shown.of_surface(rows) for _, rows in frame.groupby("surface")])
-    damaged = {f"arrays/{key}.npz" for key in drawn["key"] if key.startswith(victim.name[0])}
+    drawn = shown.in_galleries(frame)
+    read = pd.concat([drawn, shown.in_evaluation_maps(frame)])["key"]  # one scale of colours is for both
+    cut = {key for key in read if key.startswith(victim.name[0])}
+    damaged = {f"arrays/{key}.npz" for key in cut}
     shelf = arrays.Shelf(loaded.folders)
-    galleries = images.galleries(shelf, frame, (-8, -2))
+    made = surface_pages.sections(Material(loaded, frame, pd.DataFrame(), shelf))
+    galleries = [block for section in made for block in section.blocks if isinstance(block, content.Gallery)]
     assert {file.file for file in shelf.damaged.values()} == set(shelf.damaged) == damaged
-    assert sum(len(gallery.panels) for gallery in galleries.values()) == len(drawn) - len(damaged)
+    heroes = sum(gallery.hero for gallery in galleries)
+    assert sum(len(gallery.panels) for gallery in galleries) - heroes == len(drawn) - drawn["key"].isin(cut).sum()
 
 
 def test_large_runs_print_only_what_matters(run: Path, frame: pd.DataFrame, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(tables, "ROW_LIMIT", 10)
-    monkeypatch.setattr(surface_pages, "SCENES", 2)
     monkeypatch.setattr(choice, "LINES", 2)
     monkeypatch.setattr(winners, "ONE_BY_ONE", 2)
     _, report = reported(run)
-    by_title = {section.title: printed(section.blocks) for section in report.sections}
     assert "2 of 3 surfaces" in printed(report.summary.blocks)
     looked_up = next(printed(section.details) for section in report.sections if section.title == "Winners")
     assert "The first 10 of" in looked_up
     assert "Which method is fastest with no wrong ray, and how often." in looked_up
     finished = frame[frame["status"] == "ok"]
+    guide = next(printed(s.details) for s in report.sections if s.title == "How to read the surfaces' pages")
     kept = int((finished["front"] | finished["method"].isin(["ray_march", "null"])).sum())
-    assert f"Printed are {kept} of {len(finished)} rows" in by_title["How to read the surfaces' pages"]
+    assert f"Printed are {kept} of {len(finished)} rows" in guide
     assert "The first 10 of" in printed(report.sections[-1].details)
     for title in ("The same kernel on every device", "Variants compared round by round"):
         assert "The first " in next(printed(own.details) for own in report.sections if own.title == title)
@@ -300,7 +302,7 @@ def test_large_runs_print_only_what_matters(run: Path, frame: pd.DataFrame, monk
 
 def test_units_of_error_stand_beside_each_other(frame: pd.DataFrame) -> None:
     rows = frame[(frame["surface"] == "torus") & (frame["status"] == "ok")]
-    table = surface_pages.units_table(rows)
+    table = surface_tables.units_table(rows)
     assert table is not None
     titles = [(column.over.replace("\n", " "), column.title) for column in table.columns]
     assert [title for title in titles[3:] if title[1] == "max"] == [

@@ -10,7 +10,8 @@ import pandas as pd
 from reports.analysis import breaks, derive
 from reports.claims import Outcome, picks, szente_fit
 from reports.content import Block, Document, Table
-from reports.parts import hard_rays, method_cards, surface_pages
+from reports.drawing import surface_tables
+from reports.parts import hard_rays, method_cards
 from reports.reading import load
 
 from .synthetic_run import cell, family_cell, reported, tiny_run
@@ -29,7 +30,7 @@ def frame_of(folder: Path, *cells: dict[str, Any]) -> pd.DataFrame:
 
 
 def blocks(document: Document) -> list[Block]:
-    return [block for section in document.sections for block in section.blocks]
+    return [block for section in document.sections for block in (*section.blocks, *section.details)]
 
 
 def heads(table: Any) -> list[str]:
@@ -40,8 +41,8 @@ def test_invalid_answers_are_wrong_rays_and_have_a_column_where_there_are_any(tm
     clean, bad = frame_of(tmp_path / "a", made()), frame_of(tmp_path / "b", made(invalid=7, grazing_invalid=2))
     assert (clean["wrong_rays"].iloc[0], bad["wrong_rays"].iloc[0], bad["grazing_wrong_rays"].iloc[0]) == (0, 7, 2)
     assert not derive.all_right(bad).any() and not bad["front"].any()
-    assert "in-\nvalid" not in heads(surface_pages.results_table(clean))
-    table = surface_pages.results_table(bad)
+    assert "in-\nvalid" not in heads(surface_tables.results_table(clean))
+    table = surface_tables.results_table(bad)
     assert table.rows[0][heads(table).index("in-\nvalid")] == 7
     _, document = reported(tmp_path / "b")
     assert any("in-\nvalid" in heads(block) for block in blocks(document) if isinstance(block, Table))
@@ -52,7 +53,7 @@ def test_rows_of_before_invalid_was_counted_still_load(tmp_path: Path) -> None:
     del old["accuracy"]["invalid"], old["accuracy"]["grazing_invalid"]
     frame = frame_of(tmp_path / "a", old)
     assert frame["wrong_rays"].iloc[0] == 3
-    assert "in-\nvalid" not in heads(surface_pages.results_table(frame))
+    assert "in-\nvalid" not in heads(surface_tables.results_table(frame))
 
 
 def test_an_invalid_answer_breaks_what_a_method_claims_of_the_ray(tmp_path: Path) -> None:
@@ -62,8 +63,8 @@ def test_an_invalid_answer_breaks_what_a_method_claims_of_the_ray(tmp_path: Path
 
 
 def test_undecided_hits_are_told_under_the_results(tmp_path: Path) -> None:
-    assert "undecided" not in surface_pages.results_table(frame_of(tmp_path / "a", made())).caption
-    caption = surface_pages.results_table(frame_of(tmp_path / "b", made(undecided=3))).caption
+    assert "undecided" not in surface_tables.results_table(frame_of(tmp_path / "a", made())).caption
+    caption = surface_tables.results_table(frame_of(tmp_path / "b", made(undecided=3))).caption
     assert "The oracle left 3 hits undecided" in caption
 
 

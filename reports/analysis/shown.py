@@ -44,14 +44,28 @@ def fullest(rows: pd.DataFrame) -> str:
     return str(counted.sort_values(["method", "variant"], ascending=False, kind="stable").index[0])
 
 
+def on_pages(rows: pd.DataFrame) -> pd.DataFrame:
+    """Select the finished rows of one surface that its pages are about: of one scene and device.
+
+    They are the fullest scene and the device with most rows there, of those with pictures if there are any.
+    """
+    finished = rows[rows["status"] == CellStatus.OK]
+    told = _pictured(rows) if len(_pictured(rows)) else finished
+    if told.empty:
+        return finished
+    told = on_fullest_device(told[told["comparison"] == fullest(told)])
+    scene, device = told["comparison"].iloc[0], told["device"].iloc[0]
+    return finished[(finished["comparison"] == scene) & (finished["device"] == device)]
+
+
 def in_strip(rows: pd.DataFrame) -> pd.DataFrame:
     """Select the rows of one surface whose error maps are shown, the fastest first in each precision.
 
-    They are all variants of the scene and the device of `of_surface`, or, of more than EVERY_VARIANT, one of each
-    method; at most MOST_MAPS.
+    They are all variants of `on_pages`, or, of more than EVERY_VARIANT, one of each method; at most MOST_MAPS.
     """
-    every = of_surface(rows, EVERY_VARIANT)
-    kept = every if len(every) <= EVERY_VARIANT else of_surface(rows)
+    own = on_pages(rows)
+    every = _pictured(own)
+    kept = every if len(every) <= EVERY_VARIANT else of_surface(own)
     return kept.sort_values(["precision", "median_ms", "error_max"], kind="stable").head(MOST_MAPS)
 
 

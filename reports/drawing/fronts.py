@@ -23,6 +23,7 @@ from reports.drawing.style import Mark
 
 TALL, LOW, MANY = 4.9, 3.9, 16  # inches: of a drawing, and of one of more rows, which leave less of the page
 LETTER = 7.0  # points
+LONGEST = 32  # letters of a name
 MOST_NAMED = 24  # marks of one panel
 WRONG = "#9a4a00"  # the name of a variant that answers rays wrongly
 
@@ -224,9 +225,8 @@ def _labels(panel: _Panel, rows: pd.DataFrame, focus: str, lines: Sequence[NDArr
 
 def _label(row: Any) -> str:
     """Write a row's name, and how many of its rays are wrong."""
-    if row.right:
-        return str(row.label)
-    return f"{row.label}: {wording.count(row.wrong_rays)} wrong" if row.wrong_rays else f"{row.label}: not judged"
+    name = wording.excerpt(str(row.label), LONGEST)
+    return name if row.right else f"{name}: {wording.count(row.wrong_rays)} wrong"
 
 
 def _caption(shown: pd.DataFrame) -> str:

@@ -12,10 +12,10 @@ import pandas as pd
 
 from harness.contract import CellStatus
 from reports import wording
-from reports.analysis import choices, derive, rounds, shown, tradeoffs
+from reports.analysis import choices, rounds, shown, tradeoffs
 from reports.analysis.choices import ERRORS, Choice
 from reports.analysis.scene_names import scene_names
-from reports.content import Block, Gallery, Section, Text
+from reports.content import Block, Figure, Gallery, Section, Text
 from reports.drawing import cards, error_maps, fronts, surface_tables, tables
 from reports.material import Material
 from reports.reading.arrays import Arrays
@@ -51,6 +51,9 @@ def sections(material: Material) -> list[Section]:
         if not spread:
             made.append(Section(title, (), (*first, *second, *figures)))
             continue
+        if not any(isinstance(block, Figure) for block in second):  # nothing was timed, or there is nothing to compare
+            made.append(Section(title, (*first, *second), tuple(figures), own_page=True))
+            continue
         made.append(Section(title, tuple(first), own_page=True))
         made.append(Section(f"{title}: speed against error", tuple(second), tuple(figures), True, f"{title}, speed"))
     return [*made, guide]
@@ -69,17 +72,9 @@ def _printed(finished: pd.DataFrame) -> tuple[pd.DataFrame, list[Block]]:
     return printed, [Text(f"Printed are {kept}. results.csv has all.")]
 
 
-def fullest(rows: pd.DataFrame) -> pd.DataFrame:
-    """Select the rows that a surface's pages are about: of its fullest scene, on the device with most of them."""
-    finished = rows[rows["status"] == CellStatus.OK]
-    if finished.empty:
-        return finished
-    return derive.on_fullest_device(finished[finished["comparison"] == shown.fullest(finished)])
-
-
 def _pages(material: Material, rows: pd.DataFrame, name: str) -> tuple[list[Block], list[Block]]:
     """Make what the two pages of one surface show; `name` begins the name of its plot."""
-    own = fullest(rows)
+    own = shown.on_pages(rows)
     if own.empty:
         return [Text("No cell of this surface gave a result.")], []
     cells = [(row, read) for row in shown.in_strip(rows).itertuples() if (read := material.shelf.get(row)) is not None]
@@ -174,7 +169,7 @@ def _further(
 ) -> tuple[list[Block], int]:
     """Draw at most `room` of the further scenes and devices of a surface; return the plots and what room is left."""
     made: list[Block] = []
-    own = fullest(rows)
+    own = shown.on_pages(rows)
     marks = material.method_marks
     for j, (scene, of) in enumerate(rows.groupby("comparison", sort=False)):
         for k, (device, on) in enumerate(of.groupby("device", sort=False)):
@@ -199,7 +194,7 @@ def _atlas(material: Material, surfaces: list[tuple[str, pd.DataFrame]]) -> Sect
     short = len(surfaces) > CARDS
     panels, without = [], []
     for name, rows in surfaces:
-        own = fullest(rows)
+        own = shown.on_pages(rows)
         made = None
         if len(own):
             card = cards.thumbnail if short else cards.short_card
@@ -208,12 +203,12 @@ def _atlas(material: Material, surfaces: list[tuple[str, pd.DataFrame]]) -> Sect
             without.append(str(rows["surface_title"].iloc[0]) or name)
         else:
             panels.append(made)
+    shows = ", with its name and its time" if short else ", who that is at two errors, and who is wrong"
+    scale = "" if short else " Errors “at most” are over the scene's radius, “max error” is in scene units."
     told = (
-        "Each surface as the fastest method without a wrong ray draws it"
-        + (", with its name and its time" if short else ", who that is at two errors, and who is wrong")
-        + ". Of each surface the scene with most methods, on the device with most results; errors “at most” are over "
-        "the scene's radius, “max error” is in scene units, and wrong rays are those away from silhouettes. The plots, "
-        "error maps and tables are in report.html."
+        f"Each surface as the fastest method without a wrong ray draws it{shows}. Of each the scene with most methods, "
+        f"on the device with most results.{scale} Wrong rays are those away from silhouettes. Plots, error maps and "
+        "tables are in report.html."
     )
     blocks: list[Block] = [Text(told)]
     blocks += [Gallery(tuple(panels), "", across=6 if short else 2)] if panels else []
