@@ -180,9 +180,10 @@ def sections(material: Material) -> list[Section]:
         if found or left_out:
             figures = list(_figures(axis, found, material.marks, titles)) if found else []
             fitted = [curve for curve in found if isinstance(curve.fit, Power)]
-            shown: tuple[Block, ...] = (Text(_said(axis, fitted, titles)), figures[0]) if fitted else ()
+            told = 2 * len(fitted) >= len(found) > 0  # else a page would say little
+            shown: tuple[Block, ...] = (Text(_said(axis, fitted, titles)), figures[0]) if told else ()
             details: list[Block] = [Text(LEAD.format(unit=axis.unit, wrongly=axis.wrongly) + _told_left_out(left_out))]
-            details += [*figures[1 if fitted else 0 :], _table(axis, found, titles)] if found else []
+            details += [*figures[1 if told else 0 :], _table(axis, found, titles)] if found else []
             made.append(Section(TITLES[axis.name], shown, tuple(details)))
     return made
 

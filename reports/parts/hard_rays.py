@@ -17,6 +17,7 @@ from reports.reading.run import Facts
 
 ORDER = 45
 NOTHING_DECIDED = "nothing decided"
+MOST_TOLD = 3  # families that a line of the first page's table names
 REFUSED, UNDECIDED = "·", "–"
 READ = (
     "A family is a ladder of rays that get harder rung by rung; each ray has a certified answer. A square counts the "
@@ -244,7 +245,9 @@ def summary_table(rungs: pd.DataFrame, facts: Mapping[str, Facts]) -> Table:
         for (variant, precision), own in breaks.verdicts(rows).groupby(["label", "precision"], sort=False):
             judged = own[own["decided"] > 0]
             broken = judged[judged["breaks_at"].notna()]
-            told = ", ".join(f"{facts[r.family].title} {wording.level(r.breaks_at)}" for r in broken.itertuples())
+            each = [f"{facts[r.family].title} {wording.level(r.breaks_at)}" for r in broken.itertuples()]
+            more = f" and {len(each) - MOST_TOLD} more" if len(each) > MOST_TOLD else ""
+            told = ", ".join(each[:MOST_TOLD]) + more
             held = judged[judged["breaks_at"].isna()]
             tally = (len(held), len(judged), held["worst_ratio"].max())
             body.append((precision, device, variant, *tally, told or "nothing"))

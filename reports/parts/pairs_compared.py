@@ -13,7 +13,7 @@ from reports import wording
 from reports.analysis import derive, rounds, ties
 from reports.analysis.scene_names import scene_names, scene_title
 from reports.content import Block, Column, Matrix, Section, Square, Table, Text
-from reports.drawing import shades, tables
+from reports.drawing import shades, standings, tables
 from reports.material import Material
 
 ORDER = 32
@@ -53,8 +53,11 @@ def sections(material: Material) -> list[Section]:
     matrix = _matrix(frame)
     if not tabled or matrix is None:
         return []
-    shown_blocks: tuple[Block, ...] = (Text(f"{READ} {_said(matrix)}"), matrix)
-    return [Section(TITLE, shown_blocks, (Text(told), *tabled), name="Comparisons")]
+    seen: tuple[Block, ...] = (Text(f"{READ} {_said(matrix)}"), matrix)
+    rest: tuple[Block, ...] = (Text(told), *tabled)
+    if len(material.choices) <= standings.MOST:  # the winners' page has every method's standing already
+        return [Section(TITLE, (), (*seen, *rest), name="Comparisons")]
+    return [Section(TITLE, seen, rest, name="Comparisons")]
 
 
 def _matrix(frame: pd.DataFrame) -> Matrix | None:
