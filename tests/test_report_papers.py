@@ -137,3 +137,7 @@ def test_papers_stand_one_after_the_other(tmp_path: Path) -> None:
     assert found == sorted(found, key=papers.PAPERS.index) and set(found) == set(papers.PAPERS)
     titles = [section.title for section in report.sections]
     assert titles.index(checklist.TITLE) > named.index("beamcasting")
+    names = {section.title: section.name for section in report.sections}
+    assert names["szente, Table 4"] == "szente: Table 4" and names["beamcasting, Tables I and II"].startswith(
+        "beamcasting: "
+    )
