@@ -113,6 +113,7 @@ def test_the_tori_of_figure_1_are_shown_beside_rows_of_other_runs(tmp_path: Path
     (section,) = [section for section in report.sections if section.title == "toledo2007, Figures 1 and 5"]
     (gallery,) = [block for block in section.blocks if isinstance(block, content.Gallery)]
     assert [panel.title for panel in gallery.panels] == ["2 tori"]
+    assert section.name == "toledo2007: Figs. 1 and 5"
 
 
 def test_pictures_stand_in_full_lines_with_short_titles() -> None:

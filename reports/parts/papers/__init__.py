@@ -14,6 +14,12 @@ from reports.parts import found
 
 ORDER = 65
 LEADS = True
+_SHORT = (  # of sections' titles in the contents
+    ("Figures", "Figs."),
+    ("Figure", "Fig."),
+    ("what our changes are worth", "changes"),
+    ("piece by piece", "pieces"),
+)
 PAPERS = ("toledo2007", "szente", "beamcasting")  # as the sections' titles begin, in the order of the report
 
 
@@ -27,7 +33,7 @@ def sections(material: Material) -> list[Section]:
 def _named(section: Section, before: Section | None) -> Section:
     """Give a section its name in the contents, which says the paper only where the section `before` is of another."""
     paper, _, part = section.title.partition(", ")
-    for long, short in (("Figure", "Fig."), ("what our changes are worth", "changes"), ("piece by piece", "pieces")):
+    for long, short in _SHORT:
         part = part.replace(long, short)
     same = before is not None and before.title.startswith(paper)
     return replace(section, name=part if same else f"{paper}: {part}")
