@@ -17,6 +17,7 @@ from harness.results.store import FORMAT
 from reports import claims, content
 from reports.claims import Outcome, picks
 from reports.claims.evidence import Pick
+from reports.drawing import images
 from reports.parts.papers import toledo_table1
 from tests.synthetic_run import printed, reported, tiny_run
 from tests.test_claims import claim, evidence, planted
@@ -210,7 +211,8 @@ def test_figure_5_tells_a_boxs_fragments_from_the_torus(tmp_path: Path) -> None:
     (gallery,) = [block for block in section.blocks if isinstance(block, content.Gallery)]
     assert [panel.title for panel in gallery.panels] == ["tilted by 18°"]
     assert "75 % wasted" in gallery.panels[0].note
-    pixels = np.asarray(Image.open(io.BytesIO(gallery.panels[0].pictures[0].png)).convert("RGB")).reshape(4, 120, -1, 3)
+    picture = Image.open(io.BytesIO(gallery.panels[0].pictures[0].png)).convert("RGB")
+    pixels = np.asarray(picture).reshape(4, images.PIXELS // 4, -1, 3)
     assert [len(np.unique(row.reshape(-1, 3), axis=0)) for row in pixels] == [1] * 4
     white, box, torus, below = (tuple(row[0, 0]) for row in pixels)
     assert white == (255, 255, 255) and box == below != torus != white != box

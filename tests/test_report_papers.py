@@ -113,6 +113,7 @@ def test_the_tori_of_figure_1_are_shown_beside_rows_of_other_runs(tmp_path: Path
     (section,) = [section for section in report.sections if section.title == "toledo2007, Figures 1 and 5"]
     (gallery,) = [block for block in section.blocks if isinstance(block, content.Gallery)]
     assert [panel.title for panel in gallery.panels] == ["2 tori"]
+    assert section.name == "toledo2007: Figs. 1 and 5"
 
 
 def test_pictures_stand_in_full_lines_with_short_titles() -> None:
@@ -137,3 +138,7 @@ def test_papers_stand_one_after_the_other(tmp_path: Path) -> None:
     assert found == sorted(found, key=papers.PAPERS.index) and set(found) == set(papers.PAPERS)
     titles = [section.title for section in report.sections]
     assert titles.index(checklist.TITLE) > named.index("beamcasting")
+    names = {section.title: section.name for section in report.sections}
+    assert names["szente, Table 4"] == "szente: Table 4" and names["beamcasting, Tables I and II"].startswith(
+        "beamcasting: "
+    )

@@ -24,4 +24,4 @@ def sections(material: Material) -> list[Section]:
     )
     details = (*failures.details(material), *environment.details(material.run.plan))
     lines = sum(len(block.rows) for block in blocks if isinstance(block, Table))
-    return [Section(TITLE, blocks, details, own_page=lines > SHORT, name="Failures, environment, rerun")]
+    return [Section(TITLE, blocks, details, own_page=lines > SHORT, name="Failures, rerun")]

@@ -128,7 +128,7 @@ def _figure_1(material: Material) -> list[Section]:
         f"Of {wording.count(rows['accuracy_rays'].iloc[0])} pixels of each picture.",
         group=1,
     )
-    return [Section("beamcasting, Figure 1", (told, gallery), (table,), name="Fig. 1")]
+    return [Section("beamcasting, Figure 1", (told, gallery), (table,))]
 
 
 _SETTINGS = (picks.UNIFORM_IN_ROWS, picks.UNIFORM, picks.ADAPTIVE, picks.REMAPPED, picks.ADAPTIVE_OURS)
@@ -213,7 +213,7 @@ def _divergence(material: Material) -> list[Section]:
         *([level_table] if by_level else []),
         *verdict_tables(material.judged, config, "beamcasting"),
     )
-    return [Section("beamcasting, divergence", blocks, details, name="divergence")]
+    return [Section("beamcasting, divergence", blocks, details)]
 
 
 def _shares(row: Any) -> tuple[float | None, ...]:

@@ -49,7 +49,7 @@ def _section(material: Material, title: str, found: list[tuple[Figure, pd.DataFr
         blocks += [introduced(f"{figure.told} {figure.caption}", material.judged, *configs), *pictures]
         details += [*([Text(figure.made)] if figure.made else []), _counts(rows, figure.title)]
         details += verdict_tables(material.judged, figure.config, figure.title) if figure.judged else []
-    return Section(title, tuple(blocks), tuple(details), name=title)
+    return Section(title, tuple(blocks), tuple(details))
 
 
 def _galleries(material: Material, figure: Figure, rows: pd.DataFrame, legend: bool) -> list[Gallery]:

@@ -248,7 +248,7 @@ def _changes(material: Material) -> Section | None:
         "Each row is the printed method of Table 4 with one change of ours, over Table 4's surfaces. A change that "
         "helps alone may help less beside others."
     )
-    return Section("szente, what our changes are worth", (Text(seen), table), name="our changes")
+    return Section("szente, what our changes are worth", (Text(seen), table))
 
 
 def _change(evidence: Evidence, printed: Pick, change: Pick) -> tuple[Any, ...] | None:

@@ -33,9 +33,7 @@ def sections(material: Material) -> list[Section]:
         "torus from Table 1's six angles. As many pixels as are blue or grey run the ray caster; those that are blue "
         "find nothing and are its waste."
     )
-    return [
-        Section("toledo2007, Figures 1 and 5", (Text(told), Gallery(panels, "", across=4)), name="toledo2007, Fig. 1")
-    ]
+    return [Section("toledo2007, Figures 1 and 5", (Text(told), Gallery(panels, "", across=4)))]
 
 
 def _panels(material: Material, config: str) -> list[Panel]:

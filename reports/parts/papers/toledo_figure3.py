@@ -43,7 +43,7 @@ def sections(material: Material) -> list[Section]:
     drawn = _figure([row for row in rows if row["case"] != "sampled"])
     verdicts = tuple(verdict_tables(material.judged, CONFIG, "toledo2007, Figure 3"))
     blocks: tuple[Block, ...] = (introduced(SEEN, material.judged, CONFIG), drawn)
-    return [Section("toledo2007, Figure 3", blocks, (Text(TOLD), *verdicts), name="Fig. 3")]
+    return [Section("toledo2007, Figure 3", blocks, (Text(TOLD), *verdicts))]
 
 
 def _figure(cases: list[dict[str, Any]]) -> Figure:

@@ -41,7 +41,7 @@ def sections(material: Material) -> list[Section]:
         return []
     blocks: tuple[Block, ...] = (introduced(SEEN, material.judged, CONFIG), _drawn(rows), _crossings(rows))
     details: tuple[Block, ...] = (_times(rows), *verdict_tables(material.judged, CONFIG, "toledo2007, Figure 6"))
-    return [Section("toledo2007, Figure 6", blocks, details, name="Fig. 6")]
+    return [Section("toledo2007, Figure 6", blocks, details)]
 
 
 def _drawn(rows: pd.DataFrame) -> Figure:

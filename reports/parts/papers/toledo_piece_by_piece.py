@@ -40,7 +40,7 @@ def sections(material: Material) -> list[Section]:
         if (material.frame["run"] == run_of(config)).any():
             details += verdict_tables(material.judged, config, f"toledo2007, {told}")
     seen = introduced(SEEN, material.judged, CUBICS, PROXIES, NORMALS)
-    return [Section("toledo2007, piece by piece", (seen, *blocks), tuple(details), name="Pieces")]
+    return [Section("toledo2007, piece by piece", (seen, *blocks), tuple(details))]
 
 
 def _worth(piece: Piece, evidence: Evidence) -> tuple[Any, ...] | None:
