@@ -58,9 +58,9 @@ def cut(text: str, columns: int) -> str:
 def fitting(line: str, columns: int, end: str = "") -> str:
     """Join a line and its end into one that fits into so many columns.
 
-    The end stays whole, as long as it leaves half of the columns to the line.
+    The end stays whole, as long as it leaves a third of the columns to the line.
     """
-    return cut(cut(line, max(columns - width(end), columns // 2)) + end, columns)
+    return cut(cut(line, max(columns - width(end), columns // 3)) + end, columns)
 
 
 def padded(text: str, columns: int) -> str:

@@ -49,8 +49,8 @@ class Material:
 
     @cached_property
     def choices(self) -> list[Choice]:
-        """Return what to take for each surface that was timed."""
-        return choices.choices(self.frame)
+        """Return what to take for each surface that was timed, of the rows `listed`."""
+        return choices.choices(self.listed)
 
     @cached_property
     def listed(self) -> pd.DataFrame:

@@ -89,7 +89,17 @@ def test_a_shell_completes_commands_and_names(typed, shell):
 def test_bash_completes_options_and_every_kind_of_name(typed):
     expected = {
         "firsthit gate --ag": ["--against"],
-        "firsthit list ": ["--help", "--json", "--plugins", "configs", "devices", "methods", "surfaces"],
+        "firsthit list ": [
+            "--help",
+            "--json",
+            "--plugins",
+            "--quiet",
+            "--verbose",
+            "configs",
+            "devices",
+            "methods",
+            "surfaces",
+        ],
         "firsthit show --surface torus:n": ["nested"],  # bash breaks words at a colon, and has the first part already
         "firsthit recommend --surface=barth_s": ["barth_sextic"],
         "firsthit show --surface torus --parameter ": ["R=", "r="],

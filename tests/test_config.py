@@ -50,6 +50,9 @@ def test_knobs_multiply_and_defaults_fill_in(tmp_path):
         ('title = "t"', 'title = "t"\nbaseline = "newtn"', 2, "baseline: unknown 'newtn'; did you mean 'newton'"),
         ('title = "t"', 'title = "t"\nbaseline = "null"', 2, "baseline: unknown 'null'"),
         ('title = "t"', 'title = "t"\nbaseline = 3', 2, "baseline is a text"),
+        ('title = "t"', 'title = "t"\nfocus = "newtn"', 2, "focus: unknown 'newtn'; did you mean 'newton'"),
+        ('title = "t"', 'title = "t"\nfocus = "null"', 2, "focus: unknown 'null'"),
+        ('title = "t"', 'title = "t"\nfocus = ""', 2, "focus: unknown ''"),
         ('name = "null"', 'name = "null"\n[[view]]\nname = "a"\n[[view]]\nname = "b"\nfov = 200', 12, "outside"),
     ],
 )
@@ -67,6 +70,16 @@ def test_the_baseline_is_a_method_or_a_variant_of_the_config(tmp_path):
     for name in ("newton", "newton[EPSILON=0.2,MAX_EVALUATIONS=5]"):
         text = GOOD.replace('title = "t"', f'title = "t"\nbaseline = "{name}"', 1)
         assert _load(tmp_path, text).config.baseline == name
+
+
+def test_the_focus_is_a_method_or_a_variant_of_the_config_or_stands_beside_include(tmp_path):
+    assert _load(tmp_path, GOOD).config.focus == ""
+    for name in ("newton", "newton[EPSILON=0.2,MAX_EVALUATIONS=5]"):
+        text = GOOD.replace('title = "t"', f'title = "t"\nfocus = "{name}"', 1)
+        assert _load(tmp_path, text).config.focus == name
+    (tmp_path / "a.toml").write_text(GOOD)
+    whole = _load(tmp_path, 'title = "all"\ninclude = ["a.toml"]\nfocus = "newton"\n')
+    assert (whole.config.focus, whole.included) == ("newton", (tmp_path / "a.toml",))
 
 
 def test_malformed_toml_names_its_place(tmp_path):
@@ -167,5 +180,5 @@ def test_the_config_of_the_docs_is_taken_as_printed(tmp_path):
     block = page.split("reports it.\n\n")[1].split("\n\nMistakes are answered")[0]
     (tmp_path / "mine.toml").write_text(textwrap.dedent(block), encoding="utf-8")
     experiment = reading.load(tmp_path / "mine.toml", find_methods())
-    assert experiment.config.baseline == "ray_march"
+    assert (experiment.config.baseline, experiment.config.focus) == ("ray_march", "newton")
     assert experiment.config.budget.rounds == 8

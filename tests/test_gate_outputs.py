@@ -1,12 +1,10 @@
 """What people and CI servers are told of made-up rows: table, Markdown, JUnit, annotations, step summary."""
 
-import io
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
 import pytest
 
-from harness import console
 from harness.contract import FirsthitError
 from harness.gate import outputs, servers
 from harness.gate.about import About
@@ -234,22 +232,3 @@ def test_rows_that_are_not_chosen_are_not_missing():
     blessed = Baseline("t", {"k": {"name": "d"}}, {"k": {"a x": {}, "b x": {}}})
     only = Only(("a",), frozenset({"a x", "b x"}))
     assert only.narrowed(blessed, ["a y"]).rows == {"k": {"a x": {}}}
-
-
-@pytest.mark.parametrize("columns", [40, 100])
-def test_progress_fits_the_terminal(monkeypatch, columns):
-    class Terminal(io.StringIO):
-        def isatty(self):
-            return True
-
-    monkeypatch.setenv("COLUMNS", str(columns))
-    monkeypatch.setattr("sys.stderr", terminal := Terminal())
-    progress = console.Progress(84, 100.0)
-    row = {"status": "ok", "reason": None, "time": None}
-    with console.doing("looking for devices " * 20):
-        pass
-    progress(f"{LONG} opencl:pocl", None)
-    progress(f"{LONG} opencl:pocl", row)
-    shown = terminal.getvalue().replace(console.CLEAR, "\n").splitlines()
-    assert all(len(line) < columns for line in shown)
-    assert any(line.endswith("ok") for line in shown)

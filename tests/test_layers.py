@@ -27,6 +27,7 @@ LAYERS = (  # from the ground up; what stands in one line does not import each o
     ("harness.contract", "harness.__init__"),
     ("harness.stated",),
     ("harness.plugins", "harness.results"),
+    ("harness.terminal",),
     ("harness.console", "harness.hardcases"),
     ("harness.oracle",),
     ("harness.kernels",),
@@ -50,7 +51,7 @@ REPORTS = (
     ("reports.claims",),
     ("reports.material",),
     ("reports.parts", "reports.rendering"),
-    ("reports.first_page",),
+    ("reports.first_page", "reports.for_papers"),
     ("reports.report", "reports.compare", "reports.history", "reports.recommended", "reports.site"),
 )
 OTHERS = {  # rooms beside the tower, and all that they may import of ours

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from harness import console
+from harness import console, terminal
 from harness.cli import main
 from harness.contract import CellStatus, Program, Section
 from harness.kernels.assemble import file_section
@@ -324,9 +324,9 @@ def test_the_rows_of_a_run_that_failed_are_told_together_at_its_end(tmp_path, ca
 
 
 def _working(monkeypatch, seconds: float, first: float) -> str:
-    monkeypatch.setattr(console, "FIRST_SECONDS", first)
+    monkeypatch.setattr(terminal, "FIRST_SECONDS", first)
     monkeypatch.setattr("sys.stderr", written := io.StringIO())
-    with console.Working() as tell:
+    with console.working() as tell:
         tell("compiling newton")
         time.sleep(seconds)
     return written.getvalue()

@@ -84,7 +84,7 @@ def test_a_page_of_claims_has_those_that_the_run_decides_and_counts_the_others(t
     (section,) = [section for section in report.sections if section.title == checklist.TITLE]
     text, whole = printed(section.blocks), printed(section.details)
     (lead, table, rest) = section.blocks
-    assert printed((lead,)) == "Of 1 claim that this run decides, 1 are confirmed: 1 of 1 of toledo2007."
+    assert printed((lead,)) == "Of 1 claim that this run decides, 1 is confirmed: 1 of 1 of toledo2007."
     assert "toledo2007 | confirmed | 4.3 | Two starts for each ray are faster than one." in printed((table,))
     assert f"{len(claims.CLAIMS) - 1} have no rows in this run" in printed((rest,))
     assert Outcome.UNTESTED.value not in text

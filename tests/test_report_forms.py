@@ -41,7 +41,7 @@ def page(folder: Path) -> content.Section:
 
 def lines(section: content.Section, title: str) -> dict[str, tuple[Any, ...]]:
     """The lines of a table by form."""
-    (table,) = [b for b in section.blocks if isinstance(b, content.Table) and b.title == title]
+    (table,) = [b for b in section.details if isinstance(b, content.Table) and b.title == title]
     return {str(row[1]): row for row in table.rows}
 
 
@@ -54,6 +54,9 @@ def test_forms_are_held_against_the_printed_one_round_by_round(tmp_path: Path) -
     assert cost["expanded"][3] == "even"
     assert cost["few"][3].endswith("× ?"), "fewer rounds than tell anything apart"
     assert [row[0] for row in cost.values()] == ["Torus"] * 4
+    (matrix,) = [b for b in section.blocks if isinstance(b, content.Matrix)]
+    squares = {heading: square.text for heading, (square,) in matrix.rows}
+    assert squares["Torus, nested"] == f"{cost['nested'][3]}, 7 wrong" and squares["Torus, expanded"] == "even"
     worth = lines(section, "What a form's answers are worth.")
     assert worth["nested"][2] == 7 and worth[PRINTED][2] == 0
 

@@ -10,18 +10,22 @@ from typing import Any
 import numpy as np
 import pandas as pd
 import pytest
+from matplotlib.colors import to_rgb
 
 from harness.contract import CLAIMS
 from harness.plugins import find_methods
 from harness.running.cards import card
-from reports import report
+from reports import content, report
 from reports.analysis import breaks
-from reports.parts import last_page
+from reports.drawing import shades
+from reports.parts import hard_rays, last_page
 from reports.reading import load
 from tests import synthetic_run
 from tests.synthetic_run import family_cell, printed, reported, stability_run, tiny_run
 
 from .ladders import first_break
+
+BREAKS = "Where each method breaks"
 
 
 @pytest.fixture(scope="module")
@@ -50,6 +54,7 @@ def test_verdicts_name_the_rung_that_breaks(hard: Path) -> None:
 def test_breaks_are_those_that_the_harness_finds() -> None:
     rng = np.random.default_rng(7)
     told = dict.fromkeys(("key", "slot", "family", "method", "variant", "origin", "precision", "device"), "x")
+    told |= {"label": "X", "method_label": "X"}
     for harder in ("smaller", "larger"):
         for _ in range(50):
             decided = rng.choice([0, 50, 100], 6)
@@ -78,31 +83,55 @@ def test_devices_that_differ_have_tables_of_their_own(tmp_path: Path) -> None:
     other = tiny_run(tmp_path / "other", *cells)
     run, document = reported(other)
     assert list(breaks.by_device(breaks.derive(run.families, run.rungs))) == ["opencl:intel", "opencl:pocl"]
-    (page,) = (printed(section.blocks) for section in document.sections if section.title == "Where each method breaks")
-    assert "The devices differ (opencl:intel and opencl:pocl)" in page
-    assert "float32 on opencl:intel." in page and "float32 on opencl:pocl." in page
+    (section,) = [section for section in document.sections if section.title == BREAKS]
+    shown, details = printed(section.blocks), printed(section.details)
+    assert "The devices differ (opencl:intel and opencl:pocl): here is opencl:intel" in shown
+    assert "float32 on opencl:intel: rungs" in shown and "opencl:pocl: rungs" not in shown
+    assert "float32 on opencl:pocl: rungs" in details
+    assert "float32 on opencl:intel." in details and "float32 on opencl:pocl." in details
+
+
+def test_the_matrix_shows_which_share_of_each_ladder_holds_and_what_breaks_it(hard: Path) -> None:
+    _, document = reported(hard)
+    (section,) = [section for section in document.sections if section.title == BREAKS]
+    single, double = [block for block in section.blocks if isinstance(block, content.Matrix)]
+    assert single.title.startswith("float32 on all devices") and double.title.startswith("float64 on all devices")
+    place = {column: i for i, column in enumerate(double.columns)}
+    assert set(place) == {"Newton, ε = 1e−6", "Ray march", "Odd#"}, "of Newton's two variants the one that holds"
+    lines = dict(double.rows)
+    march, odd = lines["Grazing #rays_ $*"][place["Ray march"]], lines["Thin tori"][place["Odd#"]]
+    assert (march.text, odd.text) == ("5/7", "0/4")
+    assert march.note.endswith("breaks at 10⁻⁶ (distance from tangency, scene units), by rays given up")
+    assert odd.note.endswith("holds 0 of 4 rungs; breaks at 10 (R/r), by wrong roots")
+    assert {square.text for square in lines["Double roots"]} == {hard_rays.UNDECIDED}
+    newton = [lines[title][place["Newton, ε = 1e−6"]] for title in ("Grazing #rays_ $*", "Thin tori")]
+    assert [square.text for square in newton] == ["all", "all"]
+    assert newton[0].color == shades.shade(0.0) != march.color != odd.color == shades.shade(1.0)
+    assert list(lines)[-1] == "Double roots", "the families that most hold are on the top"
+
+
+def test_the_colours_of_matrices_keep_their_order_in_greyscale() -> None:
+    shown = [to_rgb(shades.shade(badness)) for badness in np.linspace(0.0, 1.0, 11)]
+    grey = [0.2126 * r + 0.7152 * g + 0.0722 * b for r, g, b in shown]
+    assert grey == sorted(grey) and grey[0] < 0.25 and grey[-1] > 0.7
 
 
 def test_a_run_of_families_alone_makes_a_report(hard: Path) -> None:
     run, document = reported(hard)
     assert run.frame.empty and len(run.not_run) == 1 and len(run.unreadable) == 1
     summary = printed(document.summary.blocks)
-    told = "the most that any variant holds are 2 of 2 in float32 (newton[EPSILON=1e-06], of 2 that it answered)"
+    told = "the most that any variant holds are 2 of 2 in float32 (Newton, ε = 1e−6, of 2 that it answered)"
     assert told in summary
-    by_title = {section.title: printed(section.blocks) for section in document.sections}
-    assert list(by_title) == [
-        "Where each method breaks",
-        "Hard rays, family by family",
-        last_page.TITLE,
-    ]
-    page = by_title["Where each method breaks"]
+    by_title = {section.title: printed((*section.blocks, *section.details)) for section in document.sections}
+    assert list(by_title) == [BREAKS, last_page.TITLE]
+    page = by_title[BREAKS]
     assert "All devices agree on every count of every rung they ran: opencl:intel and opencl:pocl" in page
-    assert "Thin tori | ray_march | holds | 360 | 100 %" in page
-    assert " | newton[EPSILON=0.001] | 100 | 360 | 83.3 % | 60 | 0 | 0 | 0 | " in page
-    assert "Double roots | ray_march | nothing decided | 0 | – | – | – | – | – | – | 288 | 120" in page
+    assert "Thin tori | Ray march | holds | – | 360 | 100 %" in page
+    assert " | Newton, ε = 0.001 | 100 | misses | 360 | 83.3 % | 60 | 0 | 0 | 0 | " in page
+    assert "Double roots | Ray march | nothing decided | – | 0 | – | – | – | – | – | – | 288 | 120" in page
     for facts in synthetic_run.FAMILIES.values():
-        assert facts["why"] in page and facts["why"] in by_title["Hard rays, family by family"]
-    assert "In float32 none of these rays can be decided" in by_title["Hard rays, family by family"]
+        assert page.count(facts["why"]) == 2, "in the table and beside its ladder"
+    assert "In float32 none of these rays can be decided" in page
     assert "1 | skipped | no *interval* extension" in by_title[last_page.TITLE]
     assert "family: Grazing #rays_ $*" in by_title[last_page.TITLE]
 

@@ -110,12 +110,23 @@ def test_no_invisible_character_can_be_copied_from_a_pdf(tmp_path: Path) -> None
     assert not set(copied) & set("\u200b\u200c\u200d\u2060\u00ad\ufeff")
 
 
+def measured(folder: Path, expression: str) -> list[float]:
+    """Return what a Typst expression gives that uses `breakable` of blocks.typ."""
+    (folder / "blocks.typ").write_text((document.HERE / "blocks.typ").read_text(encoding="utf-8"), encoding="utf-8")
+    page = folder / "page.typ"
+    page.write_text(f'#import "blocks.typ": breakable\n#context [#metadata({expression}) <told>]\n')
+    (told,) = json.loads(typst.query(page, "<told>", **document._settings(folder)))
+    return list(told["value"])
+
+
 def test_long_names_break_where_a_column_is_narrow(tmp_path: Path) -> None:
-    (tmp_path / "blocks.typ").write_text((document.HERE / "blocks.typ").read_text(encoding="utf-8"), encoding="utf-8")
-    heights = '(30mm, 300mm).map(width => measure(block(width: width, breakable("' + LONG + '"))).height / 1pt)'
-    page = tmp_path / "page.typ"
-    page.write_text(f'#import "blocks.typ": breakable\n#context [#metadata({heights}) <heights>]\n')
-    settings = document._settings(tmp_path)
-    (told,) = json.loads(typst.query(page, "<heights>", **settings))
-    narrow, wide = told["value"]
+    heights = f'(30mm, 300mm).map(width => measure(block(width: width, breakable("{LONG}"))).height / 1pt)'
+    narrow, wide = measured(tmp_path, heights)
     assert narrow > 3 * wide
+
+
+@pytest.mark.parametrize("text", ["131,044", LONG, "opencl:intel, opencl:pocl"])
+def test_what_may_break_is_as_wide_as_what_may_not(tmp_path: Path, text: str) -> None:
+    """No comma hangs over what comes after it."""
+    plain, breaking = measured(tmp_path, f'("{text}", breakable("{text}")).map(one => measure(one).width / 1pt)')
+    assert breaking == pytest.approx(plain, rel=0.005)

@@ -52,7 +52,7 @@ def right(nearest_ms: float) -> tuple[dict[str, Any], ...]:
 
 def test_gain_and_cost_are_told_and_called_cheap(tmp_path: Path) -> None:
     first, second = origins.conclusions(origins.paired(rows_of(tmp_path / "run", *GAINS, *right(1.02))))
-    assert "from 300 to 2 of 4,608. Fewer beyond chance: ray_march (300 to 2). More beyond chance: none." in first
+    assert "from 300 to 2 of 4,608. Fewer beyond chance: Ray march (300 to 2). More beyond chance: none." in first
     assert "1,000× at most" in first
     assert "by 1.02 in the median: it makes methods more robust and costs next to nothing" in second
 
@@ -85,7 +85,7 @@ def test_a_loss_is_told_and_never_called_cheap(tmp_path: Path) -> None:
         moved("eye", 1, 1e-6, 1.0, "newton[EPSILON=0.001]"),
     )
     first, second = origins.conclusions(origins.paired(rows_of(tmp_path / "run", *GAINS, *worse, *right(1.0))))
-    assert "More beyond chance: newton[EPSILON=0.001] (1 to 200)." in first
+    assert "More beyond chance: Newton, ε = 0.001 (1 to 200)." in first
     assert "next to nothing" not in second
 
 
@@ -95,13 +95,13 @@ def test_tables_have_a_line_for_each_variant_and_scene(tmp_path: Path) -> None:
     alone = moved("nearest", 0, 1e-6, 1.0, "newton[EPSILON=0.001]")
     rows = origins.paired(rows_of(tmp_path / "run", *GAINS, *null, *ball, alone))
     by = {line[0]: line[1:] for line in origins.by_variant(rows).rows}
-    assert set(by) == {"ray_march", "null"}, "what began at one origin alone is no pair"
-    assert by["ray_march"][:4] == (1, 2, 3, 300), (
+    assert set(by) == {"Ray march", "Null"}, "what began at one origin alone is no pair"
+    assert by["Ray march"][:4] == (1, 2, 3, 300), (
         "the ball has no row from the entry: its sum would compare with nothing"
     )
-    assert by["ray_march"][7:10] == pytest.approx((1e-6, 2e-6, 1e-3))
-    assert by["null"][1:10] == (None,) * 9, "it finds nothing, so that its misses say nothing"
-    assert by["null"][10:] == pytest.approx((2.0, 1.5))
+    assert by["Ray march"][7:10] == pytest.approx((1e-6, 2e-6, 1e-3))
+    assert by["Null"][1:10] == (None,) * 9, "it finds nothing, so that its misses say nothing"
+    assert by["Null"][10:] == pytest.approx((2.0, 1.5))
     assert len(origins.by_scene(rows).rows) == 3
 
 
@@ -119,7 +119,7 @@ def test_families_held_from_one_origin_alone_are_named(tmp_path: Path) -> None:
     table = origins.families_held(breaks.derive(run.families, run.rungs), run.plan.facts)
     assert table is not None
     ((_, _, caster, of, nearest, eye, lost, won),) = table.rows
-    assert (caster, of, nearest, eye, won) == ("newton", 2, 2, 1, "none")
+    assert (caster, of, nearest, eye, won) == ("Newton", 2, 2, 1, "none")
     assert lost == FAMILIES["thin_torus"]["title"]
     _, document = reported(run.folder)
     (section,) = (section for section in document.sections if section.title == "What the shift is worth")

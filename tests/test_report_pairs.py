@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from harness.contract import digest
+from reports import content
 from tests.synthetic_run import cell, printed, reported, tiny_run
 
 
@@ -38,18 +39,28 @@ def test_variants_are_held_against_the_fastest_right_one_round_by_round(tmp_path
     )
     _, report = reported(folder)
     (section,) = [s for s in report.sections if s.title == "Variants compared round by round"]
-    text = printed(section.blocks)
+    text = printed(section.details)
     lines = {line.split(" | ")[3]: line.split(" | ")[2:] for line in text.splitlines() if line.count(" | ") == 9}
     lines.pop("variant", None)
     assert {variant: row[0] for variant, row in lines.items()} == dict.fromkeys(
-        ("wrong", "slow", "alike", "few"), "best"
+        ("Wrong", "Slow", "Alike", "Few"), "Best"
     )
-    assert lines["slow"][2:5] == ["3.00×", "3.00×", "3.00×"]
-    assert lines["slow"][6:] == ["10", "slower"]
-    assert lines["wrong"][2:] == ["–", "–", "–", "–", "30", "7 wrong rays: not compared"]
-    assert lines["alike"][-1] == "not told apart"
-    assert lines["few"][2:5] == ["2.00×", "–", "–"]
-    assert lines["few"][6:] == ["3", "too few rounds: 3 can at best give a chance of 0.25; needs 8"]
+    assert lines["Slow"][2:5] == ["3.00×", "3.00×", "3.00×"]
+    assert lines["Slow"][6:] == ["10", "slower"]
+    assert lines["Wrong"][2:] == ["–", "–", "–", "–", "30", "7 wrong rays: not compared"]
+    assert lines["Alike"][-1] == "not told apart"
+    assert lines["Few"][2:5] == ["2.00×", "–", "–"]
+    (matrix,) = [block for block in section.blocks if isinstance(block, content.Matrix)]
+    ((scene, squares),) = matrix.rows
+    marks = dict(zip(matrix.columns, (square.text for square in squares), strict=True))
+    assert scene == "Torus" and marks["Best"].endswith(" ms") and matrix.columns[0] == "Best"
+    assert marks == {"Best": marks["Best"], "Alike": "even", "Slow": "3.00×", "Few": "2.00× ?"} | {
+        "Wrong": marks["Wrong"],
+        "Elsewhere": "–",
+    }
+    assert marks["Wrong"].endswith("×, 7 wrong"), "a speed stands beside its errors"
+    assert "In 0 of 1 scene one method leads alone; the first are not told apart on Torus." in printed(section.blocks)
+    assert lines["Few"][6:] == ["3", "too few rounds: 3 can at best give a chance of 0.25; needs 8"]
 
 
 @pytest.mark.parametrize("rounds", [6, 7, 8])
@@ -59,8 +70,10 @@ def test_a_hundredfold_difference_is_too_few_rounds_or_told(tmp_path: Path, rng:
     _, report = reported(tiny_run(tmp_path / "run", *cells))
     (section,) = [s for s in report.sections if s.title == "Variants compared round by round"]
     told = {6: "too few rounds: 6 can at best give a chance of 0.031; needs 8", 7: "too few rounds: 7", 8: "| slower"}
-    assert told[rounds] in printed(section.blocks)
-    assert "| not told apart" not in printed(section.blocks)
+    assert told[rounds] in printed(section.details)
+    assert "| not told apart" not in printed(section.details)
+    square = "| 96×" if rounds >= 8 else "| 96× ?"
+    assert printed(section.blocks).endswith(square)
 
 
 @pytest.mark.parametrize("sessions", [("one", "two")])

@@ -10,7 +10,8 @@ import pytest
 from harness.cli import main
 from harness.contract import FirsthitError
 from reports import compare, place, report
-from tests.synthetic_run import cell, tiny_run
+from reports.reading import load
+from tests.synthetic_run import cell, stability_run, tiny_run
 
 
 def test_a_report_lies_beside_its_run_under_the_name_that_the_user_calls_it(tmp_path, monkeypatch):
@@ -39,8 +40,8 @@ def test_nothing_is_written_into_a_run(tmp_path, capsys, where):
     before = sorted(tmp_path.rglob("*"))
     for arguments in ([run], [run, other]):
         assert main(["report", *map(str, arguments), "-o", str(tmp_path / where)]) == 2
-        told = capsys.readouterr().err
-        assert "a report is never written into a run" in told and told.count("\n") == 1
+        told = capsys.readouterr().err.splitlines()[-1]
+        assert told.startswith("firsthit: ") and "a report is never written into a run" in told
     assert sorted(tmp_path.rglob("*")) == before
 
 
@@ -68,3 +69,12 @@ def test_a_run_that_cannot_be_written_to_is_reported_elsewhere(tmp_path):
     finally:
         for path in everything:
             path.chmod(0o755 if path.is_dir() else 0o644)
+
+
+def test_a_focus_is_a_method_of_the_run_of_views_or_of_families(tmp_path):
+    run = load.load(stability_run(tmp_path / "hard"))
+    assert load.focus_of(run, None) == "" and load.focus_of(run, "newton") == "newton"
+    assert load.focus_of(run, "newton[EPSILON=0.001]") == "newton[EPSILON=0.001]"
+    for name in ("newtn", "null"):
+        with pytest.raises(FirsthitError, match=f"--focus: unknown '{name}'"):
+            load.focus_of(run, name)

@@ -214,7 +214,7 @@ def test_surfaces_stand_in_the_plans_order_on_every_page(tmp_path: Path) -> None
     _, report = reported(tiny_run(tmp_path / "run", *cells))
     titles = [SURFACES[surface][0] for surface in order]
     pairs = next(section for section in report.sections if section.title == "Variants compared round by round")
-    assert [block.title.split(",")[0] for block in pairs.blocks if isinstance(block, content.Table)] == titles
+    assert [block.title.split(",")[0] for block in pairs.details if isinstance(block, content.Table)] == titles
     winners = next(section for section in report.sections if section.title == "Winners")
     (matrix,) = [block for block in winners.blocks if isinstance(block, content.Matrix)]
     assert list(matrix.columns) == titles

@@ -32,6 +32,7 @@ def row(variant, ms, error, casts="rays", wrong=0, pixels=0.0, evaluations=10.0)
         "proxy": "box",
         "origin": "nearest",
         "variant": variant,
+        "label": variant.capitalize(),
         "casts": casts,
         "instances": 9,
         "bytes": int(100 * ms),
@@ -48,12 +49,12 @@ def row(variant, ms, error, casts="rays", wrong=0, pixels=0.0, evaluations=10.0)
     }
 
 
+def sections(rows):
+    return instance_scenes.sections(SimpleNamespace(listed=pd.DataFrame(rows)))
+
+
 def table(rows, title):
-    blocks = [
-        block
-        for section in instance_scenes.sections(SimpleNamespace(listed=pd.DataFrame(rows)))
-        for block in section.blocks
-    ]
+    blocks = [block for section in sections(rows) for block in section.details]
     return next(block for block in blocks if getattr(block, "title", "").startswith(title))
 
 
@@ -66,17 +67,20 @@ def test_the_fastest_that_keeps_the_error_stands_for_its_kind():
         row("polygon b", 40.0, 0.005, "mesh"),
     ]
     lines = {line[1]: line for line in table(rows, "Time and memory").rows}
-    assert [lines[1.0][i] for i in (2, 6, 10)] == ["hasty", "polygon a", pytest.approx(0.8)]
-    assert [lines[0.01][i] for i in (2, 6, 10)] == ["newton", "polygon b", pytest.approx(4.0)]
+    assert [lines[1.0][i] for i in (2, 6, 10)] == ["Hasty", "Polygon a", pytest.approx(0.8)]
+    assert [lines[0.01][i] for i in (2, 6, 10)] == ["Newton", "Polygon b", pytest.approx(4.0)]
     assert lines[0.001][6] is None
     assert lines[0.01][9] == 4000
+    text, short = sections(rows)[0].blocks
+    assert "on Nine pipes, under 0.0100 pixels, Newton takes 10.0 ms, and Polygon b takes 4.00× that" in text.text
+    assert [row[:4] for row in short.rows] == [("Nine pipes", 0.01, "Newton", 10.0)]
 
 
 def test_times_of_different_rounds_make_no_ratio():
     rows = [row("newton", 10.0, 0.0005), row("polygon b", 40.0, 0.005, "mesh")]
     rows[0]["session"] = "another"
     (line, *_) = table(rows, "Time and memory").rows
-    assert line[6] == "polygon b" and math.isnan(line[10])
+    assert line[6] == "Polygon b" and math.isnan(line[10])
 
 
 def test_a_tolerance_is_held_against_the_same_knobs_without_it():
@@ -85,6 +89,10 @@ def test_a_tolerance_is_held_against_the_same_knobs_without_it():
     assert line[4] == pytest.approx(0.6)
     assert line[7] == pytest.approx(0.2)
     assert line[-2:] == (0, 3)
+    _, matrix = next(section.blocks for section in sections(rows) if section.name == "Tolerances")
+    assert matrix.columns == ("1 pixels",)
+    ((heading, (square,)),) = matrix.rows
+    assert (heading, square.text) == ("Nine pipes: Newton", "20 %, +3 wrong")
 
 
 def test_the_crossing_is_where_the_lead_stays():

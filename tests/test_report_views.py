@@ -14,7 +14,7 @@ from harness.contract import View, digest
 from harness.scenes.views import AngleChoice, DirectionChoice, by_angle, by_direction
 from reports import content
 from reports.analysis import derive, fits, viewstats
-from reports.drawing import images, style, viewplots
+from reports.drawing import images, line_labels, style, viewplots
 from reports.parts import evaluations, growth, view_dependence
 from reports.reading import arrays, load
 from tests.synthetic_run import SURFACES, cell, printed, reported, tiny_run
@@ -88,34 +88,42 @@ def test_spread_is_the_papers(frame: pd.DataFrame) -> None:
     assert (angles.kind, around.kind) == ("angles", "directions"), "two views of no set are none"
     table = view_dependence.dependence_table(angles)
     rows = {row[0]: row for row in table.rows}
-    assert [row[0] for row in table.rows] == ["newton[EPSILON=0.001]", "ray_march", "null"], "most dependent first"
+    assert [row[0] for row in table.rows] == ["Newton, ε = 0.001", "Ray march", "Null"], "most dependent first"
     titles = [(column.over.partition(",")[0], column.title) for column in table.columns]
-    sturm = dict(zip(titles, rows["ray_march"], strict=True))
+    sturm = dict(zip(titles, rows["Ray march"], strict=True))
     assert sturm["rays in the domain", "mean"] == pytest.approx(np.mean(PAPER_STURM))
     assert sturm["rays in the domain", "std/mean"] == pytest.approx(0.0138, abs=5e-5), "Table 1: 1.38 %"
     assert sturm["rays cast", "mean"] == pytest.approx(2 * np.mean(PAPER_STURM))
     assert sturm["rays that hit", "mean"] == pytest.approx(np.mean(PAPER_STURM) / 2)
     assert sturm["slowest per ray", "view"] == "angle 90"
     assert sturm["wrong rays", "all"] == 7 and sturm["wrong rays", "most in"] == "angle 72"
-    null = dict(zip(titles, rows["null"], strict=True))
+    null = dict(zip(titles, rows["Null"], strict=True))
     assert null["rays in the domain", "mean"] == pytest.approx(256 * 256 / 2 / 0.01e-3 / 1e6), "shares are the scene's"
     assert null["wrong rays", "all"] is None and null["worst error", "view"] is None
     wrong = view_dependence.wrong_rays_table(around)
     assert wrong is not None
-    assert [row[:4] for row in wrong.rows] == [("ray_march", "direction 03", 2, 2), ("ray_march", "direction 02", 1, 1)]
+    assert [row[:4] for row in wrong.rows] == [("Ray march", "direction 03", 2, 2), ("Ray march", "direction 02", 1, 1)]
 
 
 def test_the_report_shows_each_set_and_lists_its_first_view_elsewhere(run: Path, frame: pd.DataFrame) -> None:
     _, report = reported(run)
     by_title = {section.title: section for section in report.sections}
-    assert "over 6 projection angles" in printed(by_title["View dependence"].blocks)
-    (lines,) = by_title["View dependence: over the projection angle"].blocks
-    (maps,) = by_title["View dependence: over the sphere of directions"].blocks
+    assert "over 6 projection angles" in printed(by_title["View dependence: every figure"].details)
+    told, lines = by_title["View dependence"].blocks
+    said, maps = by_title["View dependence over all directions"].blocks
     assert isinstance(lines, content.Figure) and isinstance(maps, content.Figure)
-    for text in (">0°<", ">90°<", ">newton[EPSILON=0.001]<"):
+    for text in (">0°<", ">90°<", ">Newton, ε = 0.001<"):
         assert text in lines.svg
     assert len(maps.svg) < 400_000
-    results = printed(by_title["Torus"].blocks)
+    first = (
+        "On Torus the view matters most to Newton, ε = 0.001: a ray takes 2.00× as long from angle 90 as from its best"
+    )
+    assert first in printed(
+        (told,)
+    ) and "least to Ray march, 1.05×; of an empty frame's time, 1.00× is noise" in printed((told,))
+    assert "matters most to Ray march: a ray takes 1.22× as long" in printed((said,))
+    own = [of for of in report.sections if of.title.startswith("Torus")]
+    results = "\n".join(printed((*of.blocks, *of.details)) for of in own)
     assert "view angle 18," in results and "view a," in results and "view direction 01," in results
     assert "direction 02" not in results
     kept = viewstats.one_view_of_each(frame)
@@ -137,6 +145,17 @@ def test_the_map_is_equal_area_and_gives_each_place_its_nearest_direction() -> N
         line, column = int((1 - py) / 2 * 89.999), int((px + 2) / 4 * 179.999)
         if inside[line, column]:
             assert sphere.nearest[line, column] == number
+
+
+def test_names_of_lines_keep_apart_in_their_order_and_within_the_plot() -> None:
+    rng = np.random.default_rng(3)
+    for count in (1, 2, 14, 40):
+        wanted = rng.uniform(10.0, 90.0, count)
+        places = line_labels.apart(wanted, 5.0, 10.0, 90.0)
+        order = np.argsort(wanted)
+        assert (np.diff(places[order]) >= min(5.0, 80.0 / max(count - 1, 1)) - 1e-9).all()
+        assert places.min() >= 10.0 - 1e-9 and places.max() <= 90.0 + 1e-9
+    assert line_labels.apart([20.0, 50.0, 51.0], 5.0, 10.0, 90.0) == pytest.approx([20.0, 48.0, 53.0])
 
 
 @pytest.mark.parametrize("exponent", [0.5, 1.0, 2.3, -1.0])
@@ -196,7 +215,8 @@ def test_growth_against_pixels_and_degree_and_instances(tmp_path: Path) -> None:
     assert curve.fit.exponent == pytest.approx(1.0)
     sections = grown(frame, style.variant_marks([("newton", curve.variant), ("ray_march", "ray_march")]))
     assert [section.title for section in sections] == ["Cost against pixels", "Cost against degree"]
-    assert "0.90" in printed(sections[0].blocks) and "2.00" in printed(sections[1].blocks)
+    assert "Here k is 0.90, of Ray march, " in printed(sections[0].blocks)
+    assert "2.00" in printed(sections[1].blocks) and "2.00" in printed(sections[1].details)
 
 
 def test_points_are_of_right_rows_in_the_floors_own_rounds_and_the_rest_is_counted(tmp_path: Path) -> None:
@@ -213,13 +233,13 @@ def test_points_are_of_right_rows_in_the_floors_own_rounds_and_the_rest_is_count
     (curve,) = curves(frame, degree_axis)
     assert (curve.variant, curve.fit.exponent) == ("newton[EPSILON=0.001]", pytest.approx(2.0))
     (section,) = grown(frame, style.variant_marks([("newton", curve.variant)]))
-    told = printed(section.blocks)
+    told = printed(section.details)
     assert "Left out: 1 row with a ray away from silhouettes answered wrongly, or unchecked; a line" in told
     for made in cells:
         if made["method"] == "newton" and made["surface"] == "torus":
             made["time"]["session"] = "another day"
     (section,) = grown(framed(tmp_path / "apart", *cells), {})
-    assert "and 1 row without a round shared with the null method; a line" in printed(section.blocks)
+    assert "and 1 row without a round shared with the null method; a line" in printed(section.details)
 
 
 def test_evaluations_are_drawn_and_the_worst_of_many_views_chosen(tmp_path: Path) -> None:
@@ -239,7 +259,7 @@ def test_evaluations_are_drawn_and_the_worst_of_many_views_chosen(tmp_path: Path
     )
     (gallery,) = [block for block in section.blocks if isinstance(block, content.Gallery)]
     (panel,) = gallery.panels
-    assert panel.title == "ray_march, Torus, angle 54" and "4 wrong" in panel.note
+    assert panel.title == "Ray march, Torus, angle 54" and "4 wrong" in panel.note
     image = evaluations.evaluation_map(np.array([[0, 1, 10, 100]], np.int32), 100)
     assert image[0, 0].tolist() == [1, 1, 1]
     assert image[0, 1].sum() < image[0, 2].sum() < image[0, 3].sum(), "more is brighter"

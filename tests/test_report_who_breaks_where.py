@@ -43,10 +43,20 @@ def page(folder: Path) -> content.Section | None:
     return found[0] if found else None
 
 
+def every(section: content.Section) -> tuple[content.Block, ...]:
+    return (*section.blocks, *section.details)
+
+
 def table(section: content.Section, title: str) -> dict[str, tuple[Any, ...]]:
-    """The lines of the table whose title begins so, by their first cell, or the second where the first is a group."""
-    (found,) = [b for b in section.blocks if isinstance(b, content.Table) and b.title.startswith(title)]
-    return {str(line[1] if title.startswith("Every") else line[0]): line for line in found.rows}
+    """The lines of the table whose title begins so, by their first cell."""
+    (found,) = [b for b in every(section) if isinstance(b, content.Table) and b.title.startswith(title)]
+    return {str(line[0]): line for line in found.rows}
+
+
+def matrix(section: content.Section, title: str) -> dict[str, list[str]]:
+    """The texts of the squares of the matrix whose title begins so, by their line's heading."""
+    (found,) = [b for b in every(section) if isinstance(b, content.Matrix) and b.title.startswith(title)]
+    return {heading: [square.text for square in squares] for heading, squares in found.rows}
 
 
 def gallery(folder: Path) -> Path:
@@ -69,33 +79,38 @@ def gallery(folder: Path) -> Path:
 def test_groups_count_the_surfaces_that_are_right(tmp_path: Path) -> None:
     section = page(gallery(tmp_path / "run"))
     assert section is not None
-    groups = table(section, "How many surfaces")
-    assert groups["nodal"] == ("nodal", 2, "1 / 2", "1 / 1")
-    assert groups["minimal"] == ("minimal", 1, "0 / 1", "1 / 1")
+    groups = matrix(section, "On how many surfaces")
+    assert groups == {"Nodal, 2": ["1/2", "1/1"], "Minimal, 1": ["0/1", "1/1"]}
 
 
 def test_the_matrix_marks_shares_kinds_and_refusals(tmp_path: Path) -> None:
     section = page(gallery(tmp_path / "run"))
     assert section is not None
-    matrix = table(section, "Every surface")
-    assert matrix["goursat"][3:] == ("✓", "✓")
-    assert matrix["desmic"][3:] == ("2.5 % m", "·")
-    assert matrix["gyroid"][3:] == ("0.1 % e", "✓")
+    marks = matrix(section, "Every surface")
+    assert marks["Nodal"] == [], "a heading over the lines of its group"
+    assert marks["Goursat"] == ["✓", "✓"]
+    assert marks["Desmic"] == ["2.5 m", "·"]
+    assert marks["Gyroid"] == ["0.1 e", "✓"]
+    wrong = matrix(section, "The surfaces on which a method is wrong")
+    assert list(wrong) == ["Nodal", "Desmic", "Minimal", "Gyroid"], "those that all draw rightly are details"
     refused = table(section, "Which surfaces")
-    assert refused["newton"] == ("newton", "its degree: no", 1, "nodal 1")
+    assert refused["Newton"] == ("Newton", "its degree: no", 1, "nodal 1")
 
 
 def test_words_say_where_each_breaks_and_which_claim_is_broken(tmp_path: Path) -> None:
     section = page(gallery(tmp_path / "run"))
     assert section is not None
     told = table(section, "Where each method")
-    assert told["ray_march"][1:3] == (3, 2)
-    assert told["ray_march"][3].startswith("minimal 1 of 1 (gyroid 0.1 %, rays given up); nodal 1 of 2 (desmic 2.5 %")
-    assert told["newton[EPSILON=0.001]"][3].startswith("nowhere")
+    assert told["Ray march"][1:3] == (3, 2)
+    assert told["Ray march"][3].startswith("minimal 1 of 1 (Gyroid 0.1 %, rays given up); nodal 1 of 2 (Desmic 2.5 %")
+    assert told["Newton, ε = 0.001"][3].startswith("nowhere")
     text = printed(section.blocks)
-    assert "ray_march claims no_missed_root, and misses of clear rays break it on: desmic." in text
-    assert "newton claims" not in text
-    assert "more than 0.1 % of the rays undecided on gyroid" in text
+    assert "Ray march claims no missed root, and misses of clear rays break it on: Desmic." in text
+    assert "Newton claims" not in text
+    assert (
+        "Newton, ε = 0.001 is right on every ray of most surfaces: 2 of the 2 it takes; Ray march is wrong on" in text
+    )
+    assert "more than 0.1 % of the rays undecided on Gyroid" in printed(section.details)
 
 
 def test_the_catalog_alone_has_the_page_where_it_is_many_surfaces(tmp_path: Path) -> None:
@@ -104,7 +119,7 @@ def test_the_catalog_alone_has_the_page_where_it_is_many_surfaces(tmp_path: Path
     many = [row("ray_march", f"s{i}", "catalog", {}) for i in range(who_breaks_where.MANY)]
     section = page(tiny_run(tmp_path / "many", *many))
     assert section is not None
-    assert table(section, "How many surfaces")["catalog"][2] == f"{len(many)} / {len(many)}"
+    assert matrix(section, "On how many surfaces") == {f"Catalog, {len(many)}": [f"{len(many)}/{len(many)}"]}
 
 
 def test_rows_of_older_versions_without_groups_make_no_page(tmp_path: Path) -> None:

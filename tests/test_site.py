@@ -50,6 +50,7 @@ def timed(variant: str, surface: str, device: str) -> dict[str, Any]:
     ms = VARIANTS[variant][0]
     made = cell(variant, surface, device, "float32")
     made["time"] |= {"samples_ms": [ms] * 20, "median_ms": ms, "lower_ms": ms, "upper_ms": ms}
+    made["surface"] = f"../{EVIL}" if surface == "barth" else surface
     made["surface_title"] = EVIL if surface == "barth" else made["surface_title"]
     if made["answers"]:
         top = 1e-7 if "1e-06" in variant else 5e-4
@@ -255,6 +256,20 @@ def test_rows_that_do_not_agree_with_their_answers_or_their_key_are_named(tmp_pa
     assert any("misses 0, and 5 by its stored answers" in told for told in problems)
     assert any(f"{other.stem}.json: its key is not that of its contents" in told for told in problems)
     assert len(pd.read_parquet(tmp_path / "site" / "data" / "results.parquet")) == 19
+
+
+@pytest.mark.parametrize(
+    "part", [{"doc": []}, {"parameters": [{"name": "A"}]}, {"title": 3}, {"tables": [{"rows": 1}]}]
+)
+def test_a_plan_whose_methods_are_damaged_is_named(tmp_path, part):
+    folder = tmp_path / "mine"
+    (folder / "cells").mkdir(parents=True)
+    one = timed("newton[EPSILON=1e-06]", "torus", DEVICES[0])
+    told = plan([one]) | {"name": "mine", "methods": {"newton": METHODS["newton"] | part}}
+    (folder / "plan.json").write_text(json.dumps(told))
+    (folder / "cells" / f"{one['key']}.json").write_text(json.dumps(one))
+    with pytest.raises(FirsthitError, match="what its plan says of the method 'newton' is damaged"):
+        build.build([folder], tmp_path / "site")
 
 
 def test_nothing_is_written_where_no_run_can_be_read(tmp_path, runs):

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import importlib
-import io
 import json
 import os
 import pkgutil
@@ -13,7 +12,7 @@ import sys
 
 import pytest
 
-from harness import ROOT, commands, console
+from harness import ROOT, commands
 from harness.cli import build_parser
 from harness.commands import GROUPS
 
@@ -78,22 +77,6 @@ def test_a_folder_of_plugins_may_be_called_as_a_command_is(tmp_path, monkeypatch
     monkeypatch.chdir(tmp_path)
     assert main(["--plugins", "run", "list", "methods"]) == 0
     assert "newton" in capsys.readouterr().out
-
-
-class _Terminal(io.StringIO):
-    def isatty(self) -> bool:
-        return True
-
-
-def test_what_goes_on_is_a_live_line_on_a_terminal_and_a_line_elsewhere(monkeypatch):
-    screen, file = _Terminal(), io.StringIO()
-    for stream in (screen, file):
-        monkeypatch.setattr(sys, "stderr", stream)
-        with pytest.raises(ValueError), console.doing("looking"):
-            assert stream.getvalue().endswith("firsthit: looking" if stream is screen else "firsthit: looking\n")
-            raise ValueError
-    assert screen.getvalue().endswith(console.CLEAR) and "\n" not in screen.getvalue()
-    assert file.getvalue() == "firsthit: looking\n"
 
 
 def test_start_up_times_are_told_by_their_median_beside_the_limit():

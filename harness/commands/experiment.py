@@ -112,7 +112,7 @@ def _planned(part: config.Experiment, loaded: Loaded, runs: Path) -> experiments
     """Say which cells a config has, and which have a row below `runs`; on standard error what domains leave out."""
     for told in remarks(part):
         tell(f"firsthit: {told}")
-    with console.doing(f"{part.path}: preparing cells") as tell_step:
+    with console.doing(f"preparing the cells of {part.path}") as tell_step:
         planned = plan.plan(part, loaded.catalog, loaded.devices, tell=tell_step)
     store = Store(runs / part.name)
     found = due(planned, store)
@@ -189,14 +189,16 @@ def _report(options: argparse.Namespace) -> int:
             for name in ("baseline", "focus", "appendix", "figures", "tables"):
                 if getattr(options, name):
                     raise FirsthitError(f"--{name} goes with one run: of two, each cell is held against itself")
-            with console.doing(f"comparing {options.folder} and {options.other}"):
+        with console.working() as tell_step:
+            if options.other:
+                tell_step(f"comparing {options.folder} with {options.other}")
                 made = compare.build(options.folder, options.other, options.output)
-        else:
-            names = ("baseline", "focus", "appendix", "figures", "tables")
-            about = {name: getattr(options, name) for name in names}
-            with console.doing(f"reading {options.folder}") as tell_step:
+            else:
+                tell_step(f"reading {options.folder}")
+                names = ("baseline", "focus", "appendix", "figures", "tables")
+                about = {name: getattr(options, name) for name in names}
                 made = report.build(options.folder, options.output, **about, tell=tell_step)
-            print(made, *(made.with_name(name) for name in ("figures", "tables") if getattr(options, name)), sep="\n")
+        print(made, *(made.with_name(name) for name in ("figures", "tables") if getattr(options, name)), sep="\n")
     except ModuleNotFoundError as error:
         message = (
             f"a report needs the package {error.name}: pip install 'firsthit[report]'; runs/ can be copied elsewhere"

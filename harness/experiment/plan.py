@@ -139,8 +139,7 @@ def plan(
     """
     cells, planned = grid(experiment, catalog, found), []
     for number, (cell, info) in enumerate(cells, 1):
-        where = cell.comparison.partition(" ")[0] if cell.family is None else cell.comparison
-        tell(f"preparing [{number}/{len(cells)}] {cell.variant.method} on {where}, {cell.device}")
+        tell(f"preparing [{number}/{len(cells)}] {cell.variant.method}: {cell.comparison} on {cell.device}")
         planned.append(_planned(cell, info, catalog, experiment, timed))
     return planned
 

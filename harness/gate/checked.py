@@ -140,7 +140,7 @@ def prepare(config: Path, plugins: Path | None, devices: Sequence[str], watcher:
         watcher.wrong(line)
     experiment = experiment.on(devices)
     wanted = experiment.wanted_devices()
-    with watcher.doing(f"{config}: looking for devices and preparing cells") as tell:
+    with watcher.doing(f"looking for devices and preparing the cells of {config}") as tell:
         found = discover_devices(wanted)
         if not {"all", "any", FASTEST, *(info.name for info in found)} & set(wanted):
             here = ", ".join(f"--device {name}" for name in others(set(wanted))) or "no device here can be used"

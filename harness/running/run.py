@@ -161,7 +161,7 @@ def load(
         hears.wrong(line)
     parts = [part.on(devices) for part in parts]
     named = {device for part in parts for device in part.wanted_devices()}
-    with hears.doing(f"{whole.path}: looking for devices"):
+    with hears.doing(f"looking for devices to run {whole.path} on"):
         found = discover_devices(named)
     made = settled(parts, found, hears)
     return Loaded(whole, made.parts, catalog, found, made.tried)

@@ -60,7 +60,8 @@ def verdicts(rungs: pd.DataFrame) -> pd.DataFrame:
     rows = rows.join(ladders["worst_ratio"].max())
     first = rungs[breaking == 1].sort_values("level", kind="stable").drop_duplicates(LADDER).set_index(LADDER)
     rows = rows.join(first["parameter"].rename("breaks_at"))
-    rows = rows.join(first[list(KINDS)].astype("float64").fillna(0.0).idxmax(axis=1).rename("breaks_by"))
+    most = first[list(KINDS)].astype("float64").fillna(0.0).to_numpy().argmax(axis=1)
+    rows = rows.join(pd.Series([KINDS[i] for i in most], first.index, dtype=object, name="breaks_by"))
     held = rows["rungs_decided"] - rows.pop("broken")
     return rows.assign(rungs_held=held, share_right=_share(rows["right"], rows["decided"])).reset_index()
 

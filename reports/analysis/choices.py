@@ -24,7 +24,7 @@ _COLUMNS = [
 class Choice:
     """Hold what to take for one surface on one device: rows as named tuples of the frame.
 
-    name: the surface's title, with the view, size and stage where those of the choices differ
+    name: the surface's title, with its view, size and stage where those are not as in most of the choices
     rows: the timed rows of the scene that answer, fastest first, with the columns _COLUMNS
     within: the fastest row with every ray away from silhouettes right, at each of ERRORS; None where none is so exact
     tied: the labels of variants of other methods whose times are not told apart from it, at each of ERRORS
@@ -65,12 +65,27 @@ def choices(frame: pd.DataFrame) -> list[Choice]:
 
 
 def _names(rows: pd.DataFrame) -> dict[str, str]:
-    """Return the name of each scene of `rows`, which has one scene of each surface."""
+    """Return the name of each scene of `rows`, which has one scene of each surface.
+
+    It is the surface's title, and behind it what is not as in most of the scenes.
+    """
     scenes = rows.drop_duplicates("comparison")
-    told = {"view": scenes["view"], "size": scenes.apply(picture_size, axis=1), "stage": scenes["stage"]}
-    differing = [values for values in told.values() if values.nunique() > 1]
-    names = [", ".join(map(str, parts)) for parts in zip(scenes["surface_title"], *differing, strict=True)]
+    told = shape_of(scenes)
+    unlike = {name: values.where(values != common(values), "") for name, values in told.items()}
+    parts = zip(scenes["surface_title"], *unlike.values(), strict=True)
+    names = [", ".join(filter(None, map(str, own))) for own in parts]
     return dict(zip(scenes["comparison"], names, strict=True))
+
+
+def shape_of(scenes: pd.DataFrame) -> dict[str, pd.Series]:
+    """Return view, size and stage of each row as texts."""
+    sizes = pd.Series([picture_size(row) for row in scenes.itertuples()], scenes.index)
+    return {"view": scenes["view"], "size": sizes, "stage": scenes["stage"]}
+
+
+def common(values: pd.Series) -> Any:
+    """Return the value that most of `values` have, the first of several."""
+    return values.value_counts(sort=False).idxmax()
 
 
 def fullest_scenes(frame: pd.DataFrame) -> pd.DataFrame:
@@ -101,7 +116,7 @@ def _choice(surface: str, named: dict[str, str], rows: pd.DataFrame) -> Choice:
 
 def precision_of(rows: pd.DataFrame) -> str:
     """Return the precision that most of the rows have, the plan's first of several."""
-    return str(rows.sort_index()["precision"].value_counts(sort=False).idxmax())
+    return str(common(rows.sort_index()["precision"]))
 
 
 def written(row: Any, rows: pd.DataFrame) -> str:

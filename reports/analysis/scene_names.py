@@ -39,7 +39,7 @@ def picture_size(row: Any) -> str:
 
 def scene_title(rows: pd.DataFrame) -> str:
     """Write surface, view, size and stage of rows of one scene; `rows` has at least one."""
-    first = next(rows.head(1).itertuples())
+    first = next(rows[["surface_title", "view", "size", "samples_per_pixel", "stage"]].head(1).itertuples())
     return f"{first.surface_title}, view {first.view}, {picture_size(first)}, {first.stage}."
 
 

@@ -27,15 +27,15 @@ def verdict_tables(judged: Iterable[tuple[Claim, Verdict]], config: str, of_what
     return [Table(columns, body, f"{of_what}: verdicts.", CAPTION)] if body else []
 
 
-def counted(judged: Iterable[tuple[Claim, Verdict]], *configs: str) -> list[Text]:
-    """Count in a sentence the claims that the rows of `configs` test, by outcome; [] where they decide none."""
+def introduced(seen: str, judged: Iterable[tuple[Claim, Verdict]], *configs: str) -> Text:
+    """Return the text `seen`, with a count of the claims that the rows of `configs` test, if they test any."""
     counts = Counter(verdict.outcome for claim, verdict in judged if claim.config in configs)
     held, failed = (counts[outcome] for outcome in DECIDED)
     if not held + failed:
-        return []
+        return Text(seen)
     told = [f"{n} {outcome}" for n, outcome in ((held, "confirmed"), (failed, "refuted")) if n]
     told += [f"{counts[Outcome.UNDECIDED]} left open"] if counts[Outcome.UNDECIDED] else []
-    return [Text(f"Claims of the paper that these rows test: {wording.listed(told)}; see “The papers’ claims”.")]
+    return Text(f"{seen} Claims that these rows test: {wording.listed(told)}; see “The papers’ claims”.")
 
 
 def brief(figure: str) -> str:

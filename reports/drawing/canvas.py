@@ -87,13 +87,19 @@ class ErrorAxis:
         """Write the label of a position, as matplotlib asks for it: a power of ten, or 0."""
         return wording.power_of_ten(round(position)) if position > self.zero else "0"
 
-    def dress(self, axes: Axes, which: Literal["x", "y"] = "x") -> None:
-        """Make this the x or y axis of `axes`: its ticks, its limits, and a grey ground behind zero."""
+    def dress(self, axes: Axes, which: Literal["x", "y"] = "x", zero: bool = True) -> None:
+        """Make this the x or y axis of `axes`: its ticks, its limits, and a grey ground behind zero.
+
+        Without `zero` it ends somewhat below the smallest decade.
+        """
         span = self.highest - self.lowest
         step = max(1, math.ceil(span / 4))
         axis = axes.xaxis if which == "x" else axes.yaxis
         axis.set_major_locator(FixedLocator([self.zero, *range(self.lowest, self.highest + 1, step)]))
         axis.set_major_formatter(FuncFormatter(self._label))
+        if not zero:
+            (axes.set_xlim if which == "x" else axes.set_ylim)(self.lowest - 0.12 * span, self.highest + 0.05 * span)
+            return
         margin = 0.06 * (self.highest - self.zero)
         limits, ground = (axes.set_xlim, axes.axvspan) if which == "x" else (axes.set_ylim, axes.axhspan)
         limits(self.zero - margin, self.highest + margin)

@@ -127,11 +127,11 @@ def wrong_methods(rows: pd.DataFrame, most: int) -> str:
     checked = f"of {wording.count(judged['accuracy_rays'].max())} rays"
     wrong = judged[judged["wrong_rays"] > 0].sort_values("wrong_rays", ascending=False, kind="stable")
     if wrong.empty:
-        return f"No method is wrong, {checked}."
+        return f"No method is wrong on any {checked}."
     labels = dict.fromkeys(wrong["label"])
-    names = [f"{label} {_span(wrong.loc[wrong['label'] == label, 'wrong_rays'])}" for label in labels]
+    names = [f"{label}: {_span(wrong.loc[wrong['label'] == label, 'wrong_rays'])}" for label in labels]
     more = f"; {len(names) - most} more" if len(names) > most else ""
-    return f"Wrong, {checked}: {'; '.join(names[:most])}{more}."
+    return f"Wrong rays, {checked}: {'; '.join(names[:most])}{more}."
 
 
 def _span(counts: pd.Series) -> str:

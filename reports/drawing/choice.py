@@ -10,11 +10,9 @@ import pandas as pd
 from reports import wording
 from reports.analysis import choices, rounds
 from reports.analysis.choices import ERRORS, Choice
-from reports.analysis.scene_names import picture_size
 from reports.content import Column, Table
 
 LINES = 26  # surfaces that fit on the first page
-TIED = 1  # names of variants that are not told apart from the winner
 
 
 def table(frame: pd.DataFrame) -> Table | None:
@@ -50,7 +48,7 @@ def made(found: Sequence[Choice], several: bool, surfaces: int = 0) -> Table:
         f"{_shared(rows)}Fastest of the variants with every ray away from silhouettes right. Error is the largest "
         "over the radius; cost is the time of the second over that of the first, in the rounds that timed both."
         + (" “None” stands before the most exact variant of this run." if nearest else "")
-        + (" “≈” stands before variants whose times are not told apart." if _any_tied(found[:LINES]) else "")
+        + (" “≈” stands before what is not told apart." if _any_tied(found[:LINES]) else "")
         + _bound(found[:LINES])
         + wording.zeros([row[i] for row in printed for i in (3, 6)])
         + more,
@@ -78,8 +76,8 @@ def _line(choice: Choice) -> tuple[Any, ...]:
 
 
 def _few(names: Sequence[str]) -> list[str]:
-    """Return at most TIED names, and behind them how many more there are."""
-    return [*names[:TIED], *([f"{len(names) - TIED} more"] if len(names) > TIED else [])]
+    """Return the one variant that is not told apart, or how many there are."""
+    return [f"{len(names)} others"] if len(names) > 1 else list(names)
 
 
 def _any_tied(found: Sequence[Choice]) -> bool:
@@ -96,12 +94,11 @@ def _bound(found: Sequence[Choice]) -> str:
 
 
 def _shared(rows: pd.DataFrame) -> str:
-    """Write the view and the size where all scenes share them; what differs is in the names of the scenes."""
-    told = [f"View {rows['view'].iloc[0]}"] if rows["view"].nunique() == 1 else []
-    sizes = {picture_size(row) for row in rows.itertuples()}
-    told += sizes if len(sizes) == 1 else []
-    precisions = {choices.precision_of(own) for _, own in rows.groupby("surface")}
-    told += (
-        [f"{precisions.pop()} where no other is named"] if rows["precision"].nunique() > 1 == len(precisions) else []
-    )
-    return f"{', '.join(told)}. " if told else ""
+    """Write the view, the size and the precision of most scenes; what differs is in the names of the scenes."""
+    told = choices.shape_of(rows.drop_duplicates("comparison"))
+    precisions = pd.Series([choices.precision_of(own) for _, own in rows.groupby("surface")])
+    parts = [f"View {choices.common(told['view'])}", choices.common(told["size"])]
+    several = rows["precision"].nunique() > 1
+    parts += [choices.common(precisions)] if several else []
+    unlike = several or any(told[name].nunique() > 1 for name in ("view", "size"))
+    return f"{', '.join(parts)}{' where no other is named' if unlike else ''}. "

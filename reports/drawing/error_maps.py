@@ -12,9 +12,9 @@ from reports.content import Gallery, Panel, Picture
 from reports.drawing import images, insets, plots, style
 from reports.reading.arrays import Arrays
 
-ROOM = 226.0  # mm of a page for a hero and the strip below it
+ROOM = 230.0  # mm of a page for a hero and the strip below it
 HERO = 84.0  # mm: the width of a hero
-WIDTH, GAP, LINE, LETTER = 178.0, 4.0, 3.4, 1.45  # mm: of the page, between maps, of a line of text and of a letter
+WIDTH, GAP, LINE, LETTER = 178.0, 4.0, 3.4, 1.25  # mm: of the page, between maps, of a line of text and of a letter
 _PLURAL = {"miss": "misses", "false hit": "false hits", "wrong root": "wrong roots"}
 
 
@@ -47,7 +47,7 @@ def _texts(panel: Panel, wide: float) -> float:
     """Return about how high a map's title, note and key are where the map is so wide, in mm."""
     lines = [-(-len(text) * LETTER // wide) for text in (panel.title, panel.note)]
     keyed = -(-sum(4 + len(text) for text in panel.key.values()) * LETTER // wide) if panel.key else 0.0
-    return LINE * (sum(lines) + keyed) + 6.0
+    return LINE * (sum(lines) + keyed) + 5.0
 
 
 def caption(cells: Sequence[tuple[Any, Arrays]]) -> str:

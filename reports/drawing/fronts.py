@@ -21,7 +21,7 @@ from reports.drawing.canvas import NARROW, RC, ErrorAxis, label_decades, series,
 from reports.drawing.placing import place, text_size
 from reports.drawing.style import Mark
 
-HEIGHT = 4.9  # inches
+TALL, LOW, MANY = 4.9, 3.9, 16  # inches: of a drawing, and of one of more rows, which leave less of the page
 LETTER = 7.0  # points
 MOST_NAMED = 24  # marks of one panel
 WRONG = "#9a4a00"  # the name of a variant that answers rays wrongly
@@ -62,14 +62,15 @@ def _speed_against_error(shown: pd.DataFrame, marks: Mapping[str, Mark], focus: 
     several = len(precisions) > 1
     left, right, below, above, between = 0.55, 0.06, 0.46, 0.24 if several else 0.06, 0.12  # inches
     wide = (NARROW - left - right - between * (len(precisions) - 1)) / len(precisions)
-    high = HEIGHT - below - above
+    height = TALL if len(shown) <= MANY else LOW
+    high = height - below - above
     limits = float(shown["mrays_per_s"].min()) / 1.8, float(shown["mrays_per_s"].max()) * 1.8
     unnamed = 0
     with matplotlib.rc_context(RC):
-        drawing = Drawing(figsize=(NARROW, HEIGHT))
+        drawing = Drawing(figsize=(NARROW, height))
         for i, precision in enumerate(precisions):
-            corner = (left + i * (wide + between)) / NARROW, below / HEIGHT
-            axes = drawing.add_axes((*corner, wide / NARROW, high / HEIGHT))
+            corner = (left + i * (wide + between)) / NARROW, below / height
+            axes = drawing.add_axes((*corner, wide / NARROW, high / height))
             group = shown[shown["precision"] == precision]
             axis = ErrorAxis.of(group["error_max"])
             axis.dress(axes)
@@ -83,7 +84,7 @@ def _speed_against_error(shown: pd.DataFrame, marks: Mapping[str, Mark], focus: 
             unnamed += _draw_group(axes, group, axis, marks, focus, (72 * wide, 72 * high))
         drawing.supxlabel(
             "more exact  ←  largest error |t − t*| away from silhouettes, scene units",
-            y=0.11 / HEIGHT,
+            y=0.11 / height,
             va="center",
             fontsize=7.5,
         )

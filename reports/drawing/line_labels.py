@@ -8,11 +8,16 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import ArrayLike, NDArray
 
-from reports.drawing import style
+from reports.drawing import placing, style
 
 SIZE = 7.0  # points
 STEP = 1.18 * SIZE  # from a label to the next, points
 _LEADER = 14.0  # from a line's end to its label, points
+
+
+def width(labels: Sequence[str]) -> float:
+    """Return the width in inches that `labels` and their leaders take beside a plot."""
+    return (_LEADER + 2.0 + max((placing.text_size(label, SIZE)[0] for label in labels), default=0.0)) / 72.0
 
 
 def apart(wanted: ArrayLike, step: float, low: float, high: float) -> NDArray[np.float64]:

@@ -161,10 +161,7 @@ def _panel(
     axes.yaxis.set_major_locator(FixedLocator(_ticks(*scales.ms)))
     axes.yaxis.set_minor_locator(NullLocator())
     axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,.0f}" if value >= 1 else f"{value:g}"))
-    scales.error.dress(axes)
-    if not scales.zero:
-        margin = 0.05 * (scales.error.highest - scales.error.lowest)
-        axes.set_xlim(scales.error.lowest - margin, scales.error.highest + margin)
+    scales.error.dress(axes, zero=scales.zero)
     axes.tick_params(labelleft=at % scales.across == 0, length=2, pad=1.5)
     axes.tick_params(axis="x", labelbottom=lowest)
     for error in ERRORS:
@@ -255,7 +252,7 @@ def _names(
         )
         if place.leader is not None:
             ends = np.asarray(place.leader).reshape(2, 2) / whole
-            axes.plot(*ends.T, transform=axes.transAxes, color=style.FAINT, lw=0.4, zorder=3, gid=gid)
+            axes.plot(*ends.T, transform=axes.transAxes, color=color, lw=0.5, zorder=3, gid=gid)
     return left
 
 

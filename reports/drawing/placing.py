@@ -6,7 +6,7 @@ All lengths are points of 1/72 inch, and y grows upwards. The same input gives t
 from __future__ import annotations
 
 import itertools
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from typing import Any
@@ -20,11 +20,19 @@ from reports.drawing import style
 
 _REACHES = (1.5, 4.0, 7.0, 11.0, 16.0, 22.0, 29.0, 38.0, 50.0, 64.0)  # between a mark and its label
 _ANGLES = np.linspace(0.0, 2.0 * np.pi, 24, endpoint=False)
+_BESIDE, _BY_MARK = 4.0, 10.0  # so near to another's mark a label seems to be that one's
 _GAP = 1.0  # between labels
 _ALONG = 1.5  # a leader so near to a line is taken for a part of it
 _AFAR = 3.0  # a label farther than this from its mark has a leader
 _SWEEPS = 12
-_ON_LABEL, _ON_MARK, _UNDER_LEADER, _ON_LINE = 4000.0, 2000.0, 60.0, 6.0  # costs; a reach costs its length
+_KEPT = 90  # places of a label that are tried
+_ON_LABEL, _ON_MARK, _UNDER_LEADER, _THROUGH, _ON_LINE = (
+    4000.0,
+    2000.0,
+    60.0,
+    25.0,
+    6.0,
+)  # costs; a reach costs its length
 
 
 @dataclass(frozen=True)
@@ -72,16 +80,18 @@ def place(
     at, size = np.asarray(anchors, float).reshape(-1, 2), np.asarray(sizes, float).reshape(-1, 2)
     others = np.concatenate([at, np.asarray(marks, float).reshape(-1, 2)])
     along = np.concatenate([np.zeros((0, 2)), *(_dotted(np.asarray(line, float)) for line in lines)])
-    options = [_Options.of(at[i], size[i], area, radius, np.delete(others, i, 0), along) for i in range(len(at))]
+    foreign = [others[(np.abs(others - own) > 1e-6).any(axis=1)] for own in at]  # the own mark may be among `marks`
+    options = [_Options.of(at[i], size[i], area, radius, foreign[i], along) for i in range(len(at))]
     placed: list[Place | None] = [None] * len(at)
     kept = [i for i, own in enumerate(options) if len(own.cost)]
+    between = {(i, j): _between(options[i], options[j]) for i, j in itertools.combinations(kept, 2)}
     while kept:
-        chosen, bad = _settle([options[i] for i in kept])
+        chosen, bad = _settle({i: options[i].cost for i in kept}, between)
         if not bad:
-            for i, option in zip(kept, chosen, strict=True):
-                placed[i] = options[i].place(option)
+            for i in kept:
+                placed[i] = options[i].place(chosen[i])
             break
-        del kept[max(bad)]
+        kept.remove(max(bad))
     return placed
 
 
@@ -117,14 +127,17 @@ class _Options:
         starts = at + way * radius
         leaders = starts[:, None] + np.linspace(0, 1, 9)[None, :, None] * (ends - starts)[:, None]
         far = reach > _AFAR
-        cost = reach + np.where(np.abs(way[:, 1]) < 0.1, 0.0, np.where(np.abs(way[:, 0]) < 0.1, 1.0, 2.0))
+        cost = 1.5 * reach + np.where(np.abs(way[:, 1]) < 0.1, 0.0, np.where(np.abs(way[:, 0]) < 0.1, 1.0, 2.0))
         cost += np.where(way[:, 0] < -0.1, 0.5, 0.0)
+        cost += _BY_MARK * _count(boxes, marks, radius + _BESIDE)
         cost += _ON_MARK * _count(boxes, marks, radius) + _ON_LINE * np.minimum(_count(boxes, lines, 0.0), 5)
         near: Any = (np.abs(leaders[:, :, None] - marks[None, None]) < radius).all(axis=3)
         touched = near.any(axis=1).sum(axis=1)
         met: Any = (np.abs(leaders[:, :, None] - lines[None, None]) < _ALONG).all(axis=3)
-        under = _UNDER_LEADER * np.minimum(touched, 4) + _ON_LINE * met.any(axis=2).sum(axis=1)
-        return cls(boxes, leaders, far, cost + np.where(far, under, 0.0))
+        under = _THROUGH * np.minimum(touched, 4) + 2 * _ON_LINE * met.any(axis=2).sum(axis=1)
+        cost += np.where(far, under, 0.0)
+        best = np.argsort(cost, kind="stable")[:_KEPT]
+        return cls(boxes[best], leaders[best], far[best], cost[best])
 
     def place(self, option: int) -> Place:
         """Return one of the places."""
@@ -133,36 +146,57 @@ class _Options:
         return Place(x, y, (x0, y0, x1, y1) if self.far[option] else None)
 
 
-def _settle(options: Sequence[_Options]) -> tuple[list[int], list[int]]:
-    """Choose a place for each label; return the choices, and the labels that still lie on a label or a mark."""
-    chosen = [int(own.cost.argmin()) for own in options]
-    for _ in range(_SWEEPS):
-        before = list(chosen)
-        for i, own in enumerate(options):
-            rest = [(options[j], chosen[j]) for j in range(len(options)) if j != i]
-            chosen[i] = int((own.cost + _between(own, rest)).argmin())
-        if chosen == before:
-            break
-    bad = []
-    for i, own in enumerate(options):
-        rest = [(options[j], chosen[j]) for j in range(len(options)) if j != i]
-        if own.cost[chosen[i]] + _between(own, rest)[chosen[i]] >= _ON_MARK:
-            bad.append(i)
-    return chosen, bad
+def _settle(
+    costs: Mapping[int, NDArray[np.float64]], between: Mapping[tuple[int, int], NDArray[np.float64]]
+) -> tuple[dict[int, int], list[int]]:
+    """Choose a place for each label; return the choices, and the labels that still lie on a label or a mark.
+
+    `costs` are of each place by itself, `between` of each two places of two labels. Labels are placed one after the
+    other, in several orders, and then moved as long as that helps; the cheapest result is taken.
+    """
+    names = list(costs)
+    shared = {(i, j): between[i, j] if i < j else between[j, i].T for i in names for j in names if i != j}
+    best: tuple[float, dict[int, int], list[int]] | None = None
+    for order in (names, names[::-1], names[1::2] + names[::2], names[::2] + names[1::2]):
+        chosen: dict[int, int] = {}
+        for _ in range(_SWEEPS):
+            before = dict(chosen)
+            for i in order:
+                chosen[i] = int(_beside(i, costs, shared, chosen).argmin())
+            if chosen == before:
+                break
+        paid = {i: float(_beside(i, costs, shared, chosen)[chosen[i]]) for i in names}
+        if best is None or sum(paid.values()) < best[0]:
+            best = (sum(paid.values()), chosen, [i for i in names if paid[i] >= _ON_MARK])
+    return ({}, []) if best is None else best[1:]
 
 
-def _between(own: _Options, rest: Sequence[tuple[_Options, int]]) -> Any:
-    """Return what each place of a label costs beside the chosen places of the others, as float64[c]."""
-    cost = np.zeros(len(own.cost))
-    for other, option in rest:
-        box = other.boxes[option]
-        apart = (own.boxes[:, :2] > box[2:] + _GAP).any(axis=1) | (own.boxes[:, 2:] < box[:2] - _GAP).any(axis=1)
-        cost += np.where(apart, 0.0, _ON_LABEL)
-        crossed = ((own.leaders >= box[:2]) & (own.leaders <= box[2:])).all(axis=2).any(axis=1)
-        cost += np.where(own.far & crossed, _UNDER_LEADER, 0.0)
-        if other.far[option]:
-            cost += _UNDER_LEADER * np.minimum(_count(own.boxes, other.leaders[option], 0.0), 1)
-    return cost
+def _beside(
+    i: int,
+    costs: Mapping[int, NDArray[np.float64]],
+    shared: Mapping[tuple[int, int], NDArray[np.float64]],
+    chosen: Mapping[int, int],
+) -> Any:
+    """Return what each place of label `i` costs beside the places chosen for others, as float64[c]."""
+    return costs[i] + sum(shared[i, j][:, place] for j, place in chosen.items() if j != i)
+
+
+def _between(one: _Options, other: _Options) -> NDArray[np.float64]:
+    """Return what each place of one label costs beside each of another, as float64[c, d]."""
+    low, high = one.boxes[:, None, :2], one.boxes[:, None, 2:]
+    apart = ((low > other.boxes[None, :, 2:] + _GAP) | (high < other.boxes[None, :, :2] - _GAP)).any(axis=2)
+    crossed = one.far[:, None] * _crossed(one.leaders, other.boxes)
+    crossed = crossed + (other.far[:, None] * _crossed(other.leaders, one.boxes)).T
+    return np.asarray(np.where(apart, 0.0, _ON_LABEL) + _UNDER_LEADER * crossed)
+
+
+def _crossed(leaders: NDArray[np.float64], boxes: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Tell which leaders [c, 9, 2] go through which boxes [d, 4], as bool[c, d]."""
+    found: Any = np.zeros((len(leaders), len(boxes)), bool)
+    for x, y in leaders.transpose(1, 2, 0):
+        inside = (x[:, None] >= boxes[:, 0]) & (x[:, None] <= boxes[:, 2])
+        found |= inside & (y[:, None] >= boxes[:, 1]) & (y[:, None] <= boxes[:, 3])
+    return np.asarray(found)
 
 
 def _count(boxes: NDArray[np.float64], points: NDArray[np.float64], radius: float) -> Any:

@@ -15,6 +15,7 @@ from reports.content import Column, Table
 from reports.drawing import tables
 
 OVERHEAD_LIMIT = 0.05  # the share of the time above which an overhead is flagged
+KNOWN = ("front", "floor-bound", "drifts", "noisy")  # flags of the table beside a plot; the other one has all
 MOST_ROWS = 26  # of the table beside a surface's plot, so that both stand on one page
 LEGEND = (
     "Speed-up is over the baseline that each table names. Flags: front, no other variant with all rays right is both "
@@ -41,6 +42,12 @@ UNITS = (
     "between the surface's normals at the hit and at the root. Residual: |f| at the hit over the sum of |terms of f|, "
     "the backward error. Look for rows with a small error in one unit and a large one in another."
 )
+
+
+_FLAGGED = ["answers", "front", "floor_bound", "narrow", "warnings", "outliers", "peak_too_low", "overhead_share"]
+_TIMED = ["label", "device", "precision", "median_ms", "lower_ms", "upper_ms", "mrays_per_s", "frames_per_s", "speedup"]
+_JUDGED = ["error_max", "error_p99", "wrong_rays", "grazing_wrong_rays", "drowned_wrong_rays", "evaluations_mean"]
+_TOLD = [*_FLAGGED, *_TIMED, *_JUDGED]  # what a table's rows are made of: a tuple of all columns takes long to make
 
 
 def compact_table(rows: pd.DataFrame) -> Table | None:
@@ -73,8 +80,12 @@ def compact_table(rows: pd.DataFrame) -> Table | None:
         (Column("what to know", stretch=3), "flags"),
     ]
     body = []
-    for row in kept.itertuples():
-        told = {**row._asdict(), "spread": spread(row), "flags": flags(row)}
+    for row in kept[_TOLD].itertuples():
+        told = {
+            **row._asdict(),
+            "spread": spread(row),
+            "flags": ", ".join(word for word in flags(row).split(", ") if word in KNOWN),
+        }
         body.append(tuple(told[name] for _, name in columns))
     cut = f" {len(kept)} of {every} variants: those on the front, and the fastest." if len(kept) < every else ""
     over = (
@@ -128,7 +139,7 @@ def results_table(rows: pd.DataFrame) -> Table:
     rows = rows.sort_values(["device", "precision", "median_ms"], kind="stable")
     kinds = derive.kinds(rows)
     body = []
-    for row in rows.itertuples():
+    for row in rows[[*_TOLD, *kinds, "peak_share", "compile_ms", "clock"]].itertuples():
         speed = (row.median_ms, spread(row), row.mrays_per_s, row.frames_per_s, row.speedup)
         errors = (row.error_max, row.error_p99, *(getattr(row, kind) for kind in kinds))
         told = (*errors, row.grazing_wrong_rays, row.drowned_wrong_rays, row.evaluations_mean, row.peak_share)
@@ -179,8 +190,9 @@ def units_table(rows: pd.DataFrame) -> Table | None:
         return None
     known = [(unit, title, show) for unit, title, show in _UNITS if rows[f"{unit}_max"].notna().any()]
     body = []
-    for row in rows.itertuples():
-        figures = (getattr(row, f"{unit}_{quantile}") for unit, _, _ in known for quantile in ("max", "p99"))
+    figures_of = [f"{unit}_{quantile}" for unit, _, _ in known for quantile in ("max", "p99")]
+    for row in rows[["device", "precision", "label", *figures_of]].itertuples():
+        figures = (getattr(row, name) for name in figures_of)
         body.append((row.device, row.precision, row.label, *figures))
     return Table(
         (
@@ -208,7 +220,8 @@ def _drowned(rows: pd.DataFrame) -> str:
 def _results_caption(rows: pd.DataFrame) -> tuple[str, str]:
     """Return the title and the caption of `results_table`."""
     checked = ""
-    for row in rows[rows["accuracy_rays"].notna()].head(1).itertuples():
+    judged = rows.loc[rows["accuracy_rays"].notna(), ["accuracy_rays", "grazing", "grazing_margin", "undecided"]]
+    for row in judged.head(1).itertuples():
         checked = (
             f" Errors and counts of wrong rays are of {row.accuracy_rays:,} rays, of which "
             f"{wording.count(row.grazing)} pass another answer within {wording.error(row.grazing_margin)} of the "

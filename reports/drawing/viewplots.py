@@ -26,7 +26,6 @@ from reports.drawing.style import Mark
 
 DODGE = 0.3  # the share of the step between angles over which marks of one angle are spread, so that all are seen
 ACROSS, DOWN = 3, 8  # variants in one figure of maps
-NAMES = 1.75  # the width that the names of lines take, inches
 SIZES = {"font.size": 7.0}
 ANGLE_TITLES = ("time per ray in the domain, ns", "largest |t − t*|, scene units; red cross: some rays are wrong")
 MAP_PIXELS = (90, 180)  # height and width of a map; each pixel shows the nearest direction
@@ -45,11 +44,12 @@ def over_angle(of: ViewSet, marks: Mapping[str, Mark], name: str) -> Figure:
     axis = ErrorAxis.of(of.rows["error_max"].dropna())
     panel = max(1.55, 0.1 + len(variants) * line_labels.STEP / 72)
     height = 2 * panel + 0.8
+    names = line_labels.width([str(rows["label"].iloc[0]) for rows in variants.values()])
     ends: tuple[list[Any], list[Any]] = ([], [])
     with matplotlib.rc_context(RC | SIZES):
         drawing = Drawing(figsize=(NARROW, height))
         times, errors = drawing.subplots(2, 1, sharex=True)
-        drawing.subplots_adjust(0.5 / NARROW, 0.36 / height, 1 - NAMES / NARROW, 1 - 0.2 / height, hspace=0.26 / panel)
+        drawing.subplots_adjust(0.5 / NARROW, 0.36 / height, 1 - names / NARROW, 1 - 0.2 / height, hspace=0.26 / panel)
         axis.dress(errors, "y")
         for i, (variant, rows) in enumerate(variants.items()):
             rows, mark, label = rows.sort_values("angle"), marks[variant], rows["label"].iloc[0]

@@ -36,7 +36,7 @@ def write_figures(material: Material, forms: Sequence[str], folder: Path) -> lis
         with matplotlib.rc_context(column.SETTINGS):
             for form in forms:
                 drawing.savefig(folder / f"{plate.name}.{form}", dpi=DPI, metadata=dict(_UNDATED[form]))
-    _write_captions(made, latex.figure_float, folder)
+    _write_captions(made, lambda one: latex.figure_float(one, "figures"), folder)
     return made
 
 
@@ -50,7 +50,7 @@ def write_tables(material: Material, forms: Sequence[str], folder: Path) -> list
         ending, write = _WRITERS[form]
         for tabled in made:
             (folder / f"{tabled.name}{ending}").write_text(write(tabled), encoding="utf-8")
-    _write_captions(made, latex.table_float, folder)
+    _write_captions(made, lambda one: latex.table_float(one, "tables"), folder)
     return made
 
 
@@ -64,7 +64,7 @@ def _write_captions(made: Sequence[Plate] | Sequence[Tabled], of: Callable[..., 
     """Write captions.md, for any use, and captions.tex, a float for each to copy, into `folder`."""
     lines = [f"## {one.name}\n\n**{one.title}** {one.caption}\n" for one in made]
     (folder / "captions.md").write_text("\n".join(lines), encoding="utf-8")
-    floats = "\n".join(of(one, folder.name) for one in made)
+    floats = "\n".join(of(one) for one in made)
     (folder / "captions.tex").write_text(floats, encoding="utf-8")
 
 

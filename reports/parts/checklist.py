@@ -46,7 +46,8 @@ def _counted(decided: list[tuple[Claim, Verdict]]) -> str:
         papers.setdefault(claim.paper, []).append(verdict.outcome is Outcome.CONFIRMED)
     held = sum(map(sum, papers.values()))
     each = wording.listed([f"{sum(of)} of {len(of)} of {paper}" for paper, of in papers.items()])
-    return f"Of {wording.plural(len(decided), 'claim')} that this run decides, {held} are confirmed: {each}."
+    told = f"{held} {'is' if held == 1 else 'are'} confirmed"
+    return f"Of {wording.plural(len(decided), 'claim')} that this run decides, {told}: {each}."
 
 
 def _rest(others: list[Verdict]) -> str:

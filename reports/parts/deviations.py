@@ -20,7 +20,8 @@ LEADS = True
 ALL = "all of these"
 TITLE = "Deviations from the papers"
 PAGE = 40  # lines of the table that fit on a page
-WHAT = 60  # characters of what a knob is, in the table that fits on a page
+SHORT = 20  # lines of the table that stand on what a section before leaves of a page
+WHAT = 36  # characters of what a knob is, in the table that fits on a page
 SEEN = (
     "Where our default of a knob differs from what its source prints, this is what the printed value costs. Times over "
     "1× say that our change makes the method faster; wrong rays are neither grazing nor drowned."
@@ -47,7 +48,7 @@ def sections(material: Material) -> list[Section]:
     body = [line for name, told in material.run.plan.methods.items() for line in _lines(name, told, material.frame)]
     if not body:
         return []
-    return [Section(TITLE, (Text(SEEN), _short(body)), (Text(TOLD), _full(body)), name="Deviations")]
+    return [Section(TITLE, (Text(SEEN), _short(body)), (Text(TOLD), _full(body)), len(body) > SHORT, "Deviations")]
 
 
 def _short(body: list[tuple[Any, ...]]) -> Table:
@@ -111,7 +112,7 @@ def _lines(name: str, told: Mapping[str, Any], frame: pd.DataFrame) -> Iterator[
     ours = rows[(bound == defaults).astype(bool)]
     for knob in knobs.values():
         theirs = rows[(bound == defaults | {knob["name"]: knob["printed"]}).astype(bool)]
-        what = (label, knob["name"], f"{knob['default']:g}", f"{knob['printed']:g}", knob["meaning"])
+        what = (label, knob["name"], f"{knob['default']:.3g}", f"{knob['printed']:.3g}", knob["meaning"])
         yield from _line(what, ours, theirs)
     if len(knobs) > 1:
         printed = {key: knob["printed"] for key, knob in knobs.items()}

@@ -14,22 +14,23 @@ from numpy.typing import NDArray
 from reports import wording
 from reports.analysis import shown
 from reports.content import Block, Figure, Gallery, Panel, Picture, Section, Text
-from reports.drawing import images, plots, style
+from reports.drawing import images, style
 from reports.drawing.canvas import RC, svg
 from reports.material import Material
 from reports.reading.arrays import Arrays
 
 ORDER = 27
 PAGED = 2  # a run with more surfaces has its maps in the details
-PANELS = 12  # of a page, the fastest variants
+PANELS = 20  # of a page, the fastest variants
+ACROSS = 5
 COLORS = "viridis"
 TITLE = "Evaluations, ray by ray"
 SEEN = (
-    "Each pair: how often a ray evaluates f, from dark to bright on one logarithmic scale, and its error. Bright rings "
-    "along silhouettes are rays that nearly touch the surface, where iterations creep (toledo2007, Fig. 4)."
+    "How often each ray evaluates f, from dark to bright on one logarithmic scale. Bright rings along silhouettes are "
+    "rays that nearly touch the surface, where iterations creep (toledo2007, Fig. 4)."
 )
 EXPLANATION = (
-    f"Errors are in the colours of all pictures of this report. {wording.ZERO} Wrong rays are those away from "
+    f"The errors of these rays are on the surfaces' pages. {wording.ZERO} Wrong rays are those away from "
     "silhouettes; grazing and drowned ones are counted apart, and “max” leaves them out. “Per ray cast” counts those "
     "that pass the domain by too, as every table of this report does. Of the device with most results, in its first "
     "precision."
@@ -48,26 +49,24 @@ def sections(material: Material) -> list[Section]:
             cells.append((row, arrays))
     if not cells:
         return []
-    errors = material.error_scale
     most = max(2, *(int(arrays.evaluations.max()) for _, arrays in cells if arrays.evaluations is not None))
     surfaces = list(dict.fromkeys(row.surface for row, _ in cells))
-    panels = {name: [_panel(row, a, most, errors) for row, a in cells if row.surface == name] for name in surfaces}
-    legend = plots.error_legend(*errors)
-    every: list[Block] = [Text(EXPLANATION), *(Gallery(tuple(own), "", legend) for own in panels.values())]
+    panels = {name: [_panel(row, a, most) for row, a in cells if row.surface == name] for name in surfaces}
+    every: list[Block] = [Text(EXPLANATION), *(Gallery(tuple(own), "") for own in panels.values())]
     told: list[Block] = [Text(SEEN), _legend(most)]
     if len(surfaces) > PAGED:
         return [Section(TITLE, (), (*told, *every))]
     fastest = sorted(cells, key=lambda cell: (wording.absent(cell[0].median_ms), cell[0].median_ms))
     per_surface = PANELS // len(surfaces)
     page = [
-        _panel(row, a, most, errors)
+        _panel(row, a, most)
         for name in surfaces
         for row, a in [cell for cell in fastest if cell[0].surface == name][:per_surface]
     ]
     if len(page) == len(cells):
-        return [Section(TITLE, (*told, Text(EXPLANATION), Gallery(tuple(page), "", legend)), own_page=True)]
+        return [Section(TITLE, (*told, Text(EXPLANATION), Gallery(tuple(page), "", across=ACROSS)), own_page=True)]
     cut = f"The fastest {per_surface} variants of each surface."
-    return [Section(TITLE, (*told, Gallery(tuple(page), cut, legend)), tuple(every), own_page=True)]
+    return [Section(TITLE, (*told, Gallery(tuple(page), cut, across=ACROSS)), tuple(every), own_page=True)]
 
 
 def evaluation_map(evaluations: NDArray[np.int32], most: int) -> NDArray[np.float64]:
@@ -78,21 +77,17 @@ def evaluation_map(evaluations: NDArray[np.int32], most: int) -> NDArray[np.floa
     return np.asarray(image)
 
 
-def _panel(row: Any, arrays: Arrays, most: int, errors: tuple[int, int]) -> Panel:
-    """Show the evaluations of one row beside its errors."""
+def _panel(row: Any, arrays: Arrays, most: int) -> Panel:
+    """Show the evaluations of one row."""
     assert arrays.evaluations is not None
     name = f"{row.label}, {row.surface_title}, {row.view}"
-    pictures = (
-        Picture(
-            f"{row.key}-evaluations", images.png(evaluation_map(arrays.evaluations, most)), f"Evaluations of {name}"
-        ),
-        Picture(f"{row.key}-errors", images.png(images.error_map(arrays, errors)), f"Errors of {name}"),
-    )
+    painted = images.png(evaluation_map(arrays.evaluations, most))
+    pictures = (Picture(f"{row.key}-evaluations", painted, f"Evaluations of {name}"),)
     spent = arrays.evaluations[arrays.evaluations > 0]
     cost = "no evaluation"
     if spent.size:
         cost = (
-            f"evaluations: {wording.number(arrays.evaluations.mean())} per ray cast, {wording.number(spent.mean())} "
+            f"{wording.number(arrays.evaluations.mean())} per ray cast, {wording.number(spent.mean())} "
             f"per ray that spends any, at most {spent.max():,}"
         )
     of = wording.count(row.accuracy_rays)

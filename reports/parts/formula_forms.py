@@ -33,6 +33,7 @@ _STYLES = (  # colour, marker and dashes; a form takes the next, and keeps it in
     ("#CC79A7", "v", (0, (5, 1))),
     ("#B8A800", "P", (0, (1, 1))),
 )
+EVEN = "even"
 TOP = 4.0  # the factor that has the brightest colour, and its inverse the darkest
 READ_RANGES = (
     "How much wider than f's range a form's interval extension is, as boxes shrink: the gap between two forms at the "
@@ -97,9 +98,9 @@ def _square(row: Any, printed: Any) -> Square:
     told = _times(row, printed)
     if told is None:
         return shades.silent(wording.NONE, "not timed")
-    wrong = f",\n{wording.count(row.wrong_rays)} wrong" if row.wrong_rays else ""
+    wrong = f", {wording.count(row.wrong_rays)} wrong" if row.wrong_rays else ""
     note = f"{row.label}: {wording.number(row.median_ms)} ms, {wording.count(row.wrong_rays)} wrong rays"
-    over = 1.0 if row.surface == printed.surface else rounds.times_over(row, printed)
+    over = 1.0 if row.surface == printed.surface or told == EVEN else rounds.times_over(row, printed)
     return Square(told + wrong, shades.shade(0.5 + math.log(over) / (2.0 * math.log(TOP))), note)
 
 
@@ -232,7 +233,7 @@ def _times(row: Any, printed: Any) -> str | None:
     paired = rounds.ratio(row, printed)
     if paired is None or paired.pairs < ties.NEEDED:
         return f"{factor} ?"
-    return factor if ties.verdict(paired) in (ties.SLOWER, ties.FASTER) else "even"
+    return factor if ties.verdict(paired) in (ties.SLOWER, ties.FASTER) else EVEN
 
 
 def _errors(rows: pd.DataFrame) -> Table:

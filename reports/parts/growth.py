@@ -26,6 +26,7 @@ from reports.material import Material
 
 ORDER = 26
 PANELS = 6  # of one figure
+MOST_LINES = 12  # variants in one figure; where there are more, those with an exponent are drawn
 LEAD = (
     "Time t against {unit} n, on logarithmic axes, and the line t = c·nᵏ that fits the logarithms best. The exponent k "
     "stands with its 95 % interval, and is told only where that is no wider than k itself. The points of a line are of "
@@ -177,7 +178,7 @@ def sections(material: Material) -> list[Section]:
         rows, left_out = _points(frame, axis)
         found = _curves(axis, rows)
         if found or left_out:
-            figures = list(_figures(axis, found, material.marks, titles))
+            figures = list(_figures(axis, found, material.marks, titles)) if found else []
             fitted = [curve for curve in found if isinstance(curve.fit, Power)]
             shown: tuple[Block, ...] = (Text(_said(axis, fitted, titles)), figures[0]) if fitted else ()
             details: list[Block] = [Text(LEAD.format(unit=axis.unit, wrongly=axis.wrongly) + _told_left_out(left_out))]
@@ -279,18 +280,22 @@ def _figure(
     name: str,
 ) -> Figure:
     """Draw the curves of these places, a panel for each."""
-    variants = [variant for variant in marks if any(curve.variant == variant for curve in found)]
+    every = np.concatenate([curve.x for curve in found])
+    many = len({curve.variant for curve in found}) > MOST_LINES
+    found = [curve for curve in found if isinstance(curve.fit, Power)] if many else found
+    variants = [variant for variant in marks if any(curve.variant == variant for curve in found)][:MOST_LINES]
+    found = [curve for curve in found if curve.variant in variants]
+    places = [place for place in places if any(curve.place == place for curve in found)] or places
     columns = min(ACROSS, len(places))
     lines = -(-len(places) // columns)
     labels = {curve.variant: curve.label for curve in found}
     key = Key([line_of(marks[v]) for v in variants], [labels[v] for v in variants], NARROW)
-    above = key.height + 0.22
-    height = above + 0.4 + 1.9 * lines
-    every = np.concatenate([curve.x for curve in found])
+    above = 1.1 * key.height + 0.24
+    height = above + 0.4 + 1.45 * lines
     with matplotlib.rc_context(RC | {"font.size": 7.0}):
         drawing = Drawing(figsize=(NARROW, height))
         panels = drawing.subplots(lines, columns, sharex=True, sharey=True, squeeze=False)
-        drawing.subplots_adjust(0.5 / NARROW, 0.42 / height, 1 - 0.05 / NARROW, 1 - above / height, 0.06, 0.16)
+        drawing.subplots_adjust(0.62 / NARROW, 0.42 / height, 1 - 0.22 / NARROW, 1 - above / height, 0.06, 0.22)
         for axes, place in zip(panels.flat, places, strict=False):
             axes.set_title(named[place], color=style.INK, fontsize=7)
             for curve in (curve for curve in found if curve.place == place):
@@ -325,7 +330,7 @@ def _figure(
         drawn,
         f"Time of {wording.listed(list(labels.values()))} against {axis.unit}, with lines where one fits.",
         f"Time against {axis.unit}.",
-        wording.minus(f"{told}."),
+        wording.minus(f"{told}.") + (" Only variants with an exponent are drawn." if many else ""),
     )
 
 

@@ -45,33 +45,36 @@ def sections(material: Material) -> list[Section]:
     return made
 
 
-def _said(full: Table) -> str:
-    """Say how ray casting and tessellation compare at the smallest error that both keep in each scene."""
-    last: dict[str, tuple[Any, ...]] = {}
+def _kept_by_both(full: Table) -> dict[str, tuple[Any, ...]]:
+    """Return for each scene the line of the smallest error that both kinds keep, else its first line."""
+    kept: dict[str, tuple[Any, ...]] = {}
     for row in full.rows:
-        if not wording.absent(row[-1]):
-            last[str(row[0])] = row
-    if not last:
+        if str(row[0]) not in kept or not wording.absent(row[-1]):
+            kept[str(row[0])] = row
+    return kept
+
+
+def _said(full: Table) -> str:
+    """Say how ray casting and tessellation compare in the first and the last scene in which both keep an error."""
+    both = [row for row in _kept_by_both(full).values() if not wording.absent(row[-1])]
+    if not both:
         return "Nowhere do both keep one of these errors in the same rounds."
     each = [
-        f"{scene}, under {wording.number(row[1])} pixels: {row[2]} takes {wording.number(row[4])} ms, "
-        + (
-            f"{row[6]} {wording.factor(row[-1])} as long"
-            if row[-1] >= 1
-            else f"{row[6]} {wording.factor(row[-1])} that"
-        )
-        for scene, row in last.items()
+        f"on {row[0]}, under {wording.number(row[1])} pixels, {row[2]} takes {wording.number(row[4])} ms, and {row[6]} "
+        f"takes {wording.factor(row[-1])} that"
+        for row in dict.fromkeys((both[0], both[-1]))
     ]
-    return f"At the smallest error that both keep: {'; '.join(each)}."
+    return f"At the smallest error that both keep, {'; '.join(each)}."
 
 
 def _short(full: Table) -> Table:
-    """Return the table of equal errors without the columns that only some look up."""
+    """Return the table of equal errors with a line for each scene, and without what only some look up."""
     kept = (0, 1, 2, 4, 6, 8, 10)
     columns = tuple(full.columns[i] for i in kept)
-    rows = [tuple(row[i] for i in kept) for row in full.rows]
+    rows = [tuple(row[i] for i in kept) for row in _kept_by_both(full).values()]
     caption = (
-        "The fastest of either kind that keeps the error on 99 % of the rays; – where no setting of this run does."
+        "The fastest of either kind that keeps 99 % of the errors under the smallest bound that both keep; – where no "
+        "setting of this run does."
     )
     return Table(columns, rows, "Time at equal image error.", caption, full.group)
 

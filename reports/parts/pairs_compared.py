@@ -18,7 +18,7 @@ from reports.material import Material
 
 ORDER = 32
 TITLE = "Variants compared round by round"
-MOST_SCENES = 40  # of the matrix
+MOST_SCENES = 30  # of the matrix
 TOP = 100.0  # the factor that has the brightest colour
 EVEN, NOT_PAIRED = "even", "–"
 READ = (
@@ -120,7 +120,7 @@ def _square(row: Any, best: Any, *, sound: bool) -> tuple[float, Square]:
     ratio = rounds.ratio(row, best)
     if not sound:
         wrong = f"{wording.count(row.wrong_rays)} wrong"
-        told = wrong if ratio is None else f"{_short(ratio.median)},\n{wrong}"
+        told = wrong if ratio is None else f"{_short(ratio.median)}, {wrong}"
         return 2.0, shades.silent(told, f"{row.label}: {wording.number(row.median_ms)} ms, {wrong} rays")
     if ratio is None:
         return 1.0, shades.silent(NOT_PAIRED, f"{row.label}: no round timed it and the fastest")
@@ -128,8 +128,10 @@ def _square(row: Any, best: Any, *, sound: bool) -> tuple[float, Square]:
     interval = f", 95 % {wording.factor(ratio.lower)} to {wording.factor(ratio.upper)}" if ratio.proved else ""
     outcome = ties.verdict(ratio)
     note = f"{row.label}: {wording.factor(ratio.median)}{interval}; {outcome}"
+    if outcome in (ties.ALIKE, ties.TORN):
+        return badness, Square(EVEN, shades.shade(0.0), note)
     text = _short(ratio.median) + (" ?" if ratio.pairs < ties.NEEDED else "")
-    return badness, Square(EVEN if outcome in (ties.ALIKE, ties.TORN) else text, shades.shade(badness), note)
+    return badness, Square(text, shades.shade(badness), note)
 
 
 def _short(factor: float) -> str:

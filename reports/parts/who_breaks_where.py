@@ -39,6 +39,7 @@ KEY = (
     f"i an impossible answer. {REFUSED}: the method refuses the surface. {NOTHING}: the cell failed, or has nothing to "
     "judge; its reason is listed at the end of the report."
 )
+MOST_COLUMNS = 16
 MOST_PRINTED = 110  # surfaces; the matrix of all is among the details
 FIRST_WRONG = 0.35  # how bad, from 0 to 1, the colour is of a surface with 1 in 1,000 rays wrong
 
@@ -53,18 +54,19 @@ def sections(material: Material) -> list[Section]:
     broken, undecided = _broken(rows, material), _undecided(rows)
     shown: list[Block] = []
     details: list[Block] = [*broken, undecided]
-    for (precision, device), own in rows.groupby(["precision", "device"], sort=False):
-        place = f"{precision} on {device}"
-        judged = _worst(own)
+    places = [(f"{precision} on {device}", own) for (precision, device), own in rows.groupby(["precision", "device"])]
+    for place, own in sorted(places, key=lambda found: -found[1]["surface"].nunique()):
+        by_variant = _worst(own)
+        judged = _best_of_each_method(by_variant)
         groups, every = _by_group(judged, place), _matrix(judged, f"Every surface and method, {place}.")
         if not shown:
             worst = _broken_surfaces(judged)
             told = f"The surfaces on which a method is wrong, {place}."
-            shown = [Text(f"{_said(judged)} {KEY}"), *_shortened(broken), groups]
+            shown = [Text(f"{_said(judged)} {KEY}"), *_shortened(broken), *([groups] if len(groups.rows) > 1 else [])]
             shown += [_matrix(worst, told)] if len(worst) else []
-            details += [_classes(judged, place), every]
+            details += [*([] if len(groups.rows) > 1 else [groups]), _classes(by_variant, place), every]
         else:
-            details += [groups, _classes(judged, place), every]
+            details += [groups, _classes(by_variant, place), every]
     refusals = _refusals(rows)
     details += [refusals] if refusals else []
     return [Section("Who breaks where", tuple(shown), tuple(details), own_page=True)]
@@ -86,7 +88,7 @@ def _said(judged: pd.DataFrame) -> str:
 
 def _shortened(told: Sequence[Text]) -> list[Text]:
     """Return these texts, each cut to what a line or two hold."""
-    return [Text(wording.excerpt(text.text, 260), text.strong) for text in told]
+    return [Text(wording.excerpt(text.text, 260)) for text in told]
 
 
 def _broken_surfaces(judged: pd.DataFrame) -> pd.DataFrame:
@@ -102,12 +104,25 @@ def _broken_surfaces(judged: pd.DataFrame) -> pd.DataFrame:
 def _worst(rows: pd.DataFrame) -> pd.DataFrame:
     """Return one row for each surface and variant: that of its worst view.
 
-    Adds `share`, of its clear and decided rays those that are wrong; missing where nothing was judged.
+    Adds `share`, of its clear and decided rays those that are wrong; missing where nothing was judged. `named` is what
+    notes call the variant.
     """
     share = (rows["wrong_rays"] / rows["judged"]).astype("Float64").where(rows["judged"] > 0)
     rows = rows.assign(share=share.where(rows["status"] == CellStatus.OK))
+    rows = rows.assign(named=rows["label"])
     placed = rows.sort_values("share", ascending=False, na_position="last", kind="stable")
     return placed.drop_duplicates(["surface", "variant"]).sort_index()
+
+
+def _best_of_each_method(judged: pd.DataFrame) -> pd.DataFrame:
+    """Return one row for each surface and method, that of the variant with fewest wrong rays, named by its method.
+
+    Return all rows where the variants are few enough for a column each.
+    """
+    if judged["variant"].nunique() <= MOST_COLUMNS:
+        return judged
+    placed = judged.sort_values("share", na_position="last", kind="stable").drop_duplicates(["surface", "method"])
+    return placed.sort_index().assign(variant=placed["method"], label=placed["method_label"])
 
 
 def _main_kind(row: Any) -> str:
@@ -117,7 +132,7 @@ def _main_kind(row: Any) -> str:
 
 def _square(row: Any) -> Square:
     """Make the square of a variant on a surface, as KEY explains."""
-    named = f"{row.label}, {row.surface_title}"
+    named = f"{row.named}, {row.surface_title}"
     if row.status == CellStatus.SKIPPED:
         return shades.silent(REFUSED, f"{named}: refused, {wording.excerpt(str(row.reason), 200)}")
     if wording.absent(row.share):
@@ -143,9 +158,9 @@ def _columns(judged: pd.DataFrame) -> dict[str, str]:
     return {str(variant): str(heading) for variant, heading in zip(named["variant"], told, strict=True)}
 
 
-def _titles(material: pd.DataFrame) -> dict[str, str]:
+def _titles(judged: pd.DataFrame) -> dict[str, str]:
     """Return the written name of each group of surfaces, in their order."""
-    return {str(group): str(group).replace("_", " ").capitalize() for group in material["group"].unique()}
+    return {str(group): str(group).replace("_", " ").capitalize() for group in judged["group"].unique()}
 
 
 def _by_group(judged: pd.DataFrame, place: str) -> Matrix:
@@ -214,7 +229,8 @@ def _matrix(judged: pd.DataFrame, title: str) -> Matrix:
     missing = shades.silent("", "not run")
     body: list[tuple[str, tuple[Square, ...]]] = []
     for group, grouped in judged.groupby("group", sort=False):
-        body.append((titles[str(group)], ()))
+        if judged["group"].nunique() > 1:
+            body.append((titles[str(group)], ()))
         for _, own in grouped.groupby("surface", sort=False):
             squares = {row.variant: _square(row) for row in own.itertuples()}
             name = wording.excerpt(str(own["surface_title"].iloc[0]), 30)
@@ -223,7 +239,8 @@ def _matrix(judged: pd.DataFrame, title: str) -> Matrix:
         tuple(columns.values()),
         body,
         title,
-        "Per cent of the clear rays that are wrong. Of several views, the worst.",
+        "Per cent of the clear rays that are wrong. Of several views, the worst; of more variants than "
+        f"{MOST_COLUMNS}, the best of each method.",
         "surface",
         shades.key({0.0: "every ray right", FIRST_WRONG: "0.1 % wrong", 1.0: "all wrong"}),
     )

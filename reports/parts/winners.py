@@ -76,7 +76,8 @@ def matrix(material: Material, leading: pd.DataFrame, scenes_of: Mapping[str, st
     which every variant is wrong somewhere has a grey square.
     """
     frame = material.listed
-    rows = derive.contenders(frame)
+    told = [*derive.GROUP, "variant", "label", "wrong_rays", "accuracy_rays"]
+    rows = derive.contenders(frame)[told]
     if scenes_of is not None:
         rows = rows[rows["comparison"].isin(list(scenes_of))]
     named, safest = (
@@ -84,7 +85,8 @@ def matrix(material: Material, leading: pd.DataFrame, scenes_of: Mapping[str, st
         {(r.comparison, r.device, r.precision): r for r in leading.itertuples()},
     )
     groups = {key: own for key, own in rows.groupby(derive.GROUP)}
-    scenes = [name for name in named if name in set(rows["comparison"])]
+    timed = set(rows["comparison"])
+    scenes = [name for name in named if name in timed]
     pairs = list(dict.fromkeys(zip(rows["device"], rows["precision"], strict=True)))
     pairs.sort(key=lambda pair: -int(((rows["device"] == pair[0]) & (rows["precision"] == pair[1])).sum()))
     pairs, cut = pairs[:COLUMNS], len(pairs) - COLUMNS

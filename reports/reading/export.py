@@ -49,7 +49,7 @@ def write(frame: pd.DataFrame, csv: Path, parquet: Path, more: Sequence[Field] =
     """
     schema = pa.schema([(field.name, _ARROW[field.kind]) for field in (*SCHEMA, *DERIVED, *more)])
     table = pa.Table.from_pandas(frame, schema=schema, preserve_index=False).replace_schema_metadata(None)
-    pq.write_table(table, parquet)
+    pq.write_table(table, parquet, compression="zstd")
     samples = pa.array([None if value is None else json.dumps(value) for value in frame["samples_ms"]], pa.string())
     at = schema.get_field_index("samples_ms")
     flat = table.set_column(at, "samples_ms", samples).drop_columns(list(bare))

@@ -7,7 +7,10 @@ import pandas as pd
 from harness.contract import CellStatus
 from reports import wording
 from reports.analysis import derive
-from reports.content import Block, Column, Table, Text
+from reports.content import Block, Column, Matrix, Square, Table, Text
+
+LINES, SURFACES = 24, 8  # that fit on the first page
+RIGHT, WRONG = "#8fd3b6", "#ecd9ec"
 
 
 def blocks(frame: pd.DataFrame) -> list[Block]:
@@ -48,10 +51,32 @@ def blocks(frame: pd.DataFrame) -> list[Block]:
     zeros = wording.zeros([line[6] for line in body])
     shown = body[:LINES]
     table = Table(columns, shown, "Who is right.", f"{caption}{zeros}{wording.first_of(len(shown), len(body))}")
-    return [Text(lead, strong=True), Text(told), table]
+    return [Text(lead, strong=True), Text(told), *_matrix(rows), table]
 
 
-LINES = 36
+def _matrix(rows: pd.DataFrame) -> list[Block]:
+    """Make a line for each variant and a square for each surface: right, or how many rays are wrong.
+
+    [] where there are more than SURFACES surfaces or LINES variants, which a page has no room for.
+    """
+    titles = list(dict.fromkeys(rows["surface_title"]))
+    labels = list(dict.fromkeys(rows["label"]))
+    if len(titles) > SURFACES or len(labels) > LINES:
+        return []
+    by_place = {place: own for place, own in rows.groupby(["label", "surface_title"])}
+    body = [(label, tuple(_square(by_place.get((label, title))) for title in titles)) for label in labels]
+    key = {RIGHT: "every ray right", WRONG: "some rays wrong"}
+    told = "Wrong rays away from silhouettes, of all views, devices and precisions together; – does not apply."
+    return [Matrix(tuple(titles), body, "Who is right where.", told, "variant", key)]
+
+
+def _square(own: pd.DataFrame | None) -> Square:
+    """Make the square of one variant on one surface."""
+    if own is None:
+        return Square(wording.NONE, note="does not apply or was not judged")
+    wrong, rays = int(own["wrong_rays"].sum()), int(own["accuracy_rays"].sum())
+    note = f"{wrong:,} wrong of {rays:,} rays, largest error {wording.error(own['error_max'].max())} scene units"
+    return Square(f"{wrong:,} wrong" if wrong else "right", WRONG if wrong else RIGHT, note)
 
 
 def _few(names: list[str]) -> str:

@@ -47,7 +47,7 @@ def _winners(found: Sequence[Choice], level: int) -> str:
     for one, row in won:
         named = len(found) <= NAMED
         label = inline(row, one.rows) if named else str(row.method_label)
-        label = " or ".join([label, *one.tied[level]]) if named else label
+        label = " or ".join([label, *_others_named(one.tied[level])]) if named else label
         by_label.setdefault(label, []).append((one, row))
     if len(found) <= NAMED:
         parts = [
@@ -62,6 +62,11 @@ def _winners(found: Sequence[Choice], level: int) -> str:
     parts += [f"others on {rest}"] if rest else []
     shared = sum(bool(one.tied[level]) for one, _ in won)
     return wording.listed(parts) + (f"; on {shared} another method is not told apart" if shared else "")
+
+
+def _others_named(tied: Sequence[str]) -> list[str]:
+    """Return the one variant that is not told apart from a winner, or how many there are."""
+    return [f"{len(tied)} others"] if len(tied) > 1 else list(tied)
 
 
 def inline(row: Any, rows: pd.DataFrame | None = None) -> str:

@@ -187,7 +187,8 @@ def _class_cell(site: Site, own: Sequence[Race], level: str) -> list[object]:
         return [tag("span", f"none within the bound, of {len(own)}", class_="faint")]
     told = []
     for standing in sorted(found, key=lambda s: (-s.won - s.tied, -s.won))[:NAMED]:
-        count = f" {standing.won + standing.tied} of {len(own)}, {wording.factor(standing.speedup)}"
+        over = "" if standing.speedup is None else f", {wording.factor(standing.speedup)}"
+        count = f" {standing.won + standing.tied} of {len(own)}{over}"
         told.append(tag("div", chip(site.marks[standing.method]), tag("b", site.label(standing.method)), count))
     more = len(found) - len(told)
     return [*told, tag("div", f"{more} more", class_="faint") if more > 0 else None]

@@ -6,12 +6,14 @@ import math
 import shlex
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import PurePath
 from typing import Any
 
 import pandas as pd
 
 from reports import labels, wording
+from reports.analysis import rounds
 from reports.drawing.style import Mark
 from reports.site.gather import Gathered, Part
 from reports.site.markup import Frame, Head, Html, Line, code, join, link, table, tag
@@ -57,11 +59,15 @@ class Site:
 
     def baseline(self, rows: pd.DataFrame) -> str:
         """Name the method or variant that the speed-ups of these rows are over; several are joined by "or"."""
-        variants = dict(zip(self.data.frame["variant"], self.data.frame["label"], strict=True))
         named = (str(name) for name in dict.fromkeys(rows["baseline"]))
-        return " or ".join(dict.fromkeys(self.label(n) if n in self.pages else variants.get(n, n) for n in named))
+        return " or ".join(dict.fromkeys(self.label(n) if n in self.pages else self._variants.get(n, n) for n in named))
 
-    @property
+    @cached_property
+    def _variants(self) -> dict[str, str]:
+        """Return the label of each variant."""
+        return dict(zip(self.data.frame["variant"], self.data.frame["label"], strict=True))
+
+    @cached_property
     def several_precisions(self) -> bool:
         """Tell whether devices are named with a precision."""
         return len({race.first.precision for race in self.cells}) > 1
@@ -86,9 +92,10 @@ def risk(won: Won) -> str:
     """Write what is faster than the winner and answers wrongly; "" where nothing is."""
     if won.faster is None or won.winner is None:
         return ""
-    times = won.winner.median_ms / won.faster.median_ms
+    times = rounds.times_over(won.winner, won.faster)
+    by = "faster" if wording.absent(times) else f"{wording.factor(times)} faster"  # they may share no round
     rays = f"{wording.count(won.faster.wrong_rays)} of {wording.count(won.faster.accuracy_rays)} rays wrong"
-    return f"{won.faster.label}: {wording.factor(times)} faster, {rays}"
+    return f"{won.faster.label}: {by}, {rays}"
 
 
 ROW_HEADS = (

@@ -46,12 +46,12 @@ def data(site: Site, sizes: Mapping[str, int]) -> list[Html]:
             "coordinates, unless a column says otherwise.",
             class_="lead",
         ),
-        table(
-            "Downloads. Only Parquet has the column identity, all that decides a row.",
-            (Head("file"), Head("size", True)),
-            lines,
+        table("Downloads.", (Head("file"), Head("size", True)), lines),
+        tag(
+            "p",
+            "Only Parquet has the column identity, all that decides a row. There missing values are nulls; in CSV they "
+            "are empty, and lists and objects are JSON.",
         ),
-        tag("p", "In Parquet missing values are nulls; in CSV they are empty, and lists and objects are JSON."),
         tag("h2", "In Python"),
         code(EXAMPLE),
         tag("h2", "Columns"),

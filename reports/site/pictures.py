@@ -110,11 +110,7 @@ def _save(folder: Path, image: NDArray[np.float64]) -> str:
 
 def shown(pair: Pair, row: Any, up: str) -> Html:
     """Write the two pictures of a row with what they tell; `up` leads from the page to the site's folder."""
-    counts = zip((getattr(row, kind) for kind in KINDS), style.WRONG, strict=True)
-    wrong = ", ".join(f"{kind.title} {n:,}" for n, kind in counts if not wording.absent(n) and n > 0)
-    rays = f" of {wording.count(row.accuracy_rays)} rays" if wrong else ""
-    note = f"{wording.number(row.median_ms)} ms · largest error {wording.error(row.error_max)} · "
-    note += f"{wrong or 'no wrong ray away from silhouettes'}{rays}{images.wrong_apart(row)}"
+    note = f"{wording.number(row.median_ms)} ms · {images.note(row)}"
     both = (("drawn by", pair.shade), ("errors of", pair.error))
     size = {"width": pair.width, "height": pair.height, "loading": "lazy", "decoding": "async"}
     drawn = [
@@ -142,4 +138,4 @@ def legend(scale: tuple[int, int]) -> Html:
         ("undecided", style.UNDECIDED),
     ]
     swatches = [tag("span", tag("i", style=f"background: {color}"), name, class_="swatch") for name, color in kinds]
-    return tag("p", "|t − t*|: ", ends[0], " ", bar, " ", ends[1], " ", join(*swatches), class_="legend")
+    return tag("p", "|t − t*| in scene units: ", ends[0], " ", bar, " ", ends[1], " ", join(*swatches), class_="legend")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -39,17 +39,14 @@ class Won:
 class Race:
     """Hold the timed rows of one scene on one device in one precision, of one run, fastest first; there is one or more.
 
-    `won` has the answer at each of LEVELS, by name. `older` are races of the same scene that do not count.
+    `each` has the rows as named tuples. `won` has the answer at each of LEVELS, by name. `older` are races of the same
+    scene that do not count.
     """
 
     rows: pd.DataFrame
+    each: Sequence[Any]
     won: Mapping[str, Won]
     older: tuple[Race, ...] = ()
-
-    @cached_property
-    def each(self) -> list[Any]:
-        """Return the rows as named tuples."""
-        return list(self.rows.itertuples())
 
     @property
     def first(self) -> Any:
@@ -86,13 +83,14 @@ def races(frame: pd.DataFrame) -> list[Race]:
     grouped: dict[tuple[Any, ...], list[Race]] = {}
     order = {key: i for i, key in enumerate(zip(frame["comparison"], frame["on"], frame["precision"], strict=True))}
     for _, own in rows.groupby(derive.GROUP, sort=False):
-        race = Race(own, {name: _won(own, bound) for name, bound in LEVELS})
+        each = list(own.itertuples())
+        race = Race(own, each, {name: _won(own, each, bound) for name, bound in LEVELS})
         grouped.setdefault((race.first.scene_id, race.first.on, race.first.precision), []).append(race)
     counted = []
     for own_races in grouped.values():
         newest_last = sorted(own_races, key=lambda race: (race.size, str(race.first.created)))
         *older, best = newest_last
-        counted.append(Race(best.rows, best.won, tuple(reversed(older))))
+        counted.append(replace(best, older=tuple(reversed(older))))
     return sorted(counted, key=lambda race: order[(race.first.comparison, race.first.on, race.first.precision)])
 
 
@@ -122,27 +120,29 @@ def usable(rows: pd.DataFrame, bound: float) -> pd.DataFrame:
     return rows[right if math.isinf(bound) else right & (rows["relative_error_max"] <= bound)]
 
 
-def _won(rows: pd.DataFrame, bound: float) -> Won:
-    """Decide one cell at one bound; `rows` are fastest first."""
+def _won(rows: pd.DataFrame, each: Sequence[Any], bound: float) -> Won:
+    """Decide one cell at one bound; `rows` are fastest first, and `each` has them as named tuples."""
     good = usable(rows, bound)
     if good.empty:
         return Won(None, (), None, {})
     winner = ties.best(good)
-    whole = {row.variant: row for row in good.itertuples()}
+    right = set(good.index)
+    whole = {row.variant: row for row in each if row.Index in right}
     first = whole[winner.variant]
     fastest = {row.method: row for row in reversed(whole.values())} | {first.method: first}
     by_time = dict(sorted(fastest.items(), key=lambda pair: pair[1].median_ms))
     tied = tuple(whole[name] for name in ties.tied(good, winner))
-    return Won(first, tied, _faster(rows, first), by_time)
+    return Won(first, tied, _faster(each, first), by_time)
 
 
-def _faster(rows: pd.DataFrame, winner: Any) -> Any | None:
+def _faster(each: Sequence[Any], winner: Any) -> Any | None:
     """Return the fastest row that answers a few rays wrongly and is told to be faster than the winner; None without."""
-    wrong = rows["wrong_rays"].astype("float64")
-    risky = rows[(wrong > 0) & (wrong <= RISKY * rows["accuracy_rays"].astype("float64"))]
-    return next(
-        (row for row in risky.itertuples() if row.median_ms < winner.median_ms and ties.is_slower(winner, row)), None
-    )
+    for row in each:
+        if pd.isna(row.wrong_rays) or not 0 < row.wrong_rays <= RISKY * row.accuracy_rays:
+            continue
+        if row.median_ms < winner.median_ms and ties.is_slower(winner, row):
+            return row
+    return None
 
 
 @dataclass(frozen=True)

@@ -62,8 +62,10 @@ def body(site: Site, page: str) -> list[Html]:
     own = by_surface(site.cells)[page]
     others = [r for r in by_surface(site.races)[page] if not any(r is race for race in own)]
     first = own[0].first
-    degree = "" if wording.absent(first.degree) else f", degree {first.degree}"
-    facts = tag("p", f"{first.kind}{degree}; domain {wording.text(first.domain)}.", class_="lead")
+    kind = () if str(first.kind).startswith("Degree") else (first.kind,)
+    degree = () if wording.absent(first.degree) else (f"degree {first.degree}",)
+    said = ", ".join((*kind, *degree, f"domain {wording.text(first.domain)}"))
+    facts = tag("p", f"{said[0].upper()}{said[1:]}.", class_="lead")
     formula = code(f"{first.formula} = 0") if not wording.absent(first.formula) else None
     extent = None if wording.absent(first.extent) else tag("p", first.extent)
     jumps = tag(

@@ -18,6 +18,7 @@ from reports.reading.run import Unreadable
 REASON_LIMIT = 500  # characters of a reason; a compiler's full log is in the cell's file
 SHORT_LIMIT = 180  # characters of the reason of a group of cells
 GROUPS = 12  # reasons that the page has room for
+FAMILY = "family: "  # begins the name of a place that is no surface
 NAMED = 3  # methods or places that are named; more are counted
 _REFUSED = re.compile(r"the method refuses the surface [^:]+: ")
 _NOTHING_FAILED = "Every planned cell ran and gave a result."
@@ -42,7 +43,7 @@ def _troubles(material: Material) -> pd.DataFrame:
     """Return the cells that did not end as `ok`, with their `place`: the surface, scene or family."""
     frame, families, facts = material.frame, material.run.families, material.run.plan.facts
     views = frame.assign(place=frame["surface_title"])
-    hard = families.assign(place=[f"family: {facts[name].title}" for name in families["family"]])
+    hard = families.assign(place=[f"{FAMILY}{facts[name].title}" for name in families["family"]])
     told = ["status", "reason", "device", "precision", "place", "variant", "label", "method_label"]
     rows = pd.concat([of[of["status"] != CellStatus.OK][told] for of in (views, hard)])
     return rows.assign(reason=rows["reason"].fillna("").astype(str))
@@ -87,7 +88,8 @@ def _by_reason(rows: pd.DataFrame) -> Table:
     groups = sorted(rows.groupby(["status", "kind"], sort=True), key=lambda group: -len(group[1]))
     body = []
     for (status, _), of in groups[:GROUPS]:
-        methods, places = _named(of["method_label"], "method"), _named(of["place"], "place")
+        noun = "place" if of["place"].str.startswith(FAMILY).any() else "surface"
+        methods, places = _named(of["method_label"], "method"), _named(of["place"], noun)
         reason = wording.excerpt(of["short"].iloc[0], SHORT_LIMIT) or None
         body.append((len(of), status, reason, methods, places, _named(of["device"], "device")))
     rest = len(groups) - len(body)

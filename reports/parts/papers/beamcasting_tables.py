@@ -11,7 +11,7 @@ from reports import published, wording
 from reports.analysis import derive, idle_lanes
 from reports.claims import picks
 from reports.claims.evidence import run_of
-from reports.claims.verdict_tables import counted, verdict_tables
+from reports.claims.verdict_tables import introduced, verdict_tables
 from reports.content import Block, Column, Gallery, Section, Table, Text
 from reports.drawing import levels
 from reports.material import Material
@@ -92,7 +92,7 @@ def _tables(material: Material) -> list[Section]:
         group=2,
     )
     verdicts = verdict_tables(material.judged, "beamcasting-tables.toml", "beamcasting")
-    blocks: tuple[Block, ...] = (Text(_SEEN), table, *counted(material.judged, "beamcasting-tables.toml"))
+    blocks: tuple[Block, ...] = (introduced(_SEEN, material.judged, "beamcasting-tables.toml"), table)
     return [Section("beamcasting, Tables I and II", blocks, (Text(_TOLD), *verdicts))]
 
 
@@ -207,7 +207,7 @@ def _divergence(material: Material) -> list[Section]:
         "are least alike.",
         group=1,
     )
-    blocks: tuple[Block, ...] = (Text(_IDLE_SEEN), whole, *counted(material.judged, config))
+    blocks: tuple[Block, ...] = (introduced(_IDLE_SEEN, material.judged, config), whole)
     details: tuple[Block, ...] = (
         Text(_IDLE),
         *([level_table] if by_level else []),

@@ -16,7 +16,7 @@ from reports.analysis import derive
 from reports.claims import figures, picks
 from reports.claims.evidence import run_of
 from reports.claims.figures import Figure
-from reports.claims.verdict_tables import counted, verdict_tables
+from reports.claims.verdict_tables import introduced, verdict_tables
 from reports.content import Block, Column, Gallery, Panel, Picture, Section, Table, Text
 from reports.drawing import images, plots
 from reports.material import Material
@@ -45,10 +45,10 @@ def _section(material: Material, title: str, found: list[tuple[Figure, pd.DataFr
     for figure, rows in found:
         legend = not any(isinstance(block, Gallery) for block in blocks)  # one for all parts
         pictures = _galleries(material, figure, rows, legend)
-        blocks += [Text(f"{figure.told} {figure.caption}"), *pictures]
+        configs = (figure.config,) if figure.judged else ()
+        blocks += [introduced(f"{figure.told} {figure.caption}", material.judged, *configs), *pictures]
         details += [*([Text(figure.made)] if figure.made else []), _counts(rows, figure.title)]
         details += verdict_tables(material.judged, figure.config, figure.title) if figure.judged else []
-    blocks += counted(material.judged, *(figure.config for figure, _ in found if figure.judged))
     return Section(title, tuple(blocks), tuple(details), name=title)
 
 

@@ -13,7 +13,7 @@ from reports.claims.evidence import Evidence, Pick
 from reports.claims.model import counted as summed
 from reports.claims.model import largest
 from reports.claims.szente_studies import bounds, condition
-from reports.claims.verdict_tables import counted, verdict_tables
+from reports.claims.verdict_tables import introduced, verdict_tables
 from reports.content import Block, Column, Section, Table, Text
 from reports.material import Material
 
@@ -75,9 +75,12 @@ def _table_1_and_2(material: Material) -> Section | None:
         blocks.append(_table_2(figures))
     if not blocks:
         return None
-    blocks += counted(material.judged, "szente-tables-1-2.toml")
     details = verdict_tables(material.judged, "szente-tables-1-2.toml", "szente, Tables 1 and 2")
-    return Section("szente, Tables 1 and 2", (Text(SEEN_1_2), *blocks), tuple(details))
+    return Section(
+        "szente, Tables 1 and 2",
+        (introduced(SEEN_1_2, material.judged, "szente-tables-1-2.toml"), *blocks),
+        tuple(details),
+    )
 
 
 def _table_1(ours: pd.DataFrame) -> Table:
@@ -207,7 +210,7 @@ def _table_4(material: Material) -> Section | None:
         f"Ours on {_where(march)}; the paper's on an NVIDIA 1660 Ti mobile.",
     )
     verdicts = verdict_tables(material.judged, "szente-table4.toml", "szente, Table 4")
-    blocks: tuple[Block, ...] = (Text(SEEN_4), table, *counted(material.judged, "szente-table4.toml"))
+    blocks: tuple[Block, ...] = (introduced(SEEN_4, material.judged, "szente-table4.toml"), table)
     return Section("szente, Table 4", blocks, (Text(TOLD_4), *verdicts))
 
 
@@ -305,7 +308,7 @@ def _table_5(material: Material) -> Section | None:
         f"Ours on {_where(ratios)}; the paper's on an NVIDIA 1660 Ti mobile.",
     )
     verdicts = verdict_tables(material.judged, "szente-table5.toml", "szente, Table 5")
-    blocks: tuple[Block, ...] = (Text(SEEN_5), table, *counted(material.judged, "szente-table5.toml"))
+    blocks: tuple[Block, ...] = (introduced(SEEN_5, material.judged, "szente-table5.toml"), table)
     return Section("szente, Table 5", blocks, (Text(TOLD_5), *verdicts))
 
 

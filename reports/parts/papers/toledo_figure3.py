@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure as Drawing
 from matplotlib.lines import Line2D
 
-from reports.claims.verdict_tables import counted, verdict_tables
+from reports.claims.verdict_tables import introduced, verdict_tables
 from reports.content import Block, Figure, Section, Text
 from reports.drawing import style
 from reports.drawing.canvas import NARROW, RC, svg
@@ -42,7 +42,7 @@ def sections(material: Material) -> list[Section]:
         return []
     drawn = _figure([row for row in rows if row["case"] != "sampled"])
     verdicts = tuple(verdict_tables(material.judged, CONFIG, "toledo2007, Figure 3"))
-    blocks: tuple[Block, ...] = (Text(SEEN), drawn, *counted(material.judged, CONFIG))
+    blocks: tuple[Block, ...] = (introduced(SEEN, material.judged, CONFIG), drawn)
     return [Section("toledo2007, Figure 3", blocks, (Text(TOLD), *verdicts), name="Fig. 3")]
 
 

@@ -15,8 +15,8 @@ from matplotlib.figure import Figure as Drawing
 from reports import wording
 from reports.claims import picks
 from reports.claims.toledo_tori import CONFIG, OURS, PICKS, crossing, curve, tori
-from reports.claims.verdict_tables import counted, verdict_tables
-from reports.content import Block, Column, Figure, Section, Table, Text
+from reports.claims.verdict_tables import introduced, verdict_tables
+from reports.content import Block, Column, Figure, Section, Table
 from reports.drawing.canvas import NARROW, RC, label_decades, svg
 from reports.material import Material
 
@@ -39,7 +39,7 @@ def sections(material: Material) -> list[Section]:
     rows = tori(material.evidence.of(CONFIG))
     if rows.empty:
         return []
-    blocks: tuple[Block, ...] = (Text(SEEN), _drawn(rows), _crossings(rows), *counted(material.judged, CONFIG))
+    blocks: tuple[Block, ...] = (introduced(SEEN, material.judged, CONFIG), _drawn(rows), _crossings(rows))
     details: tuple[Block, ...] = (_times(rows), *verdict_tables(material.judged, CONFIG, "toledo2007, Figure 6"))
     return [Section("toledo2007, Figure 6", blocks, details, name="Fig. 6")]
 

@@ -10,8 +10,8 @@ from reports import wording
 from reports.claims import toledo_pieces
 from reports.claims.evidence import Evidence, run_of
 from reports.claims.toledo_pieces import CUBICS, NORMALS, PIECES, PROXIES, Piece
-from reports.claims.verdict_tables import counted, verdict_tables
-from reports.content import Block, Column, Section, Table, Text
+from reports.claims.verdict_tables import introduced, verdict_tables
+from reports.content import Block, Column, Section, Table
 from reports.material import Material
 
 ORDER = 13
@@ -39,8 +39,8 @@ def sections(material: Material) -> list[Section]:
     for config, told in ((CUBICS, "section 3"), (PROXIES, "proxies"), (NORMALS, "section 4.5")):
         if (material.frame["run"] == run_of(config)).any():
             details += verdict_tables(material.judged, config, f"toledo2007, {told}")
-    blocks += counted(material.judged, CUBICS, PROXIES, NORMALS)
-    return [Section("toledo2007, piece by piece", (Text(SEEN), *blocks), tuple(details), name="Pieces")]
+    seen = introduced(SEEN, material.judged, CUBICS, PROXIES, NORMALS)
+    return [Section("toledo2007, piece by piece", (seen, *blocks), tuple(details), name="Pieces")]
 
 
 def _worth(piece: Piece, evidence: Evidence) -> tuple[Any, ...] | None:

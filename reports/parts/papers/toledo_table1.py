@@ -12,7 +12,7 @@ from reports.analysis import derive
 from reports.analysis.viewstats import spread
 from reports.claims import picks
 from reports.claims.evidence import Evidence, Pick
-from reports.claims.verdict_tables import counted, verdict_tables
+from reports.claims.verdict_tables import introduced, verdict_tables
 from reports.content import Column, Section, Table, Text
 from reports.material import Material
 
@@ -40,10 +40,15 @@ def sections(material: Material) -> list[Section]:
     if rows.empty:
         return []
     angles = list(dict.fromkeys(rows["view"]))
-    blocks = (Text(SEEN), _pixels(rows, angles), _frames(rows, angles), _rates_and_errors(rows))
+    blocks = (
+        introduced(SEEN, material.judged, CONFIG),
+        _pixels(rows, angles),
+        _frames(rows, angles),
+        _rates_and_errors(rows),
+    )
     measured = material.evidence.studies.get("mesh_errors")
     details = ([_meshes(measured)] if measured else []) + verdict_tables(material.judged, CONFIG, "toledo2007, Table 1")
-    return [Section("toledo2007, Table 1", (*blocks, *counted(material.judged, CONFIG)), (Text(TOLD), *details))]
+    return [Section("toledo2007, Table 1", blocks, (Text(TOLD), *details))]
 
 
 def table_rows(evidence: Evidence) -> pd.DataFrame:
