@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import io
-from dataclasses import replace
 from pathlib import Path
 
 import matplotlib
@@ -11,6 +10,7 @@ import numpy as np
 from matplotlib.figure import Figure as Drawing
 from PIL import Image
 
+from reports import wording
 from reports.analysis import derive
 from reports.content import (
     Code,
@@ -58,8 +58,9 @@ def made(run: Path) -> tuple[Document, dict[str, style.Mark]]:
     frame = frame.assign(surface_title=frame["surface_title"].replace("Torus", f"Torus {EVIL}"))
     explorer = charts.explorer(frame)
     number = Column("wide\nnumber", lambda value: f"{value} " * 9, numeric=True, over="both")
-    rows = [(f"row {i} {EVIL}", (7 * i) % 5 + i / 10, i, f"{i} " * 30) for i in range(6)]
-    table = Table((Column("name"), number, replace(number, title="other"), Column("text")), rows, "A table.", "Told.")
+    rows = [(f"row {i} {EVIL}", (7 * i) % 5 + i / 10, (1000, 9, 80)[i % 3], f"{i} " * 30) for i in range(6)]
+    whole = Column("count", wording.count, numeric=True, over="both")
+    table = Table((Column("name"), number, whole, Column("text")), rows, "A table.", "Told.")
     squares = tuple(Square(f"{i}", color, f"note {i} {EVIL}") for i, color in enumerate(("#0072B2", "#f0e442", "")))
     lines = [("of a kind", ()), ("newton", (*squares, Square("none"))), ("ray_march", squares[::-1] + squares[:1])]
     matrix = Matrix(tuple("abcd"), lines, "A matrix.", "Colours.", "method", {"#0072B2": "good", "#f0e442": "bad"})

@@ -82,6 +82,8 @@ def test_tables_sort_by_value_and_filter(tab: browser.Browser) -> None:
     assert tab.run(values) == sorted(before)
     tab.click(heading)
     assert tab.run(values) == sorted(before, reverse=True)
+    tab.click(f"{table}.querySelectorAll('.sort')[2]")
+    assert tab.run(f"{rows}.map(r => r.cells[2].textContent)") == ["9", "9", "80", "80", "1,000", "1,000"]
     tab.type(f"{table}.querySelector('.filter')", "row 5")
     assert tab.run(f"{rows}.map(r => r.cells[0].textContent)") == [f"row 5 {EVIL}"]
     assert tab.run(f"{table}.querySelector('.count').textContent") == "1 of 6 rows"

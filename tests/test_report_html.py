@@ -21,7 +21,7 @@ from reports.drawing import charts, style
 from reports.reading import load
 from reports.rendering import bundle, document, html, html_tables, pictures
 from tests import html_content
-from tests.synthetic_run import write_run
+from tests.synthetic_run import cell, tiny_run, write_run
 
 Made = tuple[Document, dict[str, style.Mark]]
 
@@ -77,8 +77,10 @@ def test_the_same_run_gives_the_same_page(text: str, run: Path) -> None:
 
 
 def test_a_report_has_the_explorer_and_a_comparison_does_without(
-    run: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    variants = ("ray_march", "newton[EPSILON=0.001]")
+    run = tiny_run(tmp_path / "run", *(cell(name, "sphere", "opencl:pocl", "float32") for name in variants))
     monkeypatch.setattr(parts, "sections", lambda *_: [])  # they take long, and are others' matter
     monkeypatch.setattr(document, "write_pdf", lambda _, __, path, *_more: path.touch())
     report.build(run, tmp_path / "one")

@@ -30,12 +30,15 @@ const drawnViews = new Map(); // element → its Vega view
 const options = { actions: false, renderer: "svg", expressionFunctions: { tick, ticks } };
 async function draw(element, spec, describe) {
   const tooltip = (handler, event, item, value) => {
-    if (value === null || value === undefined || value === "") hush();
-    else tell(describe(value), event.clientX, event.clientY);
+    if (value !== null && value !== undefined && value !== "") tell(describe(value), event.clientX, event.clientY);
+    else left(event);
   };
   drawnViews.get(element)?.finalize();
   const { view } = await vegaEmbed(element, spec, { ...options, tooltip });
   drawnViews.set(element, view);
+  view.addEventListener("pointerdown", (event, item) => { // a finger taps, and does not hover
+    if (item?.tooltip) tell(describe(item.tooltip), event.clientX, event.clientY);
+  });
   choose(view, [...kept]);
   return view;
 }

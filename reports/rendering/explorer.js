@@ -155,6 +155,7 @@
       front.unshift({ x: front[0].x, y: speed.less ? up[1] * 1e3 : up[0] / 1e3, label: "" });
       front.push({ x: across[1] * 1e3, y: front.at(-1).y, label: "" });
     }
+    if (matchMedia("(pointer: coarse)").matches) spec.layer.forEach((layer) => { delete layer.params; }); // fingers scroll
     spec.datasets = { points, front };
     spec.params.find((one) => one.name === "zero").value = zero;
     const error = `${titleOf("error")} error |t − t*|, ${titleOf("unit")}`;

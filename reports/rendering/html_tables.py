@@ -65,13 +65,17 @@ def _kind(column: Column) -> str:
 
 
 def _cells(columns: Sequence[Column], row: tuple[Any, ...]) -> str:
-    """Write the cells of one row, each with its value if that is a number. The first one is the row's heading."""
+    """Write the cells of one row, the first one as the row's heading.
+
+    A number has its value in six digits beside it where its text says another one, or in another way.
+    """
     cells = []
     for i, (column, value) in enumerate(zip(columns, row, strict=True)):
-        number = not isinstance(value, str | bool) and not pd.isna(value)
-        key = f' data-v="{float(value)!r}"' if number else ""
+        text = column.show(value)
+        number = "" if isinstance(value, str | bool) or pd.isna(value) else f"{float(value):.6g}"
+        key = f' data-v="{number}"' if number and not (column.numeric and number == text) else ""
         tag, scope = ("td", "") if i else ("th", ' scope="row"')
-        cells.append(f"<{tag}{scope}{_kind(column)}{key}>{escaped(column.show(value))}</{tag}>")
+        cells.append(f"<{tag}{scope}{_kind(column)}{key}>{escaped(text)}</{tag}>")
     return "".join(cells)
 
 

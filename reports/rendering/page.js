@@ -23,6 +23,8 @@ function tell(content, x, y) {
   tip.style.top = `${Math.max(2, top)}px`;
 }
 function hush() { tip.hidden = true; }
+function left(event) { if (event?.pointerType !== "touch") hush(); } // what a finger tapped is told until the next tap
+addEventListener("pointerdown", hush, { capture: true });
 addEventListener("keydown", (event) => { if (event.key === "Escape") hush(); });
 addEventListener("scroll", hush, { capture: true, passive: true });
 
@@ -50,11 +52,13 @@ for (const group of series) {
   const [method, ...variants] = named.get(group);
   const marks = [...group.querySelectorAll("use")];
   group.addEventListener("click", () => keep(method));
-  group.addEventListener("pointermove", (event) => {
+  const describe = (event) => {
     const own = variants.length === 1 ? variants[0] : variants[marks.indexOf(event.target)];
     tell(own ?? method, event.clientX, event.clientY);
-  });
-  group.addEventListener("pointerleave", hush);
+  };
+  group.addEventListener("pointermove", describe);
+  group.addEventListener("pointerdown", describe);
+  group.addEventListener("pointerleave", left);
 }
 
 // Tables: a click on a heading sorts by value, a second one the other way; a text filters rows.
@@ -64,7 +68,9 @@ function makeSortable(figure) {
   const headings = [...figure.querySelectorAll("th[scope=col]")];
   const value = (row, i) => {
     const cell = row.cells[i];
-    return cell.dataset.v === undefined ? cell.textContent : Number(cell.dataset.v);
+    if (cell.dataset.v !== undefined) return Number(cell.dataset.v);
+    const number = cell.className === "n" ? Number(cell.textContent) : NaN;
+    return cell.textContent && Number.isFinite(number) ? number : cell.textContent;
   };
   const compare = (a, b) => {
     const numbers = [typeof a === "number", typeof b === "number"];
@@ -114,8 +120,9 @@ for (const matrix of document.querySelectorAll("figure.matrix")) {
   all.forEach((button, i) => {
     button.tabIndex = i === 0 ? 0 : -1;
     button.addEventListener("pointerenter", () => describe(button));
+    button.addEventListener("pointerdown", () => describe(button));
     button.addEventListener("click", () => describe(button));
-    button.addEventListener("pointerleave", hush);
+    button.addEventListener("pointerleave", left);
     button.addEventListener("focus", () => describe(button));
     button.addEventListener("blur", hush);
     button.addEventListener("keydown", (event) => {
