@@ -180,7 +180,7 @@ def _name(axes: Axes, told: Mapping[Any, tuple[str, placing.Place]], rows: pd.Da
 
 def _floor(rows: pd.DataFrame) -> float:
     """Return the Mrays/s from which on a row of this scene is floor-bound; infinity where none is known."""
-    row = next(rows.head(1).itertuples())
+    row = next(rows[["mrays_per_s", "median_ms", "floor_ms"]].head(1).itertuples())
     return row.mrays_per_s * row.median_ms / (derive.FLOOR_FACTOR * row.floor_ms) if row.floor_ms > 0 else math.inf
 
 

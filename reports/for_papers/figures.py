@@ -23,6 +23,7 @@ from reports.for_papers.model import Plate, distinct, exact, sentence, slug
 from reports.material import Material
 from reports.parts import growth
 
+_TITLED = ["surface_title", "view", "size", "samples_per_pixel", "precision", "device"]
 _SCENE = ["view", "size", "samples_per_pixel", "stage", "scene"]
 
 
@@ -55,7 +56,7 @@ def groups(rows: pd.DataFrame) -> Iterator[tuple[str, str, pd.DataFrame]]:
     """Yield for each scene, device and precision its file's name, what it is in words, and its rows."""
     slugs, more = scene_slugs(rows), several(rows, "device", "precision")
     for (comparison, _, _), own in rows.groupby(derive.GROUP, sort=False):
-        first = next(own.head(1).itertuples())
+        first = next(own[_TITLED].head(1).itertuples())
         name = slug(slugs[str(comparison)], *(str(getattr(first, column)) for column in more))
         place = f"{first.surface_title}, view {first.view}, {picture_size(first)}, {first.precision} on {first.device}"
         yield name, place, own

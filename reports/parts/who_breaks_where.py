@@ -227,14 +227,14 @@ def _matrix(judged: pd.DataFrame, title: str) -> Matrix:
     """Make a line for each surface and a column for each variant, with the marks of KEY."""
     columns, titles = _columns(judged), _titles(judged)
     missing = shades.silent("", "not run")
+    squares = {(row.surface, row.variant): _square(row) for row in judged.itertuples()}
     body: list[tuple[str, tuple[Square, ...]]] = []
     for group, grouped in judged.groupby("group", sort=False):
         if judged["group"].nunique() > 1:
             body.append((titles[str(group)], ()))
-        for _, own in grouped.groupby("surface", sort=False):
-            squares = {row.variant: _square(row) for row in own.itertuples()}
+        for surface, own in grouped.groupby("surface", sort=False):
             name = wording.excerpt(str(own["surface_title"].iloc[0]), 30)
-            body.append((name, tuple(squares.get(variant, missing) for variant in columns)))
+            body.append((name, tuple(squares.get((surface, variant), missing) for variant in columns)))
     return Matrix(
         tuple(columns.values()),
         body,
