@@ -124,13 +124,13 @@ def _stopped(folder, arguments, reached, begun=lambda: True):
 @pytest.mark.parametrize("command", ["run", "gate"])
 def test_ctrl_c_in_a_step_of_a_worker_is_130_and_keeps_what_finished(endless, command):
     arguments = ["--plugins", "plugins", command, "endless.toml"]
-    code, told = _stopped(endless, arguments, lambda told: "[2/4]" in told)
+    code, told = _stopped(endless, arguments, lambda told: "[2/4]" in told or "[3/4]" in told)
     assert code == 130
     assert told.splitlines()[-1] == (
         "firsthit: stopped; finished cells are kept, and the same command goes on from there"
     )
     assert len(list(endless.glob("runs/*/cells/*.json"))) >= 2, "what the message says is true"
-    code, told = _stopped(endless, [*arguments, "--force"], lambda told: "[2/4]" in told)
+    code, told = _stopped(endless, [*arguments, "--force"], lambda told: "[2/4]" in told or "[3/4]" in told)
     assert code == 130
     assert "the command without --force goes on from there" in told
 
@@ -142,7 +142,7 @@ def test_ctrl_c_while_a_report_is_made_is_130_and_leaves_the_folder_as_it_was(tm
     before = sorted(tmp_path.rglob("*"))
     begun = "quick.report/.new-*"
     code, told = _stopped(tmp_path, ["report", "quick"], lambda _: True, lambda: [*tmp_path.glob(begun)])
-    assert (code, told.strip()) == (130, "firsthit: stopped")
+    assert (code, told.splitlines()[-1]) == (130, "firsthit: stopped")
     assert sorted(tmp_path.rglob("*")) == before
 
 
