@@ -12,7 +12,7 @@ from reports import wording
 from reports.analysis import derive, ties
 from reports.analysis.scene_names import rays_checked, scene_names
 from reports.content import Block, Column, Matrix, Section, Square, Table, Text
-from reports.drawing import standings, style, tables, trades_tables
+from reports.drawing import shades, standings, style, tables, trades_tables
 from reports.material import Material
 
 ORDER = 10
@@ -119,9 +119,9 @@ def _square(own: pd.DataFrame | None, won: Any, material: Material, labels: dict
     if won is None:
         fewest = next(own.sort_values("wrong_rays", kind="stable").itertuples())
         if wording.absent(fewest.wrong_rays):
-            return Square("not judged", "#e4e4e4", "no answers were checked")
+            return shades.silent("not judged", "no answers were checked")
         told = f"{fewest.label}: {int(fewest.wrong_rays):,} wrong rays of {wording.count(fewest.accuracy_rays)}"
-        return Square("all wrong\nsomewhere" if apart == "\n" else "all wrong", "#e4e4e4", f"fewest: {told}")
+        return shades.silent("all wrong\nsomewhere" if apart == "\n" else "all wrong", f"fewest: {told}")
     tied = [labels[variant] for variant in won.tied]
     sign = "≈ " if tied else ""
     note = f"{won.label}, largest error {wording.error(won.error_max)} scene units"
