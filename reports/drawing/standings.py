@@ -16,7 +16,7 @@ from reports.drawing import style
 from reports.drawing.shades import GOOD, WRONG
 
 MOST = 8  # surfaces that are columns of a page
-SLOWER, ALIKE = "#f0a45d", "#e6e6e6"  # the other is faster; times that are not told apart
+BEST, FASTER, SLOWER, ALIKE = GOOD, GOOD, "#f0a45d", "#e6e6e6"
 _SPAN = 1.5  # decades of a ratio over which a colour fades
 
 
@@ -41,13 +41,13 @@ def matrix(found: Sequence[Choice], focus: str = "") -> Matrix:
         "is slower. A method with wrong rays shows how many, with the time of the setting that has fewest. – does not "
         "apply or was not timed.",
         "method",
-        {GOOD: "fastest with no wrong ray", WRONG: "some rays wrong"},
+        {BEST: "fastest with no wrong ray", WRONG: "some rays wrong"},
     )
 
 
 def _rank(square: Square) -> int:
     """Return 2 for a square of the fastest, 1 for another that is right, 0 for the rest."""
-    return 2 if square.color == GOOD else int(square.color != WRONG and square.text != wording.NONE)
+    return 2 if square.color == BEST else int(square.color != WRONG and square.text != wording.NONE)
 
 
 def _methods(found: Sequence[Choice]) -> dict[str, str]:
@@ -63,14 +63,14 @@ def _against_best(one: Choice, method: str) -> Square:
         return Square(wording.NONE, note="does not apply or was not timed")
     best = one.best
     if best is not None and row.Index == best.Index:
-        return Square(f"{wording.number(row.median_ms)} ms", GOOD, noted(one, row), strong=True)
+        return Square(f"{wording.number(row.median_ms)} ms", BEST, noted(one, row), strong=True)
     times = math.nan if best is None else rounds.times_over(row, best)
     text = f"{wording.number(row.median_ms)} ms" if math.isnan(times) else wording.factor(times)
     if row.wrong_rays != 0:
         return Square(f"{text}, {wording.count(row.wrong_rays)} wrong", WRONG, noted(one, row))
     if best is not None and not ties.is_slower(row, best):
-        return Square(f"≈ {text}", GOOD, f"{noted(one, row)}; not told apart from the winner")
-    return Square(text, _faded(GOOD, times), noted(one, row))
+        return Square(f"≈ {text}", BEST, f"{noted(one, row)}; not told apart from the winner")
+    return Square(text, _faded(BEST, times), noted(one, row))
 
 
 def taken(one: Choice, method: str) -> Any:
@@ -117,7 +117,7 @@ def against(found: Sequence[Choice], focus: str, methods: Sequence[str]) -> Matr
         "Above 1× it is faster than the other method; ≈ stands where the times are not told apart. “Wrong” counts the "
         "other's wrong rays: a time that is bought with them is no win. – the other does not apply or was not timed.",
         "surface",
-        {GOOD: "it is faster", ALIKE: "not told apart", SLOWER: "the other is faster", WRONG: "the other is wrong"},
+        {FASTER: "it is faster", ALIKE: "not told apart", SLOWER: "the other is faster", WRONG: "the other is wrong"},
     )
 
 
@@ -131,7 +131,7 @@ def _against_focus(one: Choice, own: Any, method: str) -> Square:
     if row.wrong_rays != 0:
         return Square(f"{text}\n{wording.count(row.wrong_rays)} wrong", WRONG, noted(one, row))
     if ties.is_slower(row, own):
-        return Square(text, _strength(GOOD, times), noted(one, row))
+        return Square(text, _strength(FASTER, times), noted(one, row))
     if ties.is_slower(own, row):
         return Square(text, _strength(SLOWER, times), noted(one, row))
     return Square(f"≈ {text}", ALIKE, noted(one, row))

@@ -21,6 +21,7 @@ ORDER = 9  # before the winners: what is right comes before what is fast
 MANY = 30  # surfaces, from which on a run without the gallery has the section too
 CATALOG, OTHERS = "catalog", "others"
 RIGHT, NOTHING = "✓", "?"
+WORDS = wording.WRONG_RAYS
 LETTERS = {"misses": "m", "false_hits": "f", "exhausted": "e", "wrong_root": "r", "invalid": "i"}
 BREAKS = {  # what a broken claim is, by the kind of wrong ray that breaks it
     "no_false_hit": "false_hits",
@@ -134,7 +135,7 @@ def _square(row: Any) -> Square:
         return Square(RIGHT, shades.shade(0.0), f"{named}: every ray right")
     kind = _main_kind(row)
     badness = FIRST_WRONG + (1.0 - FIRST_WRONG) * (1.0 + math.log10(max(float(row.share), 1e-3)) / 3.0)
-    note = f"{named}: {wording.share(row.share)} wrong, most of them {wording.WRONG_RAYS[kind]}"
+    note = f"{named}: {wording.share(row.share)} wrong, most of them {WORDS[kind]}"
     return Square(f"{_percent(row.share)} {LETTERS[kind]}", shades.shade(badness), note)
 
 
@@ -211,7 +212,7 @@ def _told(taken: pd.DataFrame, wrong: pd.DataFrame) -> str:
     for group, own in wrong.groupby("group", sort=False):
         of = int((taken["group"] == group).sum())
         worst = next(own.sort_values("share", ascending=False, kind="stable").head(1).itertuples())
-        what = f"{worst.surface_title} {wording.share(worst.share)}, {wording.WRONG_RAYS[_main_kind(worst)]}"
+        what = f"{worst.surface_title} {wording.share(worst.share)}, {WORDS[_main_kind(worst)]}"
         told.append((len(own) / of, f"{str(group).replace('_', ' ')} {len(own)} of {of} ({what})"))
     return "; ".join(text for _, text in sorted(told, key=lambda item: -item[0]))
 
@@ -280,8 +281,8 @@ def _broken(rows: pd.DataFrame, material: Material) -> list[Text]:
             if len(against):
                 where = ", ".join(dict.fromkeys(against["surface_title"]))
                 claimed = claim.replace("_", " ")
-                broken = wording.WRONG_RAYS[str(kind)]
-                found.append(Text(f"{name} claims {claimed}, and {broken} of clear rays break it on: {where}.", True))
+                told = f"{name} claims {claimed}, and {WORDS[str(kind)]} of clear rays break it on: {where}."
+                found.append(Text(told, True))
     return found
 
 
