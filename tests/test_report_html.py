@@ -17,9 +17,9 @@ from harness import cli
 from reports import compare, parts, report
 from reports.analysis import derive
 from reports.content import Document
-from reports.drawing import charts, markers, style
+from reports.drawing import charts, markers, shades, style
 from reports.reading import load
-from reports.rendering import bundle, document, html, html_tables, pictures
+from reports.rendering import bundle, document, html, pictures
 from tests import html_content
 from tests.synthetic_run import cell, tiny_run, write_run
 
@@ -172,5 +172,5 @@ def test_a_large_panel_comes_first_with_all_its_texts(text: str) -> None:
 
 
 def test_text_on_a_square_is_read_on_any_colour() -> None:
-    assert html_tables.on("#000000") == "#ffffff"
-    assert html_tables.on("#ffffff") == "#111111"
+    assert shades.ink("#000000") == "#ffffff"
+    assert shades.ink("#ffffff") == "#111111"
