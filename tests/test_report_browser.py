@@ -50,13 +50,8 @@ def page(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def opened(tmp_path_factory: pytest.TempPathFactory) -> Iterator[browser.Browser]:
-    if browser.found() is None:
-        pytest.skip("no chromium here; install Debian's package chromium to drive the page")
-    tab = browser.Browser(tmp_path_factory.mktemp("profile"))
-    try:
+    with browser.opened(tmp_path_factory.mktemp("profile")) as tab:
         yield tab
-    finally:
-        tab.close()
 
 
 @pytest.fixture

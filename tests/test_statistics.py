@@ -258,7 +258,6 @@ def test_evaluations_have_one_denominator_or_say_which(tmp_path: Path) -> None:
 # ---- every table of a report
 
 
-RATIOS = ("speed-\nup", "faster", "times\nits time", "median\nspeed-up")
 SHARES = ("share\nof peak", "±", "right", "overhead", "discarded", "scatter")
 
 
@@ -266,10 +265,10 @@ def test_no_table_prints_a_figure_that_cannot_be(tmp_path: Path) -> None:
     run, report = reported(write_run(tmp_path / "run"))
     frame = derive.derive(run.frame, run.plan.peaks)
     right = frame[derive.all_right(frame) | ~frame["answers"].astype(bool)]
-    sound = set(right[["variant", "device", "precision"]].itertuples(index=False, name=None))
+    sound = set(right[["label", "device", "precision"]].itertuples(index=False, name=None))
     seen = set()
     for section in (report.summary, *report.sections):
-        for table in (block for block in section.blocks if isinstance(block, content.Table)):
+        for table in (b for b in (*section.blocks, *section.details) if isinstance(b, content.Table)):
             titles = [column.title for column in table.columns]
             for line in table.rows:
                 for column, value in zip(table.columns, line, strict=True):

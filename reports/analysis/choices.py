@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -112,6 +113,11 @@ def _choice(surface: str, named: dict[str, str], rows: pd.DataFrame) -> Choice:
     right = rows[derive.all_right(rows) & rows["relative_error_max"].notna()]
     nearest = next(right.sort_values("relative_error_max", kind="stable").itertuples(), None)
     return Choice(surface, named[str(rows["comparison"].iloc[0])], rows, within, tied, nearest)
+
+
+def others(tied: Sequence[str]) -> list[str]:
+    """Return the one variant that is not told apart from a winner, or how many there are."""
+    return [f"{len(tied)} others"] if len(tied) > 1 else list(tied)
 
 
 def precision_of(rows: pd.DataFrame) -> str:
