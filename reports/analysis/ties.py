@@ -27,8 +27,8 @@ RULE = (
     "Two times differ where both variants were timed in the same rounds and a signed-rank test of the rounds' ratios "
     f"leaves a chance of at most {LEVEL:g}, which takes {NEEDED} rounds, and the 95 % interval of their median is "
     "all on one side of 1. Where they share fewer rounds, they differ where each time of the one in these is more than "
-    f"{FAR:g} times each of the other. Times that share no round differ where the 95 % intervals of both medians do not "
-    "meet"
+    f"{FAR:g} times each of the other. Times that share no round differ where the 95 % intervals of both medians do "
+    "not meet"
 )
 
 
