@@ -34,6 +34,7 @@ KEY = (
     "nothing to judge; its reason is listed at the end of the report."
 )
 MOST_COLUMNS = 16
+SETTINGS = 3  # of a method whose broken claim is told
 MOST_PRINTED = 110  # surfaces; the matrix of all is among the details
 FIRST_WRONG = 0.35  # how bad, from 0 to 1, the colour is of a surface with 1 in 1,000 rays wrong
 
@@ -279,11 +280,24 @@ def _broken(rows: pd.DataFrame, material: Material) -> list[Text]:
             kind = BREAKS.get(claim)
             against = own[own[kind] > 0] if kind else own.head(0)
             if len(against):
-                where = ", ".join(dict.fromkeys(against["surface_title"]))
                 claimed = claim.replace("_", " ")
-                told = f"{name} claims {claimed}, and {WORDS[str(kind)]} of clear rays break it on: {where}."
+                told = (
+                    f"{name} claims {claimed}, and {WORDS[str(kind)]} of clear rays break it: {_by_setting(against)}."
+                )
                 found.append(Text(told, True))
     return found
+
+
+def _by_setting(against: pd.DataFrame) -> str:
+    """Name the settings of a method that break its claim, each with its surfaces; at most SETTINGS, worst first."""
+    each = [
+        (len(titles), f"{label} on {', '.join(titles)}")
+        for label, own in against.groupby("label", sort=False)
+        for titles in [list(dict.fromkeys(own["surface_title"]))]
+    ]
+    each.sort(key=lambda pair: -pair[0])
+    more = [f"{len(each) - SETTINGS} more settings"] if len(each) > SETTINGS else []
+    return "; ".join([*(told for _, told in each[:SETTINGS]), *more])
 
 
 def _stated(methods: Mapping[str, Mapping[str, Any]], method: str) -> list[str]:
