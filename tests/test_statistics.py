@@ -238,7 +238,7 @@ def test_a_fit_through_three_surfaces_is_refused_with_its_reason(tmp_path: Path)
     cells = [timed("newton", surface, ms) for surface, ms in zip(SCENES, (1.0, 9.0, 2.0), strict=True)]
     frame = derive.derive(load.load(tiny_run(tmp_path / "run", *cells)).frame)
     (section,) = growth.sections(SimpleNamespace(listed=frame, marks=style.variant_marks([("newton", "newton")])))
-    told = printed(section.blocks)
+    told = printed((*section.blocks, *section.details))
     assert "3 points do not determine an exponent: the 95 % interval of 0.90, −" in told
     assert "| newton | 3 | – | – | – |" in told
     (figure,) = [block for block in section.blocks if isinstance(block, content.Figure)]

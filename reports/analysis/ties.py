@@ -19,12 +19,15 @@ LEVEL = 0.01  # the largest chance that is evidence of a difference
 NEEDED = ranks.pairs_needed(LEVEL)
 SLOWER, FASTER, ALIKE = "slower", "faster", "not told apart"
 TORN = f"{ALIKE}: the test and the interval disagree"
+FAR = 3.0  # so many times as long in each of too few rounds is no tie, though no test says so
 COLUMNS = [*rounds.COLUMNS, "median_ms", "lower_ms", "upper_ms"]
 _TOLD = ["method", "variant", "key", *COLUMNS]
 RULE = (
     "Two times differ where both variants were timed in the same rounds and a signed-rank test of the rounds' ratios "
     f"leaves a chance of at most {LEVEL:g}, which takes {NEEDED} rounds, and the 95 % interval of their median is "
-    "all on one side of 1. Times that share no round differ where the 95 % intervals of both medians do not meet"
+    "all on one side of 1. Times that share no round differ where the 95 % intervals of both medians do not meet. Where "
+    f"fewer than {NEEDED} rounds timed both, nothing is proved; a variant that took at least {FAR:g} times as long in each "
+    "of them is not called a tie all the same"
 )
 
 
@@ -48,6 +51,14 @@ def is_slower(row: Any, other: Any) -> bool:
     return bool(enough and row.lower_ms > other.upper_ms)
 
 
+def may_tie(row: Any, other: Any) -> bool:
+    """Tell whether `row` may be as fast as `other`: it is not proved slower, nor FAR slower in each of too few rounds."""
+    if is_slower(row, other):
+        return False
+    paired = ratio(row, other)
+    return paired is None or paired.pairs >= NEEDED or paired.lower < FAR
+
+
 def best(rows: pd.DataFrame) -> Any:
     """Return the fastest of `rows`, as a named tuple of the columns of _TOLD.
 
@@ -58,7 +69,7 @@ def best(rows: pd.DataFrame) -> Any:
 
 
 def tied(rows: pd.DataFrame, first: Any) -> list[str]:
-    """Return the variants of other methods that are not proved slower than `first`; of each method its fastest.
+    """Return the variants of other methods that may be as fast as `first`, as may_tie says; of each its fastest.
 
     `rows` are of one scene and device, in order of their medians.
     """
@@ -81,7 +92,7 @@ def _tied(rows: list[Any], first: Any) -> list[str]:
     for row in rows:
         if row.method != first.method:
             fastest_of.setdefault(row.method, row)
-    return [str(row.variant) for row in fastest_of.values() if not is_slower(row, first)]
+    return [str(row.variant) for row in fastest_of.values() if may_tie(row, first)]
 
 
 def _groups(rows: pd.DataFrame) -> list[list[Any]]:
@@ -95,8 +106,8 @@ def _groups(rows: pd.DataFrame) -> list[list[Any]]:
 def leaders(frame: pd.DataFrame) -> pd.DataFrame:
     """Return the fastest row with every ray right of each group that has one, with two more columns.
 
-    `tied` lists the variants of other methods that are not proved slower, of each method its fastest. `methods` is the
-    number of methods timed in the group.
+    `tied` lists the variants of other methods that may be as fast (may_tie), of each method its fastest. `methods` is
+    the number of methods timed in the group.
     """
     rows = derive.contenders(frame)
     methods = rows.groupby(derive.GROUP)["method"].nunique().rename("methods")

@@ -68,7 +68,7 @@ def _against_best(one: Choice, method: str) -> Square:
     text = f"{wording.number(row.median_ms)} ms" if math.isnan(times) else wording.factor(times)
     if row.wrong_rays != 0:
         return Square(f"{text}, {wording.count(row.wrong_rays)} wrong", WRONG, noted(one, row))
-    if best is not None and not ties.is_slower(row, best):
+    if best is not None and ties.may_tie(row, best):
         return Square(f"≈ {text}", BEST, f"{noted(one, row)}; not told apart from the winner")
     return Square(text, _faded(BEST, times), noted(one, row))
 
@@ -130,9 +130,9 @@ def _against_focus(one: Choice, own: Any, method: str) -> Square:
     text = f"{wording.number(row.median_ms)} ms" if math.isnan(times) else wording.factor(times)
     if row.wrong_rays != 0:
         return Square(f"{text}\n{wording.count(row.wrong_rays)} wrong", WRONG, noted(one, row))
-    if ties.is_slower(row, own):
+    if not ties.may_tie(row, own):
         return Square(text, _strength(FASTER, times), noted(one, row))
-    if ties.is_slower(own, row):
+    if not ties.may_tie(own, row):
         return Square(text, _strength(SLOWER, times), noted(one, row))
     return Square(f"≈ {text}", ALIKE, noted(one, row))
 

@@ -173,7 +173,7 @@ def _figure(ranges: pd.DataFrame, titles: dict[str, str]) -> Figure:
         for axes in list(panels.flat)[len(bases) :]:
             axes.axis("off")
         drawing.supxlabel("side of the boxes over the domain's radius", y=0.1 / height, va="center", fontsize=7)
-        drawing.supylabel("width over the range's", x=0.08 / NARROW, ha="center", fontsize=7)
+        drawing.supylabel("width of the interval over that of f's range", x=0.08 / NARROW, ha="center", fontsize=7)
         drawn = svg(drawing)
     return Figure(
         "forms-range",

@@ -156,7 +156,7 @@ def _risks(choice: Choice) -> str:
     ]
     if told:
         return f"Faster than {best}, but wrong: {wording.listed(told)}."
-    return f"Nothing that answers rays wrongly is faster here than {best}, the fastest right method."
+    return f"Nothing that answers rays wrongly is proved faster than {best}, the fastest right method."
 
 
 def _gain(times: float) -> str:
@@ -204,7 +204,7 @@ def _atlas(material: Material, surfaces: list[tuple[str, pd.DataFrame]]) -> Sect
         else:
             panels.append(made)
     shows = ", with its name and its time" if short else ", who that is at two errors, and who is wrong"
-    scale = "" if short else " Errors “at most” are over the scene's radius, “max error” is in scene units."
+    scale = "" if short else " Errors are the largest over the scene's radius."
     told = (
         f"Each surface as the fastest method without a wrong ray draws it{shows}. Of each the scene with most methods, "
         f"on the device with most results.{scale} Wrong rays are those away from silhouettes. Plots, error maps and "

@@ -80,7 +80,7 @@ def _said(judged: pd.DataFrame) -> str:
     right = (taken["share"] == 0).groupby(taken["label"], sort=False).agg(["sum", "size"])
     best, worst = right["sum"].idxmax(), (right["size"] - right["sum"]).idxmax()
     surfaces = judged["surface"].nunique()
-    told = f"{best} is right on every ray of most surfaces: {right['sum'][best]} of the {right['size'][best]} it takes"
+    told = f"{best} is right on every ray of most: {right['sum'][best]} of the {right['size'][best]} it takes"
     wrong = int(right["size"][worst] - right["sum"][worst])
     least = f"; {worst} is wrong on most: {wrong} of {right['size'][worst]}" if wrong else ""
     return f"Of {wording.plural(surfaces, 'surface')}, {told}{least}."
