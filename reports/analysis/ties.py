@@ -25,9 +25,9 @@ _TOLD = ["method", "variant", "key", *COLUMNS]
 RULE = (
     "Two times differ where both variants were timed in the same rounds and a signed-rank test of the rounds' ratios "
     f"leaves a chance of at most {LEVEL:g}, which takes {NEEDED} rounds, and the 95 % interval of their median is "
-    "all on one side of 1. Times that share no round differ where the 95 % intervals of both medians do not meet. Where "
-    f"fewer than {NEEDED} rounds timed both, nothing is proved; a variant that took at least {FAR:g} times as long in each "
-    "of them is not called a tie all the same"
+    "all on one side of 1. Times that share no round differ where the 95 % intervals of both medians do not meet. "
+    f"Where fewer than {NEEDED} rounds timed both, nothing is proved; but a variant that took at least {FAR:g} times "
+    "as long in each of them is not called a tie"
 )
 
 
@@ -52,7 +52,7 @@ def is_slower(row: Any, other: Any) -> bool:
 
 
 def may_tie(row: Any, other: Any) -> bool:
-    """Tell whether `row` may be as fast as `other`: it is not proved slower, nor FAR slower in each of too few rounds."""
+    """Tell whether `row` may be as fast as `other`: neither proved slower, nor FAR slower in too few rounds."""
     if is_slower(row, other):
         return False
     paired = ratio(row, other)

@@ -13,6 +13,7 @@ import pandas as pd
 from harness.contract import CellStatus
 from harness.results.schema import KINDS
 from reports import wording
+from reports.analysis import surface_names
 from reports.content import Block, Column, Matrix, Section, Square, Table, Text
 from reports.drawing import shades
 from reports.material import Material
@@ -83,7 +84,9 @@ def _said(judged: pd.DataFrame) -> str:
     told = f"{best} is right on every ray of most: {right['sum'][best]} of the {right['size'][best]} it takes"
     wrong = int(right["size"][worst] - right["sum"][worst])
     least = f"; {worst} is wrong on most: {wrong} of {right['size'][worst]}" if wrong else ""
-    return f"Of {wording.plural(surfaces, 'surface')}, {told}{least}."
+    printed = surface_names.printed_alone(judged)["surface"].nunique()
+    forms = f" ({printed}, some of them in several forms of their formula)" if printed < surfaces else ""
+    return f"Of {wording.plural(surfaces, 'surface')}{forms}, {told}{least}."
 
 
 def _shortened(told: Sequence[Text]) -> list[Text]:
@@ -287,8 +290,8 @@ def _broken(rows: pd.DataFrame, material: Material) -> list[Text]:
             if len(against):
                 where = ", ".join(dict.fromkeys(against["surface_title"]))
                 claimed = claim.replace("_", " ")
-                told = f"{name} claims {claimed}, and {WORDS[str(kind)]} of clear rays break it on: {where}."
-                found.append(Text(told, True))
+                broken = f"in some setting or view {WORDS[str(kind)]} of clear rays break that on: {where}"
+                found.append(Text(f"{name} claims {claimed}; {broken}.", True))
     return found
 
 
