@@ -109,7 +109,7 @@ def _square(arrays: Arrays) -> Arrays:
 def winners(rows: pd.DataFrame, choice: Choice | None) -> list[tuple[str, ...]]:
     """Return the lines of a card: the fastest at each of ERRORS, or where nothing was timed the most exact.
 
-    The errors of the former are over the scene's radius, as ERRORS are, and of the latter in scene units.
+    Errors are the largest over the scene's radius, as ERRORS are.
     """
     if choice is not None:
         lines: list[tuple[str, ...]] = [("error ≤", "fastest right", "ms", "error")]
@@ -120,12 +120,13 @@ def winners(rows: pd.DataFrame, choice: Choice | None) -> list[tuple[str, ...]]:
                 figures = (choices.written(row, rows), time, wording.error(row.relative_error_max))
             lines.append((wording.level(error), *figures))
         return lines
-    right = rows[derive.all_right(rows) & rows["error_max"].notna()].sort_values("error_max", kind="stable").head(3)
+    right = rows[derive.all_right(rows) & rows["relative_error_max"].notna()]
+    right = right.sort_values("relative_error_max", kind="stable").head(3)
     ranked = [
-        (f"{i}.", choices.written(row, rows), wording.error(row.error_max))
+        (f"{i}.", choices.written(row, rows), wording.error(row.relative_error_max))
         for i, row in enumerate(right.itertuples(), 1)
     ]
-    return [("", "most exact, all rays right", "error, scene units"), *ranked] if ranked else []
+    return [("", "most exact, all rays right", "error over radius"), *ranked] if ranked else []
 
 
 def wrong_methods(rows: pd.DataFrame, most: int) -> str:

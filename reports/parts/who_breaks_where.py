@@ -13,6 +13,7 @@ import pandas as pd
 from harness.contract import CellStatus
 from harness.results.schema import KINDS
 from reports import wording
+from reports.analysis import surface_names
 from reports.content import Block, Column, Matrix, Section, Square, Table, Text
 from reports.drawing import shades
 from reports.material import Material
@@ -75,10 +76,12 @@ def _said(judged: pd.DataFrame) -> str:
     right = (taken["share"] == 0).groupby(taken["label"], sort=False).agg(["sum", "size"])
     best, worst = right["sum"].idxmax(), (right["size"] - right["sum"]).idxmax()
     surfaces = judged["surface"].nunique()
-    told = f"{best} is right on every ray of most surfaces: {right['sum'][best]} of the {right['size'][best]} it takes"
+    told = f"{best} is right on every ray of most: {right['sum'][best]} of the {right['size'][best]} it takes"
     wrong = int(right["size"][worst] - right["sum"][worst])
     least = f"; {worst} is wrong on most: {wrong} of {right['size'][worst]}" if wrong else ""
-    return f"Of {wording.plural(surfaces, 'surface')}, {told}{least}."
+    printed = surface_names.printed_alone(judged)["surface"].nunique()
+    forms = f" ({printed}, some of them in several forms of their formula)" if printed < surfaces else ""
+    return f"Of {wording.plural(surfaces, 'surface')}{forms}, {told}{least}."
 
 
 def _shortened(told: Sequence[Text]) -> list[Text]:

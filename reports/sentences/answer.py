@@ -214,7 +214,7 @@ def bought(found: Sequence[Choice]) -> str:
     if len(trades) > 4:
         counted = Counter(str(trade.row.method_label) for _, trade in trades)
         each = [f"{label} on {count}" for label, count in counted.most_common()]
-        return f"Of {len(found)} surfaces: {wording.listed(each)}. “Trade-offs” has each."
+        return f"On {len(trades)} of {len(found)} surfaces: {wording.listed(each)}. “Trade-offs” lists them."
     by_label: dict[str, list[str]] = {}
     for one, trade in trades:
         told = f"{one.name} ({trade.told})"
