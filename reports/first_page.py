@@ -95,14 +95,14 @@ def _degree(one: Choice) -> int:
 
 
 def _claims(material: Material) -> str:
-    """Count the papers' claims that hold and that do not; "" where the run decides less than a quarter of them."""
+    """Count the papers' claims that are confirmed and refuted; "" where the run decides less than a quarter of them."""
     outcomes = Counter(verdict.outcome for _, verdict in material.judged)
     decided = outcomes[Outcome.CONFIRMED] + outcomes[Outcome.REFUTED]
     if decided < len(material.judged) / 4:
         return ""
     return (
-        f"Of {decided} claims of the papers that this run decides, {outcomes[Outcome.CONFIRMED]} hold here "
-        f"and {outcomes[Outcome.REFUTED]} do not."
+        f"Of {decided} claims of the papers that this run decides, {outcomes[Outcome.CONFIRMED]} are confirmed "
+        f"and {outcomes[Outcome.REFUTED]} refuted."
     )
 
 

@@ -120,7 +120,7 @@ def test_a_run_of_families_alone_makes_a_report(hard: Path) -> None:
     run, document = reported(hard)
     assert run.frame.empty and len(run.not_run) == 1 and len(run.unreadable) == 1
     summary = printed(document.summary.blocks)
-    told = "the most that any variant holds are 2 of 2 in float32 (Newton, ε = 1e−6, of 2 that it answered)"
+    told = "the most families of hard rays are held by Newton, ε = 1e−6 in float32 (2 of 2)"
     assert told in summary
     by_title = {section.title: printed((*section.blocks, *section.details)) for section in document.sections}
     assert list(by_title) == [BREAKS, last_page.TITLE]

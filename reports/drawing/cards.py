@@ -107,22 +107,26 @@ def _square(arrays: Arrays) -> Arrays:
 
 
 def winners(rows: pd.DataFrame, choice: Choice | None) -> list[tuple[str, ...]]:
-    """Return the lines of a card: the fastest at each of ERRORS, or where nothing was timed the most exact."""
+    """Return the lines of a card: the fastest at each of ERRORS, or where nothing was timed the most exact.
+
+    Errors are the largest over the scene's radius, as ERRORS are.
+    """
     if choice is not None:
-        lines: list[tuple[str, ...]] = [("error ≤", "fastest right", "ms", "max error")]
+        lines: list[tuple[str, ...]] = [("error ≤", "fastest right", "ms", "error")]
         for error, row in zip(ERRORS, choice.within, strict=True):
             figures = ("none", "", "")
             if row is not None:
                 time = wording.number(row.median_ms)
-                figures = (choices.written(row, rows), time, wording.error(row.error_max))
+                figures = (choices.written(row, rows), time, wording.error(row.relative_error_max))
             lines.append((wording.level(error), *figures))
         return lines
-    right = rows[derive.all_right(rows) & rows["error_max"].notna()].sort_values("error_max", kind="stable").head(3)
+    right = rows[derive.all_right(rows) & rows["relative_error_max"].notna()]
+    right = right.sort_values("relative_error_max", kind="stable").head(3)
     ranked = [
-        (f"{i}.", choices.written(row, rows), wording.error(row.error_max))
+        (f"{i}.", choices.written(row, rows), wording.error(row.relative_error_max))
         for i, row in enumerate(right.itertuples(), 1)
     ]
-    return [("", "most exact, all rays right", "max error"), *ranked] if ranked else []
+    return [("", "most exact, all rays right", "error over radius"), *ranked] if ranked else []
 
 
 def wrong_methods(rows: pd.DataFrame, most: int) -> str:

@@ -97,7 +97,7 @@ def sections(material: Material) -> list[Section]:
     if ALONE < len(found) <= ATLAS:
         return [Section(TITLE, (), (*page, figures[first], *rest))]
     room = (figures[first],) if len(found) <= ONE_PAGE else ()
-    return [Section(TITLE, (*page, *room), (*rest, *([] if room else [figures[first]])), own_page=bool(room))]
+    return [Section(TITLE, (*page, *room), (*rest, *([] if room else [figures[first]])))]
 
 
 def seen(clouds: Sequence[Cloud]) -> str:

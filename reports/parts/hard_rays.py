@@ -279,8 +279,9 @@ def verdict(rungs: pd.DataFrame) -> str:
     for precision, own in rows.groupby("precision"):
         by_variant = own.groupby(["label", "family"])["held"].all().groupby("label")
         held, tried = by_variant.sum(), by_variant.size()
-        best = [f"{name}, of {tried[name]} that it answered" for name in sorted(held.index[held == held.max()])]
-        tallies.append(f"{held.max()} of {own['family'].nunique()} in {precision} ({wording.listed(best)})")
-    where = f"on {wording.listed(sorted(set(rungs['device'])))}"
-    most = f"the most that any variant holds are {wording.listed(tallies)}"
-    return f"Families of hard rays with rays decided {where}: {most}."
+        families = own["family"].nunique()
+        tried = tried[held == held.max()].sort_index()
+        best = [name if n == families else f"{name} (which answers {n})" for name, n in tried.items()]
+        tallies.append(f"by {wording.listed(best)} in {precision} ({held.max()} of {families})")
+    where = f"On {wording.listed(sorted(set(rungs['device'])))}"
+    return f"{where}, the most families of hard rays are held {wording.listed(tallies)}."

@@ -13,6 +13,7 @@ import pandas as pd
 from harness.contract import CellStatus
 from harness.results.schema import KINDS
 from reports import wording
+from reports.analysis import surface_names
 from reports.content import Block, Column, Matrix, Section, Square, Table, Text
 from reports.drawing import shades
 from reports.material import Material
@@ -34,6 +35,7 @@ KEY = (
     "nothing to judge; its reason is listed at the end of the report."
 )
 MOST_COLUMNS = 16
+SETTINGS = 3  # of a method whose broken claim is told
 MOST_PRINTED = 110  # surfaces; the matrix of all is among the details
 FIRST_WRONG = 0.35  # how bad, from 0 to 1, the colour is of a surface with 1 in 1,000 rays wrong
 
@@ -74,10 +76,12 @@ def _said(judged: pd.DataFrame) -> str:
     right = (taken["share"] == 0).groupby(taken["label"], sort=False).agg(["sum", "size"])
     best, worst = right["sum"].idxmax(), (right["size"] - right["sum"]).idxmax()
     surfaces = judged["surface"].nunique()
-    told = f"{best} is right on every ray of most surfaces: {right['sum'][best]} of the {right['size'][best]} it takes"
+    told = f"{best} is right on every ray of most: {right['sum'][best]} of the {right['size'][best]} it takes"
     wrong = int(right["size"][worst] - right["sum"][worst])
     least = f"; {worst} is wrong on most: {wrong} of {right['size'][worst]}" if wrong else ""
-    return f"Of {wording.plural(surfaces, 'surface')}, {told}{least}."
+    printed = surface_names.printed_alone(judged)["surface"].nunique()
+    forms = f" ({printed}, some of them in several forms of their formula)" if printed < surfaces else ""
+    return f"Of {wording.plural(surfaces, 'surface')}{forms}, {told}{least}."
 
 
 def _shortened(told: Sequence[Text]) -> list[Text]:
@@ -279,11 +283,24 @@ def _broken(rows: pd.DataFrame, material: Material) -> list[Text]:
             kind = BREAKS.get(claim)
             against = own[own[kind] > 0] if kind else own.head(0)
             if len(against):
-                where = ", ".join(dict.fromkeys(against["surface_title"]))
                 claimed = claim.replace("_", " ")
-                told = f"{name} claims {claimed}, and {WORDS[str(kind)]} of clear rays break it on: {where}."
+                told = (
+                    f"{name} claims {claimed}, and {WORDS[str(kind)]} of clear rays break it: {_by_setting(against)}."
+                )
                 found.append(Text(told, True))
     return found
+
+
+def _by_setting(against: pd.DataFrame) -> str:
+    """Name the settings of a method that break its claim, each with its surfaces; at most SETTINGS, worst first."""
+    each = [
+        (len(titles), f"{label} on {', '.join(titles)}")
+        for label, own in against.groupby("label", sort=False)
+        for titles in [list(dict.fromkeys(own["surface_title"]))]
+    ]
+    each.sort(key=lambda pair: -pair[0])
+    more = [f"{len(each) - SETTINGS} more settings"] if len(each) > SETTINGS else []
+    return "; ".join([*(told for _, told in each[:SETTINGS]), *more])
 
 
 def _stated(methods: Mapping[str, Mapping[str, Any]], method: str) -> list[str]:

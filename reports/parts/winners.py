@@ -18,6 +18,7 @@ from reports.material import Material
 
 ORDER = 10
 ONE_BY_ONE = 20  # a run with more groups has a table that counts the winners too
+FEW = 2  # surfaces, up to which the page has the table of winners too
 LINES = 30  # scenes of the matrix that is printed, and surfaces with trade-offs; details have all
 TWO_LINES = 12  # a matrix of so many scenes has room for two lines a square
 COLUMNS = 6  # devices and precisions that a page is wide enough for
@@ -44,12 +45,14 @@ def sections(material: Material) -> list[Section]:
     if trades is not None:
         blocks.append(_cut(trades, LINES // 2))
         details += [trades] if len(trades.rows) > LINES // 2 else []
+    if len(found) <= FEW:  # the page has room for more
+        blocks.append(winners_table(material.listed, leading))
     elsewhere = trades_tables.devices(material.listed)
     blocks += [elsewhere] if elsewhere is not None else []
     several = len(derive.contenders(material.listed).drop_duplicates(derive.GROUP)) > ONE_BY_ONE
     if several and len(leading):
         details.append(wins_table(leading))
-    details += [Text(f"{ties.RULE}."), winners_table(material.listed, leading)]
+    details += [Text(f"{ties.RULE}."), *([winners_table(material.listed, leading)] if len(found) > FEW else [])]
     return [Section("Winners", tuple(blocks), tuple(details), not material.focus)]
 
 

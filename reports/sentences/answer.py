@@ -35,6 +35,8 @@ def lead(found: Sequence[Choice]) -> str:
         return f"{where}, nothing is compared: {names} takes {_span(found)}."
     if all(one.best is None for one in found):
         return f"{where}, no variant was timed that answers every ray away from silhouettes rightly."
+    if all(one.within[0] is None for one in found):
+        return f"{where}, no right answer is within {wording.level(ERRORS[0])} of the scene's radius."
     return f"{where}, the fastest right answers come from {_winners(found, 0)}."
 
 
@@ -212,7 +214,7 @@ def bought(found: Sequence[Choice]) -> str:
     if len(trades) > 4:
         counted = Counter(str(trade.row.method_label) for _, trade in trades)
         each = [f"{label} on {count}" for label, count in counted.most_common()]
-        return f"Of {len(found)} surfaces: {wording.listed(each)}. “Trade-offs” has each."
+        return f"On {len(trades)} of {len(found)} surfaces: {wording.listed(each)}. “Trade-offs” lists them."
     by_label: dict[str, list[str]] = {}
     for one, trade in trades:
         told = f"{one.name} ({trade.told})"
@@ -239,7 +241,7 @@ def focus(found: Sequence[Choice], focus: str, method: str) -> str:
             wrong.append(one.name)
         elif one.best.Index in own.index:
             (shared if one.tied[0] else wins).append(one.name)
-        elif set(own["label"]) & set(one.tied[0]):
+        elif set(own.index) & set(one.tied_rows[0]):
             shared.append(one.name)
         else:
             beaten.setdefault(inline(one.best) if len(found) <= NAMED else str(one.best.method_label), []).append(
