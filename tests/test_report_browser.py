@@ -199,7 +199,11 @@ def test_the_explorer_zooms(tab: browser.Browser) -> None:
 def test_paper_has_the_drawings_and_not_the_explorer(tab: browser.Browser) -> None:
     tab.call("Emulation.setEmulatedMedia", media="print")
     shown = "document.querySelector('%s').checkVisibility()"
-    assert tab.run(f"[{shown % 'figure.drawing svg'}, {shown % '#explore'}, {shown % '#chips'}]") == [True, False, False]
+    assert tab.run(f"[{shown % 'figure.drawing svg'}, {shown % '#explore'}, {shown % '#chips'}]") == [
+        True,
+        False,
+        False,
+    ]
     tab.call("Emulation.setEmulatedMedia", media="screen")
 
 

@@ -173,4 +173,4 @@ def test_a_large_panel_comes_first_with_all_its_texts(text: str) -> None:
 
 def test_text_on_a_square_is_read_on_any_colour() -> None:
     assert html_tables.on("#000000") == "#ffffff"
-    assert html_tables.on("#ffffff") == "#111111"
+    assert html_tables.on("#ffffff") == "#000000"

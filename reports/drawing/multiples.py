@@ -25,7 +25,7 @@ from reports.drawing.style import Mark
 
 TEXT = 7.0  # points
 RADIUS = 3.0  # of a mark, points
-_LEFT, _RIGHT, _TOP, _BOTTOM = 0.46, 0.02, 0.17, 0.30  # inches around the panels
+_LEFT, _RIGHT, _TOP, _BOTTOM = 0.54, 0.02, 0.17, 0.30  # inches around the panels
 _BETWEEN = 0.10, 0.21  # inches between panels, beside and above each other
 MOST = 9  # panels
 

@@ -38,8 +38,7 @@ def page(
     explorer = document.explorer if library else None
     sections = [(f"s{i}", section) for i, section in enumerate((document.summary, *document.sections))]
     written = [
-        (name, section.name or section.title, _section(section, name.replace("s", "b")))
-        for name, section in sections
+        (name, section.name or section.title, _section(section, name.replace("s", "b"))) for name, section in sections
     ]
     if explorer is not None:
         written.insert(1, (EXPLORER, html_explorer.TITLE, html_explorer.explorer(explorer)))
