@@ -50,13 +50,8 @@ def page(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def opened(tmp_path_factory: pytest.TempPathFactory) -> Iterator[browser.Browser]:
-    if browser.found() is None:
-        pytest.skip("no chromium here; install Debian's package chromium to drive the page")
-    tab = browser.Browser(tmp_path_factory.mktemp("profile"))
-    try:
+    with browser.opened(tmp_path_factory.mktemp("profile")) as tab:
         yield tab
-    finally:
-        tab.close()
 
 
 @pytest.fixture
@@ -199,11 +194,8 @@ def test_the_explorer_zooms(tab: browser.Browser) -> None:
 def test_paper_has_the_drawings_and_not_the_explorer(tab: browser.Browser) -> None:
     tab.call("Emulation.setEmulatedMedia", media="print")
     shown = "document.querySelector('%s').checkVisibility()"
-    assert tab.run(f"[{shown % 'figure.drawing svg'}, {shown % '#explore'}, {shown % '#chips'}]") == [
-        True,
-        False,
-        False,
-    ]
+    names = ("figure.drawing svg", "#explore", "#chips")
+    assert [tab.run(shown % name) for name in names] == [True, False, False]
     tab.call("Emulation.setEmulatedMedia", media="screen")
 
 

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from reports.content import Document, Section
-from reports.drawing import charts
+from reports.drawing import markers
 from reports.drawing.style import Mark
 from reports.rendering import html_blocks, html_explorer
 from reports.rendering.escaping import data, escaped
@@ -81,7 +81,7 @@ def _section(section: Section, name: str) -> str:
 
 def _chips(marks: Mapping[str, Mark], labels: Mapping[str, str]) -> str:
     """Write a button for each method, with its mark, and what the scripts have to know of the methods."""
-    outlines = {name: charts.outline(mark) for name, mark in marks.items()}
+    outlines = {name: markers.outline(mark) for name, mark in marks.items()}
     told = {
         name: {"label": labels.get(name, name), "color": mark.color, "shape": outlines[name]}
         for name, mark in marks.items()
