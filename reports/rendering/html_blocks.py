@@ -16,7 +16,7 @@ from reports.rendering.escaping import escaped
 _ID = re.compile(r'\s?\bid="([^"]+)"')
 _REFERENCE = re.compile(r'(url\(#|href="#)([^")]+)')
 _SLIDER = (
-    '<details class="sliding" open><summary>Compare two pictures by a slider</summary><div class="compare" hidden>'
+    '<details class="sliding" open hidden><summary>Compare two pictures by a slider</summary><div class="compare">'
     '<label>left <select class="left"></select></label> <label>right <select class="right"></select></label>'
     '<div class="stack"><img class="under" alt=""><img class="above" alt=""><div class="edge"></div></div>'
     '<input class="slider" type="range" min="0" max="100" value="50" aria-label="where left ends and right begins">'

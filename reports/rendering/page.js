@@ -168,15 +168,12 @@ for (const gallery of document.querySelectorAll("figure.gallery:has(.sliding)"))
     });
     if (images.length) lasts.push(pictures.length - 1);
   }
-  if (pictures.length < 2) {
-    gallery.querySelector(".sliding").hidden = true;
-    continue;
-  }
+  if (pictures.length < 2) continue;
   const alike = gallery.querySelector(".hero") && lasts.length > 2 ? lasts.slice(1) : lasts;
   const method = (i) => pictures[i][0].split(/[,[]/)[0];
   const other = alike.find((i) => method(i) !== method(alike[0])) ?? alike[1];
   const firsts = alike.length > 1 ? [alike[0], other] : [0, 1];
-  gallery.querySelector(".compare").hidden = false;
+  gallery.querySelector(".sliding").hidden = false;
   [["left", "under", firsts[0]], ["right", "above", firsts[1]]].forEach(([side, layer, first]) => {
     const select = gallery.querySelector(`.${side}`);
     const target = gallery.querySelector(`.${layer}`);
