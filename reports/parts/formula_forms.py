@@ -37,8 +37,8 @@ EVEN = "even"
 TOP = 4.0  # the factor that has the brightest colour, and its inverse the darkest
 READ_RANGES = (
     "Interval arithmetic bounds f over a box, and how wide the bound is depends on how the formula is written. The "
-    "plots show its width over that of f's range as boxes shrink: where two forms stay apart at the right, no subdivision "
-    "brings them together."
+    "plots show its width over that of f's range as boxes shrink: where two forms stay apart at the right, no "
+    "subdivision brings them together."
 )
 READ_COST = "Dark squares are faster than the form as printed, bright ones slower; all forms were timed in turns."
 LEAD = (
