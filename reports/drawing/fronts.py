@@ -236,7 +236,7 @@ def _caption(shown: pd.DataFrame) -> str:
     gains = [
         gaining
         for gaining in shown[shown["speedup"] > 1.0].sort_values("speedup", ascending=False).itertuples()
-        if (beaten := over.get((gaining.device, gaining.precision))) is not None and not ties.may_tie(beaten, gaining)
+        if (beaten := over.get((gaining.device, gaining.precision))) is not None and ties.is_slower(beaten, gaining)
     ]
     row = next((gaining for gaining in gains if not gaining.floor_bound), None)
     bound = sum(bool(gaining.floor_bound) for gaining in gains)
