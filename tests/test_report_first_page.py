@@ -6,13 +6,14 @@ import json
 from pathlib import Path
 from typing import Any
 
+import pandas as pd
 import pytest
 import typst
 
 from harness.contract import digest
 from reports import content, first_page
 from reports.analysis import breaks, choices, derive, tradeoffs
-from reports.drawing import cards, multiples, standings, style
+from reports.drawing import cards, multiples, placing, standings, style
 from reports.material import Material
 from reports.parts import focus, winners
 from reports.reading import load
@@ -275,6 +276,12 @@ def test_every_method_is_named_beside_a_mark_or_in_the_key(tmp_path: Path) -> No
     for row in found[0].rows.itertuples():
         assert f">{row.method_label}<" in made.svg
     assert "Newton in 1.00 ms" in made.description
+
+
+def test_long_times_have_room_beside_the_name_of_their_axis() -> None:
+    short, long = (multiples._left(pd.Series([1.0, longest])) for longest in (20.0, 11_000.0))
+    wider = placing.text_size("10,000", multiples.TEXT)[0] - placing.text_size("20", multiples.TEXT)[0]
+    assert long - short == pytest.approx(wider / 72)
 
 
 def test_one_row_alone_has_no_plot(tmp_path: Path) -> None:
