@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -121,6 +122,11 @@ def _choice(surface: str, named: dict[str, str], rows: pd.DataFrame) -> Choice:
 def _fastest(rows: pd.DataFrame) -> Any:
     """Return the fastest of `rows`, which are in order of their medians, as a named tuple; None of none."""
     return None if rows.empty else next(rows.loc[[ties.best(rows).Index]].itertuples())
+
+
+def others(tied: Sequence[str]) -> list[str]:
+    """Return the one variant that is not told apart from a winner, or how many there are."""
+    return [f"{len(tied)} others"] if len(tied) > 1 else list(tied)
 
 
 def precision_of(rows: pd.DataFrame) -> str:

@@ -105,8 +105,8 @@ def _groups(rows: pd.DataFrame) -> list[list[Any]]:
 def leaders(frame: pd.DataFrame) -> pd.DataFrame:
     """Return the fastest row with every ray right of each group that has one, with two more columns.
 
-    `tied` lists the variants of other methods that are not proved slower, of each method its fastest. `methods` is the
-    number of methods timed in the group.
+    `tied` lists the rows of other methods that are not told to be slower, of each method its fastest. `methods` is
+    the number of methods timed in the group.
     """
     rows = derive.contenders(frame)
     methods = rows.groupby(derive.GROUP)["method"].nunique().rename("methods")

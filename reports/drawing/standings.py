@@ -13,10 +13,10 @@ from reports.analysis import choices, derive, rounds, ties
 from reports.analysis.choices import Choice
 from reports.content import Matrix, Square
 from reports.drawing import style
+from reports.drawing.shades import GOOD, WRONG
 
 MOST = 8  # surfaces that are columns of a page
-WRONG = "#ecd9ec"  # some ray is answered wrongly
-BEST, FASTER, SLOWER, ALIKE = "#8fd3b6", "#8fd3b6", "#f0a45d", "#e6e6e6"
+BEST, FASTER, SLOWER, ALIKE = GOOD, GOOD, "#f0a45d", "#e6e6e6"
 _SPAN = 1.5  # decades of a ratio over which a colour fades
 
 

@@ -149,19 +149,10 @@ def _risks(choice: Choice) -> str:
     if choice.best is None:
         return "Every method answers some rays wrongly."
     best = choices.written(choice.best, choice.rows)
-    told = [
-        f"{choices.written(trade.row, choice.rows)} ({_gain(trade.times)}"
-        f"{wording.plural(int(trade.row.wrong_rays), 'wrong ray')})"
-        for trade in tradeoffs.faster(choice)
-    ]
+    told = [f"{choices.written(trade.row, choice.rows)} ({trade.told})" for trade in tradeoffs.faster(choice)]
     if told:
         return f"Faster than {best}, but wrong: {wording.listed(told)}."
     return f"Nothing that answers rays wrongly is proved faster here than {best}."
-
-
-def _gain(times: float) -> str:
-    """Write how many times as fast a row is that takes so many times the time, with a comma; "" where not known."""
-    return "" if wording.absent(times) else f"{wording.factor(1.0 / times)} as fast, "
 
 
 def _further(

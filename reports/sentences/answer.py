@@ -49,7 +49,7 @@ def _winners(found: Sequence[Choice], level: int) -> str:
     for one, row in won:
         named = len(found) <= NAMED
         label = inline(row, one.rows) if named else str(row.method_label)
-        label = " or ".join([label, *_others_named(one.tied[level])]) if named else label
+        label = " or ".join([label, *choices.others(one.tied[level])]) if named else label
         by_label.setdefault(label, []).append((one, row))
     if len(found) <= NAMED:
         parts = [
@@ -64,11 +64,6 @@ def _winners(found: Sequence[Choice], level: int) -> str:
     parts += [f"others on {rest}"] if rest else []
     shared = sum(bool(one.tied[level]) for one, _ in won)
     return wording.listed(parts) + (f"; on {shared} another method is not told apart" if shared else "")
-
-
-def _others_named(tied: Sequence[str]) -> list[str]:
-    """Return the one variant that is not told apart from a winner, or how many there are."""
-    return [f"{len(tied)} others"] if len(tied) > 1 else list(tied)
 
 
 def inline(row: Any, rows: pd.DataFrame | None = None) -> str:
@@ -223,17 +218,12 @@ def bought(found: Sequence[Choice]) -> str:
     if len(trades) > 4:
         counted = Counter(str(trade.row.method_label) for _, trade in trades)
         each = [f"{label} on {count}" for label, count in counted.most_common()]
-        return f"Of {len(found)} surfaces: {wording.listed(each)}. “Trade-offs” has each."
+        return f"On {len(trades)} of {len(found)} surfaces: {wording.listed(each)}. “Trade-offs” lists them."
     by_label: dict[str, list[str]] = {}
     for one, trade in trades:
-        told = f"{one.name} ({_gain(trade)}{wording.plural(int(trade.row.wrong_rays), 'wrong ray')})"
+        told = f"{one.name} ({trade.told})"
         by_label.setdefault(inline(trade.row), []).append(told)
     return f"{'; '.join(f'{label} on {wording.listed(where)}' for label, where in by_label.items())}."
-
-
-def _gain(trade: tradeoffs.Trade) -> str:
-    """Write how many times as fast a variant is, with a comma; "" where that is not known."""
-    return "" if wording.absent(trade.times) else f"{wording.factor(1 / trade.times)} as fast, "
 
 
 def focus(found: Sequence[Choice], focus: str, method: str) -> str:
