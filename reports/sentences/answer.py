@@ -114,7 +114,9 @@ def gain(found: Sequence[Choice]) -> str:
     A winner whose time is floor-bound is left out, since the harness is measured there more than the method.
     """
     rows = [one.best for one in found if one.best is not None and not wording.absent(one.best.speedup)]
+    best = len(rows)
     rows = [row for row in rows if row.baseline not in (row.method, row.variant)]
+    itself = best - len(rows)
     told = sorted(row.speedup for row in rows if not row.floor_bound)
     if not rows:
         return ""
@@ -124,7 +126,9 @@ def gain(found: Sequence[Choice]) -> str:
     low, high = wording.factor(told[0]), wording.factor(told[-1])
     left = len(rows) - len(told)
     rest = f" ({left} left out, whose {'time is' if left == 1 else 'times are'} floor-bound)" if left else ""
-    where = "" if len(rows) == len(found) else f", on {len(rows)} of {len(found)} surfaces on which that is right too"
+    where = "" if len(rows) == len(found) else f", on {len(rows)} of {len(found)} surfaces"
+    where += " on which that is right too" if best < len(found) else ""
+    where += f"; on {itself} it is the fastest itself" if itself else ""
     return f"{low if low == high else f'{low} to {high}'} as fast as {name}{where}{rest}."
 
 
