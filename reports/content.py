@@ -87,18 +87,13 @@ class Matrix:
 
 @dataclass(frozen=True)
 class Figure:
-    """Hold a drawing as SVG text. `description` tells readers who cannot see it what it shows.
-
-    `chart` is the same drawing as a Vega-Lite specification with its data, which a renderer that can be pointed at may
-    show in the drawing's place.
-    """
+    """Hold a drawing as SVG text. `description` tells readers who cannot see it what it shows."""
 
     name: str
     svg: str
     description: str
     title: str = ""
     caption: str = ""
-    chart: Mapping[str, Any] | None = None
 
 
 @dataclass(frozen=True)

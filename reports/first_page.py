@@ -12,10 +12,10 @@ from reports import wording
 from reports.analysis.choices import Choice
 from reports.claims import Outcome
 from reports.content import Block, Column, Section, Table, Text
-from reports.drawing import choice, multiples, strip
+from reports.drawing import choice, multiples, strip, who_is_right
 from reports.material import Material
 from reports.parts import hard_rays
-from reports.sentences import accuracy, answer
+from reports.sentences import answer
 
 PANELS = 8  # surfaces with a picture and a plot; a run with more shows the most telling ones
 PLOTS = {1: 3.4, 2: 3.2, 3: 2.9, 4: 3.8}  # height of so many plots, inches
@@ -31,7 +31,7 @@ def section(material: Material) -> Section:
     if found:
         blocks += _timed(material, found)
     elif not material.frame.empty:
-        blocks += accuracy.blocks(material.frame)
+        blocks += who_is_right.blocks(material.frame)
     if not material.rungs.empty:
         blocks.append(Text(hard_rays.verdict(material.rungs), strong=True))
         if not found:
@@ -95,14 +95,14 @@ def _degree(one: Choice) -> int:
 
 
 def _claims(material: Material) -> str:
-    """Count the papers' claims that hold and that do not; "" where the run decides less than a quarter of them."""
+    """Count the papers' claims that are confirmed and refuted; "" where the run decides less than a quarter of them."""
     outcomes = Counter(verdict.outcome for _, verdict in material.judged)
     decided = outcomes[Outcome.CONFIRMED] + outcomes[Outcome.REFUTED]
     if decided < len(material.judged) / 4:
         return ""
     return (
-        f"Of {decided} claims of the papers that this run decides, {outcomes[Outcome.CONFIRMED]} hold here "
-        f"and {outcomes[Outcome.REFUTED]} do not."
+        f"Of {decided} claims of the papers that this run decides, {outcomes[Outcome.CONFIRMED]} are confirmed "
+        f"and {outcomes[Outcome.REFUTED]} refuted."
     )
 
 

@@ -13,6 +13,14 @@ from typing import Any
 import pandas as pd
 
 NONE = "–"
+REFUSED = "·"  # in a matrix: the method refuses it
+WRONG_RAYS = {  # what a sentence calls wrong rays, by their kind
+    "misses": "misses",
+    "false_hits": "false hits",
+    "exhausted": "rays given up",
+    "wrong_root": "wrong roots",
+    "invalid": "invalid answers",
+}
 
 
 def absent(value: Any) -> bool:
@@ -140,6 +148,12 @@ def plural(n: int, noun: str) -> str:
 def listed(names: Sequence[str]) -> str:
     """Join names as a sentence does: a, b and c."""
     return " and ".join(filter(None, (", ".join(names[:-1]), *names[-1:])))
+
+
+def few(names: Sequence[str], most: int) -> str:
+    """Join names as `listed` does: at most so many, and how many more there are."""
+    rest = [f"{len(names) - most} more"] if len(names) > most else []
+    return listed([*names[:most], *rest])
 
 
 def first_of(shown: int, total: int) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import contextlib
 import fcntl
 import json
 import os
@@ -10,8 +11,11 @@ import select
 import shutil
 import subprocess
 import time
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
+
+import pytest
 
 NAMES = ("chromium", "chromium-browser", "google-chrome")
 SECONDS = 120.0  # that one answer may take on a busy machine
@@ -26,6 +30,18 @@ def _as_pipe(to_read: int, to_write: int) -> None:
     """Give the two pipe ends, in the child process, the descriptors 3 and 4, at which chromium looks for its pipe."""
     os.dup2(to_read, 3)
     os.dup2(to_write, 4)
+
+
+@contextlib.contextmanager
+def opened(profile: Path) -> Iterator[Browser]:
+    """Yield a browser whose folder is `profile`; skip the test where there is no chromium."""
+    if found() is None:
+        pytest.skip("no chromium here; install Debian's package chromium to drive the pages")
+    browser = Browser(profile)
+    try:
+        yield browser
+    finally:
+        browser.close()
 
 
 class Browser:

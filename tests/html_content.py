@@ -73,16 +73,10 @@ def made(run: Path) -> tuple[Document, dict[str, style.Mark]]:
     heroic = Gallery((hero, *panels), "Heroic.", hero=True, across=3)
     legend = Figure("legend", drawing(), "a legend")
     figure = Figure("figure", drawing(), "a drawing", "Drawn.", "A line and a point.")
-    chart = {
-        "data": {"values": [{"a": 1, "b": 2}, {"a": 3, "b": 4}]},
-        "mark": "point",
-        "encoding": {"x": {"field": "a", "type": "quantitative"}, "y": {"field": "b", "type": "quantitative"}},
-    }
-    charted = Figure("charted", drawing(), "a chart", "Charted.", "", chart)
     summary = Section("Summary", (Text("The answer.", strong=True), Code("firsthit run quick --runs " + "x" * 200)))
     sections = (
         Section(f"Tables {EVIL}", (table, matrix), name="Tables"),
-        Section("Drawings", (figure, charted, Gallery(panels, "Pictures.", legend), heroic)),
+        Section("Drawings", (figure, Gallery(panels, "Pictures.", legend), heroic)),
         Section("Folded", (), (table,)),
         Section("Long", tuple(Text("word " * 120) for _ in range(8)), (table,)),
     )

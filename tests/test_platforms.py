@@ -99,3 +99,9 @@ def test_make_sets_up_with_the_python_that_is_named(tmp_path):
     assert made(tmp_path, PYTHON=old) == ["make: '.venv/ready' is up to date."]
     assert made(tmp_path) == ["make: '.venv/ready' is up to date."]
     assert f"{new} -m venv --clear .venv" in made(tmp_path, PYTHON=new)
+
+
+def test_the_page_of_licences_names_every_package_that_is_installed():
+    pins = re.findall(r"^([\w.-]+)==", (ROOT / "constraints.txt").read_text(encoding="utf-8"), re.MULTILINE)
+    told = set(re.findall(r"[\w.-]+", (ROOT / "docs" / "licences.md").read_text(encoding="utf-8").lower()))
+    assert len(pins) > 50 and [name for name in pins if name.lower() not in told] == []

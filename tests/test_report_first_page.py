@@ -12,7 +12,7 @@ import typst
 from harness.contract import digest
 from reports import content, first_page
 from reports.analysis import breaks, choices, derive, tradeoffs
-from reports.drawing import multiples, style
+from reports.drawing import cards, multiples, standings, style
 from reports.material import Material
 from reports.parts import focus, winners
 from reports.reading import load
@@ -96,6 +96,70 @@ def test_many_surfaces_are_counted(tmp_path: Path) -> None:
     lead = answer.lead(chosen(tmp_path / "run", *cells))
     assert "of 12 surfaces, the fastest right answers come from Sturm on" in lead or "come from Newton on" in lead
     assert lead.count("S1") == 0
+
+
+def rounds_of(made: dict[str, Any], *samples: float) -> dict[str, Any]:
+    made["time"] |= {"samples_ms": list(samples), "rounds": list(range(len(samples)))}
+    return made | {"time": made["time"] | {"median_ms": sorted(samples)[len(samples) // 2]}}
+
+
+@pytest.mark.parametrize(("times", "tied"), [((300.0, 310.0, 320.0), False), ((15.0, 16.0, 17.0), True)])
+def test_too_few_rounds_tell_only_times_that_are_far_apart(
+    tmp_path: Path, times: tuple[float, ...], tied: bool
+) -> None:
+    fast = rounds_of(timed("newton", "torus", 2.0), *[9.0, 10.0, 11.0] * 4)
+    (one,) = chosen(tmp_path / "run", fast, rounds_of(timed("slow", "torus", 2.0), *times))
+    assert one.best.variant == "newton"
+    assert one.tied[0] == (("Slow",) if tied else ())
+    assert ("or Slow" in answer.lead([one])) is tied
+
+
+def test_where_nothing_is_exact_the_fastest_right_row_stands_for_the_surface(tmp_path: Path) -> None:
+    cells = [timed("newton", "torus", 2.0, 5e-3), timed("march", "torus", 9.0, 2e-3)]
+    (one,) = chosen(tmp_path / "run", *cells)
+    assert one.within == (None, None) and one.best.variant == "newton" and one.nearest.variant == "march"
+    assert "no right answer is within 10⁻³ of the scene's radius" in answer.lead([one])
+
+
+def test_what_is_fast_and_inexact_is_no_tie_of_the_winner(tmp_path: Path) -> None:
+    cells = [timed("newton", "torus", 2.0, 1e-4), timed("coarse", "torus", 0.5, 5e-3)]
+    (one,) = chosen(tmp_path / "run", *cells)
+    squares = {label: own[0].text for label, own in standings.matrix([one]).rows}
+    assert squares == {"Newton": "2.00 ms", "Coarse": "0.250×, error 5.0e−3"}
+
+
+def test_a_surface_that_no_ray_hits_has_a_winner(tmp_path: Path) -> None:
+    cells = [timed("newton", "torus", 2.0), timed("march", "torus", 9.0)]
+    for made in cells:
+        made["accuracy"] |= {"error": {"max": None}, "relative_error": {"max": None}, "truth_hits": 0}
+    found = chosen(tmp_path / "run", *cells)
+    assert found[0].best.variant == "newton"
+    assert "come from Newton on Torus (2.00 ms)" in answer.lead(found)
+    assert "every variant answers some rays wrongly" not in answer.risk(found, {})
+    assert answer.focus(found, "newton", "newton") == "Newton is the fastest right answer on Torus."
+
+
+def test_ties_in_another_precision_name_it(tmp_path: Path) -> None:
+    cells = [timed("newton", "torus", 2.0), timed("sturm", "torus", 3.0), timed("bernstein", "torus", 2.0)]
+    cells[2]["precision"] = "float64"
+    (one,) = chosen(tmp_path / "run", *cells)
+    assert {one.best.label, *one.tied[0]} in ({"Newton", "Bernstein, float64"}, {"Bernstein", "Newton"})
+
+
+def test_a_card_compares_like_with_like(tmp_path: Path) -> None:
+    made = timed("newton", "torus", 2.0, 8e-7)
+    made["accuracy"]["error"] = {"max": 1.6e-6}
+    (one,) = chosen(tmp_path / "run", made)
+    assert cards.winners(one.rows, one)[-1] == ("10⁻⁶", "Newton", "2.00", "8.0e−7"), "an error over the radius"
+
+
+def test_a_focus_with_wrong_rays_beats_no_right_method(tmp_path: Path) -> None:
+    folder = tiny_run(tmp_path / "run", timed("mine", "torus", 1.0, misses=5), timed("sturm", "torus", 9.0))
+    page = about(folder, "mine").sections[0]
+    told = printed(page.blocks)
+    assert "right is Sturm" in told
+    ((_, squares),) = next(block for block in page.blocks if isinstance(block, content.Matrix)).rows
+    assert [(square.text, square.color) for square in squares] == [("9.00×", "")]
 
 
 # ---- trade-offs

@@ -15,10 +15,10 @@ from matplotlib.colors import to_rgb
 from harness.contract import CLAIMS
 from harness.plugins import find_methods
 from harness.running.cards import card
-from reports import content, report
+from reports import content, report, wording
 from reports.analysis import breaks
 from reports.drawing import shades
-from reports.parts import hard_rays, last_page
+from reports.parts import last_page
 from reports.reading import load
 from tests import synthetic_run
 from tests.synthetic_run import family_cell, printed, reported, stability_run, tiny_run
@@ -103,7 +103,7 @@ def test_the_matrix_shows_which_share_of_each_ladder_holds_and_what_breaks_it(ha
     assert (march.text, odd.text) == ("5/7", "0/4")
     assert march.note.endswith("breaks at 10⁻⁶ (distance from tangency, scene units), by rays given up")
     assert odd.note.endswith("holds 0 of 4 rungs; breaks at 10 (R/r), by wrong roots")
-    assert {square.text for square in lines["Double roots"]} == {hard_rays.UNDECIDED}
+    assert {square.text for square in lines["Double roots"]} == {wording.NONE}
     newton = [lines[title][place["Newton, ε = 1e−6"]] for title in ("Grazing #rays_ $*", "Thin tori")]
     assert [square.text for square in newton] == ["all", "all"]
     assert newton[0].color == shades.shade(0.0) != march.color != odd.color == shades.shade(1.0)
@@ -120,7 +120,7 @@ def test_a_run_of_families_alone_makes_a_report(hard: Path) -> None:
     run, document = reported(hard)
     assert run.frame.empty and len(run.not_run) == 1 and len(run.unreadable) == 1
     summary = printed(document.summary.blocks)
-    told = "the most that any variant holds are 2 of 2 in float32 (Newton, ε = 1e−6, of 2 that it answered)"
+    told = "the most families of hard rays are held by Newton, ε = 1e−6 in float32 (2 of 2)"
     assert told in summary
     by_title = {section.title: printed((*section.blocks, *section.details)) for section in document.sections}
     assert list(by_title) == [BREAKS, last_page.TITLE]

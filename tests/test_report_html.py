@@ -17,7 +17,7 @@ from harness import cli
 from reports import compare, parts, report
 from reports.analysis import derive
 from reports.content import Document
-from reports.drawing import charts, style
+from reports.drawing import charts, markers, style
 from reports.reading import load
 from reports.rendering import bundle, document, html, html_tables, pictures
 from tests import html_content
@@ -141,10 +141,10 @@ def test_the_explorer_has_every_timed_row_or_says_which(run: Path, monkeypatch: 
 
 def test_each_mark_has_an_outline_of_its_own() -> None:
     marks = style.marks([*style._HOUSE, *(f"plugin{i}" for i in range(9))])
-    outlines = {(mark.color, charts.outline(mark)) for mark in marks.values()}
+    outlines = {(mark.color, markers.outline(mark)) for mark in marks.values()}
     assert len(outlines) == len(set(marks.values()))
     for _, path in outlines:
-        assert re.fullmatch(r"(M(-?[01]\.\d\d,-?[01]\.\d\dL?)+Z?)+", path)
+        assert re.fullmatch(r"(M([LQC ]?-?[01]\.\d\d,-?[01]\.\d\d)+Z?)+", path)
 
 
 def test_pictures_lose_nothing_but_repeated_pixels() -> None:

@@ -79,6 +79,12 @@ def test_a_hero_is_smooth_and_keeps_outline_and_colours() -> None:
     assert len(np.unique(images.png(image))) and Image.open(io.BytesIO(images.png(image))).mode == "P"
 
 
+@pytest.mark.parametrize("times", [1.0, 1.5, 3.0])
+def test_the_background_of_a_hero_is_white_however_little_it_is_enlarged(times: float) -> None:
+    image = images.hero(disc(), round(times * SIDE))
+    assert image[0, 0].tolist() == [1.0, 1.0, 1.0]
+
+
 def test_what_is_empty_is_cut_off_alike_in_every_array() -> None:
     samples = np.arange(4 * SIDE * SIDE, dtype=np.float32).reshape(2 * SIDE, 2 * SIDE)
     arrays = disc(samples=samples, condition=np.ones((SIDE, SIDE), np.float32))

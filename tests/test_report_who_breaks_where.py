@@ -105,7 +105,7 @@ def test_words_say_where_each_breaks_and_which_claim_is_broken(tmp_path: Path) -
     assert told["Ray march"][3].startswith("minimal 1 of 1 (Gyroid 0.1 %, rays given up); nodal 1 of 2 (Desmic 2.5 %")
     assert told["Newton, ε = 0.001"][3].startswith("nowhere")
     text = printed(section.blocks)
-    assert "Ray march claims no missed root, and misses of clear rays break it on: Desmic." in text
+    assert "Ray march claims no missed root, and misses of clear rays break it: Ray march on Desmic." in text
     assert "Newton claims" not in text
     assert (
         "Newton, ε = 0.001 is right on every ray of most surfaces: 2 of the 2 it takes; Ray march is wrong on" in text

@@ -312,13 +312,8 @@ def test_equal_runs_give_equal_files_in_place_of_the_old_ones(tmp_path, runs):
 
 @pytest.fixture(scope="module")
 def tab(tmp_path_factory: pytest.TempPathFactory) -> Iterator[browser.Browser]:
-    if browser.found() is None:
-        pytest.skip("no chromium here; install Debian's package chromium to drive the pages")
-    opened = browser.Browser(tmp_path_factory.mktemp("profile"))
-    try:
+    with browser.opened(tmp_path_factory.mktemp("profile")) as opened:
         yield opened
-    finally:
-        opened.close()
 
 
 @pytest.mark.parametrize("width", [390, 1280])

@@ -57,7 +57,7 @@ def _conform(options: argparse.Namespace) -> int:
                 tell(f"conform: {plugin.method.name} on {info.name}")
                 for where, finding in conformance.findings(bench, plugin, chosen):
                     found.append((plugin.method.name, where, finding))
-                    tell(f"conform: {plugin.method.name} on {info.name}, {where}: {finding.check}")
+                    tell(f"conform: {plugin.method.name} on {info.name}, {where}, checked: {finding.check}")
                 tell("")
                 print(told(info.name, found, options.verbose), flush=True)
                 rows += found

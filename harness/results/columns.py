@@ -9,7 +9,7 @@ from collections.abc import Iterable
 
 from harness.results.schema import BASELINE, DERIVED, LEAVES, RUN, RUNG, Field
 
-_TYPES = {
+TYPES = {  # what a reader is told of a field's kind
     "text": "text",
     "real": "number",
     "whole": "whole number",
@@ -44,7 +44,7 @@ def page() -> str:
             "",
             "| leaf | column | type | meaning |",
             "| --- | --- | --- | --- |",
-            *(f"| `{_place(leaf)}` | {_name(leaf)} | {_TYPES[leaf.kind]} | {_meaning(leaf)} |" for leaf in LEAVES),
+            *(f"| `{_place(leaf)}` | {_name(leaf)} | {TYPES[leaf.kind]} | {_meaning(leaf)} |" for leaf in LEAVES),
             "",
             "## Columns that a report adds",
             "",
@@ -64,7 +64,7 @@ def page() -> str:
 
 
 def _table(fields: Iterable[Field]) -> list[str]:
-    lines = (f"| {_name(field)} | {_TYPES[field.kind]} | {_meaning(field)} |" for field in fields)
+    lines = (f"| {_name(field)} | {TYPES[field.kind]} | {_meaning(field)} |" for field in fields)
     return ["| column | type | meaning |", "| --- | --- | --- |", *lines]
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -27,8 +28,10 @@ class Choice:
     name: the surface's title, with its view, size and stage where those are not as in most of the choices
     rows: the timed rows of the scene that answer, fastest first, with the columns _COLUMNS
     within: the fastest row with every ray away from silhouettes right, at each of ERRORS; None where none is so exact
-    tied: the labels of variants of other methods whose times are not told apart from it, at each of ERRORS
-    nearest: the most exact row with every such ray right, None where there is none
+    tied: the variants of other methods whose times are not told apart from it, as `written`, at each of ERRORS
+    tied_rows: their labels in the index of `rows`
+    right: the fastest row with every such ray right, whatever its error; None where there is none
+    nearest: the most exact of these rows; None where there is none
     """
 
     surface: str
@@ -36,12 +39,14 @@ class Choice:
     rows: pd.DataFrame
     within: tuple[Any, ...]
     tied: tuple[tuple[str, ...], ...]
+    tied_rows: tuple[tuple[Any, ...], ...]
+    right: Any
     nearest: Any
 
     @property
     def best(self) -> Any:
         """Return the row to take where nothing is said of the error; None where every variant is wrong somewhere."""
-        return next((row for row in self.within if row is not None), self.nearest)
+        return next((row for row in self.within if row is not None), self.right)
 
     @property
     def pictured(self) -> Any:
@@ -102,16 +107,26 @@ def fullest_scenes(frame: pd.DataFrame) -> pd.DataFrame:
 def _choice(surface: str, named: dict[str, str], rows: pd.DataFrame) -> Choice:
     """Choose among the rows of one scene."""
     rows = rows.sort_values("median_ms", kind="stable")
-    usable = [rows[derive.all_right(rows) & (rows["relative_error_max"] <= error)] for error in ERRORS]
-    within = tuple(None if own.empty else next(own.loc[[ties.best(own).Index]].itertuples()) for own in usable)
-    labels = dict(zip(rows["variant"], rows["label"], strict=True))
-    tied = tuple(
-        () if won is None else tuple(labels[variant] for variant in ties.tied(own, won))
-        for own, won in zip(usable, within, strict=True)
+    right = rows[derive.all_right(rows)]
+    usable = [derive.within(rows, error) for error in ERRORS]
+    within = tuple(_fastest(own) for own in usable)
+    tied_rows = tuple(
+        () if won is None else tuple(ties.tied(own, won)) for own, won in zip(usable, within, strict=True)
     )
-    right = rows[derive.all_right(rows) & rows["relative_error_max"].notna()]
+    tied = tuple(tuple(written(row, rows) for row in rows.loc[list(at)].itertuples()) for at in tied_rows)
     nearest = next(right.sort_values("relative_error_max", kind="stable").itertuples(), None)
-    return Choice(surface, named[str(rows["comparison"].iloc[0])], rows, within, tied, nearest)
+    name = named[str(rows["comparison"].iloc[0])]
+    return Choice(surface, name, rows, within, tied, tied_rows, _fastest(right), nearest)
+
+
+def _fastest(rows: pd.DataFrame) -> Any:
+    """Return the fastest of `rows`, which are in order of their medians, as a named tuple; None of none."""
+    return None if rows.empty else next(rows.loc[[ties.best(rows).Index]].itertuples())
+
+
+def others(tied: Sequence[str]) -> list[str]:
+    """Return the one variant that is not told apart from a winner, or how many there are."""
+    return [f"{len(tied)} others"] if len(tied) > 1 else list(tied)
 
 
 def precision_of(rows: pd.DataFrame) -> str:

@@ -74,6 +74,15 @@ def all_right(frame: pd.DataFrame) -> pd.Series:
     return (frame["wrong_rays"] == 0).fillna(False).astype(bool)
 
 
+def within(rows: pd.DataFrame, error: float) -> pd.DataFrame:
+    """Select the rows with every such ray right and a largest error over the scene's radius of at most `error`.
+
+    A row without an error is one whose rays all miss, as they should.
+    """
+    exact = (rows["relative_error_max"] <= error) | rows["error_max"].isna()
+    return rows[all_right(rows) & exact]
+
+
 def nearly_all_right(rows: pd.DataFrame) -> pd.Series:
     """Tell for each row whether at most 1 in 1,000 of its rays that are neither grazing nor drowned is wrong.
 

@@ -49,9 +49,18 @@ def above(row: Any, other: Any) -> float:
     """Return by how many ms `row` takes longer than `other`: the median over their common rounds, NaN without any."""
     if ratio(row, other) is None:
         return math.nan
+    return timings.median_interval([a - b for a, b in zip(*common(row, other), strict=True)])[0]
+
+
+def common(row: Any, other: Any) -> tuple[list[float], list[float]]:
+    """Return the times in ms of `row` and of `other` in the rounds that timed both, of which `ratio` tells whether.
+
+    Both were timed in the rounds of one run.
+    """
     others = dict(zip(json.loads(other.rounds), other.samples_ms, strict=True))
     own = zip(json.loads(row.rounds), row.samples_ms, strict=True)
-    return timings.median_interval([ms - others[at] for at, ms in own if at in others])[0]
+    pairs = [(ms, others[at]) for at, ms in own if at in others]
+    return [a for a, _ in pairs], [b for _, b in pairs]
 
 
 def over_first(rows: pd.DataFrame, firsts: pd.DataFrame, keys: list[str]) -> pd.Series:

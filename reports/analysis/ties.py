@@ -1,6 +1,7 @@
 """Decide whether the times of two variants differ, by the rounds that timed both.
 
-Only rows that share no round are compared by the intervals of their two medians.
+Only rows that share no round are compared by the intervals of their two medians. Rows that share too few rounds for a
+test are told apart only where they are far apart in all of these.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from reports.analysis.rounds import ratio
 
 LEVEL = 0.01  # the largest chance that is evidence of a difference
 NEEDED = ranks.pairs_needed(LEVEL)
+FAR = 4.0  # times that differ by more than this factor in every common round are told apart without a test
 SLOWER, FASTER, ALIKE = "slower", "faster", "not told apart"
 TORN = f"{ALIKE}: the test and the interval disagree"
 COLUMNS = [*rounds.COLUMNS, "median_ms", "lower_ms", "upper_ms"]
@@ -24,7 +26,9 @@ _TOLD = ["method", "variant", "key", *COLUMNS]
 RULE = (
     "Two times differ where both variants were timed in the same rounds and a signed-rank test of the rounds' ratios "
     f"leaves a chance of at most {LEVEL:g}, which takes {NEEDED} rounds, and the 95 % interval of their median is "
-    "all on one side of 1. Times that share no round differ where the 95 % intervals of both medians do not meet"
+    "all on one side of 1. Where they share fewer rounds, they differ where each time of the one in these is more than "
+    f"{FAR:g} times each of the other. Times that share no round differ where the 95 % intervals of both medians do "
+    "not meet"
 )
 
 
@@ -40,12 +44,18 @@ def verdict(of: Ratio) -> str:
 
 
 def is_slower(row: Any, other: Any) -> bool:
-    """Tell whether `row` is proved slower than `other`: by common rounds, else by intervals that do not meet."""
+    """Tell whether `row` is told to be slower than `other`: by common rounds, else by intervals that do not meet."""
     paired = ratio(row, other)
     if paired is not None:
-        return verdict(paired) == SLOWER
+        return verdict(paired) == SLOWER or (paired.pairs < NEEDED and _far_slower(row, other))
     enough = all(timings.proves(len(one.samples_ms or ())) for one in (row, other))
     return bool(enough and row.lower_ms > other.upper_ms)
+
+
+def _far_slower(row: Any, other: Any) -> bool:
+    """Tell whether in the rounds that timed both each time of `row` is more than FAR times each of `other`."""
+    own, others = rounds.common(row, other)
+    return min(own) > FAR * max(others)
 
 
 def best(rows: pd.DataFrame) -> Any:
@@ -57,12 +67,12 @@ def best(rows: pd.DataFrame) -> Any:
     return _best(list(rows[_TOLD].itertuples()))
 
 
-def tied(rows: pd.DataFrame, first: Any) -> list[str]:
-    """Return the variants of other methods that are not proved slower than `first`; of each method its fastest.
+def tied(rows: pd.DataFrame, first: Any) -> list[Any]:
+    """Return the labels in the index of the rows of other methods that are not told to be slower than `first`.
 
-    `rows` are of one scene and device, in order of their medians.
+    Of each method it is the fastest. `rows` are of one scene and device, in order of their medians.
     """
-    return _tied(list(rows[_TOLD].itertuples()), first)
+    return [row.Index for row in _tied(list(rows[_TOLD].itertuples()), first)]
 
 
 def _best(rows: list[Any]) -> Any:
@@ -75,13 +85,13 @@ def _best(rows: list[Any]) -> Any:
     return first
 
 
-def _tied(rows: list[Any], first: Any) -> list[str]:
-    """Do what `tied` does, for rows as named tuples."""
+def _tied(rows: list[Any], first: Any) -> list[Any]:
+    """Return the rows that `tied` tells of, as named tuples."""
     fastest_of: dict[str, Any] = {}
     for row in rows:
         if row.method != first.method:
             fastest_of.setdefault(row.method, row)
-    return [str(row.variant) for row in fastest_of.values() if not is_slower(row, first)]
+    return [row for row in fastest_of.values() if not is_slower(row, first)]
 
 
 def _groups(rows: pd.DataFrame) -> list[list[Any]]:
@@ -95,8 +105,8 @@ def _groups(rows: pd.DataFrame) -> list[list[Any]]:
 def leaders(frame: pd.DataFrame) -> pd.DataFrame:
     """Return the fastest row with every ray right of each group that has one, with two more columns.
 
-    `tied` lists the variants of other methods that are not proved slower, of each method its fastest. `methods` is the
-    number of methods timed in the group.
+    `tied` lists the rows of other methods that are not told to be slower, of each method its fastest. `methods` is
+    the number of methods timed in the group.
     """
     rows = derive.contenders(frame)
     methods = rows.groupby(derive.GROUP)["method"].nunique().rename("methods")
@@ -104,7 +114,7 @@ def leaders(frame: pd.DataFrame) -> pd.DataFrame:
     groups = _groups(right)
     firsts = [_best(own) for own in groups]
     found = pd.Series(
-        [_tied(own, first) for own, first in zip(groups, firsts, strict=True)],
+        [[str(row.variant) for row in _tied(own, first)] for own, first in zip(groups, firsts, strict=True)],
         [first.Index for first in firsts],
         dtype=object,
     )

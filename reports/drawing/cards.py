@@ -66,27 +66,33 @@ def short_card(rows: pd.DataFrame, choice: Choice | None, shelf: Shelf) -> Panel
 
     `rows` are those of one scene and device.
     """
-    row = winner(rows, choice)
-    arrays = None if row is None else shelf.get(row)
-    if row is None or arrays is None:
+    drawn = _small_picture(rows, choice, shelf)
+    if drawn is None:
         return None
-    drawn = images.png(images.hero(_square(arrays), SMALL))
-    picture = Picture(f"{row.key}-card", drawn, f"{row.surface_title} drawn by {row.label}")
+    row, picture = drawn
     notes = (wrong_methods(rows, NAMED), what(rows, SHORT))
     return Panel(str(row.surface_title), (picture,), "\n".join(filter(None, notes)), winners(rows, choice))
 
 
 def thumbnail(rows: pd.DataFrame, choice: Choice | None, shelf: Shelf) -> Panel | None:
     """Make a picture with the winner's name and time; None where the winner has no picture."""
+    drawn = _small_picture(rows, choice, shelf)
+    if drawn is None:
+        return None
+    row, picture = drawn
+    time = "" if wording.absent(row.median_ms) else f", {wording.number(row.median_ms)} ms"
+    wrong = "" if not row.wrong_rays or wording.absent(row.wrong_rays) else f", {wording.count(row.wrong_rays)} wrong"
+    return Panel(str(row.surface_title), (picture,), f"{row.label}{time}{wrong}")
+
+
+def _small_picture(rows: pd.DataFrame, choice: Choice | None, shelf: Shelf) -> tuple[Any, Picture] | None:
+    """Return the winner's row and its picture, SMALL and square; None where the winner has no picture."""
     row = winner(rows, choice)
     arrays = None if row is None else shelf.get(row)
     if row is None or arrays is None:
         return None
     drawn = images.png(images.hero(_square(arrays), SMALL))
-    picture = Picture(f"{row.key}-card", drawn, f"{row.surface_title} drawn by {row.label}")
-    time = "" if wording.absent(row.median_ms) else f", {wording.number(row.median_ms)} ms"
-    wrong = "" if not row.wrong_rays or wording.absent(row.wrong_rays) else f", {wording.count(row.wrong_rays)} wrong"
-    return Panel(str(row.surface_title), (picture,), f"{row.label}{time}{wrong}")
+    return row, Picture(f"{row.key}-card", drawn, f"{row.surface_title} drawn by {row.label}")
 
 
 def _square(arrays: Arrays) -> Arrays:
@@ -101,22 +107,26 @@ def _square(arrays: Arrays) -> Arrays:
 
 
 def winners(rows: pd.DataFrame, choice: Choice | None) -> list[tuple[str, ...]]:
-    """Return the lines of a card: the fastest at each of ERRORS, or where nothing was timed the most exact."""
+    """Return the lines of a card: the fastest at each of ERRORS, or where nothing was timed the most exact.
+
+    Errors are the largest over the scene's radius, as ERRORS are.
+    """
     if choice is not None:
-        lines: list[tuple[str, ...]] = [("error ≤", "fastest right", "ms", "max error")]
+        lines: list[tuple[str, ...]] = [("error ≤", "fastest right", "ms", "error")]
         for error, row in zip(ERRORS, choice.within, strict=True):
             figures = ("none", "", "")
             if row is not None:
                 time = wording.number(row.median_ms)
-                figures = (choices.written(row, rows), time, wording.error(row.error_max))
+                figures = (choices.written(row, rows), time, wording.error(row.relative_error_max))
             lines.append((wording.level(error), *figures))
         return lines
-    right = rows[derive.all_right(rows) & rows["error_max"].notna()].sort_values("error_max", kind="stable").head(3)
+    right = rows[derive.all_right(rows) & rows["relative_error_max"].notna()]
+    right = right.sort_values("relative_error_max", kind="stable").head(3)
     ranked = [
-        (f"{i}.", choices.written(row, rows), wording.error(row.error_max))
+        (f"{i}.", choices.written(row, rows), wording.error(row.relative_error_max))
         for i, row in enumerate(right.itertuples(), 1)
     ]
-    return [("", "most exact, all rays right", "max error"), *ranked] if ranked else []
+    return [("", "most exact, all rays right", "error over radius"), *ranked] if ranked else []
 
 
 def wrong_methods(rows: pd.DataFrame, most: int) -> str:

@@ -10,9 +10,7 @@ import math
 from collections.abc import Hashable, Mapping, Sequence
 from typing import Any
 
-import numpy as np
 import pandas as pd
-from matplotlib.markers import MarkerStyle
 
 from harness.results.schema import KINDS
 from reports import wording
@@ -20,7 +18,6 @@ from reports.analysis import derive
 from reports.analysis.scene_names import picture_size, scene_names
 from reports.content import Explorer
 from reports.drawing import style
-from reports.drawing.style import Mark
 
 POINTS = 5000  # that the explorer holds at most, so that the page stays small
 DIGITS = 4  # that its numbers have
@@ -204,16 +201,3 @@ def scatter() -> dict[str, Any]:
         "layer": [front, bars, points, texts],
         "config": CONFIG,
     }
-
-
-def outline(mark: Mark) -> str:
-    """Return the outline of a mark as an SVG path within the square from −1 to 1, which Vega takes for a shape too."""
-    marker = MarkerStyle(mark.marker)
-    path = marker.get_path().transformed(marker.get_transform())
-    polygons = [np.asarray(polygon) for polygon in path.to_polygons(closed_only=False)]
-    far = max(float(np.abs(polygon).max()) for polygon in polygons)
-    words = []
-    for polygon in polygons:
-        points = [f"{x / far:.2f},{0.0 - y / far:.2f}" for x, y in polygon]
-        words.append("M" + "L".join(points) + ("Z" if len(polygon) > 2 else ""))
-    return "".join(words).replace("-0.00", "0.00")

@@ -61,7 +61,7 @@ def _line(choice: Choice) -> tuple[Any, ...]:
     for won, tied in zip(choice.within, choice.tied, strict=True):
         if won is not None:
             cells += [
-                " ≈ ".join([choices.written(won, choice.rows), *_few(tied)]),
+                " ≈ ".join([choices.written(won, choice.rows), *choices.others(tied)]),
                 won.median_ms,
                 won.relative_error_max,
             ]
@@ -73,11 +73,6 @@ def _line(choice: Choice) -> tuple[Any, ...]:
     loose, tight = choice.within[0], choice.within[-1]
     cells.append(None if loose is None or tight is None else rounds.times_over(tight, loose))
     return tuple(cells)
-
-
-def _few(names: Sequence[str]) -> list[str]:
-    """Return the one variant that is not told apart, or how many there are."""
-    return [f"{len(names)} others"] if len(names) > 1 else list(names)
 
 
 def _any_tied(found: Sequence[Choice]) -> bool:

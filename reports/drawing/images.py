@@ -120,8 +120,10 @@ def hero(arrays: Arrays, pixels: int = HERO) -> NDArray[np.float64]:
     times = max(1.0, pixels / max(shade.shape))
     size = (round(times * shade.shape[1]), round(times * shade.shape[0]))
     light = np.clip(_resized(_spread(shade), size), 0.0, 1.0)
-    # an outline at 0.42 of the smoothed cover keeps thin spikes; its edge is about two of the arrays' pixels wide
-    cover = np.clip((_resized(_smoothed(covered.astype(np.float64)), size) - 0.42) * (0.45 * times) + 0.5, 0.0, 1.0)
+    # an outline at 0.42 of the smoothed cover keeps thin spikes; its edge is about two of the arrays' pixels wide, and
+    # steep enough that no cover at all is the background
+    steep = max(0.45 * times, 0.5 / 0.42)
+    cover = np.clip((_resized(_smoothed(covered.astype(np.float64)), size) - 0.42) * steep + 0.5, 0.0, 1.0)
     cover = np.round(cover * 8) / 8  # at most 256 colours: 129 of whole pixels, 7 × 18 at the edge
     levels = np.where(cover == 1.0, 128, 17)
     return np.asarray(_lit(np.round(light * levels) / levels) * cover[..., None] + (1.0 - cover[..., None]))

@@ -25,7 +25,8 @@ from reports.drawing.style import Mark
 
 TEXT = 7.0  # points
 RADIUS = 3.0  # of a mark, points
-_LEFT, _RIGHT, _TOP, _BOTTOM = 0.46, 0.02, 0.17, 0.30  # inches around the panels
+_RIGHT, _TOP, _BOTTOM = 0.02, 0.17, 0.30  # inches around the panels
+_NAME, _TICK = 0.17, 0.07  # inches left of the panels: what the axis is, and ticks; the times stand between them
 _BETWEEN = 0.10, 0.21  # inches between panels, beside and above each other
 MOST = 9  # panels
 
@@ -56,9 +57,11 @@ def _drawing(
     key: Mapping[str, str],
 ) -> tuple[Drawing, dict[str, str]]:
     """Draw all panels, above a key of the methods `key`; return also the methods whose names found no place."""
-    lines = _key_lines(list(key.values()))
+    every = pd.concat(rows)
+    left = _left(every["median_ms"])
+    lines = _key_lines(list(key.values()), left)
     below = 0.14 * len(set(line for line, _ in lines))
-    scales = _Scales.of(pd.concat(rows), len(found), height, below)
+    scales = _Scales.of(every, len(found), height, below, left)
     unnamed: dict[str, str] = {}
     with matplotlib.rc_context({**RC, "font.size": TEXT, "axes.titlesize": 7.6}):
         drawing = Drawing(figsize=(NARROW, height))
@@ -74,13 +77,29 @@ def _drawing(
     return drawing, unnamed
 
 
-def _key_lines(labels: Sequence[str]) -> list[tuple[int, float]]:
-    """Return the line of each label of the key, and where it begins on it, in inches."""
-    found, line, x = [], 0, _LEFT
+def _limits(ms: pd.Series) -> tuple[float, float]:
+    """Return the ends of the axis of these times."""
+    return float(ms.min()) / 1.7, float(ms.max()) * 1.7
+
+
+def _left(ms: pd.Series) -> float:
+    """Return how much room the labels of these times take on the left of the panels, in inches."""
+    widths = [placing.text_size(_time(tick), TEXT)[0] / 72 for tick in _ticks(*_limits(ms))]
+    return _NAME + _TICK + max(widths, default=0.0)
+
+
+def _time(ms: float) -> str:
+    """Write the label of a tick."""
+    return f"{ms:,.0f}" if ms >= 1 else f"{ms:g}"
+
+
+def _key_lines(labels: Sequence[str], left: float) -> list[tuple[int, float]]:
+    """Return the line of each label of the key, which begins at `left`, and where on it, in inches."""
+    found, line, x = [], 0, left
     for label in labels:
         width = 0.3 + placing.text_size(label, TEXT)[0] / 72
-        if x + width > NARROW and x > _LEFT:
-            line, x = line + 1, _LEFT
+        if x + width > NARROW and x > left:
+            line, x = line + 1, left
         found.append((line, x))
         x += width
     return found
@@ -116,22 +135,23 @@ class _Scales:
     error: ErrorAxis
     zero: bool  # some error is 0
     ms: tuple[float, float]  # shortest and longest time
+    left: float  # inches left of the panels
 
     @classmethod
-    def of(cls, rows: pd.DataFrame, panels: int, height: float, below: float) -> _Scales:
-        """Lay out so many panels in a drawing of this height, with room `below` them."""
+    def of(cls, rows: pd.DataFrame, panels: int, height: float, below: float, left: float) -> _Scales:
+        """Lay out so many panels in a drawing of this height, with room `below` and `left` of them."""
         across = panels if panels < 4 else 2 if panels == 4 else 3
         down = -(-panels // across)
-        width = (NARROW - _LEFT - _RIGHT - (across - 1) * _BETWEEN[0]) / across
+        width = (NARROW - left - _RIGHT - (across - 1) * _BETWEEN[0]) / across
         each = (height - below - _BOTTOM - down * _TOP - (down - 1) * (_BETWEEN[1] - _TOP)) / down
-        ms = float(rows["median_ms"].min()) / 1.7, float(rows["median_ms"].max()) * 1.7
         errors = rows["relative_error_max"]
-        return cls(across, down, width, each, height, ErrorAxis.of(errors), bool((errors == 0).any()), ms)
+        zero, ms = bool((errors == 0).any()), _limits(rows["median_ms"])
+        return cls(across, down, width, each, height, ErrorAxis.of(errors), zero, ms, left)
 
     def box(self, at: int) -> tuple[float, float, float, float]:
         """Return left, bottom, width and height of a panel, as shares of the drawing."""
         column, line = at % self.across, at // self.across
-        left = _LEFT + column * (self.width + _BETWEEN[0])
+        left = self.left + column * (self.width + _BETWEEN[0])
         top = self.whole - _TOP - line * (self.height + _BETWEEN[1])
         return left / NARROW, (top - self.height) / self.whole, self.width / NARROW, self.height / self.whole
 
@@ -160,7 +180,7 @@ def _panel(
     axes.set_ylim(scales.ms[1], scales.ms[0])
     axes.yaxis.set_major_locator(FixedLocator(_ticks(*scales.ms)))
     axes.yaxis.set_minor_locator(NullLocator())
-    axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,.0f}" if value >= 1 else f"{value:g}"))
+    axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: _time(value)))
     scales.error.dress(axes, zero=scales.zero)
     axes.tick_params(labelleft=at % scales.across == 0, length=2, pad=1.5)
     axes.tick_params(axis="x", labelbottom=lowest)

@@ -21,7 +21,7 @@ from reports.drawing import style
 _REACHES = (1.5, 4.0, 7.0, 11.0, 16.0, 22.0, 29.0, 38.0, 50.0, 64.0)  # between a mark and its label
 _ANGLES = np.linspace(0.0, 2.0 * np.pi, 24, endpoint=False)
 _BESIDE, _BY_MARK = 4.0, 10.0  # so near to another's mark a label seems to be that one's
-_GAP = 1.0  # between labels
+_GAP = np.array([5.0, 1.0])  # between labels, beside and above each other
 _ALONG = 1.5  # a leader so near to a line is taken for a part of it
 _AFAR = 3.0  # a label farther than this from its mark has a leader
 _SWEEPS = 12

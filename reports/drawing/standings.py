@@ -13,10 +13,10 @@ from reports.analysis import choices, derive, rounds, ties
 from reports.analysis.choices import Choice
 from reports.content import Matrix, Square
 from reports.drawing import style
+from reports.drawing.shades import GOOD, WRONG
 
 MOST = 8  # surfaces that are columns of a page
-WRONG = "#ecd9ec"  # some ray is answered wrongly
-BEST, FASTER, SLOWER, ALIKE = "#8fd3b6", "#8fd3b6", "#f0a45d", "#e6e6e6"
+BEST, FASTER, SLOWER, ALIKE = GOOD, GOOD, "#f0a45d", "#e6e6e6"
 _SPAN = 1.5  # decades of a ratio over which a colour fades
 
 
@@ -37,9 +37,9 @@ def matrix(found: Sequence[Choice], focus: str = "") -> Matrix:
         tuple(one.name for one in found),
         body,
         f"Every method on every surface, on {found[0].rows['device'].iloc[0]}.",
-        "The winner's time, and how many times as long each other method takes with its fastest right setting. Paler "
-        "is slower. A method with wrong rays shows how many, with the time of the setting that has fewest. – does not "
-        "apply or was not timed.",
+        "The winner's time, and how many times as long each other method takes with its fastest right setting, within "
+        f"{wording.level(choices.ERRORS[0])} of the radius if it has one. Paler is slower. A method with wrong rays "
+        "shows how many, with the time of the setting that has fewest. – does not apply or was not timed.",
         "method",
         {BEST: "fastest with no wrong ray", WRONG: "some rays wrong"},
     )
@@ -58,16 +58,18 @@ def _methods(found: Sequence[Choice]) -> dict[str, str]:
 
 def _against_best(one: Choice, method: str) -> Square:
     """Make the square of one method on one surface."""
-    row = taken(one, method)
+    best = one.best
+    row = best if best is not None and best.method == method else taken(one, method)
     if row is None:
         return Square(wording.NONE, note="does not apply or was not timed")
-    best = one.best
     if best is not None and row.Index == best.Index:
         return Square(f"{wording.number(row.median_ms)} ms", BEST, noted(one, row), strong=True)
     times = math.nan if best is None else rounds.times_over(row, best)
     text = f"{wording.number(row.median_ms)} ms" if math.isnan(times) else wording.factor(times)
     if row.wrong_rays != 0:
         return Square(f"{text}, {wording.count(row.wrong_rays)} wrong", WRONG, noted(one, row))
+    if best is not None and ties.is_slower(best, row):  # it is no winner, since its error is too large
+        return Square(f"{text}, error {wording.error(row.relative_error_max)}", "", noted(one, row))
     if best is not None and not ties.is_slower(row, best):
         return Square(f"≈ {text}", BEST, f"{noted(one, row)}; not told apart from the winner")
     return Square(text, _faded(BEST, times), noted(one, row))
@@ -76,10 +78,11 @@ def _against_best(one: Choice, method: str) -> Square:
 def taken(one: Choice, method: str) -> Any:
     """Return the row that stands for a method or variant: its fastest that is right, else that with fewest wrong rays.
 
-    None where it has no row whose answers were checked.
+    Of right rows those within the looser of ERRORS come first. None where it has no row whose answers were checked.
     """
     own = one.rows[((one.rows["method"] == method) | (one.rows["variant"] == method)) & one.rows["wrong_rays"].notna()]
-    right = own[derive.all_right(own)]
+    exact = derive.within(own, choices.ERRORS[0])
+    right = exact if len(exact) else own[derive.all_right(own)]
     if len(right):
         return next(right.loc[[ties.best(right).Index]].itertuples())
     return next(own.sort_values("wrong_rays", kind="stable").itertuples(), None)
@@ -115,7 +118,8 @@ def against(found: Sequence[Choice], focus: str, methods: Sequence[str]) -> Matr
         body,
         "Times of the others over its own.",
         "Above 1× it is faster than the other method; ≈ stands where the times are not told apart. “Wrong” counts the "
-        "other's wrong rays: a time that is bought with them is no win. – the other does not apply or was not timed.",
+        "other's wrong rays: a time that is bought with them is no win. Its own wrong rays stand beside the surface, "
+        "whose line has no colours then. – the other does not apply or was not timed.",
         "surface",
         {FASTER: "it is faster", ALIKE: "not told apart", SLOWER: "the other is faster", WRONG: "the other is wrong"},
     )
@@ -130,6 +134,8 @@ def _against_focus(one: Choice, own: Any, method: str) -> Square:
     text = f"{wording.number(row.median_ms)} ms" if math.isnan(times) else wording.factor(times)
     if row.wrong_rays != 0:
         return Square(f"{text}\n{wording.count(row.wrong_rays)} wrong", WRONG, noted(one, row))
+    if own.wrong_rays != 0:
+        return Square(text, "", f"{noted(one, row)}; its own time is bought with wrong rays")
     if ties.is_slower(row, own):
         return Square(text, _strength(FASTER, times), noted(one, row))
     if ties.is_slower(own, row):

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import io
 from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image
 
 from reports import wording
 from reports.analysis import choices
@@ -19,7 +17,6 @@ from reports.reading.arrays import Arrays, Shelf
 
 PIXELS = 1400  # of all pictures of a strip side by side
 FEW = 4  # pictures that are wide enough for the names of variants
-EDGE = 0.03  # of the picture's side is left free around what is seen
 
 
 def strip(shelf: Shelf, found: Sequence[Choice]) -> Gallery | None:
@@ -37,32 +34,18 @@ def strip(shelf: Shelf, found: Sequence[Choice]) -> Gallery | None:
 def _panel(choice: Choice, row: Any, arrays: Arrays, side: int, large: bool) -> Panel:
     """Show one surface; below a `large` picture there is room for the whole name of the variant."""
     name = choices.written(row, choice.rows)
-    picture = Picture(f"{row.key}-teaser", _png(cropped(arrays), side), f"{choice.name} drawn by {name}")
+    picture = Picture(f"{row.key}-teaser", images.png(pictured(arrays, side)), f"{choice.name} drawn by {name}")
     wrong = "" if choice.best is not None else f"{wording.plural(int(row.wrong_rays), 'wrong ray')}, "
     head = f"{name}, " if large else f"{row.method_label}\n"
     told = f"{head}{wording.number(row.median_ms)} ms\n{wrong}error {wording.error(row.relative_error_max)}"
     return Panel(choice.name, (picture,), told)
 
 
-def cropped(arrays: Arrays) -> NDArray[np.float64]:
-    """Paint what is seen of a surface, in a square with little around it; returns float64[n, n, 3] in 0…1."""
-    seen = ~np.isnan(arrays.shade)
-    image = images.shaded(arrays)
-    rows, columns = np.flatnonzero(seen.any(axis=1)), np.flatnonzero(seen.any(axis=0))
-    if not len(rows):
-        return image
-    side = max(rows[-1] - rows[0], columns[-1] - columns[0]) + 1
-    side += 2 * max(1, round(EDGE * side))
+def pictured(arrays: Arrays, side: int) -> NDArray[np.float64]:
+    """Paint what is seen of a surface, with sharp outlines, in a square; returns float64[side, side, 3] in 0…1."""
+    seen = arrays.cropped(*images.outline([arrays]))
+    image = images.hero(seen, side)[:side, :side]
     square = np.ones((side, side, 3))
-    part = image[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
-    top, left = (side - part.shape[0]) // 2, (side - part.shape[1]) // 2
-    square[top : top + part.shape[0], left : left + part.shape[1]] = part
+    top, left = (side - image.shape[0]) // 2, (side - image.shape[1]) // 2
+    square[top : top + image.shape[0], left : left + image.shape[1]] = image
     return square
-
-
-def _png(image: NDArray[np.float64], side: int) -> bytes:
-    """Return an image float64[n, n, 3] in 0…1 as a PNG file of side × side pixels, smooth where it is enlarged."""
-    buffer = io.BytesIO()
-    scaled = Image.fromarray(np.round(255 * image).astype(np.uint8)).resize((side, side), Image.Resampling.BICUBIC)
-    scaled.save(buffer, "PNG", optimize=True)
-    return buffer.getvalue()

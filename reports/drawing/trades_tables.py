@@ -86,7 +86,7 @@ def devices(frame: pd.DataFrame) -> Table | None:
         Column("least and most are of", stretch=1),
     )
     caption = (
-        "The same variant on the same scene, right on both. These are ratios of two medians, which other devices' "
-        "loads may shift; above 1× is slower."
+        "The same variant on the same scene, right on both. Above 1× is slower. The two devices were not timed in "
+        "turns, so that other load on one of them shifts a ratio."
     )
     return Table(columns, body, "The other devices.", caption)

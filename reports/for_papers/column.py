@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from reports.analysis import derive
 from reports.analysis.fits import Power
-from reports.drawing import placing, style
+from reports.drawing import placing, shades, style
 from reports.drawing.canvas import RC, ErrorAxis, label_decades
 from reports.drawing.style import Mark
 
@@ -225,11 +225,11 @@ def matrix(shares: pd.DataFrame, told: pd.DataFrame, strong: Sequence[str]) -> D
         axes.set_axis_off()
         for i, y in enumerate((edges[1:] + edges[:-1]) / 2):
             for j, share in enumerate(shares.iloc[i]):
-                color = "#eeeeee" if math.isnan(share) else matplotlib.colormaps["cividis"](0.12 + 0.85 * (1 - share))
+                color = shades.NEUTRAL if math.isnan(share) else shades.shade(1.0 - share)
                 square = Rectangle((j, edges[i]), 1, edges[i + 1] - edges[i], facecolor=color, edgecolor=style.PAPER)
                 axes.add_patch(square)
-                ink = style.PAPER if not math.isnan(share) and share > 0.55 else style.INK
-                axes.text(j + 0.5, y, str(told.iloc[i, j]), ha="center", va="center", color=ink)
+                text = str(told.iloc[i, j])
+                axes.text(j + 0.5, y, text, ha="center", va="center", color=shades.ink(color))
             weight = "bold" if bold[i] else "normal"
             axes.text(-0.04 / cell, y, names[i], ha="right", va="center", color=style.INK, weight=weight)
         for j, head in enumerate(heads):

@@ -7,11 +7,9 @@ from dataclasses import dataclass
 
 import pandas as pd
 
+from reports import wording
 from reports.analysis import breaks
 from reports.material import Material
-
-NOTHING = "–"
-REFUSED = "·"
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,9 +34,8 @@ def ladders(material: Material) -> Iterator[Ladders]:
     """Yield the ladders of each device and precision; devices that agree on every count are one."""
     if material.rungs.empty:
         return
-    rungs = material.rungs.merge(material.run.families[["key", "label"]], on="key", suffixes=("_", ""))
-    devices = breaks.by_device(rungs)
-    several = rungs["precision"].nunique() > 1
+    devices = breaks.by_device(material.rungs)
+    several = material.rungs["precision"].nunique() > 1
     for device, on_device in devices.items():
         for precision, rows in on_device.groupby("precision"):
             more = [device] * (len(devices) > 1) + [str(precision)] * several
@@ -47,13 +44,10 @@ def ladders(material: Material) -> Iterator[Ladders]:
 
 def _ladders(material: Material, rows: pd.DataFrame, device: str, precision: str, more: Sequence[str]) -> Ladders:
     """Return the ladders of one device and precision; the variants and families that hold most come first."""
-    decided = rows["share_right"].notna()
-    held = rows["share_right"] >= breaks.HELD
-    by = [rows["label"], rows["family"]]
-    counts = pd.DataFrame({"of": decided.groupby(by).sum(), "held": held.groupby(by).sum()}).astype(int)
-    share = (counts["held"] / counts["of"]).where(counts["of"] > 0).unstack()
-    written = [f"{h}/{of}" if of else NOTHING for h, of in zip(counts["held"], counts["of"], strict=True)]
-    told = pd.Series(written, counts.index, dtype=object).unstack().fillna(REFUSED)
+    counts = breaks.verdicts(rows).groupby(["label", "family"])[["rungs_held", "rungs_decided"]].sum()
+    share = (counts["rungs_held"] / counts["rungs_decided"]).where(counts["rungs_decided"] > 0).unstack()
+    written = [f"{held}/{of}" if of else wording.NONE for held, of in counts.itertuples(index=False)]
+    told = pd.Series(written, counts.index, dtype=object).unstack().fillna(wording.REFUSED)
     lines = share.fillna(0.0).sum(axis=1).sort_values(ascending=False, kind="stable").index
     families = share.mean().fillna(-1.0).sort_values(ascending=False, kind="stable").index
     facts = material.run.plan.facts
@@ -61,7 +55,8 @@ def _ladders(material: Material, rows: pd.DataFrame, device: str, precision: str
     focused = rows[(rows["method"] == material.focus) | (rows["variant"] == material.focus)]
     caption = (
         f"Of each family of hard rays the rungs that a variant holds, {precision} on {device}: those on which it "
-        f"answers at least {breaks.HELD:.0%} of the decided rays rightly. {REFUSED} not run, {NOTHING} nothing decided."
+        f"answers at least {breaks.HELD:.0%} of the decided rays rightly. {wording.REFUSED} not run, "
+        f"{wording.NONE} nothing decided."
     ).replace("%", " %")
     shares, texts = (of.loc[lines, families].set_axis(named, axis=1) for of in (share, told))
     return Ladders(shares.astype("float64"), texts, list(focused["label"].unique()), precision, more, caption)

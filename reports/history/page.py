@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import html
 import itertools
 import re
 from collections.abc import Callable, Mapping, Sequence
@@ -12,6 +11,7 @@ from pathlib import Path
 from harness.results.commits import Commit
 from reports.history.axes import Scale, across, counted, labels
 from reports.history.series import Graph, Place, Point, Span, Step
+from reports.rendering.escaping import escaped
 
 HERE = Path(__file__).parent
 LEFT, WIDTH, TOP, HEIGHT = 60.0, 234.0, 10.0, 58.0  # of the plot in a drawing of 300 × 84
@@ -60,14 +60,14 @@ def page(history: History, pictures: Mapping[str, str]) -> str:
     counts = {name: sum(step.figure == name for step in history.steps) for name in history.figures}
     sections = [_figure_section(history, name, ids, numbers, most, pictures[name]) for name in history.figures]
     wide = WIDTH / max(history.commits, 1)
-    told = [f'<p class="warn">{_e(problem)}</p>' for problem in history.problems]
+    told = [f'<p class="warn">{escaped(problem)}</p>' for problem in history.problems]
     parts = {
-        "title": _e(f"History of {history.title}"),
-        "subtitle": _e(_subtitle(history)),
+        "title": escaped(f"History of {history.title}"),
+        "subtitle": escaped(_subtitle(history)),
         "style": (HERE / "page.css").read_text(encoding="utf-8"),
         "apart": f"{wide:.4f}",
         "dot": f"{min(5.0, max(1.6, 0.7 * wide)):.2f}",
-        "notes": "".join([*told, *(f'<p class="faint">{_e(note)}</p>' for note in history.notes)]),
+        "notes": "".join([*told, *(f'<p class="faint">{escaped(note)}</p>' for note in history.notes)]),
         "links": '<li><a href="#steps">steps</a></li>'
         + "".join(f'<li><a href="#{name}">{name}</a>{_count(counts[name])}</li>' for name in history.figures)
         + '<li><a href="#commits">commits</a></li>',
@@ -75,10 +75,6 @@ def page(history: History, pictures: Mapping[str, str]) -> str:
     }
     template = (HERE / "page.html").read_text(encoding="utf-8")
     return re.sub(r"\{\{(\w+)\}\}", lambda found: parts[found[1]], template)
-
-
-def _e(text: str) -> str:
-    return html.escape(text, quote=True)
 
 
 def _count(steps: int) -> str:
@@ -128,12 +124,12 @@ def _steps(history: History, of_step: Mapping[int, str]) -> str:
 
 def _step(step: Step, number: int, graph: str) -> str:
     """Write one step as an item of the list."""
-    notes = "".join(f"; {_e(note)}" for note in step.notes)
+    notes = "".join(f"; {escaped(note)}" for note in step.notes)
     told = f"{step.commit.date[:10]} {step.commit.subject}; last kept before: {_commit(step.since)}; on {step.device}"
     return (
-        f'<li id="s{number}"><a href="#{graph}">{step.figure} of {_e(step.slot)}</a>: '
-        f'<span class="{_kind(step)}">{_e(step.before)} → {_e(step.now)}</span> at commit '
-        f"<code>{step.commit.hash[:8]}</code> <small>{_e(told)}{notes}</small></li>"
+        f'<li id="s{number}"><a href="#{graph}">{step.figure} of {escaped(step.slot)}</a>: '
+        f'<span class="{_kind(step)}">{escaped(step.before)} → {escaped(step.now)}</span> at commit '
+        f"<code>{step.commit.hash[:8]}</code> <small>{escaped(told)}{notes}</small></li>"
     )
 
 
@@ -149,9 +145,10 @@ def _figure_section(
     flat = [graph for graph in own if graph.flat]
     cards = "".join(_card(history, graph, ids[id(graph)], numbers, most) for graph in changed)
     grid = f'<div class="grid">{cards}</div>' if cards else ""
-    meaning = _e(history.meanings.get(name, ""))
+    meaning = escaped(history.meanings.get(name, ""))
     return (
-        f'<section><h2 id="{name}">{name}</h2><p class="faint">{meaning} <a href="{_e(picture)}">as a picture</a></p>'
+        f'<section><h2 id="{name}">{name}</h2>'
+        f'<p class="faint">{meaning} <a href="{escaped(picture)}">as a picture</a></p>'
         f"{grid}{_flat(history, flat, opened=not changed and (len(flat) <= LISTED or history.commits < 2))}</section>"
     )
 
@@ -160,12 +157,12 @@ def _card(history: History, graph: Graph, name: str, numbers: Mapping[int, int],
     """Write one graph with its numbers below it."""
     spans, left_out = graph.spans[-most:], max(0, len(graph.spans) - most)
     rows = "".join(
-        f'<tr><td class="n">{_e(graph.said(span.value))}</td><td class="n">{len(span.points)}</td>'
+        f'<tr><td class="n">{escaped(graph.said(span.value))}</td><td class="n">{len(span.points)}</td>'
         f"<td>{_range(span)}</td></tr>"
         for span in reversed(spans)
     )
     rows += "".join(
-        f'<tr><td class="n">{_e(graph.said(point.value or 0))}</td><td></td>'
+        f'<tr><td class="n">{escaped(graph.said(point.value or 0))}</td><td></td>'
         f"<td>{_commit(point.place.commit)}, apart: {point.place.apart}</td></tr>"
         for point in graph.apart
     )
@@ -174,7 +171,7 @@ def _card(history: History, graph: Graph, name: str, numbers: Mapping[int, int],
         '<tr><th scope="col" class="n">value</th><th scope="col" class="n">commits</th><th scope="col">kept</th></tr>'
     )
     return (
-        f'<figure id="{name}"><figcaption>{_e(graph.slot)} <small>{_e(graph.device)}</small></figcaption>'
+        f'<figure id="{name}"><figcaption>{escaped(graph.slot)} <small>{escaped(graph.device)}</small></figcaption>'
         f"{_drawing(history, graph, spans, numbers)}"
         f'<details><summary>numbers</summary><div class="scroll" tabindex="0"><table><thead>{head}</thead>'
         f"<tbody>{rows}</tbody></table></div>{older}</details></figure>"
@@ -187,8 +184,8 @@ def _range(span: Span) -> str:
 
 
 def _title(graph: Graph, span: Span) -> str:
-    count = len(span.points)
-    return f"<title>{_e(graph.said(span.value))}: {f'{count} commits, ' if count > 1 else ''}{_range(span)}</title>"
+    commits = f"{len(span.points)} commits, " if len(span.points) > 1 else ""
+    return f"<title>{escaped(graph.said(span.value))}: {commits}{_range(span)}</title>"
 
 
 def _drawing(history: History, graph: Graph, spans: Sequence[Span], numbers: Mapping[int, int]) -> str:
@@ -210,7 +207,7 @@ def _drawing(history: History, graph: Graph, spans: Sequence[Span], numbers: Map
     )
     marks = _marks(graph, numbers, x)
     texts = "".join(
-        f'<text x="{LEFT - 5:.0f}" y="{TOP + HEIGHT * (1 - position) + 3:.1f}" text-anchor="end">{_e(text)}</text>'
+        f'<text x="{LEFT - 5:.0f}" y="{TOP + HEIGHT * (1 - position) + 3:.1f}" text-anchor="end">{escaped(text)}</text>'
         for position, text in labels(graph, scale)
     )
     first, last = _ends(history)
@@ -220,7 +217,7 @@ def _drawing(history: History, graph: Graph, spans: Sequence[Span], numbers: Map
     log = '<text x="2" y="82">log</text>' if scale.logarithmic else ""
     said = f"{graph.figure} of {graph.slot} on {graph.device}: {len(graph.spans)} values, {len(graph.steps)} steps"
     return (
-        f'<svg viewBox="0 0 300 84" role="group" aria-label="{_e(said)}">'
+        f'<svg viewBox="0 0 300 84" role="group" aria-label="{escaped(said)}">'
         f'<path class="axis" d="M{LEFT:.0f} {TOP + HEIGHT + 4:.0f}h{WIDTH:.0f}"/>{texts}{dates}{log}'
         f"{_paths(graph.spans, x, y, history.commits)}{hovers}{_apart(graph, x, y)}{marks}</svg>"
     )
@@ -255,7 +252,7 @@ def _apart(graph: Graph, x: Callable[[float], float], y: Callable[[float], float
 
 def _ring(graph: Graph, point: Point, x: float, y: float) -> str:
     title = f"{graph.said(point.value or 0)}: {_commit(point.place.commit)}, {point.place.apart}"
-    return f'<circle class="apart" cx="{x:.1f}" cy="{y:.1f}" r="2.5"><title>{_e(title)}</title></circle>'
+    return f'<circle class="apart" cx="{x:.1f}" cy="{y:.1f}" r="2.5"><title>{escaped(title)}</title></circle>'
 
 
 def _marks(graph: Graph, numbers: Mapping[int, int], x: Callable[[float], float]) -> str:
@@ -274,7 +271,7 @@ def _mark(step: Step, number: int, x: float) -> str:
     triangle = f"M{x:.1f} 1l4 6h-8z" if step.worse else f"M{x - 4:.1f} 1h8l-4 6z"  # up for the worse
     title = f"step: {step.before} → {step.now} at {_commit(step.commit)} {step.commit.subject}"
     return (
-        f'<a href="#s{number}" class="mark {_kind(step)}"><title>{_e(title)}</title>'
+        f'<a href="#s{number}" class="mark {_kind(step)}"><title>{escaped(title)}</title>'
         f'<line x1="{x:.1f}" x2="{x:.1f}" y1="8" y2="{TOP + HEIGHT + 4:.0f}"/><path d="{triangle}"/></a>'
     )
 
@@ -299,7 +296,7 @@ def _flat(history: History, graphs: Sequence[Graph], opened: bool) -> str:
         drawn = f"{_paths(graph.spans, x, lambda _: 6.0, history.commits)}{_apart(graph, x, lambda _: 6.0)}"
         svg = f'<svg viewBox="{LEFT:.0f} 0 {WIDTH:.0f} 12" role="img">{title}{drawn}</svg>'
         rows.append(
-            f'<tr><td>{_e(graph.slot)}</td><td>{_e(graph.device)}</td><td class="n">{_e(value)}</td>'
+            f'<tr><td>{escaped(graph.slot)}</td><td>{escaped(graph.device)}</td><td class="n">{escaped(value)}</td>'
             f'<td class="n">{count}</td><td>{svg}</td></tr>'
         )
     head = (
@@ -318,7 +315,7 @@ def _commits(history: History) -> str:
     """Write the table of all kept commits, the newest first."""
     rows = "".join(
         f"<tr><td><code>{place.commit.short}</code></td><td>{place.commit.date[:10]}</td>"
-        f"<td>{_e(place.commit.subject)}</td><td>{place.apart}</td></tr>"
+        f"<td>{escaped(place.commit.subject)}</td><td>{place.apart}</td></tr>"
         for place in sorted(history.places, key=lambda place: -place.at)
     )
     head = "".join(f'<th scope="col">{name}</th>' for name in ("commit", "date", "subject", "drawn apart"))

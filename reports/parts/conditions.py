@@ -30,6 +30,7 @@ ORDER = 40
 TITLE = "Error against condition"
 ONE_PAGE = 24  # a run with more surfaces has no figure beside the matrix
 BINS = 12  # of equal width in the logarithm of the condition, over the range of one surface's conditions
+NAMED = 6  # methods that a sentence names
 VARIANTS = 4  # the most that are drawn of one method
 DODGE = 0.6  # the share of a bin's width over which its marks are spread, so that all are seen
 _ROUNDOFF: Mapping[str, float] = {str(name): unit for name, unit in UNIT_ROUNDOFF.items()}
@@ -96,7 +97,7 @@ def sections(material: Material) -> list[Section]:
     if ALONE < len(found) <= ATLAS:
         return [Section(TITLE, (), (*page, figures[first], *rest))]
     room = (figures[first],) if len(found) <= ONE_PAGE else ()
-    return [Section(TITLE, (*page, *room), (*rest, *([] if room else [figures[first]])), own_page=bool(room))]
+    return [Section(TITLE, (*page, *room), (*rest, *([] if room else [figures[first]])))]
 
 
 def seen(clouds: Sequence[Cloud]) -> str:
@@ -111,19 +112,15 @@ def seen(clouds: Sequence[Cloud]) -> str:
     far = sorted((label for label, excess in worst.items() if excess > FAR), key=lambda label: -worst[label])
     told = []
     if near:
-        told.append(f"Never more than {NEAR:g} times what a root's condition allows: the errors of {_few(near)}.")
+        told.append(
+            f"Never more than {NEAR:g} times what a root's condition allows: the errors of {wording.few(near, NAMED)}."
+        )
     if far:
         named = [f"{label} (up to {wording.short(worst[label])})" for label in far]
-        told.append(f"More than {FAR:,.0f} times above it, unstable or ended early: {_few(named)}.")
+        told.append(f"More than {FAR:,.0f} times above it, unstable or ended early: {wording.few(named, NAMED)}.")
     return (
         " ".join(told) or f"Every method's worst error is {NEAR:g} to {FAR:,.0f} times what a root's condition allows."
     )
-
-
-def _few(names: Sequence[str]) -> str:
-    """Name up to six, and count the rest."""
-    rest = [f"{len(names) - 6} more"] if len(names) > 6 else []
-    return wording.listed([*names[:6], *rest])
 
 
 def matrix(found: Sequence[tuple[list[Cloud], pd.Series]], precision: str) -> Matrix:

@@ -21,7 +21,7 @@ ALL = "all of these"
 TITLE = "Deviations from the papers"
 PAGE = 40  # lines of the table that fit on a page
 SHORT = 20  # lines of the table that stand on what a section before leaves of a page
-WHAT = 36  # characters of what a knob is, in the table that fits on a page
+WHAT = 72  # characters of what a knob is, in the table that fits on a page
 SEEN = (
     "Where our default of a knob differs from what its source prints, this is what the printed value costs. Times over "
     "1× say that our change makes the method faster; wrong rays are neither grazing nor drowned."
@@ -66,7 +66,7 @@ def _short(body: list[tuple[Any, ...]]) -> Table:
         (
             Column("method"),
             Column("knob, printed → ours"),
-            Column("what it is", stretch=1),
+            Column("what it is", stretch=3),
             Column("time, printed\nover ours", wording.factor, numeric=True),
             Column("ours", wording.count, numeric=True, over="wrong rays"),
             Column("printed", wording.count, numeric=True, over="wrong rays"),

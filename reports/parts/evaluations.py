@@ -38,14 +38,14 @@ EXPLANATION = (
 
 
 def sections(material: Material) -> list[Section]:
-    """Make a section with the maps of each surface; [] where no row stores its evaluations.
+    """Make a section with the maps of each surface; [] where no row stores evaluations, or none was spent.
 
     A page shows the fastest variants of at most PAGED surfaces; all maps are in the details.
     """
     cells: list[tuple[Any, Arrays]] = []
     for row in shown.in_evaluation_maps(material.frame).itertuples():
         arrays = material.shelf.get(row)
-        if arrays is not None and arrays.evaluations is not None:
+        if arrays is not None and arrays.evaluations is not None and arrays.evaluations.any():
             cells.append((row, arrays))
     if not cells:
         return []
@@ -84,12 +84,10 @@ def _panel(row: Any, arrays: Arrays, most: int) -> Panel:
     painted = images.png(evaluation_map(arrays.evaluations, most))
     pictures = (Picture(f"{row.key}-evaluations", painted, f"Evaluations of {name}"),)
     spent = arrays.evaluations[arrays.evaluations > 0]
-    cost = "no evaluation"
-    if spent.size:
-        cost = (
-            f"{wording.number(arrays.evaluations.mean())} per ray cast, {wording.number(spent.mean())} "
-            f"per ray that spends any, at most {spent.max():,}"
-        )
+    cost = (
+        f"{wording.number(arrays.evaluations.mean())} per ray cast, {wording.number(spent.mean())} "
+        f"per ray that spends any, at most {spent.max():,}"
+    )
     of = wording.count(row.accuracy_rays)
     wrong = f"{wording.count(row.wrong_rays)} of {of} wrong" if row.wrong_rays else f"none of {of} wrong"
     return Panel(name, pictures, f"{cost} · max {wording.error(row.error_max)} · {wrong}{images.wrong_apart(row)}")

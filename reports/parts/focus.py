@@ -7,7 +7,7 @@ from typing import Any
 
 from reports import wording
 from reports.analysis import derive, rounds, ties
-from reports.analysis.choices import Choice
+from reports.analysis.choices import ERRORS, Choice
 from reports.content import Block, Column, Section, Table, Text
 from reports.drawing import standings
 from reports.material import Material
@@ -76,11 +76,17 @@ def table(own: Sequence[Choice], focus: str, label: str) -> Table:
         columns,
         body,
         f"{label} beside {named}, and what beats it.",
-        f"Of each the fastest setting with no wrong ray, else that with fewest. Error is the largest over the scene's "
-        f"radius. Speed-up is {named}'s time over its own, in the rounds that timed both, where both are right. What "
+        f"Of each the fastest setting with no wrong ray, within {wording.level(ERRORS[0])} of the radius if it has "
+        "one, else that with fewest. Error is the largest over the scene's radius. Speed-up is "
+        f"{named}'s time over its own, in the rounds that timed both, where both are right. What "
         "beats it is right on every ray away from silhouettes and proved faster."
         + wording.zeros([line[2] for line in body], [line[5] for line in body]),
     )
+
+
+def _right(one: Choice) -> str:
+    """Say of a surface on which the focus is wrong who is right there."""
+    return "none is right" if one.best is None else f"right is {answer.inline(one.best, one.rows)}"
 
 
 def _line(one: Choice, focus: str, baseline: str) -> tuple[Any, ...]:
@@ -91,7 +97,9 @@ def _line(one: Choice, focus: str, baseline: str) -> tuple[Any, ...]:
         cells += [None] * 3 if row is None else [row.median_ms, row.relative_error_max, row.wrong_rays]
     both = base is not None and own.wrong_rays == 0 and base.wrong_rays == 0
     cells.append(rounds.times_over(base, own) if both else None)
-    faster = one.rows[derive.all_right(one.rows) & (one.rows["method"] != own.method)]
+    right, exact = one.rows[derive.all_right(one.rows)], derive.within(one.rows, ERRORS[0])
+    faster = exact if own.Index in exact.index else right  # what is less exact does not beat it
+    faster = faster[faster["method"] != own.method]
     fastest = faster.drop_duplicates("method").itertuples()
     beating = [(row, rounds.times_over(own, row)) for row in fastest if ties.is_slower(own, row)]
     told = [
@@ -99,5 +107,5 @@ def _line(one: Choice, focus: str, baseline: str) -> tuple[Any, ...]:
         for row, times in beating[:3]
     ]
     rest = [f"{len(beating) - 3} more"] if len(beating) > 3 else []
-    cells.append(wording.listed([*told, *rest]) or "nothing")
+    cells.append(wording.listed([*told, *rest]) or ("nothing" if own.wrong_rays == 0 else _right(one)))
     return tuple(cells)

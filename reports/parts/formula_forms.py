@@ -36,8 +36,9 @@ _STYLES = (  # colour, marker and dashes; a form takes the next, and keeps it in
 EVEN = "even"
 TOP = 4.0  # the factor that has the brightest colour, and its inverse the darkest
 READ_RANGES = (
-    "How much wider than f's range a form's interval extension is, as boxes shrink: the gap between two forms at the "
-    "right is one that no subdivision closes."
+    "Interval arithmetic bounds f over a box, and how wide the bound is depends on how the formula is written. The "
+    "plots show its width over that of f's range as boxes shrink: where two forms stay apart at the right, no "
+    "subdivision brings them together."
 )
 READ_COST = "Dark squares are faster than the form as printed, bright ones slower; all forms were timed in turns."
 LEAD = (
@@ -119,9 +120,10 @@ def _narrowest(ranges: pd.DataFrame, titles: dict[str, str]) -> str:
     for base, own in ranges[ranges["side"] == ranges["side"].min()].groupby("surface", sort=False):
         factors = dict(zip(own["form"].map(form_of), own["factor"], strict=True))
         best = min(factors, key=lambda form: factors[form])
-        rest = "" if best == PRINTED else f", {best} {wording.factor(factors[best])}"
-        told.append(f"{titles.get(str(base), base)} {wording.factor(factors[PRINTED])} {PRINTED}{rest}")
-    return f"The narrowest extension of each, over the smallest boxes: {'; '.join(told)}."
+        printed = f"{wording.factor(factors[PRINTED])} {PRINTED}"
+        rest = "" if best == PRINTED else f" and {wording.factor(factors[best])} {best}"
+        told.append(f"{titles.get(str(base), base)} {printed}{rest}")
+    return f"Over the smallest boxes, as printed and in the best form: {'; '.join(told)}."
 
 
 def _ranges(ranges: pd.DataFrame, rows: pd.DataFrame, titles: dict[str, str]) -> Table:
@@ -173,7 +175,7 @@ def _figure(ranges: pd.DataFrame, titles: dict[str, str]) -> Figure:
         for axes in list(panels.flat)[len(bases) :]:
             axes.axis("off")
         drawing.supxlabel("side of the boxes over the domain's radius", y=0.1 / height, va="center", fontsize=7)
-        drawing.supylabel("width over the range's", x=0.08 / NARROW, ha="center", fontsize=7)
+        drawing.supylabel("width of the interval over that of f's range", x=0.08 / NARROW, ha="center", fontsize=7)
         drawn = svg(drawing)
     return Figure(
         "forms-range",

@@ -18,7 +18,6 @@ from reports.reading.run import Facts
 ORDER = 45
 NOTHING_DECIDED = "nothing decided"
 MOST_TOLD = 3  # families that a line of the first page's table names
-REFUSED, UNDECIDED = "·", "–"
 READ = (
     "A family is a ladder of rays that get harder rung by rung; each ray has a certified answer. A square counts the "
     f"rungs on which a method is right on at least {wording.share(breaks.HELD)} of the rays that can be decided: dark "
@@ -34,13 +33,6 @@ EXPLANATION = (
     "counts do not break them. Its worst error is over what the problem allows, max(condition, 1) × unit roundoff × "
     "the domain's radius: a small number for a method that is as good as the problem."
 )
-HOW = {  # what a broken rung is broken by, as a sentence says it
-    "misses": "misses",
-    "false_hits": "false hits",
-    "exhausted": "rays given up",
-    "wrong_root": "wrong roots",
-    "invalid": "invalid answers",
-}
 LADDERS = (
     "Share of the decided rays answered rightly, rung by rung: harder to the right, better at the top. A line that "
     "stays at the top is a method that holds. On hatched rungs no ray can be decided in that precision; the hollow "
@@ -142,7 +134,7 @@ def _matrix(
         tuple(label if more else name for (*_, label, name), more in zip(methods.index, chosen, strict=True)),
         rows,
         f"{precision} on {device}: rungs of each ladder that a method holds.",
-        f"{REFUSED} the method refuses the family; {UNDECIDED} no ray of it can be decided in {precision}."
+        f"{wording.REFUSED} the method refuses the family; {wording.NONE} no ray of it can be decided in {precision}."
         + (" Of several variants of a method, the one that holds most rungs." if any(chosen) else ""),
         "family",
         shades.key({0.0: "holds the whole ladder", 0.5: "half of it", 1.0: "breaks at once"}),
@@ -152,14 +144,14 @@ def _matrix(
 def _square(verdict: Any, facts: Facts, refusal: str | None) -> Square:
     """Make a square of the share of a ladder that holds; `verdict` is None where the variant has none."""
     if verdict is None:
-        return shades.silent("", "not run") if refusal is None else shades.silent(REFUSED, refusal)
+        return shades.silent("", "not run") if refusal is None else shades.silent(wording.REFUSED, refusal)
     named = f"{verdict.label}, {facts.title}"
     if not verdict.rungs_decided:
-        return shades.silent(UNDECIDED, f"{named}: {NOTHING_DECIDED}")
+        return shades.silent(wording.NONE, f"{named}: {NOTHING_DECIDED}")
     held, of = int(verdict.rungs_held), int(verdict.rungs_decided)
     if wording.absent(verdict.breaks_at):
         return Square("all", shades.shade(0.0), f"{named}: holds all {wording.plural(of, 'rung')}")
-    broken = f"breaks at {wording.level(verdict.breaks_at)} ({facts.parameter}), by {HOW[verdict.breaks_by]}"
+    broken = f"breaks at {wording.level(verdict.breaks_at)} ({facts.parameter}), by {_how(verdict)}"
     note = f"{named}: holds {held} of {wording.plural(of, 'rung')}; {broken}"
     return Square(f"{held}/{of}", shades.shade(1.0 - held / of), note)
 
@@ -213,7 +205,7 @@ def _outcome(verdict: Any) -> str | float:
 
 def _how(verdict: Any) -> str | None:
     """Return what breaks a variant on the first rung that does; None where none does."""
-    return None if wording.absent(verdict.breaks_by) else HOW[verdict.breaks_by]
+    return None if wording.absent(verdict.breaks_by) else wording.WRONG_RAYS[verdict.breaks_by]
 
 
 def _written(value: str | float) -> str:
@@ -287,8 +279,9 @@ def verdict(rungs: pd.DataFrame) -> str:
     for precision, own in rows.groupby("precision"):
         by_variant = own.groupby(["label", "family"])["held"].all().groupby("label")
         held, tried = by_variant.sum(), by_variant.size()
-        best = [f"{name}, of {tried[name]} that it answered" for name in sorted(held.index[held == held.max()])]
-        tallies.append(f"{held.max()} of {own['family'].nunique()} in {precision} ({wording.listed(best)})")
-    where = f"on {wording.listed(sorted(set(rungs['device'])))}"
-    most = f"the most that any variant holds are {wording.listed(tallies)}"
-    return f"Families of hard rays with rays decided {where}: {most}."
+        families = own["family"].nunique()
+        tried = tried[held == held.max()].sort_index()
+        best = [name if n == families else f"{name} (which answers {n})" for name, n in tried.items()]
+        tallies.append(f"by {wording.listed(best)} in {precision} ({held.max()} of {families})")
+    where = f"On {wording.listed(sorted(set(rungs['device'])))}"
+    return f"{where}, the most families of hard rays are held {wording.listed(tallies)}."

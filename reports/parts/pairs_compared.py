@@ -145,8 +145,14 @@ def _short(factor: float) -> str:
 def _said(matrix: Matrix) -> str:
     """Say in how many scenes the fastest method is proved to be alone, and where it is not."""
     even = [heading for heading, squares in matrix.rows if any(square.text == EVEN for square in squares)]
-    alone = len(matrix.rows) - len(even)
-    told = f"In {alone} of {wording.plural(len(matrix.rows), 'scene')} one method leads alone"
+    unknown = [
+        heading
+        for heading, squares in matrix.rows
+        if heading not in even and any(square.text.endswith(" ?") or square.text == NOT_PAIRED for square in squares)
+    ]
+    alone = len(matrix.rows) - len(even) - len(unknown)
+    rest = f"; in {len(unknown)} too few rounds timed it and another method to tell" if unknown else ""
+    told = f"In {alone} of {wording.plural(len(matrix.rows), 'scene')} one method leads alone{rest}"
     named = wording.listed(even[:3]) if len(even) <= 3 else f"{', '.join(even[:3])} and {len(even) - 3} more"
     return f"{told}; the first are not told apart on {named}." if even else f"{told}."
 

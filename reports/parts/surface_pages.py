@@ -129,8 +129,8 @@ def _fastest(choice: Choice, rows: pd.DataFrame) -> str:
 
 
 def _figures(row: Any) -> str:
-    """Write a row's time and its largest error."""
-    return f"{wording.number(row.median_ms)} ms, error {wording.error(row.error_max)}"
+    """Write a row's time and its largest error over the scene's radius."""
+    return f"{wording.number(row.median_ms)} ms, error {wording.error(row.relative_error_max)}"
 
 
 def _won(choice: Choice, rows: pd.DataFrame) -> str:
@@ -149,19 +149,10 @@ def _risks(choice: Choice) -> str:
     if choice.best is None:
         return "Every method answers some rays wrongly."
     best = choices.written(choice.best, choice.rows)
-    told = [
-        f"{choices.written(trade.row, choice.rows)} ({_gain(trade.times)}"
-        f"{wording.plural(int(trade.row.wrong_rays), 'wrong ray')})"
-        for trade in tradeoffs.faster(choice)
-    ]
+    told = [f"{choices.written(trade.row, choice.rows)} ({trade.told})" for trade in tradeoffs.faster(choice)]
     if told:
         return f"Faster than {best}, but wrong: {wording.listed(told)}."
-    return f"Nothing that answers rays wrongly is faster here than {best}, the fastest right method."
-
-
-def _gain(times: float) -> str:
-    """Write how many times as fast a row is that takes so many times the time, with a comma; "" where not known."""
-    return "" if wording.absent(times) else f"{wording.factor(1.0 / times)} as fast, "
+    return f"Nothing that answers rays wrongly is proved faster here than {best}."
 
 
 def _further(
@@ -204,7 +195,7 @@ def _atlas(material: Material, surfaces: list[tuple[str, pd.DataFrame]]) -> Sect
         else:
             panels.append(made)
     shows = ", with its name and its time" if short else ", who that is at two errors, and who is wrong"
-    scale = "" if short else " Errors “at most” are over the scene's radius, “max error” is in scene units."
+    scale = "" if short else " Errors are over the scene's radius."
     told = (
         f"Each surface as the fastest method without a wrong ray draws it{shows}. Of each the scene with most methods, "
         f"on the device with most results.{scale} Wrong rays are those away from silhouettes. Plots, error maps and "

@@ -13,6 +13,7 @@ import pandas as pd
 from harness.contract import CellStatus
 from harness.results.schema import KINDS
 from reports import wording
+from reports.analysis import surface_names
 from reports.content import Block, Column, Matrix, Section, Square, Table, Text
 from reports.drawing import shades
 from reports.material import Material
@@ -20,14 +21,8 @@ from reports.material import Material
 ORDER = 9  # before the winners: what is right comes before what is fast
 MANY = 30  # surfaces, from which on a run without the gallery has the section too
 CATALOG, OTHERS = "catalog", "others"
-RIGHT, REFUSED, NOTHING = "✓", "·", "?"
-WORDS = {
-    "misses": "misses",
-    "false_hits": "false hits",
-    "exhausted": "rays given up",
-    "wrong_root": "later roots",
-    "invalid": "impossible answers",
-}
+RIGHT, NOTHING = "✓", "?"
+WORDS = wording.WRONG_RAYS
 LETTERS = {"misses": "m", "false_hits": "f", "exhausted": "e", "wrong_root": "r", "invalid": "i"}
 BREAKS = {  # what a broken claim is, by the kind of wrong ray that breaks it
     "no_false_hit": "false_hits",
@@ -35,11 +30,12 @@ BREAKS = {  # what a broken claim is, by the kind of wrong ray that breaks it
 }
 KEY = (
     f"{RIGHT}: right on every ray that is neither grazing nor drowned. A number: how many per cent of these rays are "
-    "wrong, and how most of them are: m missed the surface, f hit where nothing is, e gave up, r a later root or none, "
-    f"i an impossible answer. {REFUSED}: the method refuses the surface. {NOTHING}: the cell failed, or has nothing to "
-    "judge; its reason is listed at the end of the report."
+    "wrong, and how most of them are: m missed the surface, f hit where nothing is, e gave up, r hit a wrong root, "
+    f"i gave an invalid answer. {wording.REFUSED}: the method refuses the surface. {NOTHING}: the cell failed, or has "
+    "nothing to judge; its reason is listed at the end of the report."
 )
 MOST_COLUMNS = 16
+SETTINGS = 3  # of a method whose broken claim is told
 MOST_PRINTED = 110  # surfaces; the matrix of all is among the details
 FIRST_WRONG = 0.35  # how bad, from 0 to 1, the colour is of a surface with 1 in 1,000 rays wrong
 
@@ -80,10 +76,12 @@ def _said(judged: pd.DataFrame) -> str:
     right = (taken["share"] == 0).groupby(taken["label"], sort=False).agg(["sum", "size"])
     best, worst = right["sum"].idxmax(), (right["size"] - right["sum"]).idxmax()
     surfaces = judged["surface"].nunique()
-    told = f"{best} is right on every ray of most surfaces: {right['sum'][best]} of the {right['size'][best]} it takes"
+    told = f"{best} is right on every ray of most: {right['sum'][best]} of the {right['size'][best]} it takes"
     wrong = int(right["size"][worst] - right["sum"][worst])
     least = f"; {worst} is wrong on most: {wrong} of {right['size'][worst]}" if wrong else ""
-    return f"Of {wording.plural(surfaces, 'surface')}, {told}{least}."
+    printed = surface_names.printed_alone(judged)["surface"].nunique()
+    forms = f" ({printed}, some of them in several forms of their formula)" if printed < surfaces else ""
+    return f"Of {wording.plural(surfaces, 'surface')}{forms}, {told}{least}."
 
 
 def _shortened(told: Sequence[Text]) -> list[Text]:
@@ -134,7 +132,7 @@ def _square(row: Any) -> Square:
     """Make the square of a variant on a surface, as KEY explains."""
     named = f"{row.named}, {row.surface_title}"
     if row.status == CellStatus.SKIPPED:
-        return shades.silent(REFUSED, f"{named}: refused, {wording.excerpt(str(row.reason), 200)}")
+        return shades.silent(wording.REFUSED, f"{named}: refused, {wording.excerpt(str(row.reason), 200)}")
     if wording.absent(row.share):
         return shades.silent(NOTHING, f"{named}: {row.status}, nothing judged")
     if row.share == 0:
@@ -175,13 +173,13 @@ def _by_group(judged: pd.DataFrame, place: str) -> Matrix:
             note = f"right on {right} of the {len(taken)} surfaces that it takes and was judged on"
             share = right / max(len(taken), 1)
             made = Square(f"{right}/{len(taken)}", shades.shade(1.0 - share), note)
-            squares.append(made if len(taken) else shades.silent(REFUSED, "takes none of them"))
+            squares.append(made if len(taken) else shades.silent(wording.REFUSED, "takes none of them"))
         body.append((f"{titles[str(group)]}, {own['surface'].nunique()}", tuple(squares)))
     return Matrix(
         tuple(columns.values()),
         body,
         f"On how many surfaces of each group every ray is right, {place}.",
-        f"Of those that the method takes; {REFUSED} it takes none.",
+        f"Of those that the method takes; {wording.REFUSED} it takes none.",
         "group, surfaces",
         shades.key({0.0: "right on all", 0.5: "on half of them", 1.0: "on none"}),
     )
@@ -285,11 +283,24 @@ def _broken(rows: pd.DataFrame, material: Material) -> list[Text]:
             kind = BREAKS.get(claim)
             against = own[own[kind] > 0] if kind else own.head(0)
             if len(against):
-                where = ", ".join(dict.fromkeys(against["surface_title"]))
                 claimed = claim.replace("_", " ")
-                told = f"{name} claims {claimed}, and {WORDS[str(kind)]} of clear rays break it on: {where}."
+                told = (
+                    f"{name} claims {claimed}, and {WORDS[str(kind)]} of clear rays break it: {_by_setting(against)}."
+                )
                 found.append(Text(told, True))
     return found
+
+
+def _by_setting(against: pd.DataFrame) -> str:
+    """Name the settings of a method that break its claim, each with its surfaces; at most SETTINGS, worst first."""
+    each = [
+        (len(titles), f"{label} on {', '.join(titles)}")
+        for label, own in against.groupby("label", sort=False)
+        for titles in [list(dict.fromkeys(own["surface_title"]))]
+    ]
+    each.sort(key=lambda pair: -pair[0])
+    more = [f"{len(each) - SETTINGS} more settings"] if len(each) > SETTINGS else []
+    return "; ".join([*(told for _, told in each[:SETTINGS]), *more])
 
 
 def _stated(methods: Mapping[str, Mapping[str, Any]], method: str) -> list[str]:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping
-from typing import Any
+from dataclasses import replace
+from typing import Any, TypeVar
 
 import pandas as pd
 
@@ -12,14 +13,16 @@ from reports import wording
 from reports.analysis import derive, ties
 from reports.analysis.scene_names import rays_checked, scene_names
 from reports.content import Block, Column, Matrix, Section, Square, Table, Text
-from reports.drawing import standings, style, tables, trades_tables
+from reports.drawing import shades, standings, style, tables, trades_tables
 from reports.material import Material
 
 ORDER = 10
 ONE_BY_ONE = 20  # a run with more groups has a table that counts the winners too
+FEW = 2  # surfaces, up to which the page has the table of winners too
 LINES = 30  # scenes of the matrix that is printed, and surfaces with trade-offs; details have all
 TWO_LINES = 12  # a matrix of so many scenes has room for two lines a square
 COLUMNS = 6  # devices and precisions that a page is wide enough for
+Listed = TypeVar("Listed", Matrix, Table)
 PALE = 0.68  # how far the colour of a square is from its method's, towards white
 
 
@@ -35,19 +38,21 @@ def sections(material: Material) -> list[Section]:
     many = len(whole.rows) > LINES
     printed = matrix(material, leading, one_each) if many else whole
     blocks: list[Block] = [Text(_seen(leading[leading["comparison"].isin(list(one_each))] if many else leading))]
-    blocks += [_first(printed, LINES)] if each is None or len(printed.columns) > 1 else []
+    blocks += [_cut(printed, LINES)] if each is None or len(printed.columns) > 1 else []
     blocks += [each] if each is not None else []
     details: list[Block] = [] if len(whole.rows) <= LINES else [whole]
     trades = trades_tables.trades(found)
     if trades is not None:
         blocks.append(_cut(trades, LINES // 2))
         details += [trades] if len(trades.rows) > LINES // 2 else []
+    if len(found) <= FEW:  # the page has room for more
+        blocks.append(winners_table(material.listed, leading))
     elsewhere = trades_tables.devices(material.listed)
     blocks += [elsewhere] if elsewhere is not None else []
     several = len(derive.contenders(material.listed).drop_duplicates(derive.GROUP)) > ONE_BY_ONE
     if several and len(leading):
         details.append(wins_table(leading))
-    details += [Text(f"{ties.RULE}."), winners_table(material.listed, leading)]
+    details += [Text(f"{ties.RULE}."), *([winners_table(material.listed, leading)] if len(found) > FEW else [])]
     return [Section("Winners", tuple(blocks), tuple(details), not material.focus)]
 
 
@@ -119,9 +124,9 @@ def _square(own: pd.DataFrame | None, won: Any, material: Material, labels: dict
     if won is None:
         fewest = next(own.sort_values("wrong_rays", kind="stable").itertuples())
         if wording.absent(fewest.wrong_rays):
-            return Square("not judged", "#e4e4e4", "no answers were checked")
+            return shades.silent("not judged", "no answers were checked")
         told = f"{fewest.label}: {int(fewest.wrong_rays):,} wrong rays of {wording.count(fewest.accuracy_rays)}"
-        return Square("all wrong\nsomewhere" if apart == "\n" else "all wrong", "#e4e4e4", f"fewest: {told}")
+        return shades.silent("all wrong\nsomewhere" if apart == "\n" else "all wrong", f"fewest: {told}")
     tied = [labels[variant] for variant in won.tied]
     sign = "≈ " if tied else ""
     note = f"{won.label}, largest error {wording.error(won.error_max)} scene units"
@@ -133,20 +138,12 @@ def _square(own: pd.DataFrame | None, won: Any, material: Material, labels: dict
     return Square(text, color, note, strong=focused)
 
 
-def _first(whole: Matrix, lines: int) -> Matrix:
-    """Return the first lines of a matrix, which says so."""
+def _cut(whole: Listed, lines: int) -> Listed:
+    """Return the first lines of a matrix or a table, which says so."""
     if len(whole.rows) <= lines:
         return whole
     caption = f"{whole.caption} The first {lines} of {len(whole.rows)}; the appendix and the HTML page have all."
-    return Matrix(whole.columns, whole.rows[:lines], whole.title, caption, whole.corner, whole.key)
-
-
-def _cut(whole: Table, lines: int) -> Table:
-    """Return the first lines of a table, which says so."""
-    if len(whole.rows) <= lines:
-        return whole
-    caption = f"{whole.caption} The first {lines} of {len(whole.rows)}; the appendix and the HTML page have all."
-    return Table(whole.columns, whole.rows[:lines], whole.title, caption, whole.group)
+    return replace(whole, rows=whole.rows[:lines], caption=caption)
 
 
 def winners_table(frame: pd.DataFrame, leading: pd.DataFrame) -> Table:

@@ -1,4 +1,4 @@
-// Charts: Vega-Lite draws a figure's chart in the place of its drawing once the reader comes near it.
+// Charts: Vega-Lite draws them once the reader comes near.
 function power(exponent) {
   return `10${String(exponent).replace(/./g, (sign) => "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"["-0123456789".indexOf(sign)])}`;
 }
@@ -65,7 +65,6 @@ function listed(pairs, title, code) {
   }
   return told;
 }
-const plain = (value) => (typeof value === "object" ? listed(Object.entries(value)) : String(value));
 
 const nearby = new IntersectionObserver((entries) => {
   for (const { target, isIntersecting } of entries) {
@@ -74,12 +73,3 @@ const nearby = new IntersectionObserver((entries) => {
     target.drawNow();
   }
 }, { rootMargin: "400px" });
-for (const element of document.querySelectorAll(".drawing .chart")) {
-  const figure = element.closest("figure");
-  const spec = JSON.parse(document.getElementById(element.dataset.chart).textContent);
-  figure.drawNow = () => {
-    figure.classList.add("shows");
-    draw(element, spec, plain);
-  };
-  nearby.observe(figure);
-}

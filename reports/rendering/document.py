@@ -14,7 +14,8 @@ from typing import Any
 import matplotlib
 import typst
 
-from reports.content import Block, Code, Document, Figure, Gallery, Matrix, Section, Table, Text
+from reports.content import Block, Code, Document, Figure, Gallery, Matrix, Section, Square, Table, Text
+from reports.drawing import shades
 
 HERE = Path(__file__).parent
 REPORT, ONE_PAGE = "report.typ", "one_page.typ"  # templates; both read blocks.typ
@@ -133,7 +134,7 @@ def _matrix(matrix: Matrix) -> dict[str, Any]:
     rows = [
         {
             "heading": heading,
-            "squares": [{"text": s.text, "color": s.color or None, "strong": s.strong} for s in squares],
+            "squares": [_square(square) for square in squares],
         }
         for heading, squares in matrix.rows
     ]
@@ -146,6 +147,12 @@ def _matrix(matrix: Matrix) -> dict[str, Any]:
         "title": matrix.title,
         "caption": matrix.caption,
     }
+
+
+def _square(square: Square) -> dict[str, Any]:
+    """Return a square of a matrix as the template reads it."""
+    ink = shades.ink(square.color) if square.color else None
+    return {"text": square.text, "color": square.color or None, "ink": ink, "strong": square.strong}
 
 
 def _figure(figure: Figure, folder: Path) -> dict[str, Any]:

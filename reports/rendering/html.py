@@ -6,8 +6,8 @@ import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from reports.content import Document, Figure, Section
-from reports.drawing import charts
+from reports.content import Document, Section
+from reports.drawing import markers
 from reports.drawing.style import Mark
 from reports.rendering import html_blocks, html_explorer
 from reports.rendering.escaping import data, escaped
@@ -33,18 +33,16 @@ def page(
     """Return the page of `document` as HTML.
 
     A click on a method of `marks` fades the others; `labels` has the methods' written names. `library` is the script
-    that draws charts, as rendering.bundle.library returns it. Without it, figures are drawings alone and there is no
-    explorer.
+    that draws the explorer's charts, as rendering.bundle.library returns it. Without it there is no explorer.
     """
-    live = bool(library) and (document.explorer is not None or _charts(document))
+    explorer = document.explorer if library else None
     sections = [(f"s{i}", section) for i, section in enumerate((document.summary, *document.sections))]
     written = [
-        (name, section.name or section.title, _section(section, name.replace("s", "b"), live))
-        for name, section in sections
+        (name, section.name or section.title, _section(section, name.replace("s", "b"))) for name, section in sections
     ]
-    if live and document.explorer is not None:
-        written.insert(1, (EXPLORER, html_explorer.TITLE, html_explorer.explorer(document.explorer)))
-    scripts = ["page.js", *(("charts.js", "explorer.js") if live else ())]
+    if explorer is not None:
+        written.insert(1, (EXPLORER, html_explorer.TITLE, html_explorer.explorer(explorer)))
+    scripts = ["page.js", *(("charts.js", "explorer.js") if explorer is not None else ())]
     parts = {
         "title": escaped(document.title),
         "subtitle": escaped(document.subtitle),
@@ -52,7 +50,7 @@ def page(
         "contents": _contents([(name, title) for name, title, _ in written]),
         "chips": _chips(marks, labels or {}) if marks else "",
         "body": "".join(f'<section id="{name}">{body}</section>' for name, _, body in written),
-        "library": f"<script>{library}</script>" if live else "",
+        "library": f"<script>{library}</script>" if explorer is not None else "",
         "script": "".join(map(_file, scripts)),
     }
     return re.sub(r"\{\{(\w+)\}\}", lambda found: parts[found[1]], _file("page.html"))
@@ -69,18 +67,10 @@ def _file(name: str) -> str:
     return (HERE / name).read_text(encoding="utf-8")
 
 
-def _charts(document: Document) -> bool:
-    """Tell whether any figure of the document has a chart."""
-    blocks = [
-        block for section in (document.summary, *document.sections) for block in (*section.blocks, *section.details)
-    ]
-    return any(isinstance(block, Figure) and block.chart is not None for block in blocks)
-
-
-def _section(section: Section, name: str, live: bool) -> str:
+def _section(section: Section, name: str) -> str:
     """Write what a section has; `name` begins the ids within it."""
     every = [*section.blocks, *section.details]
-    blocks = [html_blocks.block(block, f"{name}-{i}", live) for i, block in enumerate(every)]
+    blocks = [html_blocks.block(block, f"{name}-{i}") for i, block in enumerate(every)]
     shown, folded = "".join(blocks[: len(section.blocks)]), "".join(blocks[len(section.blocks) :])
     heading = f"<h2>{escaped(section.title)}</h2>"
     if folded and not shown:
@@ -91,7 +81,7 @@ def _section(section: Section, name: str, live: bool) -> str:
 
 def _chips(marks: Mapping[str, Mark], labels: Mapping[str, str]) -> str:
     """Write a button for each method, with its mark, and what the scripts have to know of the methods."""
-    outlines = {name: charts.outline(mark) for name, mark in marks.items()}
+    outlines = {name: markers.outline(mark) for name, mark in marks.items()}
     told = {
         name: {"label": labels.get(name, name), "color": mark.color, "shape": outlines[name]}
         for name, mark in marks.items()

@@ -11,7 +11,7 @@ import re
 from reports.content import Block, Code, Figure, Gallery, Matrix, Panel, Picture, Table, Text
 from reports.drawing.canvas import SERIES
 from reports.rendering import html_tables, pictures
-from reports.rendering.escaping import data, escaped
+from reports.rendering.escaping import escaped
 
 _ID = re.compile(r'\bid="([^"]+)"')
 _REFERENCE = re.compile(r'(url\(#|href="#)([^")]+)')
@@ -29,8 +29,8 @@ _WIDTH = re.compile(r'<svg(\s[^>]*?)width="([\d.]+pt)"')
 _NAMED = re.compile(f'<g id="{re.escape(SERIES)}([^"]*)"')
 
 
-def block(of: Block, name: str, live: bool) -> str:
-    """Write a block as HTML; `name` begins the ids within it. With `live` a figure shows its chart, if it has one."""
+def block(of: Block, name: str) -> str:
+    """Write a block as HTML; `name` begins the ids within it."""
     match of:
         case Text():
             told = escaped(of.text)
@@ -42,20 +42,16 @@ def block(of: Block, name: str, live: bool) -> str:
         case Matrix():
             return html_tables.matrix(of)
         case Figure():
-            return _figure(of, name, live)
+            return _figure(of, name)
         case Gallery():
             return _gallery(of, name)
 
 
-def _figure(figure: Figure, name: str, live: bool) -> str:
-    """Write a figure: its chart where it has one, and its drawing for paper and for readers without script."""
+def _figure(figure: Figure, name: str) -> str:
+    """Write a figure: its drawing above its caption."""
     drawing = f'<div class="drawn" role="img" aria-label="{escaped(figure.description)}">{_svg(figure.svg, name)}</div>'
-    chart = ""
-    if live and figure.chart is not None:
-        told = f'role="img" aria-label="{escaped(figure.description)}"'
-        chart = f'{data(f"{name}-chart", figure.chart)}<div class="chart" data-chart="{name}-chart" {told}></div>'
     caption = html_tables.caption(figure.title, figure.caption)
-    return f'<figure class="drawing">{chart}{drawing}<figcaption>{caption}</figcaption></figure>'
+    return f'<figure class="drawing">{drawing}<figcaption>{caption}</figcaption></figure>'
 
 
 def _svg(svg: str, name: str) -> str:

@@ -9,10 +9,10 @@ from typing import Any
 import pandas as pd
 
 from reports.content import Column, Matrix, Square, Table
+from reports.drawing import shades
 from reports.rendering.escaping import escaped
 
 FILTERED = 4  # rows from which on a table has a box to filter them
-_DARK, _LIGHT = "#111111", "#ffffff"  # what is written on a coloured square
 
 
 def caption(title: str, told: str) -> str:
@@ -110,17 +110,9 @@ def key(colors: Mapping[str, str]) -> str:
 
 def _square(square: Square) -> str:
     """Write one cell of a matrix."""
-    style = f' style="background:{square.color};color:{on(square.color)}"' if square.color else ""
+    style = f' style="background:{square.color};color:{shades.ink(square.color)}"' if square.color else ""
     text = f"<b>{escaped(square.text)}</b>" if square.strong else escaped(square.text)
     if not square.note:
         return f"<td{style}>{text}</td>"
     note = f'<span class="note">{escaped(square.note)}</span>'
     return f'<td{style}><button type="button" class="square">{text}{note}</button></td>'
-
-
-def on(color: str) -> str:
-    """Return the colour for text on a ground of `color`, "#rrggbb": dark or light, whichever is read more easily."""
-    shares = [int(color[i : i + 2], 16) / 255 for i in (1, 3, 5)]
-    red, green, blue = (c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in shares)
-    luminance = 0.2126 * red + 0.7152 * green + 0.0722 * blue
-    return _DARK if luminance > 0.1833 else _LIGHT  # where both have the same contrast

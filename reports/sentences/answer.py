@@ -35,6 +35,8 @@ def lead(found: Sequence[Choice]) -> str:
         return f"{where}, nothing is compared: {names} takes {_span(found)}."
     if all(one.best is None for one in found):
         return f"{where}, no variant was timed that answers every ray away from silhouettes rightly."
+    if all(one.within[0] is None for one in found):
+        return f"{where}, no right answer is within {wording.level(ERRORS[0])} of the scene's radius."
     return f"{where}, the fastest right answers come from {_winners(found, 0)}."
 
 
@@ -47,7 +49,7 @@ def _winners(found: Sequence[Choice], level: int) -> str:
     for one, row in won:
         named = len(found) <= NAMED
         label = inline(row, one.rows) if named else str(row.method_label)
-        label = " or ".join([label, *_others_named(one.tied[level])]) if named else label
+        label = " or ".join([label, *choices.others(one.tied[level])]) if named else label
         by_label.setdefault(label, []).append((one, row))
     if len(found) <= NAMED:
         parts = [
@@ -62,11 +64,6 @@ def _winners(found: Sequence[Choice], level: int) -> str:
     parts += [f"others on {rest}"] if rest else []
     shared = sum(bool(one.tied[level]) for one, _ in won)
     return wording.listed(parts) + (f"; on {shared} another method is not told apart" if shared else "")
-
-
-def _others_named(tied: Sequence[str]) -> list[str]:
-    """Return the one variant that is not told apart from a winner, or how many there are."""
-    return [f"{len(tied)} others"] if len(tied) > 1 else list(tied)
 
 
 def inline(row: Any, rows: pd.DataFrame | None = None) -> str:
@@ -217,17 +214,12 @@ def bought(found: Sequence[Choice]) -> str:
     if len(trades) > 4:
         counted = Counter(str(trade.row.method_label) for _, trade in trades)
         each = [f"{label} on {count}" for label, count in counted.most_common()]
-        return f"Of {len(found)} surfaces: {wording.listed(each)}. “Trade-offs” has each."
+        return f"On {len(trades)} of {len(found)} surfaces: {wording.listed(each)}. “Trade-offs” lists them."
     by_label: dict[str, list[str]] = {}
     for one, trade in trades:
-        told = f"{one.name} ({_gain(trade)}{wording.plural(int(trade.row.wrong_rays), 'wrong ray')})"
+        told = f"{one.name} ({trade.told})"
         by_label.setdefault(inline(trade.row), []).append(told)
     return f"{'; '.join(f'{label} on {wording.listed(where)}' for label, where in by_label.items())}."
-
-
-def _gain(trade: tradeoffs.Trade) -> str:
-    """Write how many times as fast a variant is, with a comma; "" where that is not known."""
-    return "" if wording.absent(trade.times) else f"{wording.factor(1 / trade.times)} as fast, "
 
 
 def focus(found: Sequence[Choice], focus: str, method: str) -> str:
@@ -249,7 +241,7 @@ def focus(found: Sequence[Choice], focus: str, method: str) -> str:
             wrong.append(one.name)
         elif one.best.Index in own.index:
             (shared if one.tied[0] else wins).append(one.name)
-        elif set(own["label"]) & set(one.tied[0]):
+        elif set(own.index) & set(one.tied_rows[0]):
             shared.append(one.name)
         else:
             beaten.setdefault(inline(one.best) if len(found) <= NAMED else str(one.best.method_label), []).append(

@@ -40,7 +40,7 @@ def body(site: Site) -> list[Html]:
     ]
 
 
-def script(site: Site) -> str:
+def data(site: Site) -> dict[str, Any]:
     """Return what the page's script counts: of each cell its place, and what its methods do there."""
     cells = [
         {
@@ -52,9 +52,7 @@ def script(site: Site) -> str:
         }
         for race in site.cells
     ]
-    return json.dumps(
-        {"levels": [name for name, _ in LEVELS], "cells": cells}, ensure_ascii=False, separators=(",", ":")
-    )
+    return {"levels": [name for name, _ in LEVELS], "cells": cells}
 
 
 def kinds(site: Site) -> list[str]:

@@ -73,7 +73,7 @@ def _pages(site: Site, folder: Path) -> dict[str, str]:
     sizes = {path: (folder / path).stat().st_size for path in (PARQUET, CSV)}
     page = site.frame.page
     made = {
-        "index.html": page("index.html", site.frame.title, *board.body(site), script=board.script(site)),
+        "index.html": page("index.html", site.frame.title, *board.body(site), data=board.data(site)),
         "surfaces.html": page("surfaces.html", "Surfaces", *surface_page.index(site)),
         "methods.html": page("methods.html", "Methods", *method_page.index(site)),
         "runs.html": page("runs.html", "Runs", *run_page.index(site)),

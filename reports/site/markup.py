@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-import html
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from reports import content, wording
+from reports.rendering import escaping
 
 PLACES = (  # what stands in the head of every page
     ("index.html", "Results"),
@@ -30,7 +31,7 @@ def escaped(child: object) -> str:
     """Return HTML as it is, and anything else as text, escaped; None and False are nothing."""
     if isinstance(child, Html):
         return child
-    return "" if child is None or child is False else html.escape(str(child), quote=True)
+    return "" if child is None or child is False else escaping.escaped(str(child))
 
 
 def join(*children: object) -> Html:
@@ -155,12 +156,12 @@ class Frame:
 
     title: str
 
-    def page(self, path: str, title: str, *body: object, script: str = "") -> str:
-        """Write the page at `path`, a path below the site's folder; `script` is data for the site's script, as JSON."""
+    def page(self, path: str, title: str, *body: object, data: Mapping[str, Any] | None = None) -> str:
+        """Write the page at `path`, a path below the site's folder; `data` is for the site's script."""
         up = "../" * path.count("/")
         here = path.rpartition("/")[0]
         links = [tag("a", name, href=up + at, aria_current=_current(path, here, at)) for at, name in PLACES]
-        data = Html(f'<script type="application/json" id="cells">{_quiet(script)}</script>') if script else None
+        told = None if data is None else Html(escaping.data("cells", data))
         head = tag(
             "head",
             tag("meta", charset="utf-8"),
@@ -169,7 +170,7 @@ class Frame:
             tag("title", f"{title} · {self.title}" if title != self.title else title),
             tag("link", rel="icon", href="data:,"),
             tag("link", rel="stylesheet", href=f"{up}site.css"),
-            tag("script", src=f"{up}site.js", defer=True) if script else None,
+            tag("script", src=f"{up}site.js", defer=True) if data is not None else None,
         )
         banner = tag(
             "header",
@@ -177,18 +178,13 @@ class Frame:
             tag("a", self.title, href=f"{up}index.html", class_="name"),
             tag("nav", *links, aria_label="Site"),
         )
-        main = tag("main", tag("h1", title), *body, data, id="main")
+        main = tag("main", tag("h1", title), *body, told, id="main")
         return "<!DOCTYPE html>\n" + tag("html", head, tag("body", banner, main), lang="en") + "\n"
 
 
 def _current(path: str, here: str, at: str) -> str | None:
     """Say whether the link `at` is to this page, or to the list that this page belongs to."""
     return "page" if path == at else "true" if here and at == f"{here}.html" else None
-
-
-def _quiet(script: str) -> str:
-    """Keep a text of JSON from ending the element that it stands in."""
-    return script.replace("<", "\\u003c")
 
 
 def day(text: object) -> Html:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from harness.results.columns import TYPES
 from harness.results.schema import DERIVED, SCHEMA, Field
 from reports import wording
 from reports.site.cells import Site
@@ -37,7 +38,7 @@ def data(site: Site, sizes: Mapping[str, int]) -> list[Html]:
     ]
     count = wording.plural(len(site.data.frame), "row")
     fields = (*SCHEMA, *DERIVED, *MORE)
-    columns = [Line((field.name, _KINDS[field.kind], field.meaning)) for field in fields]
+    columns = [Line((field.name, TYPES[field.kind], field.meaning)) for field in fields]
     return [
         tag(
             "p",
@@ -63,14 +64,6 @@ def data(site: Site, sizes: Mapping[str, int]) -> list[Html]:
     ]
 
 
-_KINDS = {
-    "text": "text",
-    "real": "number",
-    "whole": "whole number",
-    "flag": "true or false",
-    "json": "JSON",
-    "reals": "list of numbers",
-}
 RUN = """make .venv/ready
 .venv/bin/firsthit devices
 .venv/bin/firsthit run quick"""

@@ -6,10 +6,8 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-import numpy as np
-from matplotlib.markers import MarkerStyle
-
 from reports import wording
+from reports.drawing.markers import outline
 from reports.drawing.style import Mark
 from reports.site.markup import Html, join, tag
 
@@ -119,25 +117,8 @@ def _grid(x: _Axis, y: _Axis, zero: float | None) -> Html:
 def _mark(point: Point, x: float, y: float) -> Html:
     """Draw a point as a link that tells what it is."""
     fill = "none" if point.hollow else point.mark.color
-    path = tag("path", d=_path(point.mark, x, y), fill=fill, stroke=point.mark.color)
+    path = tag("path", d=outline(point.mark, x, y, SIZE), fill=fill, stroke=point.mark.color)
     return tag("a", tag("title", point.title), path, href=point.to, aria_label=point.title)
-
-
-def _path(mark: Mark, x: float, y: float) -> str:
-    """Write a marker of matplotlib's as a path around (x, y)."""
-    style = MarkerStyle(mark.marker)
-    path = style.get_path().transformed(style.get_transform())
-    extent = float(np.abs(path.vertices).max()) or 1.0
-    letters = {1: "M", 2: "L", 3: "Q", 4: "C"}
-    told = []
-    for numbers, code in path.iter_segments(curves=True):
-        kind = int(code)
-        if kind not in letters:
-            told.append("Z")
-            continue
-        ends = np.asarray(numbers).reshape(-1, 2) * (SIZE / extent)
-        told.append(letters[kind] + " ".join(f"{x + a:.1f} {y - b:.1f}" for a, b in ends))
-    return "".join(told)
 
 
 def _labels(points: Sequence[Point], spots: Sequence[tuple[float, float]]) -> list[Html]:
@@ -168,5 +149,5 @@ def _meet(a: tuple[float, ...], b: tuple[float, ...]) -> bool:
 
 def chip(mark: Mark) -> Html:
     """Draw a mark as a small picture to stand before a name, which tells the same."""
-    path = tag("path", d=_path(mark, 8, 8), fill=mark.color, stroke=mark.color)
+    path = tag("path", d=outline(mark, 8, 8, SIZE), fill=mark.color, stroke=mark.color)
     return join(tag("svg", path, viewBox="0 0 16 16", class_="chip", aria_hidden="true"), " ")

@@ -116,8 +116,7 @@ def _worth(race: Race) -> tuple[bool, int, int, int]:
 
 def usable(rows: pd.DataFrame, bound: float) -> pd.DataFrame:
     """Select the rows with every clear ray right, and with a largest error over the scene's radius within `bound`."""
-    right = derive.all_right(rows)
-    return rows[right if math.isinf(bound) else right & (rows["relative_error_max"] <= bound)]
+    return rows[derive.all_right(rows)] if math.isinf(bound) else derive.within(rows, bound)
 
 
 def _won(rows: pd.DataFrame, each: Sequence[Any], bound: float) -> Won:
@@ -127,11 +126,12 @@ def _won(rows: pd.DataFrame, each: Sequence[Any], bound: float) -> Won:
         return Won(None, (), None, {})
     winner = ties.best(good)
     right = set(good.index)
-    whole = {row.variant: row for row in each if row.Index in right}
-    first = whole[winner.variant]
+    by_index = {row.Index: row for row in each if row.Index in right}
+    whole = {row.variant: row for row in by_index.values()}
+    first = by_index[winner.Index]
     fastest = {row.method: row for row in reversed(whole.values())} | {first.method: first}
     by_time = dict(sorted(fastest.items(), key=lambda pair: pair[1].median_ms))
-    tied = tuple(whole[name] for name in ties.tied(good, winner))
+    tied = tuple(by_index[at] for at in ties.tied(good, winner))
     return Won(first, tied, _faster(each, first), by_time)
 
 

@@ -8,7 +8,7 @@ from reports.parts.last_page import environment, failures, rerun
 
 ORDER = 95
 TITLE = "Failures, environment and how to run it again"
-SHORT = 2  # lines of tables; with more the section has a page of its own, on which it stays in one piece
+SHORT = 20  # lines of tables; with more the section has a page of its own, on which it stays in one piece
 
 
 def sections(material: Material) -> list[Section]:

@@ -91,4 +91,4 @@ def _config(plan: Plan) -> str:
     """Say that a config outside the project is no part of the commit; "" for a config inside the project."""
     if not PurePath(plan.config).is_absolute():
         return ""
-    return f"The config {plan.config} is no part of the commit either; its text is among the details of this page."
+    return f"The config {plan.config} is no part of the commit; the HTML page has its text, under “Failures, rerun”."

@@ -1,4 +1,4 @@
-"""Open the report of a run that timed nothing: who is right."""
+"""Say who is right, for the first page of a run that timed nothing."""
 
 from __future__ import annotations
 
@@ -8,9 +8,10 @@ from harness.contract import CellStatus
 from reports import wording
 from reports.analysis import derive
 from reports.content import Block, Column, Matrix, Square, Table, Text
+from reports.drawing.shades import GOOD, WRONG
 
+NAMED = 8  # variants that a sentence names
 LINES, SURFACES = 24, 8  # that fit on the first page
-RIGHT, WRONG = "#8fd3b6", "#ecd9ec"
 
 
 def blocks(frame: pd.DataFrame) -> list[Block]:
@@ -34,9 +35,9 @@ def blocks(frame: pd.DataFrame) -> list[Block]:
         first = body[0]
         lead = f"No variant is right on every ray; {first[0]} has fewest wrong: {first[4]:,} of {first[5]:,}."
     elif len(named) == len({line[0] for line in body}):
-        lead = f"Every variant is right on every ray away from silhouettes: {_few(named)}."
+        lead = f"Every variant is right on every ray away from silhouettes: {wording.few(named, NAMED)}."
     else:
-        lead = f"Right on every ray away from silhouettes: {_few(named)}. The others answer some wrongly."
+        lead = f"Right on every ray away from silhouettes: {wording.few(named, NAMED)}. The others answer some wrongly."
     told = "This run timed nothing. Answers are held, ray by ray, against first hits certified in ball arithmetic."
     columns = (
         Column("variant", stretch=1),
@@ -65,7 +66,7 @@ def _matrix(rows: pd.DataFrame) -> list[Block]:
         return []
     by_place = {place: own for place, own in rows.groupby(["label", "surface_title"])}
     body = [(label, tuple(_square(by_place.get((label, title))) for title in titles)) for label in labels]
-    key = {RIGHT: "every ray right", WRONG: "some rays wrong"}
+    key = {GOOD: "every ray right", WRONG: "some rays wrong"}
     told = "Wrong rays away from silhouettes, of all views, devices and precisions together; – does not apply."
     return [Matrix(tuple(titles), body, "Who is right where.", told, "variant", key)]
 
@@ -76,10 +77,4 @@ def _square(own: pd.DataFrame | None) -> Square:
         return Square(wording.NONE, note="does not apply or was not judged")
     wrong, rays = int(own["wrong_rays"].sum()), int(own["accuracy_rays"].sum())
     note = f"{wrong:,} wrong of {rays:,} rays, largest error {wording.error(own['error_max'].max())} scene units"
-    return Square(f"{wrong:,} wrong" if wrong else "right", WRONG if wrong else RIGHT, note)
-
-
-def _few(names: list[str]) -> str:
-    """Name up to eight variants, and count the rest."""
-    rest = [f"{len(names) - 8} more"] if len(names) > 8 else []
-    return wording.listed([*names[:8], *rest])
+    return Square(f"{wrong:,} wrong" if wrong else "right", WRONG if wrong else GOOD, note)
