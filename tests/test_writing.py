@@ -40,7 +40,6 @@ EXEMPT = {
     "reports/drawing/canvas.py": {"savefig"},  # into memory
     "reports/drawing/images.py": {"save"},  # into memory
     "reports/drawing/pairs.py": {"savefig"},  # into memory
-    "reports/drawing/strip.py": {"save"},  # into memory
     "reports/for_papers/files.py": {"write_text", "write_bytes", "savefig"},  # into the writer's temporary folder
     "reports/history/draw.py": {"write_text"},  # into the writer's temporary folder, as those below
     "reports/history/multiples.py": {"savefig"},

@@ -88,8 +88,8 @@ def over(slow: pd.DataFrame, fast: pd.DataFrame, keys: list[str]) -> pd.DataFram
     told = [*keys, "key", "median_ms", *COLUMNS]
     both = fast[told].assign(at=range(len(fast))).merge(slow[told], on=keys, suffixes=("", "_slow"))
     paired = ratios(both, "_slow")
-    both = both.take([at for at, ratio in enumerate(paired) if ratio is not None])
-    held = [ratio for ratio in paired if ratio is not None]
+    both = both.take([at for at, one in enumerate(paired) if one is not None])
+    held = [one for one in paired if one is not None]
     ends = [(one.lower, one.upper) if one.proved else (math.nan, math.nan) for one in held]
     divided = pd.DataFrame(ends, columns=_RATIO[1:], dtype="float64")
     divided.insert(0, _RATIO[0], pd.Series([one.median for one in held], dtype="float64"))

@@ -133,7 +133,7 @@ def _line(what: tuple[str, ...], ours: pd.DataFrame, theirs: pd.DataFrame) -> It
         return
     left, right = left.loc[common], right.loc[common]
     pairs = zip(*(rows[rounds.COLUMNS].itertuples() for rows in (left, right)), strict=True)
-    timed = (rounds.ratio(theirs, ours) for ours, theirs in pairs)
+    timed = (rounds.ratio(b, a) for a, b in pairs)
     times = [ratio.median for ratio in timed if ratio is not None]
     spread = (float(np.median(times)), min(times), max(times)) if times else (None, None, None)
     spent = right["evaluations_mean"].sum(skipna=False) / left["evaluations_mean"].sum(skipna=False)
