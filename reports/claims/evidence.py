@@ -156,7 +156,7 @@ class Evidence:
         The columns are those of `rounds.over`. Pairs without a common round are left out, and added to `apart`.
         """
         a, b = (self.rows(pick, surfaces, precision) for pick in (slow, fast))
-        return self.over(*(rows[rows["median_ms"].notna()] for rows in (a, b)), derive.GROUP)
+        return self.over(a[a["median_ms"].notna()], b[b["median_ms"].notna()], derive.GROUP)
 
     def over(self, slow: pd.DataFrame, fast: pd.DataFrame, keys: list[str]) -> pd.DataFrame:
         """Return what `rounds.over` returns, and add the pairs of rows that it leaves out to `apart`."""
@@ -178,7 +178,7 @@ def run_of(config: str) -> str:
 
 def _told(held: pd.Series) -> NDArray[np.bool_]:
     """Return a column of truths as an array; what is missing is False."""
-    return held.fillna(False).to_numpy(bool)
+    return np.asarray(held.fillna(False), bool)
 
 
 def _has(parameters: str | None, knobs: Mapping[str, float]) -> bool:
