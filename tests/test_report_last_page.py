@@ -12,7 +12,9 @@ from typing import Any
 import pytest
 import typst
 
+from harness import ROOT
 from harness.contract import digest
+from harness.running import run
 from reports import content
 from reports.parts.last_page import TITLE, rerun
 from reports.rendering import document
@@ -130,3 +132,10 @@ def test_what_may_break_is_as_wide_as_what_may_not(tmp_path: Path, text: str) ->
     """No comma hangs over what comes after it."""
     plain, breaking = measured(tmp_path, f'("{text}", breakable("{text}")).map(one => measure(one).width / 1pt)')
     assert breaking == pytest.approx(plain, rel=0.005)
+
+
+def test_a_config_of_the_project_is_told_by_its_place_there(tmp_path: Path) -> None:
+    """A plan names it so that the last page knows that the commit holds it, however the command named it."""
+    assert run._told(ROOT / "configs" / "quick.toml") == str(Path("configs", "quick.toml"))
+    assert run._told(tmp_path / "mine.toml") == str(tmp_path / "mine.toml")
+    assert run._told(Path("..", "mine.toml")) == str(Path("..", "mine.toml"))

@@ -14,7 +14,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
-from harness import console, studies
+from harness import ROOT, console, studies
 from harness.contract import CellStatus, DeviceInfo, FirsthitError
 from harness.devices.discovery import discover_devices
 from harness.devices.executor import LocalExecutor
@@ -198,12 +198,18 @@ def run(
     return Run(folder, tuple(rows), tuple(reused))
 
 
+def _told(config: Path) -> str:
+    """Return the path of a config: from the project's root if it lies in the project, else as it was given."""
+    whole = config.resolve()
+    return str(whole.relative_to(ROOT) if whole.is_relative_to(ROOT) else config)
+
+
 def _described(experiment: Experiment, command: str, environment: Mapping[str, Any]) -> dict[str, Any]:
     """Return what every plan.json says first."""
     return {
         "name": experiment.name,
         "title": experiment.config.title,
-        "config": str(experiment.path),
+        "config": _told(experiment.path),
         "config_text": experiment.text,
         "baseline": experiment.config.baseline,
         "focus": experiment.config.focus,
