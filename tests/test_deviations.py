@@ -105,7 +105,7 @@ def test_the_page_says_what_each_change_is_worth(tmp_path: Path):
     (folder / "plan.json").write_text(json.dumps(told | {"methods": {"sturm": card(plugin)}}))
     _, report = reported(folder)
     (section,) = [s for s in report.sections if s.title == "Deviations from the papers"]
-    lines = [line.split(" | ") for line in printed(section.blocks).splitlines() if line.startswith("sturm")]
+    lines = [line.split(" | ") for line in printed(section.details).splitlines() if line.startswith("Sturm")]
     by_knob = {line[1]: line for line in lines}
     assert set(by_knob) == {"BY_SIGN", "all of these"}  # the others were not run alone
     assert by_knob["BY_SIGN"][2:4] == ["1", "0"]

@@ -183,7 +183,7 @@ def test_the_rerun_page_names_methods_and_configs_that_are_no_part_of_the_commit
     told = page(folder)
     assert f"No part of the commit, which does not hold what lies outside the project: mine from {plugin}" in told
     assert "(mine/kernel.glsl 0123456789abcdef)" in told and "newton" not in told
-    assert "own.toml is no part of the commit either" in told
+    assert "own.toml is no part of the commit; the HTML page has its text" in told
     older = {name: {k: v for k, v in told.items() if k != "outside"} for name, told in methods.items()}
     planned(folder, methods=older, command="firsthit --plugins p run x.toml", config="x.toml")
     assert "Methods that --plugins adds are no part of the commit." in page(folder)
