@@ -248,7 +248,7 @@ def load(folder: AnyPath) -> pd.DataFrame:
         message = f"a table of results needs the package {error.name}: pip install 'firsthit[report]'"
         raise FirsthitError(message, exit_code=3) from None
     found = read(checked_path("folder", folder))
-    return derive(found.frame, found.plan.peaks)
+    return derive(found.frame, found.plan.peaks).drop(columns=["label", "method_label"])  # results.csv has no words
 
 
 def recommend(

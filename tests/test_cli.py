@@ -219,18 +219,20 @@ NUMBERS = {
     KERNEL: ("--timeout",),
     RECOMMEND: ("--error", "--fps", "--size", "--views", "--rays", "--seconds", "--seed"),
 }
+LISTS = {("report", "--figures"), ("report", "--tables")}  # of names: test_for_papers holds them against the known ones
 MAY_BE_NOTHING = ("--t-min", "--fps", "--seconds", "--seed")
 
 
 def test_every_option_that_is_a_number_is_held_against_its_limits():
     parsers = build_parser()._subparsers._group_actions[0].choices
-    numbers = {
+    read = {
         (name, option.option_strings[0])
         for name, parser in parsers.items()
         for option in parser._actions
         if option.type not in (None, Path)
     }
-    assert numbers == {(command[0], option) for command, options in NUMBERS.items() for option in options}
+    assert read - LISTS == {(command[0], option) for command, options in NUMBERS.items() for option in options}
+    assert read >= LISTS
 
 
 @pytest.mark.parametrize(

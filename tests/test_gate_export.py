@@ -43,7 +43,8 @@ def ran(tree, layout):
     for name, text in files.items():
         (tree / name).parent.mkdir(parents=True, exist_ok=True)
         (tree / name).write_text(text)
-    command = [sys.executable, "-c", EXPORT.read_text(encoding="utf-8"), "c.toml", "", ".", "opencl:none"]
+    told = json.dumps({"devices": ["opencl:none"], "own": {}})
+    command = [sys.executable, "-c", EXPORT.read_text(encoding="utf-8"), "c.toml", "", ".", told]
     environment = {**os.environ, "PYTHONPATH": str(tree)}
     return subprocess.run(command, cwd=tree, env=environment, capture_output=True, text=True, check=False)
 

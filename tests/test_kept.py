@@ -266,7 +266,7 @@ def test_a_run_reports_and_is_keyed_by_the_device_itself_where_the_kept_answer_i
     assert "no such device" in _firsthit(tmp_path, "list", "devices")[0], "nothing that can be seen speaks against it"
 
     _, said = _firsthit(tmp_path, "run", config, "--runs", tmp_path / "second")
-    assert f"{config}: looking for devices" in said.splitlines()[0]
+    assert f"looking for devices to run {config}" in said.splitlines()[0]
     assert f"{config}: 8 cells on {info.name};" in said.splitlines()[1]
     right, again = _rows(tmp_path / "first"), _rows(tmp_path / "second")
     assert len(again) == 8 and [row["key"] for row in again] == [row["key"] for row in right]

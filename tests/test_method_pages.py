@@ -116,13 +116,14 @@ def test_cells_stand_under_their_columns(name):
 
 def test_a_reports_card_shows_the_table_with_what_it_was_measured_on(tmp_path):
     told = written(tmp_path, PAGE)
+    told["label"] = "Mine"
     told["doc"] = {"Theory": "A sentence.", "What was tried": "On one device."}
     rows = pd.DataFrame({"origin": ["nearest"], "parameters": [None]})
     page, tried = method_cards._card("mine", told, rows, [])
     assert ("what it does", "What it does, in a paragraph.") in page.rows
     assert ("theory", "A sentence.") in page.rows
     assert not [row for row in page.rows if row[0] == "what was tried"]
-    assert (tried.title, tried.caption) == ("mine: what was tried.", "On one device.")
+    assert (tried.title, tried.caption) == ("Mine: what was tried.", "On one device.")
     assert [column.title for column in tried.columns] == ["what was tried", "measured", "kept"]
     assert tried.rows[0] == ("blocks of 8 steps and their sum", "5.8 times as fast", "yes")
     older = {name: value for name, value in told.items() if name not in ("summary", "tables")}

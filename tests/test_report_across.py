@@ -16,7 +16,7 @@ from tests.synthetic_run import write_run
 def test_each_row_is_one_variant_and_its_slowest_device_is_once_as_fast(tmp_path: Path) -> None:
     frame = derive.derive(load.load(write_run(tmp_path / "quick")).frame)
     (section,) = devices_compared.sections(SimpleNamespace(listed=frame))
-    (table,) = section.blocks
+    (table,) = section.details
     devices = list(dict.fromkeys(column.over for column in table.columns if column.over))
     assert len(devices) > 1
     for row in table.rows:

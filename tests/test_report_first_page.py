@@ -329,3 +329,9 @@ def test_pictures_of_the_first_page_are_of_the_winners(tmp_path: Path) -> None:
     (strip,) = [block for block in made.summary.blocks if isinstance(block, content.Gallery)]
     assert strip.across == len(strip.panels) == 3
     assert all("ms\nerror" in panel.note for panel in strip.panels)
+
+
+def test_a_focus_that_is_fast_and_inexact_is_not_called_beaten(tmp_path: Path) -> None:
+    cells = [timed("newton", "torus", 2.0, 1e-4), timed("coarse", "torus", 0.5, 5e-3)]
+    found = chosen(tmp_path / "run", *cells)
+    assert answer.focus(found, "coarse", "coarse") == "Coarse errs by more than 10⁻³ of the scene's radius on Torus."

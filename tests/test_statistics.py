@@ -251,8 +251,8 @@ def test_evaluations_have_one_denominator_or_say_which(tmp_path: Path) -> None:
     blank = np.zeros((8, 8))
     made = Arrays(*(blank.astype(kind) for kind in ("u1", "f4", "u1", "?", "f4")), evaluations=spent)
     row = next(derive.derive(load.load(tiny_run(tmp_path / "run", timed("newton", "torus", 1.0))).frame).itertuples())
-    note = evaluations._panel(row, made, 10, (-8, -3)).note
-    assert note.startswith("evaluations: 1.00 per ray cast, 4.00 per ray that spends any, at most 4")
+    note = evaluations._panel(row, made, 10).note
+    assert note.startswith("1.00 per ray cast, 4.00 per ray that spends any, at most 4")
 
 
 # ---- every table of a report

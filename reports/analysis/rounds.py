@@ -85,16 +85,17 @@ def over(slow: pd.DataFrame, fast: pd.DataFrame, keys: list[str]) -> pd.DataFram
     to `ratio_high` (NaN where there are too few common rounds for one); `slow_ms`, `fast_ms` and `key_slow`. Pairs
     without a common round are left out. All rows given are timed ones.
     """
-    told = ["key", "median_ms", *COLUMNS]
-    both = fast.merge(slow[[*keys, *told]], on=keys, suffixes=("", "_slow"))
-    found = {}
-    for at, paired in zip(both.index, ratios(both, "_slow"), strict=True):
-        if paired is not None:
-            ends = (paired.lower, paired.upper) if paired.proved else (math.nan, math.nan)
-            found[at] = (paired.median, *ends)
-    divided = pd.DataFrame(list(found.values()), index=list(found), columns=_RATIO, dtype="float64")
-    both = both.assign(slow_ms=both["median_ms_slow"], fast_ms=both["median_ms"])
-    return both.loc[divided.index].join(divided).reset_index(drop=True)
+    told = [*keys, "key", "median_ms", *COLUMNS]
+    both = fast[told].assign(at=range(len(fast))).merge(slow[told], on=keys, suffixes=("", "_slow"))
+    paired = ratios(both, "_slow")
+    both = both.take([at for at, one in enumerate(paired) if one is not None])
+    held = [one for one in paired if one is not None]
+    ends = [(one.lower, one.upper) if one.proved else (math.nan, math.nan) for one in held]
+    divided = pd.DataFrame(ends, columns=_RATIO[1:], dtype="float64")
+    divided.insert(0, _RATIO[0], pd.Series([one.median for one in held], dtype="float64"))
+    for name, of in (("slow_ms", "median_ms_slow"), ("fast_ms", "median_ms"), ("key_slow", "key_slow")):
+        divided[name] = both[of].array
+    return fast.take(both["at"].to_numpy()).reset_index(drop=True).join(divided)
 
 
 def proved(samples: pd.Series) -> pd.Series:

@@ -232,10 +232,11 @@ def _label(row: Any) -> str:
 def _caption(shown: pd.DataFrame) -> str:
     """Say how to read the figure, and what the largest gain over the baseline in it is."""
     baseline = tables.baseline(shown)
+    told = shown[["device", "precision", "label", "speedup", "error_max", "floor_ms", "floor_bound", *ties.COLUMNS]]
     over = {(row.device, row.precision): row for row in derive.baseline_rows(shown).itertuples()}
     gains = [
         gaining
-        for gaining in shown[shown["speedup"] > 1.0].sort_values("speedup", ascending=False).itertuples()
+        for gaining in told[told["speedup"] > 1.0].sort_values("speedup", ascending=False).itertuples()
         if (beaten := over.get((gaining.device, gaining.precision))) is not None and ties.is_slower(beaten, gaining)
     ]
     row = next((gaining for gaining in gains if not gaining.floor_bound), None)

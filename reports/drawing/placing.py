@@ -131,11 +131,9 @@ class _Options:
         cost += np.where(way[:, 0] < -0.1, 0.5, 0.0)
         cost += _BY_MARK * _count(boxes, marks, radius + _BESIDE)
         cost += _ON_MARK * _count(boxes, marks, radius) + _ON_LINE * np.minimum(_count(boxes, lines, 0.0), 5)
-        near: Any = (np.abs(leaders[:, :, None] - marks[None, None]) < radius).all(axis=3)
-        touched = near.any(axis=1).sum(axis=1)
-        met: Any = (np.abs(leaders[:, :, None] - lines[None, None]) < _ALONG).all(axis=3)
-        under = _THROUGH * np.minimum(touched, 4) + 2 * _ON_LINE * met.any(axis=2).sum(axis=1)
-        cost += np.where(far, under, 0.0)
+        touched = _near(leaders[far], marks, radius).any(axis=1).sum(axis=1)
+        met = _near(leaders[far], lines, _ALONG).any(axis=2).sum(axis=1)
+        cost[far] += _THROUGH * np.minimum(touched, 4) + 2 * _ON_LINE * met
         best = np.argsort(cost, kind="stable")[:_KEPT]
         return cls(boxes[best], leaders[best], far[best], cost[best])
 
@@ -184,7 +182,8 @@ def _beside(
 def _between(one: _Options, other: _Options) -> NDArray[np.float64]:
     """Return what each place of one label costs beside each of another, as float64[c, d]."""
     low, high = one.boxes[:, None, :2], one.boxes[:, None, 2:]
-    apart = ((low > other.boxes[None, :, 2:] + _GAP) | (high < other.boxes[None, :, :2] - _GAP)).any(axis=2)
+    beyond = (low > other.boxes[None, :, 2:] + _GAP) | (high < other.boxes[None, :, :2] - _GAP)
+    apart = beyond[..., 0] | beyond[..., 1]
     crossed = one.far[:, None] * _crossed(one.leaders, other.boxes)
     crossed = crossed + (other.far[:, None] * _crossed(other.leaders, one.boxes)).T
     return np.asarray(np.where(apart, 0.0, _ON_LABEL) + _UNDER_LEADER * crossed)
@@ -201,8 +200,15 @@ def _crossed(leaders: NDArray[np.float64], boxes: NDArray[np.float64]) -> NDArra
 
 def _count(boxes: NDArray[np.float64], points: NDArray[np.float64], radius: float) -> Any:
     """Count the points [m, 2] within `radius` of each box [c, 4], as int[c]."""
-    low, high = boxes[:, None, :2] - radius, boxes[:, None, 2:] + radius
-    return ((points[None] > low) & (points[None] < high)).all(axis=2).sum(axis=1)
+    (left, bottom, right, top), (x, y) = boxes.T[:, :, None], points.T
+    across = (x > left - radius) & (x < right + radius)
+    return (across & (y > bottom - radius) & (y < top + radius)).sum(axis=1)
+
+
+def _near(leaders: NDArray[np.float64], points: NDArray[np.float64], radius: float) -> Any:
+    """Tell which points [m, 2] lie within `radius` of which points of leaders [c, 9, 2], as bool[c, 9, m]."""
+    (x, y), (along, up) = leaders.transpose(2, 0, 1)[..., None], points.T
+    return (np.abs(x - along) < radius) & (np.abs(y - up) < radius)
 
 
 def _dotted(line: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -41,11 +41,14 @@ CAPTION = (
 
 _ELSE = ["prepass", "origin", "proxy", "normal"]  # in which rows of one comparison may differ beside their knobs
 _KEYS = ["run", *derive.GROUP, *_ELSE]
+_FIGURES = ["evaluations_mean", "wrong_rays", "judged", "relative_error_max"]
+_READ = ["method", "status", "accuracy_rays", "parameters", *_KEYS, *rounds.COLUMNS, *_FIGURES]
 
 
 def sections(material: Material) -> list[Section]:
     """Make the section; [] where the run has no method with a knob at its printed value and at its default."""
-    body = [line for name, told in material.run.plan.methods.items() for line in _lines(name, told, material.frame)]
+    frame = material.frame[_READ]
+    body = [line for name, told in material.run.plan.methods.items() for line in _lines(name, told, frame)]
     if not body:
         return []
     return [Section(TITLE, (Text(SEEN), _short(body)), (Text(TOLD), _full(body)), len(body) > SHORT, "Deviations")]
@@ -129,7 +132,8 @@ def _line(what: tuple[str, ...], ours: pd.DataFrame, theirs: pd.DataFrame) -> It
     if common.empty:
         return
     left, right = left.loc[common], right.loc[common]
-    timed = (rounds.ratio(b, a) for a, b in zip(left.itertuples(), right.itertuples(), strict=True))
+    pairs = zip(*(rows[rounds.COLUMNS].itertuples() for rows in (left, right)), strict=True)
+    timed = (rounds.ratio(b, a) for a, b in pairs)
     times = [ratio.median for ratio in timed if ratio is not None]
     spread = (float(np.median(times)), min(times), max(times)) if times else (None, None, None)
     spent = right["evaluations_mean"].sum(skipna=False) / left["evaluations_mean"].sum(skipna=False)

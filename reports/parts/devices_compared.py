@@ -44,7 +44,8 @@ def _means(right: pd.DataFrame) -> dict[str, dict[str, tuple[float, int]]]:
     Only scenes count that two devices or more answered rightly in the same rounds. `right` is of one precision.
     """
     logs: dict[str, dict[str, list[float]]] = {}
-    rows = right.drop_duplicates([*_KERNEL, "device"]).sort_values("median_ms", kind="stable")
+    read = list(dict.fromkeys([*_KERNEL, "device", "label", "median_ms", *rounds.COLUMNS]))
+    rows = right[read].drop_duplicates([*_KERNEL, "device"]).sort_values("median_ms", kind="stable")
     for _, own in rows.groupby(_KERNEL, sort=False):
         first, *rest = own.itertuples()
         ratios = {str(row.device): rounds.times_over(row, first) for row in rest}
