@@ -87,7 +87,7 @@ def test_the_report_says_what_happened(run: Path) -> None:
         assert reason in troubles
     assert "use of `$x` @ *p = a_b[#i] <7:3> ^~~~ kernel" in troubles, "folded, and without terminal colours"
     assert "2 planned cells not run yet (2 on opencl:gpu#0_$)" in printed(last.blocks)
-    assert last.own_page and 'title = "quick"  # a comment' in troubles, "the config's text"
+    assert 'title = "quick"  # a comment' in troubles, "the config's text"
     titles = [section.title for section in report.sections]
     surfaces = ["Sphere", "Torus", "Barth #6 $extic_* @65 <b>"]
     assert titles[:7] == ["Winners", *(page for name in surfaces for page in (name, f"{name}: speed against error"))]

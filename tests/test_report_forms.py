@@ -93,7 +93,7 @@ def test_the_study_of_ranges_is_tabled_and_drawn(tmp_path: Path, monkeypatch: py
     made = lines(section, "What a form makes of f's range.")
     assert list(made) == [PRINTED, "nested", "squares"]
     assert made["squares"][3:6] == pytest.approx((1.0, 1.0, 1.0), abs=1e-3)
-    assert "tangle 1.79× as printed, squares 1.00×" in printed(section.blocks)
+    assert "tangle 1.79× as printed and 1.00× squares." in printed(section.blocks)
     (figure,) = [b for b in section.blocks if isinstance(b, content.Figure)]
     assert all(f">{form}<" in figure.svg for form in made)
 
