@@ -250,7 +250,7 @@ def test_a_fit_through_three_surfaces_is_refused_with_its_reason(tmp_path: Path)
     (section,) = growth.sections(SimpleNamespace(listed=frame, marks=style.variant_marks([("newton", "newton")])))
     told = printed((*section.blocks, *section.details))
     assert "3 points do not determine an exponent: the 95 % interval of 0.90, −" in told
-    assert "| newton | 3 | – | – | – |" in told
+    assert "| Newton | 3 | – | – | – |" in told
     (figure,) = [block for block in section.blocks if isinstance(block, content.Figure)]
     assert figure.caption.startswith("No exponent is determined")
 
