@@ -133,14 +133,9 @@ def test_a_history_of_many_changes_lists_some_and_says_how_many_more(tmp_path):
 
 @pytest.fixture(scope="module")
 def tab(drawn, tmp_path_factory):
-    if browser.found() is None:
-        pytest.skip("no chromium here; install Debian's package chromium to drive the page")
-    opened = browser.Browser(tmp_path_factory.mktemp("profile"))
-    try:
+    with browser.opened(tmp_path_factory.mktemp("profile")) as opened:
         opened.open(drawn / "index.html")
         yield opened
-    finally:
-        opened.close()
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])

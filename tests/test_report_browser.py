@@ -191,6 +191,15 @@ def test_the_explorer_zooms(tab: browser.Browser) -> None:
     tab.wait(f"{places} !== {before!r}")
 
 
+def test_without_scripts_there_is_nothing_that_needs_them(tab: browser.Browser, page: Path) -> None:
+    tab.call("Emulation.setScriptExecutionDisabled", value=True)
+    tab.open(page)
+    tab.call("Emulation.setScriptExecutionDisabled", value=False)
+    shown = "[...document.querySelectorAll('%s')].filter(e => e.checkVisibility()).length"
+    assert [tab.run(shown % name) for name in ("input, select, .sort, .chip, .sliding", "#explore noscript")] == [0, 1]
+    assert tab.run(shown % "main td") > 0
+
+
 def test_paper_has_the_drawings_and_not_the_explorer(tab: browser.Browser) -> None:
     tab.call("Emulation.setEmulatedMedia", media="print")
     shown = "document.querySelector('%s').checkVisibility()"

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pandas as pd
 import pytest
+import typst
 
 from reports import content, wording
 from reports.drawing import plots
@@ -32,6 +34,18 @@ def test_repeated_group_values_are_printed_once(tmp_path: Path) -> None:
     assert [row["cells"] for row in made["rows"]] == [["x", "y", "1"], ["", "", "2"], ["", "z", "3"], ["w", "z", "4"]]
     assert [row["opens"] for row in made["rows"]] == [True, False, True, True]
     assert made["headings"] == [{"title": "", "span": 3}]
+
+
+def test_a_section_stands_on_one_page_where_that_leaves_no_page_empty(tmp_path: Path) -> None:
+    def section(lines: int) -> content.Section:
+        return content.Section("S", (content.Table((content.Column("a"),), [("x",)] * lines, "T"),))
+
+    summary = content.Section("Summary", (content.Text("…"),))
+    made = content.Document("T", "", summary, tuple(section(lines) for lines in (30, 40, 5, 60)))
+    document.write_pdf(made, tmp_path / "pdf", tmp_path / "report.pdf", "2026-01-01")
+    settings = document._settings(tmp_path / "pdf")
+    begun = json.loads(typst.query(tmp_path / "pdf" / "report.typ", "<section>", **settings))
+    assert [mark["value"] for mark in begun] == [2, 3, 3, 4]
 
 
 def test_neighbours_share_their_heading(tmp_path: Path) -> None:

@@ -6,13 +6,14 @@ import json
 from pathlib import Path
 from typing import Any
 
+import pandas as pd
 import pytest
 import typst
 
 from harness.contract import digest
 from reports import content, first_page
 from reports.analysis import breaks, choices, derive, tradeoffs
-from reports.drawing import cards, multiples, standings, style
+from reports.drawing import cards, multiples, placing, standings, style
 from reports.material import Material
 from reports.parts import focus, winners
 from reports.reading import load
@@ -277,6 +278,12 @@ def test_every_method_is_named_beside_a_mark_or_in_the_key(tmp_path: Path) -> No
     assert "Newton in 1.00 ms" in made.description
 
 
+def test_long_times_have_room_beside_the_name_of_their_axis() -> None:
+    short, long = (multiples._left(pd.Series([1.0, longest])) for longest in (20.0, 11_000.0))
+    wider = placing.text_size("10,000", multiples.TEXT)[0] - placing.text_size("20", multiples.TEXT)[0]
+    assert long - short == pytest.approx(wider / 72)
+
+
 def test_one_row_alone_has_no_plot(tmp_path: Path) -> None:
     found = chosen(tmp_path / "run", timed("newton", "torus", 1.0))
     assert multiples.figure(found, style.marks(["newton"]), 3.0) is None
@@ -322,3 +329,9 @@ def test_pictures_of_the_first_page_are_of_the_winners(tmp_path: Path) -> None:
     (strip,) = [block for block in made.summary.blocks if isinstance(block, content.Gallery)]
     assert strip.across == len(strip.panels) == 3
     assert all("ms\nerror" in panel.note for panel in strip.panels)
+
+
+def test_a_focus_that_is_fast_and_inexact_is_not_called_beaten(tmp_path: Path) -> None:
+    cells = [timed("newton", "torus", 2.0, 1e-4), timed("coarse", "torus", 0.5, 5e-3)]
+    found = chosen(tmp_path / "run", *cells)
+    assert answer.focus(found, "coarse", "coarse") == "Coarse errs by more than 10⁻³ of the scene's radius on Torus."

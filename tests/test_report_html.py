@@ -16,8 +16,8 @@ from PIL import Image
 from harness import cli
 from reports import compare, parts, report
 from reports.analysis import derive
-from reports.content import Document
-from reports.drawing import charts, markers, style
+from reports.content import Column, Document, Table
+from reports.drawing import charts, markers, shades, style
 from reports.reading import load
 from reports.rendering import bundle, document, html, html_tables, pictures
 from tests import html_content
@@ -52,10 +52,18 @@ def test_the_page_needs_nothing_beside_it(text: str) -> None:
         opened: list[str] = []  # noqa: RUF012
 
         def handle_starttag(self, tag: str, _attributes: object) -> None:
+            if tag in ("td", "th", "tr"):
+                self.end_implied("td", "th", *(["tr"] if tag == "tr" else []))
             if tag not in ("meta", "link", "img", "input", "use", "path", "rect", "br"):
                 self.opened.append(tag)
 
+        def end_implied(self, *tags: str) -> None:
+            while self.opened[-1] in tags:
+                self.opened.pop()
+
         def handle_endtag(self, tag: str) -> None:
+            if tag in ("tr", "tbody"):
+                self.end_implied("td", "th", *(["tr"] if tag == "tbody" else []))
             if tag not in ("use", "path", "rect"):
                 assert self.opened.pop() == tag
 
@@ -158,7 +166,7 @@ def test_pictures_lose_nothing_but_repeated_pixels() -> None:
 
 def test_tables_have_captions_and_headings_of_rows(text: str) -> None:
     tables = re.findall(r"<table><caption>.*?</table>", text, re.DOTALL)
-    assert [table.count('<th scope="row"') for table in tables] == [6, 2, 6, 6]
+    assert [len(re.findall('<th scope="?row["> ]', table)) for table in tables] == [6, 2, 6, 6]
     assert tables[1].count('<th scope="rowgroup" colspan="5">of a kind</th>') == 1
     assert all('<th scope="col"' in table for table in tables)
 
@@ -172,5 +180,25 @@ def test_a_large_panel_comes_first_with_all_its_texts(text: str) -> None:
 
 
 def test_text_on_a_square_is_read_on_any_colour() -> None:
-    assert html_tables.on("#000000") == "#ffffff"
-    assert html_tables.on("#ffffff") == "#111111"
+    def luminance(color: str) -> float:
+        shares = [int(color[i : i + 2], 16) / 255 for i in (1, 3, 5)]
+        red, green, blue = (c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in shares)
+        return 0.2126 * red + 0.7152 * green + 0.0722 * blue
+
+    colors = [f"#{level:02x}{level:02x}{level:02x}" for level in range(256)]
+    for color in (*colors, *(shades.shade(badness / 100) for badness in range(101)), shades.GOOD, shades.WRONG):
+        low, high = sorted((luminance(color), luminance(shades.ink(color))))
+        assert (high + 0.05) / (low + 0.05) >= 4.5, color
+
+
+def test_a_row_of_long_texts_is_paragraphs_and_a_very_long_table_is_cut() -> None:
+    texts = Table(tuple(Column(title, stretch=1) for title in ("one", "<two>")), [("first", "<second>")], "")
+    assert html_tables.table(texts) == (
+        '<div class="beside"><div><h3>one</h3><p>first</p></div>'
+        "<div><h3>&lt;two&gt;</h3><p>&lt;second&gt;</p></div></div>"
+    )
+    rows = [(i,) for i in range(html_tables.ROWS + 1)]
+    for told, count in ((rows, html_tables.ROWS), (rows[1:], html_tables.ROWS)):
+        made = html_tables.table(Table((Column("number", numeric=True),), told, "Many.", "Numbers."))
+        assert made.count("<th scope=row") == count
+        assert ("These are the first 1,000 of 1,001 rows" in made) == (len(told) > html_tables.ROWS)

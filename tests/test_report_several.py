@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
 
 from harness.contract import FirsthitError
-from reports import compare, report
+from reports import compare, parts, report
 from reports.analysis import derive
 from reports.analysis.scene_names import scene_names
 from reports.claims.evidence import Evidence
+from reports.content import Section
 from reports.reading import arrays, load
 from tests.synthetic_run import cell, plan, printed, tiny_run
 
@@ -67,3 +69,15 @@ def test_two_runs_are_held_against_each_other(tmp_path: Path) -> None:
     assert len(both) == 1
     with pytest.raises(FirsthitError, match="no cell in common"):
         compare.paired(load.load(second), load.load(tiny_run(tmp_path / "d", other)))
+
+
+@pytest.mark.parametrize(
+    ("include", "order"),
+    [(("one", "two"), ["focus", "papers", "checklist", "winners"]), ((), ["focus", "winners", "papers", "checklist"])],
+)
+def test_the_method_in_focus_comes_before_the_papers_and_they_before_winners(monkeypatch, include, order) -> None:
+    for part in parts.found(parts.__name__, parts.__path__):
+        name = part.__name__.rpartition(".")[2]
+        monkeypatch.setattr(part, "sections", lambda _, name=name: [Section(name, ())])
+    collected: Any = SimpleNamespace(run=SimpleNamespace(plan=SimpleNamespace(include=include)))
+    assert [made.title for made in parts.sections(collected) if made.title in order] == order

@@ -108,7 +108,8 @@ def test_words_say_where_each_breaks_and_which_claim_is_broken(tmp_path: Path) -
     assert "Ray march claims no missed root, and misses of clear rays break it: Ray march on Desmic." in text
     assert "Newton claims" not in text
     assert (
-        "Newton, ε = 0.001 is right on every ray of most surfaces: 2 of the 2 it takes; Ray march is wrong on" in text
+        "Newton, ε = 0.001 is right on every ray of most: 2 of the 2 it takes; Ray march is wrong on most: 2 of 3"
+        in text
     )
     assert "more than 0.1 % of the rays undecided on Gyroid" in printed(section.details)
 

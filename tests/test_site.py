@@ -178,6 +178,13 @@ def test_a_cell_names_who_is_fastest_within_the_bound_and_what_a_faster_one_risk
     assert tight and all("Newton, ε = 1e−6" in one for one in tight)
 
 
+def test_keys_pass_over_the_marks_of_a_plot(site):
+    for name in ("surfaces/torus.html", "methods/newton.html"):
+        plots = re.findall(r"<svg.*?</svg>", (site / name).read_text(encoding="utf-8"), re.DOTALL)
+        marks = [mark for plot in plots for mark in re.findall(r"<a [^>]*>", plot)]
+        assert marks and all('tabindex="-1"' in mark for mark in marks)
+
+
 def test_standings_count_cells_and_not_rows(site):
     script = re.search(r'id="cells">(.*?)</script>', (site / "index.html").read_text(encoding="utf-8"))
     told = json.loads(script[1])

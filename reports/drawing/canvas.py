@@ -9,6 +9,7 @@ from __future__ import annotations
 import io
 import json
 import math
+import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
@@ -166,5 +167,7 @@ def line_of(mark: Mark) -> Line2D:
 def svg(drawing: Drawing) -> str:
     """Return the drawing as SVG text, which is the same every time."""
     buffer = io.StringIO()
-    drawing.savefig(buffer, format="svg", metadata={"Date": None})
+    with warnings.catch_warnings():  # SVG holds text as text: the reader's fonts have the letters that ours lack
+        warnings.filterwarnings("ignore", "Glyph .* missing from font")
+        drawing.savefig(buffer, format="svg", metadata={"Date": None})
     return buffer.getvalue()

@@ -13,6 +13,7 @@ from reports.analysis.choices import ERRORS, Choice
 from reports.content import Column, Table
 
 LINES = 26  # surfaces that fit on the first page
+LETTERS = 60  # of a surface's name, so that a long one leaves the other columns room
 
 
 def table(frame: pd.DataFrame) -> Table | None:
@@ -57,7 +58,7 @@ def made(found: Sequence[Choice], several: bool, surfaces: int = 0) -> Table:
 
 def _line(choice: Choice) -> tuple[Any, ...]:
     """Make the line of one surface."""
-    cells: list[Any] = [choice.name]
+    cells: list[Any] = [wording.excerpt(choice.name, LETTERS)]
     for won, tied in zip(choice.within, choice.tied, strict=True):
         if won is not None:
             cells += [

@@ -14,7 +14,7 @@ from reports.content import Square
 
 NEUTRAL = "#eeeeee"  # of a square that says nothing either way
 GOOD, WRONG = "#8fd3b6", "#ecd9ec"  # right or fastest; some ray is answered wrongly
-_DARK, _LIGHT = "#111111", "#ffffff"  # what is written on a coloured square
+_DARK, _LIGHT = "#000000", "#ffffff"  # what is written on a coloured square
 _DARKEST, _BRIGHTEST = 0.12, 0.97  # the part of the scale that is used: white letters stand on its dark end
 
 
@@ -25,11 +25,14 @@ def shade(badness: float) -> str:
 
 
 def ink(color: str) -> str:
-    """Return the colour for text on a ground of `color`, "#rrggbb": dark or light, whichever is read more easily."""
+    """Return the colour for text on a ground of `color`, "#rrggbb": black or white, whichever is read more easily.
+
+    Their contrast is 4.5 or more on every colour.
+    """
     shares = [int(color[i : i + 2], 16) / 255 for i in (1, 3, 5)]
     red, green, blue = (c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in shares)
     luminance = 0.2126 * red + 0.7152 * green + 0.0722 * blue
-    return _DARK if luminance > 0.1833 else _LIGHT  # where both have the same contrast
+    return _DARK if luminance > 0.1791 else _LIGHT  # where both have a contrast of 4.58
 
 
 def key(texts: Mapping[float, str]) -> dict[str, str]:

@@ -14,6 +14,7 @@ from reports.material import Material
 from reports.sentences import answer
 
 ORDER = 2
+LEADS = True
 ACROSS = 9  # other methods that are columns of a page; those that are compared on most surfaces
 LINES = 26  # surfaces on the page; details have all
 

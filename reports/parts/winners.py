@@ -67,7 +67,7 @@ def _seen(leading: pd.DataFrame) -> str:
     most = [f"{label} on {count}" for label, count in counted]
     shared = len(leading) - len(alone)
     rest = f"; on {shared} the times of several methods are not told apart (≈)" if shared else ""
-    won = f"fastest are {wording.listed(most)}" if most else "no method is fastest alone"
+    won = f"fastest, whatever their error, are {wording.listed(most)}" if most else "no method is fastest alone"
     several = len(leading.drop_duplicates(["device", "precision"])) > 1
     cells = wording.plural(len(leading), "combination") + " of surface, device and precision" * several
     cells = cells if several else wording.plural(len(leading), "surface")
@@ -111,7 +111,7 @@ def matrix(material: Material, leading: pd.DataFrame, scenes_of: Mapping[str, st
     return Matrix(
         columns,
         body,
-        "The fastest method with no wrong ray, and its ms.",
+        "The fastest method with no wrong ray, whatever its error, and its ms.",
         f"≈: not told apart from others. Grey: every variant timed there is wrong on some ray.{one}{more}",
         "surface",
     )

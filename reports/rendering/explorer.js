@@ -196,11 +196,8 @@
     for (const [title, right] of heads) {
       const head = document.createElement("th");
       head.scope = "col";
-      head.className = right ? "n" : "";
-      const button = document.createElement("button");
-      button.className = "sort";
-      button.textContent = title;
-      head.append(button);
+      head.className = right ? "" : "t";
+      head.textContent = title;
       figure.querySelector("thead tr").append(head);
     }
     for (const row of shown) {
@@ -211,10 +208,8 @@
         const made = document.createElement(i ? "td" : "th");
         if (!i) made.scope = "row";
         made.textContent = Array.isArray(cell) ? cell[1](cell[0]) : cell;
-        if (Array.isArray(cell)) {
-          made.className = "n";
-          if (cell[0] !== null) made.dataset.v = cell[0];
-        }
+        if (!Array.isArray(cell)) made.className = "t";
+        else if (cell[0] !== null) made.dataset.v = cell[0];
         line.append(made);
       });
     }

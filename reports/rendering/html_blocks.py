@@ -13,10 +13,10 @@ from reports.drawing.canvas import SERIES
 from reports.rendering import html_tables, pictures
 from reports.rendering.escaping import escaped
 
-_ID = re.compile(r'\bid="([^"]+)"')
+_ID = re.compile(r'\s?\bid="([^"]+)"')
 _REFERENCE = re.compile(r'(url\(#|href="#)([^")]+)')
 _SLIDER = (
-    '<details class="sliding" open><summary>Compare two pictures by a slider</summary><div class="compare" hidden>'
+    '<details class="sliding" open hidden><summary>Compare two pictures by a slider</summary><div class="compare">'
     '<label>left <select class="left"></select></label> <label>right <select class="right"></select></label>'
     '<div class="stack"><img class="under" alt=""><img class="above" alt=""><div class="edge"></div></div>'
     '<input class="slider" type="range" min="0" max="100" value="50" aria-label="where left ends and right begins">'
@@ -24,6 +24,8 @@ _SLIDER = (
 )
 _UNSEEN = re.compile(r"<metadata>.*?</metadata>|<!--.*?-->", re.DOTALL)
 _PATH = re.compile(r'\bd="[^"]*"')
+_PLACE = re.compile(r'\b[xy]="[-\d.]+"')
+_UNTURNED = re.compile(r' transform="rotate\(-?0 [-\d. ]+\)"')
 _DIGITS = re.compile(r"(\.\d\d)\d+")
 _WIDTH = re.compile(r'<svg(\s[^>]*?)width="([\d.]+pt)"')
 _NAMED = re.compile(f'<g id="{re.escape(SERIES)}([^"]*)"')
@@ -49,20 +51,28 @@ def block(of: Block, name: str) -> str:
 
 def _figure(figure: Figure, name: str) -> str:
     """Write a figure: its drawing above its caption."""
-    drawing = f'<div class="drawn" role="img" aria-label="{escaped(figure.description)}">{_svg(figure.svg, name)}</div>'
     caption = html_tables.caption(figure.title, figure.caption)
-    return f'<figure class="drawing">{drawing}<figcaption>{caption}</figcaption></figure>'
+    return f'<figure class="drawing">{_drawn(figure, name, "drawn")}<figcaption>{caption}</figcaption></figure>'
+
+
+def _drawn(figure: Figure, name: str, kind: str) -> str:
+    """Write a figure's drawing as a picture with a description, in a box of the class `kind`."""
+    told = escaped(figure.description)
+    return f'<div class="{kind}" role="img" aria-label="{told}">{_svg(figure.svg, name)}</div>'
 
 
 def _svg(svg: str, name: str) -> str:
     """Return a drawing as a part of the page: `name` begins its ids, and its series become data attributes.
 
-    What no browser shows is left out, and curves have hundredths of a point.
+    What no browser shows is left out, with the ids that nothing refers to; places have hundredths of a point.
     """
     own = _UNSEEN.sub("", svg[svg.index("<svg") :])
-    own = _PATH.sub(lambda found: _DIGITS.sub(r"\1", found[0]), re.sub(r">\s+<", "><", own))
+    own = _UNTURNED.sub("", re.sub(r">\s+<", "><", own))
+    for places in (_PATH, _PLACE):
+        own = places.sub(lambda found: _DIGITS.sub(r"\1", found[0]), own)
     own = _NAMED.sub(lambda found: f'<g class="series" data-series="{found[1]}"', own)
-    own = _ID.sub(rf'id="{name}-\1"', own)
+    meant = {found[2] for found in _REFERENCE.finditer(own)}
+    own = _ID.sub(lambda found: f' id="{name}-{found[1]}"' if found[1] in meant else "", own)
     own = _REFERENCE.sub(rf"\1{name}-\2", own)
     return _WIDTH.sub(lambda found: f'<svg style="--own:{found[2]}"{found[1]} ', own, count=1)
 
@@ -106,7 +116,7 @@ def _gallery(gallery: Gallery, name: str) -> str:
     A hero stands first and large; the legend and the caption are of the others. Pictures with a legend of errors show
     one surface in one view, and only those are compared.
     """
-    legend = "" if gallery.legend is None else f'<div class="legend">{_svg(gallery.legend.svg, name)}</div>'
+    legend = "" if gallery.legend is None else _drawn(gallery.legend, name, "legend")
     slider = "" if gallery.legend is None else _SLIDER
     across = f' style="--across:{gallery.across}"' if gallery.across else ""
     panels = [_panel(panel) for panel in gallery.panels]

@@ -12,7 +12,7 @@ from reports.content import Column, Matrix, Square, Table
 from reports.drawing import shades
 from reports.rendering.escaping import escaped
 
-FILTERED = 4  # rows from which on a table has a box to filter them
+ROWS = 1000  # of a table that the page has at most
 
 
 def caption(title: str, told: str) -> str:
@@ -21,17 +21,29 @@ def caption(title: str, told: str) -> str:
 
 
 def table(of: Table) -> str:
-    """Write a table whose cells have their values beside their texts, so that numbers sort as numbers."""
+    """Write a table whose cells have their values beside their texts, so that numbers sort as numbers.
+
+    A table of one row of long texts becomes paragraphs with headings, side by side where the page is wide enough. Of
+    more rows than ROWS the first ones are written.
+    """
     titled = any(column.title for column in of.columns)
-    box = (
-        '<span class="filtering"><input class="filter" type="search" placeholder="filter rows" '
-        f'aria-label="filter the rows of: {escaped(of.title)}"> <span class="count" role="status"></span></span>'
-        if titled and len(of.rows) >= FILTERED
-        else ""
-    )
-    rows = "".join(f"<tr>{_cells(of.columns, row)}</tr>" for row in of.rows)
+    if titled and len(of.rows) == 1 and not of.title and all(column.stretch for column in of.columns):
+        return _paragraphs(of)
+    rows = "".join(f"<tr>{_cells(of.columns, row)}" for row in of.rows[:ROWS])
     head = _head(of.columns) if titled else ""
-    return _boxed("table", of.title, f"{caption(of.title, of.caption)}{box}", f"{head}<tbody>{rows}</tbody>")
+    rest = f"These are the first {ROWS:,} of {len(of.rows):,} rows. " if len(of.rows) > ROWS else ""
+    rest += "results.csv has all rows of the run." if rest else ""
+    told = caption(of.title, f"{of.caption} {rest}".strip())
+    return _boxed("table", of.title, told, f"{head}<tbody>{rows}</tbody>")
+
+
+def _paragraphs(of: Table) -> str:
+    """Write the texts of a table's only row below the headings of their columns."""
+    texts = (
+        f"<div><h3>{escaped(column.title)}</h3><p>{escaped(column.show(value))}</p></div>"
+        for column, value in zip(of.columns, of.rows[0], strict=True)
+    )
+    return f'<div class="beside">{"".join(texts)}</div>'
 
 
 def _boxed(kind: str, title: str, told: str, rows: str) -> str:
@@ -52,30 +64,31 @@ def _head(columns: Sequence[Column]) -> str:
         else f'<td class="over" colspan="{span}"></td>'
         for name, span in over
     )
-    titles = "".join(
-        f'<th scope="col"{_kind(column)}><button type="button" class="sort">{escaped(column.title)}</button></th>'
-        for column in columns
-    )
+    titles = "".join(f'<th scope="col"{_kind(column)}>{escaped(column.title)}</th>' for column in columns)
     return f"<thead>{f'<tr>{groups}</tr>' if len(over) > 1 else ''}<tr>{titles}</tr></thead>"
 
 
 def _kind(column: Column) -> str:
-    """Return the class of a column's cells: numbers, or long texts, which are not squeezed where the page is narrow."""
-    return ' class="n"' if column.numeric else ' class="long"' if column.stretch else ""
+    """Return the class of a column's cells.
+
+    Most cells are numbers, and have none; long texts are not squeezed where the page is narrow.
+    """
+    return "" if column.numeric else " class=long" if column.stretch else " class=t"
 
 
 def _cells(columns: Sequence[Column], row: tuple[Any, ...]) -> str:
     """Write the cells of one row, the first one as the row's heading.
 
-    A number has its value in six digits beside it where its text says another one, or in another way.
+    A number has its value in six digits beside it where its text says another one, or in another way. End tags, and
+    quotes where HTML needs none, are left out: a long report has a hundred thousand cells.
     """
     cells = []
     for i, (column, value) in enumerate(zip(columns, row, strict=True)):
         text = column.show(value)
         number = "" if isinstance(value, str | bool) or pd.isna(value) else f"{float(value):.6g}"
-        key = f' data-v="{number}"' if number and not (column.numeric and number == text) else ""
-        tag, scope = ("td", "") if i else ("th", ' scope="row"')
-        cells.append(f"<{tag}{scope}{_kind(column)}{key}>{escaped(text)}</{tag}>")
+        key = f" data-v={number}" if number and not (column.numeric and number == text) else ""
+        tag, scope = ("td", "") if i else ("th", " scope=row")
+        cells.append(f"<{tag}{scope}{_kind(column)}{key}>{escaped(text)}")
     return "".join(cells)
 
 

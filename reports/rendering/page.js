@@ -64,12 +64,11 @@ for (const group of series) {
 // Tables: a click on a heading sorts by value, a second one the other way; a text filters rows.
 function makeSortable(figure) {
   const body = figure.querySelector("tbody");
-  const count = figure.querySelector(".count");
   const headings = [...figure.querySelectorAll("th[scope=col]")];
   const value = (row, i) => {
     const cell = row.cells[i];
     if (cell.dataset.v !== undefined) return Number(cell.dataset.v);
-    const number = cell.className === "n" ? Number(cell.textContent) : NaN;
+    const number = cell.className === "" ? Number(cell.textContent) : NaN;
     return cell.textContent && Number.isFinite(number) ? number : cell.textContent;
   };
   const compare = (a, b) => {
@@ -79,7 +78,12 @@ function makeSortable(figure) {
     return a.localeCompare(b, undefined, { numeric: true });
   };
   headings.forEach((heading, i) => {
-    heading.querySelector(".sort").addEventListener("click", () => {
+    const button = document.createElement("button");
+    button.type = "button";
+    button.className = "sort";
+    button.append(...heading.childNodes);
+    heading.append(button);
+    button.addEventListener("click", () => {
       const down = heading.getAttribute("aria-sort") === "ascending";
       headings.forEach((other) => other.removeAttribute("aria-sort"));
       heading.setAttribute("aria-sort", down ? "descending" : "ascending");
@@ -88,7 +92,17 @@ function makeSortable(figure) {
       body.append(...rows.map((pair) => pair[1]));
     });
   });
-  figure.querySelector(".filter")?.addEventListener("input", (event) => {
+  if (!headings.length || body.rows.length < 4) return;
+  const filter = document.createElement("input");
+  const count = document.createElement("span");
+  const told = figure.querySelector(".scroll").getAttribute("aria-label");
+  Object.assign(filter, { className: "filter", type: "search", placeholder: "filter rows", ariaLabel: `filter the rows of: ${told}` });
+  Object.assign(count, { className: "count", role: "status" });
+  const both = document.createElement("span");
+  both.className = "filtering";
+  both.append(filter, " ", count);
+  (figure.querySelector("caption > div") ?? figure.querySelector("table").createCaption()).append(both);
+  filter.addEventListener("input", (event) => {
     const words = event.target.value.toLowerCase().split(/\s+/).filter(Boolean);
     let shown = 0;
     for (const row of body.rows) {
@@ -154,15 +168,12 @@ for (const gallery of document.querySelectorAll("figure.gallery:has(.sliding)"))
     });
     if (images.length) lasts.push(pictures.length - 1);
   }
-  if (pictures.length < 2) {
-    gallery.querySelector(".sliding").hidden = true;
-    continue;
-  }
+  if (pictures.length < 2) continue;
   const alike = gallery.querySelector(".hero") && lasts.length > 2 ? lasts.slice(1) : lasts;
   const method = (i) => pictures[i][0].split(/[,[]/)[0];
   const other = alike.find((i) => method(i) !== method(alike[0])) ?? alike[1];
   const firsts = alike.length > 1 ? [alike[0], other] : [0, 1];
-  gallery.querySelector(".compare").hidden = false;
+  gallery.querySelector(".sliding").hidden = false;
   [["left", "under", firsts[0]], ["right", "above", firsts[1]]].forEach(([side, layer, first]) => {
     const select = gallery.querySelector(`.${side}`);
     const target = gallery.querySelector(`.${layer}`);

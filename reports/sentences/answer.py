@@ -114,7 +114,9 @@ def gain(found: Sequence[Choice]) -> str:
     A winner whose time is floor-bound is left out, since the harness is measured there more than the method.
     """
     rows = [one.best for one in found if one.best is not None and not wording.absent(one.best.speedup)]
+    best = len(rows)
     rows = [row for row in rows if row.baseline not in (row.method, row.variant)]
+    itself = best - len(rows)
     told = sorted(row.speedup for row in rows if not row.floor_bound)
     if not rows:
         return ""
@@ -124,7 +126,9 @@ def gain(found: Sequence[Choice]) -> str:
     low, high = wording.factor(told[0]), wording.factor(told[-1])
     left = len(rows) - len(told)
     rest = f" ({left} left out, whose {'time is' if left == 1 else 'times are'} floor-bound)" if left else ""
-    where = "" if len(rows) == len(found) else f", on {len(rows)} of {len(found)} surfaces on which that is right too"
+    where = "" if len(rows) == len(found) else f", on {len(rows)} of {len(found)} surfaces"
+    where += " on which that is right too" if best < len(found) else ""
+    where += f"; on {itself} it is the fastest itself" if itself else ""
     return f"{low if low == high else f'{low} to {high}'} as fast as {name}{where}{rest}."
 
 
@@ -223,13 +227,14 @@ def bought(found: Sequence[Choice]) -> str:
 
 
 def focus(found: Sequence[Choice], focus: str, method: str) -> str:
-    """Say in a sentence where the method or variant that the report is about wins, ties and loses.
+    """Say in a sentence where the method or variant that the report is about wins, ties and loses, and where it errs.
 
     `method` is its method; the sentence is "" where none of the choices has a row of it.
     """
     wins: list[str] = []
     shared: list[str] = []
     wrong: list[str] = []
+    coarse: list[str] = []
     beaten: dict[str, list[str]] = {}
     label = ""
     for one in found:
@@ -239,6 +244,8 @@ def focus(found: Sequence[Choice], focus: str, method: str) -> str:
         label = str(own["label"].iloc[0] if focus != method else own["method_label"].iloc[0])
         if not derive.all_right(own).any():
             wrong.append(one.name)
+        elif one.within[0] is not None and derive.within(own, ERRORS[0]).empty:
+            coarse.append(one.name)
         elif one.best.Index in own.index:
             (shared if one.tied[0] else wins).append(one.name)
         elif set(own.index) & set(one.tied_rows[0]):
@@ -254,6 +261,7 @@ def focus(found: Sequence[Choice], focus: str, method: str) -> str:
         told.append(f"is beaten {wording.listed([f'by {who} on {_some(where)}' for who, where in ordered[:4]])}")
         rest = sum(len(where) for _, where in ordered[4:])
         told[-1] += f" and by others on {rest} more" if rest else ""
+    told += [f"errs by more than {wording.level(ERRORS[0])} of the scene's radius on {_some(coarse)}"] if coarse else []
     told += [f"answers some rays wrongly on {_some(wrong)}"] if wrong else []
     return f"{label} {'; it '.join(told)}." if told else ""
 

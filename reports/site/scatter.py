@@ -115,10 +115,10 @@ def _grid(x: _Axis, y: _Axis, zero: float | None) -> Html:
 
 
 def _mark(point: Point, x: float, y: float) -> Html:
-    """Draw a point as a link that tells what it is."""
+    """Draw a point as a link that tells what it is. Keys pass over it: its row is in a table."""
     fill = "none" if point.hollow else point.mark.color
     path = tag("path", d=outline(point.mark, x, y, SIZE), fill=fill, stroke=point.mark.color)
-    return tag("a", tag("title", point.title), path, href=point.to, aria_label=point.title)
+    return tag("a", tag("title", point.title), path, href=point.to, aria_label=point.title, tabindex=-1)
 
 
 def _labels(points: Sequence[Point], spots: Sequence[tuple[float, float]]) -> list[Html]:
