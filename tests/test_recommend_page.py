@@ -65,7 +65,7 @@ def test_answer_object_and_page_say_the_same(asked, runs, tmp_path, capsys, monk
         assert value["guarantee"] in other and value["rule"]["text"] in other
         for one in value["methods"]:
             assert one["sentence"].removeprefix(one["method"]).strip() in other
-    assert len(re.findall('<img alt="[^"]*" src="data:image/(?:png|webp)', page.read_text())) == 2
+    assert len(re.findall('<img alt="[^"]*"[^>]* src="data:image/webp', page.read_text())) == 2
 
     again = shlex.split(value["again"])
     assert again[:2] == ["firsthit", "recommend"]
