@@ -74,7 +74,10 @@ class Evidence:
         run alone. Else it is all rows.
         """
         if config not in self._judged:
-            self._judged[config] = replace(self._runs.get(run_of(config), self), config=config)
+            base = self._runs.get(run_of(config), self)
+            self._judged[config] = replace(base, config=config)
+            # these do not depend on the config, and rows are wide
+            vars(self._judged[config]).update(finished=base.finished, _methods=base._methods)
         return self._judged[config]
 
     @cached_property
