@@ -181,7 +181,9 @@ def test_the_page_of_columns_is_as_printed():
 def material(folder: Path) -> Material:
     loaded = load.load(folder)
     frame = derive.derive(loaded.frame, loaded.plan.peaks)
-    return Material(loaded, frame, breaks.derive(loaded.families, loaded.rungs), Shelf(loaded.folders))
+    answering = frame.loc[frame["answers"].astype(bool), "method"]
+    focus = str(answering.iloc[0]) if len(answering) else ""
+    return Material(loaded, frame, breaks.derive(loaded.families, loaded.rungs), Shelf(loaded.folders), focus)
 
 
 def part_names(package: Any) -> list[str]:

@@ -22,11 +22,16 @@ _RATIO = ["ratio", "ratio_low", "ratio_high"]
 
 def ratio(row: Any, other: Any) -> Ratio | None:
     """Return `row`'s time over `other`'s, round by round; None unless both were timed in the rounds of one run."""
-    if wording.absent(row.session) or row.session != other.session:
-        return None
-    if any(wording.absent(one.rounds) or not one.samples_ms for one in (row, other)):
+    if not _in_one_run(row, other):
         return None
     return timings.paired_ratio(row.samples_ms, json.loads(row.rounds), other.samples_ms, json.loads(other.rounds))
+
+
+def _in_one_run(row: Any, other: Any) -> bool:
+    """Tell whether two rows were timed in the rounds of one run, of which they may have none in common."""
+    if wording.absent(row.session) or row.session != other.session:
+        return False
+    return not any(wording.absent(one.rounds) or not one.samples_ms for one in (row, other))
 
 
 def times_over(row: Any, other: Any) -> float:
@@ -47,9 +52,8 @@ def ratios(both: pd.DataFrame, suffix: str) -> list[Ratio | None]:
 
 def above(row: Any, other: Any) -> float:
     """Return by how many ms `row` takes longer than `other`: the median over their common rounds, NaN without any."""
-    if ratio(row, other) is None:
-        return math.nan
-    return timings.median_interval([a - b for a, b in zip(*common(row, other), strict=True)])[0]
+    pairs = list(zip(*common(row, other), strict=True)) if _in_one_run(row, other) else []
+    return timings.median_interval([a - b for a, b in pairs])[0] if pairs else math.nan
 
 
 def common(row: Any, other: Any) -> tuple[list[float], list[float]]:

@@ -8,7 +8,7 @@ from harness.contract import CellStatus
 from reports.analysis.derive import casters, on_fullest_device
 
 SPREADS = 8  # a run with at most so many surfaces has two pages for each; one with more has an atlas
-FOLDED = 12  # the surfaces of an atlas whose pages are in the details, which are HTML alone
+FOLDED = 6  # the surfaces of an atlas whose pages are in the details, which are HTML alone
 EVERY_VARIANT = 20  # a strip of error maps has all variants if there are at most so many, else one of each method
 MOST_MAPS = 40  # maps of one strip
 EVERY_VIEW = 3  # a surface with so many views or fewer has maps of all; else each variant has one of its worst view

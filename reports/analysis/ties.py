@@ -79,6 +79,8 @@ def _best(rows: list[Any]) -> Any:
     """Do what `best` does, for rows as named tuples."""
     first = rows[0]
     for row in rows[1:]:
+        if row.samples_ms and first.samples_ms and min(row.samples_ms) >= max(first.samples_ms):
+            continue  # it is faster in no round
         paired = ratio(row, first)  # whatever the medians: they may be of other rounds
         if paired is not None and verdict(paired) == FASTER:
             first = row
