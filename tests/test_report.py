@@ -374,4 +374,4 @@ def test_the_first_page_says_which_method_at_which_error_and_what_it_costs(tmp_p
     table = choice.table(only)
     assert table is not None
     assert table.rows == [("Torus", "none; Rough", 0.5, 2e-3, "none; Rough", 0.5, 2e-3, None)]
-    assert "“None” stands before the most exact variant of this run." in table.caption
+    assert "Behind “none” stands the most exact variant of this run, with its own figures." in table.caption

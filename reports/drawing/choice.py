@@ -47,8 +47,8 @@ def made(found: Sequence[Choice], several: bool, surfaces: int = 0) -> Table:
         printed,
         f"Which method, at which error, on {where}.",
         f"{_shared(rows)}Fastest of the variants with every ray away from silhouettes right. Error is the largest "
-        "over the radius; cost is the time of the second over that of the first, in the rounds that timed both."
-        + (" “None” stands before the most exact variant of this run." if nearest else "")
+        f"over the radius; cost is how many times as long the choice at {wording.level(ERRORS[-1])} takes."
+        + (" Behind “none” stands the most exact variant of this run, with its own figures." if nearest else "")
         + (" “≈” stands before what is not told apart." if _any_tied(found[:LINES]) else "")
         + _bound(found[:LINES])
         + wording.zeros([row[i] for row in printed for i in (3, 6)])

@@ -297,6 +297,7 @@ def _caption(rows: pd.DataFrame) -> str:
     told += "beaten in both."
     if rows["precision"].nunique() > 1:
         told += f" In {choices.precision_of(rows)} where no other precision is named."
+    told += " Marks that a line joins are settings of one method."
     if (~derive.all_right(rows)).any():
         told += " Hollow marks answer some rays wrongly."
     if (derive.FLOOR_FACTOR * rows["floor_ms"] > rows["median_ms"].min() / 1.7).any():
