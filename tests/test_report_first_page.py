@@ -202,7 +202,7 @@ def test_the_winners_matrix_names_method_and_time_and_notes_ties(tmp_path: Path)
     made = about(tiny_run(tmp_path / "run", *cells))
     section = next(section for section in made.sections if section.title == "Winners")
     matrix = next(block for block in section.blocks if isinstance(block, content.Matrix))
-    assert matrix.columns == ("opencl:intel", "opencl:pocl")
+    assert matrix.columns == ("opencl:intel", "opencl:pocl\n2 of 3 methods")
     rows = {heading: squares for heading, squares in matrix.rows}
     assert [square.text for square in rows["Torus"]] == ["Newton\n2.00", "Sturm\n3.00"]
     assert rows["Torus"][0].color == style.pale(style.marks(["newton"])["newton"].color, 0.68)

@@ -81,7 +81,7 @@ def matrix(material: Material, leading: pd.DataFrame, scenes_of: Mapping[str, st
     which every variant is wrong somewhere has a grey square.
     """
     frame = material.listed
-    told = [*derive.GROUP, "variant", "label", "wrong_rays", "accuracy_rays"]
+    told = [*derive.GROUP, "method", "variant", "label", "wrong_rays", "accuracy_rays"]
     rows = derive.contenders(frame)[told]
     if scenes_of is not None:
         rows = rows[rows["comparison"].isin(list(scenes_of))]
@@ -105,7 +105,13 @@ def matrix(material: Material, leading: pd.DataFrame, scenes_of: Mapping[str, st
             own, won = groups.get((scene, device, precision)), safest.get((scene, device, precision))
             squares.append(_square(own, won, material, labels, apart))
         body.append((named[scene], tuple(squares)))
-    columns = tuple(f"{device}\n{precision}" if several else device for device, precision in pairs)
+    methods = rows.groupby(["device", "precision"])["method"].nunique()
+    most = methods.max()
+    fewer = {pair: f"\n{methods[pair]} of {most} methods" for pair in pairs if methods[pair] < most}
+    columns = tuple(
+        (f"{device}\n{precision}" if several else device) + fewer.get((device, precision), "")
+        for device, precision in pairs
+    )
     one = "" if several else f" All in {pairs[0][1]}."
     more = f" {cut} more devices and precisions are in the details." if cut > 0 else ""
     return Matrix(

@@ -135,8 +135,8 @@ def _standings(site: Site, baseline: str) -> Html:
         cells = (site.method(found.method, ""), tag("span", told[0], class_="share", style=share), *told[1:])
         lines.append(Line(cells, f"m-{site.pages[found.method]}"))
     caption = (
-        "How often each method is the fastest. A cell is a surface on a device, in a precision, from the view and size "
-        "that most methods were timed at."
+        "How often each method is the fastest of those timed in the same cell, which may be few. A cell is a surface "
+        "on a device, in a precision, from the view and size that most methods were timed at."
     )
     names = json.dumps([found.method for found in standings(site.cells, FIRST)])
     return tag(
