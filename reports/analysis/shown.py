@@ -9,6 +9,7 @@ from reports.analysis.derive import casters, on_fullest_device
 
 SPREADS = 8  # a run with at most so many surfaces has two pages for each; one with more has an atlas
 FOLDED = 6  # the surfaces of an atlas whose pages are in the details, which are HTML alone
+MANY_ROWS = 20_000  # of a run whose report would take too long
 EVERY_VARIANT = 20  # a strip of error maps has all variants if there are at most so many, else one of each method
 MOST_MAPS = 40  # maps of one strip
 EVERY_VIEW = 3  # a surface with so many views or fewer has maps of all; else each variant has one of its worst view
@@ -70,9 +71,12 @@ def in_strip(rows: pd.DataFrame) -> pd.DataFrame:
 
 
 def with_pages(frame: pd.DataFrame) -> list[str]:
-    """Return the names of the surfaces that have pages of their own: all of SPREADS, else the first FOLDED."""
+    """Return the names of the surfaces that have pages of their own: all of SPREADS, else the first FOLDED.
+
+    Of more rows than MANY_ROWS it is the first surface alone, since such pages take a second each.
+    """
     names = [str(name) for name in dict.fromkeys(frame["surface"])]
-    return names if len(names) <= SPREADS else names[:FOLDED]
+    return names if len(names) <= SPREADS else names[: FOLDED if len(frame) <= MANY_ROWS else 1]
 
 
 def in_galleries(frame: pd.DataFrame) -> pd.DataFrame:
