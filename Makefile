@@ -13,7 +13,7 @@ CLEAR := --clear
 endif
 endif
 
-.PHONY: quick papers site guide test bench gate check format clean
+.PHONY: quick papers site guide test campaign bench gate check format clean
 quick: $(READY)
 	$(BIN)/firsthit run configs/quick.toml
 	$(BIN)/firsthit report runs/quick
@@ -34,6 +34,9 @@ guide: $(READY)
 
 test: $(READY)
 	$(BIN)/python -m pytest -q -n auto
+
+campaign: $(READY)
+	$(BIN)/python -m tests.campaigns --table docs/reliability.md
 
 bench: $(READY)
 	$(BIN)/python -m tests.benchmarks.startup

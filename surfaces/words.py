@@ -6,6 +6,7 @@ import difflib
 from collections.abc import Iterable
 
 COORDINATES = ("x", "y", "z")  # the variables of a formula
+LONGEST_NAME = 100  # letters
 
 
 def suggestion(name: str, known: Iterable[str], most: int = 1, otherwise: str = "") -> str:
@@ -19,3 +20,17 @@ def suggestion(name: str, known: Iterable[str], most: int = 1, otherwise: str = 
     if near:
         return f"did you mean {repr(near[0]) if most == 1 else ', '.join(near)}?"
     return otherwise or f"known: {', '.join(names) or 'none'}"
+
+
+def name_problem(name: str) -> str | None:
+    """Say why a text can be no name of a surface, a view, a scene or the like; None where it can.
+
+    A name stands in file names, in one line of a terminal, and in CI logs, so that it is short and has letters that can
+    be seen and that cannot begin a line, a folder or a command.
+    """
+    if not name.strip():
+        return "a name has a letter at least"
+    if len(name) > LONGEST_NAME:
+        return f"a name has {LONGEST_NAME} letters at most, and {name[:20]!r}... has {len(name):,}"
+    bad = next((c for c in name if not c.isprintable() or c in "/\\"), None)
+    return None if bad is None else f"a name holds no {bad!r}: letters, digits, blanks and signs other than slashes"

@@ -1,0 +1,34 @@
+"""Write what campaigns found as rows of the table of docs/reliability.md."""
+
+from __future__ import annotations
+
+from datetime import date
+from pathlib import Path
+
+from harness.running.environment import describe
+from tests.campaigns.frame import Campaign, Found
+
+HEAD = "| Campaign | Cases | What happened | Promise | Fell | Seed | Date, commit, machine |"
+
+
+def line(name: str, found: Found) -> str:
+    """Return one line for the terminal."""
+    return f"{name}: {found.cases:,} cases in {found.seconds:.0f} s; {_counts(found)}; {found.fell} fell"
+
+
+def _counts(found: Found) -> str:
+    return ", ".join(f"{count:,} {outcome}" for outcome, count in found.counts.most_common())
+
+
+def write(path: Path, campaign: Campaign, found: Found, seed: int) -> None:
+    """Put the campaign's row into the table of a Markdown file, in the place of its former one."""
+    here = describe()
+    where = f"{date.today().isoformat()}, {str(here['commit'])[:7]}{'+' * bool(here['dirty'])}, {here['cpu']}"
+    cells = (campaign.name, f"{found.cases:,}", _counts(found), campaign.promise, str(found.fell), str(seed), where)
+    row = f"| {' | '.join(cells)} |"
+    lines = path.read_text(encoding="utf-8").splitlines()
+    at = lines.index(HEAD) + 2
+    end = next((i for i in range(at, len(lines)) if not lines[i].startswith("|")), len(lines))
+    rows = {text.split("|")[1].strip(): text for text in lines[at:end]} | {campaign.name: row}
+    lines[at:end] = [rows[name] for name in sorted(rows)]
+    path.write_text("\n".join(lines) + "\n", encoding="utf-8")

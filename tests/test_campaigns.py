@@ -1,0 +1,54 @@
+"""The small part of each campaign, and the frame: what it keeps, repeats and tells."""
+
+from __future__ import annotations
+
+import random
+from pathlib import Path
+
+import pytest
+
+from tests.campaigns import frame, table
+from tests.campaigns.frame import Campaign, Fell, Place
+
+
+@pytest.mark.parametrize("name", frame.names())
+def test_the_small_part_of_a_campaign(name: str, tmp_path: Path) -> None:
+    campaign = frame.campaign_named(name)
+    campaign.prepare(tmp_path)
+    found = frame.trials(campaign, 1, range(-(-campaign.small // campaign.each)), tmp_path)
+    assert not found.fell, "\n".join(found.told)
+
+
+def _trial(dice: random.Random, place: Place) -> str:
+    assert not list(place.own.iterdir())
+    (place.own / "file").touch()
+    if dice.random() < 0.5:
+        raise Fell("heads")
+    return "tails"
+
+
+COIN = Campaign("coin", "tosses a coin", "no heads", _trial, 1, 10)
+
+
+def test_trials_are_made_by_the_seed_and_counted(tmp_path: Path) -> None:
+    found, again, other = (frame.trials(COIN, seed, range(20), tmp_path) for seed in (1, 1, 2))
+    assert found.counts == again.counts and found.told == again.told != other.told
+    assert found.cases == 20 and found.fell == found.counts["fell"] > 0
+    one = int(found.told[0].split()[1].rstrip(":"))
+    assert frame.trials(COIN, 1, range(one, one + 1), tmp_path).fell == 1
+
+
+def test_a_campaign_goes_on_where_it_was_stopped(tmp_path: Path) -> None:
+    first = frame.run(frame.campaign_named("formulas"), 3, 1, tmp_path, 1, lambda _: None)
+    kept = tmp_path / "seed-3.jsonl"
+    kept.write_text(kept.read_text() + '{"first": 1, "ca')
+    assert frame.run(frame.campaign_named("formulas"), 3, 1, tmp_path, 1, lambda _: None).counts == first.counts
+
+
+def test_the_table_has_one_row_for_each_campaign(tmp_path: Path) -> None:
+    page = tmp_path / "page.md"
+    page.write_text(f"# Page\n\n{table.HEAD}\n|---|---|---|---|---|---|---|\n\nmore\n")
+    for seed in (1, 2):
+        table.write(page, COIN, frame.trials(COIN, seed, range(20), tmp_path), seed)
+    lines = page.read_text().splitlines()
+    assert lines[4].startswith("| coin | 20 | ") and "| 2 |" in lines[4] and lines[5:] == ["", "more"]
