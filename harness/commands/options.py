@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import argparse
+import shlex
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import TypeVar
@@ -70,6 +72,17 @@ def add_timeout(parser: argparse.ArgumentParser) -> None:
     """Add the option that says how long one step may take, such as compiling or casting all rays."""
     help_ = "for one step, which is given up after so long (default: 60)"
     parser.add_argument("--timeout", type=number(TIMEOUT), default=60.0, metavar="SECONDS", help=help_)
+
+
+def add_wait(parser: argparse.ArgumentParser) -> None:
+    """Add the option that says what to do where another command writes into the folder of the results."""
+    help_ = "where another command writes into the same folder, wait until it has ended"
+    parser.add_argument("--wait", action="store_true", help=help_)
+
+
+def typed() -> str:
+    """Return the command line of this process, as one types it."""
+    return shlex.join(["firsthit", *sys.argv[1:]])
 
 
 def add_origin(parser: argparse.ArgumentParser) -> None:

@@ -38,6 +38,7 @@ NOT_DECIDING = {
     "harness/recommend": "chooses among finished rows",
     "harness/results/commits.py": "keeps the figures of finished rows",
     "harness/results/columns.py": "prints a page of the documentation",
+    "harness/results/lock.py": "lets one command at a time write, whatever that is",
     "harness/results/schema.py": "says which columns reports make of finished rows",
     "harness/shipping": "writes programs out for others, and stores no row",
     "harness/schemas.py": "writes schemas, which no run reads",
