@@ -5,11 +5,13 @@ A row that contradicts itself was damaged or edited, and none of its figures is 
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 from harness.results import declared
 from harness.results.row import KINDS, Accuracy, Leaf, Quantiles, RungVerdict, StoredRow, Time
 
+_ARRAYS = re.compile(r"arrays/[0-9A-Za-z]+\.npz")
 ROUNDING = 1e-9  # the share by which a median that was computed anew may differ
 
 
@@ -79,8 +81,8 @@ def _rung(rung: dict[str, Any]) -> str | None:
 
 def _row(row: dict[str, Any]) -> str | None:
     """Say where a row's parts disagree."""
-    if row.get("arrays") not in (None, f"arrays/{row['key']}.npz"):
-        return f"arrays is {row['arrays']!r:.40}, the file of another row"
+    if row.get("arrays") is not None and not _ARRAYS.fullmatch(row["arrays"]):
+        return f"arrays is {row['arrays']!r:.40}, which names no file of arrays"
     if row.get("family") is None and row.get("rungs") is not None:
         return "it has rungs and no family"
     if row["status"] != "ok" and row.get("reason") is None:
