@@ -25,10 +25,11 @@ FINITE = (-MOST, MOST)
 POSITIVE = Within(sys.float_info.min, MOST, "{value} is not positive")
 NOT_NEGATIVE = Within(0.0, MOST, "{value} is negative")
 SHARE = Within(0.0, 1.0)
+_IDEAS = {int: "count", float: "finite number"}
 _NOUNS = {str: "text", int: "whole number", float: "number", bool: "truth value"}
 
 
-def checker(kind: Any, rules: Mapping[Any, Rule] | None = None, needed: Needed = lambda notes: True) -> Check:
+def checker(kind: Any, rules: Mapping[Any, Rule] | None = None, needed: Needed = lambda _: True) -> Check:
     """Make the check of values that are declared to be of `kind`.
 
     `rules` says what must agree within an object, by its TypedDict; `needed` tells which leaves must be there, of those
@@ -42,9 +43,9 @@ def _checker(kind: Any, notes: tuple[Any, ...], rules: Mapping[Any, Rule], neede
     if origin is typing.Annotated:
         return _checker(parts[0], kind.__metadata__, rules, needed)
     if kind is Any:
-        return lambda value, path: None
+        return lambda _value, _path: None
     if origin in (types.UnionType, typing.Union) and types.NoneType in parts:
-        inner = _checker(typing.Union[*(part for part in parts if part is not types.NoneType)], notes, rules, needed)  # noqa: UP007
+        inner = _checker(typing.Union[*(part for part in parts if part is not types.NoneType)], notes, rules, needed)
         return lambda value, path: None if value is None else inner(value, path)
     if origin in (types.UnionType, typing.Union):
         return _one_of([_checker(part, notes, rules, needed) for part in parts])
@@ -102,7 +103,8 @@ def _plain(kind: type, within: Within | None = None) -> Check:
         if type(value) not in kinds:
             raise ValueError(f"{path} is no {_NOUNS[kind]}: {value!r:.40}")
         if ends is not None and not ends[0] <= value <= ends[1]:
-            broken = within.broken(value) if within else f"{value!r:.40} is no {'count' if kind is int else 'number'}"
+            finite = kind is int or -MOST <= value <= MOST
+            broken = within.broken(value) if within and finite else f"{value!r:.40} is no {_IDEAS[kind]}"
             raise ValueError(f"{path}: {broken:.200}")
 
     return check
@@ -114,9 +116,9 @@ def _list(item: Check, numbers: tuple[tuple[Any, ...], float, float] | None = No
     def check(value: Any, path: str) -> None:
         if type(value) is not list:
             raise ValueError(f"{path} is no list: {value!r:.40}")
-        if numbers and value and set(numbers[0]).issuperset(map(type, value)):
-            if numbers[1] <= min(value) and max(value) <= numbers[2]:
-                return
+        alike = numbers and value and set(numbers[0]).issuperset(map(type, value))
+        if alike and numbers and numbers[1] <= min(value) and max(value) <= numbers[2]:
+            return
         inside = f"{path}[]"
         for one in value:
             item(one, inside)

@@ -7,10 +7,11 @@ array of another type, and a few bytes that unpack to gigabytes are refused.
 from __future__ import annotations
 
 import math
+import os
 import zipfile
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import IO, Any, BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
@@ -54,22 +55,47 @@ def _read(packed: BinaryIO, kinds: Mapping[str, Any], fits: Fits, optional: froz
         raise ValueError(f"damaged: {sealed.problem(error) or type(error).__name__}") from None
 
 
+def read_alone(path: Path) -> NDArray[Any]:
+    """Read the array of a .npy file. Raises OSError or ValueError where there is none."""
+    with sealed.opened(path, LARGEST) as file:
+        try:
+            return _array(file, os.fstat(file.fileno()).st_size, _no_numbers)
+        except Exception as error:
+            raise ValueError(sealed.problem(error)) from None
+
+
+def _no_numbers(kind: np.dtype[Any], shape: Shape) -> str:
+    """Say that an array of any shape holds objects; "" where it does not."""
+    del shape
+    return "it holds objects" if kind.hasobject else ""
+
+
 def _member(file: zipfile.ZipFile, info: zipfile.ZipInfo, name: str, kind: np.dtype[Any], fits: Fits) -> NDArray[Any]:
     """Read one array. Raises any error where the member is damaged."""
+
+    def wrong(found: np.dtype[Any], shape: Shape) -> str:
+        if found != kind:
+            return f"{name} is of {found}, not {kind}"
+        return "" if fits(name, shape) else f"{name} has the shape {shape}"
+
     if info.compress_type not in _PLAIN or info.flag_bits & 1:
         raise ValueError(f"{name} is packed in another way than NumPy does")
     with file.open(info) as member:
-        version = np.lib.format.read_magic(member)
-        shape, by_columns, found = _HEADERS[version](member)
-        if found != kind:
-            raise ValueError(f"{name} is of {found}, not {kind}")
-        count = math.prod(shape)
-        if not 0 <= count <= MOST or not all(0 <= side <= MOST for side in shape) or not fits(name, shape):
-            raise ValueError(f"{name} has the shape {shape}")
-        if info.file_size != member.tell() + count * kind.itemsize:
-            raise ValueError(f"{name} has not as many numbers as it says, {count:,}")
-        numbers = member.read(count * kind.itemsize)
-        if len(numbers) != count * kind.itemsize or member.read(1):
-            raise ValueError(f"{name} is cut short")
+        return _array(member, info.file_size, wrong)
+
+
+def _array(file: IO[bytes], size: int, wrong: Callable[[np.dtype[Any], Shape], str]) -> NDArray[Any]:
+    """Read an array of a file of `size` bytes. Raises any error where it is damaged, or `wrong` says what is."""
+    shape, by_columns, kind = _HEADERS[np.lib.format.read_magic(file)](file)
+    count = math.prod(shape)
+    if not 0 <= count <= MOST or not all(0 <= side <= MOST for side in shape):
+        raise ValueError(f"it claims the shape {shape}")
+    if reason := wrong(kind, shape):
+        raise ValueError(reason)
+    if size != file.tell() + count * kind.itemsize:
+        raise ValueError(f"it has not as many numbers as it claims, {count:,}")
+    numbers = file.read(count * kind.itemsize)
+    if len(numbers) != count * kind.itemsize or file.read(1):
+        raise ValueError("it is cut short")
     made = np.frombuffer(numbers, kind)
     return made.reshape(shape[::-1]).T.copy() if by_columns else made.reshape(shape).copy()

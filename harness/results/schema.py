@@ -35,7 +35,6 @@ class Field:
     meaning: str
 
 
-
 def fields_of(declared: Any, path: tuple[str, ...] = (), within: str = "", prefix: str = "") -> Iterator[Field]:
     """Yield the leaves of a TypedDict of harness/results/row.py, in the order in which they are declared.
 

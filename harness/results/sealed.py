@@ -1,8 +1,8 @@
 """Read files that may be damaged, and seal JSON files by a checksum, so that damage is seen before a value is used.
 
 A sealed file's first line is `{"checksum": "…",`, of the SHA-256 of all bytes after that line: what
-`tail -n +2 FILE | sha256sum` prints. Files of older versions have no checksum and are read too. Everything that is wrong
-with a file is a ValueError or an OSError, whose `problem` is one line.
+`tail -n +2 FILE | sha256sum` prints. Files of older versions have no checksum and are read too. All that is wrong with
+a file is a ValueError or an OSError, whose `problem` is one line.
 """
 
 from __future__ import annotations
@@ -101,8 +101,10 @@ def read(path: Path) -> dict[str, Any]:
 
 
 def unsealed(text: bytes) -> dict[str, Any]:
-    """Read a sealed object, or one of an older version, which has no checksum. Raises ValueError where it is damaged."""
+    """Read a sealed object, or one of an older version, which has no checksum. Raises ValueError for a damaged one."""
     first, _, rest = text.partition(b"\n")
+    if first.endswith(b"\r"):  # git may write lines as Windows does; JSON's texts hold no line's end as such
+        first, _, rest = text.replace(b"\r\n", b"\n").partition(b"\n")
     seal = _SEAL.fullmatch(first)
     if seal and seal[1].decode() != hashlib.sha256(rest).hexdigest():
         raise ValueError("its checksum does not hold: the file was changed after it was written")

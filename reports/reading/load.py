@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import gc
-from collections.abc import ItemsView, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -146,22 +146,19 @@ def plan_of(folder: Path) -> Plan:
         raise FirsthitError(f"{folder} is no run folder: it has no plan.json; name a folder under runs/") from error
     except (OSError, ValueError) as error:
         raise FirsthitError(f"cannot read {path}: {problem(error)}; run the config again to rewrite it") from error
+    families: dict[str, dict[str, Any]] = told.get("family_facts", {})
     return Plan(
         **{name: told[name] for name in _TEXTS},
         environment=told["environment"],
         devices=tuple(told["devices"]),
         slots={cell["key"]: cell["slot"] for cell in (*told["cells"], *told.get("families", ()))},
-        facts={family: Facts(**{name: facts[name] for name in _FACTS}) for family, facts in _facts(told)},
+        facts={name: Facts(**{part: one[part] for part in _FACTS}) for name, one in families.items()},
         studies={study["study"]: study["key"] for study in told.get("studies", ())},
         methods=told.get("methods", {}),
         include=tuple(told.get("include", ())),
         baseline=told.get("baseline", BASELINE),
         focus=told.get("focus", ""),
     )
-
-
-def _facts(told: dict[str, Any]) -> ItemsView[str, dict[str, Any]]:
-    return told.get("family_facts", {}).items()
 
 
 _TEXTS = ("name", "title", "config", "config_text", "command", "created")
