@@ -25,6 +25,7 @@ from harness.experiment.plan import Planned
 from harness.experiment.shipped import located
 from harness.experiment.size import cells_of, check_size
 from harness.hardcases import groups
+from harness.oracle import cache
 from harness.plugins import Catalog, find_methods
 from harness.results.store import Row, Store
 from harness.running.cards import card
@@ -253,6 +254,8 @@ def _run_part(part: Experiment, loaded: Loaded, runs: Path, command: str, again:
         hears.starts(len(found.todo), seconds, Counter(p.cell.device for p in found.todo))
         told = hears.cell, hears.hears_builds
         rows = Runner(part.config, loaded.catalog, store, executor, environment, *told).run(found.todo)
+        if reason := cache.unwritten(store.truth):
+            hears.warned(f"{reason}; the oracle's answers were kept in memory, and the next run computes them again")
     finally:
         executor.close()
     return Run(store.folder, tuple(rows), tuple(found.kept.values()))
