@@ -12,6 +12,7 @@ from typing import Any
 import pandas as pd
 
 from harness.contract import BASELINE, CellStatus, FirsthitError, suggestion
+from harness.escaping import whole
 from harness.results.schema import FAMILY, RUNG, SCHEMA, flatten
 from reports import labels
 from reports.reading import collect, export
@@ -212,10 +213,13 @@ def problem(error: Exception) -> str:
 
 def _json_object(path: Path) -> dict[str, Any]:
     """Read a file that holds one JSON object. Raises ValueError where it does not."""
+    content = path.read_bytes()
     try:
-        document = json.loads(path.read_bytes())
+        document = json.loads(content)
     except ValueError as error:
         raise ValueError(f"truncated or no JSON: {error}") from error
+    if b"\\ud" in content.lower():  # perhaps a half of a character
+        document = whole(document)
     if not isinstance(document, dict):
         raise ValueError("it holds no JSON object")
     return document
