@@ -196,6 +196,8 @@ def _known(error: Exception) -> tuple[int, str]:
 
     if isinstance(error, FirsthitError):
         return error.exit_code, str(error)
+    if isinstance(error, OSError) and error.errno == errno.ENAMETOOLONG and error.filename:
+        return USAGE, f"{str(error.filename)[:40]!r}… is too long for the name of a file"
     return FAILED, _unwritten(error) if _is_full(error) else ""
 
 

@@ -1,11 +1,11 @@
 r"""Make a text safe for the place where it goes: nothing in it becomes markup, code, a command or an invisible sign.
 
 Texts come from configs, files of surfaces, plugins, drivers, git and run folders of anybody. Each function here is of
-one place. All of them first show what cannot be seen (`visible`): control characters, line ends that are none of the
-place's own, marks that turn the direction of writing or have no width, halves of characters. So a text reads back
-wherever it stands, and looks alike everywhere.
+one place. All of them first show what cannot be seen, which is surfaces.visible's work: control characters, line ends
+that are none of the place's own, marks that turn the direction of writing or have no width, halves of characters. So a
+text reads back wherever it stands, and looks alike everywhere.
 
-    terminal          visible (a name), one_line (prose in a table), lines (prose that has lines)
+    terminal          visible (a name), one_line (prose in a table), lines (prose that has lines), output (of processes)
     CI servers        message, property_ (workflow commands of GitHub), xml, attribute (JUnit)
     Markdown          markdown (within a line), code (within a line), fenced (lines)
     HTML              html (between tags and between quotes), in_script, data (JSON within a page)
@@ -26,69 +26,30 @@ command prints is often printed again by another program, and one rule can be te
 
 from __future__ import annotations
 
-import functools
 import html as python_html
 import json
 import re
 import shlex
-import unicodedata
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-# Printable by Python's word, and seen by nobody: Unicode's Default_Ignorable_Code_Point that are no control signs
-_HIDDEN = re.compile("[\u034f\u115f\u1160\u17b4\u17b5\u180b-\u180f\u3164\ufe00-\ufe0f\uffa0\U000e0000-\U000e0fff]")
-_ESCAPE = r"x[0-9a-f]{2}|u[0-9a-f]{4}|U[0-9a-f]{8}"
-_SUSPECT = re.compile(rf"\\(?={_ESCAPE})|[^ -~]")
-_ESCAPED = re.compile(rf"\\({_ESCAPE})")
-_UNSEEN = re.compile("[^ -~]")
+from surfaces.visible import hidden as hidden
+from surfaces.visible import joined as joined
+from surfaces.visible import one_line as one_line
+from surfaces.visible import shown as shown
+from surfaces.visible import visible as visible
+
 _HALVES = re.compile("[\ud800-\udfff]")
-_LINE_ENDS = re.compile(r"[ \t]*(?:\r?\n|\t)(?:\r\n|[ \n\t])*")
 _COMMAND = re.compile(r"^(\s*):(?=:)|#(?=#\w*\[)", re.MULTILINE)
 _SIGNS = re.compile(r"[\\`*\[\]<&|~$#]|(?<![^\W_])_|_(?![^\W_])|(?<=\w):(?=//)|(?<=www)\.", re.IGNORECASE)
+_QUOTED = "\\'"
 _ENTITIES = {"&": "&amp;", "<": "&lt;"}
 _FORMULA = re.compile(r"'*[=+\-@＝＋－＠]")  # wide ones too, which spreadsheets of East Asia take
-
-
-def visible(text: str, kept: str = "") -> str:
-    r"""Return a text with what cannot be seen written as `\x1b`, `\u202e` or `\U000e0041`, but for the signs `kept`.
-
-    A backslash that stands before such digits already is written as `\x5c`, so that no two texts look alike; `hidden`
-    reads it back.
-    """
-    if text.isascii() and text.isprintable() and "\\" not in text:
-        return text
-    return _SUSPECT.sub(lambda found: found[0] if found[0] in kept else _shown(found[0]), text)
-
-
-def hidden(text: str) -> str:
-    """Return the text that `visible` was given."""
-    return _ESCAPED.sub(lambda found: chr(int(found[1][1:], 16)), text)
-
-
-@functools.lru_cache(maxsize=4096)
-def _shown(sign: str) -> str:
-    """Return one sign as it is, where it can be seen, else as an escape. A blank of any width can be seen."""
-    if sign != "\\" and not _HIDDEN.match(sign) and (sign.isprintable() or unicodedata.category(sign) == "Zs"):
-        return sign
-    number = ord(sign)
-    return f"\\x{number:02x}" if number < 0x100 else f"\\u{number:04x}" if number < 0x10000 else f"\\U{number:08x}"
-
-
-def one_line(text: str) -> str:
-    """Return prose as one line: its line ends and tabs, with the blanks around them, become a blank; all else shows."""
-    return visible(_LINE_ENDS.sub(" ", text) if "\n" in text or "\t" in text else text)
 
 
 def lines(text: str) -> str:
     """Return prose of several lines for a terminal or a CI server's log: its lines stay, and none begins a command."""
     return harmless(visible(text.replace("\r\n", "\n"), "\n\t"))
-
-
-def shown(text: str) -> str:
-    """Return lines of a text that was made elsewhere, such as a drawing: as `visible`, but backslashes stay."""
-    if text.isascii() and text.replace("\n", "").isprintable():
-        return text
-    return _UNSEEN.sub(lambda found: found[0] if found[0] in "\n\t" else _shown(found[0]), text)
 
 
 def harmless(text: str) -> str:
@@ -102,6 +63,12 @@ def harmless(text: str) -> str:
 
 def _defused(found: re.Match[str]) -> str:
     return r"\x23" if found[0] == "#" else rf"{found[1]}\x3a"
+
+
+def output(line: bytes) -> bytes:
+    """Return a line that another process wrote, a driver's or a plugin's, as `lines` has it, with its end."""
+    text = line.decode("utf-8", "backslashreplace")
+    return f"{lines(text.removesuffix(chr(10)).removesuffix(chr(13)))}\n".encode()
 
 
 def message(text: str) -> str:
@@ -182,7 +149,7 @@ def every(value: Any) -> Any:
 def whole(value: Any) -> Any:
     """Return a value as JSON has it whose texts can be written as UTF-8: halves of characters are shown."""
     if isinstance(value, str):
-        return _HALVES.sub(lambda found: _shown(found[0]), value)
+        return _HALVES.sub(lambda found: shown(found[0]), value)
     if isinstance(value, dict):
         return {whole(key): whole(item) for key, item in value.items()}
     return [whole(item) for item in value] if isinstance(value, list) else value
@@ -214,8 +181,7 @@ def shell(words: Iterable[str]) -> str:
 def _word(word: str) -> str:
     if visible(word.replace("\\", "")) == word.replace("\\", ""):
         return shlex.quote(word)
-    shown = (one if one not in "\\'" and _shown(one) == one else _octal(one) for one in word)
-    return f"$'{''.join(shown)}'"
+    return f"$'{''.join(one if visible(one) == one and one not in _QUOTED else _octal(one) for one in word)}'"
 
 
 def _octal(sign: str) -> str:

@@ -161,7 +161,7 @@ def guarded() -> Iterator[None]:
     """Guard standard output and standard error while the block runs: no text of anybody is a command there."""
     before = sys.stdout, sys.stderr
     own = [stream if stream is None or isinstance(stream, Guarded) else Guarded(stream) for stream in before]
-    sys.stdout, sys.stderr = own  # type: ignore[assignment]
+    sys.stdout, sys.stderr = own
     try:
         yield
     finally:

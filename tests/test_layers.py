@@ -11,6 +11,7 @@ import pytest
 
 ROOT = Path(__file__).parent.parent
 LAYERS = (  # from the ground up; what stands in one line does not import each other
+    ("surfaces.visible",),
     ("surfaces.words", "surfaces.model"),
     ("surfaces.tape",),
     ("surfaces.numbers",),

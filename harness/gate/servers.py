@@ -50,7 +50,7 @@ def _case(judged: Judged, title: str, about: About) -> str:
     text = f"<testcase {named}{time}><properties>{properties}</properties>"
     if judged.verdict in BAD:
         kind = "error" if judged.verdict is Verdict.INCOMPARABLE else "failure"
-        message = escaping.attribute(escaping.one_line(f"{judged.verdict}: {_headline(judged)}"))
+        message = escaping.attribute(escaping.joined(f"{judged.verdict}: {_headline(judged)}"))
         text += f"<{kind} message={message}>{escaping.xml(_told(judged, about))}</{kind}>"
     if about.picture:  # as GitLab and Jenkins look for files that belong to a test case
         text += f"<system-out>{escaping.xml(f'[[ATTACHMENT|{about.picture.as_posix()}]]')}</system-out>"
