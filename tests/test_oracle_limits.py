@@ -32,7 +32,7 @@ def test_a_root_that_is_near_the_domains_end(gap: str, inside: TruthStatus, outs
     ("gap", "status"), [("1e-120", CROSSING), ("1e-300*(1e-150*pi)", CROSSING), ("(1e-300*pi)^3", UNDECIDED)]
 )
 def test_two_roots_that_are_near_each_other(gap: str, status: TruthStatus) -> None:
-    """With π among the coefficients only balls tell two roots apart: f between them is as small as their gap squared."""
+    """With π in coefficients only balls tell two roots apart: f between them is as small as their gap squared."""
     surface = surfaces.from_formula(f"(x - pi/3)*(x - pi/3 - {gap})", "sphere:1.5")
     truth = first_hits(surface, RAY)
     assert truth.status[0] == status
