@@ -10,7 +10,7 @@ from harness import console
 from harness.commands import Add
 from harness.commands.answers import experiments
 from harness.commands.machine import Answer, add_json
-from harness.commands.options import add_wait, tell, typed
+from harness.commands.options import add_wait, add_yes, tell, typed
 from harness.commands.printer import Printer
 from harness.contract import FirsthitError
 from harness.experiment import config, identity, plan
@@ -28,11 +28,13 @@ FIGURES, TABLES = ("svg", "pdf", "png"), ("latex", "csv", "markdown")  # forms; 
 def add_parsers(add: Add) -> None:
     parser = add("plan", "firsthit plan quick")
     _add_config(parser)
+    add_yes(parser)
     add_json(parser)
     parser.set_defaults(run=_plan)
 
     parser = add("run", "firsthit run quick --retry failed")
     _add_config(parser)
+    add_yes(parser)
     parser.add_argument("--force", action="store_true", help="run every cell again")
     parser.add_argument("--retry", choices=["failed"], help="run failed, timed out and crashed cells again")
     parser.add_argument("--device", action="append", metavar="NAME", help="run on this device only; may be repeated")
@@ -93,12 +95,12 @@ def _add_config(parser: argparse.ArgumentParser) -> None:
 
 
 def _read(options: argparse.Namespace) -> Read:
-    return read(options.config, options.plugins, Printer())
+    return read(options.config, options.plugins, getattr(options, "device", None) or (), Printer(), options.yes)
 
 
 def _plan(options: argparse.Namespace) -> int | Answer:
     """Tell each config's cells, and how long those that must run will take."""
-    loaded = load(_read(options), (), Printer())
+    loaded = load(_read(options), Printer())
     parts = [_planned(part, loaded, options.runs) for part in loaded.parts]
     if options.json:
         return Answer(experiments.Plan(parts))
@@ -133,8 +135,7 @@ def _state(cell: experiments.CellFacts) -> str:
 
 def _run(options: argparse.Namespace) -> int:
     again = {"force": options.force, "retry_failed": options.retry == "failed", "wait": options.wait}
-    devices = options.device or ()
-    found = run(_read(options), options.runs, typed(), devices=devices, watcher=Printer(), **again)
+    found = run(_read(options), options.runs, typed(), watcher=Printer(), **again)
     return 3 if found.unfinished else 0
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from harness.commands import Add, telling
 from harness.commands.answers import gates
 from harness.commands.machine import Answer, add_json
-from harness.commands.options import add_history, add_wait, history_of, tell, typed, writable
+from harness.commands.options import add_history, add_wait, add_yes, history_of, tell, typed, writable
 from harness.commands.printer import Printer
 from harness.contract import FirsthitError
 from harness.experiment import toml_file
@@ -78,6 +78,7 @@ def _add_shared(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--device", action="append", metavar="NAME", help="on this device only; may be repeated")
     parser.add_argument("--force", action="store_true", help="run every cell again")
     add_wait(parser)
+    add_yes(parser)
 
 
 def _path(options: argparse.Namespace) -> Path:
@@ -87,7 +88,7 @@ def _path(options: argparse.Namespace) -> Path:
 
 
 def _prepare(options: argparse.Namespace) -> Prepared:
-    return prepare(options.config, options.plugins, options.device or (), Printer())
+    return prepare(options.config, options.plugins, options.device or (), Printer(), options.yes)
 
 
 def _lock(options: argparse.Namespace, prepared: Prepared) -> Lock:
@@ -160,7 +161,7 @@ def _tell(
 
 def _other(options: argparse.Namespace) -> Other:
     """Find the revision that --against names, before anything is run."""
-    return against.at(options.against, options.config, options.plugins, options.device or (), Printer())
+    return against.at(options.against, options.config, options.plugins, options.device or (), Printer(), options.yes)
 
 
 def _known(before: Baseline | None, other: Other | None) -> frozenset[str]:

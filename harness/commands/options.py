@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TypeVar
 
 from harness.contract import ORIGINS, PRECISIONS, FirsthitError, Surface, Variant
+from harness.experiment.size import MOST
 from harness.limits import TIMEOUT, Limit
 from harness.plugins import Catalog, find_methods
 from harness.running.trace import Caster, usable_device
@@ -78,6 +79,11 @@ def add_wait(parser: argparse.ArgumentParser) -> None:
     """Add the option that says what to do where another command writes into the folder of the results."""
     help_ = "where another command writes into the same folder, wait until it has ended"
     parser.add_argument("--wait", action="store_true", help=help_)
+
+
+def add_yes(parser: argparse.ArgumentParser) -> None:
+    """Add the option without which a large plan is refused."""
+    parser.add_argument("--yes", action="store_true", help=f"plan more than {MOST:,} cells too, if there are so many")
 
 
 def typed() -> str:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import importlib.util
-import shlex
 import textwrap
 from pathlib import Path
 
@@ -16,6 +15,7 @@ from harness.commands.machine import Answer, add_json
 from harness.commands.options import (
     add_surface,
     add_wait,
+    add_yes,
     methods_of,
     number,
     surface_of,
@@ -27,6 +27,7 @@ from harness.commands.options import (
 from harness.commands.printer import Printer
 from harness.commands.shipping import command_for
 from harness.contract import CLAIMS, PRECISIONS, FirsthitError
+from harness.escaping import shell
 from harness.limits import PIXELS, RAYS, SECONDS, SEED
 from harness.plugins import Catalog
 from harness.recommend import telling
@@ -85,6 +86,7 @@ def add_parsers(add: Add) -> None:
     add_wait(parser)
     page = "write the answer as a page with a picture and its error map: FILE.pdf, FILE.html or FILE.png"
     parser.add_argument("-o", "--output", type=Path, metavar="FILE", help=page)
+    add_yes(parser)
     add_json(parser)
     parser.set_defaults(run=_recommend)
 
@@ -108,7 +110,8 @@ def _recommend(options: argparse.Namespace) -> int | Answer:
         _check_page(page)
     catalog = methods_of(options)
     stated = wish, catalog, options.device, options.runs, _Printer()
-    found = recommend(*stated, pictured=page is not None, command=typed(), wait=options.wait)
+    pictured, wait, yes = page is not None, options.wait, options.yes
+    found = recommend(*stated, pictured=pictured, command=typed(), wait=wait, yes=yes)
     again, ship = _commands(found, options, catalog)
     beside = Beside(again, ship, page)
     code = 0 if found.contenders else NOTHING_HOLDS
@@ -147,7 +150,8 @@ def _commands(found: Recommendation, options: argparse.Namespace, catalog: Catal
     words += [word for name, value in given.items() for word in (f"--{name}", str(value))]
     words += [word for claim in options.require for word in ("--require", claim)]
     words += ["--plugins", str(options.plugins)] if options.plugins else []
-    again = shlex.join([*words, "--device", found.device.name])
+    words += ["--yes"] if options.yes else []
+    again = shell([*words, "--device", found.device.name])
     if not found.contenders:
         return again, None
     best = found.contenders[0]

@@ -60,6 +60,15 @@ def sweep(folder: Path, name: str = NEW) -> list[Path]:
     return [path for path in left if not os.path.lexists(path)]
 
 
+def sweep_below(folder: Path) -> list[Path]:
+    """Sweep a folder and those in it, and return what was removed."""
+    try:
+        inside = [path for path in sorted(folder.iterdir()) if path.is_dir() and not path.name.startswith(".")]
+    except OSError:
+        return []
+    return [path for place in (folder, *inside) for path in sweep(place)]
+
+
 def left_in(folder: Path, name: str = NEW) -> list[Path]:
     """List what `sweep` removes."""
     _swept.add((folder, name))

@@ -11,6 +11,7 @@ from harness.experiment.plan import Planned
 from harness.plugins import Catalog
 from harness.results.lock import Lock
 from harness.results.store import Row, Store
+from harness.results.writing import sweep_below
 from harness.running.due import Again, begin, due
 from harness.running.environment import describe
 from harness.running.run import Watcher
@@ -34,6 +35,7 @@ def rows_of(
     is another's, or a row cannot be stored.
     """
     store = Store(folder)
+    sweep_below(folder)
     again: Again = "everything" if force else "unfinished"
     found, begun = due(planned, store, again), None
     if found.todo:

@@ -14,8 +14,8 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
-from harness import ROOT, console, studies
-from harness.contract import CellStatus, DeviceInfo, FirsthitError
+from harness import ROOT, console, memory, studies
+from harness.contract import CellStatus, DeviceInfo
 from harness.devices.discovery import discover_devices
 from harness.devices.executor import LocalExecutor
 from harness.devices.probes import Probes
@@ -23,11 +23,13 @@ from harness.experiment import kinds, plan, reading, targets
 from harness.experiment.config import Experiment
 from harness.experiment.plan import Planned
 from harness.experiment.shipped import located
+from harness.experiment.size import cells_of, check_size
 from harness.hardcases import groups
+from harness.oracle import cache
 from harness.plugins import Catalog, find_methods
 from harness.results.lock import locked
 from harness.results.store import Row, Store
-from harness.results.writing import sweep
+from harness.results.writing import sweep_below
 from harness.running.cards import card
 from harness.running.due import UNFINISHED, Again, begin, estimate_seconds, studies_due
 from harness.running.environment import describe, probed
@@ -43,6 +45,7 @@ class Read:
     whole: Experiment
     parts: tuple[Experiment, ...]  # the config itself, or those that it includes
     catalog: Catalog
+    yes: bool  # plans of any size are run
 
 
 @dataclass(frozen=True, eq=False)
@@ -150,33 +153,40 @@ def teller(tell: Callable[[str], None] | None) -> Watcher:
     return Watcher() if tell is None else Teller(tell)
 
 
-def read(name: str | Path, plugins: Path | None = None, watcher: Watcher | None = None) -> Read:
-    """Read a config, given by path or by the name of one that firsthit ships, with a folder of further methods.
+def read(
+    name: str | Path,
+    plugins: Path | None = None,
+    devices: Sequence[str] = (),
+    watcher: Watcher | None = None,
+    yes: bool = False,
+) -> Read:
+    """Read a config, given by path or by the name of one that firsthit ships.
 
-    Raises FirsthitError where there is no such config, something in it is wrong, or it includes configs that include
-    others.
+    `plugins` is a folder of further methods; `devices` take the place of those that the config names. Raises
+    FirsthitError where there is no such config, something in it is wrong, it includes configs that include others, or
+    it has more cells than are planned without `yes` (harness.experiment.size).
     """
     catalog, hears = find_methods(plugins), watcher or Watcher()
-    whole = reading.load(located(name), catalog)
-    parts = [reading.load(path, catalog) for path in whole.included] or [whole]
-    if nested := [part.path for part in parts if part.included and part is not whole]:
-        raise FirsthitError(
-            f"{nested[0]} includes configs itself, so {whole.path} cannot include it; name them instead"
-        )
+    whole, parts = reading.load_all(located(name), catalog)
     for line in catalog.warnings:
         hears.wrong(line)
-    return Read(whole, tuple(parts), catalog)
+    parts = [part.on(devices) for part in parts]
+    for told in [check_size(part, catalog, yes=yes) for part in parts]:
+        if told:
+            hears.warned(told)
+    return Read(whole, tuple(parts), catalog, yes)
 
 
-def load(given: Read, devices: Sequence[str] = (), watcher: Watcher | None = None) -> Loaded:
-    """Look for the devices that a config names; `devices` take their place. Raises FirsthitError for a wrong name."""
-    hears = watcher or Watcher()
-    parts = [part.on(devices) for part in given.parts]
+def load(given: Read, watcher: Watcher | None = None) -> Loaded:
+    """Look for the devices that a config names. Raises FirsthitError for too many cells on the devices found."""
+    hears, parts = watcher or Watcher(), given.parts
     named = {device for part in parts for device in part.wanted_devices()}
     with hears.doing(f"looking for devices to run {given.whole.path} on"):
         found = discover_devices(named)
     made = settled(parts, found, hears)
-    return Loaded(given.whole, made.parts, given.catalog, found, made.tried)
+    for part in made.parts:
+        check_size(part, given.catalog, found, given.yes)
+    return Loaded(given.whole, made.parts, given.catalog, given.yes, found, made.tried)
 
 
 def run(
@@ -184,7 +194,6 @@ def run(
     runs: Path,
     command: str,
     *,
-    devices: Sequence[str] = (),
     force: bool = False,
     retry_failed: bool = False,
     wait: bool = False,
@@ -192,15 +201,15 @@ def run(
 ) -> Run:
     """Run every cell that has no row yet and store its row below `runs`, in a folder of the config's name.
 
-    `command` is what a reader of the results may type to get them again; `devices` take the place of those that the
-    config names. `force` runs finished cells again, `retry_failed` those that failed, timed out or crashed. Where
-    another process writes into one of the folders, `wait` waits until it has ended. A cell that fails is a row;
-    FirsthitError is raised only where no cell can be run, a folder is another's, or a result cannot be written.
+    `command` is what a reader of the results may type to get them again. `force` runs finished cells again,
+    `retry_failed` those that failed, timed out or crashed. Where another process writes into one of the folders, `wait`
+    waits until it has ended. A cell that fails is a row; FirsthitError is raised only where no cell can be run, a
+    folder is another's, or a result cannot be written.
     """
     hears = watcher or Watcher()
     folders = [runs / one.name for one in (given.whole, *given.parts)]
     with locked(folders, command, wait=wait, doing=hears.doing):
-        return _run(load(given, devices, hears), runs, command, force, retry_failed, hears)
+        return _run(load(given, hears), runs, command, force, retry_failed, hears)
 
 
 def _run(loaded: Loaded, runs: Path, command: str, force: bool, retry_failed: bool, hears: Watcher) -> Run:
@@ -217,11 +226,6 @@ def _run(loaded: Loaded, runs: Path, command: str, force: bool, retry_failed: bo
         hears.ended(ended[-1])
     rows, reused = (row for one in ended for row in one.rows), (row for one in ended for row in one.reused)
     return Run(folder, tuple(rows), tuple(reused))
-
-
-def _folders(folder: Path) -> list[Path]:
-    """List the folders in a run's folder."""
-    return [path for path in sorted(folder.iterdir()) if path.is_dir() and not path.name.startswith(".")]
 
 
 def _told(config: Path) -> str:
@@ -248,7 +252,7 @@ def _described(experiment: Experiment, command: str, environment: Mapping[str, A
 def _run_part(part: Experiment, loaded: Loaded, runs: Path, command: str, again: Again, hears: Watcher) -> Run:
     """Run the cells and studies of one config, and write its plan.json."""
     store, environment = Store(runs / part.name), describe()
-    executor = LocalExecutor(part.config.budget.timeout)
+    executor = LocalExecutor(part.config.budget.timeout, part.config.budget.memory)
     try:
         chosen = targets.devices_of(part, loaded.devices, kinds.only_rasters(part)) if part.variants else {}
         with hears.doing(_announced(part, loaded.catalog, chosen)) as tell:
@@ -258,7 +262,7 @@ def _run_part(part: Experiment, loaded: Loaded, runs: Path, command: str, again:
                 tell(f"trying the arithmetic and the clock of {info.name}")
                 tried.append(loaded.tried.get(info.name) or probed(executor, info, store.folder / "probes"))
             planned = plan.plan(part, loaded.catalog, [i for i, _ in tried], tell=tell) if part.variants else []
-        for remark in remarks(part):
+        for remark in [*remarks(part), *filter(None, [memory.unwatched()])]:
             hears.warned(remark)
         store.write_plan(
             _described(part, command, environment)
@@ -267,8 +271,7 @@ def _run_part(part: Experiment, loaded: Loaded, runs: Path, command: str, again:
         )
         _run_studies(part.config.studies, store.folder, again == "everything", hears)
         found, begun, old = begin(planned, store, again)
-        swept = [*old, *(path for place in (store.folder, *_folders(store.folder)) for path in sweep(place))]
-        if swept:
+        if swept := [*old, *sweep_below(store.folder)]:
             hears.told(f"{store.folder}: removed {len(swept)} files that killed commands left")
         for message in store.unreadable.values():
             hears.warned(f"{message}; running that cell again")
@@ -276,6 +279,8 @@ def _run_part(part: Experiment, loaded: Loaded, runs: Path, command: str, again:
         hears.starts(len(found.todo), seconds, Counter(p.cell.device for p in found.todo))
         told = hears.cell, hears.hears_builds
         rows = Runner(part.config, loaded.catalog, store, executor, environment, *told).run(found.todo, begun)
+        if reason := cache.unwritten(store.truth):
+            hears.warned(f"{reason}; the oracle's answers were kept in memory, and the next run computes them again")
     finally:
         executor.close()
     return Run(store.folder, tuple(rows), tuple(found.kept.values()))
@@ -297,7 +302,7 @@ def _device(info: DeviceInfo, found: Probes | None) -> dict[str, Any]:
 def _announced(part: Experiment, catalog: Catalog, chosen: Mapping[str, DeviceInfo | None]) -> str:
     """Say what will be run where, before anything slow is done for it."""
     here = [info for info in chosen.values() if info]
-    cells = len(plan.grid(part, catalog, here)) if part.variants else 0
+    cells = cells_of(part, catalog, here)
     where = f" on {', '.join(info.name for info in here)}" if here else ""
     return f"{part.path}: {cells} cells{where}; preparing devices and cells"
 

@@ -10,6 +10,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from harness.contract import FirsthitError
+from harness.results import sealed
 from harness.results.writing import left_in, temporary_folder
 from reports.drawing import images, style
 from reports.reading import export
@@ -110,7 +111,7 @@ def _only_ours(place: Path) -> None:
 def _listed(place: Path) -> set[str]:
     """Return the files that a site lists as its own; none where there is no list, or it is damaged."""
     try:
-        told = json.loads((place / MARK).read_bytes())
+        told = sealed.read(place / MARK)
         return {MARK, *(str(file) for file in told["files"])}
     except (OSError, ValueError, TypeError, KeyError):
         return set()
