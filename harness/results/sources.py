@@ -27,6 +27,7 @@ NOT_DECIDING = {
     "harness/running/trace.py": "casts rays to look at, and stores no row",
     "harness/running/cards.py": "copies docstrings for the report",
     "harness/cli.py": "reads the command line",
+    "harness/start.py": "starts the command",
     "harness/py.typed": "says that type checkers may read the annotations",
     "surfaces/py.typed": "says that type checkers may read the annotations",
     "harness/commands": "read options and print; what an option changes is in the config, and so in the identity",
