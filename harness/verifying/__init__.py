@@ -3,6 +3,6 @@
 A row names its surface, rays, samples and answers. So its counts, quantiles and times can be computed again, and the
 truth that it was judged by can be certified anew. Nothing is cast, and no device is opened.
 
-`checks` lists what is done: `stated` (identity and columns), `times` (samples), `answers` (arrays), `truth` (the oracle)
-and `rungs` (families). Each takes a row and returns what does not hold, or says why it cannot tell.
+`checks` lists what is done: `stated` (identity and columns), `times` (samples), `answers` (arrays), `truth` (the
+oracle) and `rungs` (families). Each takes a row and yields what does not hold, or says why it cannot tell.
 """

@@ -6,8 +6,6 @@ quantiles of the row, to the last bit.
 
 from __future__ import annotations
 
-import zipfile
-import zlib
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
@@ -15,9 +13,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from harness.accuracy.judge import FAR, NAMES, Wrong as Verdict
+from harness.accuracy.judge import FAR, NAMES
+from harness.accuracy.judge import Wrong as Verdict
 from harness.contract import RayStatus, TruthStatus
-from harness.verifying.model import CannotTell, Wrong, differing, surface_of
+from harness.results import pictures_file
+from harness.verifying.model import CannotTell, Wrong, differing, is_known, surface_of
 
 NEEDED = ("status", "truth", "wrong", "grazing", "drowned", "error", "evaluations")
 TOP = {"max": None, "p999": 0.999, "p99": 0.99, "p50": 0.5}
@@ -43,17 +43,14 @@ def arrays_of(folder: Path, row: Mapping[str, Any]) -> Arrays:
         raise CannotTell("it has no answers ray by ray")
     if row["arrays"] != f"arrays/{row['key']}.npz":
         raise ValueError(f"arrays/{row['key']}.npz is not what it names")
-    count = row["accuracy"]["size"] ** 2
-    try:
-        with np.load(folder / row["arrays"], allow_pickle=False) as stored:
-            if lacking := [name for name in NEEDED if name not in stored.files]:
-                raise CannotTell(f"its arrays lack {', '.join(lacking)}")
-            found = {name: stored[name].ravel() for name in (*NEEDED, "condition") if name in stored.files}
-    except (EOFError, zipfile.BadZipFile, zlib.error) as error:
-        raise ValueError(f"damaged: {error}") from error
-    if any(len(array) != count for array in found.values()):
-        raise ValueError(f"its arrays do not hold {count} rays")
-    return found
+    found = pictures_file.read(folder / row["arrays"])
+    if lacking := [name for name in NEEDED if name not in found]:
+        raise CannotTell(f"its arrays lack {', '.join(lacking)}")
+    if found["truth"].shape != (row["accuracy"]["size"],) * 2:
+        raise ValueError(
+            f"{row['arrays']} holds {found['truth'].shape} rays, and the row {row['accuracy']['size']} a side"
+        )
+    return {name: found[name].ravel() for name in (*NEEDED, "condition") if name in found}
 
 
 def quantiles(values: NDArray[Any]) -> dict[str, float | None]:
@@ -151,7 +148,7 @@ def _chosen(row: Mapping[str, Any]) -> Iterator[Wrong]:
         return
     if "domain_radius" in told:
         yield from differing("accuracy.domain_radius", told["domain_radius"], surface.domain.radius, 1e-12)
-    if surface.source != "a row":
+    if is_known(surface):
         radius = surface.bounding_radius or surface.domain.radius
         yield from differing("accuracy.scene_radius", told["scene_radius"], radius, 1e-12)
         feature = surface.feature_radius or radius

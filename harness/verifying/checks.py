@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-import json
 import random
 from collections import Counter, OrderedDict
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from harness.contract import FirsthitError, Surface, Truth
 from harness.oracle import cache, first_hits
+from harness.results import plan_file, sealed
 from harness.results.store import Row, Store
 from harness.verifying import answers, rungs, stated, times
 from harness.verifying import truth as truths
@@ -65,21 +65,18 @@ def folders_of(folder: Path) -> list[Path]:
     Raises FirsthitError where there is no run, or its plan cannot be read.
     """
     plan = _plan(folder)
-    parts = plan.get("include") or []
-    return [folder.parent / str(part) for part in parts] if parts else [folder]
+    parts = plan.get("include", ())
+    return [folder.parent / part for part in parts] if parts else [folder]
 
 
 def _plan(folder: Path) -> Mapping[str, Any]:
     path = folder / "plan.json"
     try:
-        plan = json.loads(path.read_text(encoding="utf-8"))
+        return plan_file.read(path)
     except FileNotFoundError:
         raise FirsthitError(f"there is no run folder {folder}; `firsthit run CONFIG` makes one under runs/") from None
-    except (OSError, ValueError, RecursionError) as error:
-        raise FirsthitError(f"{path} is damaged ({error})", exit_code=3) from None
-    if not isinstance(plan, dict):
-        raise FirsthitError(f"{path} is damaged (it is no plan)", exit_code=3)
-    return plan
+    except (OSError, ValueError) as error:
+        raise FirsthitError(f"{path} is damaged ({sealed.problem(error)})", exit_code=3) from None
 
 
 def verify(
@@ -107,23 +104,19 @@ def verify(
 
 
 def _rows_of(folder: Path, found: Verified) -> Iterator[tuple[Store, Path, Row]]:
-    """Yield a folder's rows, in the order of their files; note what cannot be read, and what its plan says otherwise."""
+    """Yield a folder's rows in the order of their files; note those that cannot be read or that its plan contradicts."""
     store, plan = Store(folder), _plan(folder)
-    slots: dict[str, str] = {}
-    listed = [*(plan.get("cells") or []), *(plan.get("families") or [])]
-    named: Counter[str] = Counter()
-    for cell in listed:
-        if isinstance(cell, dict) and isinstance(cell.get("key"), str) and isinstance(cell.get("slot"), str):
-            slots[cell["key"]] = cell["slot"]
-            named[cell["slot"]] += 1
+    listed = [*plan["cells"], *plan.get("families", ())]
+    slots = {cell["key"]: cell["slot"] for cell in listed}
+    named = Counter(cell["slot"] for cell in listed)
     for slot, count in named.items():
         if count > 1:
             found.failing.append(Failing(folder / "plan.json", slot, "file", Wrong("cells", f"{count} cells", "one")))
     there = set()
     for file in sorted((folder / "cells").glob("*.json")):
         row = store.read(file.stem)
-        if row is None or not isinstance(row.get("slot"), str):
-            why = store.unreadable.get(file.stem, "it has no slot").removeprefix(f"{file} is ")
+        if row is None:
+            why = store.unreadable.get(file.stem, "it is gone").removeprefix(f"{file} is ")
             found.rows += 1
             found.failing.append(Failing(file, slots.get(file.stem, ""), "file", Wrong("the file", why, "a row")))
             continue
@@ -177,16 +170,16 @@ class _Row:
 
     def _one(self, name: str, check: Callable[[], Iterable[Wrong]]) -> None:
         """Make one check. A row that it cannot make anything of is damaged, which is no fault of the check."""
+        wrong: list[Wrong] = []
         try:
-            wrong: Sequence[Wrong] = list(check())
+            wrong.extend(check())
+            self.found.checked[name] += 1
         except CannotTell as reason:
             self.found.not_checked[name, str(reason)] += 1
-            return
         except (FirsthitError, OSError) as error:
-            wrong = [Wrong("the row", str(error), "what can be checked")]
+            wrong.append(Wrong("the row", str(error), "what can be checked"))
         except DAMAGED as error:
-            wrong = [Wrong("the row", f"{type(error).__name__}: {error}", "values of a row")]
-        self.found.checked[name] += 1
+            wrong.append(Wrong("the row", f"{type(error).__name__}: {error}", "values of a row"))
         self.found.failing += [Failing(self.file, self.row["slot"], name, one) for one in wrong]
 
     def _answers(self) -> Iterable[Wrong]:

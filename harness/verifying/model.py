@@ -10,6 +10,8 @@ from typing import Any
 
 from harness.contract import Box, Domain, FirsthitError, Sphere, Surface, View
 
+OF_A_ROW = "a row"  # the source of a surface that the catalog here has not
+
 
 @dataclass(frozen=True)
 class Wrong:
@@ -57,7 +59,7 @@ def surface_of(row: Mapping[str, Any]) -> Surface:
     try:
         pairs = tuple(sorted((str(name), str(value)) for name, value in stated["parameters"].items()))
         domain = _domain(stated["domain"])
-        surface = Surface(str(row["surface"]), "", str(stated["formula"]), domain, "a row", row["degree"], pairs)
+        surface = Surface(str(row["surface"]), "", str(stated["formula"]), domain, OF_A_ROW, row["degree"], pairs)
     except (KeyError, TypeError, ValueError, SyntaxError, AttributeError, RecursionError, MemoryError) as error:
         raise FirsthitError(f"its identity's surface is none: {error}") from None
     try:
@@ -65,6 +67,11 @@ def surface_of(row: Mapping[str, Any]) -> Surface:
     except FirsthitError:
         return surface
     return known if known.identity == surface.identity else surface
+
+
+def is_known(surface: Surface) -> bool:
+    """Tell whether a surface that `surface_of` returned is the catalog's, so that its lengths are known."""
+    return surface.source != OF_A_ROW
 
 
 def _domain(text: str) -> Domain:

@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 from harness.accuracy import check
-from harness.contract import CellStatus, digest
+from harness.contract import CellStatus, FirsthitError, Surface, digest
+from harness.hardcases import groups
 from harness.scenes.camera import distance_of
-from harness.verifying.model import CannotTell, Wrong, differing, surface_of, view_of
+from harness.verifying.model import CannotTell, Wrong, differing, is_known, surface_of, view_of
+from surfaces.model import domain_text
 
 
 def stated(row: Mapping[str, Any]) -> Iterator[Wrong]:
@@ -28,11 +32,17 @@ def stated(row: Mapping[str, Any]) -> Iterator[Wrong]:
         yield from differing("slot", row["slot"], name)
     yield from _columns(row, identity)
     yield from _ended(row, identity)
-    if family is None and row.get("scene") is None:
+    if family is not None:
+        yield from _of_family(row)
+    elif row.get("scene") is None:
         yield from _seen(row)
 
 
 def _columns(row: Mapping[str, Any], identity: Mapping[str, Any]) -> Iterator[Wrong]:
+    if isinstance(identity.get("method"), dict):
+        names = {Path(file).parent.name for file in identity["method"]}
+        if row["method"] not in names:
+            yield Wrong("method", row["method"], f"one of {', '.join(sorted(names))}")
     for name in ("parameters", "precision"):
         if name in identity:
             yield from differing(name, row[name], identity[name])
@@ -69,23 +79,45 @@ def _ended(row: Mapping[str, Any], identity: Mapping[str, Any]) -> Iterator[Wron
             yield Wrong("status", status, f"failed: {reason}")
 
 
-def _seen(row: Mapping[str, Any]) -> Iterator[Wrong]:
-    """Yield what the columns of surface and view say otherwise than the identity."""
+def _of_family(row: Mapping[str, Any]) -> Iterator[Wrong]:
+    """Yield what a family's row says otherwise than all of its rows do. Raises CannotTell for a family unknown here."""
+    try:
+        first = groups.groups(row["family"])[0].surface
+    except FirsthitError as error:
+        raise CannotTell(str(error)) from None
+    for name, found in {"view": "none", "size": 0, "samples_per_pixel": 1, "stage": "rays", "view_set": None}.items():
+        yield from differing(name, row.get(name), found)
+    if row["identity"].get("family") == groups.identity(row["family"]):
+        yield from _of_surface(row, first)
+
+
+def _of_surface(row: Mapping[str, Any], surface: Surface) -> Iterator[Wrong]:
+    """Yield what the columns of a surface that is known here say otherwise than the surface."""
     import surfaces
     from surfaces import formula
 
+    for name, found in {
+        "surface": surface.name,
+        "surface_title": surface.title,
+        "surface_group": surface.group,
+        "formula": surface.formula,
+        "degree": formula.degree(surfaces.tape_of(surface)),
+    }.items():
+        yield from differing(name, row.get(name), found)
+    if row.get("operations") is not None:
+        yield from differing("operations", row["operations"], dict(surfaces.operations(surface)))
+
+
+def _seen(row: Mapping[str, Any]) -> Iterator[Wrong]:
+    """Yield what the columns of surface and view say otherwise than the identity."""
     try:
         surface, view = surface_of(row), view_of(row)
     except CannotTell:
         return
-    yield from differing("formula", row["formula"], surface.formula)
-    tape = surfaces.tape_of(surface)
-    yield from differing("degree", row["degree"], formula.degree(tape))
-    if row.get("operations") is not None:
-        yield from differing("operations", row["operations"], dict(surfaces.operations(surface)))
+    known = is_known(surface)
+    stated_here = replace(surface, title=row["surface_title"], group=row.get("surface_group"))
+    yield from _of_surface(row, surface if known else stated_here)
     if row.get("domain") is not None:
-        from surfaces.model import domain_text
-
         yield from differing("domain", row["domain"], domain_text(surface.domain))
     yield from differing("view", row["view"], view.name)
     yield from differing("view_set", row.get("view_set"), view.set)
@@ -93,5 +125,5 @@ def _seen(row: Mapping[str, Any]) -> Iterator[Wrong]:
     if camera:
         for name in ("azimuth", "elevation", "fov"):
             yield from differing(f"camera.{name}", camera[name], getattr(view, name))
-        if view.distance is not None or surface.source != "a row":
+        if view.distance is not None or known:
             yield from differing("camera.distance", camera["distance"], distance_of(view, surface), 1e-12)

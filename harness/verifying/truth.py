@@ -18,7 +18,7 @@ from harness.contract import UNIT_ROUNDOFF, Hits, RayStatus, Surface, Truth, Tru
 from harness.results import sources
 from harness.scenes.camera import camera_for, meets, pixel_footprint, rays_of
 from harness.verifying.answers import TOP, Arrays, quantiles
-from harness.verifying.model import CannotTell, Wrong, differing, surface_of, view_of
+from harness.verifying.model import CannotTell, Wrong, differing, is_known, surface_of, view_of
 
 ROUNDED = 1e-6  # of an error that is kept as float32
 BETWEEN = 1e-3  # of a residual or an angle, whose t is known to a float32 only
@@ -33,7 +33,7 @@ def rays_for(row: Mapping[str, Any]) -> tuple[Surface, Rays]:
     if row["stage"] == "raster":
         raise CannotTell("its rays are those of fragments, which only the device knows")
     surface, view = surface_of(row), view_of(row)
-    if surface.source == "a row" and view.distance is None:
+    if not is_known(surface) and view.distance is None:
         raise CannotTell("its eye's distance follows from a length of a surface that the catalog here has not")
     return surface, rays_of(camera_for(view, surface), row["accuracy"]["size"])
 

@@ -208,8 +208,8 @@ def _blessed(folder: Path) -> list[str]:
 
 CAMPAIGN = Campaign(
     name="kills",
-    tries="sends INT, TERM, HUP or KILL to a command, one of its workers or all of them, at a random moment, EACH times,"
-    " and then completes it",
+    tries="sends INT, TERM, HUP or KILL to a command, one of its workers or all of them, at a random moment, EACH"
+    " times, and then completes it",
     promise="no finished cell lost or run again, no half-written file, no process left behind, no traceback, no wrong"
     " exit code, no litter after the same command has completed, no other result than an undisturbed run's",
     trial=_trial,

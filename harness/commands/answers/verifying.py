@@ -89,9 +89,7 @@ def answer(found: Verified) -> Verify:
         for name, meaning in CHECKS.items()
     ]
     failing = [
-        FailingFacts(
-            str(one.file), one.slot, one.check, one.wrong.figure, str(one.wrong.stored), str(one.wrong.found)
-        )
+        FailingFacts(str(one.file), one.slot, one.check, one.wrong.figure, str(one.wrong.stored), str(one.wrong.found))
         for one in found.failing
     ]
     return Verify(found.rows, len({one.file for one in failing}), found.missing, checks, failing)
