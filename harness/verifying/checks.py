@@ -104,7 +104,7 @@ def verify(
 
 
 def _rows_of(folder: Path, found: Verified) -> Iterator[tuple[Store, Path, Row]]:
-    """Yield a folder's rows in the order of their files; note those that cannot be read or that its plan contradicts."""
+    """Yield a folder's rows in the order of their files; note those that cannot be read, or contradict its plan."""
     store, plan = Store(folder), _plan(folder)
     listed = [*plan["cells"], *plan.get("families", ())]
     slots = {cell["key"]: cell["slot"] for cell in listed}

@@ -176,7 +176,7 @@ def _check_told(what: str, name: str, told: str) -> None:
 
 
 def _is_finished(content: bytes) -> bool:
-    return json.loads(content[content.index(b"{") :])["status"] not in processes.UNFINISHED
+    return json.loads(content)["status"] not in processes.UNFINISHED
 
 
 def _complete(dice: random.Random, name: str, work: Path, ready: Path) -> None:

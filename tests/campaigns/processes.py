@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 
 from harness.devices.discovery import discover_devices
+from tests.campaigns import frame
 from tests.campaigns.frame import Fell
 
 ROOT = Path(__file__).parents[2]
@@ -130,6 +131,8 @@ class Command:
                 preexec_fn=self.limits,
             )
 
+        frame.ENDINGS.append(self.end)
+
     def processes(self) -> list[int]:
         """List the processes of the command that have not ended, the first one and all that it started."""
         mark, found = f"{MARK}={self.token}".encode(), []
@@ -216,7 +219,7 @@ def _parse(path: Path) -> None:
             for name in stored.files:
                 stored[name]
     elif path.suffix == ".json":
-        json.loads(content_of(path))
+        json.loads(path.read_text(encoding="utf-8"))
     elif path.suffix in ENDS:
         start, end = ENDS[path.suffix]
         content = path.read_bytes().strip(b"\r\n")
@@ -235,21 +238,16 @@ ENDS = {
 }
 
 
-def content_of(path: Path) -> str:
-    """Return the text of a JSON file without the line of its checksum, where it has one."""
-    return path.read_text(encoding="utf-8")
-
-
 def rows(runs: Path) -> dict[str, bytes]:
     """Return the bytes of each stored row below a folder of runs, by its path there."""
-    return {str(path.relative_to(runs)): path.read_bytes() for path in sorted(runs.glob("*/cells/*.json"))}
+    return {str(path.relative_to(runs)): path.read_bytes() for path in sorted(runs.glob("*/cells/[!.]*.json"))}
 
 
 def facts(runs: Path) -> dict[str, Any]:
     """Return what rows below a folder of runs say that no clock decides, by their paths there, with their arrays."""
     found: dict[str, Any] = {}
     for name in rows(runs):
-        row = json.loads(content_of(runs / name))
+        row = json.loads((runs / name).read_text(encoding="utf-8"))
         clockless = {key: value for key, value in row.items() if key not in ("time", "build", "seconds", "environment")}
         found[name] = {key: value for key, value in clockless.items() if key != "checksum"}
         if row["arrays"]:
