@@ -25,8 +25,8 @@ def add_parsers(add: Add) -> None:
         "verify",
         "firsthit verify runs/quick --sample all",
         "Check rows again by what they say: each row's file and key, its times by its samples, its counts and errors "
-        "by its answers ray by ray, and, of a sample of rows, the truth itself, certified anew. Nothing is cast, and no "
-        "device is needed. Exit codes: 0 all that was checked holds, 1 a value does not.",
+        "by its answers ray by ray, and, of a sample of rows, the truth itself, certified anew. Nothing is cast, and "
+        "no device is needed. Exit codes: 0 all that was checked holds, 1 a value does not.",
     )
     parser.add_argument("folders", type=Path, metavar="RUN", nargs="+", help="a folder below runs/")
     sample = "rows whose truth is certified anew: a number, a share as 1%%, or all (default: 20)"
