@@ -110,12 +110,14 @@ class Command:
     arguments: Sequence[str]
     seam: Mapping[str, Any] | None = None
     environment: Mapping[str, str] = field(default_factory=dict)
-    prefix: Sequence[str] = ()  # of the command line, as `unshare …`
+    prefix: Sequence[str] = ()  # of the command line, as `nsenter …`
     limits: Any = None  # what is called in the process before it becomes the command
+    logs: Path | None = None  # the folder that keeps what the command tells; else the one around `folder`
+    piped: bool = False  # what it tells goes through a pipe, where files may not grow
 
     def __post_init__(self) -> None:
         self.token = uuid.uuid4().hex
-        self._out, self._err = (self.folder.parent / f"{self.token}.{name}" for name in ("out", "err"))
+        self._out, self._err = ((self.logs or self.folder.parent) / f"{self.token}.{name}" for name in ("out", "err"))
         paths = [str(ROOT), *([str(SEAM)] if self.seam else [])]
         environment = {**os.environ, **self.environment, MARK: self.token, "PYTHONPATH": os.pathsep.join(paths)}
         if self.seam:
@@ -126,8 +128,8 @@ class Command:
                 cwd=self.folder,
                 env=environment,
                 stdin=subprocess.DEVNULL,
-                stdout=out,
-                stderr=err,
+                stdout=subprocess.PIPE if self.piped else out,
+                stderr=subprocess.STDOUT if self.piped else err,
                 start_new_session=True,
                 preexec_fn=self.limits,
             )
@@ -156,6 +158,8 @@ class Command:
         Raises Fell where the command hangs, shows a traceback or leaves a process behind.
         """
         try:
+            if self.piped:
+                self._out.write_bytes(self.process.communicate(timeout=within)[0])
             code = self.process.wait(within)
         except subprocess.TimeoutExpired:
             told = self._err.read_text(errors="replace")
