@@ -124,7 +124,7 @@ class Command:
             environment["FIRSTHIT_SEAM"] = json.dumps({"below": str(self.folder), **self.seam})
         with self._out.open("wb") as out, self._err.open("wb") as err:
             self.process = subprocess.Popen(
-                [*self.prefix, sys.executable, "-m", "harness.cli", *self.arguments],
+                [*self.prefix, sys.executable, "-m", "harness.start", *self.arguments],
                 cwd=self.folder,
                 env=environment,
                 stdin=subprocess.DEVNULL,
