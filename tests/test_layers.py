@@ -39,7 +39,7 @@ LAYERS = (  # from the ground up; what stands in one line does not import each o
     ("harness.accuracy",),
     ("harness.experiment",),
     ("harness.conformance", "harness.running", "harness.shipping"),
-    ("harness.gate", "harness.recommend"),
+    ("harness.gate", "harness.recommend", "harness.verifying"),
     ("firsthit",),
     ("harness.commands",),
     ("harness.cli",),

@@ -43,6 +43,7 @@ NOT_DECIDING = {
     "harness/results/schema.py": "says which columns reports make of finished rows",
     "harness/shipping": "writes programs out for others, and stores no row",
     "harness/schemas.py": "writes schemas, which no run reads",
+    "harness/verifying": "checks finished rows",
     "harness/studies": "are no cells; each has a key of its own, see harness/studies/__init__.py",
 }
 TRUTH = ("harness/contract.py", "harness/limits.py", "harness/oracle", "surfaces")
