@@ -133,7 +133,7 @@ def at(name: str, config: Path, plugins: Path | None, devices: Sequence[str], wa
     or its code cannot plan the config, and where the config cannot be planned now.
     """
     there = revision.found(name, plugins)
-    catalog = find_methods(plugins)
+    catalog = find_methods(plugins).with_stand_ins()
     experiment = reading.load(config, catalog)
     experiment = experiment.on(devices)
     found = discover_devices(experiment.wanted_devices())
@@ -192,6 +192,8 @@ def _pair(planned: Planned, row: Row, other: Other) -> _Pair:
     pair, casting = _Pair(planned, row, former), planned.casting
     if planned.device is None:
         pair.tell(Verdict.INCOMPARABLE, str(planned.skip))
+    elif planned.failure is not None:
+        pair.tell(Verdict.INCOMPARABLE, planned.failure)
     elif former is None:
         names = (planned.cell.variant.method, *planned.cell.comparison.split())
         why = [other.formers.left_out[name] for name in names if name in other.formers.left_out]

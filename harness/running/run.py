@@ -150,7 +150,7 @@ def load(
     `plugins` is a folder of further methods; `devices` take the place of those that the config names. Raises
     FirsthitError where there is no such config, something in it is wrong, or it includes configs that include others.
     """
-    catalog, hears = find_methods(plugins), watcher or Watcher()
+    catalog, hears = find_methods(plugins).with_stand_ins(), watcher or Watcher()
     whole = reading.load(located(name), catalog)
     parts = [reading.load(path, catalog) for path in whole.included] or [whole]
     if nested := [part.path for part in parts if part.included and part is not whole]:
