@@ -7,7 +7,6 @@ import importlib.metadata
 import importlib.util
 import os
 import re
-import stat
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -16,7 +15,7 @@ from harness import ROOT
 from harness.contract import CLAIMS, FirsthitError, Method, Variant
 from harness.hosting.host import Host
 from harness.limits import is_finite
-from harness.stated import NAME, guarded, line_of, problem_of, stated
+from harness.stated import NAME, guarded, line_of, problem_of, read_file, stated
 from surfaces.model import is_number
 from surfaces.words import suggestion
 
@@ -25,7 +24,6 @@ ENTRY_POINTS = "firsthit.methods"
 
 A_METHOD = "a method is a folder with a method.py and a kernel.glsl"
 
-MOST_TEXT = 4 * 2**20  # bytes of a kernel.glsl or a method.py, which no compiler takes either
 AHEAD = 4  # processes of plugins that are started while an earlier one is waited for
 
 AS_PRINTED = "as printed"  # a setting of every method that has a knob whose default is ours
@@ -202,7 +200,7 @@ class _Loader:
             raise FirsthitError(f"{folder} has a kernel.glsl but no method.py; {A_METHOD}")
         if not (folder / "kernel.glsl").exists():
             raise FirsthitError(f"{folder} has a method.py but no kernel.glsl; {A_METHOD}")
-        _read(path)
+        read_file(path)
         _check_kernel(folder / "kernel.glsl")
         if folder.parent == BUILT_IN:
             method = stated(path)
@@ -240,22 +238,9 @@ def _check_name(method: Method, folder: Path, name: str) -> None:
         raise FirsthitError(f"{at}: the method is named {method.name!r}, its folder {name!r}; they must agree")
 
 
-def _read(path: Path) -> bytes:
-    """Return what a file of a method holds. Raises FirsthitError if it cannot be read, is a pipe or is huge."""
-    try:
-        facts = path.stat()  # before it is opened: a pipe that nobody writes into never ends
-        if not (stat.S_ISREG(facts.st_mode) or stat.S_ISDIR(facts.st_mode)):
-            raise FirsthitError(f"{path}: it is no regular file; {A_METHOD}")
-        if facts.st_size > MOST_TEXT:
-            raise FirsthitError(f"{path}: it has {facts.st_size:,} bytes; at most {MOST_TEXT:,} are read")
-        return path.read_bytes()
-    except OSError as error:
-        raise FirsthitError(f"{path}: {error.strerror or error}") from None
-
-
 def _check_kernel(path: Path) -> None:
     """Raise FirsthitError, with file and line, if a kernel is no readable text, or asks for another file."""
-    read = _read(path)
+    read = read_file(path)
     try:
         text = read.decode()
     except UnicodeDecodeError as error:

@@ -5,10 +5,12 @@ from __future__ import annotations
 import contextlib
 import dataclasses
 import importlib.util
+import io
 import itertools
 import math
 import re
 import signal
+import stat
 import sys
 import threading
 import tokenize
@@ -39,6 +41,7 @@ LISTS = {
     "parameters": 'parameters=(Parameter("STEPS", 200, "steps along the ray"),)',
     "precisions": 'precisions=("float32",)',
 }
+MOST_BYTES = 4 * 2**20  # of a kernel.glsl or a method.py, more than any compiler takes
 MOST_SHOWN = 2000  # letters of a text that a method.py answers with; of a value that makes no sense a tenth of that
 MOST_NUMBERS = 100_000  # of all tables of a program together; compilers give up sooner
 MOST_COMBINATIONS = 10_000  # of the sweeps of a method's knobs, each of which `recommend` tries
@@ -119,10 +122,30 @@ def shown(value: object, most: int = MOST_SHOWN // 10, how: Callable[[Any], str]
     return text if len(text) <= most else f"{text[:most]}… ({len(text):,} letters)"
 
 
+def read_file(path: Path) -> bytes:
+    """Return what a file of a method holds.
+
+    Raises FirsthitError, with exit code 3, if it cannot be read, is a pipe or is huge.
+    """
+    try:
+        facts = path.stat()  # before it is opened: a pipe that nobody writes into never ends
+        if not (stat.S_ISREG(facts.st_mode) or stat.S_ISDIR(facts.st_mode)):
+            raise FirsthitError(f"{path}: it is no regular file", exit_code=3)
+        if facts.st_size > MOST_BYTES:
+            raise FirsthitError(f"{path}: it has {facts.st_size:,} bytes; at most {MOST_BYTES:,} are read", exit_code=3)
+        return path.read_bytes()
+    except OSError as error:
+        raise FirsthitError(f"{path}: {error.strerror or error}", exit_code=3) from None
+
+
 def line_of(path: Path, name: str) -> int:
     """Return the line of a method.py that gives METHOD its field `name`; without one, that of METHOD, or 1."""
-    with tokenize.open(path) as file:  # in the encoding that it states
-        lines = file.read().splitlines()
+    try:
+        read = read_file(path)
+        encoding, _ = tokenize.detect_encoding(io.BytesIO(read).readline)  # the one that it states
+        lines = read.decode(encoding, "replace").splitlines()
+    except (FirsthitError, SyntaxError):  # it has gone since, or was never Python
+        return 1
     begins = next((i for i, line in enumerate(lines) if re.match(r"METHOD\b", line)), 0)
     named = re.compile(rf"\b{re.escape(name)}\s*=[^=]")
     return next((i for i in range(begins, len(lines)) if named.search(lines[i])), begins) + 1

@@ -48,13 +48,17 @@ def file_section(path: Path) -> Section:
 
     Its origin is the path below the project (`methods/newton/kernel.glsl`) or else below the working folder, where
     editors find it, or the last three parts of an outer path. A method's file is read anew each time, since it may be
-    edited while a notebook runs.
+    edited while a notebook runs. Raises FirsthitError, with exit code 3, where it cannot be read any more.
     """
     full = path.absolute()
     here = next((top for top in (ROOT, Path.cwd()) if full.is_relative_to(top)), None)
     origin = full.relative_to(here) if here else Path(*full.parts[-3:])
-    text = _read(path) if path.is_relative_to(KERNELS) else path.read_text(encoding="utf-8-sig")
-    return Section(origin.as_posix(), text)
+    if path.is_relative_to(KERNELS):
+        return Section(origin.as_posix(), _read(path))
+    try:
+        return Section(origin.as_posix(), read_file(path).decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n"))
+    except UnicodeDecodeError:
+        raise FirsthitError(f"{path}: it is not written in UTF-8; save it in this encoding", exit_code=3) from None
 
 
 def files(*names: str) -> list[Section]:

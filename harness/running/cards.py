@@ -20,7 +20,9 @@ import re
 from pathlib import Path
 from typing import Any
 
+from harness.contract import FirsthitError
 from harness.plugins import BUILT_IN, Plugin
+from harness.stated import read_file
 
 _PART = re.compile(r"^\*\*(.+?)\*\*", re.MULTILINE)
 _RULE = re.compile(r" *--+(?: +--+)+")
@@ -65,8 +67,8 @@ def card(plugin: Plugin) -> dict[str, Any]:
 def _docstring(path: Path) -> str:
     """Return the docstring of a method.py; "" where it has none, or cannot be read, as a method that is not loaded."""
     try:
-        return ast.get_docstring(ast.parse(path.read_bytes())) or ""
-    except (OSError, SyntaxError, ValueError, RecursionError, MemoryError):
+        return ast.get_docstring(ast.parse(read_file(path))) or ""
+    except (FirsthitError, SyntaxError, ValueError, RecursionError, MemoryError):
         return ""
 
 
