@@ -21,6 +21,7 @@ from surfaces.model import FirsthitError as FirsthitError
 from surfaces.model import Sphere as Sphere
 from surfaces.model import Surface as Surface
 from surfaces.model import as_float32 as as_float32
+from surfaces.visible import joined, shown
 from surfaces.words import suggestion as suggestion
 
 if TYPE_CHECKING:
@@ -43,6 +44,7 @@ PROXIES: tuple[Proxy, ...] = ("box", "sphere", "tetrahedron")
 NORMALS: tuple[Normal, ...] = ("distance", "gradient", "core_circle")
 PRECISIONS: tuple[Precision, ...] = ("float32", "float64")
 UNIT_ROUNDOFF: dict[Precision, float] = {"float32": 2.0**-24, "float64": 2.0**-53}
+DEVICE_TEXT = 500  # letters of what a driver says of a device
 BASELINE = "ray_march"  # the method that speed-ups are over where a config names nothing else
 
 
@@ -304,6 +306,11 @@ class DeviceInfo:
     versions: tuple[tuple[str, str], ...]
     problem: str | None = None
     resident: int | None = None
+
+    def __post_init__(self) -> None:
+        """Show in each text what cannot be seen: a driver may say anything."""
+        for name in ("name", "title", "driver", "compiler"):
+            object.__setattr__(self, name, shown(joined(getattr(self, name)))[:DEVICE_TEXT])
 
 
 @dataclass(frozen=True, eq=False)

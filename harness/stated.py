@@ -25,7 +25,7 @@ from harness import ROOT
 from harness.contract import GENERATED, PRECISIONS, Casts, FirsthitError, MeshRecipe, Method, Parameter
 from harness.limits import Distinct, is_finite
 from surfaces.model import is_number
-from surfaces.words import suggestion
+from surfaces.words import name_problem, suggestion, title_problem
 
 NAME = re.compile("[A-Za-z][A-Za-z0-9_]*")  # of a method: a Python module's, and a part of files' names
 KNOB = re.compile("[A-Z][A-Z0-9_]*")  # a constant's name in GLSL and in OpenCL C
@@ -247,6 +247,8 @@ def problem_of(method: Method) -> str | None:
         return (
             f"name {shown(method.name)} must be letters, digits and _, and begin with a letter; rename the folder too"
         )
+    if problem := _text_problem(method):
+        return problem
     libraries = tuple(sorted(path.stem for path in LIBRARIES.glob("*.glsl")))
     named: tuple[tuple[str, str, Sequence[str], Iterable[str]], ...] = (
         ("casts", "way of casting", (method.casts,), CASTS),
@@ -283,6 +285,16 @@ def _setting_problem(method: Method) -> str | None:
     return None
 
 
+def _text_problem(method: Method) -> str | None:
+    """Say which text of a method cannot be printed in a line, and what it may hold; None where each can."""
+    names = [("name", method.name), *(("settings", name) for name in method.settings)]
+    names += [("claims", claim) for claim in sorted(method.claims)]
+    for field, name in names:
+        if problem := name_problem(name):
+            return f"{field}: {problem}"
+    return (problem := title_problem(method.source)) and f"source: {problem}"
+
+
 def _wrong_kind(method: Method) -> str | None:
     """Say which field of a method is of another kind than it must be, and what to write; None where none is."""
     for name, example in TEXTS.items():
@@ -314,12 +326,14 @@ def _knob_problem(knob: object) -> str | None:
     """Say what in the statement of a knob can mean nothing, and what to write; None where all of it makes sense."""
     if not isinstance(knob, Parameter):
         return f"it holds {shown(knob)}; give it Parameter(...)"
-    if not isinstance(knob.name, str) or not KNOB.fullmatch(knob.name):
+    if not isinstance(knob.name, str) or not KNOB.fullmatch(knob.name) or name_problem(knob.name):
         name = shown(knob.name)
         return f"the knob {name} must be capitals, digits and _, and begin with a capital, since kernels read it"
     for name, value in (("meaning", knob.meaning), ("per", "" if knob.per is None else knob.per)):
         if not isinstance(value, str):
             return f"the knob {knob.name} has {name}={shown(value)}; write a text"
+        if problem := title_problem(value):
+            return f"the knob {knob.name} has a {name}: {problem}"
     if knob.finer not in (None, "up", "down"):
         return f"the knob {knob.name} is finer {shown(knob.finer)}; write up, down or None"
     if not isinstance(knob.sweep, tuple | list):

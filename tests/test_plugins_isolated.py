@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 import surfaces
-from harness import conformance
+from harness import conformance, memory
 from harness.cli import main
 from harness.contract import FirsthitError, MeshRecipe
 from harness.gate import checked, revision
@@ -107,14 +107,14 @@ def _method(folder: Path, stated: str):
         ("accepts=lambda _: [].__getitem__(3)", "IndexError: list index out of range, in accepts=..."),
         ("accepts=lambda _: b'no'", "accepts returned b'no'; return None for a surface"),
         ("accepts=lambda _: time.sleep(99)", "accepts=... took longer than 2 s; nothing more is asked of it"),
-        ("accepts=lambda _: bytearray(2**28)", "accepts=... held 0."),
+        ("accepts=lambda _: bytearray(2**28)", "accepts=... held more than 0.5 of this machine's memory"),
         ("accepts=lambda _: (_ for _ in ()).throw(KeyboardInterrupt)", "KeyboardInterrupt, in accepts=..."),
         ("accepts=lambda _: os.write(int(sys.argv[1]), b'[]\\n')", "its process answered what is no answer"),
     ],
 )
 def test_a_function_that_does_what_it_likes_is_a_reason(tmp_path, monkeypatch, stated, words):
     monkeypatch.setattr(host, "CALL_SECONDS", 2.0)
-    monkeypatch.setattr(host, "allowed", lambda: 2e8)
+    monkeypatch.setattr(memory, "of_machine", lambda: 400_000_000)
     with pytest.raises(FirsthitError, match=re.escape(words)) as caught:
         _method(tmp_path, stated).accepts(TORUS)
     assert caught.value.exit_code == 3

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import importlib.util
-import shlex
 import textwrap
 from pathlib import Path
 
@@ -26,6 +25,7 @@ from harness.commands.options import (
 from harness.commands.printer import Printer
 from harness.commands.shipping import command_for
 from harness.contract import CLAIMS, PRECISIONS, FirsthitError
+from harness.escaping import shell
 from harness.limits import PIXELS, RAYS, SECONDS, SEED
 from harness.plugins import Catalog
 from harness.recommend import telling
@@ -148,7 +148,7 @@ def _commands(found: Recommendation, options: argparse.Namespace, catalog: Catal
     words += [word for claim in options.require for word in ("--require", claim)]
     words += ["--plugins", str(options.plugins)] if options.plugins else []
     words += ["--yes"] if options.yes else []
-    again = shlex.join([*words, "--device", found.device.name])
+    again = shell([*words, "--device", found.device.name])
     if not found.contenders:
         return again, None
     best = found.contenders[0]

@@ -15,35 +15,43 @@ import threading
 from multiprocessing.connection import Connection
 from typing import IO, Any
 
+from harness import escaping
 from harness.hosting import process
 
 COUNTED = re.compile(rb"(\d+ (warning|error)s?( and \d+ errors?)? generated\.)?")  # what clang says last
-STREAMS: dict[str, Any] = {"stdin": subprocess.DEVNULL, "stderr": subprocess.PIPE}
+LONGEST_LINE = 100_000  # bytes; a longer one is several
+STREAMS: dict[str, Any] = {"stdin": subprocess.DEVNULL, "stdout": subprocess.PIPE, "stderr": subprocess.STDOUT}
 
 
 def start(device: str) -> tuple[subprocess.Popen[bytes], Connection]:
     """Start the worker that holds `device`; return its process, and our end of the connection to it.
 
-    It shares standard output with this process and reads no input. What drivers write on standard error is handed on,
-    but for the lines that count the errors of a compiler's log, which is told elsewhere. Raises FirsthitError if no
-    process can be started.
+    It reads no input. What drivers write, and kernels that print, is handed on to standard error, but for the lines
+    that count the errors of a compiler's log, which is told elsewhere. Raises FirsthitError if no process can be started.
     """
     worker, ours = process.start("harness.devices.serving", [device], f"the worker of {device}", STREAMS)
-    threading.Thread(target=_hand_on, args=(worker.stderr,), daemon=True).start()
+    threading.Thread(target=_hand_on, args=(worker.stdout,), daemon=True).start()
     return worker, ours
 
 
-def _hand_on(errors: IO[bytes]) -> None:
-    """Write on standard error what a worker writes there, until it ends, without what only counts errors."""
-    with errors:
-        for line in errors:
+def _hand_on(said: IO[bytes]) -> None:
+    """Write on standard error what a worker writes, until it ends, without what only counts errors.
+
+    Anybody's kernel may print: nothing in its lines moves a cursor, or is a command of a CI server.
+    """
+    with said:
+        while line := said.readline(LONGEST_LINE):
             if not COUNTED.fullmatch(line.strip()):
                 with contextlib.suppress(OSError):
-                    os.write(2, line)
+                    os.write(2, escaping.output(line))
 
 
 def serve(connection: Connection, device: str) -> None:
-    """Answer (operation, arguments) with ("ok", result) or ("failed", reason) until the connection closes."""
+    """Answer (operation, arguments) until the connection closes.
+
+    An answer is ("ok", result), ("failed", reason) or, where the driver may be at fault, so that another process is to
+    take the device, ("broken", reason).
+    """
     from harness.contract import FirsthitError
     from harness.devices.interface import BuildError
     from harness.devices.worker import Worker
@@ -59,7 +67,7 @@ def serve(connection: Connection, device: str) -> None:
         except (BuildError, FirsthitError) as error:
             answer = ("failed", str(error))
         except Exception as error:  # a binding may raise anything; only this cell fails
-            answer = ("failed", f"{type(error).__name__}: {error}")
+            answer = ("broken", f"{type(error).__name__}: {error}")
         try:
             connection.send(answer)
         except ConnectionError:

@@ -161,7 +161,10 @@ def compare(checked: Checked, other: Other, only: Only, watcher: Watcher, force:
     its verdict, and raises nothing; raises FirsthitError where a row cannot be stored.
     """
     pairs = [_pair(p, checked.rows[p.key], other) for p in checked.planned]
-    name, executor = other.revision.name, LocalExecutor(checked.experiment.config.budget.timeout)
+    name, executor = (
+        other.revision.name,
+        LocalExecutor(checked.experiment.config.budget.timeout, checked.experiment.config.budget.memory),
+    )
     try:
         _run(pairs, checked, other.revision, executor, watcher, force)
         _judge(pairs, checked)

@@ -66,7 +66,7 @@ class Prepared:
         does not tell how it computes.
         """
         folder = runs / f"gate-{self.experiment.name}"
-        executor = LocalExecutor(self.experiment.config.budget.timeout)
+        executor = LocalExecutor(self.experiment.config.budget.timeout, self.experiment.config.budget.memory)
         usable = {p.device.name: p.device for p in self.planned if p.device and not p.device.problem}
         try:
             arithmetic = {}

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import codecs
 import contextlib
 import json
 import os
@@ -19,19 +18,19 @@ from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Any
 
+from harness import escaping
 from harness.contract import FirsthitError, MeshRecipe, Method, Parameter
 from harness.hosting import process
+from harness.memory import WATCHED_SECONDS, TooMuch, Watch
 from harness.stated import MOST_SHOWN, line_of, plain_answer
 
 LOAD_SECONDS = 30.0  # for a process to start and to run a method.py, with what that imports
 CALL_SECONDS = 60.0  # for one call of a method's function, as a step on a device has by default
-MEMORY = 0.5  # share of this machine's memory that a plugin's process may hold
+STOP_SECONDS = 0.5  # for a process that closed its connection to end
 MOST_ENDS = 3  # how often a process may end before nothing more is asked of its plugin
 MOST_BYTES = 16 * 2**20  # of one answer
 MOST_SAID = 64 * 2**10  # bytes that a process may print; what comes after is thrown away
-LOOK_SECONDS = 0.05  # between two looks at a process that has not answered
 STREAMS: dict[str, Any] = {"stdin": subprocess.DEVNULL, "stdout": subprocess.PIPE, "stderr": subprocess.STDOUT}
-TABLE = {code: f"\\x{code:02x}" for code in (*range(32), *range(127, 160)) if chr(code) not in "\t\n"}
 
 
 class _Gone(Exception):
@@ -49,7 +48,7 @@ class _Process:
         own = STREAMS if sys.platform == "win32" else {**STREAMS, "process_group": 0}
         self._process, self._pipe = process.start("harness.hosting.guest", [], f"the process of {about}", own)
         self._about, self._said = about, 0
-        self._decoder = codecs.getincrementaldecoder("utf-8")("backslashreplace")
+        self._watch, self._line = Watch(self._process.pid), b""
         self._output: int = self._process.stdout.fileno()
         for handle in (self._pipe.fileno(), self._output):
             os.set_blocking(handle, False)
@@ -60,7 +59,7 @@ class _Process:
         request, reply, pipe = pickle.dumps((operation, arguments)), bytearray(), self._pipe.fileno()
         end = time.monotonic() + seconds
         while not reply.endswith(b"\n"):
-            readable, writable, _ = select.select([pipe, self._output], [pipe] if request else [], [], LOOK_SECONDS)
+            readable, writable, _ = select.select([pipe, self._output], [pipe] if request else [], [], WATCHED_SECONDS)
             self._hand_on()
             try:
                 if writable:
@@ -80,32 +79,39 @@ class _Process:
                 raise _Gone(self._how_it_ended(), last=False)
             if time.monotonic() > end:
                 raise _Gone(f"took longer than {seconds:g} s", last=True)
-            if (held := _held(self._process.pid)) > allowed():
-                raise _Gone(f"held {held / 1e9:.1f} GB; at most {allowed() / 1e9:.1f} GB are given to it", last=True)
-        self._hand_on()
+            try:
+                self._watch.look()
+            except TooMuch:
+                told = f"held more than {self._watch.share:g} of this machine's memory"
+                raise _Gone(told, last=True) from None
+        self._hand_on(last=True)
         return _read(bytes(reply))
 
     def _how_it_ended(self) -> str:
         """Say how the process ended, which closed the connection."""
         try:
-            code = self._process.wait(LOOK_SECONDS * 10)
+            code = self._process.wait(STOP_SECONDS)
         except subprocess.TimeoutExpired:
             return "closed the connection to firsthit"
         how = f"signal {signal.Signals(-code).name}" if code < 0 else f"exit code {code}"
         return f"ended its process, with {how}"
 
-    def _hand_on(self) -> None:
-        """Write on standard error what the process has printed so far, escaped; of very much only the beginning."""
+    def _hand_on(self, last: bool = False) -> None:
+        """Write on standard error the lines that the process has printed so far, escaped; of very much the beginning.
+
+        With `last` a line that has no end yet is written too.
+        """
         with contextlib.suppress(OSError):  # nothing more is there
             while part := os.read(self._output, 2**16):
-                kept = part[: max(0, MOST_SAID - self._said)]
-                if kept:
-                    sys.stderr.write(self._decoder.decode(kept).translate(TABLE))
+                self._line += part[: max(0, MOST_SAID - self._said)]
                 if self._said < MOST_SAID <= self._said + len(part):
-                    sys.stderr.write(f"\nfirsthit: {self._about} prints more, which is left out\n")
+                    self._line += f"\nfirsthit: {self._about} prints more, which is left out\n".encode()
                 self._said += len(part)
-                if len(part) < 2**16:
-                    return
+        *whole, self._line = self._line.split(b"\n")
+        if last and self._line:
+            whole, self._line = [*whole, self._line], b""
+        for line in whole:
+            sys.stderr.write(escaping.output(line).decode())
 
 
 def _end(started: subprocess.Popen[bytes], pipe: Connection) -> None:
@@ -119,19 +125,6 @@ def _end(started: subprocess.Popen[bytes], pipe: Connection) -> None:
     started.wait()
     if started.stdout:
         started.stdout.close()
-
-
-def _held(pid: int) -> int:
-    """Return the bytes of memory that a process holds; 0 where the system does not say."""
-    try:
-        return int(Path(f"/proc/{pid}/statm").read_text(encoding="ascii").split()[1]) * os.sysconf("SC_PAGE_SIZE")
-    except (OSError, ValueError, IndexError):
-        return 0
-
-
-def allowed() -> float:
-    """Return the bytes of memory that a plugin's process may hold."""
-    return MEMORY * os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
 
 
 def _read(reply: bytes) -> Any:

@@ -15,6 +15,7 @@ import sys
 from collections.abc import Iterator
 from multiprocessing import Pipe
 from multiprocessing.connection import Connection
+from pathlib import Path
 from typing import Any
 
 
@@ -55,8 +56,10 @@ def _not_interrupted() -> Iterator[None]:
 
 
 def die_with_parent() -> None:
-    """Let this process be killed when the one that started it ends; only Linux can do so."""
+    """End this process when its parent ends, and before it where the system runs out of memory; only Linux can do so."""
     if sys.platform == "linux":
         pr_set_pdeathsig = 1
         with contextlib.suppress(OSError):
             ctypes.CDLL(None).prctl(pr_set_pdeathsig, signal.SIGKILL)
+        with contextlib.suppress(OSError):
+            Path("/proc/self/oom_score_adj").write_text("1000", encoding="ascii")

@@ -6,6 +6,7 @@ constants that generated sections define. The last section is a program's entry 
 
 from __future__ import annotations
 
+import io
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
@@ -29,6 +30,7 @@ from harness.contract import (
 )
 from harness.contract import Language as Language
 from harness.kernels.complaints import recursion
+from harness.stated import read_file
 from surfaces.words import suggestion
 
 KERNELS = Path(__file__).parent / "glsl"
@@ -56,9 +58,10 @@ def file_section(path: Path) -> Section:
     if path.is_relative_to(KERNELS):
         return Section(origin.as_posix(), _read(path))
     try:
-        return Section(origin.as_posix(), read_file(path).decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n"))
+        text = io.TextIOWrapper(io.BytesIO(read_file(path)), encoding="utf-8-sig").read()
     except UnicodeDecodeError:
         raise FirsthitError(f"{path}: it is not written in UTF-8; save it in this encoding", exit_code=3) from None
+    return Section(origin.as_posix(), text)
 
 
 def files(*names: str) -> list[Section]:

@@ -14,7 +14,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
-from harness import ROOT, console, studies
+from harness import ROOT, console, memory, studies
 from harness.contract import CellStatus, DeviceInfo
 from harness.devices.discovery import discover_devices
 from harness.devices.executor import LocalExecutor
@@ -229,7 +229,7 @@ def _described(experiment: Experiment, command: str, environment: Mapping[str, A
 def _run_part(part: Experiment, loaded: Loaded, runs: Path, command: str, again: Again, hears: Watcher) -> Run:
     """Run the cells and studies of one config, and write its plan.json."""
     store, environment = Store(runs / part.name), describe()
-    executor = LocalExecutor(part.config.budget.timeout)
+    executor = LocalExecutor(part.config.budget.timeout, part.config.budget.memory)
     try:
         chosen = targets.devices_of(part, loaded.devices, kinds.only_rasters(part)) if part.variants else {}
         with hears.doing(_announced(part, loaded.catalog, chosen)) as tell:
@@ -239,7 +239,7 @@ def _run_part(part: Experiment, loaded: Loaded, runs: Path, command: str, again:
                 tell(f"trying the arithmetic and the clock of {info.name}")
                 tried.append(loaded.tried.get(info.name) or probed(executor, info, store.folder / "probes"))
             planned = plan.plan(part, loaded.catalog, [i for i, _ in tried], tell=tell) if part.variants else []
-        for remark in remarks(part):
+        for remark in [*remarks(part), *filter(None, [memory.unwatched()])]:
             hears.warned(remark)
         store.write_plan(
             _described(part, command, environment)
