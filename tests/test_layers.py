@@ -28,6 +28,7 @@ LAYERS = (  # from the ground up; what stands in one line does not import each o
     ("harness.schemas",),
     ("harness.contract", "harness.__init__"),
     ("harness.stated",),
+    ("harness.hosting",),
     ("harness.plugins", "harness.results"),
     ("harness.terminal",),
     ("harness.console", "harness.hardcases"),

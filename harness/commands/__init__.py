@@ -14,7 +14,11 @@ from typing import Protocol
 
 QUIET = "write errors and final results only"
 VERBOSE = "write every cell and check, also those that were skipped or reused, and what compilers say"
-PLUGINS = "a folder of further methods, one folder each, or the folder of one; stands before or after the command"
+PLUGINS = (
+    "a folder of further methods, one folder each, or the folder of one; stands before or after the command. "
+    "Plugins, installed ones too, are programs that run as you, with your rights: what goes wrong in one costs its own "
+    "rows, but nothing keeps it from your files"
+)
 
 GROUPS: dict[str, dict[str, str]] = {
     "experiment": {

@@ -156,7 +156,7 @@ def imported(file: Path, roots: list[tuple[Path, str | None]]) -> list[Path]:
     """List the files below `roots` that a Python file imports, at its top or in functions; none where it is broken."""
     try:
         tree = ast.parse(file.read_bytes())
-    except (SyntaxError, ValueError):  # then the method is not loaded
+    except (SyntaxError, ValueError, RecursionError, MemoryError):  # then the method is not loaded
         return []
     found: list[Path] = []
     for names, level in _imports(tree):
