@@ -151,9 +151,9 @@ def every(value: Any) -> Any:
 
 
 def whole(value: Any) -> Any:
-    """Return a value as JSON has it whose texts can be written as UTF-8: halves of characters are shown."""
+    """Return a value as JSON has it whose texts can be written as UTF-8: a half of a character becomes U+FFFD."""
     if isinstance(value, str):
-        return _HALVES.sub(lambda found: shown(found[0]), value)
+        return _HALVES.sub("\ufffd", value)
     if isinstance(value, dict):
         return {whole(key): whole(item) for key, item in value.items()}
     return [whole(item) for item in value] if isinstance(value, list) else value

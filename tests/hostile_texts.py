@@ -169,13 +169,30 @@ class Page(HTMLParser):
         return "\n".join([*self.texts, *told, *self.scripts])
 
 
-def harmless_page(page: Page, own: set[tuple[str, str]], schemes: tuple[str, ...] = ("data:", "mailto:")) -> None:
-    """Raise Fell where a page has an element or an attribute that is not of `own`, or a link to elsewhere."""
+OURS = """
+    a alt aria-current aria-hidden aria-label aria-pressed autocomplete b body button caption charset circle class
+    clip-path clip-rule clippath code colspan content cx cy d data-columns data-error data-kind data-level
+    data-method data-methods data-of data-series data-title data-v data-won data-zoom dd decoding defer defs details
+    div dl download dt figcaption figure fill fill-rule form g h1 h2 h3 h4 head header height hidden href html i id
+    img label lang li line link main meta name nav noscript ol open opacity option p path pattern patternunits
+    points polygon polyline pre r rect rel role rowspan scope script section select small span src stroke
+    stroke-width strong style summary svg tabindex table tbody td text text-anchor th thead time title tr transform
+    type ul use value version viewbox width x x1 x2 xlink:href xmlns xmlns:xlink y y1 y2
+"""  # the elements and attributes of our pages
+_OURS = frozenset(OURS.split())
+
+
+def harmless_page(page: Page) -> None:
+    """Raise Fell where a page has an element or an attribute that is none of OURS, a link to a script or a comment."""
     for tag, attributes in page.elements:
-        for name, value in {"": "", **attributes}.items():
-            if (tag, name) not in own:
+        for name, value in {tag: "", **attributes}.items():
+            if name not in _OURS:
                 raise Fell(f"<{tag} {name}={value!r}> is none of ours")
-            if name in ("href", "src") and ":" in (value or "").split("/")[0] and not (value or "").startswith(schemes):
+            if name in ("href", "src") and not re.match(
+                r"data:|mailto:|#|(\.\./)?[a-z./]+[a-zA-Z0-9.#/_-]*$", value or ""
+            ):
+                raise Fell(f"a link to {value!r}")
+            if name in ("href", "src") and (value in ("x", "") or re.match(r"(java|vb)?script:", value or "", re.I)):
                 raise Fell(f"a link to {value!r}")
     if page.comments:
         raise Fell(f"a comment {page.comments[0]!r}")
