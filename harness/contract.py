@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 from enum import IntEnum, StrEnum
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-from harness.limits import AZIMUTH, DISTANCE, ELEVATION, FIELD_OF_VIEW, POSITION, hold
+from harness.limits import AZIMUTH, DISTANCE, ELEVATION, FIELD_OF_VIEW, POSITION, Name, hold
 from surfaces.model import Box as Box
 from surfaces.model import Domain as Domain
 from surfaces.model import FirsthitError as FirsthitError
@@ -215,13 +215,13 @@ class View:
     Raises FirsthitError for a value that is no number, or outside the limits that harness/limits.py states.
     """
 
-    name: str
+    name: Annotated[str, Name()]
     azimuth: Annotated[float, AZIMUTH] = 30.0
     elevation: Annotated[float, ELEVATION] = 30.0
     fov: Annotated[float, FIELD_OF_VIEW] = 30.0
     distance: Annotated[float, DISTANCE] | None = None
     target: Point | None = None
-    set: str | None = None
+    set: Annotated[str, Name()] | None = None
 
     def __post_init__(self) -> None:
         hold(self)

@@ -23,7 +23,7 @@ LAYERS = (  # from the ground up; what stands in one line does not import each o
     ("surfaces.catalog", "surfaces.families", "surfaces.forms", "surfaces.gallery"),
     ("surfaces",),  # the package itself
     ("surfaces.files",),
-    ("harness.escaping", "harness.limits"),
+    ("harness.escaping", "harness.limits", "harness.memory"),
     ("harness.schemas",),
     ("harness.contract", "harness.__init__"),
     ("harness.stated",),

@@ -17,6 +17,7 @@ import threading
 from collections.abc import Iterator
 from multiprocessing import Pipe
 from multiprocessing.connection import Connection
+from pathlib import Path
 from typing import IO, Any
 
 from harness import escaping
@@ -79,14 +80,21 @@ def _not_interrupted() -> Iterator[None]:
 
 
 def _die_with_parent() -> None:
+    """End this process when its parent ends, and before it where the system runs out of memory."""
     if sys.platform == "linux":
         pr_set_pdeathsig = 1
         with contextlib.suppress(OSError):
             ctypes.CDLL(None).prctl(pr_set_pdeathsig, signal.SIGKILL)
+        with contextlib.suppress(OSError):
+            Path("/proc/self/oom_score_adj").write_text("1000", encoding="ascii")
 
 
 def serve(connection: Connection, device: str) -> None:
-    """Answer (operation, arguments) with ("ok", result) or ("failed", reason) until the connection closes."""
+    """Answer (operation, arguments) until the connection closes.
+
+    An answer is ("ok", result), ("failed", reason) or, where the driver may be at fault, so that another process is to
+    take the device, ("broken", reason).
+    """
     from harness.contract import FirsthitError
     from harness.devices.interface import BuildError
     from harness.devices.worker import Worker
@@ -102,7 +110,7 @@ def serve(connection: Connection, device: str) -> None:
         except (BuildError, FirsthitError) as error:
             answer = ("failed", str(error))
         except Exception as error:  # a binding may raise anything; only this cell fails
-            answer = ("failed", f"{type(error).__name__}: {error}")
+            answer = ("broken", f"{type(error).__name__}: {error}")
         try:
             connection.send(answer)
         except ConnectionError:
