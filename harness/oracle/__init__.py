@@ -67,8 +67,8 @@ def first_hits(surface: Surface, rays: NDArray[np.float32], t_min: float = 0.0) 
 def cached_first_hits(surface: Surface, rays: NDArray[np.float32], folder: Path, t_min: float = 0.0) -> Truth:
     """Return `first_hits`, from a file in `folder` if it is stored there.
 
-    The file's name covers the surface, the rays, t_min and the oracle's own files. A damaged file is replaced. Raises
-    FirsthitError as `first_hits`.
+    The file's name covers the surface, the rays, t_min and the oracle's own files. A damaged file is replaced; where
+    none can be written, `cache.unwritten` says so. Raises FirsthitError as `first_hits`.
     """
     from harness.oracle import cache
 

@@ -266,6 +266,7 @@ class Kind(ABC):
     def question(self, cell: Cell, config: Config, timed: bool) -> dict[str, Any]:
         """Return what the cell asks, JSON-able: the part of its identity that programs do not hold."""
         budget = dataclasses.asdict(config.budget) | {"seed": config.seed}
+        del budget["memory"]  # a limit of the machine, not of the answer
         return {
             "surface": cell.surface.identity,
             "view": dataclasses.asdict(cell.view),
