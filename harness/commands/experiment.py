@@ -20,6 +20,7 @@ from harness.results.begun import Begun
 from harness.results.history import past_of
 from harness.results.store import Row, Store
 from harness.running.due import due, estimates
+from harness.running.failures import first_line
 from harness.running.run import Loaded, Read, load, read, remarks, run
 
 FIGURES, TABLES = ("svg", "pdf", "png"), ("latex", "csv", "markdown")  # forms; reports.for_papers.files writes them
@@ -101,17 +102,25 @@ def _read(options: argparse.Namespace) -> Read:
 def _plan(options: argparse.Namespace) -> int | Answer:
     """Tell each config's cells, and how long those that must run will take."""
     loaded = load(_read(options), Printer())
-    parts = [_planned(part, loaded, options.runs) for part in loaded.parts]
+    made = [_planned(part, loaded, options.runs) for part in loaded.parts]
+    parts = [facts for facts, _ in made]
+    failures = dict.fromkeys(reason for _, reasons in made for reason in reasons)
+    for reason in failures:
+        tell(f"firsthit: {reason}")
+    code = 3 if failures else 0
     if options.json:
-        return Answer(experiments.Plan(parts))
+        return Answer(experiments.Plan(parts), code)
     for part in parts:
         print(console.table(("key", "cell", "state"), [(cell.key, cell.slot, _state(cell)) for cell in part.cells]))
         print(f"{part.config}: {len(part.cells)} cells, {part.to_run} to run, about {console.duration(part.seconds)}")
-    return 0
+    return code
 
 
-def _planned(part: config.Experiment, loaded: Loaded, runs: Path) -> experiments.PlanFacts:
-    """Say which cells a config has, and which have a row below `runs`; on standard error what domains leave out."""
+def _planned(part: config.Experiment, loaded: Loaded, runs: Path) -> tuple[experiments.PlanFacts, list[str]]:
+    """Say which cells a config has, and which have a row below `runs`; on standard error what domains leave out.
+
+    The second part has the reasons of the cells that fail before they run.
+    """
     for told in remarks(part):
         tell(f"firsthit: {told}")
     with console.doing(f"preparing the cells of {part.path}") as tell_step:
@@ -119,7 +128,7 @@ def _planned(part: config.Experiment, loaded: Loaded, runs: Path) -> experiments
     store = Store(runs / part.name)
     found = due(planned, store, asked=Begun(store.folder).again)
     seconds = estimates(found.todo, store, part.config.budget.seconds)
-    return experiments.PlanFacts(
+    facts = experiments.PlanFacts(
         str(part.path),
         part.config.title,
         str(store.folder),
@@ -127,10 +136,12 @@ def _planned(part: config.Experiment, loaded: Loaded, runs: Path) -> experiments
         len(found.todo),
         sum(seconds.values()),
     )
+    return facts, [p.failure for p in planned if p.failure is not None]
 
 
 def _state(cell: experiments.CellFacts) -> str:
-    return {"done": f"done: {cell.status}", "skip": f"skip: {cell.reason}"}.get(cell.state, cell.state)
+    waits = f"fails: {first_line(cell.reason)}" if cell.reason else "to run"
+    return {"done": f"done: {cell.status}", "skip": f"skip: {cell.reason}"}.get(cell.state, waits)
 
 
 def _run(options: argparse.Namespace) -> int:

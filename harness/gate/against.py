@@ -137,7 +137,7 @@ def at(
     no such revision or its code cannot plan the config, and where the config cannot be planned now.
     """
     there = revision.found(name, plugins)
-    catalog = find_methods(plugins)
+    catalog = find_methods(plugins).with_stand_ins()
     experiment = reading.load(config, catalog)
     experiment = experiment.on(devices)
     check_size(experiment, catalog, yes=yes)
@@ -202,6 +202,8 @@ def _pair(planned: Planned, row: Row, other: Other) -> _Pair:
     pair, casting = _Pair(planned, row, former), planned.casting
     if planned.device is None:
         pair.tell(Verdict.INCOMPARABLE, str(planned.skip))
+    elif planned.failure is not None:
+        pair.tell(Verdict.INCOMPARABLE, planned.failure)
     elif former is None:
         names = (planned.cell.variant.method, *planned.cell.comparison.split())
         why = [other.formers.left_out[name] for name in names if name in other.formers.left_out]

@@ -103,7 +103,10 @@ class Checked(Prepared):
         return {(slot_of(p), p.cell.device) for p in self.planned if self.rows[p.key]["status"] in UNFINISHED}
 
     def judged(self, before: Baseline) -> list[Judged]:
-        """Judge every row against a baseline; the rows of devices that are not here are incomparable."""
+        """Judge every row against a baseline.
+
+        The rows of devices that are not here are incomparable, and so are those of methods that cannot be asked.
+        """
         methods = {slot_of(p): p.cell.variant.method for p in self.planned}
         absent = [
             Judged(slot_of(p), p.cell.device, p.cell.variant.method, Verdict.INCOMPARABLE, str(p.skip))
@@ -111,7 +114,9 @@ class Checked(Prepared):
             if p.device is None
         ]
         gate = self.experiment.config.gate
-        return judge(self.now, before, methods, tolerances_of(gate.figures, gate.last_bits)) + absent
+        told = judge(self.now, before, methods, tolerances_of(gate.figures, gate.last_bits))
+        failures = {(slot_of(p), p.cell.device): p.failure for p in self.planned if p.failure}
+        return [_failed(one, failures.get((one.slot, one.device))) for one in told] + absent
 
     def blessed(self, reason: str) -> Baseline:
         """Return what was found as a baseline that says when, why and at which commit it was blessed.
@@ -135,6 +140,13 @@ class Checked(Prepared):
         return dataclasses.replace(self.now, devices=devices)
 
 
+def _failed(judged: Judged, failure: str | None) -> Judged:
+    """Return the verdict on a row: incomparable if its cell failed, for `failure`, before it ran."""
+    if failure is None:
+        return judged
+    return dataclasses.replace(judged, verdict=Verdict.INCOMPARABLE, reason=failure, changes=())
+
+
 def prepare(
     config: Path, plugins: Path | None, devices: Sequence[str], watcher: Watcher, yes: bool = False
 ) -> Prepared:
@@ -144,7 +156,7 @@ def prepare(
     names. `watcher` is told of warnings. Raises FirsthitError where the config cannot be planned, or has more cells
     than are planned without `yes` (harness.experiment.size).
     """
-    catalog = find_methods(plugins)
+    catalog = find_methods(plugins).with_stand_ins()
     experiment = reading.load(config, catalog)
     for line in catalog.warnings:
         watcher.wrong(line)

@@ -21,6 +21,7 @@ from harness.results import git
 from harness.results.writing import temporary_folder
 
 EXPORT = Path(__file__).with_name("export.py")
+PLAN_SECONDS = 1800.0  # for the other revision's code to make all programs; a method.py of it may never end
 SUBMODULE = "160000"  # the mode of its entry in a tree
 ALONE = ("-c", "core.hooksPath=/dev/null", "-c", "core.fsmonitor=false", "-c", "core.splitIndex=false")
 
@@ -126,7 +127,13 @@ def programs_at(
         ]
         command = [sys.executable, "-c", EXPORT.read_text(encoding="utf-8"), *arguments]
         environment = {**os.environ, "PYTHONPATH": os.pathsep.join([str(code), *_own(revision, tree)])}
-        ran = subprocess.run(command, cwd=code, env=environment, capture_output=True, text=True, check=False)
+        options: dict[str, Any] = {"cwd": code, "env": environment, "capture_output": True, "text": True}
+        try:
+            ran = subprocess.run(command, check=False, timeout=PLAN_SECONDS, errors="backslashreplace", **options)
+        except subprocess.TimeoutExpired:
+            reason = f"it took longer than {PLAN_SECONDS:g} s, as a method.py does that never ends"
+            message = f"--against {revision.name}: its code cannot plan {config}: {reason}"
+            raise FirsthitError(message, exit_code=3) from None
         written = arrays / "cells.json"
         if ran.returncode or not written.is_file():
             reason = (ran.stderr.strip().splitlines() or ["no reason given"])[-1].replace(f"{tree}/", "")

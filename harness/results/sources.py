@@ -43,6 +43,7 @@ NOT_DECIDING = {
     "harness/results/schema.py": "says which columns reports make of finished rows",
     "harness/shipping": "writes programs out for others, and stores no row",
     "harness/schemas.py": "writes schemas, which no run reads",
+    "harness/verifying": "checks finished rows",
     "harness/studies": "are no cells; each has a key of its own, see harness/studies/__init__.py",
 }
 TRUTH = ("harness/contract.py", "harness/limits.py", "harness/oracle", "surfaces")
@@ -155,7 +156,7 @@ def imported(file: Path, roots: list[tuple[Path, str | None]]) -> list[Path]:
     """List the files below `roots` that a Python file imports, at its top or in functions; none where it is broken."""
     try:
         tree = ast.parse(file.read_bytes())
-    except (SyntaxError, ValueError):  # then the method is not loaded
+    except (SyntaxError, ValueError, RecursionError, MemoryError):  # then the method is not loaded
         return []
     found: list[Path] = []
     for names, level in _imports(tree):

@@ -72,4 +72,4 @@ def estimates(todo: Iterable[Planned], store: Store, budget_seconds: float) -> d
     """Estimate the seconds of each cell, by its key: as many as its slot took before, else the whole budget's."""
     before: dict[str, float] = {row["slot"]: row["seconds"] for row in store.rows()}
     typical = budget_seconds + PREPARING
-    return {p.key: before.get(p.cell.slot, 0.0 if p.skip else typical) for p in todo}
+    return {p.key: before.get(p.cell.slot, 0.0 if p.skip or p.failure else typical) for p in todo}

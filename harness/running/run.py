@@ -166,7 +166,7 @@ def read(
     FirsthitError where there is no such config, something in it is wrong, it includes configs that include others, or
     it has more cells than are planned without `yes` (harness.experiment.size).
     """
-    catalog, hears = find_methods(plugins), watcher or Watcher()
+    catalog, hears = find_methods(plugins).with_stand_ins(), watcher or Watcher()
     whole, parts = reading.load_all(located(name), catalog)
     for line in catalog.warnings:
         hears.wrong(line)

@@ -104,6 +104,9 @@ class Runner:
                 if planned.skip is not None:
                     rows.append(self._finish(planned, None, CellStatus.SKIPPED, planned.skip))
                     continue
+                if planned.failure is not None:
+                    rows.append(self._finish(planned, None, CellStatus.FAILED, planned.failure))
+                    continue
                 state = None
                 try:
                     assert planned.device
