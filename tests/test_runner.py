@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 
+from harness.results import owner
 from harness.results.begun import Begun
 
 from .conftest import usable_devices
@@ -134,8 +135,12 @@ def test_killing_the_runner_loses_and_repeats_no_finished_cell(tmp_path, config)
     finished = {p.name: p.read_bytes() for p in cells_folder.glob("*.json")}
     assert 3 <= len(finished) < 8
     wait_for(lambda: not any(map(is_running, orphans)), 10.0)
+    litter = cells_folder / f".new-{owner.machine()}-{2**22 + 1}-1-abcdefgh.json"  # of a process that cannot be
+    litter.touch()
     again = run("run", path, "--runs", runs)
     assert again.returncode == 0, again.stderr
+    assert "that killed commands left" in again.stdout
+    assert not litter.exists()
     assert f"{8 - len(finished)} cells run, {len(finished)} reused" in again.stdout
     assert {name: (cells_folder / name).read_bytes() for name in finished} == finished
     found = rows(runs / "t")[1]
