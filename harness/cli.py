@@ -219,8 +219,8 @@ def _stopped(options: argparse.Namespace) -> str:
     retried = getattr(options, "retry", None)
     less = "--force" if options.force else "--retry" if retried else ""
     same = f"the command without {less}" if less else "the same command"
-    steps = ", and so are checks and rounds of those that were begun" if options.command in TIMED else ""
-    return f"stopped; finished cells are kept{steps}; {same} goes on from there"
+    steps = ", with what was checked and timed of others" if options.command in TIMED else ""
+    return f"stopped; finished cells are kept{steps}, and {same} goes on from there"
 
 
 def _flush() -> None:

@@ -92,10 +92,10 @@ def sit(tmp_path):
     planned = plan.plan(experiment, catalog, [DEVICE])
     assert [p.skip for p in planned] == [None] * 3
 
-    def sit(stop=None, again="nothing", ms=1.0, outcome=None):
+    def sit(stop=None, again="nothing", ms=1.0, outcome=None, cells=3):
         log, store = [], Store(tmp_path / "run")
         found = outcome or Outcome(5.0, None, SUMMARY, {"t": [1.0, 2.0]})
-        chosen = [dataclasses.replace(p, casting=Casting(p.key, log, found)) for p in planned]
+        chosen = [dataclasses.replace(p, casting=Casting(p.key, log, found)) for p in planned[:cells]]
         todo, kept, _ = begin(chosen, store, again)
         executor = Executor(log, stop, ms)
         runner = Runner(experiment.config, catalog, store, executor, {"commit": None, "dirty": False}, lambda *_: None)
@@ -166,6 +166,17 @@ def test_samples_of_one_round_were_taken_in_turn(sit):
     assert taken[0][-1] == early
     assert rounds[early] == [0, 1, 2, 3, 4, *range(5, 12)]
     assert {tuple(rounds[key]) for key in rounds if key != early} == {(0, 1, 2, 3, *range(5, 13))}
+
+
+def test_cells_that_are_taken_up_apart_share_no_later_round(sit):
+    sit(3 + 3 * 4)
+    ((row,), log) = sit(cells=1)
+    assert (row["time"]["rounds"], count(log, "check")) == ([*range(12)], 0)
+    rows, log = sit()
+    assert (len(rows), count(log, "check")) == (2, 0)
+    for other in rows:
+        assert other["time"]["session"] == row["time"]["session"]
+        assert other["time"]["rounds"] == [*range(4), *range(12, 20)]
 
 
 def test_a_changed_cell_begins_anew(sit):

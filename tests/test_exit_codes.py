@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from harness.cli import EXIT_CODES, main
+from harness.stopping import Stopped, code_of, stoppable
 
 from .conftest import usable_devices
 from .synthetic_run import write_run
@@ -85,11 +86,11 @@ def _members(session):
     return found
 
 
-def _stopped(folder, arguments, reached, begun=lambda: True):
-    """Start a command, wait for a line on stderr that `reached` knows and until it has `begun`, and type Ctrl-C.
+def _stopped(folder, arguments, reached, begun=lambda: True, number=signal.SIGINT):
+    """Start a command, wait for a line on stderr that `reached` knows and until it has `begun`, and send a signal.
 
-    Returns its exit code and stderr. As on a terminal, the signal goes to the workers too. No process of the command
-    may stay behind.
+    Returns its exit code and stderr. As of a terminal's Ctrl-C, the signal goes to the workers too. No process of the
+    command may stay behind.
     """
     process = subprocess.Popen(
         [*COMMAND, *map(str, arguments)],
@@ -110,7 +111,7 @@ def _stopped(folder, arguments, reached, begun=lambda: True):
             assert process.poll() is None, "it ended before it was stopped"
             time.sleep(0.01)
         time.sleep(0.3)  # into the next step
-        os.killpg(process.pid, signal.SIGINT)
+        os.killpg(process.pid, number)
         told += process.communicate(timeout=120)[1]
         assert not _members(process.pid)
     finally:
@@ -121,18 +122,55 @@ def _stopped(folder, arguments, reached, begun=lambda: True):
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="looks for processes in /proc")
-@pytest.mark.parametrize("command", ["run", "gate"])
-def test_ctrl_c_in_a_step_of_a_worker_is_130_and_keeps_what_finished(endless, command):
+@pytest.mark.parametrize(("command", "number"), [("run", signal.SIGTERM), ("gate", signal.SIGHUP)])
+def test_a_signal_in_a_step_of_a_worker_has_its_code_and_keeps_what_finished(endless, command, number):
     arguments = ["--plugins", "plugins", command, "endless.toml"]
     code, told = _stopped(endless, arguments, lambda told: "[2/4]" in told or "[3/4]" in told)
     assert code == 130
-    assert told.splitlines()[-1] == (
-        "firsthit: stopped; finished cells are kept, and the same command goes on from there"
-    )
+    kept = "finished cells are kept" + ", with what was checked and timed of others" * (command == "run")
+    assert told.splitlines()[-1] == f"firsthit: stopped; {kept}, and the same command goes on from there"
     assert len(list(endless.glob("runs/*/cells/*.json"))) >= 2, "what the message says is true"
-    code, told = _stopped(endless, [*arguments, "--force"], lambda told: "[2/4]" in told or "[3/4]" in told)
-    assert code == 130
+    assert not [path for path in endless.rglob(".*") if path.name != ".lock"]
+    again = [*arguments, "--force"]
+    code, told = _stopped(endless, again, lambda told: "[2/4]" in told or "[3/4]" in told, number=number)
+    assert code == 128 + number
     assert "the command without --force goes on from there" in told
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="signals of Unix")
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_the_second_signal_ends_at_once_and_an_echo_of_the_first_does_not(number):
+    code = (
+        "import time; from harness.stopping import stoppable\n"
+        "with stoppable():\n"
+        "    try: print('begun', flush=True); time.sleep(60)\n"
+        "    except KeyboardInterrupt: print('asked', flush=True); time.sleep(60)\n"
+    )
+    process = subprocess.Popen(
+        [sys.executable, "-c", code], env=_environment(), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+    assert process.stdout.readline() == "begun\n"
+    process.send_signal(number)
+    assert process.stdout.readline() == "asked\n"
+    process.send_signal(number)
+    with pytest.raises(subprocess.TimeoutExpired):
+        process.wait(0.7)
+    process.send_signal(number)
+    assert (process.wait(30), process.stderr.read()) == (128 + number, "")
+
+
+def test_a_signal_that_the_caller_ignores_stays_ignored():
+    before = signal.signal(signal.SIGHUP, signal.SIG_IGN)  # as nohup does
+    try:
+        with stoppable():
+            os.kill(os.getpid(), signal.SIGHUP)
+            assert signal.getsignal(signal.SIGHUP) is signal.SIG_IGN
+            with pytest.raises(Stopped) as stopped:
+                os.kill(os.getpid(), signal.SIGTERM)
+        assert code_of(stopped.value) == 143
+        assert signal.getsignal(signal.SIGTERM) is signal.SIG_DFL
+    finally:
+        signal.signal(signal.SIGHUP, before)
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="looks for processes in /proc")
@@ -208,4 +246,6 @@ def test_help_names_every_exit_code(capsys):
     assert caught.value.code == 0
     out = capsys.readouterr().out
     assert EXIT_CODES in out
-    assert [line.split()[0] for line in EXIT_CODES.splitlines()[1:]] == ["0", "1", "2", "3", "130", "141"]
+    assert [line.split()[0] for line in EXIT_CODES.splitlines()[1:]] == [
+        *["0", "1", "2", "3", "129", "130", "141", "143"]
+    ]

@@ -16,6 +16,7 @@ from harness.plugins import Catalog, find_methods
 from harness.recommend import candidates, search, telling
 from harness.recommend.model import Cause, Fallen, Wish
 from harness.recommend.search import Search, certified_error
+from harness.results.lock import Lock
 from harness.running.run import Watcher
 from harness.scenes.camera import camera_for, rays_of, scene_radius
 
@@ -48,8 +49,9 @@ def _search(tmp_path, info, surface, methods=METHODS, pictured=False, **wished):
     executor = LocalExecutor(60.0)
     try:
         catalog = Catalog({name: plugins[name] for name in methods})
-        made = Search(dataclasses.replace(wish, **wished), catalog, info, executor, tmp_path, Watcher())
-        return made.run(pictured)
+        with Lock(tmp_path, "t") as lock:
+            asked = dataclasses.replace(wish, **wished)
+            return Search(asked, catalog, info, executor, lock, Watcher()).run(pictured)
     finally:
         executor.close()
 

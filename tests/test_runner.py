@@ -10,6 +10,9 @@ from pathlib import Path
 
 import pytest
 
+from harness.results import owner
+from harness.results.begun import Begun
+
 from .conftest import usable_devices
 
 CONFIG = """title = "t"
@@ -121,17 +124,31 @@ def test_killing_the_runner_loses_and_repeats_no_finished_cell(tmp_path, config)
     process = subprocess.Popen(firsthit("run", path, "--runs", runs), stderr=subprocess.DEVNULL)
     cells_folder = runs / "t" / "cells"
     wait_for(lambda: cells_folder.exists() and len(list(cells_folder.glob("*.json"))) >= 3)
+    wait_for(lambda: any(b'"round":' in path.read_bytes() for path in (runs / "t" / "begun").glob("*")))
+    second = run("run", path, "--runs", runs)
+    assert second.returncode == 3
+    assert f"is being written by `firsthit run {path} --runs {runs}` (process {process.pid} of " in second.stderr
     orphans = workers(process.pid)
     process.send_signal(signal.SIGKILL)
     process.wait()
+    begun = Begun(runs / "t")._sessions[0]
     finished = {p.name: p.read_bytes() for p in cells_folder.glob("*.json")}
     assert 3 <= len(finished) < 8
     wait_for(lambda: not any(map(is_running, orphans)), 10.0)
+    litter = cells_folder / f".new-{owner.machine()}-{2**22 + 1}-1-abcdefgh.json"  # of a process that cannot be
+    litter.touch()
     again = run("run", path, "--runs", runs)
     assert again.returncode == 0, again.stderr
+    assert "that killed commands left" in again.stdout
+    assert not litter.exists()
     assert f"{8 - len(finished)} cells run, {len(finished)} reused" in again.stdout
     assert {name: (cells_folder / name).read_bytes() for name in finished} == finished
-    assert {row["status"] for row in rows(runs / "t")[1].values()} == {"ok"}
+    found = rows(runs / "t")[1]
+    assert {row["status"] for row in found.values()} == {"ok"}
+    timed = {key: len(kept.samples) for key, kept in begun.cells.items() if kept.samples}
+    assert {key: found[key]["time"]["sittings"][0] for key in timed} == timed
+    assert {found[key]["time"]["session"] for key in begun.cells} == {begun.name}
+    assert not (runs / "t" / "begun").exists()
 
 
 def test_killing_a_worker_costs_one_cell_and_retry_mends_it(tmp_path, config):

@@ -78,6 +78,7 @@ class Session:
 
     def round(self, number: int, samples: Mapping[str, Sample]) -> None:
         """Keep the samples of a round, or of a part of it, by the keys of their cells."""
+        self.next_round = number + 1
         if samples:
             self._append({"round": number, "samples": samples})
         if time.monotonic() - self._flushed > FLUSH:
@@ -172,12 +173,14 @@ class Begun:
         return gone
 
     def done(self, session: Session, has_row: Callable[[str], bool]) -> None:
-        """Remove the file of a session whose cells all ended, and those of others whose cells all have rows."""
-        session.remove()
-        for other in list(self._sessions):
-            if other is session or all(self._has_ended(key, has_row) for key in other.cells):
-                self._sessions.remove(other)
-                other.remove()
+        """Remove the file of a session that was timed to its end, and those of others, if all their cells have rows.
+
+        A file that names other cells too, which are timed apart from these by now, stays for them.
+        """
+        for one in {*self._sessions, session}:
+            if all(self._has_ended(key, has_row) for key in one.cells):
+                self._sessions = [other for other in self._sessions if other is not one]
+                one.remove()
 
     def _has_ended(self, key: str, has_row: Callable[[str], bool]) -> bool:
         return has_row(key) and key not in self._again

@@ -272,7 +272,7 @@ def _run_part(part: Experiment, loaded: Loaded, runs: Path, command: str, again:
         _run_studies(part.config.studies, store.folder, again == "everything", hears)
         found, begun, old = begin(planned, store, again)
         if swept := [*old, *sweep_below(store.folder)]:
-            hears.told(f"{store.folder}: removed {len(swept)} files that killed commands left")
+            hears.told(f"{store.folder}: removed {len(swept)} file{'s' * (len(swept) > 1)} that killed commands left")
         for message in store.unreadable.values():
             hears.warned(f"{message}; running that cell again")
         seconds = estimate_seconds(found.todo, store, part.config.budget.seconds)
