@@ -189,6 +189,8 @@ def _known(error: Exception) -> tuple[int, str]:
 
     if isinstance(error, FirsthitError):
         return error.exit_code, str(error)
+    if isinstance(error, OSError) and error.errno == errno.ENAMETOOLONG:
+        return USAGE, f"a path whose name is too long for a file: {str(error.filename)[:60]}..."
     return FAILED, _unwritten(error) if _is_full(error) else ""
 
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+import os
 import types
 import typing
 from collections.abc import Callable, Iterable, Sequence
@@ -254,6 +255,8 @@ def checked_path(name: str, given: Any) -> Path:
     """Return the path that a caller gave. Raises FirsthitError, which names the argument, where it is none."""
     if not isinstance(given, str | Path):
         raise FirsthitError(f"{name} is a path, as a text or a pathlib.Path, not {shown(given)}")
+    if any(len(os.fsencode(part)) > 255 or "\0" in part for part in Path(given).parts):  # which no file system has
+        raise FirsthitError(f"{name} is no path that a file can have: {shown(str(given))}")
     return Path(given)
 
 
