@@ -15,25 +15,28 @@ from typing import TYPE_CHECKING, NoReturn, TypeGuard
 
 from harness import __version__
 from harness.commands import GROUPS, PLUGINS, adder
+from harness.stopping import code_of, stoppable
 
 if TYPE_CHECKING:
     from _typeshed import SupportsWrite
 
 USAGE = 2
 FAILED = 3
-INTERRUPTED = 130  # 128 + SIGINT, as a shell says it
 CLOSED_PIPE = 141  # 128 + SIGPIPE
 EXIT_CODES = """exit codes:
   0    done
   1    a check, a gate or a bound does not hold
   2    the command or a config is wrong
   3    something failed while running, or could not be compared
+  129  stopped since its terminal was closed (SIGHUP)
   130  stopped by Ctrl-C
   141  who reads the output went away before its end
+  143  stopped by SIGTERM, as `kill` and `timeout` send it
 """
 FULL = (errno.ENOSPC, errno.EDQUOT)  # of a disk or a quota: no mistake of ours
 SIGNED = ("--formula", "--distance", "--view", "--surface")  # options whose values may begin with a minus sign
 RUN_CELLS = ("run", "gate", "bless", "recommend")  # commands that store a row as soon as its cell ends
+TIMED = ("run", "recommend")  # those of them whose cells are timed
 
 
 class UsageError(SystemExit):
@@ -88,14 +91,22 @@ def main(arguments: Sequence[str] | None = None) -> int:
         from harness.commands import completion
 
         completion.complete(build_parser)
+    from harness.terminal import guarded
+
     options = argparse.Namespace(command=None, force=False, json=False, quiet=False, verbose=False)
+    with guarded(), stoppable():
+        return _guarded(sys.argv[1:] if arguments is None else arguments, options)
+
+
+def _guarded(arguments: Sequence[str], options: argparse.Namespace) -> int:
+    """Run one command and return its exit code, whatever becomes of its output. Raises SystemExit as `main` does."""
     try:
         try:
-            return _ended(sys.argv[1:] if arguments is None else arguments, options)
+            return _ended(arguments, options)
         finally:
             _flush()  # a pipe that was closed is told here; told at the interpreter's end, it would be lost
-    except KeyboardInterrupt:
-        return INTERRUPTED
+    except KeyboardInterrupt as error:
+        return code_of(error)
     except BrokenPipeError:
         _write_nowhere()
         return CLOSED_PIPE
@@ -115,9 +126,12 @@ def _ended(arguments: Sequence[str], options: argparse.Namespace) -> int:
         return _run(arguments, options)
     except UsageError as error:
         usage, code, told = error, USAGE, error.message
-    except KeyboardInterrupt:
-        code, told = INTERRUPTED, _stopped(options)
-        _told(f"firsthit: {told}")
+    except KeyboardInterrupt as error:
+        code, told = code_of(error), _stopped(options)
+        try:
+            _told(f"firsthit: {told}")
+        except OSError:  # a terminal that was closed, which is what SIGHUP tells
+            _write_nowhere()
     except Exception as error:
         if isinstance(error, BrokenPipeError) or (_is_full(error) and error.filename is None):
             raise
@@ -153,10 +167,9 @@ def _run(arguments: Sequence[str], options: argparse.Namespace) -> int:
     """Parse a command line into `options` and run the command; return its exit code."""
     arguments = _signed(arguments)
     build_parser(arguments).parse_args(arguments, options)
-    if options.quiet or options.verbose or "harness.terminal" in sys.modules:  # another run of this process may be done
-        from harness.terminal import SCREEN
+    from harness.terminal import SCREEN
 
-        SCREEN.level = "quiet" if options.quiet else "verbose" if options.verbose else "normal"
+    SCREEN.level = "quiet" if options.quiet else "verbose" if options.verbose else "normal"
     if options.json:
         from harness.commands import machine
 
@@ -189,8 +202,8 @@ def _known(error: Exception) -> tuple[int, str]:
 
     if isinstance(error, FirsthitError):
         return error.exit_code, str(error)
-    if isinstance(error, OSError) and error.errno == errno.ENAMETOOLONG:
-        return USAGE, f"a path whose name is too long for a file: {str(error.filename)[:60]}..."
+    if isinstance(error, OSError) and error.errno == errno.ENAMETOOLONG and error.filename:
+        return USAGE, f"{str(error.filename)[:40]!r}… is too long for the name of a file"
     return FAILED, _unwritten(error) if _is_full(error) else ""
 
 
@@ -203,8 +216,11 @@ def _stopped(options: argparse.Namespace) -> str:
     """Say what is left of a command that was stopped: cells that ended have rows, whatever else was going on."""
     if options.command not in RUN_CELLS:
         return "stopped"
-    same = "the command without --force" if options.force else "the same command"
-    return f"stopped; finished cells are kept, and {same} goes on from there"
+    retried = getattr(options, "retry", None)
+    less = "--force" if options.force else "--retry" if retried else ""
+    same = f"the command without {less}" if less else "the same command"
+    steps = ", and so are checks and rounds of those that were begun" if options.command in TIMED else ""
+    return f"stopped; finished cells are kept{steps}; {same} goes on from there"
 
 
 def _flush() -> None:

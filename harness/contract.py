@@ -12,6 +12,7 @@ import json
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import IntEnum, StrEnum
+from functools import cached_property
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from harness.limits import AZIMUTH, DISTANCE, ELEVATION, FIELD_OF_VIEW, POSITION, Name, hold
@@ -21,6 +22,7 @@ from surfaces.model import FirsthitError as FirsthitError
 from surfaces.model import Sphere as Sphere
 from surfaces.model import Surface as Surface
 from surfaces.model import as_float32 as as_float32
+from surfaces.visible import joined, shown
 from surfaces.words import suggestion as suggestion
 
 if TYPE_CHECKING:
@@ -43,6 +45,7 @@ PROXIES: tuple[Proxy, ...] = ("box", "sphere", "tetrahedron")
 NORMALS: tuple[Normal, ...] = ("distance", "gradient", "core_circle")
 PRECISIONS: tuple[Precision, ...] = ("float32", "float64")
 UNIT_ROUNDOFF: dict[Precision, float] = {"float32": 2.0**-24, "float64": 2.0**-53}
+DEVICE_TEXT = 500  # letters of what a driver says of a device
 BASELINE = "ray_march"  # the method that speed-ups are over where a config names nothing else
 
 
@@ -232,7 +235,7 @@ class Section:
     origin: str
     text: str
 
-    @property
+    @cached_property
     def hash(self) -> str:
         """Return a hash of the text; the origin is no part of it."""
         return digest(self.text)
@@ -265,7 +268,7 @@ class Program:
         """Return the text that the compiler is given, without that of the vertices."""
         return source(self.sections)
 
-    @property
+    @cached_property
     def hash(self) -> str:
         """Return a hash of language, precision, entry and all texts, those of the vertices included."""
         texts = [*(s.text for s in self.sections), *(["vertex"] if self.vertex else []), *(s.text for s in self.vertex)]
@@ -304,6 +307,11 @@ class DeviceInfo:
     versions: tuple[tuple[str, str], ...]
     problem: str | None = None
     resident: int | None = None
+
+    def __post_init__(self) -> None:
+        """Show in each text what cannot be seen: a driver may say anything."""
+        for name in ("name", "title", "driver", "compiler"):
+            object.__setattr__(self, name, shown(joined(getattr(self, name)))[:DEVICE_TEXT])
 
 
 @dataclass(frozen=True, eq=False)

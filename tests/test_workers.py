@@ -75,7 +75,7 @@ def test_a_worker_answers_until_its_connection_closes_and_is_not_interrupted():
         process.send_signal(signal.SIGINT)
         connection.send(("nonesuch", ()))
         outcome, reason = connection.recv()
-        assert outcome == "failed" and reason.startswith("AttributeError: ")
+        assert outcome == "broken" and reason.startswith("AttributeError: ")
         connection.close()
         assert process.wait(30.0) == 0
     finally:

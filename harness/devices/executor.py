@@ -1,18 +1,23 @@
 """Run steps of cells on devices: here, in one local worker process for each device.
 
-A worker that dies or hangs is ended, and started again for the next step. The runner needs no more of an executor than
-the methods of LocalExecutor, so that another executor may send cells elsewhere.
+A worker that dies, hangs, holds too much memory or answers nonsense is ended, and started again for the next step. A
+device that cannot be opened again is given up after a few tries, so that it does not cost each further cell a minute.
+The runner needs no more of an executor than the methods of LocalExecutor, so that another executor may send cells
+elsewhere.
 """
 
 from __future__ import annotations
 
 import signal
 import subprocess
+import threading
+from collections import Counter
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from harness import memory
 from harness.contract import CellStatus, DeviceInfo, Program
 from harness.devices import serving
 from harness.devices.interface import Timing
@@ -24,6 +29,13 @@ if TYPE_CHECKING:
 
 START_SECONDS = 60.0  # for a worker to start and a driver to load
 STOP_SECONDS = 0.5  # for a worker to end by itself once its connection is closed
+REOPENINGS = 3  # tries in a row to open a device again, after which it is given up
+DURING = {  # when a worker died, as people are told; steps of cells are told by their names
+    "find": "while devices were looked for",
+    "reopen": "while it was opened",
+    "probe": "while its arithmetic and clock were tried",
+    "fingerprint": "while its fingerprint was taken",
+}
 
 
 class CellError(Exception):
@@ -38,19 +50,32 @@ class CellError(Exception):
 class _Process:
     process: subprocess.Popen[bytes]
     connection: Connection
+    watch: memory.Watch
+    late: bool = False  # it was killed since it had not answered in time
+
+    def end_late(self) -> None:
+        self.late = True
+        self.process.kill()
 
 
 class LocalExecutor:
     """Run steps in worker processes on this machine.
 
     One step runs at a time, since software devices share the processor's cores. A step may take `timeout` seconds; in a
-    new worker it has START_SECONDS more. A step raises CellError if it fails, takes too long, or ends its worker.
+    new worker it has START_SECONDS more. A worker and its children may hold `share` of the machine's memory. A step
+    raises CellError if it fails, takes too long or too much memory, or ends its worker.
+
+    A worker that takes the place of one that was lost opens its device first. Where REOPENINGS of them in a row cannot,
+    the device is given up: each further step raises CellError at once.
     """
 
-    def __init__(self, timeout: float) -> None:
-        self._timeout = timeout
+    def __init__(self, timeout: float, share: float = memory.SHARE) -> None:
+        self._timeout, self._share = timeout, share
         self._processes: dict[str, _Process] = {}
         self._warm: dict[str, str] = {}  # frame key → device whose worker holds it
+        self._lost: set[str] = set()  # devices whose last worker was lost
+        self._unopened: Counter[str] = Counter()  # by device: openings that failed, in a row
+        self._given_up: dict[str, str] = {}  # device → why
 
     def find(self, backend: str) -> list[DeviceInfo]:
         """Find every device of a backend, in the worker that is named after it."""
@@ -135,46 +160,101 @@ class LocalExecutor:
 
     def _start(self, device: str) -> _Process:
         if device not in self._processes:
-            self._processes[device] = _Process(*serving.start(device))
+            process, connection = serving.start(device)
+            self._processes[device] = _Process(process, connection, memory.Watch(process.pid, self._share))
         return self._processes[device]
 
-    def _stop(self, device: str) -> int:
-        """End a worker, by force if it does not end within STOP_SECONDS.
+    def _stop(self, device: str, at_once: bool = False) -> int:
+        """End a worker, by force if it does not end within STOP_SECONDS or, `at_once`, without waiting.
 
         Returns its exit code, or minus the number of the signal that ended it.
         """
         stopped = self._processes.pop(device)
         self._warm = {key: holder for key, holder in self._warm.items() if holder != device}
         stopped.connection.close()
+        if at_once:
+            stopped.process.kill()
         try:
             return stopped.process.wait(STOP_SECONDS)
         except subprocess.TimeoutExpired:
             stopped.process.kill()
             return stopped.process.wait()
 
+    def _lose(self, device: str, at_once: bool = False) -> int:
+        """End a worker that did what it must not, as `_stop` does; its successor opens the device first."""
+        self._lost.add(device)
+        return self._stop(device, at_once)
+
     def _call(self, device: str, operation: str, *arguments: Any) -> Any:
         """Ask the worker of `device` for an operation, and return its result.
 
-        The worker is started if none runs. Raises CellError if the operation fails, takes too long or ends the worker.
+        The worker is started if none runs. Raises CellError if the operation fails, takes too long or too much memory,
+        ends the worker, or if the device has been given up.
         """
         fresh = device not in self._processes
+        if fresh and device in self._lost and operation != "find":
+            self._reopen(device)
+            fresh = False
+        return self._ask(device, operation, arguments, self._timeout, START_SECONDS if fresh else 0.0)
+
+    def _reopen(self, device: str) -> None:
+        """Start a worker in the place of a lost one, and open its device. Raises CellError where that fails."""
+        if device in self._given_up:
+            raise CellError(CellStatus.FAILED, self._given_up[device])
+        try:
+            self._ask(device, "reopen", (), START_SECONDS, 0.0)
+        except CellError as error:
+            if device in self._processes:
+                self._lose(device)
+            self._unopened[device] += 1
+            if self._unopened[device] >= REOPENINGS:
+                tries = f"its worker was lost, and {REOPENINGS} times in a row it could not be opened again"
+                self._given_up[device] = f"not tried: {device} was given up, since {tries}; the last time: {error}"
+            reason = f"{device} could not be opened again after its worker was lost: {error}"
+            raise CellError(error.status, reason) from None
+        del self._unopened[device]
+        self._lost.discard(device)
+
+    def _ask(self, device: str, operation: str, arguments: tuple[Any, ...], seconds: float, more: float) -> Any:
+        """Send an operation to a worker and return its result; it has `seconds`, and `more` to start."""
         worker = self._start(device)
-        limit = self._timeout + (START_SECONDS if fresh else 0.0)
+        # A worker that is stopped in the middle of a message would let this process wait for the rest of it for ever
+        late = threading.Timer(seconds + more + STOP_SECONDS, worker.end_late)
+        late.daemon = True
+        late.start()
         try:
             worker.connection.send((operation, arguments))
-            if not worker.connection.poll(limit):
-                self._stop(device)
-                raise CellError(CellStatus.TIMEOUT, f"{operation} took longer than {self._timeout:g} s; killed")
+            if not memory.answered(worker.connection, worker.watch, seconds + more):
+                self._lose(device, at_once=True)
+                raise CellError(CellStatus.TIMEOUT, f"{operation} took longer than {seconds:g} s; killed")
             outcome, result = worker.connection.recv()
+        except memory.TooMuch as error:
+            self._lose(device, at_once=True)
+            raise CellError(CellStatus.CRASHED, f"{operation} {error}; killed") from None
         except (EOFError, OSError):
-            code = self._stop(device)
-            raise CellError(CellStatus.CRASHED, f"the worker died during {operation}: {_explain(code)}") from None
-        if outcome == "failed":
-            raise CellError(CellStatus.FAILED, result)
-        return result
+            code = self._lose(device)
+            if worker.late:
+                reason = f"{operation} took longer than {seconds:g} s, and its answer did not come whole; killed"
+                raise CellError(CellStatus.TIMEOUT, reason) from None
+            when = DURING.get(operation, f"during {operation}")
+            raise CellError(CellStatus.CRASHED, f"the worker {_explain(code)} {when}") from None
+        except CellError:
+            raise
+        except Exception as error:  # what is unpickled may raise anything
+            self._lose(device, at_once=True)
+            told = f"the worker's answer to {operation} is damaged ({type(error).__name__}: {error}); killed"
+            raise CellError(CellStatus.CRASHED, told) from None
+        finally:
+            late.cancel()
+        if outcome == "ok":
+            return result
+        if outcome == "broken":
+            self._lose(device)
+        raise CellError(CellStatus.FAILED, str(result))
 
 
 def _explain(exit_code: int) -> str:
     if exit_code < 0:
-        return f"signal {signal.Signals(-exit_code).name}"
-    return f"exit code {exit_code}"
+        name = signal.Signals(-exit_code).name.removeprefix("SIG")
+        return f"was killed by signal {name}"
+    return f"ended with exit code {exit_code}"

@@ -1,87 +1,57 @@
 """Run a worker's process: `python -m harness.devices.serving DEVICE HANDLE`, which only the executor starts.
 
-It is started as a module and not by multiprocessing, which would run the caller's script once more in each worker. A
-script without a main guard, or a notebook, would then start workers of its own, or fail.
+harness.hosting.process says why it is started as a module.
 """
 
 from __future__ import annotations
 
 import contextlib
-import ctypes
 import os
 import re
 import signal
 import subprocess
 import sys
 import threading
-from collections.abc import Iterator
-from multiprocessing import Pipe
 from multiprocessing.connection import Connection
 from typing import IO, Any
 
+from harness import escaping
+from harness.hosting import process
+
 COUNTED = re.compile(rb"(\d+ (warning|error)s?( and \d+ errors?)? generated\.)?")  # what clang says last
-STREAMS: dict[str, Any] = {"stdin": subprocess.DEVNULL, "stderr": subprocess.PIPE}
+LONGEST_LINE = 100_000  # bytes; a longer one is several
+STREAMS: dict[str, Any] = {"stdin": subprocess.DEVNULL, "stdout": subprocess.PIPE, "stderr": subprocess.STDOUT}
 
 
 def start(device: str) -> tuple[subprocess.Popen[bytes], Connection]:
     """Start the worker that holds `device`; return its process, and our end of the connection to it.
 
-    The worker looks for modules where this process does (`sys.path`), so that it runs the same harness. It shares
-    standard output with this process and reads no input. What drivers write on standard error is handed on, but for
-    the lines that count the errors of a compiler's log, which is told elsewhere. Raises FirsthitError if no process can
-    be started.
+    It reads no input. What drivers write, and kernels that print, is handed on to standard error, but for the lines
+    that count the errors of a compiler's log, which is told elsewhere. Raises FirsthitError if none can be started.
     """
-    ours, theirs = Pipe()
-    handle = theirs.fileno()
-    options = ["-P", *(["-S"] if sys.flags.no_site else [])]  # -P: no module is taken from the current folder
-    command = [sys.executable, *options, "-m", "harness.devices.serving", device, str(handle)]
-    environment = os.environ | {"PYTHONPATH": os.pathsep.join(path for path in sys.path if isinstance(path, str))}
-    try:
-        if sys.platform == "win32":
-            os.set_handle_inheritable(handle, True)
-            process = subprocess.Popen(command, env=environment, **STREAMS, close_fds=False)
-        else:
-            with _not_interrupted():
-                process = subprocess.Popen(command, env=environment, **STREAMS, pass_fds=[handle])
-    except OSError as error:
-        from harness.contract import FirsthitError
-
-        ours.close()
-        raise FirsthitError(f"cannot start {sys.executable} as the worker of {device}: {error}", exit_code=3) from None
-    finally:
-        theirs.close()
-    threading.Thread(target=_hand_on, args=(process.stderr,), daemon=True).start()
-    return process, ours
+    worker, ours = process.start("harness.devices.serving", [device], f"the worker of {device}", STREAMS)
+    threading.Thread(target=_hand_on, args=(worker.stdout,), daemon=True).start()
+    return worker, ours
 
 
-def _hand_on(errors: IO[bytes]) -> None:
-    """Write on standard error what a worker writes there, until it ends, without what only counts errors."""
-    with errors:
-        for line in errors:
+def _hand_on(said: IO[bytes]) -> None:
+    """Write on standard error what a worker writes, until it ends, without what only counts errors.
+
+    Anybody's kernel may print: nothing in its lines moves a cursor, or is a command of a CI server.
+    """
+    with said:
+        while line := said.readline(LONGEST_LINE):
             if not COUNTED.fullmatch(line.strip()):
                 with contextlib.suppress(OSError):
-                    os.write(2, line)
-
-
-@contextlib.contextmanager
-def _not_interrupted() -> Iterator[None]:
-    """Keep Ctrl-C from a process that the block starts, even before `main` ignores it, and from nothing else."""
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
-
-
-def _die_with_parent() -> None:
-    if sys.platform == "linux":
-        pr_set_pdeathsig = 1
-        with contextlib.suppress(OSError):
-            ctypes.CDLL(None).prctl(pr_set_pdeathsig, signal.SIGKILL)
+                    os.write(2, escaping.output(line))
 
 
 def serve(connection: Connection, device: str) -> None:
-    """Answer (operation, arguments) with ("ok", result) or ("failed", reason) until the connection closes."""
+    """Answer (operation, arguments) until the connection closes.
+
+    An answer is ("ok", result), ("failed", reason) or, where the driver may be at fault, so that another process is to
+    take the device, ("broken", reason).
+    """
     from harness.contract import FirsthitError
     from harness.devices.interface import BuildError
     from harness.devices.worker import Worker
@@ -97,7 +67,7 @@ def serve(connection: Connection, device: str) -> None:
         except (BuildError, FirsthitError) as error:
             answer = ("failed", str(error))
         except Exception as error:  # a binding may raise anything; only this cell fails
-            answer = ("failed", f"{type(error).__name__}: {error}")
+            answer = ("broken", f"{type(error).__name__}: {error}")
         try:
             connection.send(answer)
         except ConnectionError:
@@ -109,7 +79,7 @@ def main(device: str, handle: str) -> None:
 
     Drivers may take long to unload, and some crash when they do; by then everything has been answered.
     """
-    _die_with_parent()
+    process.die_with_parent()
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the runner decides when to stop; so this comes before long imports
     if sys.platform == "win32":
         from multiprocessing.connection import PipeConnection

@@ -48,6 +48,10 @@ class Worker:
         """Find the devices of the backend that this worker is named after."""
         return find_devices(self._name)
 
+    def reopen(self) -> None:
+        """Open the device, since another worker has lost it. Raises FirsthitError where it is not there any more."""
+        _ = self._device
+
     def probe(self) -> Probes:
         """Probe the device's arithmetic and clock."""
         from harness.devices.probes import probe

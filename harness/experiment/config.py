@@ -8,6 +8,7 @@ from math import inf
 from pathlib import Path
 from typing import Annotated
 
+from harness import memory
 from harness.contract import (
     BASELINE,
     Normal,
@@ -40,6 +41,7 @@ from harness.scenes.choice import SceneChoice
 from harness.scenes.model import Scene
 from harness.scenes.views import AngleChoice, DirectionChoice
 
+MEMORY = Within(0.01, 1.0)  # share of the machine's memory
 NOT_NEGATIVE = Within(0.0, inf, "a tolerance is not negative")
 DEVICE = Line(200)  # a device's name, which its driver makes
 PATH = Line(4000)
@@ -186,6 +188,8 @@ class BudgetChoice:
     repetitions: no cell is timed in more rounds
     timeout: seconds for one step (build, check, one repetition), after which the worker is killed
     triangles: a frame of more triangles is skipped
+    memory: share of the machine's memory, or of its container's, that a device's worker may hold, after which it is
+        killed; it decides no row, so changing it runs no cell again
     """
 
     seconds: Annotated[float, SECONDS] = 2.0
@@ -194,6 +198,7 @@ class BudgetChoice:
     repetitions: Annotated[int, Within(1, 1e6)] = 200
     timeout: Annotated[float, TIMEOUT] = 60.0
     triangles: Annotated[int, Within(1, 1e12)] = 1_000_000_000
+    memory: Annotated[float, MEMORY] = memory.SHARE
 
 
 @dataclass(frozen=True)

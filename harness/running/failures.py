@@ -19,6 +19,10 @@ ADVICE = {
     CellStatus.CRASHED: "look for an array that is read or written past its end, or a division of an int by 0; if the "
     "kernel runs on other devices, the driver may be at fault",
 }
+TOO_MUCH = (
+    "take a smaller size, fewer samples a pixel or a smaller table; if the machine has the memory to spare, raise "
+    "[budget] memory of the config"
+)
 COMPILER_DIED = (
     "look for a function that calls itself, which no kernel may, or a very large array; if the kernel compiles on "
     "other devices, the driver may be at fault"
@@ -108,12 +112,20 @@ def _paragraph(members: Sequence[Failure], what: str) -> str:
         head, parts = [f"{subject}: {texts[0]}"], [("also", first_line(text)) for text in texts[1 : MOST + 1]]
         if len(texts) > MOST + 1:
             parts.append(("also", f"{len(texts) - MOST - 1} more that differ in numbers only"))
-        died = members[0].status is CellStatus.CRASHED and "during build" in texts[0]
-        if advice := COMPILER_DIED if died else ADVICE.get(members[0].status):
+        if advice := _advice(members[0].status, texts[0]):
             parts.append(("do", advice))
     parts.append(("where", _places(members, what)))
     lines = [_wrapped("", head[0]), *head[1:]]
     return "\n".join([*lines, *(_wrapped(f"    {word:<7}", text) for word, text in parts)])
+
+
+def _advice(status: CellStatus, text: str) -> str | None:
+    """Return what may be done about a failure that no compiler tells of; None where nothing general can be said."""
+    if status is CellStatus.CRASHED and " of memory, the limit" in text:
+        return TOO_MUCH
+    if status is CellStatus.CRASHED and "during build" in text:
+        return COMPILER_DIED
+    return ADVICE.get(status)
 
 
 def _compilers(told: Sequence[tuple[str, Complaint]]) -> tuple[list[str], list[tuple[str, str]]]:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import itertools
 import json
 import shutil
-import tempfile
 from collections.abc import Sequence
 from datetime import datetime
 from pathlib import Path
@@ -14,6 +13,8 @@ from typing import Any
 import matplotlib
 import typst
 
+from harness import escaping
+from harness.results.writing import temporary_folder
 from reports.content import Block, Code, Document, Figure, Gallery, Matrix, Section, Square, Table, Text
 from reports.drawing import shades
 
@@ -40,8 +41,7 @@ def write_page(document: Document, path: Path, created: str) -> None:
     `created` is as for `write_pdf`, and so is what is raised.
     """
     form = "png" if path.suffix.lower() == ".png" else "pdf"
-    with tempfile.TemporaryDirectory(prefix="firsthit-page-") as name:
-        folder = Path(name)
+    with temporary_folder("firsthit-page") as folder:
         _lay_out(document, folder, ONE_PAGE)
         told: dict[str, Any] = {"ppi": PIXELS_PER_INCH} if form == "png" else {"timestamp": _timestamp(created)}
         settings = {**_settings(folder), **told, "format": form, "sys_inputs": {"form": form}}
@@ -60,7 +60,7 @@ def _lay_out(document: Document, folder: Path, template: str, appendix: bool = F
         "sections": [_section(section, section.blocks, folder) for section in document.sections if section.blocks],
         "appendix": [_section(section, section.details, folder) for section in detailed],
     }
-    (folder / "report.json").write_text(json.dumps(data, ensure_ascii=False), encoding="utf-8", errors="replace")
+    (folder / "report.json").write_text(json.dumps(escaping.every(data), ensure_ascii=False), encoding="utf-8")
 
 
 def _settings(folder: Path) -> dict[str, Any]:

@@ -6,11 +6,12 @@ import contextlib
 import json
 import os
 import shutil
-import tempfile
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from harness.contract import FirsthitError
+from harness.results import sealed
+from harness.results.writing import left_in, temporary_folder
 from reports.drawing import images, style
 from reports.reading import export
 from reports.site import board, method_page, other_pages, pictures, run_page, standings, surface_page
@@ -110,10 +111,17 @@ def _only_ours(place: Path) -> None:
 def _listed(place: Path) -> set[str]:
     """Return the files that a site lists as its own; none where there is no list, or it is damaged."""
     try:
-        told = json.loads((place / MARK).read_bytes())
+        told = sealed.read(place / MARK)
         return {MARK, *(str(file) for file in told["files"])}
     except (OSError, ValueError, TypeError, KeyError):
         return set()
+
+
+def _put_back(place: Path) -> None:
+    """Put the old site back where a process was killed after it had taken it away, and before the new one was there."""
+    for left in left_in(place.parent, f".{place.name}"):
+        if (left / "old").exists() and not place.exists():
+            (left / "old").rename(place)
 
 
 @contextlib.contextmanager
@@ -124,8 +132,9 @@ def _replacing(place: Path) -> Iterator[Path]:
     """
     try:
         place.parent.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryDirectory(prefix=f".{place.name}.", dir=place.parent) as name:
-            new, old = Path(name) / "new", Path(name) / "old"
+        _put_back(place)
+        with temporary_folder(f".{place.name}", place.parent) as own:
+            new, old = own / "new", own / "old"
             new.mkdir()
             yield new
             if place.exists():
