@@ -19,7 +19,7 @@ from pathlib import Path
 from typing import Any, Protocol
 
 from surfaces.model import FirsthitError, is_number
-from surfaces.words import LONGEST_NAME, name_problem, suggestion
+from surfaces.words import LONGEST_NAME, name_problem, suggestion, unseen
 
 _UNSEEN = r"\u0000-\u001f\u007f"  # control characters, as a schema's patterns name them
 
@@ -166,8 +166,8 @@ class Line:
     def broken(self, value: str) -> str | None:
         if len(value) > self.most:
             return f"a text of {self.most:,} letters at most, not of {len(value):,}"
-        bad = next((c for c in value if not c.isprintable()), None)
-        return None if bad is None else f"it holds {bad!r}: one line of letters that can be seen"
+        bad = unseen(value)
+        return None if bad is None else f"it holds {bad!a}: one line of letters and signs that can be seen"
 
     def keywords(self) -> dict[str, Any]:
         return {"maxLength": self.most, "pattern": f"^[^{_UNSEEN}]*$"}

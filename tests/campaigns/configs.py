@@ -24,6 +24,7 @@ from harness.experiment.size import check_size
 from harness.experiment.toml_file import one_line
 from harness.limits import Known, Named, Offered, OneOf, Within, hints_of, is_required
 from harness.plugins import Catalog, find_methods
+from surfaces.visible import shown
 from tests.campaigns.frame import Campaign, Fell, Place
 
 Key = str | int
@@ -292,7 +293,7 @@ def _refused(told: str, path: Path) -> str:
     for line in told.split("\n"):
         if not any(re.match(begin, line) for begin in begins):
             raise Fell(f"no file and line: {line[:300]!r}")
-        if not line.isprintable() or len(line) > 2500:
+        if shown(line) != line or len(line) > 2500:
             raise Fell(f"a line that is not one: {line[:300]!r}, {len(line)} letters")
     return "refused"
 
@@ -309,11 +310,11 @@ def _planned(part: Experiment, dice: random.Random) -> str:
         cells = plan.grid(part, _methods(), DEVICES) if part.variants else iter(())
         first = [*itertools.islice(cells, LOOKED_AT)]
         _once("slot", [cell.slot for cell, _ in first])
-        if len(first) > FEW or dice.random() < 0.6:
+        if len(first) > FEW or dice.random() < 0.8:
             return "cells listed"
         planned = plan.plan(part, _methods(), DEVICES, timed=dice.random() < 0.5) if first else []
     except FirsthitError as error:
-        if not str(error).isprintable():
+        if shown(str(error)) != str(error) or "\n" in str(error):
             raise Fell(f"not one line: {str(error)[:300]!r}") from None
         return "planned, and refused"
     except ValueError as error:
@@ -321,7 +322,7 @@ def _planned(part: Experiment, dice: random.Random) -> str:
     _once("key", [p.key for p in planned])
     for p in planned:
         json.dumps(p.identity, allow_nan=False)
-        if not p.cell.slot.isprintable():
+        if shown(p.cell.slot) != p.cell.slot:
             raise Fell(f"a cell's name that cannot be seen: {p.cell.slot!r}")
     return "planned"
 
