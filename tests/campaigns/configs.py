@@ -148,7 +148,11 @@ def _change(table: dict[str, Any], dice: random.Random) -> None:
     elif change == 3:
         del holder[key]
     elif change == 4:
-        holder[key] = [value, copy.deepcopy(value), float(value) if isinstance(value, int) else value]
+        holder[key] = [
+            value,
+            copy.deepcopy(value),
+            float(value) if isinstance(value, int) and abs(value) < 1e9 else value,
+        ]
     elif change == 5:
         other, at = dice.choice(places)
         holder[key] = copy.deepcopy(other[at]) if at in (other if isinstance(other, dict) else range(len(other))) else 0
