@@ -174,6 +174,16 @@ class Line:
 
 
 @dataclass(frozen=True)
+class FilePath(Line):
+    """State that a text is a path that a file can have."""
+
+    most: int = 800
+
+    def broken(self, value: str) -> str | None:
+        return super().broken(value) or (None if _is_path(value) else "no file can have such a name")
+
+
+@dataclass(frozen=True)
 class AtMost:
     """State that a text, a list or a table has so many letters, items or keys at most."""
 
@@ -255,9 +265,14 @@ def checked_path(name: str, given: Any) -> Path:
     """Return the path that a caller gave. Raises FirsthitError, which names the argument, where it is none."""
     if not isinstance(given, str | Path):
         raise FirsthitError(f"{name} is a path, as a text or a pathlib.Path, not {shown(given)}")
-    if any(len(os.fsencode(part)) > 255 or "\0" in part for part in Path(given).parts):  # which no file system has
+    if not _is_path(given):
         raise FirsthitError(f"{name} is no path that a file can have: {shown(str(given))}")
     return Path(given)
+
+
+def _is_path(given: str | Path) -> bool:
+    """Tell whether a file can have this path: no file system has names of more than 255 bytes, or of zeros."""
+    return not any(len(os.fsencode(part)) > 255 or "\0" in part for part in Path(given).parts)
 
 
 def checked_names(name: str, given: Any) -> list[str]:
