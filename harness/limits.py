@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+import os
 import types
 import typing
 from collections.abc import Callable, Iterable, Sequence
@@ -18,7 +19,7 @@ from pathlib import Path
 from typing import Any, Protocol
 
 from surfaces.model import FirsthitError, is_number
-from surfaces.words import LONGEST_NAME, name_problem, suggestion
+from surfaces.words import LONGEST_NAME, name_problem, suggestion, unseen
 
 _UNSEEN = r"\u0000-\u001f\u007f"  # control characters, as a schema's patterns name them
 
@@ -165,11 +166,21 @@ class Line:
     def broken(self, value: str) -> str | None:
         if len(value) > self.most:
             return f"a text of {self.most:,} letters at most, not of {len(value):,}"
-        bad = next((c for c in value if not c.isprintable()), None)
-        return None if bad is None else f"it holds {bad!r}: one line of letters that can be seen"
+        bad = unseen(value)
+        return None if bad is None else f"it holds {bad!a}: one line of letters and signs that can be seen"
 
     def keywords(self) -> dict[str, Any]:
         return {"maxLength": self.most, "pattern": f"^[^{_UNSEEN}]*$"}
+
+
+@dataclass(frozen=True)
+class FilePath(Line):
+    """State that a text is a path that a file can have."""
+
+    most: int = 800
+
+    def broken(self, value: str) -> str | None:
+        return super().broken(value) or (None if _is_path(value) else "no file can have such a name")
 
 
 @dataclass(frozen=True)
@@ -254,7 +265,14 @@ def checked_path(name: str, given: Any) -> Path:
     """Return the path that a caller gave. Raises FirsthitError, which names the argument, where it is none."""
     if not isinstance(given, str | Path):
         raise FirsthitError(f"{name} is a path, as a text or a pathlib.Path, not {shown(given)}")
+    if not _is_path(given):
+        raise FirsthitError(f"{name} is no path that a file can have: {shown(str(given))}")
     return Path(given)
+
+
+def _is_path(given: str | Path) -> bool:
+    """Tell whether a file can have this path: no file system has names of more than 255 bytes, or of zeros."""
+    return not any(len(os.fsencode(part)) > 255 or "\0" in part for part in Path(given).parts)
 
 
 def checked_names(name: str, given: Any) -> list[str]:

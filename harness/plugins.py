@@ -16,8 +16,8 @@ from harness.contract import CLAIMS, FirsthitError, Method, Variant
 from harness.hosting.host import Host
 from harness.limits import is_finite
 from harness.stated import NAME, guarded, line_of, problem_of, read_file, stated
-from surfaces.model import is_number
-from surfaces.words import suggestion
+from surfaces.model import beginning, is_number
+from surfaces.words import LONGEST_NAME, suggestion
 
 BUILT_IN = ROOT / "methods"
 ENTRY_POINTS = "firsthit.methods"
@@ -65,7 +65,7 @@ class Plugin:
         if not is_number(value):
             raise FirsthitError(f"{self.method.name}: {name} is a number, not {value!r}")
         if not is_finite(value):
-            raise FirsthitError(f"{self.method.name}: {name} is a finite number, not {str(value)[:40]}")
+            raise FirsthitError(f"{self.method.name}: {name} is a finite number, not {beginning(value)}")
         if isinstance(default, int) and value != int(value):
             raise FirsthitError(f"{self.method.name}: {name} is a whole number, not {value}")
         if isinstance(default, int) and not -(2**31) <= value < 2**31:  # a kernel's int has 32 bits
@@ -149,7 +149,7 @@ class Catalog:
         if self.extra is not None:
             here += f", nor in --plugins {self.extra}"
         near = suggestion(name, sorted(self.plugins), otherwise="see `firsthit list methods`")
-        if NAME.fullmatch(name) and (folder := _lying_about(name, beside)):
+        if NAME.fullmatch(name) and len(name) <= LONGEST_NAME and (folder := _lying_about(name, beside)):
             return f"{here}; it is in the folder {_shown(folder)}: give --plugins {_shown(folder.parent)}"
         return f"{here}; {'' if self.extra else 'is it in a folder for --plugins? '}{near}"
 

@@ -23,13 +23,14 @@ from typing import TYPE_CHECKING, Any
 
 from surfaces.entries import CATALOG
 from surfaces.forms import FORMS, SEPARATOR
-from surfaces.model import Box, Domain, FirsthitError, Sphere, Surface, is_number
-from surfaces.words import suggestion
+from surfaces.model import Box, Domain, FirsthitError, Sphere, Surface, beginning, is_number
+from surfaces.words import name_problem, suggestion
 
 if TYPE_CHECKING:
     from surfaces.evaluation import evaluate, expression, gradient, operations, tape_of
 
 AUTO = "auto"  # the domain that is found
+LONGEST_NUMBER = 10_000  # bits of a whole number that is given; Python writes none of more than 14,000
 _EVALUATION = ("evaluate", "expression", "gradient", "operations", "tape_of")
 __all__ = [
     "AUTO",
@@ -189,6 +190,8 @@ def from_formula(
     does not depend on x, y and z, if f or the distance cannot be shown to be defined all over the domain, or if no
     domain is found.
     """
+    if not isinstance(name, str) or (problem := name_problem(name)):
+        raise FirsthitError(f"a surface's name: {problem if isinstance(name, str) else 'it is a text'}")
     if not isinstance(text, str):
         raise FirsthitError(f"a formula is a text, as in 'x^2 + y^2 + z^2 - 1', not {text!r}")
     from surfaces import formula
@@ -242,6 +245,8 @@ def _texts(values: Mapping[str, str | float]) -> dict[str, str]:
     for name, value in values.items():
         if not isinstance(value, str) and not is_number(value):
             raise FirsthitError(f"parameter {name} is a number or the text of a constant, not {value!r}")
+        if isinstance(value, int) and value.bit_length() > LONGEST_NUMBER:
+            raise FirsthitError(f"parameter {name} is {beginning(value)}")
     return {name: str(value).strip() for name, value in values.items()}
 
 

@@ -35,6 +35,15 @@ def is_number(value: object) -> TypeGuard[float]:
     return isinstance(value, Real) and not isinstance(value, bool)
 
 
+def beginning(value: object) -> str:
+    """Write the first letters of a value for a message; Python does not write numbers of thousands of digits."""
+    try:
+        text = str(value)
+    except ValueError:
+        return "a number of thousands of digits"
+    return text if len(text) <= 40 else f"{text[:40]}..."
+
+
 def _rounded(value: object, what: str) -> float:
     """Round a number of a domain to float32. Raises FirsthitError for what is none, or past the range of float32."""
     if not is_number(value):
@@ -42,7 +51,7 @@ def _rounded(value: object, what: str) -> float:
     try:
         return as_float32(float(value))
     except OverflowError:
-        raise FirsthitError(f"{what} {str(value)[:40]} is past the range of float32; scale the formula") from None
+        raise FirsthitError(f"{what} {beginning(value)} is past the range of float32; scale the formula") from None
 
 
 def _point(values: object, what: str) -> tuple[float, float, float]:

@@ -35,7 +35,7 @@ def name_problem(name: str) -> str | None:
         return "a name has a letter at least"
     if len(name) > LONGEST_NAME:
         return f"a name has {LONGEST_NAME} letters at most, and {name[:20]!r}... has {len(name):,}"
-    bad = _unseen(name) or next((c for c in name if c in "/\\"), None)
+    bad = unseen(name) or next((c for c in name if c in "/\\"), None)
     return None if bad is None else f"a name holds no {bad!r}: letters, digits, blanks and signs other than slashes"
 
 
@@ -43,10 +43,10 @@ def title_problem(title: str) -> str | None:
     """Say why a text can be no title, source or meaning, which stand in one line; None where it can."""
     if len(title) > LONGEST_TITLE:
         return f"it has {LONGEST_TITLE:,} letters at most, and {title[:20]!r}... has {len(title):,}"
-    bad = _unseen(title)
+    bad = unseen(title)
     return None if bad is None else f"it holds no {bad!a}: it is one line of letters and signs that can be seen"
 
 
-def _unseen(text: str) -> str | None:
+def unseen(text: str) -> str | None:
     """Return the first sign of a text that cannot be seen; None where there is none."""
     return next((c for c in text if c != "\\" and visible(c) != c), None)

@@ -30,6 +30,7 @@ from harness.limits import (
     TIMEOUT,
     AtMost,
     Distinct,
+    FilePath,
     Known,
     Line,
     Name,
@@ -44,7 +45,7 @@ from harness.scenes.views import AngleChoice, DirectionChoice
 MEMORY = Within(0.01, 1.0)  # share of the machine's memory
 NOT_NEGATIVE = Within(0.0, inf, "a tolerance is not negative")
 DEVICE = Line(200)  # a device's name, which its driver makes
-PATH = Line(4000)
+PATH = FilePath()
 # Keys of older configs, and what to do instead
 GONE: dict[tuple[str | int, ...], str] = {
     ("gate", "same"): "is gone: devices are compared by how they compute, and rows of devices whose last bits differ "

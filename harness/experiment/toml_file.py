@@ -13,6 +13,7 @@ from typing import Any, TypeVar
 from harness.contract import FirsthitError
 from harness.experiment.lines import Where as Where
 from harness.experiment.lines import excess, lines_of
+from surfaces.visible import shown as seen
 
 LONGEST = 2_000_000  # bytes of a config
 LONGEST_MESSAGE = 2_000  # letters of one line
@@ -115,4 +116,4 @@ def one_line(value: object) -> str:
     text = str(value)
     if len(text) > LONGEST_MESSAGE:
         text = f"{text[: LONGEST_MESSAGE - 300]} … {text[-300:]}"
-    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
+    return seen(text).replace("\n", r"\n").replace("\t", r"\t")
