@@ -88,10 +88,18 @@ def main(arguments: Sequence[str] | None = None) -> int:
         from harness.commands import completion
 
         completion.complete(build_parser)
+    from harness.terminal import guarded
+
     options = argparse.Namespace(command=None, force=False, json=False, quiet=False, verbose=False)
+    with guarded():
+        return _guarded(sys.argv[1:] if arguments is None else arguments, options)
+
+
+def _guarded(arguments: Sequence[str], options: argparse.Namespace) -> int:
+    """Run one command and return its exit code, whatever becomes of its output. Raises SystemExit as `main` does."""
     try:
         try:
-            return _ended(sys.argv[1:] if arguments is None else arguments, options)
+            return _ended(arguments, options)
         finally:
             _flush()  # a pipe that was closed is told here; told at the interpreter's end, it would be lost
     except KeyboardInterrupt:
@@ -153,10 +161,9 @@ def _run(arguments: Sequence[str], options: argparse.Namespace) -> int:
     """Parse a command line into `options` and run the command; return its exit code."""
     arguments = _signed(arguments)
     build_parser(arguments).parse_args(arguments, options)
-    if options.quiet or options.verbose or "harness.terminal" in sys.modules:  # another run of this process may be done
-        from harness.terminal import SCREEN
+    from harness.terminal import SCREEN
 
-        SCREEN.level = "quiet" if options.quiet else "verbose" if options.verbose else "normal"
+    SCREEN.level = "quiet" if options.quiet else "verbose" if options.verbose else "normal"
     if options.json:
         from harness.commands import machine
 
@@ -189,6 +196,8 @@ def _known(error: Exception) -> tuple[int, str]:
 
     if isinstance(error, FirsthitError):
         return error.exit_code, str(error)
+    if isinstance(error, OSError) and error.errno == errno.ENAMETOOLONG and error.filename:
+        return USAGE, f"{str(error.filename)[:40]!r}… is too long for the name of a file"
     return FAILED, _unwritten(error) if _is_full(error) else ""
 
 

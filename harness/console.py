@@ -8,7 +8,8 @@ import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from harness.terminal import SCREEN, fitting, is_live, padded, painted, plain, size, width
+from harness.escaping import one_line
+from harness.terminal import SCREEN, fitting, is_live, padded, size, width
 
 if TYPE_CHECKING:
     from harness.results.store import Row
@@ -20,8 +21,8 @@ UNFINISHED = ("failed", "timeout", "crashed")
 
 
 def table(header: Sequence[str], rows: Sequence[Sequence[object]]) -> str:
-    """Return a table as text, in aligned columns two spaces apart."""
-    cells = [[str(cell) for cell in row] for row in (header, *rows)]
+    """Return a table as text, in aligned columns two spaces apart; each row is one line, whatever its texts hold."""
+    cells = [[one_line(str(cell)) for cell in row] for row in (header, *rows)]
     widths = [max(map(width, column)) for column in zip(*cells, strict=True)]
     return "\n".join("  ".join(map(padded, row, widths)).rstrip() for row in cells)
 
@@ -119,7 +120,7 @@ class Progress:
         device = _device(slot)
         self._done_on[device] = self._done_on.get(device, 0) + 1
         if row["status"] != "skipped" or SCREEN.level == "verbose":
-            SCREEN.say(self._ended(slot, device, row))
+            SCREEN.say(self._ended(slot, device, row), colour="red" if row["status"] in UNFINISHED else "")
         if self._done >= self._total:
             self.pause()
 
@@ -149,11 +150,9 @@ class Progress:
             told = f"{row['status']}, as above"
         self._told.add(told)
         if not is_live(sys.stderr):
-            line = f"{self._head()} {slot}: {told}"
-        else:  # the live line tells the time
-            cell = f"[{self._done}/{self._total}] {slot.removesuffix(device).rstrip()}"
-            line = fitting(plain(cell), size(sys.stderr)[0] - 1, plain(f" {device}: {told}"))
-        return painted(line, "red") if row["status"] in UNFINISHED else line
+            return one_line(f"{self._head()} {slot}: {told}")
+        cell = f"[{self._done}/{self._total}] {slot.removesuffix(device).rstrip()}"  # the live line tells the time
+        return fitting(one_line(cell), size(sys.stderr)[0] - 1, f" {one_line(f'{device}: {told}')}")
 
     def _head(self) -> str:
         elapsed = time.perf_counter() - self._start

@@ -15,13 +15,14 @@ from enum import IntEnum, StrEnum
 from functools import cached_property
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-from harness.limits import AZIMUTH, DISTANCE, ELEVATION, FIELD_OF_VIEW, POSITION, hold
+from harness.limits import AZIMUTH, DISTANCE, ELEVATION, FIELD_OF_VIEW, POSITION, Name, hold
 from surfaces.model import Box as Box
 from surfaces.model import Domain as Domain
 from surfaces.model import FirsthitError as FirsthitError
 from surfaces.model import Sphere as Sphere
 from surfaces.model import Surface as Surface
 from surfaces.model import as_float32 as as_float32
+from surfaces.visible import joined, shown
 from surfaces.words import suggestion as suggestion
 
 if TYPE_CHECKING:
@@ -44,6 +45,7 @@ PROXIES: tuple[Proxy, ...] = ("box", "sphere", "tetrahedron")
 NORMALS: tuple[Normal, ...] = ("distance", "gradient", "core_circle")
 PRECISIONS: tuple[Precision, ...] = ("float32", "float64")
 UNIT_ROUNDOFF: dict[Precision, float] = {"float32": 2.0**-24, "float64": 2.0**-53}
+DEVICE_TEXT = 500  # letters of what a driver says of a device
 BASELINE = "ray_march"  # the method that speed-ups are over where a config names nothing else
 
 
@@ -214,13 +216,13 @@ class View:
     Raises FirsthitError for a value that is no number, or outside the limits that harness/limits.py states.
     """
 
-    name: str
+    name: Annotated[str, Name()]
     azimuth: Annotated[float, AZIMUTH] = 30.0
     elevation: Annotated[float, ELEVATION] = 30.0
     fov: Annotated[float, FIELD_OF_VIEW] = 30.0
     distance: Annotated[float, DISTANCE] | None = None
     target: Point | None = None
-    set: str | None = None
+    set: Annotated[str, Name()] | None = None
 
     def __post_init__(self) -> None:
         hold(self)
@@ -305,6 +307,11 @@ class DeviceInfo:
     versions: tuple[tuple[str, str], ...]
     problem: str | None = None
     resident: int | None = None
+
+    def __post_init__(self) -> None:
+        """Show in each text what cannot be seen: a driver may say anything."""
+        for name in ("name", "title", "driver", "compiler"):
+            object.__setattr__(self, name, shown(joined(getattr(self, name)))[:DEVICE_TEXT])
 
 
 @dataclass(frozen=True, eq=False)

@@ -18,7 +18,9 @@ from pathlib import Path
 from typing import Any, Protocol
 
 from surfaces.model import FirsthitError, is_number
-from surfaces.words import suggestion
+from surfaces.words import LONGEST_NAME, name_problem, suggestion
+
+_UNSEEN = r"\u0000-\u001f\u007f"  # control characters, as a schema's patterns name them
 
 
 class Limit(Protocol):
@@ -33,7 +35,7 @@ class Limit(Protocol):
 
 @dataclass(frozen=True)
 class Within:
-    """State that a number lies between `low` and `high`, both included.
+    """State that a number is finite and lies between `low` and `high`, both included; NaN lies nowhere.
 
     `words` is the text of the mistake; it may name {value}, {low} and {high}.
     """
@@ -43,8 +45,10 @@ class Within:
     words: str = "{value} is outside [{low:g}, {high:g}]"
 
     def broken(self, value: float) -> str | None:
-        if self.low <= value <= self.high:
+        if is_finite(value) and self.low <= value <= self.high:
             return None
+        if isinstance(value, int) and not is_finite(value):  # it may have more digits than Python writes
+            value = math.inf if value > 0 else -math.inf
         return self.words.format(value=value, low=self.low, high=self.high)
 
     def keywords(self) -> dict[str, Any]:
@@ -124,12 +128,61 @@ class Distinct:
     names: Callable[[Any], Sequence[Any]] = list
 
     def broken(self, value: Any) -> str | None:
-        names = self.names(value)
-        twice = next((name for name in names if names.count(name) > 1), None)
-        return None if twice is None else f"{twice!r} is named twice"
+        seen = set()
+        for name in self.names(value):
+            if name in seen:
+                return f"{name!r} is named twice"
+            seen.add(name)
+        return None
 
     def keywords(self) -> dict[str, Any]:
         return {}  # it is said of the list, see harness.schemas
+
+
+@dataclass(frozen=True)
+class Name:
+    """State that a text, or each key of a table, can be a name (surfaces.words.name_problem).
+
+    or_none: an empty text says that there is none
+    """
+
+    or_none: bool = False
+
+    def broken(self, value: str | Iterable[str]) -> str | None:
+        names = [value] if isinstance(value, str) else value
+        return next((problem for name in names if name or not self.or_none if (problem := name_problem(name))), None)
+
+    def keywords(self) -> dict[str, Any]:
+        return {"maxLength": LONGEST_NAME, "pattern": f"^[^{_UNSEEN}/\\\\]{'*' if self.or_none else '+'}$"}
+
+
+@dataclass(frozen=True)
+class Line:
+    """State that a text is one line of letters that can be seen, `most` of them at most."""
+
+    most: int = 300
+
+    def broken(self, value: str) -> str | None:
+        if len(value) > self.most:
+            return f"a text of {self.most:,} letters at most, not of {len(value):,}"
+        bad = next((c for c in value if not c.isprintable()), None)
+        return None if bad is None else f"it holds {bad!r}: one line of letters that can be seen"
+
+    def keywords(self) -> dict[str, Any]:
+        return {"maxLength": self.most, "pattern": f"^[^{_UNSEEN}]*$"}
+
+
+@dataclass(frozen=True)
+class AtMost:
+    """State that a text, a list or a table has so many letters, items or keys at most."""
+
+    count: int
+
+    def broken(self, value: Any) -> str | None:
+        return f"{self.count:,} at most, not {len(value):,}" if len(value) > self.count else None
+
+    def keywords(self) -> dict[str, Any]:
+        return {}  # they are of a list's items, and this is of the list
 
 
 def is_required(field: dataclasses.Field[Any]) -> bool:
@@ -184,50 +237,53 @@ def held(name: str, value: Any, kind: Any) -> Any:
         return _word(name, value, parts)
     if origin is tuple and parts[1:] == (Ellipsis,):
         if not isinstance(value, Sequence) or isinstance(value, str):
-            raise FirsthitError(f"{name} is a list, not {_shown(value)}")
+            raise FirsthitError(f"{name} is a list, not {shown(value)}")
         return tuple(held(name, item, parts[0]) for item in value)
     if origin is tuple:
         if not isinstance(value, Sequence) or isinstance(value, str) or len(value) != len(parts):
-            raise FirsthitError(f"{name} needs {len(parts)} numbers, not {_shown(value)}")
+            raise FirsthitError(f"{name} needs {len(parts)} numbers, not {shown(value)}")
         return tuple(held(name, item, part) for item, part in zip(value, parts, strict=True))
     if kind in (float, int):
         return _plain(name, value, whole=kind is int)
     if not isinstance(value, kind):
-        raise FirsthitError(f"{name} is a {'text' if kind is str else kind.__name__}, not {_shown(value)}")
+        raise FirsthitError(f"{name} is a {'text' if kind is str else kind.__name__}, not {shown(value)}")
     return value
 
 
 def checked_path(name: str, given: Any) -> Path:
     """Return the path that a caller gave. Raises FirsthitError, which names the argument, where it is none."""
     if not isinstance(given, str | Path):
-        raise FirsthitError(f"{name} is a path, as a text or a pathlib.Path, not {_shown(given)}")
+        raise FirsthitError(f"{name} is a path, as a text or a pathlib.Path, not {shown(given)}")
     return Path(given)
 
 
 def checked_names(name: str, given: Any) -> list[str]:
     """Return the names that a caller gave. Raises FirsthitError, which names the argument, for anything else."""
     if not isinstance(given, list | tuple) or not all(isinstance(one, str) for one in given):
-        raise FirsthitError(f"{name} is a list of names, not {_shown(given)}")
+        raise FirsthitError(f"{name} is a list of names, not {shown(given)}")
     return list(given)
 
 
 def _word(name: str, value: Any, known: tuple[str, ...]) -> str:
     if not isinstance(value, str):
-        raise FirsthitError(f"{name} is one of the texts {', '.join(map(repr, known))}, not {_shown(value)}")
+        raise FirsthitError(f"{name} is one of the texts {', '.join(map(repr, known))}, not {shown(value)}")
     if value not in known:
         raise FirsthitError(f"unknown {name} {value!r}; {suggestion(value, known)}")
     return value
 
 
-def _shown(value: object) -> str:
+def shown(value: object) -> str:
     """Write a value for a message, shortened where it is long."""
-    text = repr(value)
+    try:
+        text = repr(value)
+    except ValueError:  # a whole number of more digits than Python writes
+        return "a number of thousands of digits"
     return text if len(text) <= 60 else f"{text[:57]}..."
 
 
 def _plain(name: str, value: Any, whole: bool) -> float | int:
     if not is_number(value):
-        raise FirsthitError(f"{name} is a {'whole ' if whole else ''}number, not {_shown(value)}")
+        raise FirsthitError(f"{name} is a {'whole ' if whole else ''}number, not {shown(value)}")
     if not isinstance(value, Integral) and whole:
         raise FirsthitError(f"{name} is a whole number, not {value}")
     return int(value) if isinstance(value, Integral) else float(value)

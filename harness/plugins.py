@@ -59,6 +59,8 @@ class Plugin:
             raise FirsthitError(f"{self.method.name}: {name} is a finite number, not {str(value)[:40]}")
         if isinstance(default, int) and value != int(value):
             raise FirsthitError(f"{self.method.name}: {name} is a whole number, not {value}")
+        if isinstance(default, int) and not -(2**31) <= value < 2**31:  # a kernel's int has 32 bits
+            raise FirsthitError(f"{self.method.name}: {name} is a whole number of 32 bits, which {value:g} is not")
         return type(default)(value)
 
     def setting(self, name: str) -> Variant:

@@ -20,7 +20,7 @@ from harness import ROOT
 from harness.contract import GENERATED, PRECISIONS, Casts, FirsthitError, Method, Parameter
 from harness.limits import Distinct, is_finite
 from surfaces.model import is_number
-from surfaces.words import suggestion
+from surfaces.words import name_problem, suggestion, title_problem
 
 NAME = re.compile("[A-Za-z][A-Za-z0-9_]*")  # of a method: a Python module's, and a part of files' names
 KNOB = re.compile("[A-Z][A-Z0-9_]*")  # a constant's name in GLSL and in OpenCL C
@@ -159,6 +159,8 @@ def problem_of(method: Method) -> str | None:
         return problem
     if not NAME.fullmatch(method.name):
         return f"name {method.name!r} must be letters, digits and _, and begin with a letter; rename the folder too"
+    if problem := _text_problem(method):
+        return problem
     libraries = tuple(sorted(path.stem for path in LIBRARIES.glob("*.glsl")))
     named: tuple[tuple[str, str, Sequence[str], Iterable[str]], ...] = (
         ("casts", "way of casting", (method.casts,), CASTS),
@@ -177,6 +179,16 @@ def problem_of(method: Method) -> str | None:
         return f"parameters: the knob {twice}; keep one of the two"
     problems = (_knob_problem(parameter) for parameter in method.parameters)
     return next((f"parameters: {problem}" for problem in problems if problem), None)
+
+
+def _text_problem(method: Method) -> str | None:
+    """Say which text of a method cannot be printed in a line, and what it may hold; None where each can."""
+    names = [("name", method.name), *(("settings", name) for name in method.settings)]
+    names += [("claims", claim) for claim in sorted(method.claims)]
+    for field, name in names:
+        if problem := name_problem(name):
+            return f"{field}: {problem}"
+    return (problem := title_problem(method.source)) and f"source: {problem}"
 
 
 def _wrong_kind(method: Method) -> str | None:
@@ -210,11 +222,13 @@ def _knob_problem(knob: object) -> str | None:
     """Say what in the statement of a knob can mean nothing, and what to write; None where all of it makes sense."""
     if not isinstance(knob, Parameter):
         return f"it holds {knob!r}; give it Parameter(...)"
-    if not isinstance(knob.name, str) or not KNOB.fullmatch(knob.name):
+    if not isinstance(knob.name, str) or not KNOB.fullmatch(knob.name) or name_problem(knob.name):
         return f"the knob {knob.name!r} must be capitals, digits and _, and begin with a capital, since kernels read it"
     for name, value in (("meaning", knob.meaning), ("per", "" if knob.per is None else knob.per)):
         if not isinstance(value, str):
             return f"the knob {knob.name} has {name}={value!r}; write a text"
+        if problem := title_problem(value):
+            return f"the knob {knob.name} has a {name}: {problem}"
     if knob.finer not in (None, "up", "down"):
         return f"the knob {knob.name} is finer {knob.finer!r}; write up, down or None"
     if not isinstance(knob.sweep, tuple | list):

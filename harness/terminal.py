@@ -6,13 +6,16 @@ they were written at and whatever the terminal has made of them since, clearing 
 
 from __future__ import annotations
 
+import contextlib
 import os
 import sys
 import threading
 import time
 import unicodedata
-from collections.abc import Callable, Sequence
-from typing import Literal, TextIO
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from typing import Any, Literal, TextIO
+
+from harness.escaping import harmless
 
 CLEAR = "\r\x1b[J"  # from the first live line to the end of the screen
 NEWLINE = "\r\n"
@@ -35,11 +38,6 @@ def _columns(character: str) -> int:
     if unicodedata.category(character) in ("Mn", "Me", "Cf"):
         return 0
     return 2 if unicodedata.east_asian_width(character) in "WF" else 1
-
-
-def plain(text: str) -> str:
-    """Return a text as one line of characters that show: names may hold others, which would move the cursor."""
-    return "".join(character if unicodedata.category(character) != "Cc" else " " for character in text)
 
 
 def cut(text: str, columns: int) -> str:
@@ -103,6 +101,73 @@ def painted(text: str, colour: str) -> str:
     return f"\x1b[{COLOURS[colour]}m{text}\x1b[0m" if is_coloured(sys.stderr) else text
 
 
+class Guarded:
+    """Stand for a text stream, to which whole lines are written that `escaping.harmless` has passed.
+
+    What the stream's encoding has not is written as Python's escapes. All else is the stream's own.
+    """
+
+    def __init__(self, stream: TextIO) -> None:
+        self.stream = stream
+        self._lock = threading.RLock()
+        self._begun = ""  # of a line that has not ended yet
+
+    def write(self, text: str) -> int:
+        """Take a text, and write the lines that end in it. Raises OSError where they cannot be written."""
+        with self._lock:
+            ended, end, self._begun = (self._begun + text).rpartition("\n")
+            if end:
+                self._pass_on(ended + end)
+        return len(text)
+
+    def writelines(self, texts: Iterable[str]) -> None:
+        """Take texts as `write` does."""
+        for text in texts:
+            self.write(text)
+
+    def flush(self) -> None:
+        """Write all that was taken. Raises OSError where it cannot be written."""
+        with self._lock:
+            begun, self._begun = self._begun, ""
+            if begun:
+                self._pass_on(begun)
+            self.stream.flush()
+
+    def _pass_on(self, text: str) -> None:
+        told, encoding = harmless(text), self.stream.encoding or "utf-8"
+        self.stream.write(told.encode(encoding, "backslashreplace").decode(encoding))
+
+    def __getattr__(self, name: str) -> Any:
+        """Return what the stream itself has of this name. Raises AttributeError where it has none."""
+        return getattr(self.stream, name)
+
+
+def unguarded(stream: Any) -> TextIO:
+    """Return the stream itself, to write what is a command or moves the cursor by our will."""
+    own: TextIO = stream.stream if isinstance(stream, Guarded) else stream
+    return own
+
+
+def command(text: str) -> None:
+    """Write commands for a CI server to standard output, whose texts were escaped for it."""
+    sys.stdout.flush()
+    out = unguarded(sys.stdout)
+    out.write(f"{text}\n")
+    out.flush()
+
+
+@contextlib.contextmanager
+def guarded() -> Iterator[None]:
+    """Guard standard output and standard error while the block runs: no text of anybody is a command there."""
+    before = sys.stdout, sys.stderr
+    own = [stream if stream is None or isinstance(stream, Guarded) else Guarded(stream) for stream in before]
+    sys.stdout, sys.stderr = own
+    try:
+        yield
+    finally:
+        sys.stdout, sys.stderr = before
+
+
 class Screen:
     """Write what commands tell beside their results, and how much of it: `level` says.
 
@@ -133,13 +198,14 @@ class Screen:
             self._wakes.set()
         return before
 
-    def say(self, line: str = "", *, error: bool = False) -> None:
-        """Write a line that stays, above the live ones; a quiet screen writes errors only."""
+    def say(self, line: str = "", *, error: bool = False, colour: str = "") -> None:
+        """Write a line that stays, above the live ones, in a colour of COLOURS; a quiet screen writes errors only."""
         if self.level == "quiet" and not error:
             return
+        told = harmless(line)
         with self._lock:
             self._when = time.monotonic()
-            self._draw(f"{line}\n")
+            self._draw(f"{painted(told, colour) if colour else told}\n")
 
     def begin(self, line: str) -> None:
         """Write at once what goes on, elsewhere than on a terminal, where `show` does."""
@@ -169,21 +235,21 @@ class Screen:
         """
         if sys.stderr is None:  # the caller closed it before
             return
-        lines = tuple(map(plain, self._source())) if self._source else ()
+        live = tuple(harmless(" ".join(line.split("\n"))) for line in self._source()) if self._source else ()
         if not is_live(sys.stderr):
-            first = lines[0] if lines else ""
+            first = live[0] if live else ""
             if first and first != self._told and time.monotonic() - self._when >= NEXT_SECONDS:
                 self._told, self._when = first, time.monotonic()
                 stays += f"{first}\n"
             _write(stays)
             return
         columns, rows = size(sys.stderr)
-        fitted = tuple(cut(line, columns - 1) for line in lines[: max(rows - 1, 1)])
+        fitted = tuple(cut(line, columns - 1) for line in live[: max(rows - 1, 1)])
         if not stays and fitted == self._drawn:
             return
         up = f"\x1b[{len(fitted) - 1}A" if len(fitted) > 1 else ""
-        live = f"{NO_WRAP}{NEWLINE.join(fitted)}{WRAP}{up}\r" if fitted else ""
-        _write((CLEAR if self._drawn else "") + stays + live)
+        drawn = f"{NO_WRAP}{NEWLINE.join(fitted)}{WRAP}{up}\r" if fitted else ""
+        _write((CLEAR if self._drawn else "") + stays + drawn)
         self._drawn = fitted
 
 
@@ -192,5 +258,7 @@ SCREEN = Screen()
 
 def _write(text: str) -> None:
     if text:
-        sys.stderr.write(text)
         sys.stderr.flush()
+        out = unguarded(sys.stderr)
+        out.write(text)
+        out.flush()

@@ -5,8 +5,11 @@ from __future__ import annotations
 import difflib
 from collections.abc import Iterable
 
+from surfaces.visible import visible
+
 COORDINATES = ("x", "y", "z")  # the variables of a formula
 LONGEST_NAME = 100  # letters
+LONGEST_TITLE = 2000
 
 
 def suggestion(name: str, known: Iterable[str], most: int = 1, otherwise: str = "") -> str:
@@ -32,5 +35,18 @@ def name_problem(name: str) -> str | None:
         return "a name has a letter at least"
     if len(name) > LONGEST_NAME:
         return f"a name has {LONGEST_NAME} letters at most, and {name[:20]!r}... has {len(name):,}"
-    bad = next((c for c in name if not c.isprintable() or c in "/\\"), None)
+    bad = _unseen(name) or next((c for c in name if c in "/\\"), None)
     return None if bad is None else f"a name holds no {bad!r}: letters, digits, blanks and signs other than slashes"
+
+
+def title_problem(title: str) -> str | None:
+    """Say why a text can be no title, source or meaning, which stand in one line; None where it can."""
+    if len(title) > LONGEST_TITLE:
+        return f"it has {LONGEST_TITLE:,} letters at most, and {title[:20]!r}... has {len(title):,}"
+    bad = _unseen(title)
+    return None if bad is None else f"it holds no {bad!a}: it is one line of letters and signs that can be seen"
+
+
+def _unseen(text: str) -> str | None:
+    """Return the first sign of a text that cannot be seen; None where there is none."""
+    return next((c for c in text if c != "\\" and visible(c) != c), None)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import random
+import statistics
 from pathlib import Path
 from typing import Any
 
@@ -114,7 +115,8 @@ def cell(variant: str, surface: str, device: str, precision: str) -> dict[str, A
     slow = {"null": 0.04, "ray_march": 12.0, "newton": 0.7, "_odd#": 0.4}[method] * (2.0 if "1e-06" in variant else 1.0)
     median = slow * degree / DEVICES[device] * (1.8 if precision == "float64" else 1.0) * rng.uniform(0.9, 1.1)
     narrow = rng.random() > 0.1
-    samples = [median * rng.gauss(1.0, 0.005 if narrow else 0.05) for _ in range(20)]
+    drawn = [rng.gauss(1.0, 0.005 if narrow else 0.05) for _ in range(20)]
+    samples = [median * one / statistics.median(drawn) for one in drawn]
     finished: dict[str, Any] = {
         "format": 1,
         "key": digest(slot, IDENTITY),
@@ -145,8 +147,8 @@ def cell(variant: str, surface: str, device: str, precision: str) -> dict[str, A
             "session": surface,
             "batch": 1,
             "median_ms": median,
-            "lower_ms": median * (0.995 if narrow else 0.95),
-            "upper_ms": median * (1.005 if narrow else 1.06),
+            "lower_ms": max(min(samples), median * (0.995 if narrow else 0.95)),
+            "upper_ms": min(max(samples), median * (1.005 if narrow else 1.06)),
             "overhead_share": 0.12 if rng.random() < 0.1 else 0.02,
             "narrow": narrow,
             **timings.steadiness(samples),

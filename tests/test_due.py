@@ -7,6 +7,8 @@ import pytest
 from harness.results.store import Store
 from harness.running.due import PREPARING, due, estimate_seconds
 
+from .synthetic_run import cell
+
 STATUSES = ("ok", "skipped", "failed", "timeout", "crashed")
 
 
@@ -18,7 +20,8 @@ def planned(key, skip=None):
 def store(tmp_path):
     store = Store(tmp_path)
     for status in STATUSES:
-        store.write({"key": status, "slot": f"slot of {status}", "status": status, "seconds": 7.0})
+        row = cell("newton[EPSILON=0.001]", "torus", "opencl:intel", "float32") | {"key": status, "arrays": None}
+        store.write(row | {"slot": f"slot of {status}", "status": status, "reason": "why", "seconds": 7.0})
     (tmp_path / "cells" / "damaged.json").write_text("{")
     return store
 

@@ -128,15 +128,18 @@ def test_a_damaged_baseline_is_one_line(tmp_path, text):
 
 @pytest.mark.parametrize(
     ("line", "named"),
-    [("status = 7", "status is 7"), ('status = "done"', "status is 'done'"), ("misses = true", "misses is True"),
-     ('misses = "none"', "misses is 'none'"), ("misses = [1]", r"misses is \[1\]"),
-     ("last_bit = 'x'", "last_bit is 'x'"), ("error_max = nan", "error_max is nan")],
+    [("status = 7", "status is no text: 7"), ('status = "done"', "status: 'done' is not one of ok"),
+     ("misses = true", "misses is no number: True"), ('misses = "none"', "misses is no number: 'none'"),
+     ("misses = [1]", r"misses is no number: \[1\]"), ("misses = -1", "misses: -1 is negative"),
+     ("last_bit = 'x'", "last_bit is no number: 'x'"), ("error_max = nan", "error_max: nan is no finite number"),
+     (f"misses = 1{'0' * 400}", "misses: 1000"), ("scene = 1979-05-27", "scene is no text")],
 )  # fmt: skip
 def test_a_row_whose_value_cannot_be_is_damage_and_no_improvement(tmp_path, line, named):
     path = tmp_path / "b.toml"
     status = "" if line.startswith("status") else "status = 'ok'\n"
-    path.write_text(f"format = 2\n[device.x]\nname = 'x'\n[row.x.y]\nscene = 's'\n{status}{line}\n")
-    with pytest.raises(FirsthitError, match=f"is damaged: a row's {named}"):
+    scene = "" if line.startswith("scene") else "scene = 's'\n"
+    path.write_text(f"format = 2\n[device.x]\nname = 'x'\n[row.x.y]\n{scene}{status}{line}\n")
+    with pytest.raises(FirsthitError, match=f"is damaged: row y.*{named}"):
         baseline.read(path)
 
 

@@ -192,7 +192,7 @@ def test_a_picture_is_drawn_whatever_is_missing(tmp_path):
 
     now = pictures.side_of(_stored(tmp_path, "d", "new", [(4, 4)]), tmp_path, "now")
     nothing = pictures.Side("before", told="not on this machine")
-    damaged = pictures.Side("before", {"wrong": np.zeros((3, 3), np.uint8)})
+    damaged = pictures.Side("before", told="its answers cannot be read: damaged")
     for before, after in ((nothing, now), (damaged, now), (nothing, nothing)):
         image = np.asarray(Image.open(io.BytesIO(pairs.png(("m", "fell"), before, after, evaluations=True))))
         assert image.shape[2] >= 3

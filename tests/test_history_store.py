@@ -8,7 +8,7 @@ from harness import ROOT
 from harness.contract import FirsthitError
 from harness.gate import repository
 from harness.gate.keep import keeping
-from harness.results import commits
+from harness.results import commits, sealed
 from harness.results.commits import same_arithmetic
 
 from .kept_runs import DEVICE, SLOT, committed, git, kept, row
@@ -40,17 +40,17 @@ def test_a_clean_tree_replaces_its_commit_and_a_dirty_one_stands_beside_it(tmp_p
         ('"misses": 3', '"misses": 3,,', "damaged"),
         ('"misses": 3', "<<<<<<< HEAD", "damaged"),
         ('"misses": 3', '"misses": NaN', "it holds NaN"),
-        ('"misses": 3', '"misses": 1e999', "its misses is inf"),
-        ('"status": "ok"', '"state": "ok"', "it lacks 'status'"),
-        ('"scene": "s"', '"scene": 4', "'4' is no str"),
-        ('"name": "opencl:one"', '"title": "One"', "it lacks 'name'"),
-        ('"dirty": false', '"dirty": 0', "'0' is no bool"),
+        ('"misses": 3', '"misses": 1e999', "its misses: inf is no finite number"),
+        ('"status": "ok"', '"state": "ok"', "status is missing"),
+        ('"scene": "s"', '"scene": 4', "scene is no text: 4"),
+        ('"name": "opencl:one"', '"title": "One"', "name is missing"),
+        ('"dirty": false', '"dirty": 0', "dirty is no truth value: 0"),
         ('"hash": "01', '"hash": "zz', "names no commit"),
         ("2026-03-01T12", "some day", "damaged"),
         ("12:00:00+00:00", "12:00:00+02:00", "dates are in UTC"),
         ("12:00:00+00:00", "12:00:00", "dates are in UTC"),
         ('"format": 1', '"format": 2', "not of this version's format (2, not 1)"),
-        ('"commit": {', '"comit": {', "it lacks 'commit'"),
+        ('"commit": {', '"comit": {', "commit is missing"),
     ],
 )
 def test_a_damaged_file_is_named_with_the_reason_and_the_others_are_read(tmp_path, old, new, words):
@@ -59,6 +59,8 @@ def test_a_damaged_file_is_named_with_the_reason_and_the_others_are_read(tmp_pat
     text = path.read_text()
     assert old in text
     path.write_text(text.replace(old, new, 1))
+    assert "its checksum does not hold" in commits.read_all(tmp_path)[1][0]
+    path.write_bytes(sealed.with_seal("{\n" + text.replace(old, new, 1).partition("\n")[2]))
     found, [problem] = commits.read_all(tmp_path)
     assert len(found) == 1
     assert str(path) in problem

@@ -203,11 +203,11 @@ def test_fronts_are_what_a_comparison_of_all_pairs_finds(frame: pd.DataFrame) ->
         (lambda c: c.update(size="256"), "size is no whole number: '256'"),
         (lambda c: c.update(answers=1), "answers is no truth value: 1"),
         (lambda c: c.update(time=[1.0]), "time is no object"),
-        (lambda c: c["time"].update(samples_ms=[1.0, None]), "time.samples_ms is no list of numbers: [1.0, None]"),
+        (lambda c: c["time"].update(samples_ms=[1.0, None]), "time.samples_ms[] is no number: None"),
         (lambda c: c["accuracy"]["error"].update(p99="small"), "accuracy.error.p99 is no number: 'small'"),
-        (lambda c: c["accuracy"].update(misses=2**64), "accuracy.misses is no whole number"),
+        (lambda c: c["accuracy"].update(misses=2**64), "accuracy.misses: 18446744073709551616 is no count"),
         (lambda c: c.update(key="0" * 16), "it names another cell's key"),
-        (lambda c: c.update(status="fine"), "its status is 'fine', not one of ok"),
+        (lambda c: c.update(status="fine"), "status: 'fine' is not one of ok, skipped"),
     ],
 )
 def test_a_foreign_cell_is_listed_and_the_rest_reported(
@@ -230,7 +230,7 @@ def test_a_folder_that_is_no_run_is_refused_in_one_line(tmp_path: Path) -> None:
         "empty": (None, "it has no plan.json"),
         "truncated": ('{"format": 1, "na', "truncated or no JSON"),
         "foreign": ('{"format": 7}', "its format is 7, not 1"),
-        "escaping": (json.dumps(plan([made | {"key": "../../etc"}])), "is no cell key"),
+        "escaping": (json.dumps(plan([made | {"key": "../../etc"}])), "is no key"),
         "unfinished": (json.dumps(plan([made])), "run `firsthit run configs/quick.toml` first"),
     }
     for name, (text, message) in plans.items():

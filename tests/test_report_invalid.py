@@ -64,7 +64,8 @@ def test_an_invalid_answer_breaks_what_a_method_claims_of_the_ray(tmp_path: Path
 
 def test_undecided_hits_are_told_under_the_results(tmp_path: Path) -> None:
     assert "undecided" not in surface_tables.results_table(frame_of(tmp_path / "a", made())).caption
-    caption = surface_tables.results_table(frame_of(tmp_path / "b", made(undecided=3))).caption
+    undecided = made(undecided=3, truth_misses=made()["accuracy"]["truth_misses"] - 3)
+    caption = surface_tables.results_table(frame_of(tmp_path / "b", undecided)).caption
     assert "The oracle left 3 hits undecided" in caption
 
 

@@ -212,8 +212,15 @@ def test_what_does_not_fit_is_cut_and_the_end_stays():
     assert console.table(("曲面", "b"), [("a", 1)]) == "曲面  b\na     1"
 
 
-def test_names_cannot_move_the_cursor():
-    assert terminal.plain("a\x1b[2Jb\r\nc\t") == "a [2Jb  c "
+def test_names_cannot_move_the_cursor_and_begin_no_line():
+    assert console.table(("a\x1b[2Jb\r\nc\t",), ()) == "a\\x1b[2Jb c"
+    written = io.StringIO()
+    guard = terminal.Guarded(written)
+    for text in ("a\x1b[2J", "b\r\n ::err", "or::c\n##[group]d ##vso[x]", "\u202ee"):
+        guard.write(text)
+    assert written.getvalue() == "a\\x1b[2Jb\\x0d\n \\x3a:error::c\n"
+    guard.flush()
+    assert written.getvalue().endswith("\\x23#[group]d \\x23#vso[x]\\u202ee")
 
 
 def test_a_terminal_that_does_not_say_how_wide_it_is_may_be_told(monkeypatch):

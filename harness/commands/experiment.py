@@ -12,7 +12,7 @@ from harness import console
 from harness.commands import Add
 from harness.commands.answers import experiments
 from harness.commands.machine import Answer, add_json
-from harness.commands.options import tell
+from harness.commands.options import add_yes, tell
 from harness.commands.printer import Printer
 from harness.contract import FirsthitError
 from harness.experiment import config, identity, plan
@@ -29,11 +29,13 @@ FIGURES, TABLES = ("svg", "pdf", "png"), ("latex", "csv", "markdown")  # forms; 
 def add_parsers(add: Add) -> None:
     parser = add("plan", "firsthit plan quick")
     _add_config(parser)
+    add_yes(parser)
     add_json(parser)
     parser.set_defaults(run=_plan)
 
     parser = add("run", "firsthit run quick --retry failed")
     _add_config(parser)
+    add_yes(parser)
     parser.add_argument("--force", action="store_true", help="run every cell again")
     parser.add_argument("--retry", choices=["failed"], help="run failed, timed out and crashed cells again")
     parser.add_argument("--device", action="append", metavar="NAME", help="run on this device only; may be repeated")
@@ -93,7 +95,7 @@ def _add_config(parser: argparse.ArgumentParser) -> None:
 
 
 def _load(options: argparse.Namespace) -> Loaded:
-    return load(options.config, options.plugins, getattr(options, "device", None) or (), Printer())
+    return load(options.config, options.plugins, getattr(options, "device", None) or (), Printer(), options.yes)
 
 
 def _plan(options: argparse.Namespace) -> int | Answer:

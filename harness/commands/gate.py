@@ -9,7 +9,7 @@ from pathlib import Path
 from harness.commands import Add, telling
 from harness.commands.answers import gates
 from harness.commands.machine import Answer, add_json
-from harness.commands.options import add_history, history_of, tell, writable
+from harness.commands.options import add_history, add_yes, history_of, tell, writable
 from harness.commands.printer import Printer
 from harness.contract import FirsthitError
 from harness.experiment import toml_file
@@ -76,6 +76,7 @@ def _add_shared(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--runs", type=Path, default=Path("runs"), metavar="DIR", help="rows go here (default: runs)")
     parser.add_argument("--device", action="append", metavar="NAME", help="on this device only; may be repeated")
     parser.add_argument("--force", action="store_true", help="run every cell again")
+    add_yes(parser)
 
 
 def _path(options: argparse.Namespace) -> Path:
@@ -85,7 +86,7 @@ def _path(options: argparse.Namespace) -> Path:
 
 
 def _prepare(options: argparse.Namespace) -> Prepared:
-    return prepare(options.config, options.plugins, options.device or (), Printer())
+    return prepare(options.config, options.plugins, options.device or (), Printer(), options.yes)
 
 
 def _check(options: argparse.Namespace, prepared: Prepared) -> Checked:
@@ -157,7 +158,7 @@ def _tell(
 
 def _other(options: argparse.Namespace) -> Other:
     """Find the revision that --against names, before anything is run."""
-    return against.at(options.against, options.config, options.plugins, options.device or (), Printer())
+    return against.at(options.against, options.config, options.plugins, options.device or (), Printer(), options.yes)
 
 
 def _known(before: Baseline | None, other: Other | None) -> frozenset[str]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import shlex
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -14,6 +13,7 @@ from harness.commands.answers import gates
 from harness.commands.machine import Answer, add_json
 from harness.commands.options import add_history, history_of, tell
 from harness.contract import FirsthitError
+from harness.escaping import shell
 from harness.experiment import reading
 from harness.experiment.shipped import located
 from harness.gate import repository
@@ -54,7 +54,7 @@ def _history(options: argparse.Namespace) -> int | Answer:
         tell(f"firsthit: {problem}")
     if not kept:
         plugins = ["--plugins", str(options.plugins)] if options.plugins else []
-        command = shlex.join(["firsthit", *plugins, "gate", str(options.config), "--keep"])
+        command = shell(["firsthit", *plugins, "gate", str(options.config), "--keep"])
         raise FirsthitError(f"{folder} holds no kept runs to draw; `{command}` keeps the rows of a commit")
     output = options.output or Path("runs") / f"history-{experiment.name}"
     steps = _draw(kept, problems, options.plugins, config, tolerances_of(experiment.config.gate.figures), output)

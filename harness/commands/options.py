@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TypeVar
 
 from harness.contract import ORIGINS, PRECISIONS, FirsthitError, Surface, Variant
+from harness.experiment.size import MOST
 from harness.limits import TIMEOUT, Limit
 from harness.plugins import Catalog, find_methods
 from harness.running.trace import Caster, usable_device
@@ -70,6 +71,11 @@ def add_timeout(parser: argparse.ArgumentParser) -> None:
     """Add the option that says how long one step may take, such as compiling or casting all rays."""
     help_ = "for one step, which is given up after so long (default: 60)"
     parser.add_argument("--timeout", type=number(TIMEOUT), default=60.0, metavar="SECONDS", help=help_)
+
+
+def add_yes(parser: argparse.ArgumentParser) -> None:
+    """Add the option without which a large plan is refused."""
+    parser.add_argument("--yes", action="store_true", help=f"plan more than {MOST:,} cells too, if there are so many")
 
 
 def add_origin(parser: argparse.ArgumentParser) -> None:

@@ -15,6 +15,7 @@ from harness.commands.options import add_method, add_surface, caster_of, number,
 from harness.contract import FirsthitError, RayStatus, TruthStatus
 from harness.experiment.config import AccuracyChoice
 from harness.limits import Within
+from harness.results import npz
 from harness.results.writing import savez_atomically
 from harness.running.trace import cast, checked_rays
 
@@ -56,11 +57,11 @@ def _add_files(parser: argparse.ArgumentParser) -> None:
 def load_rays(path: Path) -> NDArray[np.float32]:
     """Read rays float32[n, 6] from a .npy file. Raises FirsthitError for anything else, and names the first bad row."""
     try:
-        rays = np.load(path, allow_pickle=False)
+        rays = npz.read_alone(path)
     except OSError as error:
         raise FirsthitError(f"cannot read {path}: {error.strerror or error}") from None
-    except (ValueError, EOFError):
-        raise FirsthitError(f"{path} is not a .npy file of numbers; write it with numpy.save") from None
+    except ValueError as error:
+        raise FirsthitError(f"{path} is not a .npy file of numbers ({error}); write it with numpy.save") from None
     return checked_rays(rays, str(path))
 
 

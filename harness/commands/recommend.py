@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import importlib.util
-import shlex
 import textwrap
 from pathlib import Path
 
@@ -13,10 +12,20 @@ from harness.commands import Add
 from harness.commands.answers import recommending
 from harness.commands.answers.recommending import Beside
 from harness.commands.machine import Answer, add_json
-from harness.commands.options import add_surface, methods_of, number, surface_of, surface_words, whole, writable
+from harness.commands.options import (
+    add_surface,
+    add_yes,
+    methods_of,
+    number,
+    surface_of,
+    surface_words,
+    whole,
+    writable,
+)
 from harness.commands.printer import Printer
 from harness.commands.shipping import command_for
 from harness.contract import CLAIMS, PRECISIONS, FirsthitError
+from harness.escaping import shell
 from harness.limits import PIXELS, RAYS, SECONDS, SEED
 from harness.plugins import Catalog
 from harness.recommend import telling
@@ -74,6 +83,7 @@ def add_parsers(add: Add) -> None:
     parser.add_argument("--runs", type=Path, default=Path("runs"), metavar="DIR", help="rows go here (default: runs)")
     page = "write the answer as a page with a picture and its error map: FILE.pdf, FILE.html or FILE.png"
     parser.add_argument("-o", "--output", type=Path, metavar="FILE", help=page)
+    add_yes(parser)
     add_json(parser)
     parser.set_defaults(run=_recommend)
 
@@ -96,7 +106,9 @@ def _recommend(options: argparse.Namespace) -> int | Answer:
     if page is not None:
         _check_page(page)
     catalog = methods_of(options)
-    found = recommend(wish, catalog, options.device, options.runs, _Printer(), pictured=page is not None)
+    found = recommend(
+        wish, catalog, options.device, options.runs, _Printer(), pictured=page is not None, yes=options.yes
+    )
     again, ship = _commands(found, options, catalog)
     beside = Beside(again, ship, page)
     code = 0 if found.contenders else NOTHING_HOLDS
@@ -135,7 +147,8 @@ def _commands(found: Recommendation, options: argparse.Namespace, catalog: Catal
     words += [word for name, value in given.items() for word in (f"--{name}", str(value))]
     words += [word for claim in options.require for word in ("--require", claim)]
     words += ["--plugins", str(options.plugins)] if options.plugins else []
-    again = shlex.join([*words, "--device", found.device.name])
+    words += ["--yes"] if options.yes else []
+    again = shell([*words, "--device", found.device.name])
     if not found.contenders:
         return again, None
     best = found.contenders[0]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import shlex
 from pathlib import Path
 
 from harness.commands import Add
@@ -18,6 +17,7 @@ from harness.commands.options import (
 )
 from harness.contract import PRECISIONS, FirsthitError, Language, Precision, Variant
 from harness.devices.interface import LANGUAGES
+from harness.escaping import shell
 from harness.plugins import Catalog
 from harness.results.writing import write_new
 from harness.running.trace import usable_device
@@ -64,7 +64,7 @@ def command_for(options: argparse.Namespace, catalog: Catalog, variant: Variant,
     words += [word for knob in turned for word in ("--knob", knob)]
     words += [] if precision == "float32" else ["--precision", precision]
     words += ["--plugins", str(options.plugins)] if options.plugins else []
-    return shlex.join(words)
+    return shell(words)
 
 
 def _kernel(options: argparse.Namespace) -> int:
@@ -91,5 +91,5 @@ def _kernel(options: argparse.Namespace) -> int:
             f"tried on {device}: compiled in {tried.compile_ms / 1e3:.2g} s; {tried.rays} rays, {tried.hits} hits, all "
             "answered as by the program that firsthit checks, to the last bit"
         )
-    print(f"next:  {shlex.join(['python', str(options.output / 'draw.py'), 'surface.png'])}")
+    print(f"next:  {shell(['python', str(options.output / 'draw.py'), 'surface.png'])}")
     return 0

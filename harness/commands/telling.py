@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import argparse
 import importlib
-import shlex
 import shutil
 import sys
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
+from harness import escaping
 from harness.contract import FirsthitError
 from harness.gate import outputs, pictures, servers
 from harness.gate.about import About, Place, abouts, cell_slot
@@ -17,6 +17,7 @@ from harness.gate.checked import Checked, Prepared
 from harness.gate.judge import Judged
 from harness.gate.pictures import Before
 from harness.results.writing import write_atomically
+from harness.terminal import command
 
 RUNS = Path("runs")
 
@@ -76,7 +77,7 @@ def _command(options: argparse.Namespace, judged: Judged) -> str:
     for name, value in (("--baseline", options.baseline), ("--against", options.against), ("--runs", runs)):
         if value:
             words += [name, str(value)]
-    return shlex.join([*words, "--force"])
+    return escaping.shell([*words, "--force"])
 
 
 def about_rows(
@@ -105,7 +106,7 @@ def tell(
     if options.junit:  # files come first, since the table's reader may go away
         write_atomically(options.junit, servers.junit(judged, title, about).encode())
     summary = outputs.markdown(judged, title, held, code, about)
-    summary += f"\n```\n{more(None)}\n```\n" if more else ""
+    summary += f"\n{escaping.fenced(more(None))}\n" if more else ""
     if options.markdown:
         write_atomically(options.markdown, summary.encode())
     if options.github:
@@ -121,4 +122,4 @@ def tell(
     if options.github:
         kernels = {name: plugin.folder / "kernel.glsl" for name, plugin in prepared.catalog.plugins.items()}
         if written := servers.github(judged, kernels, about):
-            print(written)
+            command(written)

@@ -15,7 +15,6 @@ from __future__ import annotations
 
 import contextlib
 import dataclasses
-import json
 import os
 import platform
 import stat
@@ -24,12 +23,12 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
-from typing import Any
+from typing import Any, TypedDict
 
 from harness import ROOT
 from harness.contract import DeviceInfo, FirsthitError, digest
 from harness.devices import host
-from harness.results import sources
+from harness.results import declared, sealed, sources
 from harness.results.writing import write_atomically
 
 PACKAGES = (
@@ -54,6 +53,18 @@ class Kept:
     since: float
 
 
+class _Record(TypedDict):
+    """Hold what is kept of one backend; files are told by size and time of change."""
+
+    surroundings: str
+    files: dict[str, list[int]]
+    devices: list[dict[str, Any]]
+
+
+_RECORD = declared.checker(_Record)
+_DEVICE = declared.of_dataclass(DeviceInfo)
+
+
 def keep(backend: str, devices: Sequence[DeviceInfo], ran: Iterable[Path] | None) -> None:
     """Keep what a look at `backend` found; if that is nothing, or a device has a problem, forget what was kept.
 
@@ -73,7 +84,7 @@ def keep(backend: str, devices: Sequence[DeviceInfo], ran: Iterable[Path] | None
             states = {str(path): state for path in ran if (state := _state(path))}  # a compiler's files may be gone
             found = [dataclasses.asdict(info) for info in devices]
             record = {"surroundings": _surroundings(), "files": states, "devices": found}
-            write_atomically(file, json.dumps(record | {"digest": digest(record)}).encode())
+            write_atomically(file, sealed.sealed(record))
 
 
 def recall(backend: str) -> Kept | None:
@@ -83,13 +94,14 @@ def recall(backend: str) -> Kept | None:
         if place is None:
             return None
         file = place / f"{backend}.json"
-        record = json.loads(file.read_text(encoding="utf-8"))
-        if record.pop("digest") != digest(record) or record["surroundings"] != _surroundings():
+        record = sealed.read(file)
+        _RECORD(record, "")
+        if record["surroundings"] != _surroundings():
             return None
         if any(_state(Path(path)) != state for path, state in record["files"].items()):
             return None
         return Kept(tuple(_device(facts) for facts in record["devices"]), file.stat().st_mtime)
-    except (OSError, ValueError, LookupError, TypeError, AttributeError):  # not there, damaged, or of another version
+    except (OSError, ValueError):  # not there, damaged, or of another version
         return None
 
 
@@ -116,6 +128,8 @@ def _base(info: DeviceInfo) -> str:
 
 
 def _device(facts: dict[str, Any]) -> DeviceInfo:
+    """Make a device of what was kept of it. Raises ValueError where that is none."""
+    _DEVICE(facts, "")
     return DeviceInfo(**facts | {"versions": tuple((name, number) for name, number in facts["versions"])})
 
 

@@ -6,6 +6,7 @@ Whether error-free transforms are exact there is a device's fact, and how far it
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Annotated
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +14,7 @@ from numpy.typing import NDArray
 from harness.contract import Precision, Section
 from harness.devices.interface import Device, map_rows, real_type
 from harness.kernels.assemble import KERNELS, file_section, map_program
+from harness.results.declared import NOT_NEGATIVE, SHARE
 
 CASES = 65536
 PEAK_ITEMS = 1024  # of the first launch; their number grows until a launch takes PEAK_MS, since a GPU needs more
@@ -52,15 +54,15 @@ class Probes:
     clock_ratio: the device's clock over the host's; None if the device has none
     """
 
-    two_sum: float
-    two_prod_split: float
-    two_prod_fma: float
-    round_to_nearest: float
-    division: float
-    peak_gflops: float
-    peak_median_gflops: float
+    two_sum: Annotated[float, SHARE]
+    two_prod_split: Annotated[float, SHARE]
+    two_prod_fma: Annotated[float, SHARE]
+    round_to_nearest: Annotated[float, SHARE]
+    division: Annotated[float, SHARE]
+    peak_gflops: Annotated[float, NOT_NEGATIVE]
+    peak_median_gflops: Annotated[float, NOT_NEGATIVE]
     peak_shape: str
-    clock_ratio: float | None
+    clock_ratio: Annotated[float | None, NOT_NEGATIVE]
 
 
 def _pairs(precision: Precision) -> NDArray[np.float64]:

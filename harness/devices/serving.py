@@ -20,17 +20,19 @@ from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import IO, Any
 
+from harness import escaping
+
 COUNTED = re.compile(rb"(\d+ (warning|error)s?( and \d+ errors?)? generated\.)?")  # what clang says last
-STREAMS: dict[str, Any] = {"stdin": subprocess.DEVNULL, "stderr": subprocess.PIPE}
+LONGEST_LINE = 100_000  # bytes; a longer one is several
+STREAMS: dict[str, Any] = {"stdin": subprocess.DEVNULL, "stdout": subprocess.PIPE, "stderr": subprocess.STDOUT}
 
 
 def start(device: str) -> tuple[subprocess.Popen[bytes], Connection]:
     """Start the worker that holds `device`; return its process, and our end of the connection to it.
 
-    The worker looks for modules where this process does (`sys.path`), so that it runs the same harness. It shares
-    standard output with this process and reads no input. What drivers write on standard error is handed on, but for
-    the lines that count the errors of a compiler's log, which is told elsewhere. Raises FirsthitError if no process can
-    be started.
+    The worker looks for modules where this process does (`sys.path`), so that it runs the same harness. It reads no
+    input. What drivers write, and kernels that print, is handed on to standard error, but for the lines that count the
+    errors of a compiler's log, which is told elsewhere. Raises FirsthitError if no process can be started.
     """
     ours, theirs = Pipe()
     handle = theirs.fileno()
@@ -51,17 +53,20 @@ def start(device: str) -> tuple[subprocess.Popen[bytes], Connection]:
         raise FirsthitError(f"cannot start {sys.executable} as the worker of {device}: {error}", exit_code=3) from None
     finally:
         theirs.close()
-    threading.Thread(target=_hand_on, args=(process.stderr,), daemon=True).start()
+    threading.Thread(target=_hand_on, args=(process.stdout,), daemon=True).start()
     return process, ours
 
 
-def _hand_on(errors: IO[bytes]) -> None:
-    """Write on standard error what a worker writes there, until it ends, without what only counts errors."""
-    with errors:
-        for line in errors:
+def _hand_on(said: IO[bytes]) -> None:
+    """Write on standard error what a worker writes, until it ends, without what only counts errors.
+
+    Anybody's kernel may print: nothing in its lines moves a cursor, or is a command of a CI server.
+    """
+    with said:
+        while line := said.readline(LONGEST_LINE):
             if not COUNTED.fullmatch(line.strip()):
                 with contextlib.suppress(OSError):
-                    os.write(2, line)
+                    os.write(2, escaping.output(line))
 
 
 @contextlib.contextmanager

@@ -21,13 +21,30 @@ from harness.contract import (
     Variant,
     View,
 )
-from harness.limits import PIXELS, RAYS, SECONDS, SEED, SHARE, TIMEOUT, Distinct, Known, Offered, OneOf, Within
+from harness.limits import (
+    PIXELS,
+    RAYS,
+    SECONDS,
+    SEED,
+    SHARE,
+    TIMEOUT,
+    AtMost,
+    Distinct,
+    Known,
+    Line,
+    Name,
+    Offered,
+    OneOf,
+    Within,
+)
 from harness.scenes.choice import SceneChoice
 from harness.scenes.model import Scene
 from harness.scenes.views import AngleChoice, DirectionChoice
 
 MEMORY = Within(0.01, 1.0)  # share of the machine's memory
 NOT_NEGATIVE = Within(0.0, inf, "a tolerance is not negative")
+DEVICE = Line(200)  # a device's name, which its driver makes
+PATH = Line(4000)
 # Keys of older configs, and what to do instead
 GONE: dict[tuple[str | int, ...], str] = {
     ("gate", "same"): "is gone: devices are compared by how they compute, and rows of devices whose last bits differ "
@@ -91,8 +108,8 @@ def _devices() -> Iterable[str]:
     return ["all", "any", FASTEST]
 
 
-def _paths(names: list[str]) -> list[Path]:
-    return [Path(name) for name in names]
+def _paths(names: list[str]) -> list[str]:
+    return [str(Path(name)) for name in names]
 
 
 def _names(views: list[View]) -> list[str]:
@@ -116,11 +133,11 @@ class MethodChoice:
     deviations: add the default, and each knob that we changed at the value that the method's source prints
     """
 
-    name: Annotated[str, Offered(_methods)]
-    parameters: dict[str, list[float]] = field(default_factory=dict)
-    settings: list[str] = field(default_factory=list)
+    name: Annotated[str, Name(), Offered(_methods)]
+    parameters: Annotated[dict[str, Annotated[list[float], Distinct()]], Name()] = field(default_factory=dict)
+    settings: Annotated[list[Annotated[str, Name()]], Distinct()] = field(default_factory=list)
     stages: Annotated[list[Stage], Distinct()] = field(default_factory=list)
-    devices: Annotated[list[str], Offered(_devices), Distinct()] = field(default_factory=list)
+    devices: Annotated[list[Annotated[str, DEVICE]], Offered(_devices), Distinct()] = field(default_factory=list)
     deviations: bool = False
 
 
@@ -137,9 +154,9 @@ class SurfaceChoice:
     """
 
     formula: str = ""
-    file: str = ""
-    domain: str = ""
-    parameters: dict[str, float | str] = field(default_factory=dict)
+    file: Annotated[str, PATH] = ""
+    domain: Annotated[str, Line()] = ""
+    parameters: Annotated[dict[str, float | Annotated[str, Line()]], Name()] = field(default_factory=dict)
     distance: str = ""
 
 
@@ -261,13 +278,15 @@ class Config:
     gate: how `firsthit gate` holds rows against a baseline
     """
 
-    title: str
-    include: Annotated[list[str], Distinct(_paths)] = field(default_factory=list)
-    baseline: str = BASELINE
-    focus: str = ""
+    title: Annotated[str, Line()]
+    include: Annotated[list[Annotated[str, PATH]], Distinct(_paths), AtMost(1000)] = field(default_factory=list)
+    baseline: Annotated[str, Line()] = BASELINE
+    focus: Annotated[str, Line()] = ""
     studies: Annotated[list[str], Known(_studies), Distinct()] = field(default_factory=list)
     method: list[MethodChoice] = field(default_factory=list)
-    surfaces: Annotated[list[str], Offered(_surfaces_and_groups), Distinct()] = field(default_factory=list)
+    surfaces: Annotated[list[Annotated[str, Name()]], Offered(_surfaces_and_groups), Distinct()] = field(
+        default_factory=list
+    )
     families: Annotated[list[str], Known(_families, or_all=True), Distinct()] = field(default_factory=list)
     view: Annotated[list[View], Distinct(_names)] = field(default_factory=list)
     angles: Annotated[AngleChoice | None, Distinct(_angles)] = None
@@ -281,12 +300,14 @@ class Config:
     proxies: Annotated[list[Proxy], Distinct()] = field(default_factory=lambda: ["box"])
     tolerances: Annotated[list[Annotated[float, Within(0.0, 1e3)]], Distinct()] = field(default_factory=lambda: [0.0])
     normals: Annotated[list[Normal], Distinct()] = field(default_factory=lambda: ["distance"])
-    devices: Annotated[list[str], Offered(_devices), Distinct()] = field(default_factory=lambda: ["all"])
+    devices: Annotated[list[Annotated[str, DEVICE]], Offered(_devices), Distinct()] = field(
+        default_factory=lambda: ["all"]
+    )
     seed: Annotated[int, SEED] = 1
     accuracy: AccuracyChoice = field(default_factory=AccuracyChoice)
     budget: BudgetChoice = field(default_factory=BudgetChoice)
-    surface: dict[str, SurfaceChoice] = field(default_factory=dict)
-    scene: dict[str, SceneChoice] = field(default_factory=dict)
+    surface: Annotated[dict[str, SurfaceChoice], Name()] = field(default_factory=dict)
+    scene: Annotated[dict[str, SceneChoice], Name()] = field(default_factory=dict)
     gate: GateChoice = field(default_factory=GateChoice)
 
 
@@ -338,3 +359,8 @@ class Experiment:
         if not devices:
             return self
         return replace(self, config=replace(self.config, devices=list(devices)), own_devices={})
+
+
+def views_of(scene: Scene, config: Config) -> list[View]:
+    """Return the views of a scene: its own, and those of the config's sets of views."""
+    return [scene.view, *(view for view in config.view if view.set)]

@@ -25,14 +25,14 @@ from harness.devices.messages import Frame
 from harness.experiment import identity as identities
 from harness.experiment import kinds
 from harness.experiment.cells import Cell, FamilyCell
-from harness.experiment.config import Config, Experiment
+from harness.experiment.config import Experiment, views_of
 from harness.experiment.kinds import Asked, Casting
 from harness.experiment.kinds.model import NOT_RASTERED, Rastering
 from harness.experiment.kinds.shared import Shared
+from harness.experiment.size import cells_of
 from harness.experiment.targets import choose_devices, devices_of
 from harness.hardcases import groups
 from harness.plugins import Catalog
-from harness.scenes.model import Scene
 
 
 @dataclass(frozen=True, eq=False)
@@ -152,14 +152,15 @@ def plan(
     FirsthitError where none of the devices that the config names is among those `found`.
     """
     cells, planned, shared = grid(experiment, catalog, found), [], Shared()
+    total = cells_of(experiment, catalog, found)
     for number, (cell, info) in enumerate(cells, 1):
-        tell(f"preparing [{number}/{len(cells)}] {cell.variant.method}: {cell.comparison} on {cell.device}")
+        tell(f"preparing [{number}/{total}] {cell.variant.method}: {cell.comparison} on {cell.device}")
         planned.append(_planned(cell, info, catalog, experiment, timed, shared))
     return planned
 
 
-def grid(experiment: Experiment, catalog: Catalog, found: list[DeviceInfo]) -> list[tuple[Cell, DeviceInfo | None]]:
-    """List the cells of `plan` in its order, each with its device: at once, since no program is made.
+def grid(experiment: Experiment, catalog: Catalog, found: list[DeviceInfo]) -> Iterator[tuple[Cell, DeviceInfo | None]]:
+    """Go through the cells of `plan` in its order, each with its device. No program is made.
 
     Raises FirsthitError as `plan` does.
     """
@@ -170,7 +171,7 @@ def grid(experiment: Experiment, catalog: Catalog, found: list[DeviceInfo]) -> l
         _scenes(experiment, catalog, casters),
         _families(experiment, casters),
     )
-    return [(cell, devices[cell.device]) for cell in cells]
+    return ((cell, devices[cell.device]) for cell in cells)
 
 
 @dataclass(frozen=True)
@@ -206,7 +207,7 @@ def _views_of_surfaces(experiment: Experiment, catalog: Catalog, casters: list[_
 def _scenes(experiment: Experiment, catalog: Catalog, casters: list[_Caster]) -> Iterator[Cell]:
     config = experiment.config
     for scene in experiment.scenes:
-        views = itertools.product(_views(scene, config), config.sizes, config.samples_per_pixel)
+        views = itertools.product(views_of(scene, config), config.sizes, config.samples_per_pixel)
         for (view, size, samples), caster in itertools.product(views, casters):
             for raster in _rasterings("raster", caster.variant, experiment, catalog):
                 cell = Cell(caster.variant, scene.stand_in, view, size, samples, "float32", "raster", "", scene=scene)
@@ -238,11 +239,6 @@ def _rasterings(stage: Stage, variant: Variant, experiment: Experiment, catalog:
     """List the proxies, tolerances in pixels and normals that make a difference to a method in a stage."""
     method = catalog.get(variant.method).method
     return kinds.rasterings(stage, method, experiment)
-
-
-def _views(scene: Scene, config: Config) -> list[View]:
-    """Return the views of a scene: its own, and those of the config's sets of views."""
-    return [scene.view, *(view for view in config.view if view.set)]
 
 
 def shuffled(items: list[str], seed: int, round_number: int) -> list[str]:

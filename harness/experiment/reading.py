@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import itertools
 import types
 import typing
 from pathlib import Path
@@ -12,7 +13,7 @@ from harness.experiment import toml_file
 from harness.experiment.config import GONE, Config, Experiment
 from harness.experiment.resolving import resolve
 from harness.experiment.toml_file import ConfigFile, Where, gathered
-from harness.limits import Limit, hints_of, is_finite, is_required
+from harness.limits import Limit, hints_of, is_finite, is_required, shown
 from harness.plugins import Catalog
 from surfaces.words import suggestion
 
@@ -26,6 +27,20 @@ def load(path: Path, catalog: Catalog) -> Experiment:
     """
     file = toml_file.read(path)
     return resolve(config_of(file), file, catalog)
+
+
+def load_all(path: Path, catalog: Catalog) -> tuple[Experiment, list[Experiment]]:
+    """Read a config as `load` does, and those that it includes; one that includes none is its only part.
+
+    Raises FirsthitError, with file and line, where a config that it includes includes others.
+    """
+    whole = load(path, catalog)
+    parts = [load(included, catalog) for included in whole.included] or [whole]
+    for i, part in enumerate(parts):
+        if part is not whole and part.included:
+            message = f"include: {part.path} includes configs itself; name them here instead"
+            raise ConfigFile(path, whole.text, {}).error(("include", i), message)
+    return whole, parts
 
 
 def config_of(file: ConfigFile) -> Config:
@@ -45,9 +60,9 @@ def _value(kind: Any, value: Any, where: Where, source: ConfigFile) -> Any:
     if origin is typing.Annotated:
         return _limited(typing.get_args(kind), value, where, source)
     if origin in (types.UnionType, typing.Union):
-        kinds = typing.get_args(kind)
-        text = isinstance(value, str) and str in kinds
-        return _value(str if text else next(k for k in kinds if k is not type(None)), value, where, source)
+        kinds = [kind for kind in typing.get_args(kind) if kind is not type(None)]
+        texts = [kind for kind in kinds if _is_text(kind)] if isinstance(value, str) else []
+        return _value((texts or kinds)[0], value, where, source)
     if origin is typing.Literal:
         return _word(typing.get_args(kind), value, where, source)
     if origin is list:
@@ -72,8 +87,14 @@ def _limited(stated: tuple[Any, ...], value: Any, where: Where, source: ConfigFi
     name = _path(where) if isinstance(read, int | float | str) else str(where[-1])
     for limit in limits:
         if problem := limit.broken(read):
-            raise source.error(where, f"{name}: {problem}")
+            keys = (key for key in read if limit.broken([key])) if isinstance(read, dict) else iter(())
+            raise source.error((*where, *itertools.islice(keys, 1)), f"{name}: {problem}")
     return read
+
+
+def _is_text(kind: Any) -> bool:
+    """Tell whether a kind is a text, within limits or not."""
+    return (typing.get_args(kind)[0] if typing.get_origin(kind) is typing.Annotated else kind) is str
 
 
 def _word(known: tuple[str, ...], value: Any, where: Where, source: ConfigFile) -> str:
@@ -84,7 +105,7 @@ def _word(known: tuple[str, ...], value: Any, where: Where, source: ConfigFile) 
     word: str = _scalar(str, value, where, source)
     if word not in known:
         place = where[:-1] if isinstance(where[-1], int) else where
-        raise source.error(place, f"{place[-1]}: unknown {word!r}; {suggestion(word, known)}")
+        raise source.error(place, f"{place[-1]}: unknown {shown(word)}; {suggestion(word, known)}")
     return word
 
 
@@ -99,7 +120,7 @@ def _list(kind: Any, value: Any, where: Where, source: ConfigFile) -> list[Any]:
 def _tuple(kinds: tuple[Any, ...], value: Any, where: Where, source: ConfigFile) -> tuple[Any, ...]:
     """Read a fixed number of values. Raises FirsthitError for any other number."""
     if not isinstance(value, list) or len(value) != len(kinds):
-        raise source.error(where, f"{_path(where)} needs {len(kinds)} numbers, not {value!r}")
+        raise source.error(where, f"{_path(where)} needs {len(kinds)} numbers, not {shown(value)}")
     parts = enumerate(zip(kinds, value, strict=True))
     return tuple(gathered(parts, lambda one: _value(*one[1], (*where, one[0]), source)))
 
@@ -107,7 +128,7 @@ def _tuple(kinds: tuple[Any, ...], value: Any, where: Where, source: ConfigFile)
 def _names(kind: Any, value: Any, where: Where, source: ConfigFile) -> dict[str, Any]:
     """Read a table whose keys are names that the writer chose. Raises FirsthitError for anything but a table."""
     if not isinstance(value, dict):
-        raise source.error(where, f"{_path(where)} is a table of names, not {value!r}")
+        raise source.error(where, f"{_path(where)} is a table of names, not {shown(value)}")
     return dict(gathered(value.items(), lambda one: (one[0], _value(kind, one[1], (*where, one[0]), source))))
 
 
@@ -117,7 +138,7 @@ def _table(kind: type[Any], value: Any, where: Where, source: ConfigFile) -> Any
     Raises FirsthitError for anything but a table, for unknown and missing keys, and for values that cannot be read.
     """
     if not isinstance(value, dict):
-        raise source.error(where, f"{_path(where)} is a table, not {value!r}")
+        raise source.error(where, f"{_path(where)} is a table, not {shown(value)}")
     hints = hints_of(kind)
     place = _path(where) or "the top level"
 
@@ -126,7 +147,7 @@ def _table(kind: type[Any], value: Any, where: Where, source: ConfigFile) -> Any
         if gone := GONE.get(there):
             raise source.error(there, f"{_path(there)} {gone}")
         if key not in hints:
-            raise source.error(there, f"unknown key {key!r} in {place}; {suggestion(key, hints)}")
+            raise source.error(there, f"unknown key {shown(key)} in {place}; {suggestion(key, hints)}")
         if key not in value:
             raise source.error(where, f"{place} lacks {key!r}")
         return key, _value(hints[key], value[key], there, source)
@@ -143,13 +164,13 @@ def _scalar(kind: type, value: Any, where: Where, source: ConfigFile) -> Any:
     whole = isinstance(value, int) and not isinstance(value, bool)
     number = isinstance(value, float) or (kind is float and whole)
     if number and not is_finite(value):
-        raise source.error(where, f"{_path(where)} is a finite number, not {value!r}")
+        raise source.error(where, f"{_path(where)} is a finite number, not {shown(value)}")
     if kind is float and whole:
         return value if "parameters" in where else float(value)
     if not isinstance(value, kind) or isinstance(value, bool) != (kind is bool):
-        raise source.error(where, f"{_path(where)} is {WORDS[kind]}, not {value!r}")
+        raise source.error(where, f"{_path(where)} is {WORDS[kind]}, not {shown(value)}")
     return value
 
 
 def _path(where: Where) -> str:
-    return ".".join(map(str, where))
+    return ".".join(str(part) if len(str(part)) < 100 else shown(part) for part in where)

@@ -2,23 +2,40 @@
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses
-from collections.abc import Callable, Mapping
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from harness.contract import FirsthitError, Surface, Variant, View
-from harness.experiment.config import ASKED, BESIDE_INCLUDE, DRAWN, Config, Experiment, MethodChoice, SurfaceChoice
+from harness.experiment.config import (
+    ASKED,
+    BESIDE_INCLUDE,
+    DRAWN,
+    Config,
+    Experiment,
+    MethodChoice,
+    SurfaceChoice,
+    views_of,
+)
 from harness.experiment.toml_file import ConfigFile, Where, gathered
 from harness.limits import Distinct, Known
-from harness.plugins import Catalog
+from harness.plugins import Catalog, Plugin
 from harness.scenes.choice import cut, scenes_of
 from harness.scenes.model import Scene
 from harness.scenes.views import by_angle, by_direction
+from surfaces.words import name_problem
+
+MOST_VARIANTS = 100_000  # of one method
+MOST_PARTS = 2_000_000  # of all scenes of a config
 
 
 def resolve(config: Config, file: ConfigFile, catalog: Catalog) -> Experiment:
     """Resolve every name that a config holds. Raises FirsthitError with file and line for each that is not there."""
+    if problem := name_problem(file.path.stem):
+        raise file.error((), f"the config's file gives its run the name, and {problem}")
     if config.include:
         return _collection(config, file)
     config = _with_all_families(_with_all_views(config, file))
@@ -31,6 +48,7 @@ def resolve(config: Config, file: ConfigFile, catalog: Catalog) -> Experiment:
     ]
     (variants, own), chosen, scenes = gathered(parts, lambda part: part())
     _check_named(config, file, catalog, variants)
+    _check_told_apart(config, file, chosen, scenes)
     return Experiment(
         file.path.stem,
         file.path,
@@ -60,19 +78,31 @@ def _collection(config: Config, file: ConfigFile) -> Experiment:
         message = f"{more[0]} cannot stand beside include; put it into one of the configs included"
         raise file.error((more[0],), message)
     paths = [file.path.parent / name for name in config.include]
+    stems = {file.path.stem: "this config"}
     for i, included in enumerate(paths):
         if not included.is_file():
             raise file.error(("include", i), f"include: there is no config {included}")
+        if other := stems.get(included.stem):
+            message = f"include: {included} would be run into the folder of {other}, {included.stem!r}; rename one"
+            raise file.error(("include", i), message)
+        stems[included.stem] = str(included)
     return Experiment(file.path.stem, file.path, file.text, config, (), (), (), (), tuple(paths))
 
 
 def _with_all_views(config: Config, file: ConfigFile) -> Config:
-    """Add the views of `angles` and `directions`. Raises FirsthitError where two views have one name."""
+    """Add the views of `angles` and `directions`. Raises FirsthitError where two have one name, or show the same."""
     views = [*config.view]
     views += by_angle(config.angles) if config.angles else []
     views += by_direction(config.directions) if config.directions else []
     if problem := Distinct().broken([view.name for view in views]):
         raise file.error(("view",), f"view: {problem}")
+    seen: dict[View, str] = {}
+    for i, view in enumerate(views):
+        unnamed = dataclasses.replace(view, name="any", azimuth=view.azimuth % 360.0)
+        if other := seen.get(unnamed):
+            where: Where = ("view", i) if i < len(config.view) else (view.set or "view",)
+            raise file.error(where, f"view: {other!r} and {view.name!r} are the same but for the name; keep one")
+        seen[unnamed] = view.name
     return dataclasses.replace(config, view=views or [View("default")])
 
 
@@ -99,26 +129,54 @@ def _variants(config: Config, file: ConfigFile, catalog: Catalog) -> tuple[list[
     """
 
     def of(one: tuple[int, MethodChoice]) -> list[Variant]:
-        try:
-            return _variants_of(one[1], catalog, file.path.parent)
-        except FirsthitError as error:
-            raise file.error(("method", one[0], "name"), str(error), error.exit_code) from None
+        where: Where = ("method", one[0])
+        with _placed(file, (*where, "name")):
+            plugin = catalog.get(one[1].name, file.path.parent)
+        return _variants_of(one[1], plugin, file, where)
 
     chosen = gathered(enumerate(config.method), of)
+    bound, labels = dict[Any, Variant](), dict[str, Variant]()
+    for i, variant in ((i, variant) for i, own in enumerate(chosen) for variant in own):
+        first = bound.setdefault((variant.method, variant.parameters), variant)
+        if first is not variant:
+            raise file.error(("method", i), f"{variant} is named twice{_also(first, variant)}")
+        if labels.setdefault(str(variant), variant) is not variant:
+            message = f"two variants would both be called {variant}; give values that differ in their first six digits"
+            raise file.error(("method", i), message)
     variants = [variant for own in chosen for variant in own]
-    bound = [(variant.method, variant.parameters) for variant in variants]
-    if twice := [variant for variant, key in zip(variants, bound, strict=True) if bound.count(key) > 1]:
-        raise file.error(("method",), f"{twice[0]} is named twice")
     return variants, {v: choice for choice, own in zip(config.method, chosen, strict=True) for v in own}
 
 
-def _variants_of(choice: MethodChoice, catalog: Catalog, beside: Path) -> list[Variant]:
-    """Bind one method's knobs: its settings, its deviations, and every combination of the values given.
+def _also(first: Variant, variant: Variant) -> str:
+    return "" if str(first) == str(variant) else f": {first} has the same values"
 
-    Raises FirsthitError for a method, setting or knob that there is not; a folder in `beside` may be the method's.
+
+@contextlib.contextmanager
+def _placed(file: ConfigFile, where: Where) -> Iterator[None]:
+    """Add to a FirsthitError that a block raises the file and the line of the value at `where`."""
+    try:
+        yield
+    except FirsthitError as error:
+        raise file.error(where, str(error), error.exit_code) from None
+
+
+def _variants_of(choice: MethodChoice, plugin: Plugin, file: ConfigFile, where: Where) -> list[Variant]:
+    """Bind the knobs of the method at `where`: its settings, its deviations, every combination of the values given.
+
+    Raises FirsthitError, with file and line, for a setting or knob that there is not, and for a value that it cannot
+    have.
     """
-    plugin = catalog.get(choice.name, beside)
-    variants = [plugin.setting(name) for name in choice.settings]
+    variants = []
+    for i, name in enumerate(choice.settings):
+        with _placed(file, (*where, "settings", i)):
+            variants.append(plugin.setting(name))
+    for name, values in choice.parameters.items():
+        for i, value in enumerate(values):
+            with _placed(file, (*where, "parameters", name, i)):
+                plugin.variant({name: value})
+    with _placed(file, (*where, "parameters")):
+        if (count := math.prod(map(len, choice.parameters.values()))) > MOST_VARIANTS:
+            raise FirsthitError(f"the values of its knobs make {count:,} variants; {MOST_VARIANTS:,} at most")
     variants += plugin.deviations() if choice.deviations else []
     if choice.parameters or not variants:
         variants += [plugin.variant(point) for point in _grid(choice.parameters)]
@@ -144,6 +202,22 @@ def _check_named(config: Config, file: ConfigFile, catalog: Catalog, variants: l
         problem = Known(lambda: known).broken([given])
         if name in file.table and problem:
             raise file.error((name,), f"{name}: {problem}")
+
+
+def _check_told_apart(config: Config, file: ConfigFile, chosen: Sequence[Surface], scenes: Sequence[Scene]) -> None:
+    """Raise FirsthitError where two surfaces are the same, or where two surfaces or scenes would be called the same."""
+    seen: dict[Any, str] = {}
+    for surface in chosen:
+        known = seen.setdefault((surface.formula, surface.domain, surface.parameters, surface.distance), surface.name)
+        if known != surface.name:
+            message = f"surfaces: {known!r} and {surface.name!r} are the same but for the name; keep one"
+            raise file.error(("surfaces",), message)
+    if problem := Distinct().broken([scene.name for scene in scenes]):
+        raise file.error(("scene",), f"scene: {problem}, by its generator and the count of its parts")
+    places = [(surface.name, view.name) for surface in chosen for view in config.view]
+    places += [(scene.name, view.name) for scene in scenes for view in views_of(scene, config)]
+    if problem := Distinct(lambda both: [" ".join(one) for one in both]).broken(places):
+        raise file.error(("scene" if scenes else "surfaces",), f"surfaces, scenes and views: {problem}")
 
 
 def _surfaces(config: Config, file: ConfigFile, told: list[str]) -> list[Surface]:
@@ -203,6 +277,9 @@ def _scenes(config: Config, file: ConfigFile, catalog: Catalog, told: list[str])
     Raises FirsthitError, with the scene's line, if one cannot be made.
     """
     scenes: list[Scene] = []
+    generated = [choice for choice in config.scene.values() if choice.generate]
+    if (parts := sum(sum(choice.counts) for choice in generated)) > MOST_PARTS:
+        raise file.error(("scene",), f"scene: {parts:,} parts in all scenes together; {MOST_PARTS:,} at most")
     for name, choice in config.scene.items():
         try:
             scenes += scenes_of(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import tomllib
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
@@ -10,8 +11,11 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from harness.contract import FirsthitError
+from harness.experiment.lines import Where as Where
+from harness.experiment.lines import excess, lines_of
 
-Where = tuple[str | int, ...]  # keys and places that lead to a value: ("view", 1, "fov")
+LONGEST = 2_000_000  # bytes of a config
+LONGEST_MESSAGE = 2_000  # letters of one line
 Part = TypeVar("Part")
 Read = TypeVar("Read")
 
@@ -55,48 +59,60 @@ class ConfigFile:
 
     def error(self, where: Where, message: str, exit_code: int = 2) -> FirsthitError:
         """Make the error that says `message` of the value at `where`, with file and line."""
-        return FirsthitError(f"{self.path}:{self._line(where)}: {message}", exit_code)
+        return _mistake(self.path, self._line(where), message, exit_code)
 
     def _line(self, where: Where) -> int:
-        """Find the line that sets the value at `where`; if nothing does, the line of its nearest ancestor, or 1.
-
-        tomllib keeps no positions, so the shortest beginning of the file that sets the value is looked for.
-        """
-        for depth in range(len(where), 0, -1):
-            for count, table in self._beginnings:
-                if _has(table, where[:depth]):
-                    return count
-        return 1
+        """Find the line where the value at `where` begins; if there is none, that of its nearest ancestor, or 1."""
+        places = (where[:depth] for depth in range(len(where), 0, -1))
+        return next((self._lines[place] for place in places if place in self._lines), 1)
 
     @cached_property
-    def _beginnings(self) -> list[tuple[int, dict[str, Any]]]:
-        """Return each number of lines that are TOML by themselves, and what they set."""
-        lines, found = self.text.splitlines(), list[tuple[int, dict[str, Any]]]()
-        for count in range(1, len(lines) + 1):
-            try:
-                found.append((count, tomllib.loads("\n".join(lines[:count]))))
-            except ValueError:
-                continue
-        return found
+    def _lines(self) -> dict[Where, int]:
+        return lines_of(self.text)
 
 
 def read(path: Path) -> ConfigFile:
-    """Read a file. Raises FirsthitError where it cannot be read or is not TOML."""
-    try:
-        text = path.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        reason = error.strerror if isinstance(error, OSError) else "it is not UTF-8 text"
-        raise FirsthitError(f"cannot read {path}: {reason}; see `firsthit list configs`") from None
+    """Read a file. Raises FirsthitError where it cannot be read, is not TOML, or is past what a config can be."""
+    text = _text(path)
+    if beyond := excess(text):
+        raise _mistake(path, *beyond)
     try:
         return ConfigFile(path, text, tomllib.loads(text))
-    except ValueError as error:  # a TOMLDecodeError, or a number with more digits than Python reads
-        raise FirsthitError(f"{path}: not valid TOML: {error}") from None
+    except ValueError as error:  # a TOMLDecodeError
+        told = re.fullmatch(r"(.*) \(at (?:line (\d+), column (\d+)|end of document)\)", str(error), re.DOTALL)
+        line = int(told[2]) if told and told[2] else text.rstrip().count("\n") + 1
+        column = f", column {told[3]}" if told and told[3] else ""
+        raise _mistake(path, line, f"not valid TOML{column}: {told[1] if told else error}") from None
 
 
-def _has(table: Any, where: Where) -> bool:
+def _text(path: Path) -> str:
+    """Return the text of a file. Raises FirsthitError for what is no file of a config's size, or no UTF-8."""
     try:
-        for part in where:
-            table = table[part]
-    except (KeyError, IndexError, TypeError):
-        return False
-    return True
+        if not (path.is_file() or path.is_dir()) and path.exists():
+            raise FirsthitError(f"cannot read {one_line(path)}: it is no regular file")  # a pipe may never end
+        with path.open("rb") as file:
+            content = file.read(LONGEST + 1)
+        if len(content) > LONGEST:
+            raise FirsthitError(f"cannot read {one_line(path)}: a config has {LONGEST:,} bytes at most")
+        return content.decode("utf-8").replace("\r\n", "\n")
+    except UnicodeDecodeError as error:
+        line = content.count(b"\n", 0, error.start) + 1
+        raise _mistake(path, line, "it is not UTF-8 text") from None
+    except (OSError, ValueError) as error:  # ValueError: a path with a zero
+        reason = (isinstance(error, OSError) and error.strerror) or "there can be no such file"
+        raise FirsthitError(f"cannot read {one_line(path)}: {reason}; see `firsthit list configs`") from None
+
+
+def _mistake(path: Path, line: int, message: str, exit_code: int = 2) -> FirsthitError:
+    """Make the error that says `message` of a line, in one line; what shows a place in a formula follows, indented."""
+    first, *shown = message.split("\n    ")
+    lines = [f"{one_line(path)}:{line}: {one_line(first)}", *(f"    {one_line(more)}" for more in shown)]
+    return FirsthitError("\n".join(lines), exit_code)
+
+
+def one_line(value: object) -> str:
+    """Return the text of a value in one line that shows all its letters, without its middle where it is long."""
+    text = str(value)
+    if len(text) > LONGEST_MESSAGE:
+        text = f"{text[: LONGEST_MESSAGE - 300]} … {text[-300:]}"
+    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)

@@ -20,6 +20,7 @@ from harness.devices.executor import LocalExecutor
 from harness.experiment import plan, reading
 from harness.experiment.kinds.model import RacedCasting
 from harness.experiment.plan import Planned
+from harness.experiment.size import check_size
 from harness.gate import race, revision
 from harness.gate.about import Place
 from harness.gate.baseline import Entry
@@ -126,18 +127,22 @@ class _Pair:
         self.told = replace(self.base, verdict=verdict, reason=reason, changes=changes)
 
 
-def at(name: str, config: Path, plugins: Path | None, devices: Sequence[str], watcher: Watcher) -> Other:
+def at(
+    name: str, config: Path, plugins: Path | None, devices: Sequence[str], watcher: Watcher, yes: bool = False
+) -> Other:
     """Find the revision `name`, and let its code make the programs of a config. No cell is run.
 
-    `plugins` and `devices` are as for harness.gate.checked.check. Raises FirsthitError where there is no such revision
-    or its code cannot plan the config, and where the config cannot be planned now.
+    `plugins`, `devices` and `yes` are as for harness.gate.checked.prepare. Raises FirsthitError where there is
+    no such revision or its code cannot plan the config, and where the config cannot be planned now.
     """
     there = revision.found(name, plugins)
     catalog = find_methods(plugins)
     experiment = reading.load(config, catalog)
     experiment = experiment.on(devices)
+    check_size(experiment, catalog, yes=yes)
     found = discover_devices(experiment.wanted_devices())
     (experiment,) = settled([experiment], found, watcher).parts
+    check_size(experiment, catalog, found, yes)
     cells = plan.grid(experiment, catalog, found)
     here = dict.fromkeys(info.name for _, info in cells if info)
     if not here:

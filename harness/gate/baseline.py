@@ -11,16 +11,15 @@ blessing replaces only those that it ran on. Files of format 1, whose devices ha
 from __future__ import annotations
 
 import json
-import math
 import re
 import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, NotRequired, TypedDict
 
-from harness.contract import CellStatus, FirsthitError, digest
-from harness.results.figures import GATED
+from harness.contract import FirsthitError, digest
+from harness.results import declared, entry, sealed
 from harness.results.writing import write_atomically
 
 FORMAT = 2
@@ -51,52 +50,45 @@ def device_key(facts: Mapping[str, Any]) -> str:
 def read(path: Path) -> Baseline:
     """Read a baseline. Raises FirsthitError where there is none, or it is damaged or of another format."""
     try:
-        document = tomllib.loads(path.read_text(encoding="utf-8"))
+        document = tomllib.loads(sealed.content(path).decode())
     except FileNotFoundError:
         raise FirsthitError(
             f"there is no baseline {path}; `firsthit bless` makes one, and --against REV needs none"
         ) from None
-    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
-        raise FirsthitError(f"cannot read the baseline {path}: {error}") from None
-    if document.get("format") not in READ:
-        raise FirsthitError(f"{path} is no baseline of this version (format {document.get('format')!r}); bless anew")
+    except (OSError, ValueError, RecursionError) as error:
+        raise FirsthitError(f"cannot read the baseline {path}: {sealed.problem(error):.200}") from None
+    if type(document.get("format")) is not int or document["format"] not in READ:
+        found = f"format {document.get('format')!r:.40}"
+        raise FirsthitError(f"{path} is no baseline of this version ({found}); bless anew")
+    try:
+        return _held(document)
+    except ValueError as error:
+        raise FirsthitError(f"{path} is damaged: {error}; restore it, or bless anew") from None
+
+
+class _File(TypedDict):
+    """Declare what a baseline's file holds."""
+
+    config: NotRequired[str]
+    device: NotRequired[dict[str, dict[str, Any]]]
+    row: NotRequired[dict[str, dict[str, Entry]]]
+
+
+_CHECK = declared.checker(_File)
+
+
+def _held(document: dict[str, Any]) -> Baseline:
+    """Make a baseline of what its file says. Raises ValueError where it says what a baseline cannot."""
+    _CHECK(document, "")
     devices, rows = document.get("device", {}), document.get("row", {})
-    tables = [devices, rows, *devices.values(), *rows.values()] if _is_tables(devices, rows) else [None]
-    tables += [entry for entries in rows.values() for entry in entries.values()] if all(map(_is_table, tables)) else []
-    if not all(map(_is_table, tables)) or not rows.keys() <= devices.keys():
-        raise FirsthitError(f"{path} is damaged: it lacks tables of devices and rows; restore it, or bless anew")
+    if unknown := next(iter(rows.keys() - devices.keys()), None):
+        raise ValueError(f"it has rows of {unknown!r:.60} and does not say what that is")
     for key, facts in devices.items():
-        if not _is_fingerprint(facts.get(ARITHMETIC, {})):
-            raise FirsthitError(f"{path} is damaged: the arithmetic of {key} is no table of hashes; bless anew")
-    for entry in (entry for entries in rows.values() for entry in entries.values()):
-        if not {"status", "scene"} <= entry.keys():
-            raise FirsthitError(f"{path} is damaged: a row lacks its status or scene; restore it, or bless anew")
-        for name, value in entry.items():
-            if not _can_be(name, value):
-                raise FirsthitError(f"{path} is damaged: a row's {name} is {value!r}; restore it, or bless anew")
-    return Baseline(str(document.get("config", "")), devices, rows)
-
-
-def _is_table(value: Any) -> bool:
-    return isinstance(value, dict)
-
-
-def _is_tables(*values: Any) -> bool:
-    return all(map(_is_table, values))
-
-
-def _can_be(name: str, value: Any) -> bool:
-    """Tell whether an entry can have a value: figures are finite numbers, and a status is one of CellStatus."""
-    if name in GATED or name == LAST_BIT:
-        return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
-    return name != "status" or value in list(CellStatus)
-
-
-def _is_fingerprint(value: Any) -> bool:
-    """Tell whether a value is a table of tables of texts."""
-    return _is_table(value) and all(
-        _is_table(parts) and all(isinstance(part, str) for part in parts.values()) for parts in value.values()
-    )
+        entry.device(facts, f"device {key}")
+    for one in rows.values():
+        for slot, held in one.items():
+            entry.check(held, f"row {slot}")
+    return Baseline(document.get("config", ""), devices, rows)
 
 
 def write(path: Path, baseline: Baseline) -> None:

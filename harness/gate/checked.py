@@ -15,6 +15,7 @@ from harness.devices.executor import LocalExecutor
 from harness.experiment import plan, reading
 from harness.experiment.config import FASTEST, Experiment
 from harness.experiment.plan import Planned
+from harness.experiment.size import check_size
 from harness.gate.baseline import Baseline
 from harness.gate.chosen import Only
 from harness.gate.comparable import held_against
@@ -128,17 +129,22 @@ class Checked(Prepared):
         return dataclasses.replace(self.now, devices=devices)
 
 
-def prepare(config: Path, plugins: Path | None, devices: Sequence[str], watcher: Watcher) -> Prepared:
+def prepare(
+    config: Path, plugins: Path | None, devices: Sequence[str], watcher: Watcher, yes: bool = False
+) -> Prepared:
     """Plan the cells of a config, all of which are chosen; none of them is to be timed.
 
     `plugins` is a folder of further methods; `devices`, where there are any, take the place of those that the config
-    names. `watcher` is told of warnings. Raises FirsthitError where the config cannot be planned.
+    names. `watcher` is told of warnings. Raises FirsthitError where the config cannot be planned, or has more cells
+    than are planned without `yes` (harness.experiment.size).
     """
     catalog = find_methods(plugins)
     experiment = reading.load(config, catalog)
     for line in catalog.warnings:
         watcher.wrong(line)
     experiment = experiment.on(devices)
+    if told := check_size(experiment, catalog, yes=yes):
+        watcher.warned(told)
     wanted = experiment.wanted_devices()
     with watcher.doing(f"looking for devices and preparing the cells of {config}") as tell:
         found = discover_devices(wanted)
@@ -146,5 +152,6 @@ def prepare(config: Path, plugins: Path | None, devices: Sequence[str], watcher:
             here = ", ".join(f"--device {name}" for name in others(set(wanted))) or "no device here can be used"
             raise FirsthitError(f"there is no device {', '.join(wanted)} here; name one that is: {here}", exit_code=3)
         (experiment,) = settled([experiment], found, watcher).parts
+        check_size(experiment, catalog, found, yes)
         planned = plan.plan(experiment, catalog, found, timed=False, tell=tell)
     return Prepared(experiment, catalog, planned, planned)

@@ -8,7 +8,7 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import astuple, dataclass
 
-from harness import console
+from harness import console, escaping
 from harness.gate.about import About, Place
 from harness.gate.comparable import Rule
 from harness.gate.judge import ORDER, Change, Judged, Value, Verdict
@@ -50,11 +50,6 @@ def counted(judged: Sequence[Judged]) -> str:
     return told + f" ({loosely} of {len(judged)} held by {Rule.LAST_BITS})" * bool(loosely)
 
 
-def flat(text: str) -> str:
-    """Return a text as one line: nothing in it can begin a line of its own, such as a command for a CI server."""
-    return " ".join("".join(c if c.isprintable() else " " for c in text).split())
-
-
 def changed(judged: Judged) -> list[Change]:
     """Return the changes of a row that do not pass, the worst first."""
     found = [c for c in judged.changes if c.verdict is not Verdict.PASS]
@@ -72,7 +67,7 @@ def lines(judged: Sequence[Judged]) -> list[Line]:
     for verdict in ORDER[:-1]:
         rows = [j for j in judged if j.verdict is verdict]
         for j in rows[:SHOWN]:
-            head, reason = (str(verdict), flat(j.slot), flat(j.device), j.rule), _short(j.reason)
+            head, reason = (str(verdict), j.slot, j.device, j.rule), _short(j.reason)
             for i, change in enumerate(changed(j)):
                 better = " (improved)" if change.verdict is Verdict.IMPROVED is not verdict else ""
                 told = (change.figure + better, number(change.before), number(change.now), number(change.allowed))
@@ -90,7 +85,8 @@ def _short(reason: str) -> str:
     A compiler's log begins at the first place that it names in a kernel, and lines of the kernel itself, which it
     quotes behind a bar, are left out.
     """
-    text = flat("\n".join(line for line in reason.splitlines() if not line.lstrip().startswith("|")))
+    kept = [line for line in reason.split("\n") if not line.lstrip().startswith("|")]
+    text = " ".join(word for line in kept for word in line.strip("\r").split(" ") if word)
     place = re.search(r"\S+\.glsl:\d+", text)
     text = text[place.start() :] if place else text
     return text if len(text) <= REASON else text[: REASON - 2] + " …"
@@ -117,12 +113,11 @@ def _stacked(listed: Sequence[Line], width: int) -> str:
         figures = [
             (line.figure, line.baseline, "→", line.now, f"allowed {line.allowed}") for line in own if line.figure
         ]
-        text += wrapped(
-            f"{verdict}  {cell}" + f" on {device}" * bool(device) + f" (rule: {rule})" * bool(rule), width, ""
-        )
+        head = f"{verdict}  {cell}" + f" on {device}" * bool(device) + f" (rule: {rule})" * bool(rule)
+        text += wrapped(escaping.one_line(head), width, "")
         if figures:
             text += [f"{INDENT}{line}" for line in console.table(figures[0], figures[1:]).splitlines()]
-        text += wrapped(reason, width, INDENT)
+        text += wrapped(escaping.one_line(reason), width, INDENT)
     return "\n".join(text)
 
 
@@ -139,19 +134,6 @@ def wrapped(text: str, width: int, indent: str) -> list[str]:
     return textwrap.wrap(text, max(width, 40), initial_indent=indent, subsequent_indent=indent + INDENT)
 
 
-def _escaped(text: str) -> str:
-    """Escape a text for a cell of a table in Markdown."""
-    text = flat(text).replace("&", "&amp;").replace("<", "&lt;")
-    return re.sub(r"([\\`*|\[\]]|(?<!\w)_|_(?!\w))", r"\\\1", text)  # a _ within a word stands for itself
-
-
-def _quoted(text: str) -> str:
-    """Return a text as code in Markdown, whatever backticks it has."""
-    ticks = "`" * (1 + max((len(run) for run in re.findall("`+", text)), default=0))
-    space = " " if "`" in text else ""
-    return f"{ticks}{space}{flat(text)}{space}{ticks}"
-
-
 def markdown(judged: Sequence[Judged], title: str, held: str, code: int, about: Mapping[Place, About]) -> str:
     """Write a heading with the outcome, which follows from the exit code `code`, and the table, in Markdown.
 
@@ -159,11 +141,12 @@ def markdown(judged: Sequence[Judged], title: str, held: str, code: int, about: 
     of its wrong rays.
     """
     outcome = {0: "passed", 1: "**failed**"}.get(code, "**could not judge everything**")
-    text = [f"## Gate {_escaped(title)}: {outcome}", "", f"{counted(judged)}; held against {_quoted(held)}.", ""]
+    told = f"{counted(judged)}; held against {escaping.code(held)}."
+    text = [f"## Gate {escaping.markdown(title)}: {outcome}", "", told, ""]
     listed = lines(judged)
     if listed:
         text += ["| " + " | ".join(HEADER) + " |", "|" + " --- |" * len(HEADER)]
-        text += ["| " + " | ".join(_escaped(part) for part in astuple(line)) + " |" for line in listed]
+        text += ["| " + " | ".join(escaping.markdown(part) for part in astuple(line)) + " |" for line in listed]
         text += ["", *_again([j for j in judged if j.verdict in BAD], about)]
     return "\n".join(text).rstrip("\n") + "\n"
 
@@ -175,8 +158,8 @@ def _again(bad: Sequence[Judged], about: Mapping[Place, About]) -> list[str]:
         return []
     text = ["<details><summary>Run one row again</summary>", ""]
     for j, own in told:
-        text.append(f"- {j.verdict}: {_escaped(j.slot)} on {_escaped(j.device)}  ")
-        text.append(f"  {_quoted(own.command)}" + ("  " if own.picture else ""))
+        text.append(f"- {j.verdict}: {escaping.markdown(j.slot)} on {escaping.markdown(j.device)}  ")
+        text.append(f"  {escaping.code(own.command)}" + ("  " if own.picture else ""))
         if own.picture:
-            text.append(f"  wrong rays: {_quoted(own.picture.as_posix())}")
+            text.append(f"  wrong rays: {escaping.code(own.picture.as_posix())}")
     return [*text, "", "</details>"]

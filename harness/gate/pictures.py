@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import re
-import zipfile
-import zlib
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 from numpy.typing import NDArray
 
 from harness.contract import CellStatus, digest
@@ -21,6 +18,7 @@ from harness.gate.entries import slot_of
 from harness.gate.judge import Judged, Verdict
 from harness.gate.outputs import changed, number
 from harness.hardcases import groups
+from harness.results import pictures_file, sealed
 from harness.results.row import RungVerdict
 from harness.results.store import Row, Store
 
@@ -95,10 +93,9 @@ def side_of(row: Row, folder: Path, title: str) -> Side:
     if row["rungs"]:
         return Side(program, rungs=row["rungs"])
     try:
-        with np.load(folder / row["arrays"], allow_pickle=False) as file:
-            return Side(program, dict(file))
-    except (OSError, ValueError, EOFError, zipfile.BadZipFile, zlib.error) as error:
-        return Side(program, told=f"its answers cannot be read: {error}")
+        return Side(program, pictures_file.read(folder / row["arrays"]))
+    except (OSError, ValueError) as error:
+        return Side(program, told=f"its answers cannot be read: {sealed.problem(error)}")
 
 
 def blessed_in(baseline: Baseline, folder: Path) -> Before:

@@ -9,8 +9,11 @@ from pathlib import Path
 
 from harness import ROOT
 from harness.contract import FirsthitError
+from harness.escaping import joined, shown
 from harness.results import git
 from harness.results.commits import Commit
+
+SUBJECT = 500  # letters of a commit's subject that are kept
 
 
 def holding(plugins: Path | None, config: Path) -> Path | None:
@@ -41,6 +44,7 @@ def commit_of(top: Path, plugins: Path | None, config: Path, written: Collection
         raise FirsthitError(f"{top} has no commit yet to keep rows by; commit first")
     name, seconds, subject = (*told.split("\n", 2), "")[:3]
     date = datetime.fromtimestamp(int(seconds), UTC).isoformat()
+    subject = shown(joined(subject))[:SUBJECT]  # which may hold anything, in any encoding
     return Commit(name, date, subject, bool(changed(top, plugins, config, written)))
 
 

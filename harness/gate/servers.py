@@ -6,12 +6,12 @@ import os
 import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from xml.sax.saxutils import escape, quoteattr
 
+from harness import escaping
 from harness.contract import FirsthitError
 from harness.gate.about import About, Place
 from harness.gate.judge import Judged, Verdict
-from harness.gate.outputs import BAD, changed, flat, number
+from harness.gate.outputs import BAD, changed, number
 
 SHOWN = 10  # annotations of one kind that GitHub shows of one step
 MESSAGE = 4000  # characters of an annotation's message
@@ -31,38 +31,30 @@ def junit(judged: Sequence[Judged], title: str, about: Mapping[Place, About]) ->
     seconds = sum(about.get((j.slot, j.device), NOTHING).seconds or 0.0 for j in judged)
     counts = f'tests="{len(judged)}" failures="{failures}" errors="{errors}" time="{seconds:.3f}"'
     text = ['<?xml version="1.0" encoding="UTF-8"?>', f"<testsuites {counts}>"]
-    text.append(f"<testsuite name={_attribute(title)} {counts}>")
+    text.append(f"<testsuite name={escaping.attribute(title)} {counts}>")
     text += [_case(j, title, about.get((j.slot, j.device), NOTHING)) for j in judged]
     return "\n".join([*text, "</testsuite>", "</testsuites>"]) + "\n"
 
 
 def _case(judged: Judged, title: str, about: About) -> str:
     """Write the test case of one row."""
-    named = f"classname={_attribute(f'{title}.{judged.device}')} name={_attribute(judged.slot)}"
+    named = f"classname={escaping.attribute(f'{title}.{judged.device}')} name={escaping.attribute(judged.slot)}"
     time = "" if about.seconds is None else f' time="{about.seconds:.3f}"'
     told = {"verdict": str(judged.verdict), "rule": judged.rule, "command": about.command}
     told |= {"earlier": about.earlier or "", "picture": about.picture.as_posix() if about.picture else ""}
     properties = "".join(
-        f"<property name={_attribute(name)} value={_attribute(value)}/>" for name, value in told.items() if value
+        f"<property name={escaping.attribute(name)} value={escaping.attribute(value)}/>"
+        for name, value in told.items()
+        if value
     )
     text = f"<testcase {named}{time}><properties>{properties}</properties>"
     if judged.verdict in BAD:
         kind = "error" if judged.verdict is Verdict.INCOMPARABLE else "failure"
-        message = _attribute(f"{judged.verdict}: {_headline(judged)}")
-        text += f"<{kind} message={message}>{_data(_told(judged, about))}</{kind}>"
+        message = escaping.attribute(escaping.joined(f"{judged.verdict}: {_headline(judged)}"))
+        text += f"<{kind} message={message}>{escaping.xml(_told(judged, about))}</{kind}>"
     if about.picture:  # as GitLab and Jenkins look for files that belong to a test case
-        text += f"<system-out>{_data(f'[[ATTACHMENT|{about.picture.as_posix()}]]')}</system-out>"
+        text += f"<system-out>{escaping.xml(f'[[ATTACHMENT|{about.picture.as_posix()}]]')}</system-out>"
     return f"{text}</testcase>"
-
-
-def _attribute(text: str) -> str:
-    """Quote a text as an attribute, without characters that XML cannot hold."""
-    return quoteattr("".join(c if c.isprintable() else " " for c in text))
-
-
-def _data(text: str) -> str:
-    """Escape a text between tags, without characters that XML cannot hold."""
-    return escape("".join(c if c.isprintable() or c == "\n" else " " for c in text))
 
 
 def github(judged: Sequence[Judged], kernels: Mapping[str, Path], about: Mapping[Place, About]) -> str:
@@ -89,8 +81,8 @@ def github(judged: Sequence[Judged], kernels: Mapping[str, Path], about: Mapping
 
 def _annotation(kind: str, judged: Judged, kernel: Path | None, about: About) -> str:
     """Write one workflow command."""
-    title = _property(f"{judged.verdict}: {flat(judged.slot)}")
-    message = _message(_told(judged, about)[:MESSAGE])
+    title = escaping.property_(f"{judged.verdict}: {judged.slot}")
+    message = escaping.message(_told(judged, about)[:MESSAGE])
     return f"::{kind} {_where(kernel, judged.reason)}title={title}::{message}"
 
 
@@ -101,17 +93,7 @@ def _where(kernel: Path | None, reason: str) -> str:
         return ""
     line = re.search(re.escape(f"{kernel.parent.name}/{kernel.name}") + r":(\d+)", reason)
     at = f"line={line.group(1)}," if line else ""
-    return f"file={_property(kernel.resolve().relative_to(top).as_posix())},{at}"
-
-
-def _message(text: str) -> str:
-    """Escape a text for a command's message."""
-    return text.replace("%", "%25").replace("\r", "%0D").replace("\n", "%0A")
-
-
-def _property(text: str) -> str:
-    """Escape a text for a command's property."""
-    return _message(text).replace(":", "%3A").replace(",", "%2C")
+    return f"file={escaping.property_(kernel.resolve().relative_to(top).as_posix())},{at}"
 
 
 def summarize(markdown: str) -> None:

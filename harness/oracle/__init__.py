@@ -14,7 +14,8 @@ nothing with the code that generates kernels, so that an error there cannot hide
   unless given. A start on the surface is a hit at t_min, whether the ray leaves, enters or grazes. A root before t_min
   does not count, even if it is only one float before. If t_min lies behind the domain, the ray misses.
 - A polynomial whose coefficients are rational or in one field Q(√d) is always decided, touches and roots exactly at
-  clip ends included, unless 4096 bits do not tell two numbers apart.
+  clip ends included, unless 4096 bits do not tell two numbers apart: those of a root and an irrational clip end do if
+  the two are 2^-1790 domain radii or more apart.
 - A function made of polynomials by quotients, square roots, abs, min and max, such as a distance function, is decided
   on all but rare rays (`piecewise`). A hit may lie at a kink, or where a square root's argument is 0. A ray stays
   undecided if f is made of more than 12 different square roots at one place, or if 1536 bits do not decide it. The hit
@@ -66,8 +67,8 @@ def first_hits(surface: Surface, rays: NDArray[np.float32], t_min: float = 0.0) 
 def cached_first_hits(surface: Surface, rays: NDArray[np.float32], folder: Path, t_min: float = 0.0) -> Truth:
     """Return `first_hits`, from a file in `folder` if it is stored there.
 
-    The file's name covers the surface, the rays, t_min and the oracle's own files. A damaged file is replaced. Raises
-    FirsthitError as `first_hits`.
+    The file's name covers the surface, the rays, t_min and the oracle's own files. A damaged file is replaced; where
+    none can be written, `cache.unwritten` says so. Raises FirsthitError as `first_hits`.
     """
     from harness.oracle import cache
 

@@ -4,16 +4,15 @@ from __future__ import annotations
 
 import hashlib
 import json
-import zipfile
 from dataclasses import fields
 from functools import cache
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from harness.contract import Surface, Truth
+from harness.contract import FirsthitError, Surface, Truth, TruthStatus
+from harness.results import npz
 from harness.results.sources import TRUTH, digest_of, packages
 from harness.results.writing import replacing
 
@@ -38,18 +37,44 @@ def _oracle() -> list[object]:
 
 def load(path: Path, count: int) -> Truth | None:
     """Return the stored answers for `count` rays; None if there are none, or if the file is damaged."""
+    if path in _UNWRITTEN:
+        return _UNWRITTEN[path]
+    kinds = {field.name: np.uint8 if field.name == "status" else np.float64 for field in fields(Truth)}
     try:
-        with np.load(path, allow_pickle=False) as stored:
-            arrays: dict[str, NDArray[Any]] = {f.name: stored[f.name] for f in fields(Truth)}
-    except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile):
+        truth = Truth(**npz.read(path, kinds, lambda _, shape: shape == (count,)))
+    except (OSError, ValueError):
         return None
-    return Truth(**arrays) if all(a.shape == (count,) for a in arrays.values()) else None
+    return truth if _is_possible(truth) else None
+
+
+def _is_possible(truth: Truth) -> bool:
+    """Tell whether the answers agree with themselves, as the oracle's do."""
+    hit = np.isin(truth.status, (TruthStatus.CROSSING, TruthStatus.TOUCH))
+    ends = np.stack([truth.lower, truth.upper])
+    placed = np.isfinite(ends[:, hit]).all() and (truth.lower[hit] <= truth.upper[hit]).all()
+    return bool(placed and np.isnan(ends[:, ~hit]).all() and (truth.status <= max(TruthStatus)).all())
 
 
 def store(path: Path, truth: Truth) -> None:
     """Write answers to a file, whole or not at all, also if several processes write the same answers.
 
-    Raises FirsthitError if they cannot be written.
+    Where they cannot be written, this process keeps the newest of them, and `unwritten` says why.
     """
-    with replacing(path) as temporary, temporary.open("wb") as file:
-        np.savez(file, **{f.name: getattr(truth, f.name) for f in fields(Truth)})
+    try:
+        with replacing(path) as temporary, temporary.open("wb") as file:
+            np.savez(file, **{f.name: getattr(truth, f.name) for f in fields(Truth)})
+    except FirsthitError as error:
+        _PROBLEMS.setdefault(path.parent, str(error))
+        _UNWRITTEN[path] = truth
+        while len(_UNWRITTEN) > MOST_UNWRITTEN:
+            del _UNWRITTEN[next(iter(_UNWRITTEN))]
+
+
+MOST_UNWRITTEN = 16  # answers of so many sets of rays; cells that share rays run one after the other
+_UNWRITTEN: dict[Path, Truth] = {}
+_PROBLEMS: dict[Path, str] = {}
+
+
+def unwritten(folder: Path) -> str | None:
+    """Say why answers could not be kept in `folder`, once; None where they could."""
+    return _PROBLEMS.pop(folder, None)

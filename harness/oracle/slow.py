@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from math import hypot, ldexp, nan
+from math import hypot, nan
 from typing import TYPE_CHECKING, Any
 
 from flint import arb, arb_poly, fmpq, fmpq_poly
@@ -193,7 +193,7 @@ class _Line:
         It takes interval Newton steps, and bisects where the slope may vanish; both cut away only what holds no root.
         Raises Undecidable if the polynomial is not known well enough.
         """
-        target = ldexp(self.reach, -(bits * 7 // 16)) / self.width
+        target = arb(self.reach / self.width) * arb((1, -(bits * 7 // 16)))  # as a float it would be 0 at 4096 bits
         lower, upper = arb((bracket.lower, -bracket.exponent)), arb((bracket.upper, -bracket.exponent))  # exact
         while True:
             whole = lower.union(upper)

@@ -26,6 +26,12 @@ def variants(catalog: Catalog) -> tuple[Variant, ...]:
     return tuple(found.values())
 
 
+def count(catalog: Catalog) -> int:
+    """Return how many bindings `variants` goes through, which is at least as many as it returns."""
+    casting = (p.method for p in catalog.plugins.values() if p.method.answers and not of_method(p.method).unlisted)
+    return sum(math.prod(1 + len(p.sweep) for p in m.parameters) + len(m.settings) for m in casting)
+
+
 def _of(plugin: Plugin) -> list[Variant]:
     """List a method's default, its papers' settings, and the grid of its knobs' sweeps, in this order."""
     swept = [(p.name, (None, *p.sweep)) for p in plugin.method.parameters if p.sweep]

@@ -15,8 +15,9 @@ from harness.contract import CellStatus, DeviceInfo, Precision, Variant, View, d
 from harness.devices.executor import LocalExecutor
 from harness.experiment import plan
 from harness.experiment.config import AccuracyChoice, BudgetChoice, Config, Experiment, MethodChoice
+from harness.experiment.size import asked
 from harness.plugins import Catalog
-from harness.recommend.candidates import variants, views
+from harness.recommend.candidates import count, variants, views
 from harness.recommend.model import Cause, Contender, Fallen, Quantile, Recommendation, Wish, named
 from harness.results.figures import disproved
 from harness.results.row import Accuracy
@@ -36,7 +37,13 @@ PICTURE_RAYS = 192  # per side of that picture, each of them checked
 
 
 def recommend(
-    wish: Wish, catalog: Catalog, device: str | None, runs: Path, watcher: Watcher, pictured: bool = False
+    wish: Wish,
+    catalog: Catalog,
+    device: str | None,
+    runs: Path,
+    watcher: Watcher,
+    pictured: bool = False,
+    yes: bool = False,
 ) -> Recommendation:
     """Search among all methods for the fastest variant that keeps the wish, on a device or the first usable one.
 
@@ -44,10 +51,14 @@ def recommend(
     answers are kept as a picture; one that does not hold there falls as well. Rows go below `runs`, where a later
     search finds them again; `watcher` is told of each step and cell.
 
-    Raises FirsthitError where `device` is no text and, with exit code 3, where there is no such device or a row cannot
-    be stored.
+    Raises FirsthitError where `device` is no text, where there is more to check than is done without `yes`
+    (harness.experiment.size) and, with exit code 3, where there is no such device or a row cannot be stored.
     """
     from surfaces.proofs.extent import remark
+
+    checks = count(catalog) * wish.views
+    if told := asked(f"{checks:,} checks of variants on {wish.views:,} views", checks, yes):
+        watcher.warned(told)
 
     if told := remark(wish.surface):
         watcher.warned(told)

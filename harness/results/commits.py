@@ -11,15 +11,15 @@ row has a line of its own.
 from __future__ import annotations
 
 import json
-import math
 import re
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 from datetime import datetime, timedelta
 from pathlib import Path
-from typing import Any
+from typing import Any, TypedDict
 
 from harness.contract import FirsthitError, digest
+from harness.results import declared, entry, sealed
 from harness.results.writing import write_atomically
 
 FORMAT = 1
@@ -73,7 +73,7 @@ def write(folder: Path, kept: Kept, device_key: str) -> Path:
     dirty = "-dirty" if kept.commit.dirty else ""
     device = re.sub(r"[^A-Za-z0-9.]+", "-", device_key).strip("-")
     path = folder / f"{kept.commit.date[:10]}-{kept.commit.short}{dirty}-{device}.json"
-    write_atomically(path, _text(kept).encode())
+    write_atomically(path, sealed.with_seal(_text(kept)))
     return path
 
 
@@ -107,43 +107,43 @@ def read_all(folder: Path) -> tuple[list[Kept], list[str]]:
 def _read(path: Path) -> Kept:
     """Read one file. Raises FirsthitError, which names it, where it is damaged or of another format."""
     try:
-        stored = json.loads(path.read_text(encoding="utf-8"), parse_constant=_no_number)
-        if not isinstance(stored, dict) or stored.get("format") != FORMAT:
-            told = stored.get("format") if isinstance(stored, dict) else None
-            raise FirsthitError(f"{path} is not of this version's format ({told!r}, not {FORMAT}); it is left out")
-        given = stored["commit"]
-        name, date, subject = (_of(given[part], str) for part in ("hash", "date", "subject"))
-        commit = Commit(name, date, subject, _of(given["dirty"], bool))
+        stored = sealed.read(path)
+        if stored.get("format") != FORMAT:
+            told = stored.get("format")
+            raise FirsthitError(f"{path} is not of this version's format ({told!r:.40}, not {FORMAT}); it is left out")
+        _CHECK(stored, "")
+        entry.device(stored["device"], "device")
+        for slot, row in stored["rows"].items():
+            entry.check(row, slot)
+        commit = Commit(**{name: stored["commit"][name] for name in _StoredCommit.__annotations__})
         if not _HASH.fullmatch(commit.hash) or datetime.fromisoformat(commit.date).utcoffset() != timedelta(0):
             raise ValueError(f"{commit.hash!r} of {commit.date!r} names no commit; dates are in UTC")
-        device, rows, harness = (_of(stored[name], dict) for name in ("device", "rows", "firsthit"))
-        _of(device["name"], str)
-        for slot, row in rows.items():
-            _check_row(slot, _of(row, dict))
-        return Kept(_of(stored["config"], str), commit, device, rows, harness)
-    except (OSError, ValueError, KeyError, TypeError) as error:
-        told = f"it lacks {error}" if isinstance(error, KeyError) else str(error)
-        raise FirsthitError(f"{path} is damaged and left out ({told}); restore it, or remove it") from None
+        return Kept(stored["config"], commit, stored["device"], stored["rows"], stored["firsthit"])
+    except (OSError, ValueError) as error:
+        told = sealed.problem(error)
+        raise FirsthitError(f"{path} is damaged and left out ({told:.200}); restore it, or remove it") from None
 
 
-def _check_row(slot: str, row: dict[str, Any]) -> None:
-    """Raise KeyError or ValueError where a row lacks its status or scene, or holds a number that is none."""
-    _of(row["status"], str)
-    _of(row["scene"], str)
-    for name, value in row.items():
-        if isinstance(value, float) and not math.isfinite(value):
-            raise ValueError(f"{slot}: its {name} is {value}")
+class _StoredCommit(TypedDict):
+    """Declare what a file says of its commit."""
+
+    hash: str
+    date: str
+    subject: str
+    dirty: bool
 
 
-def _of(value: Any, kind: type) -> Any:
-    """Return `value`, which is of this kind. Raises ValueError where it is not."""
-    if not isinstance(value, kind):
-        raise ValueError(f"{str(value)[:40]!r} is no {kind.__name__}")
-    return value
+class _Stored(TypedDict):
+    """Declare what a file holds."""
+
+    config: str
+    commit: _StoredCommit
+    firsthit: dict[str, Any]
+    device: dict[str, Any]
+    rows: dict[str, dict[str, Any]]
 
 
-def _no_number(name: str) -> None:
-    raise ValueError(f"it holds {name}, which is no number")
+_CHECK = declared.checker(_Stored)
 
 
 def same_arithmetic(device: Mapping[str, Any], slot: str) -> str:

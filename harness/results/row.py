@@ -14,9 +14,12 @@ ray is one that is neither grazing nor drowned (harness/accuracy/judge.py).
 from dataclasses import dataclass
 from typing import Annotated, Any, NotRequired, TypedDict
 
-from harness.contract import Casts, Normal, Origin, Precision, Prepass, Proxy, Stage
+from harness.contract import Casts, CellStatus, Normal, Origin, Precision, Prepass, Proxy, Stage
+from harness.limits import OneOf
+from harness.results.declared import NOT_NEGATIVE, POSITIVE, SHARE
 
 SAME_NAME = "the same name"
+Times = list[Annotated[float, POSITIVE]]
 
 
 @dataclass(frozen=True)
@@ -53,23 +56,25 @@ class Time(TypedDict):
     """Hold the timed repetitions of a cell, and what they say together."""
 
     clock: Annotated[str, "whose clock the times are by: device or wall, the host's"]
-    median_ms: Annotated[float, "median of samples_ms: the time of one frame, ms"]
-    lower_ms: Annotated[float, "lower end of the median's 95 % order-statistic interval, ms"]
-    upper_ms: Annotated[float, "upper end of the median's 95 % order-statistic interval, ms"]
+    median_ms: Annotated[float, "median of samples_ms: the time of one frame, ms", POSITIVE]
+    lower_ms: Annotated[float, "lower end of the median's 95 % order-statistic interval, ms", POSITIVE]
+    upper_ms: Annotated[float, "upper end of the median's 95 % order-statistic interval, ms", POSITIVE]
     overhead_share: Annotated[
-        float | None, "what the host's clock tells beyond the device's, over the latter; null by the host's clock"
+        float | None,
+        "what the host's clock tells beyond the device's, over the latter; null by the host's clock",
+        NOT_NEGATIVE,
     ]
-    bootstrap_lower_ms: Annotated[float, "lower end of the median's 95 % bootstrap interval, ms"]
-    bootstrap_upper_ms: Annotated[float, "upper end of the median's 95 % bootstrap interval, ms"]
+    bootstrap_lower_ms: Annotated[float, "lower end of the median's 95 % bootstrap interval, ms", POSITIVE]
+    bootstrap_upper_ms: Annotated[float, "upper end of the median's 95 % bootstrap interval, ms", POSITIVE]
     drift_share: Annotated[float | None, "median of the second half of the samples over the first's, less 1"]
-    drift_chance: Annotated[float | None, "how often chance alone parts the halves so (rank-sum test)"]
-    spread_share: Annotated[float | None, "range of the middle half of the samples, over their median"]
+    drift_chance: Annotated[float | None, "how often chance alone parts the halves so (rank-sum test)", SHARE]
+    spread_share: Annotated[float | None, "range of the middle half of the samples, over their median", NOT_NEGATIVE]
     outliers: Annotated[int, "samples more than 3 quartile ranges outside the quartiles; they are kept"]
     warnings: Annotated[list[str], "what is unsteady about the samples and what to do, a sentence each"]
     narrow: Annotated[bool, "whether the median's interval came within [budget] interval of it"]
     batch: Annotated[int, "frames drawn in a row for one sample, which is their mean"]
-    samples_ms: Annotated[list[float], "the time of one frame, each time it was taken, in that order, ms"]
-    wall_samples_ms: Annotated[list[float], Leaf("the same by the host's clock, ms", column=None)]
+    samples_ms: Annotated[Times, "the time of one frame, each time it was taken, in that order, ms"]
+    wall_samples_ms: Annotated[Times, Leaf("the same by the host's clock, ms", column=None)]
     rounds: Annotated[list[int], "the round in which each sample was taken; rounds of one session pair"]
     session: Annotated[str, "names the interleaved run in which the cell was timed"]
 
@@ -77,19 +82,25 @@ class Time(TypedDict):
 class Build(TypedDict):
     """Hold what preparing a cell cost, apart from running it."""
 
-    compile_ms: Annotated[float, "time to compile the timed frame, or the checked programs where none is timed, ms"]
-    upload_ms: Annotated[float | None, "time to upload what the frame reads, ms; null where none is timed"]
-    readback_ms: Annotated[float | None, "time to read the frame's answers back once, ms; null where none is timed"]
+    compile_ms: Annotated[
+        float, "time to compile the timed frame, or the checked programs where none is timed, ms", NOT_NEGATIVE
+    ]
+    upload_ms: Annotated[
+        float | None, "time to upload what the frame reads, ms; null where none is timed", NOT_NEGATIVE
+    ]
+    readback_ms: Annotated[
+        float | None, "time to read the frame's answers back once, ms; null where none is timed", NOT_NEGATIVE
+    ]
     bytes: Annotated[int | None, "bytes that the vertices and instances of a rasterised frame take on the device"]
 
 
 class Quantiles(TypedDict):
     """Hold quantiles of a row's rays; each is null where no ray has a value."""
 
-    max: Annotated[float | None, "the largest"]
-    p999: Annotated[float | None, "the 99.9th percentile"]
-    p99: Annotated[float | None, "the 99th percentile"]
-    p50: Annotated[float | None, "the median"]
+    max: Annotated[float | None, "the largest", NOT_NEGATIVE]
+    p999: Annotated[float | None, "the 99.9th percentile", NOT_NEGATIVE]
+    p99: Annotated[float | None, "the 99th percentile", NOT_NEGATIVE]
+    p50: Annotated[float | None, "the median", NOT_NEGATIVE]
 
 
 class Lane(TypedDict):
@@ -99,7 +110,8 @@ class Lane(TypedDict):
     items: Annotated[int, "work items of the level"]
     evaluations: Annotated[int, "evaluations of f that they spend together"]
     idle: Annotated[
-        dict[str, float], "by the width of a group of lanes: the share of its time for which lanes wait for others"
+        dict[str, Annotated[float, SHARE]],
+        "by the width of a group of lanes: the share of its time for which lanes wait for others",
     ]
 
 
@@ -122,11 +134,13 @@ class Accuracy(TypedDict):
     grazing: Annotated[int, "rays that a shift under grazing_margin would give another answer"]
     drowned: Annotated[int, "other rays on which rounding in the cell's precision can hide or feign a root"]
     judged: Annotated[int, "rays that are decided and clear: what shares of wrong rays are of"]
-    grazing_margin: Annotated[float, "the shift that makes a ray grazing, over scene_radius"]
-    scene_radius: Annotated[float, "the radius of what is seen, which errors are told over"]
-    domain_radius: Annotated[float, "the radius of the surface's domain"]
+    grazing_margin: Annotated[float, "the shift that makes a ray grazing, over scene_radius", NOT_NEGATIVE]
+    scene_radius: Annotated[float, "the radius of what is seen, which errors are told over", POSITIVE]
+    domain_radius: Annotated[float, "the radius of the surface's domain", POSITIVE]
     certified_width: Annotated[
-        float, Leaf("the widest certified interval of a right hit; errors smaller than it may show as 0", column=None)
+        float,
+        Leaf("the widest certified interval of a right hit; errors smaller than it may show as 0", column=None),
+        NOT_NEGATIVE,
     ]
     misses: Annotated[int, "clear rays whose hit was missed"]
     false_hits: Annotated[int, "clear rays that hit nothing and were answered by a hit"]
@@ -161,10 +175,10 @@ class Accuracy(TypedDict):
         Quantiles, Part("the ratios of |f| at the hit to the sum of |terms of f| at the root", "residual_")
     ]
     beam_only: NotRequired[Annotated[int, "rays whose beam sees a surface that the ray passes by; of beams"]]
-    evaluations_mean: Annotated[float | None, "evaluations of f for a ray that was answered, in the mean"]
-    evaluations_max: Annotated[float, "evaluations of f for the ray that took most"]
+    evaluations_mean: Annotated[float | None, "evaluations of f for a ray that was answered, in the mean", NOT_NEGATIVE]
+    evaluations_max: Annotated[float, "evaluations of f for the ray that took most", NOT_NEGATIVE]
     prepass_evaluations_mean: NotRequired[
-        Annotated[float, "of evaluations_mean, those that the prepass spent; behind a prepass"]
+        Annotated[float, "of evaluations_mean, those that the prepass spent; behind a prepass", NOT_NEGATIVE]
     ]
     lanes: NotRequired[
         Annotated[list[Lane] | None, "of beams: what the work items of each level spend, and how long they wait"]
@@ -186,8 +200,10 @@ class RungVerdict(TypedDict):
     undecidable: Annotated[int, Leaf("rays that no arithmetic of the precision can decide", always=True)]
     undecidable_right: Annotated[int, Leaf("of these, rays answered as the oracle does", always=True)]
     undecided: Annotated[int, Leaf("rays that the oracle leaves undecided", always=True)]
-    max_error: Annotated[float | None, "the largest |t − t*| of right hits, scene units"]
-    worst_ratio: Annotated[float | None, "the largest |t − t*| over what the problem allows, of right hits"]
+    max_error: Annotated[float | None, "the largest |t − t*| of right hits, scene units", NOT_NEGATIVE]
+    worst_ratio: Annotated[
+        float | None, "the largest |t − t*| over what the problem allows, of right hits", NOT_NEGATIVE
+    ]
 
 
 class NamedProgram(TypedDict):
@@ -235,7 +251,9 @@ class CellRow(TypedDict):
     precision: Annotated[Precision, Leaf("float32 or float64, of the kernel", always=True)]
     stage: Annotated[Stage, Leaf("where rays are cast from: compute, rays (listed ones) or raster", always=True)]
     device: Annotated[str, Leaf("the device's name", always=True)]
-    status: Annotated[str, Leaf("how the cell ended: ok, skipped, failed, timeout or crashed", always=True)]
+    status: Annotated[
+        str, Leaf("how the cell ended: ok, skipped, failed, timeout or crashed", always=True), OneOf(tuple(CellStatus))
+    ]
     reason: Annotated[str | None, "why it did not end well; null where it did"]
     answers: Annotated[bool, Leaf("false of a method that measures the harness and finds nothing", always=True)]
     casts: Annotated[Casts, "what the method casts: rays, beams, quadtree or mesh"]
@@ -261,7 +279,7 @@ class CellRow(TypedDict):
     evaluation_operations: Annotated[int | None, "operations of one evaluation of what the method evaluates"]
     program: Annotated[NamedProgram | None, "null where there is none, since the cell was skipped"]
     environment: Annotated[Environment, "when and from what the row was made"]
-    seconds: Annotated[float, Leaf("spent on checking, building and timing, s", column=None)]
+    seconds: Annotated[float, Leaf("spent on checking, building and timing, s", column=None), NOT_NEGATIVE]
     identity: Annotated[dict[str, Any], "all that decides the row, which its key is the hash of"]
 
 

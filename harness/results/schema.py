@@ -14,11 +14,10 @@ import types
 import typing
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
 from typing import Any, Literal, NotRequired
 
 from harness.results.row import KINDS as KINDS
-from harness.results.row import SAME_NAME, Leaf, Part, RungVerdict, StoredRow
+from harness.results.row import SAME_NAME, Leaf, Part, RungVerdict, StoredRow, Times
 
 Kind = Literal["text", "real", "whole", "flag", "json", "reals"]
 
@@ -27,20 +26,13 @@ Kind = Literal["text", "real", "whole", "flag", "json", "reals"]
 class Field:
     """State a leaf of a stored row, and its column.
 
-    `path` leads to the leaf's value in a cell's file. A value that is null or absent is None in the flat row, and an
-    error where the field is `required`.
+    `path` leads to the leaf's value in a cell's file. A value that is null or absent is None in the flat row.
     """
 
     name: str  # the column's; empty where there is none
     kind: Kind
     path: tuple[str, ...]  # "[]" stands for every item of a list
     meaning: str
-    required: bool = False
-
-    @cached_property
-    def inside(self) -> tuple[str, ...]:
-        """Return the path of the object that holds the value."""
-        return self.path[:-1]
 
 
 def fields_of(declared: Any, path: tuple[str, ...] = (), within: str = "", prefix: str = "") -> Iterator[Field]:
@@ -60,9 +52,9 @@ def fields_of(declared: Any, path: tuple[str, ...] = (), within: str = "", prefi
         leaf = note if isinstance(note, Leaf) else Leaf(note)
         column = name if leaf.column == SAME_NAME else leaf.column
         meaning = f"{leaf.meaning} of {within}" if within else leaf.meaning
-        yield Field(prefix + column if column else "", _kind(kind), here, meaning, leaf.always)
+        yield Field(prefix + column if column else "", _kind(kind), here, meaning)
         if typing.get_origin(kind) is list and typing.is_typeddict(item := typing.get_args(kind)[0]):
-            yield from (replace(field, name="", required=False) for field in fields_of(item, (*here, "[]")))
+            yield from (replace(field, name="") for field in fields_of(item, (*here, "[]")))
 
 
 def _without_none(kind: Any) -> Any:
@@ -83,19 +75,19 @@ def _kind(kind: Any) -> Kind:
     return _KINDS.get(kind, "json")
 
 
-_KINDS: dict[Any, Kind] = {str: "text", float: "real", int: "whole", bool: "flag", list[float]: "reals"}
+_KINDS: dict[Any, Kind] = {str: "text", float: "real", int: "whole", bool: "flag", Times: "reals"}
 
 
-def _of_plan(name: str, meaning: str, required: bool = False) -> Field:
+def _of_plan(name: str, meaning: str) -> Field:
     """Make a column of texts that the plan states, not the row."""
-    return Field(name, "text", (name,), meaning, required)
+    return Field(name, "text", (name,), meaning)
 
 
 LEAVES: tuple[Field, ...] = tuple(fields_of(StoredRow))
 _COLUMNS = [field for field in LEAVES if field.name]
 _AFTER = [field.name for field in _COLUMNS].index("variant") + 1
 
-RUN = _of_plan("run", "the name of the run", required=True)
+RUN = _of_plan("run", "the name of the run")
 BASELINE = _of_plan("baseline", "the method or variant that speed-ups are over")
 SCHEMA: tuple[Field, ...] = (RUN, *_COLUMNS[:_AFTER], BASELINE, *_COLUMNS[_AFTER:])
 
@@ -138,97 +130,42 @@ FAMILY: tuple[Field, ...] = (RUN, *map(_leaf, _OF_FAMILY.split()))
 
 RUNG: tuple[Field, ...] = (
     _leaf("key"),
-    Field("level", "whole", ("level",), "the place of the rung, 0, 1, … going harder", required=True),
+    Field("level", "whole", ("level",), "the place of the rung, 0, 1, … going harder"),
     *fields_of(RungVerdict),
 )
 
 
-def flatten(fields: Sequence[Field], document: dict[str, Any]) -> tuple[Any, ...]:
-    """Return the values of `fields` in a stored row, in the order of the fields.
+def flattener(fields: Sequence[Field]) -> Callable[[dict[str, Any]], tuple[Any, ...]]:
+    """Make the function that returns the values of `fields` in a stored row, in the order of the fields.
 
-    A value that is null or absent is None. Raises ValueError, which names the field, for the first value that is of
-    another kind, and for the first required one that is missing.
+    The row was held against its declaration (harness.results.agreement). A value that is null or absent is None.
     """
-    around: dict[tuple[str, ...], Any] = {(): document}  # what was found on the way is shared by neighbouring fields
-    return tuple(_value(field, around) for field in fields)
+    paths = dict.fromkeys(field.path[:-1] for field in fields)
+    places = {path: at for at, path in enumerate(paths)}
+    wanted = [(places[field.path[:-1]], field.path[-1], _MADE.get(field.kind)) for field in fields]
+
+    def flatten(row: dict[str, Any]) -> tuple[Any, ...]:
+        objects = [_object(row, path) for path in paths]
+        values = []
+        for at, name, made in wanted:
+            value = objects[at].get(name)
+            values.append(value if made is None or value is None else made(value))
+        return tuple(values)
+
+    return flatten
 
 
-def _object(path: tuple[str, ...], around: dict[tuple[str, ...], Any]) -> Any:
-    """Return the object at `path`, or None where there is none; `around` keeps what was found.
-
-    Raises ValueError where something other than an object stands there.
-    """
-    if path not in around:
-        outer = _object(path[:-1], around)
-        value = None if outer is None else outer.get(path[-1])
-        if value is not None and not isinstance(value, dict):
-            raise ValueError(f"{'.'.join(path)} is no object")
-        around[path] = value
-    return around[path]
+def _object(row: dict[str, Any], path: tuple[str, ...]) -> dict[str, Any]:
+    """Return the object at `path`; an empty one where there is none."""
+    found = row
+    for name in path:
+        found = found.get(name) or _NOTHING
+    return found
 
 
-def _value(field: Field, around: dict[tuple[str, ...], Any]) -> Any:
-    """Return a field's value. Raises ValueError where it is of another kind, or required and missing."""
-    found = _object(field.inside, around)
-    value = None if found is None else found.get(field.path[-1])
-    if value is None:
-        if field.required:
-            raise ValueError(f"{'.'.join(field.path)} is missing")
-        return None
-    try:
-        return _READERS[field.kind](value)
-    except (TypeError, OverflowError) as error:
-        raise ValueError(f"{'.'.join(field.path)} is no {_NOUNS[field.kind]}: {value!r:.40}") from error
-
-
-def _exactly(kind: type) -> Callable[[Any], Any]:
-    """Make the reader of values that are of one type exactly."""
-
-    def read(value: Any) -> Any:
-        """Return the value. Raises TypeError where it is of another type."""
-        if type(value) is not kind:
-            raise TypeError
-        return value
-
-    return read
-
-
-def _real(value: Any) -> float:
-    """Read a number as a float. Raises TypeError for anything else."""
-    if type(value) not in (int, float):
-        raise TypeError
-    return float(value)
-
-
-def _whole(value: Any) -> int:
-    """Read a whole number. Raises TypeError for anything else, and OverflowError where 64 bits cannot hold it."""
-    if type(value) is not int:
-        raise TypeError
-    if abs(value) >= 2**63:
-        raise OverflowError
-    return value
-
-
-def _reals(value: Any) -> list[float]:
-    """Read a list of numbers as floats. Raises TypeError for anything else."""
-    if type(value) is not list or not {float, int}.issuperset(map(type, value)):
-        raise TypeError
-    return list(map(float, value))
-
-
-_READERS: dict[Kind, Callable[[Any], Any]] = {
-    "text": lambda value: _exactly(str)(value).encode(errors="replace").decode(),  # half a surrogate pair is no text
-    "real": _real,
-    "whole": _whole,
-    "flag": _exactly(bool),
+_NOTHING: dict[str, Any] = {}
+_MADE: dict[Kind, Callable[[Any], Any]] = {  # other values are columns' as they are
+    "real": float,
     "json": json.JSONEncoder(sort_keys=True).encode,
-    "reals": _reals,
-}
-_NOUNS: dict[Kind, str] = {
-    "text": "text",
-    "real": "number",
-    "whole": "whole number",
-    "flag": "truth value",
-    "json": "object",
-    "reals": "list of numbers",
+    "reals": lambda values: list(map(float, values)),
 }

@@ -8,17 +8,37 @@ truth/<hash>.npz     the oracle's answers, shared by all rows with the same rays
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 from numpy.typing import NDArray
 
+from harness.results import agreement, sealed
 from harness.results.writing import savez_atomically, write_atomically
 
 FORMAT = 1
 Row = dict[str, Any]  # as it was read, of this or an older version; harness/results/row.py declares what is in it
+
+
+def read_row(path: Path, key: str) -> Row:
+    """Read the row of a cell's file, and hold it against its checksum, its declaration and itself.
+
+    Raises FileNotFoundError where there is none, and OSError or ValueError where it is damaged, of another version or
+    of another cell.
+    """
+    row = of_format(sealed.read(path), FORMAT)
+    if row.get("key") != key:
+        raise ValueError(f"it names another cell's key, {row.get('key')!r:.40}")
+    agreement.check(row, "")
+    return row
+
+
+def of_format(document: dict[str, Any], number: int) -> dict[str, Any]:
+    """Return a document that was read, which is of this format. Raises ValueError where it is of another."""
+    if type(document.get("format")) is not int or document["format"] != number:
+        raise ValueError(f"its format is {document.get('format')!r:.40}, not {number}")
+    return document
 
 
 class Store:
@@ -35,16 +55,12 @@ class Store:
     def read(self, key: str) -> Row | None:
         """Return the row of `key`; None if there is none or its file is damaged (then `unreadable` says why)."""
         try:
-            row = json.loads(self._cell(key).read_text(encoding="utf-8"))
+            return read_row(self._cell(key), key)
         except FileNotFoundError:
             return None
         except (OSError, ValueError) as error:
-            self.unreadable[key] = f"{self._cell(key)} is damaged ({error})"
+            self.unreadable[key] = f"{self._cell(key)} is damaged ({sealed.problem(error)})"
             return None
-        if not isinstance(row, dict) or row.get("key") != key or row.get("format") != FORMAT:
-            self.unreadable[key] = f"{self._cell(key)} is not a row of this version"
-            return None
-        return row
 
     def write(self, row: Row, arrays: dict[str, NDArray[Any]] | None = None) -> None:
         """Store a finished row, its arrays first, so that a row never names arrays that are not there.
@@ -54,8 +70,7 @@ class Store:
         if arrays is not None:
             row = row | {"arrays": f"arrays/{row['key']}.npz"}
             savez_atomically(self.folder / row["arrays"], **arrays)
-        text = json.dumps({"format": FORMAT, **row}, indent=1, allow_nan=False)
-        write_atomically(self._cell(row["key"]), text.encode())
+        write_atomically(self._cell(row["key"]), sealed.sealed({"format": FORMAT, **row}))
 
     def rows(self) -> Iterator[Row]:
         """Yield every row that can be read, current or stale."""
@@ -65,4 +80,4 @@ class Store:
 
     def write_plan(self, plan: dict[str, Any]) -> None:
         """Store what the run sets out to do. Raises FirsthitError if it cannot be written."""
-        write_atomically(self.folder / "plan.json", json.dumps({"format": FORMAT, **plan}, indent=1).encode())
+        write_atomically(self.folder / "plan.json", sealed.sealed({"format": FORMAT, **plan}))

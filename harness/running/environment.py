@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import contextlib
 import dataclasses
-import json
 import platform
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypedDict
 
 from harness import ROOT, __version__
 from harness.contract import DeviceInfo, FirsthitError, digest
@@ -16,13 +15,24 @@ from harness.devices import host
 from harness.devices.executor import CellError, LocalExecutor
 from harness.devices.host_arithmetic import host_arithmetic
 from harness.devices.probes import BELIEVABLE, Probes
-from harness.results import git, sources
+from harness.results import declared, git, sealed, sources
 from harness.results.writing import write_atomically
 
 if TYPE_CHECKING:
     from harness.devices.fingerprint import Fingerprint
 
 PACKAGES = ("numpy", "python-flint", "moderngl", "pyopencl")
+
+
+class _KeptFingerprint(TypedDict):
+    """Hold what is kept of a device's fingerprint."""
+
+    fingerprint: dict[str, dict[str, str]]
+    digest: str
+
+
+_PROBES = declared.of_dataclass(Probes)
+_FINGERPRINT = declared.checker(_KeptFingerprint)
 
 
 def _git(*arguments: str) -> str | None:
@@ -77,7 +87,7 @@ def probed(
             return dataclasses.replace(info, problem=f"its probes failed: {error}"), None
         if cache:
             with contextlib.suppress(FirsthitError):
-                write_atomically(_probes_file(info, cache), json.dumps(dataclasses.asdict(found)).encode())
+                write_atomically(_probes_file(info, cache), sealed.sealed(dataclasses.asdict(found)))
     ratio = found.clock_ratio
     believable = ratio is not None and BELIEVABLE[0] <= ratio <= BELIEVABLE[1]
     return dataclasses.replace(info, clock="device" if believable else "wall"), found
@@ -90,11 +100,11 @@ def kept_probes(info: DeviceInfo, cache: Path) -> tuple[Probes | None, float]:
     """
     file = _probes_file(info, cache)
     try:
-        found, since = json.loads(file.read_text(encoding="utf-8")), file.stat().st_mtime
+        found, since = sealed.read(file), file.stat().st_mtime
+        _PROBES(found, "")
     except (OSError, ValueError):
         return None, 0.0
-    fields = {field.name for field in dataclasses.fields(Probes)}
-    return (Probes(**found), since) if isinstance(found, dict) and found.keys() == fields else (None, 0.0)
+    return Probes(**found), since
 
 
 def fingerprinted(
@@ -117,7 +127,7 @@ def fingerprinted(
         if cache:
             kept = {"fingerprint": found, "digest": digest(found)}
             with contextlib.suppress(FirsthitError):
-                write_atomically(_fingerprint_file(info, cache), json.dumps(kept).encode())
+                write_atomically(_fingerprint_file(info, cache), sealed.sealed(kept))
     return found | {"host": host_arithmetic()}
 
 
@@ -128,10 +138,11 @@ def kept_fingerprint(info: DeviceInfo, cache: Path) -> tuple[Fingerprint | None,
     """
     file = _fingerprint_file(info, cache)
     try:
-        kept, since = json.loads(file.read_text(encoding="utf-8")), file.stat().st_mtime
-        return (kept["fingerprint"], since) if kept["digest"] == digest(kept["fingerprint"]) else (None, 0.0)
-    except (OSError, ValueError, LookupError, TypeError):
+        kept, since = sealed.read(file), file.stat().st_mtime
+        _FINGERPRINT(kept, "")
+    except (OSError, ValueError):
         return None, 0.0
+    return (kept["fingerprint"], since) if kept["digest"] == digest(kept["fingerprint"]) else (None, 0.0)
 
 
 def _fingerprint_file(info: DeviceInfo, cache: Path) -> Path:

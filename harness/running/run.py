@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from harness import ROOT, console, memory, studies
-from harness.contract import CellStatus, DeviceInfo, FirsthitError
+from harness.contract import CellStatus, DeviceInfo
 from harness.devices.discovery import discover_devices
 from harness.devices.executor import LocalExecutor
 from harness.devices.probes import Probes
@@ -23,7 +23,9 @@ from harness.experiment import kinds, plan, reading, targets
 from harness.experiment.config import Experiment
 from harness.experiment.plan import Planned
 from harness.experiment.shipped import located
+from harness.experiment.size import cells_of, check_size
 from harness.hardcases import groups
+from harness.oracle import cache
 from harness.plugins import Catalog, find_methods
 from harness.results.store import Row, Store
 from harness.running.cards import card
@@ -143,27 +145,32 @@ def teller(tell: Callable[[str], None] | None) -> Watcher:
 
 
 def load(
-    name: str | Path, plugins: Path | None = None, devices: Sequence[str] = (), watcher: Watcher | None = None
+    name: str | Path,
+    plugins: Path | None = None,
+    devices: Sequence[str] = (),
+    watcher: Watcher | None = None,
+    yes: bool = False,
 ) -> Loaded:
     """Read a config, given by path or by the name of one that firsthit ships, and look for the devices it names.
 
     `plugins` is a folder of further methods; `devices` take the place of those that the config names. Raises
-    FirsthitError where there is no such config, something in it is wrong, or it includes configs that include others.
+    FirsthitError where there is no such config, something in it is wrong, it includes configs that include others, or
+    it has more cells than are planned without `yes` (harness.experiment.size).
     """
     catalog, hears = find_methods(plugins), watcher or Watcher()
-    whole = reading.load(located(name), catalog)
-    parts = [reading.load(path, catalog) for path in whole.included] or [whole]
-    if nested := [part.path for part in parts if part.included and part is not whole]:
-        raise FirsthitError(
-            f"{nested[0]} includes configs itself, so {whole.path} cannot include it; name them instead"
-        )
+    whole, parts = reading.load_all(located(name), catalog)
     for line in catalog.warnings:
         hears.wrong(line)
     parts = [part.on(devices) for part in parts]
+    for told in [check_size(part, catalog, yes=yes) for part in parts]:
+        if told:
+            hears.warned(told)
     named = {device for part in parts for device in part.wanted_devices()}
     with hears.doing(f"looking for devices to run {whole.path} on"):
         found = discover_devices(named)
     made = settled(parts, found, hears)
+    for part in made.parts:
+        check_size(part, catalog, found, yes)
     return Loaded(whole, made.parts, catalog, found, made.tried)
 
 
@@ -247,6 +254,8 @@ def _run_part(part: Experiment, loaded: Loaded, runs: Path, command: str, again:
         hears.starts(len(found.todo), seconds, Counter(p.cell.device for p in found.todo))
         told = hears.cell, hears.hears_builds
         rows = Runner(part.config, loaded.catalog, store, executor, environment, *told).run(found.todo)
+        if reason := cache.unwritten(store.truth):
+            hears.warned(f"{reason}; the oracle's answers were kept in memory, and the next run computes them again")
     finally:
         executor.close()
     return Run(store.folder, tuple(rows), tuple(found.kept.values()))
@@ -268,7 +277,7 @@ def _device(info: DeviceInfo, found: Probes | None) -> dict[str, Any]:
 def _announced(part: Experiment, catalog: Catalog, chosen: Mapping[str, DeviceInfo | None]) -> str:
     """Say what will be run where, before anything slow is done for it."""
     here = [info for info in chosen.values() if info]
-    cells = len(plan.grid(part, catalog, here)) if part.variants else 0
+    cells = cells_of(part, catalog, here)
     where = f" on {', '.join(info.name for info in here)}" if here else ""
     return f"{part.path}: {cells} cells{where}; preparing devices and cells"
 

@@ -11,7 +11,7 @@ from typing import Annotated
 import numpy as np
 
 from harness.contract import FirsthitError, Point, Surface, Variant, View
-from harness.limits import AZIMUTH, DISTANCE, ELEVATION, FIELD_OF_VIEW, SEED, SHARE, Distinct, Named, Within
+from harness.limits import AZIMUTH, DISTANCE, ELEVATION, FIELD_OF_VIEW, SEED, SHARE, Distinct, Line, Name, Named, Within
 from harness.scenes.generate import COUNT, GENERATORS, generate
 from harness.scenes.model import COLOUR, Floats, Group, Scene
 
@@ -39,15 +39,15 @@ class PlacedChoice:
     knobs: values of that method's knobs, by name
     """
 
-    surface: str
-    parameters: dict[str, float | str] = field(default_factory=dict)
-    domain: str = ""
+    surface: Annotated[str, Name()]
+    parameters: Annotated[dict[str, float | Annotated[str, Line()]], Name()] = field(default_factory=dict)
+    domain: Annotated[str, Line()] = ""
     at: Point = (0.0, 0.0, 0.0)
     turn: tuple[Angle, Angle, Angle] = (0.0, 0.0, 0.0)
     scale: Annotated[float, Within(1e-9, 1e9, "a scale is positive, from {low:g} to {high:g}, not {value:g}")] = 1.0
     colour: tuple[Intensity, Intensity, Intensity] = COLOUR
-    method: str = ""
-    knobs: dict[str, float] = field(default_factory=dict)
+    method: Annotated[str, Name(or_none=True)] = ""
+    knobs: Annotated[dict[str, float], Name()] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -64,7 +64,7 @@ class SceneChoice:
     distance: from the eye to the scene's middle, scene units; if none is given, all instances fit the field of view
     """
 
-    title: str = ""
+    title: Annotated[str, Line()] = ""
     placed: list[PlacedChoice] = field(default_factory=list)
     generate: Annotated[str, Named(_generators)] = ""
     counts: Annotated[list[Annotated[int, COUNT]], Distinct()] = field(default_factory=lambda: [100])

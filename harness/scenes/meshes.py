@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from harness.contract import Box, FirsthitError, MeshRecipe, Surface, digest
+from harness.results import npz
 from harness.results.sources import MESHES, digest_of, packages
 from harness.results.writing import savez_atomically
 
@@ -78,10 +79,18 @@ def _mesh(surface: Surface, recipe: MeshRecipe, path: Path) -> Mesh:
 def _stored(path: Path) -> Mesh | None:
     """Return a stored mesh; None if there is none, or if the file is damaged."""
     try:
-        with np.load(path, allow_pickle=False) as arrays:
-            return Mesh(arrays["vertices"], arrays["triangles"], bool(arrays["closed"]))
-    except Exception:  # whatever is wrong with the file, the mesh is made again
+        arrays = npz.read(path, {"vertices": np.float32, "triangles": np.uint32, "closed": np.bool_}, _fits)
+    except (OSError, ValueError):
         return None
+    vertices, corners = arrays["vertices"], arrays["triangles"]
+    whole = len(vertices) and len(corners) and np.isfinite(vertices[:, :3]).all() and corners.max() < len(vertices)
+    return Mesh(vertices, corners, bool(arrays["closed"])) if whole else None
+
+
+def _fits(name: str, shape: npz.Shape) -> bool:
+    """Tell whether an array of a stored mesh may have a shape."""
+    columns = {"vertices": 6, "triangles": 3}.get(name)
+    return shape == () if columns is None else len(shape) == 2 and shape[1] == columns
 
 
 def triangles(surface: Surface, n: int) -> int:

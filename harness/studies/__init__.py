@@ -9,13 +9,12 @@ runs again after an edit.
 from __future__ import annotations
 
 import importlib
-import json
 import time
 from pathlib import Path
 from typing import Any, Protocol, cast
 
 from harness.contract import digest
-from harness.results import sources
+from harness.results import sealed, sources, study_file
 from harness.results.store import FORMAT
 from harness.results.writing import write_atomically
 
@@ -48,10 +47,10 @@ def key(name: str) -> str:
 def is_done(name: str, folder: Path) -> bool:
     """Return whether the run `folder` holds this study's rows as its text now makes them."""
     try:
-        stored = json.loads(_path(name, folder).read_text(encoding="utf-8"))
+        study_file.read(_path(name, folder), name, key(name))
     except (OSError, ValueError):
         return False
-    return isinstance(stored, dict) and stored.get("format") == FORMAT and stored.get("key") == key(name)
+    return True
 
 
 def run(name: str, folder: Path) -> dict[str, Any]:
@@ -66,7 +65,7 @@ def run(name: str, folder: Path) -> dict[str, Any]:
         "rows": module.compute(),
         "seconds": time.perf_counter() - start,
     }
-    write_atomically(_path(name, folder), json.dumps(document, indent=1, allow_nan=False).encode())
+    write_atomically(_path(name, folder), sealed.sealed(document))
     return document
 
 

@@ -24,6 +24,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullLocator
 from numpy.typing import ArrayLike, NDArray
 
+from harness.escaping import shown
 from reports import wording
 from reports.drawing import style
 from reports.drawing.style import Mark
@@ -156,7 +157,7 @@ def series(method: str, *variants: str) -> str:
 
     It is JSON, percent-encoded, because matplotlib puts an id with quotes in it between quotes of the other kind.
     """
-    return SERIES + quote(json.dumps([method, *variants], ensure_ascii=False), safe="")
+    return SERIES + quote(json.dumps([method, *variants]), safe="")
 
 
 def line_of(mark: Mark) -> Line2D:
@@ -165,9 +166,9 @@ def line_of(mark: Mark) -> Line2D:
 
 
 def svg(drawing: Drawing) -> str:
-    """Return the drawing as SVG text, which is the same every time."""
+    """Return the drawing as SVG text, which is the same every time, and is XML whatever its texts hold."""
     buffer = io.StringIO()
     with warnings.catch_warnings():  # SVG holds text as text: the reader's fonts have the letters that ours lack
         warnings.filterwarnings("ignore", "Glyph .* missing from font")
         drawing.savefig(buffer, format="svg", metadata={"Date": None})
-    return buffer.getvalue()
+    return shown(buffer.getvalue())

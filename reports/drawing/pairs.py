@@ -25,7 +25,6 @@ from harness.results.row import RungVerdict
 from reports import wording
 from reports.drawing import images, style
 from reports.drawing.canvas import RC, ErrorAxis
-from reports.reading import arrays
 from reports.reading.arrays import Arrays
 
 DPI = 100
@@ -81,10 +80,7 @@ def _half(side: Side) -> _Half:
     """Take the answers of a side; where they are damaged it says so."""
     if side.told or not side.arrays:
         return _Half(side.title, None, side.told or "no answers ray by ray")
-    try:
-        return _Half(side.title, arrays.of(side.arrays), "")
-    except ValueError as error:
-        return _Half(side.title, None, f"its answers cannot be shown: {error}")
+    return _Half(side.title, Arrays(**side.arrays), "")
 
 
 @dataclass(frozen=True)

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import matplotlib
 
+from harness import escaping
 from reports.content import Table
 from reports.for_papers import column, latex
 from reports.for_papers.figures import plates
@@ -62,7 +63,7 @@ def example(figures: Sequence[Plate], tabled: Sequence[Tabled]) -> str:
 
 def _write_captions(made: Sequence[Plate] | Sequence[Tabled], of: Callable[..., str], folder: Path) -> None:
     """Write captions.md, for any use, and captions.tex, a float for each to copy, into `folder`."""
-    lines = [f"## {one.name}\n\n**{one.title}** {one.caption}\n" for one in made]
+    lines = [f"## {one.name}\n\n**{escaping.markdown(one.title)}** {escaping.markdown(one.caption)}\n" for one in made]
     (folder / "captions.md").write_text("\n".join(lines), encoding="utf-8")
     floats = "\n".join(of(one) for one in made)
     (folder / "captions.tex").write_text(floats, encoding="utf-8")
@@ -73,24 +74,34 @@ def _csv(tabled: Tabled) -> str:
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(_headings(tabled.table))
-    writer.writerows([["" if value is None or value != value else value for value in row] for row in tabled.table.rows])
+    writer.writerows([[_value(value) for value in row] for row in tabled.table.rows])
     return text.getvalue()
+
+
+def _value(value: object) -> object:
+    """Return a value as CSV holds it: nothing for a missing one, and no formula of a spreadsheet for a text."""
+    if isinstance(value, str):
+        return escaping.cell(value)
+    return "" if value is None or value != value else value
 
 
 def _markdown(tabled: Tabled) -> str:
     """Return a table as Markdown, numbers to the right."""
     columns = tabled.table.columns
-    lines = [_headings(tabled.table), ["---:" if column.numeric else "---" for column in columns]]
+    lines = [
+        [escaping.markdown(title) for title in _headings(tabled.table)],
+        ["---:" if column.numeric else "---" for column in columns],
+    ]
     for i, row in enumerate(tabled.table.rows):
         cells = [value if isinstance(value, str) else c.show(value) for c, value in zip(columns, row, strict=True)]
-        cells = [cell.replace("\\", "\\\\").replace("|", "\\|").replace("*", "\\*") for cell in cells]
+        cells = [escaping.markdown(cell) for cell in cells]
         lines.append([f"**{cell}**" if i in tabled.strong else cell for cell in cells])
     return "".join(f"| {' | '.join(line)} |\n" for line in lines)
 
 
 def _headings(table: Table) -> list[str]:
     """Return the columns' titles, each after the heading that it shares."""
-    return [f"{c.over} {c.title}".strip().replace("|", "\u2223") for c in table.columns]
+    return [f"{c.over} {c.title}".strip() for c in table.columns]
 
 
 _WRITERS: Mapping[str, tuple[str, Callable[[Tabled], str]]] = {

@@ -10,6 +10,7 @@ import itertools
 import re
 from collections.abc import Mapping
 
+from harness.escaping import one_line
 from reports.content import Column, Table
 from reports.for_papers.model import Plate, Tabled
 
@@ -73,14 +74,17 @@ _MATH = {
 }
 _RAISED = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹ⁿᵏ", "-0123456789nk")
 _LOWERED = str.maketrans("₋₀₁₂₃₄₅₆₇₈₉ₙ", "-0123456789n")
-_TOKEN = re.compile("([⁻⁰¹²³⁴⁵⁶⁷⁸⁹ⁿᵏ]+)|([₋₀₁₂₃₄₅₆₇₈₉ₙ]+)|(e[−-]?[0-9]+$)|(.)", re.DOTALL)
+_TOKEN = re.compile("([⁻⁰¹²³⁴⁵⁶⁷⁸⁹ⁿᵏ]+)|([₋₀₁₂₃₄₅₆₇₈₉ₙ]+)|(e[−-]?[0-9]+$)|([-'`,?!]{2,})|(.)", re.DOTALL)
 _NUMBER = re.compile(r"[+−-]?[0-9][0-9,]*")
 _EXPONENT = re.compile(r"(?<=[0-9])e([−-]?)([0-9]+)$")
 
 
 def escaped(text: str) -> str:
-    """Return `text` as LaTeX that prints it; characters beyond the tables here stay as they are, in UTF-8."""
-    return "".join(_one(*found.groups()) for found in _TOKEN.finditer(_scientific(text)))
+    """Return `text` as LaTeX that prints it; characters beyond the tables here stay as they are, in UTF-8.
+
+    Signs that cannot be seen are shown, and signs that fonts join, such as --, stay apart.
+    """
+    return "".join(_one(*found.groups()) for found in _TOKEN.finditer(_scientific(one_line(text))))
 
 
 def _scientific(text: str) -> str:
@@ -89,7 +93,7 @@ def _scientific(text: str) -> str:
     return _EXPONENT.sub(lambda found: "×10" + (found[1] + found[2]).translate(raised), text)
 
 
-def _one(raised: str | None, lowered: str | None, plain: str | None, character: str | None) -> str:
+def _one(raised: str | None, lowered: str | None, plain: str | None, joined: str | None, character: str | None) -> str:
     """Return what prints one token of a text."""
     if raised:
         return f"$^{{{raised.translate(_RAISED)}}}$"
@@ -97,6 +101,8 @@ def _one(raised: str | None, lowered: str | None, plain: str | None, character: 
         return f"$_{{{lowered.translate(_LOWERED)}}}$"
     if plain:
         return plain.replace("−", "-")
+    if joined:
+        return "{}".join(joined)
     assert character is not None
     if character in _MATH:
         return f"${_MATH[character]}$"

@@ -15,6 +15,8 @@ from matplotlib.figure import Figure as Drawing
 from reports import wording
 from reports.content import Table
 
+LONGEST = 120  # letters of a file's name
+
 
 @dataclass(frozen=True)
 class Plate:
@@ -56,11 +58,11 @@ def slug(*parts: str) -> str:
     """Return a file's name for what these texts name: lower case letters, digits and hyphens.
 
     Letters lose their accents, and every other character becomes a hyphen, dots too, which LaTeX takes for the
-    beginning of a file's ending: "Newton, ε = 0.001" is newton-e-0-001.
+    beginning of a file's ending: "Newton, ε = 0.001" is newton-e-0-001. Of a long one the beginning is taken.
     """
     text = "-".join(parts).replace("ε", "e").translate(str.maketrans("−⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "--0123456789"))
     plain = unicodedata.normalize("NFKD", text.lower()).encode("ascii", "ignore").decode()
-    return re.sub(r"[^a-z0-9]+", "-", plain).strip("-") or "unnamed"
+    return re.sub(r"[^a-z0-9]+", "-", plain)[:LONGEST].strip("-") or "unnamed"
 
 
 def distinct(named: Sequence[Named], wholes: Sequence[str]) -> list[Named]:

@@ -8,10 +8,10 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from harness.escaping import html as escaped
 from harness.results.commits import Commit
 from reports.history.axes import Scale, across, counted, labels
 from reports.history.series import Graph, Place, Point, Span, Step
-from reports.rendering.escaping import escaped
 
 HERE = Path(__file__).parent
 LEFT, WIDTH, TOP, HEIGHT = 60.0, 234.0, 10.0, 58.0  # of the plot in a drawing of 300 × 84

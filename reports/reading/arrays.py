@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import zipfile
-import zlib
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
@@ -12,7 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from reports.reading.load import problem
+from harness.results import pictures_file
+from harness.results.sealed import problem
 from reports.reading.run import Unreadable
 
 
@@ -51,41 +50,9 @@ class Arrays:
         return replace(self, **kept, samples=self.samples[tuple(finer)])
 
 
-NEEDED = ("truth", "error", "wrong", "grazing", "shade")
-OPTIONAL = ("condition", "evaluations", "status", "level", "drowned")
-MOST_SAMPLES = 64  # on each side of a pixel
-
-
 def read(path: Path) -> Arrays:
     """Read the arrays of one cell. Raises ValueError or OSError where the file is damaged or not of this kind."""
-    try:
-        with np.load(path, allow_pickle=False) as file:
-            return of(file)
-    except (EOFError, zipfile.BadZipFile, zlib.error) as error:
-        raise ValueError(f"damaged: {error}") from error
-
-
-def of(stored: Mapping[str, NDArray[Any]]) -> Arrays:
-    """Take the arrays of one cell by their names. Raises ValueError where they are not of this kind."""
-    try:
-        named = {name: stored[name] for name in NEEDED}
-    except KeyError as error:
-        raise ValueError(f"damaged: {error}") from error
-    named |= {name: stored[name] for name in OPTIONAL if name in stored}
-    shapes = {array.shape for array in named.values()}
-    if len(shapes) != 1 or len(next(iter(shapes))) != 2 or 0 in next(iter(shapes)):
-        raise ValueError(f"its arrays are not of one two-dimensional shape: {sorted(shapes)}")
-    return Arrays(**named, samples=_whole_pixels(stored.get("samples"), shapes.pop()))
-
-
-def _whole_pixels(samples: NDArray[np.float32] | None, shape: tuple[int, ...]) -> NDArray[np.float32] | None:
-    """Return `samples` [s h, s w] as they are; `shape` is (h, w), and s at most MOST_SAMPLES.
-
-    Raises ValueError where `samples` have another shape. None stays None.
-    """
-    if samples is None or any(samples.shape == tuple(s * side for side in shape) for s in range(1, MOST_SAMPLES + 1)):
-        return samples
-    raise ValueError(f"its samples {samples.shape} do not fill pixels {shape}")
+    return Arrays(**pictures_file.read(path))
 
 
 @dataclass(frozen=True)

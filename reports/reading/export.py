@@ -12,6 +12,7 @@ import pyarrow as pa
 import pyarrow.csv as pa_csv
 import pyarrow.parquet as pq
 
+from harness.escaping import cell
 from harness.results.schema import DERIVED, SCHEMA, Field, Kind
 
 _DTYPES: dict[Kind, str] = {
@@ -45,7 +46,8 @@ def write(frame: pd.DataFrame, csv: Path, parquet: Path, more: Sequence[Field] =
     """Write every column of every cell, as CSV and as Parquet. Raises OSError where a file cannot be written.
 
     The columns are those of SCHEMA and DERIVED, and then `more`; CSV has all but `bare`. In Parquet time samples are a
-    list and missing values are nulls. In CSV lists and objects are JSON and missing values are empty.
+    list and missing values are nulls. In CSV lists and objects are JSON, missing values are empty, and no text is a
+    formula of a spreadsheet (harness.escaping.cell).
     """
     schema = pa.schema([(field.name, _ARROW[field.kind]) for field in (*SCHEMA, *DERIVED, *more)])
     table = pa.Table.from_pandas(frame, schema=schema, preserve_index=False).replace_schema_metadata(None)
@@ -53,4 +55,14 @@ def write(frame: pd.DataFrame, csv: Path, parquet: Path, more: Sequence[Field] =
     samples = pa.array([None if value is None else json.dumps(value) for value in frame["samples_ms"]], pa.string())
     at = schema.get_field_index("samples_ms")
     flat = table.set_column(at, "samples_ms", samples).drop_columns(list(bare))
+    for place, field in enumerate(flat.schema):
+        if field.type == pa.string():
+            flat = flat.set_column(place, field.name, _no_formulas(flat.column(place)))
     pa_csv.write_csv(flat, csv, pa_csv.WriteOptions(quoting_style="needed"))
+
+
+def _no_formulas(texts: pa.ChunkedArray) -> pa.Array:
+    """Return a column of texts as CSV holds it. Each text is looked at once, since most repeat."""
+    coded = texts.combine_chunks().dictionary_encode()
+    told = pa.array([None if text is None else cell(text) for text in coded.dictionary.to_pylist()], pa.string())
+    return pa.DictionaryArray.from_arrays(coded.indices, told).dictionary_decode()

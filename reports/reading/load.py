@@ -4,20 +4,20 @@ from __future__ import annotations
 
 import contextlib
 import gc
-import json
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 import pandas as pd
 
-from harness.contract import BASELINE, CellStatus, FirsthitError, suggestion
-from harness.results.schema import FAMILY, RUNG, SCHEMA, flatten
+from harness.contract import BASELINE, FirsthitError, suggestion
+from harness.results import plan_file, study_file
+from harness.results.schema import FAMILY, RUNG, SCHEMA, flattener
+from harness.results.sealed import problem
+from harness.results.store import read_row
 from reports import labels
 from reports.reading import collect, export
 from reports.reading.run import Facts, Plan, Run, Unreadable
-
-FORMAT = 1
 
 
 def load(folder: Path) -> Run:
@@ -95,25 +95,25 @@ def load_one(folder: Path, plan: Plan) -> Run:
     for key, slot in plan.slots.items():
         path = folder / "cells" / f"{key}.json"
         try:
-            document = _cell(path, key) | {"run": plan.name, "baseline": plan.baseline}
+            document = read_row(path, key) | {"run": plan.name, "baseline": plan.baseline}
             if document.get("family") is None:
-                rows.append(flatten(SCHEMA, document))
+                rows.append(_VIEW(document))
             else:
                 ladder = _ladder(document, plan.facts)
-                families.append(flatten(FAMILY, document))
+                families.append(_FAMILY(document))
                 rungs += ladder
         except FileNotFoundError:
             not_run.append(slot)
-        except (OSError, ValueError, RecursionError) as error:
+        except (OSError, ValueError) as error:
             unreadable.append(Unreadable(f"cells/{path.name}", f"{problem(error)} ({slot})"))
     studies: dict[str, list[dict[str, Any]]] = {}
     for name, key in plan.studies.items():
         path = folder / "studies" / f"{key}.json"
         try:
-            studies[name] = _study(path)
+            studies[name] = study_file.read(path, name, key)["rows"]
         except FileNotFoundError:
             not_run.append(f"study {name}")
-        except (OSError, ValueError, RecursionError) as error:
+        except (OSError, ValueError) as error:
             unreadable.append(Unreadable(f"studies/{path.name}", f"{problem(error)} ({name})"))
     if not rows and not families and not studies:
         damaged = f" ({len(unreadable)} are unreadable: {unreadable[0].problem})" if unreadable else ""
@@ -127,35 +127,12 @@ def load_one(folder: Path, plan: Plan) -> Run:
 def _ladder(document: dict[str, Any], facts: Mapping[str, Facts]) -> list[tuple[Any, ...]]:
     """Return the rungs of a family's cell, which stores them going harder; none where it gave no result.
 
-    Raises ValueError where a rung is not as harness.results.schema.RUNG says, or the plan does not know the family.
+    Raises ValueError where the plan does not know the family.
     """
     if document["family"] not in facts:
         raise ValueError(f"the plan says nothing of its family, {document['family']!r:.40}")
-    rungs = [] if document.get("rungs") is None else _typed(document, "rungs", list)
-    for rung in rungs:
-        if not isinstance(rung, dict):
-            raise ValueError(f"a rung is no object: {rung!r:.40}")
-    return [flatten(RUNG, {**rung, "key": document["key"], "level": level}) for level, rung in enumerate(rungs)]
-
-
-def _cell(path: Path, key: str) -> dict[str, Any]:
-    """Read a cell's file. Raises ValueError where it is damaged, of another version or of another cell."""
-    document = _json_object(path)
-    if document.get("format") != FORMAT:
-        raise ValueError(f"its format is {document.get('format')!r:.40}, not {FORMAT}")
-    if document.get("key") != key:
-        raise ValueError(f"it names another cell's key, {document.get('key')!r:.40}")
-    if document.get("status") not in list(CellStatus):
-        raise ValueError(f"its status is {document.get('status')!r:.40}, not one of {', '.join(CellStatus)}")
-    return document
-
-
-def _study(path: Path) -> list[dict[str, Any]]:
-    """Read the rows of a study. Raises ValueError where its file is damaged."""
-    rows: list[dict[str, Any]] = _typed(_json_object(path), "rows", list)
-    if not all(isinstance(row, dict) for row in rows):
-        raise ValueError("a row is no object")
-    return rows
+    rungs = document.get("rungs") or []
+    return [_RUNG({**rung, "key": document["key"], "level": level}) for level, rung in enumerate(rungs)]
 
 
 def plan_of(folder: Path) -> Plan:
@@ -164,66 +141,26 @@ def plan_of(folder: Path) -> Plan:
     if not folder.is_dir():
         raise FirsthitError(f"there is no run folder {folder}; `firsthit run CONFIG` makes one under runs/")
     try:
-        document = _json_object(path)
-        if document.get("format") != FORMAT:
-            raise ValueError(f"its format is {document.get('format')!r:.40}, not {FORMAT}")
-        texts = {name: _typed(document, name, str) for name in _TEXTS}
-        planned = [*_typed(document, "cells", list), *_typed({"families": [], **document}, "families", list)]
-        cells = [(_typed(cell, "key", str), _typed(cell, "slot", str)) for cell in planned]
-        stated = _typed({"family_facts": {}, **document}, "family_facts", dict)
-        facts = {family: Facts(**{name: _typed(stated[family], name, str) for name in _FACTS}) for family in stated}
-        for key, _ in cells:
-            if not key.isalnum():  # it becomes a file's name
-                raise ValueError(f"{key!r:.40} is no cell key")
-        devices = tuple(_typed({"device": device}, "device", dict) for device in _typed(document, "devices", list))
-        environment = _typed(document, "environment", dict)
-        stored = _typed({"studies": [], **document}, "studies", list)
-        studies = {_typed(study, "study", str): _typed(study, "key", str) for study in stored}
-        include = tuple(_typed({"include": [], **document}, "include", list))
-        for name in (*studies.values(), *include):
-            if not isinstance(name, str) or Path(name).name != name:  # it becomes a file's or a folder's name
-                raise ValueError(f"{name!r:.40} is no name")
-        baseline = _typed({"baseline": BASELINE, **document}, "baseline", str)
-        focus = _typed({"focus": "", **document}, "focus", str)
-        stated = _typed({"methods": {}, **document}, "methods", dict)
-        methods = {name: _typed(stated, name, dict) for name in stated}
-        told = {
-            "environment": environment,
-            "methods": methods,
-            "devices": devices,
-            "slots": dict(cells),
-            "facts": facts,
-        }
-        return Plan(**texts, **told, studies=studies, include=include, baseline=baseline, focus=focus)
+        told = plan_file.read(path)
     except FileNotFoundError as error:
         raise FirsthitError(f"{folder} is no run folder: it has no plan.json; name a folder under runs/") from error
-    except (OSError, ValueError, RecursionError) as error:
+    except (OSError, ValueError) as error:
         raise FirsthitError(f"cannot read {path}: {problem(error)}; run the config again to rewrite it") from error
+    families: dict[str, dict[str, Any]] = told.get("family_facts", {})
+    return Plan(
+        **{name: told[name] for name in _TEXTS},
+        environment=told["environment"],
+        devices=tuple(told["devices"]),
+        slots={cell["key"]: cell["slot"] for cell in (*told["cells"], *told.get("families", ()))},
+        facts={name: Facts(**{part: one[part] for part in _FACTS}) for name, one in families.items()},
+        studies={study["study"]: study["key"] for study in told.get("studies", ())},
+        methods=told.get("methods", {}),
+        include=tuple(told.get("include", ())),
+        baseline=told.get("baseline", BASELINE),
+        focus=told.get("focus", ""),
+    )
 
 
 _TEXTS = ("name", "title", "config", "config_text", "command", "created")
 _FACTS = ("title", "parameter", "harder", "why", "source")
-
-
-def problem(error: Exception) -> str:
-    """Say what went wrong, without the path that an OSError adds."""
-    return (isinstance(error, OSError) and error.strerror) or str(error)
-
-
-def _json_object(path: Path) -> dict[str, Any]:
-    """Read a file that holds one JSON object. Raises ValueError where it does not."""
-    try:
-        document = json.loads(path.read_bytes())
-    except ValueError as error:
-        raise ValueError(f"truncated or no JSON: {error}") from error
-    if not isinstance(document, dict):
-        raise ValueError("it holds no JSON object")
-    return document
-
-
-def _typed(document: Any, name: str, kind: type) -> Any:
-    """Return the value of `name` in an object. Raises ValueError where it is missing or not of `kind`."""
-    value = document.get(name) if isinstance(document, dict) else None
-    if not isinstance(value, kind):
-        raise ValueError(f"{name} is missing or no {kind.__name__}")
-    return value
+_VIEW, _FAMILY, _RUNG = map(flattener, (SCHEMA, FAMILY, RUNG))

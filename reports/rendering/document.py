@@ -14,6 +14,7 @@ from typing import Any
 import matplotlib
 import typst
 
+from harness import escaping
 from reports.content import Block, Code, Document, Figure, Gallery, Matrix, Section, Square, Table, Text
 from reports.drawing import shades
 
@@ -60,7 +61,7 @@ def _lay_out(document: Document, folder: Path, template: str, appendix: bool = F
         "sections": [_section(section, section.blocks, folder) for section in document.sections if section.blocks],
         "appendix": [_section(section, section.details, folder) for section in detailed],
     }
-    (folder / "report.json").write_text(json.dumps(data, ensure_ascii=False), encoding="utf-8", errors="replace")
+    (folder / "report.json").write_text(json.dumps(escaping.every(data), ensure_ascii=False), encoding="utf-8")
 
 
 def _settings(folder: Path) -> dict[str, Any]:

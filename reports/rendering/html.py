@@ -6,11 +6,12 @@ import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+from harness.escaping import data
+from harness.escaping import html as escaped
 from reports.content import Document, Section
 from reports.drawing import markers
 from reports.drawing.style import Mark
 from reports.rendering import html_blocks, html_explorer
-from reports.rendering.escaping import data, escaped
 
 HERE = Path(__file__).parent
 EXPLORER = "explore"  # the id of the explorer's section

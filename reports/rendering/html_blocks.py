@@ -8,11 +8,12 @@ from __future__ import annotations
 
 import re
 
+from harness.escaping import html as escaped
 from reports.content import Block, Code, Figure, Gallery, Matrix, Panel, Picture, Table, Text
 from reports.drawing.canvas import SERIES
 from reports.rendering import html_tables, pictures
-from reports.rendering.escaping import escaped
 
+_TAG = re.compile(r"<[^>]*>")  # not what stands between tags, which may look like attributes
 _ID = re.compile(r'\s?\bid="([^"]+)"')
 _REFERENCE = re.compile(r'(url\(#|href="#)([^")]+)')
 _SLIDER = (
@@ -67,13 +68,18 @@ def _svg(svg: str, name: str) -> str:
     What no browser shows is left out, with the ids that nothing refers to; places have hundredths of a point.
     """
     own = _UNSEEN.sub("", svg[svg.index("<svg") :])
-    own = _UNTURNED.sub("", re.sub(r">\s+<", "><", own))
-    for places in (_PATH, _PLACE):
-        own = places.sub(lambda found: _DIGITS.sub(r"\1", found[0]), own)
-    own = _NAMED.sub(lambda found: f'<g class="series" data-series="{found[1]}"', own)
-    meant = {found[2] for found in _REFERENCE.finditer(own)}
-    own = _ID.sub(lambda found: f' id="{name}-{found[1]}"' if found[1] in meant else "", own)
-    own = _REFERENCE.sub(rf"\1{name}-\2", own)
+    own = re.sub(r">\s+<", "><", own)
+    meant = {found[2] for tag in _TAG.findall(own) for found in _REFERENCE.finditer(tag)}
+
+    def place(tag: re.Match[str]) -> str:
+        told = _UNTURNED.sub("", tag[0])
+        for places in (_PATH, _PLACE):
+            told = places.sub(lambda found: _DIGITS.sub(r"\1", found[0]), told)
+        told = _NAMED.sub(lambda found: f'<g class="series" data-series="{found[1]}"', told)
+        told = _ID.sub(lambda found: f' id="{name}-{found[1]}"' if found[1] in meant else "", told)
+        return _REFERENCE.sub(rf"\1{name}-\2", told)
+
+    own = _TAG.sub(place, own)
     return _WIDTH.sub(lambda found: f'<svg style="--own:{found[2]}"{found[1]} ', own, count=1)
 
 

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from harness.escaping import data
+from harness.escaping import html as escaped
 from reports.content import Explorer
 from reports.drawing import charts
-from reports.rendering.escaping import data, escaped
 
 TITLE = "Explore speed against error"
 _SPEEDS = {

@@ -8,9 +8,9 @@ from typing import Any
 
 import pandas as pd
 
+from harness.escaping import html as escaped
 from reports.content import Column, Matrix, Square, Table
 from reports.drawing import shades
-from reports.rendering.escaping import escaped
 
 ROWS = 1000  # of a table that the page has at most
 

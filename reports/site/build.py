@@ -11,6 +11,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from harness.contract import FirsthitError
+from harness.results import sealed
 from reports.drawing import images, style
 from reports.reading import export
 from reports.site import board, method_page, other_pages, pictures, run_page, standings, surface_page
@@ -110,7 +111,7 @@ def _only_ours(place: Path) -> None:
 def _listed(place: Path) -> set[str]:
     """Return the files that a site lists as its own; none where there is no list, or it is damaged."""
     try:
-        told = json.loads((place / MARK).read_bytes())
+        told = sealed.read(place / MARK)
         return {MARK, *(str(file) for file in told["files"])}
     except (OSError, ValueError, TypeError, KeyError):
         return set()

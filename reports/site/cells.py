@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import shlex
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -12,6 +11,7 @@ from typing import Any
 
 import pandas as pd
 
+from harness.escaping import shell
 from reports import labels, wording
 from reports.analysis import rounds
 from reports.drawing.style import Mark
@@ -168,4 +168,4 @@ def commands(part: Part, device: str = "") -> list[str]:
     outside = sorted({str(told["outside"]) for told in part.plan.methods.values() if told.get("outside")})
     plugins = ["--plugins", str(PurePath(outside[0]).parent)] if outside else []
     on = ["--device", device] if device else []
-    return [*lines, "make .venv/ready", shlex.join([".venv/bin/firsthit", "run", config, *plugins, *on])]
+    return [*lines, "make .venv/ready", shell([".venv/bin/firsthit", "run", config, *plugins, *on])]

@@ -7,8 +7,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from harness import escaping
 from reports import content, wording
-from reports.rendering import escaping
 
 PLACES = (  # what stands in the head of every page
     ("index.html", "Results"),
@@ -31,7 +31,7 @@ def escaped(child: object) -> str:
     """Return HTML as it is, and anything else as text, escaped; None and False are nothing."""
     if isinstance(child, Html):
         return child
-    return "" if child is None or child is False else escaping.escaped(str(child))
+    return "" if child is None or child is False else escaping.html(str(child))
 
 
 def join(*children: object) -> Html:

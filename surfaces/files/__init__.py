@@ -21,6 +21,8 @@ from typing import Any
 
 from surfaces.files.source import DEFAULT_DOMAIN, FORMS, MAX_BYTES, MAX_FORMULA, PART, Imported, Reading, Source
 from surfaces.model import Domain, FirsthitError, Surface
+from surfaces.visible import one_line
+from surfaces.words import title_problem
 
 __all__ = ["FORMS", "SUFFIXES", "Imported", "export", "is_file", "load"]
 
@@ -165,6 +167,9 @@ def _surface(source: Source, reading: Reading, domain: str | Domain | None, para
 
     if (length := len(reading.formula)) > MAX_FORMULA:
         source.fail(f"its formula has {length} characters; at most {MAX_FORMULA} are read from a file")
+    for what, text in (("name", reading.name), ("title", reading.title), ("source", reading.source)):
+        if problem := title_problem(text):
+            source.fail(f"its {what}: {problem}", source.line_of(what))
     stem = re.sub(r"[^A-Za-z_0-9-]+", "_", reading.name or source.path.stem).strip("_")[:40] or "surface"
 
     def made_in(place: str | Domain) -> Surface:
@@ -177,7 +182,7 @@ def _surface(source: Source, reading: Reading, domain: str | Domain | None, para
     except FirsthitError as error:
         raise FirsthitError(f"{source.path}: {error}", error.exit_code) from None
     title = reading.title or (stem if "\n" in reading.formula else made.title)
-    told = reading.source or f"read from {source.path.name}"
+    told = reading.source or f"read from {one_line(source.path.name)}"
     return replace(made, title=title, source=told)
 
 

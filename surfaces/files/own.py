@@ -11,7 +11,7 @@ from typing import Any
 
 from surfaces.files.source import Reading, Source
 from surfaces.model import Surface, domain_text
-from surfaces.words import suggestion
+from surfaces.words import name_problem, suggestion, title_problem
 
 NAME = "a surface of ours"
 _TEXTS = ("name", "title", "source", "formula", "domain", "distance")
@@ -29,6 +29,9 @@ def read(source: Source) -> Reading:
             source.fail(f"unknown key {key[:40]!r}; {suggestion(key[:40], (*_TEXTS, 'parameters'))}")
         if key in _TEXTS and not isinstance(value, str):
             source.fail(f"{key} is a text, not {str(value)[:40]}")
+    for key, problem in (("name", name_problem), ("title", title_problem), ("source", title_problem)):
+        if key in table and (told := problem(table[key])):
+            source.fail(f"{key}: {told}", source.line_of(key))
     if "formula" not in table:
         source.fail("the file has no formula = …")
     given = table.get("parameters", {})
@@ -76,5 +79,5 @@ def text_of(surface: Surface) -> str:
 def _quoted(text: str) -> str:
     """Return a text as a TOML string; with line ends, as one of several lines."""
     escaped = text.replace("\\", "\\\\").replace('"', '\\"')
-    escaped = "".join(c if c == "\n" or c.isprintable() else f"\\u{ord(c):04x}" for c in escaped)
+    escaped = "".join(c if c == "\n" or c.isprintable() else f"\\U{ord(c):08x}" for c in escaped)
     return f'"""\n{escaped}"""' if "\n" in text else f'"{escaped}"'

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import NoReturn
 
 from surfaces.model import Domain, FirsthitError, Surface
+from surfaces.visible import one_line
 from surfaces.words import suggestion
 
 MAX_BYTES = 2**21  # of a file; the longest tape that is passed around has 0.2 MB
@@ -72,8 +73,14 @@ class Source:
         where = f"{self.path}, line {line}" if line else str(self.path)
         raise FirsthitError(f"{where}: {message}")
 
+    def line_of(self, word: str) -> int | None:
+        """Return the first line that begins with a word; None where none does."""
+        begins = re.compile(rf"[\s\"'{{]*{re.escape(word)}\b", re.IGNORECASE)
+        return next((i for i, line in enumerate(self.text.split("\n"), 1) if begins.match(line)), None)
+
     def remark(self, text: str) -> None:
-        """Say something of the file, once."""
+        """Say something of the file, once, in one line: what the file's own words are in it, they begin no other."""
+        text = one_line(text)
         if text not in self.remarks:
             self.remarks.append(text)
 

@@ -23,6 +23,7 @@ from surfaces.files.expressions import (
 from surfaces.model import FirsthitError, Surface, domain_text
 from surfaces.numbers import Arithmetic
 from surfaces.tape import LEAVES, Tape
+from surfaces.visible import one_line
 
 
 class Words(Arithmetic):
@@ -236,4 +237,4 @@ def written(tape: Tape, words: Words, name: Callable[[Text], Text] | None) -> Te
 def titled(surface: Surface) -> list[str]:
     """Return what a comment says of a surface, line by line."""
     lines = [f"{surface.name}: {surface.title}", f"domain {domain_text(surface.domain)}", "written by firsthit"]
-    return [" ".join("".join(c if c.isprintable() else " " for c in line).split()) for line in lines]
+    return [one_line(line) for line in lines]

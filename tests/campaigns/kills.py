@@ -1,0 +1,221 @@
+"""Kill commands at random moments and complete them: nothing that was finished may be lost, and nothing be half-made.
+
+A trial makes a folder, kills one command in it EACH times, and then lets the same command complete. A kill is a signal
+to the main process, to one of its workers or to all, after a random time or at a random change of a file.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import random
+import shutil
+import signal
+import time
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from tests.campaigns import processes
+from tests.campaigns.frame import Campaign, Fell, Place
+from tests.campaigns.processes import Command, done
+
+EACH = 3
+SIGNALS = ("INT", "TERM", "HUP", "KILL")
+ENDED_BY = {"INT": (130,), "TERM": (143, -15), "HUP": (129, -1), "KILL": (-9,)}
+WHOM = ("main", "main", "worker", "group")
+KEPT_ROWS = "finished cells are kept"  # of the message of a command that stores rows
+
+
+@dataclass(frozen=True)
+class Killed:
+    """State a command that is killed.
+
+    arguments: its command line
+    needs: what it reads beside configs, by path, with the command that makes it; "" for what `prepare` makes
+    weight: how often it is chosen
+    again: what completes it, added to its arguments, where a worker that was killed cost a row
+    """
+
+    arguments: tuple[str, ...]
+    needs: Mapping[str, str]
+    weight: int
+    again: tuple[str, ...] = ()
+
+
+GATE = ("gated.toml", "--baseline", "base.toml")
+WRITTEN = ("--junit", "gate.xml", "--markdown", "gate.md", "--keep", "--history", "kept")
+RECOMMEND = ("--error", "0.01", "--size", "8", "--views", "1", "--rays", "4", "--seconds", "0.001", "-o", "page.html")
+RAYS = ("--surface", "torus", "--rays", "rays.npy", "-o", "truth.npz")
+COMMANDS = {
+    "run": Killed(("run", "views.toml"), {}, 6, ("--retry", "failed")),
+    "run-all": Killed(("run", "whole.toml"), {}, 6, ("--retry", "failed")),
+    "bless": Killed(("bless", *GATE, "--reason", "a trial"), {}, 2, ("--force",)),
+    "gate": Killed(("gate", *GATE, *WRITTEN), {"base.toml": "bless"}, 2, ("--force",)),
+    "report": Killed(("report", "runs/whole", "-o", "out"), {"runs": "run-all"}, 1),
+    "publish": Killed(("publish", "runs/views", "runs/hard", "-o", "site"), {"runs": "run-all"}, 1),
+    "history": Killed(("history", "gated.toml", "--history", "kept", "-o", "drawn"), {"kept": "gate"}, 1),
+    "oracle": Killed(("oracle", *RAYS), {"rays.npy": ""}, 1),
+    "recommend": Killed(("recommend", "--surface", "sphere", "--require", "conservative_bound", *RECOMMEND), {}, 1),
+}
+STORE_ROWS = ("run", "run-all", "bless", "gate", "recommend")
+CONFIGS = ("views.toml", "hard.toml", "whole.toml", "gated.toml")
+
+
+def _ready(shared: Path, name: str) -> tuple[Path, dict[str, float]]:
+    """Return a folder in which a command was run undisturbed, with the seconds it took and its changes of files.
+
+    It is made by the first trial that needs it, and those of the commands whose files the command reads before it.
+    """
+    folder, command = shared / name, COMMANDS[name]
+    if not folder.exists():
+        making = shared / f"making-{name}-{os.getpid()}"
+        shutil.rmtree(making, ignore_errors=True)
+        ready = making / "work"
+        ready.mkdir(parents=True)
+        _fill(shared, command, ready)
+        start, count = time.monotonic(), making / "count"
+        done(ready, *command.arguments, seam={"at": 10**9, "count": str(count)})
+        measured = {"seconds": time.monotonic() - start, "events": int(count.read_text())}
+        (making / "measured.json").write_text(json.dumps(measured))
+        with contextlib.suppress(OSError):  # another process was faster
+            making.rename(folder)
+    return folder / "work", json.loads((folder / "measured.json").read_text())
+
+
+def _fill(shared: Path, command: Killed, work: Path) -> None:
+    """Put the configs, and what else a command reads, into an empty folder."""
+    for name in CONFIGS:
+        shutil.copy2(shared / name, work / name)
+    for needed, maker in command.needs.items():
+        source = (_ready(shared, maker)[0] if maker else shared) / needed
+        (shutil.copytree if source.is_dir() else shutil.copy2)(source, work / needed)
+
+
+def prepare(shared: Path) -> None:
+    """Write configs and rays into the shared folder."""
+    processes.write_configs(shared)
+    rays = np.zeros((4000, 6))
+    rays[:, 3:] = np.random.default_rng(1).normal(size=(4000, 3))
+    rays[:, 3:] /= np.linalg.norm(rays[:, 3:], axis=1, keepdims=True)
+    rays[:, :3] = -3.0 * rays[:, 3:]
+    np.save(shared / "rays.npy", rays.astype(np.float32))
+
+
+def _trial(dice: random.Random, place: Place) -> Counter[str]:
+    name = dice.choices(list(COMMANDS), [command.weight for command in COMMANDS.values()])[0]
+    command, work = COMMANDS[name], place.own / "work"
+    ready, measured = _ready(place.shared, name)
+    work.mkdir()
+    _fill(place.shared, command, work)
+    if name.startswith("run") and dice.random() < 0.5:  # truth and probes are there already: kills hit cells more often
+        for kept in (*ready.glob("runs/*/truth"), *ready.glob("runs/*/probes")):
+            shutil.copytree(kept, work / kept.relative_to(ready))
+    outcomes: Counter[str] = Counter()
+    for _ in range(EACH):
+        outcomes[f"{name}: {_kill(dice, name, command.arguments, work, measured)}"] += 1
+    _complete(dice, name, work, ready)
+    return outcomes
+
+
+def _kill(dice: random.Random, name: str, arguments: Sequence[str], work: Path, measured: dict[str, float]) -> str:
+    """Start the command, kill it, and check what it left; return what happened."""
+    number, whom = dice.choice(SIGNALS), dice.choice(WHOM if name in STORE_ROWS else ("main", "group"))
+    before = processes.rows(work / "runs")
+    by_event = whom != "worker" and dice.random() < 0.4
+    told_signal = f"SIG{number}"
+    if by_event:
+        at = dice.randint(1, max(1, int(measured["events"])))
+        command = Command(work, arguments, seam={"at": at, "signal": told_signal, "group": whom == "group"})
+    else:
+        command = Command(work, arguments)
+        time.sleep(dice.uniform(0.0, 1.1) * measured["seconds"])
+        _send(dice, command, whom, getattr(signal, told_signal))
+    code, told = command.ended()
+    what = f"`{name}` after SIG{number} to {whom}{' at a change of a file' * by_event}"
+    processes.check_whole(work)
+    after = processes.rows(work / "runs")
+    if lost := [row for row, content in before.items() if after.get(row) != content and _is_finished(content)]:
+        raise Fell(f"{what}: finished rows are lost or changed: {lost}")
+    ended = ENDED_BY[number] if whom != "worker" else ()
+    if code not in (*ended, 0, *([3] if whom == "worker" else [])):
+        raise Fell(f"{what}: exit code {code}; it told {told[-1500:]}")
+    if code == 130 and told.strip():
+        _check_told(what, name, told)
+    if code == 0:
+        return "ended before the kill" if whom != "worker" else "went on without the worker"
+    return f"{number} to {whom}" if whom != "worker" else "a worker's death told"
+
+
+def _send(dice: random.Random, command: Command, whom: str, number: signal.Signals) -> None:
+    """Send a signal to the command's main process, a worker of it (if there is one) or all of them."""
+    pids = [command.process.pid] if whom == "main" else command.workers()
+    if whom != "group" and pids:
+        try:
+            os.kill(dice.choice(pids), number)
+        except OSError:
+            return
+    elif whom == "group":
+        try:
+            os.killpg(command.process.pid, number)
+        except OSError:
+            return
+
+
+def _check_told(what: str, name: str, told: str) -> None:
+    """Raise Fell where a command that was stopped does not say so, or does not say that cells are kept."""
+    last = told.strip().splitlines()
+    if not any("stopped" in line for line in last) or (
+        name in STORE_ROWS and not any(KEPT_ROWS in line for line in last)
+    ):
+        raise Fell(f"{what}: it does not say what is kept: {told[-800:]}")
+
+
+def _is_finished(content: bytes) -> bool:
+    return json.loads(content[content.index(b"{") :])["status"] not in processes.UNFINISHED
+
+
+def _complete(dice: random.Random, name: str, work: Path, ready: Path) -> None:
+    """Let the command complete, and check that nothing is lost, made twice or left over."""
+    command, before = COMMANDS[name], processes.rows(work / "runs")
+    code, told = done(work, *command.arguments, codes=(0, 3))
+    if code == 3:
+        if not command.again:
+            raise Fell(f"`{name}` ended with 3 when it was completed: {told[-1500:]}")
+        done(work, *command.arguments, *command.again)
+    after = processes.rows(work / "runs")
+    forced = "--force" in command.again and code == 3
+    if changed := [row for row, one in before.items() if _is_finished(one) and after.get(row) != one and not forced]:
+        raise Fell(f"finished cells ran again: {changed}")
+    processes.check_whole(work)
+    if name.startswith("run"):
+        processes.check_same(processes.facts(work / "runs"), processes.facts(ready / "runs"))
+        if dice.random() < 0.2 and " 0 cells run" not in (told := done(work, *command.arguments)[1]):
+            raise Fell(f"a complete run runs cells again: {told[-500:]}")
+    if name == "bless" and _blessed(work) != _blessed(ready):
+        raise Fell("the baseline is not that of an undisturbed `bless`")
+    processes.check_clean(work)
+
+
+def _blessed(folder: Path) -> list[str]:
+    """Return the lines of a baseline that do not say when it was written."""
+    return [line for line in (folder / "base.toml").read_text().splitlines() if "20" not in line or "key" in line]
+
+
+CAMPAIGN = Campaign(
+    name="kills",
+    tries="sends INT, TERM, HUP or KILL to a command, one of its workers or all of them, at a random moment, EACH times,"
+    " and then completes it",
+    promise="no finished cell lost or run again, no half-written file, no process left behind, no traceback, no wrong"
+    " exit code, no litter after the same command has completed, no other result than an undisturbed run's",
+    trial=_trial,
+    small=3,
+    whole=1000,
+    each=EACH,
+    prepare=prepare,
+    limit=300,
+)
