@@ -80,8 +80,8 @@ def test_a_worker_that_grows_is_killed_and_its_row_says_the_limit(monkeypatch, g
 )
 def test_what_a_worker_does_costs_the_step_and_says_what_it_was(monkeypatch, build, status, words):
     started = serving_as(monkeypatch, build)
-    monkeypatch.setattr(executor, "START_SECONDS", 0.2)
-    runner = LocalExecutor(0.2)
+    runner = LocalExecutor(1.0)
+    runner._call("opencl:none", "reopen")  # it has started now
     found, reason = built(runner)
     assert found is status and words in reason
     assert started[0].poll() is not None, "the worker is still there"
@@ -113,16 +113,12 @@ def test_a_device_that_is_gone_is_given_up_after_a_few_tries(monkeypatch):
     assert len(started) == 1 + executor.REOPENINGS
 
 
-def test_a_binding_that_raises_loses_its_worker_and_a_refused_program_does_not():
-    process, connection = serving.start("opencl:nonesuch")
-    try:
-        connection.send(("nonesuch", ()))
-        assert connection.recv()[0] == "broken"
-        connection.send(("reopen", ()))
-        assert connection.recv()[0] == "failed"
-    finally:
-        process.kill()
-        process.wait()
+def test_an_exception_of_a_binding_loses_its_worker(monkeypatch):
+    started = serving_as(monkeypatch, "pipe.send(('broken', 'clFinish failed: OUT_OF_RESOURCES'))")
+    runner = LocalExecutor(60.0)
+    for count in (1, 2):
+        assert built(runner) == (CellStatus.FAILED, "clFinish failed: OUT_OF_RESOURCES")
+        assert len(started) == count and started[-1].poll() is not None
 
 
 def test_the_memory_of_a_container_counts_where_it_is_less(tmp_path):

@@ -262,7 +262,7 @@ def _run(
     rows = Runner(config, checked.catalog, store, executor, environment, watcher.cell, watcher.hears_builds).run(
         found.todo
     )
-    by_key = found.kept | {row["key"]: row for row in rows}
+    by_key = {**found.kept, **rows}
     for pair in pairs:
         if pair.then:
             pair.before = by_key[pair.then.key]

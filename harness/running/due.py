@@ -11,6 +11,7 @@ from harness import studies
 from harness.contract import CellStatus
 from harness.experiment.plan import Planned
 from harness.results.store import Row, Store
+from harness.results.stored import Stored
 
 Again = Literal["nothing", "unfinished", "everything"]  # which cells run although they have a row
 UNFINISHED = (CellStatus.FAILED, CellStatus.TIMEOUT, CellStatus.CRASHED)
@@ -22,7 +23,7 @@ class Due:
     """Hold a plan's cells that must run, and the rows of the others."""
 
     todo: list[Planned]  # in the plan's order
-    kept: dict[str, Row]  # the other cells' rows by their keys, in the plan's order
+    kept: Stored  # the other cells' rows by their keys, in the plan's order
 
 
 def due(planned: Sequence[Planned], store: Store, again: Again = "nothing") -> Due:
@@ -30,8 +31,10 @@ def due(planned: Sequence[Planned], store: Store, again: Again = "nothing") -> D
 
     A row that cannot be read counts as none; `store.unreadable` then says why.
     """
-    stored = {p.key: store.read(p.key) for p in planned}
-    kept = {key: row for key, row in stored.items() if row and not _is_wanted_again(row, again)}
+    kept = Stored(store)
+    for one in planned:
+        if (row := store.read(one.key)) and not _is_wanted_again(row, again):
+            kept.add(row)
     return Due([p for p in planned if p.key not in kept], kept)
 
 

@@ -28,6 +28,7 @@ from harness.hardcases import groups
 from harness.oracle import cache
 from harness.plugins import Catalog, find_methods
 from harness.results.store import Row, Store
+from harness.results.stored import Rows
 from harness.running.cards import card
 from harness.running.due import UNFINISHED, Again, due, estimate_seconds, studies_due
 from harness.running.environment import describe, probed
@@ -52,8 +53,8 @@ class Run:
     """Hold what a run left behind: the folder that reports read, and the row of every cell that its config names."""
 
     folder: Path
-    rows: tuple[Row, ...]  # of the cells that were run now, in the order in which they ended
-    reused: tuple[Row, ...] = ()  # of the cells that were already finished
+    rows: Rows  # of the cells that were run now, in the order in which they ended; each is read when it is asked for
+    reused: Rows = field(default_factory=Rows)  # of the cells that were already finished
 
     def __repr__(self) -> str:
         """Return one line: the folder, and how many cells ended how."""
@@ -63,8 +64,8 @@ class Run:
     @property
     def counts(self) -> dict[CellStatus, int]:
         """Return how many rows have each status; every status is a key."""
-        rows = (*self.rows, *self.reused)
-        return {status: sum(row["status"] == status for row in rows) for status in CellStatus}
+        found = Counter((*self.rows.statuses, *self.reused.statuses))
+        return {status: found[status] for status in CellStatus}
 
     @property
     def unfinished(self) -> int:
@@ -135,7 +136,7 @@ class Teller(Watcher):
             self._tell(paragraph)
 
     def ended(self, part: Run) -> None:
-        for line in (*console.undecided((*part.rows, *part.reused)), *console.warnings(part.rows)):
+        for line in (*console.undecided(part.rows + part.reused), *console.warnings(part.rows)):
             self._tell(line)
 
 
@@ -199,10 +200,9 @@ def run(
     ended = []
     for part in loaded.parts:
         ended.append(_run_part(part, loaded, runs, command, again, hears))
-        hears.failed([row for row in (*ended[-1].rows, *ended[-1].reused) if row["status"] in UNFINISHED])
+        hears.failed((ended[-1].rows + ended[-1].reused).of(UNFINISHED))
         hears.ended(ended[-1])
-    rows, reused = (row for one in ended for row in one.rows), (row for one in ended for row in one.reused)
-    return Run(folder, tuple(rows), tuple(reused))
+    return Run(folder, sum((one.rows for one in ended), Rows()), sum((one.reused for one in ended), Rows()))
 
 
 def _told(config: Path) -> str:
@@ -258,7 +258,7 @@ def _run_part(part: Experiment, loaded: Loaded, runs: Path, command: str, again:
             hears.warned(f"{reason}; the oracle's answers were kept in memory, and the next run computes them again")
     finally:
         executor.close()
-    return Run(store.folder, tuple(rows), tuple(found.kept.values()))
+    return Run(store.folder, Rows([rows]), Rows([found.kept]))
 
 
 def remarks(part: Experiment) -> list[str]:

@@ -22,6 +22,7 @@ from harness.experiment.plan import Planned, shuffled
 from harness.plugins import Catalog
 from harness.results import timings
 from harness.results.store import Row, Store
+from harness.results.stored import Stored
 from harness.running.rows import Left, Samples, build_of, row_of, time_of
 
 MINIMUM_SAMPLES = 8
@@ -66,8 +67,8 @@ class Runner:
         self._executor, self._environment, self._report = executor, environment, report
         self._built, self._session = built, ""
 
-    def run(self, planned: Iterable[Planned]) -> list[Row]:
-        """Run cells and return their rows, in the order in which they ended.
+    def run(self, planned: Iterable[Planned]) -> Stored:
+        """Run cells and return their rows, in the order in which they ended; each is read when it is asked for.
 
         Cells that are to be compared with each other are timed in the same interleaved rounds. A cell that fails is a
         row; raises FirsthitError where a row cannot be stored.
@@ -75,7 +76,11 @@ class Runner:
         groups: dict[str, list[Planned]] = {}
         for one in planned:
             groups.setdefault(one.cell.together, []).append(one)
-        return [row for group in groups.values() for part in _fitting(group) for row in self._compare(part)]
+        ended = Stored(self._store)
+        for part in (part for group in groups.values() for part in _fitting(group)):
+            for row in self._compare(part):
+                ended.add(row)
+        return ended
 
     def _compare(self, group: list[Planned]) -> list[Row]:
         """Check every cell of a group, and then time those together that are to be timed."""
