@@ -137,7 +137,7 @@ def _run(options: argparse.Namespace) -> int:
     command = shlex.join(["firsthit", *sys.argv[1:]])
     retry = options.retry == "failed"
     found = run(_load(options), options.runs, command, force=options.force, retry_failed=retry, watcher=Printer())
-    return 3 if found.unfinished else 0
+    return 3 if found.unfinished or found.lost else 0
 
 
 def _why(options: argparse.Namespace) -> int | Answer:

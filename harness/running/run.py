@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from harness import ROOT, console, memory, studies
-from harness.contract import CellStatus, DeviceInfo
+from harness.contract import CellStatus, DeviceInfo, LostDevice
 from harness.devices.discovery import discover_devices
 from harness.devices.executor import LocalExecutor
 from harness.devices.probes import Probes
@@ -55,6 +55,7 @@ class Run:
     folder: Path
     rows: Rows  # of the cells that were run now, in the order in which they ended; each is read when it is asked for
     reused: Rows = field(default_factory=Rows)  # of the cells that were already finished
+    lost: tuple[str, ...] = ()  # devices whose workers died when they were looked for or tried, each with what happened
 
     def __repr__(self) -> str:
         """Return one line: the folder, and how many cells ended how."""
@@ -202,7 +203,8 @@ def run(
         ended.append(_run_part(part, loaded, runs, command, again, hears))
         hears.failed((ended[-1].rows + ended[-1].reused).of(UNFINISHED))
         hears.ended(ended[-1])
-    return Run(folder, sum((one.rows for one in ended), Rows()), sum((one.reused for one in ended), Rows()))
+    lost = tuple(dict.fromkeys(line for one in ended for line in one.lost))
+    return Run(folder, sum((one.rows for one in ended), Rows()), sum((one.reused for one in ended), Rows()), lost)
 
 
 def _told(config: Path) -> str:
@@ -239,6 +241,9 @@ def _run_part(part: Experiment, loaded: Loaded, runs: Path, command: str, again:
                 tell(f"trying the arithmetic and the clock of {info.name}")
                 tried.append(loaded.tried.get(info.name) or probed(executor, info, store.folder / "probes"))
             planned = plan.plan(part, loaded.catalog, [i for i, _ in tried], tell=tell) if part.variants else []
+        lost = tuple(f"{info.name}: {info.problem}" for info, _ in tried if isinstance(info, LostDevice))
+        for line in lost:
+            hears.wrong(line)
         for remark in [*remarks(part), *filter(None, [memory.unwatched()])]:
             hears.warned(remark)
         store.write_plan(
@@ -258,7 +263,7 @@ def _run_part(part: Experiment, loaded: Loaded, runs: Path, command: str, again:
             hears.warned(f"{reason}; the oracle's answers were kept in memory, and the next run computes them again")
     finally:
         executor.close()
-    return Run(store.folder, Rows([rows]), Rows([found.kept]))
+    return Run(store.folder, Rows([rows]), Rows([found.kept]), lost)
 
 
 def remarks(part: Experiment) -> list[str]:
