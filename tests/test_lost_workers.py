@@ -186,7 +186,7 @@ def test_a_run_goes_on_without_a_device_that_was_lost(monkeypatch, tmp_path):
         (tmp_path / f"{name}.toml").write_text(config.format(devices))
         if name == "both":
             monkeypatch.setattr(run, "probed", lambda _executor, info, _cache: (info, None))
-            done = run.run(run.load(tmp_path / "both.toml"), tmp_path, "")
+            done = run.run(run.read(tmp_path / "both.toml"), tmp_path, "")
             assert done.lost == ("opencl:intel: the worker was killed",)
             assert [row["status"] for row in done.rows] == ["skipped", "crashed"]
             assert done.rows[0]["reason"] == "the worker was killed"
@@ -194,7 +194,7 @@ def test_a_run_goes_on_without_a_device_that_was_lost(monkeypatch, tmp_path):
             monkeypatch.setattr(run, "probed", environment.probed)
             said = "opengl:one: the worker was killed by signal KILL while its arithmetic and clock were tried"
             with pytest.raises(FirsthitError, match=said) as raised:
-                run.run(run.load(tmp_path / "probed.toml"), tmp_path, "")
+                run.run(run.read(tmp_path / "probed.toml"), tmp_path, "")
             assert raised.value.exit_code == 3
 
 

@@ -44,6 +44,7 @@ class Planned:
     skip: why it cannot run
     is_timed: False: the cell is checked only
     lacks: it cannot run for something that its device lacks, and not for its method
+    failure: why it fails before it runs: a method of it cannot be loaded, or went wrong when it was asked; None: not
     """
 
     cell: Cell
@@ -55,6 +56,7 @@ class Planned:
     kind: kinds.Kind
     is_timed: bool = True
     lacks: bool = False
+    failure: str | None = None
 
     @property
     def checks(self) -> tuple[Program, ...]:
@@ -93,22 +95,32 @@ def _refusal(asked: Asked, kind: kinds.Kind) -> str | None:
     return asked.method_kind.origin_refusal(method, cell.origin) or kind.refusal(asked)
 
 
+def _unloaded(cell: Cell, catalog: Catalog) -> str | None:
+    """Say why a method of a cell cannot be loaded; None if all can."""
+    groups = cell.scene.groups if cell.scene else ()
+    variants = (cell.variant, *(group.variant for group in groups if group.variant))
+    why = ((variant.method, catalog.get(variant.method).broken) for variant in variants)
+    return next((f"method {name!r} cannot be loaded: {reason}" for name, reason in why if reason is not None), None)
+
+
 def _planned(
     cell: Cell, info: DeviceInfo | None, catalog: Catalog, experiment: Experiment, timed: bool, shared: Shared
 ) -> Planned:
     method = catalog.get(cell.variant.method).method
     kind = kinds.of_cell(cell, method)
     asked = Asked(cell, info, catalog, kinds.of_method(method), experiment.config.budget.triangles, shared)
-    skip, casting = _refusal(asked, kind), None
-    if skip is None:
+    skip, casting, failure = _absent(cell, info), None, _unloaded(cell, catalog)
+    if skip is None and failure is None:
         try:
-            casting = kind.casting(asked)
+            skip = _refusal(asked, kind)
+            casting = None if skip else kind.casting(asked)
         except FirsthitError as error:
             if error.exit_code == 3:  # the method went wrong, which is no refusal
-                raise
-            skip = str(error)
+                failure = str(error)
+            else:
+                skip = str(error)
     lacks = skip is not None and skip == (_absent(cell, info) or kind.lacking(asked))
-    planned = Planned(cell, "", {}, info, casting, skip, kind, timed, lacks)
+    planned = Planned(cell, "", {}, info, casting, skip, kind, timed, lacks, None if skip else failure)
     others = casting.others if casting else ()
     programs = [program for program in (*planned.checks, planned.timed, *others) if program]
     names = casting.methods if casting else (cell.variant.method,)
