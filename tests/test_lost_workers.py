@@ -15,7 +15,8 @@ from harness import memory
 from harness.contract import CellStatus, DeviceInfo, FirsthitError, LostDevice
 from harness.devices import discovery, executor, interface, serving
 from harness.devices.executor import CellError, LocalExecutor
-from harness.experiment import targets
+from harness.experiment import plan, reading, targets
+from harness.plugins import find_methods
 from harness.running import environment, run
 
 ROOT = Path(__file__).parents[1]
@@ -208,3 +209,17 @@ def test_what_a_driver_says_is_said_once_with_its_device_and_without_its_signs(c
     shown = ["Mesa: a warning at 0x7f01", r"\x1b[2Jgone", "::error::x"]
     cut = "opencl:b: what devices say from here on is left out"
     assert lines == [*(f"opencl:a: {line}" for line in shown), f"opencl:b: {shown[0]}", cut]
+
+
+def test_a_list_of_rays_that_memory_does_not_hold_is_refused(monkeypatch, tmp_path):
+    path = tmp_path / "large.toml"
+    path.write_text(
+        'title = "t"\nsurfaces = ["sphere"]\nsizes = [16384]\nstages = ["rays"]\ndevices = ["opengl:one"]\n'
+        '[[method]]\nname = "newton"\n'
+    )
+    catalog = find_methods()
+    (planned,) = plan.plan(reading.load(path, catalog), catalog, [OTHER])
+    monkeypatch.setattr(memory, "of_machine", lambda: 8_000_000_000)
+    told = "a list of 268,435,456 rays would take 40.3 GB of memory, over the limit of 4 GB"
+    with pytest.raises(FirsthitError, match=told):
+        _ = planned.frame
