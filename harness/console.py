@@ -177,15 +177,15 @@ def _left(elapsed: float, estimate: float, done: float) -> float:
 
 def warnings(rows: Sequence[Row]) -> list[str]:
     """Return a line for each kind of warning about the times of `rows`, with the first cell that has it."""
-    troubled: dict[str, list[tuple[str, Row]]] = {}
+    troubled: dict[str, list[tuple[str, str]]] = {}
     for row in rows:
         for text in row["time"]["warnings"] if row["time"] else ():
-            troubled.setdefault(text.partition(":")[0], []).append((text, row))
+            troubled.setdefault(text.partition(":")[0], []).append((text, row["slot"]))
     lines = []
     for told in troubled.values():
-        text, row = told[0]
+        text, slot = told[0]
         others = f", and {len(told) - 1} more cells like it" if len(told) > 1 else ""
-        lines.append(f"{row['slot']}{others}: {text}")
+        lines.append(f"{slot}{others}: {text}")
     return lines
 
 

@@ -314,6 +314,17 @@ class DeviceInfo:
             object.__setattr__(self, name, shown(joined(getattr(self, name)))[:DEVICE_TEXT])
 
 
+@dataclass(frozen=True)
+class LostDevice(DeviceInfo):
+    """Describe a device whose worker died, hung or grew too large while it was looked for or tried.
+
+    `problem` says what happened. Where it was looked for, the name is the backend's with UNFOUND.
+    """
+
+
+UNFOUND = ":none"  # how the name of a stand-in ends, for devices of a backend that could not be looked at
+
+
 @dataclass(frozen=True, eq=False)
 class Hits:
     """Hold what a method answered for n rays."""

@@ -7,9 +7,11 @@ it beyond a share of the machine's memory.
 
 from __future__ import annotations
 
+import contextlib
 import importlib
 import importlib.util
 import os
+import signal
 import sys
 import time
 from collections.abc import Iterator
@@ -106,6 +108,12 @@ class Watch:
             limit = f"the limit ([budget] memory = {self.share:g} of {whole / GIGA:.1f} GB)"
             raise TooMuch(f"held more than {most / GIGA:.3g} GB of memory, {limit}")
 
+    def kill(self) -> None:
+        """Kill the process and all its children: a compiler that it started would go on to grow without it."""
+        for pid in (self.pid, *_descendants(self.pid)):
+            with contextlib.suppress(OSError):  # it has ended meanwhile
+                os.kill(pid, getattr(signal, "SIGKILL", signal.SIGTERM))  # Windows has one way to end a process
+
     def held(self) -> int:
         """Return the bytes of memory that the process and its children hold now; 0 of what has ended."""
         if sys.platform != "linux":
@@ -124,8 +132,10 @@ def _resident(pid: int) -> int:
 
 
 def _descendants(pid: int) -> list[int]:
-    """List the processes that a process has started, and those that these have started."""
+    """List the processes that a process has started, and those that these have started; [] elsewhere than on Linux."""
     children: dict[int, list[int]] = {}
+    if sys.platform != "linux":
+        return []
     for entry in Path("/proc").iterdir():
         if entry.name.isdigit():
             try:

@@ -13,7 +13,7 @@ STATUSES = ("ok", "skipped", "failed", "timeout", "crashed")
 
 
 def planned(key, skip=None):
-    return SimpleNamespace(key=key, skip=skip, cell=SimpleNamespace(slot=f"slot of {key}"))
+    return SimpleNamespace(key=key, skip=skip, failure=None, cell=SimpleNamespace(slot=f"slot of {key}"))
 
 
 @pytest.fixture

@@ -139,7 +139,7 @@ cells = plan.plan(experiment, catalog, [info])
 about = {"commit": None, "dirty": False}
 rows = Runner(experiment.config, catalog, Store(folder), Here(), about, lambda *_: None).run(cells)
 files = {Path(m.__file__).resolve() for m in sys.modules.values() if getattr(m, "__file__", None)}
-print(json.dumps({"rows": [[r["status"], r["reason"]] for r in rows], "files": sorted(map(str, files))}))
+print(json.dumps({"rows": [[r["status"], r["reason"]] for r in rows.values()], "files": sorted(map(str, files))}))
 """
 TINY = """title = "t"
 surfaces = ["sphere"]

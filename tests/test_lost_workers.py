@@ -1,17 +1,23 @@
 """Workers that do what they must not: grow without end, die, hang, answer nonsense, or lose their device for good."""
 
+import contextlib
+import io
 import os
 import subprocess
 import sys
+import time
 from multiprocessing import Pipe
 from pathlib import Path
 
 import pytest
 
 from harness import memory
-from harness.contract import CellStatus
-from harness.devices import executor, serving
+from harness.contract import CellStatus, DeviceInfo, FirsthitError, LostDevice
+from harness.devices import discovery, executor, interface, serving
 from harness.devices.executor import CellError, LocalExecutor
+from harness.experiment import plan, reading, targets
+from harness.plugins import find_methods
+from harness.running import environment, run
 
 ROOT = Path(__file__).parents[1]
 SERVE = """
@@ -26,8 +32,9 @@ while True:
     else:
         {build}
 """
+OTHER = DeviceInfo("opengl:one", "t", "d", "c", 4, True, "wall", ())
 DIES = "os.kill(os.getpid(), signal.SIGKILL)"
-GROWS = "kept = [b'x' * 4_000_000 for _ in range(10**5)]"
+GROWS = "kept = [b'x' * 4_000_000 for _ in range(100)]; import time; time.sleep(60)"
 CHILD_GROWS = f"import subprocess; subprocess.run([sys.executable, '-c', {GROWS!r}])"
 
 
@@ -47,6 +54,13 @@ def serving_as(monkeypatch, build, reopen="pass"):
     return started
 
 
+def commands():
+    """Yield the command lines of this machine's processes."""
+    for path in Path("/proc").glob("[0-9]*/cmdline"):
+        with contextlib.suppress(OSError):  # it has ended meanwhile
+            yield path.read_bytes()
+
+
 def built(runner):
     with pytest.raises(CellError) as raised:
         runner.build("opencl:none", None)
@@ -64,6 +78,10 @@ def test_a_worker_that_grows_is_killed_and_its_row_says_the_limit(monkeypatch, g
     limit = "the limit ([budget] memory = 0.5 of 0.2 GB)"
     assert reason == f"build held more than 0.1 GB of memory, {limit}; killed"
     assert started[0].poll() is not None
+    end = time.monotonic() + 10.0
+    while any(b"kept = [b'x'" in command for command in commands()):
+        assert time.monotonic() < end, "its child is still there"
+        time.sleep(0.05)
 
 
 @pytest.mark.parametrize(
@@ -80,8 +98,8 @@ def test_a_worker_that_grows_is_killed_and_its_row_says_the_limit(monkeypatch, g
 )
 def test_what_a_worker_does_costs_the_step_and_says_what_it_was(monkeypatch, build, status, words):
     started = serving_as(monkeypatch, build)
-    monkeypatch.setattr(executor, "START_SECONDS", 0.2)
-    runner = LocalExecutor(0.2)
+    runner = LocalExecutor(1.0)
+    runner._call("opencl:none", "reopen")  # it has started now
     found, reason = built(runner)
     assert found is status and words in reason
     assert started[0].poll() is not None, "the worker is still there"
@@ -113,16 +131,12 @@ def test_a_device_that_is_gone_is_given_up_after_a_few_tries(monkeypatch):
     assert len(started) == 1 + executor.REOPENINGS
 
 
-def test_a_binding_that_raises_loses_its_worker_and_a_refused_program_does_not():
-    process, connection = serving.start("opencl:nonesuch")
-    try:
-        connection.send(("nonesuch", ()))
-        assert connection.recv()[0] == "broken"
-        connection.send(("reopen", ()))
-        assert connection.recv()[0] == "failed"
-    finally:
-        process.kill()
-        process.wait()
+def test_an_exception_of_a_binding_loses_its_worker(monkeypatch):
+    started = serving_as(monkeypatch, "pipe.send(('broken', 'clFinish failed: OUT_OF_RESOURCES'))")
+    runner = LocalExecutor(60.0)
+    for count in (1, 2):
+        assert built(runner) == (CellStatus.FAILED, "clFinish failed: OUT_OF_RESOURCES")
+        assert len(started) == count and started[-1].poll() is not None
 
 
 def test_the_memory_of_a_container_counts_where_it_is_less(tmp_path):
@@ -145,3 +159,67 @@ def test_what_this_process_holds_is_seen():
     before = memory.Watch(os.getpid()).held()
     kept = b"x" * 50_000_000
     assert memory.Watch(os.getpid()).held() > before + 40_000_000 and kept
+
+
+def test_a_worker_that_was_killed_while_devices_were_looked_for_is_said(monkeypatch, tmp_path):
+    serving_as(monkeypatch, DIES)
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    told = "opencl:intel: the worker was killed by signal KILL while devices were looked for"
+    found = discovery.discover_devices(["opencl:intel"])
+    for name, devices in [("opencl:intel", found), ("opencl:intel", [*found, OTHER])]:
+        with pytest.raises(FirsthitError, match=told) as raised:
+            interface.device_named(name, devices)
+        assert raised.value.exit_code == 3
+    with pytest.raises(FirsthitError, match="opencl:none: the worker was killed by signal KILL"):
+        interface.working(found)
+    chosen = targets.choose_devices(["opencl:intel", OTHER.name], [*found, OTHER])
+    assert chosen[OTHER.name] is OTHER and f"{chosen['opencl:intel'].name}: {chosen['opencl:intel'].problem}" == told
+    with pytest.raises(FirsthitError, match="there is no device 'opengl:nonesuch' here"):
+        interface.device_named("opengl:nonesuch", found)
+
+
+def test_a_run_goes_on_without_a_device_that_was_lost(monkeypatch, tmp_path):
+    config = 'title = "t"\nsurfaces = ["sphere"]\nsizes = [16]\ndevices = {}\n[[method]]\nname = "newton"\n'
+    gone = LostDevice(**vars(OTHER) | {"name": "opencl:none", "problem": "the worker was killed"})
+    serving_as(monkeypatch, DIES)
+    monkeypatch.setattr(run, "discover_devices", lambda _: [gone, OTHER])
+    for name, devices in {"both": ["opencl:intel", "opengl:one"], "probed": ["opengl:one"]}.items():
+        (tmp_path / f"{name}.toml").write_text(config.format(devices))
+        if name == "both":
+            monkeypatch.setattr(run, "probed", lambda _executor, info, _cache: (info, None))
+            done = run.run(run.read(tmp_path / "both.toml"), tmp_path, "")
+            assert done.lost == ("opencl:intel: the worker was killed",)
+            assert [row["status"] for row in done.rows] == ["skipped", "crashed"]
+            assert done.rows[0]["reason"] == "the worker was killed"
+        else:
+            monkeypatch.setattr(run, "probed", environment.probed)
+            said = "opengl:one: the worker was killed by signal KILL while its arithmetic and clock were tried"
+            with pytest.raises(FirsthitError, match=said) as raised:
+                run.run(run.read(tmp_path / "probed.toml"), tmp_path, "")
+            assert raised.value.exit_code == 3
+
+
+def test_what_a_driver_says_is_said_once_with_its_device_and_without_its_signs(capfd, monkeypatch):
+    monkeypatch.setattr(serving, "_SAID", set())
+    monkeypatch.setattr(serving, "MOST_LINES", 4)
+    said = b"Mesa: a warning at 0x7f01\nMesa: a warning at 0x7f99\n1 warning generated.\n\033[2Jgone\n::error::x\n"
+    for device in ("opencl:a", "opencl:a", "opencl:b"):
+        serving._hand_on(io.BytesIO(said + said), device)
+    lines = capfd.readouterr().err.splitlines()
+    shown = ["Mesa: a warning at 0x7f01", r"\x1b[2Jgone", "::error::x"]
+    cut = "opencl:b: what devices say from here on is left out"
+    assert lines == [*(f"opencl:a: {line}" for line in shown), f"opencl:b: {shown[0]}", cut]
+
+
+def test_a_list_of_rays_that_memory_does_not_hold_is_refused(monkeypatch, tmp_path):
+    path = tmp_path / "large.toml"
+    path.write_text(
+        'title = "t"\nsurfaces = ["sphere"]\nsizes = [16384]\nstages = ["rays"]\ndevices = ["opengl:one"]\n'
+        '[[method]]\nname = "newton"\n'
+    )
+    catalog = find_methods()
+    (planned,) = plan.plan(reading.load(path, catalog), catalog, [OTHER])
+    monkeypatch.setattr(memory, "of_machine", lambda: 8_000_000_000)
+    told = "a list of 268,435,456 rays would take 40.3 GB of memory, over the limit of 4 GB"
+    with pytest.raises(FirsthitError, match=told):
+        _ = planned.frame

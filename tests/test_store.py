@@ -3,8 +3,9 @@ import json
 import numpy as np
 import pytest
 
-from harness.contract import FirsthitError
+from harness.contract import CellStatus, FirsthitError
 from harness.results.store import Store
+from harness.results.stored import Rows, Stored
 from harness.results.writing import savez_atomically, write_atomically
 
 from .synthetic_run import cell
@@ -54,3 +55,22 @@ def test_rows_hold_no_nan(tmp_path):
 def test_plan_is_json(tmp_path):
     Store(tmp_path).write_plan({"name": "n"})
     assert json.loads((tmp_path / "plan.json").read_text())["name"] == "n"
+
+
+def test_rows_are_read_when_they_are_asked_for(tmp_path):
+    store = Store(tmp_path)
+    kept, again = Stored(store), Stored(store)
+    for key in ("a1", "b2", "c3"):
+        row = cell("newton[EPSILON=0.001]", "torus", "opencl:intel", "float32") | {"key": key, "arrays": None}
+        store.write(row)
+        kept.add(row)
+    again.add({"key": "a1", "status": "ok"})
+    rows = Rows([kept, again])
+    assert [one["key"] for one in rows] == ["a1", "b2", "c3", "a1"] and len(rows) == 4
+    assert [one["key"] for one in rows[1:3]] == ["b2", "c3"] and rows[-1]["key"] == "a1"
+    assert list(rows.statuses) == ["ok"] * 4 and len(rows + rows) == 8
+    assert len(rows.of([CellStatus.OK])) == 4 and not rows.of([CellStatus.FAILED])
+    (tmp_path / "cells/b2.json").unlink()
+    with pytest.raises(FirsthitError, match="cannot be read any more: its file is gone"):
+        rows[1]
+    assert "nonesuch" not in kept and rows[0] is not rows[0]

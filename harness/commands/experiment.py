@@ -147,7 +147,7 @@ def _state(cell: experiments.CellFacts) -> str:
 def _run(options: argparse.Namespace) -> int:
     again = {"force": options.force, "retry_failed": options.retry == "failed", "wait": options.wait}
     found = run(_read(options), options.runs, typed(), watcher=Printer(), **again)
-    return 3 if found.unfinished else 0
+    return 3 if found.unfinished or found.lost else 0
 
 
 def _why(options: argparse.Namespace) -> int | Answer:

@@ -54,5 +54,5 @@ class Printer(Watcher):
         told = ", ".join(f"{count} {status}" for status, count in part.counts.items() if count)
         if told:
             print(f"{part.folder}: {len(part.rows)} cells run, {len(part.reused)} reused; {told}")
-        for line in (*console.undecided((*part.rows, *part.reused)), *console.warnings(part.rows)):
+        for line in (*console.undecided(part.rows + part.reused), *console.warnings(part.rows)):
             self.warned(line)

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
-from harness.contract import DeviceInfo
+from harness.contract import UNFOUND, DeviceInfo, LostDevice
 from harness.devices import kept_answers
 from harness.devices.executor import START_SECONDS, CellError, LocalExecutor
 from harness.devices.interface import INSTALL, device_named, working
@@ -77,8 +77,8 @@ def _find(backend: str, executor: LocalExecutor) -> list[DeviceInfo]:
         found = executor.find(backend)
         ran = executor.running_files(backend)
     except CellError as error:
-        problem = f"looking for it: {error}"
-        found = [DeviceInfo(f"{backend}:none", "none", "none", "none", None, False, "wall", (), problem)]
+        name = f"{backend}{UNFOUND}"
+        found = [LostDevice(name, "none", "none", "none", None, False, "wall", (), problem=str(error))]
     finally:
         executor.close()
     kept_answers.keep(backend, found, ran)

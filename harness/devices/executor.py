@@ -55,7 +55,7 @@ class _Process:
 
     def end_late(self) -> None:
         self.late = True
-        self.process.kill()
+        self.watch.kill()
 
 
 class LocalExecutor:
@@ -173,11 +173,11 @@ class LocalExecutor:
         self._warm = {key: holder for key, holder in self._warm.items() if holder != device}
         stopped.connection.close()
         if at_once:
-            stopped.process.kill()
+            stopped.watch.kill()
         try:
             return stopped.process.wait(STOP_SECONDS)
         except subprocess.TimeoutExpired:
-            stopped.process.kill()
+            stopped.watch.kill()
             return stopped.process.wait()
 
     def _lose(self, device: str, at_once: bool = False) -> int:

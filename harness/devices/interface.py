@@ -10,13 +10,13 @@ import importlib
 import importlib.util
 from abc import ABC, abstractmethod
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from harness.contract import DeviceInfo, FirsthitError, Hits, Program, RayStatus
+from harness.contract import UNFOUND, DeviceInfo, FirsthitError, Hits, LostDevice, Program, RayStatus
 from harness.kernels.assemble import Language
 
 Array = NDArray[Any]
@@ -215,19 +215,34 @@ def no_device(wanted: str, known: Iterable[str]) -> FirsthitError:
     return FirsthitError(f"there is no device {wanted!r} here; known: {names}; see `firsthit devices`", exit_code=3)
 
 
+def lost(name: str, found: Iterable[DeviceInfo]) -> LostDevice | None:
+    """Return the device of that name as one that was lost, if its backend could not be looked at; else None."""
+    stand_in = f"{name.partition(':')[0]}{UNFOUND}"
+    gone = (info for info in found if isinstance(info, LostDevice) and info.name == stand_in)
+    return next((replace(info, name=name) for info in gone), None)
+
+
+def told_lost(gone: Iterable[LostDevice]) -> FirsthitError:
+    """Make the error for devices that were lost, each of which says what happened."""
+    return FirsthitError("; ".join(f"{info.name}: {info.problem}" for info in gone), exit_code=3)
+
+
 def device_named(name: str, found: Iterable[DeviceInfo]) -> DeviceInfo:
     """Return the device of that name. Raises FirsthitError where it is not among those `found`, or cannot be used."""
     by_name = {info.name: info for info in found}
     if name not in by_name:
-        raise no_device(name, by_name)
+        gone = lost(name, by_name.values())
+        raise told_lost([gone]) if gone else no_device(name, by_name)
     if problem := by_name[name].problem:
         raise FirsthitError(f"device {name!r} cannot be used: {problem}", exit_code=3)
     return by_name[name]
 
 
-def working(found: Iterable[DeviceInfo]) -> list[DeviceInfo]:
+def working(found: Sequence[DeviceInfo]) -> list[DeviceInfo]:
     """Return the devices that can be used. Raises FirsthitError if there is none."""
     usable = [info for info in found if not info.problem]
+    if gone := [info for info in found if isinstance(info, LostDevice) and not usable]:
+        raise told_lost(gone)
     if not usable:
         raise FirsthitError("no usable device; `firsthit devices` says why", exit_code=3)
     return usable

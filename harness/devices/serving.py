@@ -20,30 +20,49 @@ from harness.hosting import process
 
 COUNTED = re.compile(rb"(\d+ (warning|error)s?( and \d+ errors?)? generated\.)?")  # what clang says last
 LONGEST_LINE = 100_000  # bytes; a longer one is several
+MOST_LINES = 1000  # different ones that are handed on in a process
+ADDRESS = re.compile(rb"0x[0-9a-fA-F]+")
+_SAID: set[tuple[str, bytes]] = set()
+_SAYING = threading.Lock()
 STREAMS: dict[str, Any] = {"stdin": subprocess.DEVNULL, "stdout": subprocess.PIPE, "stderr": subprocess.STDOUT}
 
 
 def start(device: str) -> tuple[subprocess.Popen[bytes], Connection]:
     """Start the worker that holds `device`; return its process, and our end of the connection to it.
 
-    It reads no input. What drivers write, and kernels that print, is handed on to standard error, but for the lines
-    that count the errors of a compiler's log, which is told elsewhere. Raises FirsthitError if none can be started.
+    It reads no input. What drivers write, and kernels that print, is handed on to standard error: with the device's
+    name, each line once a command, and without the lines that count the errors of a compiler's log, which is told
+    elsewhere. Raises FirsthitError if none can be started.
     """
     worker, ours = process.start("harness.devices.serving", [device], f"the worker of {device}", STREAMS)
-    threading.Thread(target=_hand_on, args=(worker.stdout,), daemon=True).start()
+    threading.Thread(target=_hand_on, args=(worker.stdout, device), daemon=True).start()
     return worker, ours
 
 
-def _hand_on(said: IO[bytes]) -> None:
+def _hand_on(said: IO[bytes], device: str) -> None:
     """Write on standard error what a worker writes, until it ends, without what only counts errors.
 
-    Anybody's kernel may print: nothing in its lines moves a cursor, or is a command of a CI server.
+    A line that was said before, at most with other addresses, is boilerplate and is left out. Anybody's kernel may
+    print: nothing in its lines moves a cursor, or is a command of a CI server.
     """
     with said:
         while line := said.readline(LONGEST_LINE):
-            if not COUNTED.fullmatch(line.strip()):
+            words = line.rstrip()
+            if not COUNTED.fullmatch(words.strip()) and _is_new(device, words):
                 with contextlib.suppress(OSError):
-                    os.write(2, escaping.output(line))
+                    os.write(2, escaping.output(f"{device}: ".encode() + words))
+                    if len(_SAID) == MOST_LINES:
+                        os.write(2, f"{device}: what devices say from here on is left out\n".encode())
+
+
+def _is_new(device: str, words: bytes) -> bool:
+    """Tell whether a line was not said for a device before; of many lines only MOST_LINES are said at all."""
+    alike = device, ADDRESS.sub(b"0x", words)
+    with _SAYING:
+        if alike in _SAID or len(_SAID) >= MOST_LINES:
+            return False
+        _SAID.add(alike)
+        return True
 
 
 def serve(connection: Connection, device: str) -> None:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from harness.contract import DeviceInfo, FirsthitError
-from harness.devices.interface import RASTERISES, no_device
+from harness.contract import DeviceInfo, FirsthitError, LostDevice
+from harness.devices.interface import RASTERISES, lost, no_device, told_lost
 from harness.experiment.config import FASTEST, Experiment
 
 AS_FAST = 0.9  # share of the highest peak from which on a device counts as fast: two probes of a device differ by more
@@ -14,7 +14,7 @@ AS_FAST = 0.9  # share of the highest peak from which on a device counts as fast
 def choose_devices(
     wanted: list[str], found: list[DeviceInfo], rasterises: bool = False
 ) -> dict[str, DeviceInfo | None]:
-    """Return the devices to run on by name; None for a named one that is not here.
+    """Return the devices to run on by name; None for a named one that is not here, a LostDevice where nobody can tell.
 
     `any` is the first one that works and, with `rasterises`, draws triangles. `all` leaves out a broken double of a
     working device (one driver that is installed twice). Raises ValueError for `fastest`, which is no choice before
@@ -31,7 +31,7 @@ def choose_devices(
         elif name == "any":
             chosen |= {info.name: info for info in usable(found, rasterises)[:1]}
         else:
-            chosen[name] = by_name.get(name)
+            chosen[name] = by_name.get(name) or lost(name, found)
     return chosen
 
 
@@ -65,10 +65,13 @@ def ranked(measured: Mapping[DeviceInfo, float]) -> list[DeviceInfo]:
 def devices_of(experiment: Experiment, found: list[DeviceInfo], rasterises: bool) -> dict[str, DeviceInfo | None]:
     """Return the devices that a config's cells run on; with `rasterises`, `any` is one that draws triangles.
 
-    Raises FirsthitError if none of the devices that the config names is among those `found`.
+    Raises FirsthitError if none of the devices that the config names is among those `found`, or all that are were lost.
     """
     wanted = experiment.wanted_devices()
     chosen = choose_devices(wanted, found, rasterises)
+    gone = [info for info in chosen.values() if isinstance(info, LostDevice)]
+    if gone and not any(info and not info.problem for info in chosen.values()):
+        raise told_lost(gone)
     if not any(chosen.values()):
         if not set(wanted) <= {"all", "any"}:
             raise no_device(", ".join(wanted), (info.name for info in found))

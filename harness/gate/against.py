@@ -274,7 +274,7 @@ def _run(
     config = checked.experiment.config
     told = watcher.cell, watcher.hears_builds
     rows = Runner(config, checked.catalog, store, executor, environment, *told).run(found.todo, begun)
-    by_key = found.kept | {row["key"]: row for row in rows}
+    by_key = {**found.kept, **rows}
     for pair in pairs:
         if pair.then:
             pair.before = by_key[pair.then.key]

@@ -12,6 +12,7 @@ from pathlib import Path
 from harness.contract import FirsthitError
 from harness.devices.discovery import discover_devices
 from harness.devices.executor import LocalExecutor
+from harness.devices.interface import lost, told_lost
 from harness.experiment import plan, reading
 from harness.experiment.config import FASTEST, Experiment
 from harness.experiment.plan import Planned
@@ -167,6 +168,8 @@ def prepare(
     with watcher.doing(f"looking for devices and preparing the cells of {config}") as tell:
         found = discover_devices(wanted)
         if not {"all", "any", FASTEST, *(info.name for info in found)} & set(wanted):
+            if gone := [info for name in wanted if (info := lost(name, found))]:
+                raise told_lost(gone)
             here = ", ".join(f"--device {name}" for name in others(set(wanted))) or "no device here can be used"
             raise FirsthitError(f"there is no device {', '.join(wanted)} here; name one that is: {here}", exit_code=3)
         (experiment,) = settled([experiment], found, watcher).parts

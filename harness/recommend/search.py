@@ -11,7 +11,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from harness.accuracy.judge import NAMES
-from harness.contract import CellStatus, DeviceInfo, Precision, Variant, View, digest
+from harness.contract import CellStatus, DeviceInfo, FirsthitError, Precision, Variant, View, digest
 from harness.devices.executor import LocalExecutor
 from harness.experiment import plan
 from harness.experiment.config import AccuracyChoice, BudgetChoice, Config, Experiment, MethodChoice
@@ -72,6 +72,8 @@ def recommend(
     executor = LocalExecutor(STEP_SECONDS)
     try:
         info, _ = probed(executor, usable_device(device), folder / "probes")
+        if info.problem:
+            raise FirsthitError(f"{info.name}: {info.problem}", exit_code=3)
         with Lock(folder, command, wait=wait, doing=watcher.doing) as lock:
             return replace(Search(wish, catalog, info, executor, lock, watcher).run(pictured), extent=told)
     finally:

@@ -44,4 +44,4 @@ def rows_of(
         watcher.starts(len(found.todo), 1.0 * len(found.todo), Counter(p.cell.device for p in found.todo))
     told = watcher.cell, watcher.hears_builds
     rows = Runner(experiment.config, catalog, store, executor, describe(), *told).run(found.todo, begun)
-    return found.kept | {row["key"]: row for row in rows}, frozenset(found.kept)
+    return {**found.kept, **rows}, frozenset(found.kept)

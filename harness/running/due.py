@@ -12,6 +12,7 @@ from harness.contract import CellStatus
 from harness.experiment.plan import Planned
 from harness.results.begun import Begun
 from harness.results.store import Row, Store
+from harness.results.stored import Stored
 
 Again = Literal["nothing", "unfinished", "everything"]  # which cells run although they have a row
 UNFINISHED = (CellStatus.FAILED, CellStatus.TIMEOUT, CellStatus.CRASHED)
@@ -23,7 +24,7 @@ class Due:
     """Hold a plan's cells that must run, and the rows of the others."""
 
     todo: list[Planned]  # in the plan's order
-    kept: dict[str, Row]  # the other cells' rows by their keys, in the plan's order
+    kept: Stored  # the other cells' rows by their keys, in the plan's order
     replaced: frozenset[str]  # keys of those that must run although they have a row
 
 
@@ -33,10 +34,14 @@ def due(planned: Sequence[Planned], store: Store, again: Again = "nothing", aske
     `asked` are keys of cells that an earlier command was to run again, and did not come to (Begun.again). A row that
     cannot be read counts as none; `store.unreadable` then says why.
     """
-    stored = {p.key: store.read(p.key) for p in planned}
-    rows = {key: row for key, row in stored.items() if row}
-    kept = {key: row for key, row in rows.items() if not (key in asked or _is_wanted_again(row, again))}
-    return Due([p for p in planned if p.key not in kept], kept, frozenset(rows.keys() - kept.keys()))
+    kept, replaced = Stored(store), set()
+    for one in planned:
+        if row := store.read(one.key):
+            if one.key in asked or _is_wanted_again(row, again):
+                replaced.add(one.key)
+            else:
+                kept.add(row)
+    return Due([p for p in planned if p.key not in kept], kept, frozenset(replaced))
 
 
 def begin(planned: Sequence[Planned], store: Store, again: Again = "nothing") -> tuple[Due, Begun, list[Path]]:

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypedDict
 
 from harness import ROOT, __version__
-from harness.contract import DeviceInfo, FirsthitError, digest
+from harness.contract import CellStatus, DeviceInfo, FirsthitError, LostDevice, digest
 from harness.devices import host
 from harness.devices.executor import CellError, LocalExecutor
 from harness.devices.host_arithmetic import host_arithmetic
@@ -84,7 +84,9 @@ def probed(
         try:
             found = executor.probe(info.name)
         except CellError as error:
-            return dataclasses.replace(info, problem=f"its probes failed: {error}"), None
+            if error.status is CellStatus.FAILED:
+                return dataclasses.replace(info, problem=f"its probes failed: {error}"), None
+            return LostDevice(**vars(info) | {"problem": str(error)}), None
         if cache:
             with contextlib.suppress(FirsthitError):
                 write_atomically(_probes_file(info, cache), sealed.sealed(dataclasses.asdict(found)))

@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from harness import ROOT, console, memory, studies
-from harness.contract import CellStatus, DeviceInfo
+from harness.contract import CellStatus, DeviceInfo, LostDevice
 from harness.devices.discovery import discover_devices
 from harness.devices.executor import LocalExecutor
 from harness.devices.probes import Probes
@@ -29,6 +29,7 @@ from harness.oracle import cache
 from harness.plugins import Catalog, find_methods
 from harness.results.lock import locked
 from harness.results.store import Row, Store
+from harness.results.stored import Rows
 from harness.results.writing import sweep_below
 from harness.running.cards import card
 from harness.running.due import UNFINISHED, Again, begin, estimate_seconds, studies_due
@@ -61,8 +62,9 @@ class Run:
     """Hold what a run left behind: the folder that reports read, and the row of every cell that its config names."""
 
     folder: Path
-    rows: tuple[Row, ...]  # of the cells that were run now, in the order in which they ended
-    reused: tuple[Row, ...] = ()  # of the cells that were already finished
+    rows: Rows  # of the cells that were run now, in the order in which they ended; each is read when it is asked for
+    reused: Rows = field(default_factory=Rows)  # of the cells that were already finished
+    lost: tuple[str, ...] = ()  # devices whose workers died when they were looked for or tried, each with what happened
 
     def __repr__(self) -> str:
         """Return one line: the folder, and how many cells ended how."""
@@ -72,8 +74,8 @@ class Run:
     @property
     def counts(self) -> dict[CellStatus, int]:
         """Return how many rows have each status; every status is a key."""
-        rows = (*self.rows, *self.reused)
-        return {status: sum(row["status"] == status for row in rows) for status in CellStatus}
+        found = Counter((*self.rows.statuses, *self.reused.statuses))
+        return {status: found[status] for status in CellStatus}
 
     @property
     def unfinished(self) -> int:
@@ -144,7 +146,7 @@ class Teller(Watcher):
             self._tell(paragraph)
 
     def ended(self, part: Run) -> None:
-        for line in (*console.undecided((*part.rows, *part.reused)), *console.warnings(part.rows)):
+        for line in (*console.undecided(part.rows + part.reused), *console.warnings(part.rows)):
             self._tell(line)
 
 
@@ -222,10 +224,10 @@ def _run(loaded: Loaded, runs: Path, command: str, force: bool, retry_failed: bo
     ended = []
     for part in loaded.parts:
         ended.append(_run_part(part, loaded, runs, command, again, hears))
-        hears.failed([row for row in (*ended[-1].rows, *ended[-1].reused) if row["status"] in UNFINISHED])
+        hears.failed((ended[-1].rows + ended[-1].reused).of(UNFINISHED))
         hears.ended(ended[-1])
-    rows, reused = (row for one in ended for row in one.rows), (row for one in ended for row in one.reused)
-    return Run(folder, tuple(rows), tuple(reused))
+    lost = tuple(dict.fromkeys(line for one in ended for line in one.lost))
+    return Run(folder, sum((one.rows for one in ended), Rows()), sum((one.reused for one in ended), Rows()), lost)
 
 
 def _told(config: Path) -> str:
@@ -262,6 +264,9 @@ def _run_part(part: Experiment, loaded: Loaded, runs: Path, command: str, again:
                 tell(f"trying the arithmetic and the clock of {info.name}")
                 tried.append(loaded.tried.get(info.name) or probed(executor, info, store.folder / "probes"))
             planned = plan.plan(part, loaded.catalog, [i for i, _ in tried], tell=tell) if part.variants else []
+        lost = tuple(f"{info.name}: {info.problem}" for info, _ in tried if isinstance(info, LostDevice))
+        for line in lost:
+            hears.wrong(line)
         for remark in [*remarks(part), *filter(None, [memory.unwatched()])]:
             hears.warned(remark)
         store.write_plan(
@@ -283,7 +288,7 @@ def _run_part(part: Experiment, loaded: Loaded, runs: Path, command: str, again:
             hears.warned(f"{reason}; the oracle's answers were kept in memory, and the next run computes them again")
     finally:
         executor.close()
-    return Run(store.folder, tuple(rows), tuple(found.kept.values()))
+    return Run(store.folder, Rows([rows]), Rows([found.kept]), lost)
 
 
 def remarks(part: Experiment) -> list[str]:

@@ -33,6 +33,7 @@ from harness.plugins import Catalog
 from harness.results import timings
 from harness.results.begun import Begun, Kept, Sample, Session
 from harness.results.store import Row, Store
+from harness.results.stored import Stored
 from harness.running.rows import Left, Samples, build_of, row_of, time_of, without_figures
 
 MINIMUM_SAMPLES = 8
@@ -80,8 +81,8 @@ class Runner:
         self._built = built
         self._begun, self._session = Begun(store.folder), Session(store.folder)
 
-    def run(self, planned: Iterable[Planned], begun: Begun | None = None) -> list[Row]:
-        """Run cells and return their rows, in the order in which they ended.
+    def run(self, planned: Iterable[Planned], begun: Begun | None = None) -> Stored:
+        """Run cells and return their rows, in the order in which they ended; each is read when it is asked for.
 
         Cells that are to be compared with each other are timed in the same interleaved rounds. `begun` is what is kept
         of the cells; without it they begin anew where nothing is kept. A cell that fails is a row; raises FirsthitError
@@ -91,7 +92,11 @@ class Runner:
         groups: dict[str, list[Planned]] = {}
         for one in planned:
             groups.setdefault(one.cell.together, []).append(one)
-        return [row for group in groups.values() for part in _fitting(group) for row in self._compare(part)]
+        ended = Stored(self._store)
+        for part in (part for group in groups.values() for part in _fitting(group)):
+            for row in self._compare(part):
+                ended.add(row)
+        return ended
 
     def _compare(self, group: list[Planned]) -> list[Row]:
         """Check every cell of a group, and then time those together that are to be timed."""

@@ -8,6 +8,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from harness import memory
 from harness.accuracy.answers import validated
 from harness.accuracy.check import Cast
 from harness.accuracy.compilers import SecondBuild, with_listed_rays
@@ -24,6 +25,8 @@ from harness.plugins import Plugin
 from harness.scenes.camera import rays_of
 from harness.scenes.model import Group
 from harness.scenes.records import MOST_PARAMETERS
+
+BYTES_PER_RAY = 150  # of this process while it makes a list of rays and sends it: float64 until the list is complete
 
 
 class RayMethods(ShotKind):
@@ -103,6 +106,8 @@ class RayCasting(RacedCasting):
     def frame(self) -> Frame | None:
         assert self.timed
         if self.cell.stage == "rays":
+            if reason := memory.refusal(BYTES_PER_RAY * self.samples**2, f"a list of {self.samples**2:,} rays"):
+                raise FirsthitError(reason, exit_code=3)
             return ListedFrame(self.timed, rays_of(self.camera, self.samples))
         return CameraFrame(self.timed, self.camera, self.samples)
 
