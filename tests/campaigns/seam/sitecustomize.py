@@ -29,7 +29,9 @@ class Seam:
         """Hear an audit event of the interpreter."""
         if event in CHANGES or (event == "open" and isinstance(arguments[2], int) and arguments[2] & WRITES):
             path = arguments[0]
-            if isinstance(path, str | bytes | os.PathLike) and os.path.abspath(os.fsdecode(path)).startswith(self.below):
+            if isinstance(path, str | bytes | os.PathLike) and os.path.abspath(os.fsdecode(path)).startswith(
+                self.below
+            ):
                 self.happens(event, os.fsdecode(path))
 
     def happens(self, event, path):
