@@ -189,6 +189,7 @@ def test_cells_of_csv_read_back():
 def test_latex_joins_no_signs_and_a_files_name_is_not_too_long():
     assert latex.escaped("--device ''a'' ?`") == "-{}-device '{}'a'{}' ?{}`"
     assert latex.escaped("\x1b\n\\input") == r"\textbackslash{}x1b \textbackslash{}input"
+    assert latex.escaped("commit 4f5e2 –—") == "commit 4f5e2 --{}---" and "times" in latex.escaped("ε = 1e-6")
     assert len(model.slug("a" * 10_000)) == model.LONGEST
 
 
