@@ -26,6 +26,7 @@ from harness.results import git
 from reports.content import Code, Column, Document, Section, Table, Text
 from reports.drawing import canvas
 from reports.for_papers import latex, model
+from reports.parts.last_page import rerun
 from reports.reading import export, load
 from reports.rendering import document
 from surfaces import files, names
@@ -178,6 +179,11 @@ def test_no_csv_of_a_run_holds_a_formula(tmp_path):
     export.write(table, tmp_path / "a.csv", tmp_path / "a.parquet")
     (row,) = csv.DictReader((tmp_path / "a.csv").open(encoding="utf-8"))
     assert (row["domain"], row["formula"], row["surface_title"]) == ("'=1+1", "'-x^2", r"\x1b")
+
+
+def test_a_stored_command_that_no_shell_reads_ends_no_report():
+    assert rerun._words("firsthit run 'a b' --runs x") == ["firsthit", "run", "a b", "--runs", "x"]
+    assert rerun._words("firsthit run 'a --runs") == ["firsthit", "run", "'a", "--runs"] and rerun.folded("it's")
 
 
 def test_cells_of_csv_read_back():
