@@ -40,9 +40,9 @@ def folded(command: str) -> str:
 
     A shell reads it as it reads the command. A word that is longer than a line has a line of its own.
     """
-    if len(command) <= LINE:
-        return command
     words = [shlex.quote(word) for word in _words(command)]
+    if len(command) <= LINE or not words:
+        return command
     lines = [words[0]]
     for word in words[1:]:
         if len(lines[-1]) + len(word) + 3 > LINE:
