@@ -13,7 +13,6 @@ text reads back wherever it stands, and looks alike everywhere.
     typst             every (the template reads texts as JSON, and never as markup)
     tables            cell (CSV)
     commands          shell (a command that is printed to be pasted)
-    files             whole (what is read from JSON, where a half of a character may stand)
 
 LaTeX's escapes are in reports.for_papers.latex, where they are a part of how numbers and signs are set. File names and
 anchors consist of ASCII letters, digits and hyphens alone (`slug` of reports.for_papers.model and
@@ -39,7 +38,6 @@ from surfaces.visible import one_line as one_line
 from surfaces.visible import shown as shown
 from surfaces.visible import visible as visible
 
-_HALVES = re.compile("[\ud800-\udfff]")
 _COMMAND = re.compile(r"^(\s*):(?=:)|#(?=#\w*\[)", re.MULTILINE)
 _SIGNS = re.compile(r"[\\`*\[\]<&|~$#]|(?<![^\W_])_|_(?![^\W_])|(?<=\w):(?=//)|(?<=www)\.", re.IGNORECASE)
 _QUOTED = "\\'#"
@@ -148,15 +146,6 @@ def every(value: Any) -> Any:
     if isinstance(value, Mapping):
         return {key: every(item) for key, item in value.items()}
     return [every(item) for item in value] if isinstance(value, list | tuple) else value
-
-
-def whole(value: Any) -> Any:
-    """Return a value as JSON has it whose texts can be written as UTF-8: a half of a character becomes U+FFFD."""
-    if isinstance(value, str):
-        return _HALVES.sub("\ufffd", value)
-    if isinstance(value, dict):
-        return {whole(key): whole(item) for key, item in value.items()}
-    return [whole(item) for item in value] if isinstance(value, list) else value
 
 
 def cell(text: str) -> str:

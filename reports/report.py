@@ -63,7 +63,7 @@ def build(
         tell("writing the tables")
         export.write(frame, made / "results.csv", made / "results.parquet")
         if not rungs.empty:
-            rungs.to_csv(made / "stability.csv", index=False)
+            export.without_formulas(rungs).to_csv(made / "stability.csv", index=False)
         if figures or tables:
             _for_papers(material, figures, tables, folder, made)
     if rungs.empty:

@@ -266,6 +266,8 @@ def put(value: Any, dice: random.Random, share: float, kept: frozenset[str], tol
         if dice.random() >= share:
             return value
         told.append(text(dice))
+        if dice.random() < 0.995:  # else the file is refused
+            told[-1] = re.sub("[\ud800-\udfff]", "y", told[-1])
         return told[-1]
     if isinstance(value, dict):
         return {k: v if k in kept else put(v, dice, share, kept, told, k) for k, v in value.items()}

@@ -13,6 +13,7 @@ from xml.etree import ElementTree
 
 import matplotlib
 import pytest
+import typst
 from matplotlib.figure import Figure
 
 from harness import cli, escaping
@@ -22,9 +23,12 @@ from harness.devices import serving
 from harness.gate import repository
 from harness.plugins import find_methods
 from harness.results import git
+from reports.content import Code, Column, Document, Section, Table, Text
 from reports.drawing import canvas
 from reports.for_papers import latex, model
+from reports.parts.last_page import rerun
 from reports.reading import export, load
+from reports.rendering import document
 from surfaces import files, names
 from surfaces.words import name_problem, title_problem
 from tests import hostile_texts as hostile
@@ -168,14 +172,19 @@ def test_a_drawing_is_xml_whatever_its_texts_hold():
     assert "a\\x1b\\x00 $\\frac$ </text><script>" in texts
 
 
-def test_half_a_character_in_a_row_ends_no_report_and_no_csv_holds_a_formula(tmp_path):
+def test_no_csv_of_a_run_holds_a_formula(tmp_path):
     made = cell("newton[EPSILON=0.001]", "torus", "opencl:intel", "float32") | {"arrays": None, "domain": "=1+1"}
-    loaded = load.load(tiny_run(tmp_path / "run", made | {"surface_title": "\ud800", "formula": "-x^2"}))
-    assert list(loaded.frame["surface_title"]) == ["\ufffd"]
+    loaded = load.load(tiny_run(tmp_path / "run", made | {"surface_title": "\x1b", "formula": "-x^2"}))
     table = loaded.frame.reindex(columns=[f.name for f in (*export.SCHEMA, *export.DERIVED)])
     export.write(table, tmp_path / "a.csv", tmp_path / "a.parquet")
     (row,) = csv.DictReader((tmp_path / "a.csv").open(encoding="utf-8"))
-    assert (row["domain"], row["formula"], row["surface_title"]) == ("'=1+1", "'-x^2", "\ufffd")
+    assert (row["domain"], row["formula"], row["surface_title"]) == ("'=1+1", "'-x^2", r"\x1b")
+
+
+def test_a_stored_command_that_no_shell_reads_ends_no_report():
+    assert rerun._words("firsthit run 'a b' --runs x") == ["firsthit", "run", "a b", "--runs", "x"]
+    assert rerun._words("firsthit run 'a --runs") == ["firsthit", "run", "'a", "--runs"]
+    assert rerun.folded(blank := " " * 500) == blank
 
 
 def test_cells_of_csv_read_back():
@@ -187,6 +196,7 @@ def test_cells_of_csv_read_back():
 def test_latex_joins_no_signs_and_a_files_name_is_not_too_long():
     assert latex.escaped("--device ''a'' ?`") == "-{}-device '{}'a'{}' ?{}`"
     assert latex.escaped("\x1b\n\\input") == r"\textbackslash{}x1b \textbackslash{}input"
+    assert latex.escaped("commit 4f5e2 –—") == "commit 4f5e2 --{}---" and "times" in latex.escaped("ε = 1e-6")
     assert len(model.slug("a" * 10_000)) == model.LONGEST
 
 
@@ -216,3 +226,19 @@ def test_printed_commands_are_one_line_that_a_shell_reads_back():
     assert "\n" not in command and not hostile.commands(command)
     told = subprocess.run(["bash", "-c", f"printf '%s\\0' {command}"], capture_output=True, check=True).stdout.decode()
     assert told.split("\0")[:-1] == words
+
+
+def test_typst_reads_a_text_and_no_markup(tmp_path):
+    payloads = [
+        '#eval("1") #read("/etc/passwd")',
+        "$ x^2 $ @label <label>",
+        "= h *b* _i_ `r` // c",
+        "#set page(width: 1pt)",
+    ]
+    texts = [*payloads, "a\x1b[2J\u202e\\"]
+    sections = tuple(Section(text, (Text(text), Code(text)), own_page=True) for text in texts)
+    table = Table((Column(texts[0]),), [(text,) for text in texts], texts[1], texts[2])
+    made = Document(texts[0], texts[1], Section("s", (Text(texts[3], strong=True), table)), sections)
+    document.write_pdf(made, tmp_path / "typst", tmp_path / "a.pdf", "no date")
+    told = typst.query(tmp_path / "typst" / document.REPORT, "heading", **document._settings(tmp_path / "typst"))
+    assert [heading["body"]["text"] for heading in json.loads(told)] == list(map(escaping.visible, texts))

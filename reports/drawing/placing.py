@@ -6,6 +6,7 @@ All lengths are points of 1/72 inch, and y grows upwards. The same input gives t
 from __future__ import annotations
 
 import itertools
+import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
@@ -16,6 +17,7 @@ from matplotlib.font_manager import FontProperties
 from matplotlib.textpath import TextToPath
 from numpy.typing import ArrayLike, NDArray
 
+from harness.escaping import one_line
 from reports.drawing import style
 
 _REACHES = (1.5, 4.0, 7.0, 11.0, 16.0, 22.0, 29.0, 38.0, 50.0, 64.0)  # between a mark and its label
@@ -57,7 +59,9 @@ def text_size(text: str, size: float, bold: bool = False) -> tuple[float, float]
 def _size(text: str, bold: bool) -> tuple[float, float]:
     """Return width and height of a line of text over the font's size."""
     font = FontProperties(family=style.FONT, size=100, weight="bold" if bold else "normal")
-    width, _, _ = TextToPath().get_text_width_height_descent(text, font, ismath=False)
+    with warnings.catch_warnings():  # a letter that the font lacks is as wide as what stands for it
+        warnings.filterwarnings("ignore", "Glyph .* missing from font")
+        width, _, _ = TextToPath().get_text_width_height_descent(one_line(text), font, ismath=False)
     return width / 100, 1.0
 
 

@@ -74,9 +74,9 @@ _MATH = {
 }
 _RAISED = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹ⁿᵏ", "-0123456789nk")
 _LOWERED = str.maketrans("₋₀₁₂₃₄₅₆₇₈₉ₙ", "-0123456789n")
-_TOKEN = re.compile("([⁻⁰¹²³⁴⁵⁶⁷⁸⁹ⁿᵏ]+)|([₋₀₁₂₃₄₅₆₇₈₉ₙ]+)|(e[−-]?[0-9]+$)|([-'`,?!]{2,})|(.)", re.DOTALL)
+_TOKEN = re.compile("([⁻⁰¹²³⁴⁵⁶⁷⁸⁹ⁿᵏ]+)|([₋₀₁₂₃₄₅₆₇₈₉ₙ]+)|(e[−-]?[0-9]+$)|([-'`,?!–—“”‘’]{2,})|(.)", re.DOTALL)
 _NUMBER = re.compile(r"[+−-]?[0-9][0-9,]*")
-_EXPONENT = re.compile(r"(?<=[0-9])e([−-]?)([0-9]+)$")
+_EXPONENT = re.compile(r"(?:^|(?<=[\s=(\[,]))([+−-]?[0-9][0-9.,]*)e([−-]?)([0-9]+)$")
 
 
 def escaped(text: str) -> str:
@@ -90,7 +90,7 @@ def escaped(text: str) -> str:
 def _scientific(text: str) -> str:
     """Write the exponent at the end of a number, 1.2e−7, by a power of ten, 1.2×10⁻⁷."""
     raised = str.maketrans("−-0123456789", "⁻⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
-    return _EXPONENT.sub(lambda found: "×10" + (found[1] + found[2]).translate(raised), text)
+    return _EXPONENT.sub(lambda found: f"{found[1]}×10" + (found[2] + found[3]).translate(raised), text)
 
 
 def _one(raised: str | None, lowered: str | None, plain: str | None, joined: str | None, character: str | None) -> str:
@@ -102,7 +102,7 @@ def _one(raised: str | None, lowered: str | None, plain: str | None, joined: str
     if plain:
         return plain.replace("−", "-")
     if joined:
-        return "{}".join(joined)
+        return "{}".join(_SPECIAL.get(sign, sign) for sign in joined)
     assert character is not None
     if character in _MATH:
         return f"${_MATH[character]}$"

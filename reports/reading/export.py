@@ -61,6 +61,13 @@ def write(frame: pd.DataFrame, csv: Path, parquet: Path, more: Sequence[Field] =
     pa_csv.write_csv(flat, csv, pa_csv.WriteOptions(quoting_style="needed"))
 
 
+def without_formulas(frame: pd.DataFrame) -> pd.DataFrame:
+    """Return a frame of whose texts, in CSV, a spreadsheet makes no formula."""
+    texts = frame.select_dtypes(include=["object", "string"])
+    told = {name: [cell(value) if isinstance(value, str) else value for value in texts[name]] for name in texts}
+    return frame.assign(**told)
+
+
 def _no_formulas(texts: pa.ChunkedArray) -> pa.Array:
     """Return a column of texts as CSV holds it. Each text is looked at once, since most repeat."""
     coded = texts.combine_chunks().dictionary_encode()

@@ -13,12 +13,12 @@ from pathlib import Path
 
 from harness import console, terminal
 from harness.contract import FirsthitError
-from harness.escaping import visible, whole
+from harness.escaping import visible
 from reports import report
 from reports.analysis import breaks, derive
 from reports.for_papers import files
 from reports.material import Material
-from reports.reading import load
+from reports.reading import export, load
 from reports.reading.arrays import Shelf
 from reports.rendering import document, html
 from reports.site import build
@@ -79,6 +79,9 @@ def _report(own: Path, dice: random.Random) -> list[str]:
         document.write_pdf(content, own / "typst", own / "report.pdf", loaded.plan.created, appendix=True)
     (own / "tables").mkdir()
     files.write_tables(material, files.TABLES, own / "tables")
+    export.without_formulas(rungs).to_csv(own / "tables" / "stability.csv", index=False)
+    if dice.random() < 0.1:
+        files.write_figures(material, ("svg", "pdf", "png"), own / "tables")
     return [html.page(content, material.method_marks, report._labels(loaded), "0;")]
 
 
@@ -105,7 +108,7 @@ def _trial(dice: random.Random, place: Place) -> str:
     read = list(map(hostile.Page, pages))
     for page in read:
         hostile.harmless_page(page)
-    title = visible(whole(json.loads((place.own / "run" / "plan.json").read_text())["title"]), "\n\t")
+    title = visible(json.loads((place.own / "run" / "plan.json").read_text())["title"], "\n\t")
     if not any(title in page.said() for page in read):
         raise Fell(f"no page says the title {title!r}")
     _tables(place.own)

@@ -113,7 +113,9 @@ def _csv(text: str) -> None:
 
 
 def _latex(text: str) -> None:
-    wanted = re.sub(r"(?<=[0-9])e(?=[−-]?[0-9]+$)", "×10", escaping.one_line(text))  # a number is set as such
+    wanted = escaping.one_line(text)
+    if re.fullmatch(r"(.*[\s=(\[,])?[+−-]?[0-9][0-9.,]*e[−-]?[0-9]+", wanted, re.DOTALL):  # a number is set as such
+        wanted = "×10".join(wanted.rsplit("e", 1))
     read = hostile.read_latex(latex.escaped(text))
     if hostile.typeset(read) != hostile.typeset(wanted):
         raise Fell(f"LaTeX prints {read[:200]!r} for {wanted[:200]!r}")

@@ -40,9 +40,9 @@ def folded(command: str) -> str:
 
     A shell reads it as it reads the command. A word that is longer than a line has a line of its own.
     """
-    if len(command) <= LINE:
+    words = [shlex.quote(word) for word in _words(command)]
+    if len(command) <= LINE or not words:
         return command
-    words = [shlex.quote(word) for word in shlex.split(command)]
     lines = [words[0]]
     for word in words[1:]:
         if len(lines[-1]) + len(word) + 3 > LINE:
@@ -52,9 +52,17 @@ def folded(command: str) -> str:
     return " \\\n".join(lines)
 
 
+def _words(command: str) -> list[str]:
+    """Return the words of a command; of one that no shell reads, what stands between its blanks."""
+    try:
+        return shlex.split(command)
+    except ValueError:
+        return command.split()
+
+
 def _folder(plan: Plan) -> str:
     """Return the folder of the run that the plan's command makes: below the folder after --runs, if it names one."""
-    words = shlex.split(plan.command.replace("--runs=", "--runs "))
+    words = _words(plan.command.replace("--runs=", "--runs "))
     runs = words[words.index("--runs") + 1] if "--runs" in words[:-1] else "runs"
     return str(PurePath(runs) / plan.name)
 
@@ -67,9 +75,7 @@ def _plugins(material: Material) -> str:
     plan = material.run.plan
     outside = {name: told["outside"] for name, told in plan.methods.items() if told.get("outside")}
     if not outside:
-        taken = "--plugins" in shlex.split(plan.command) and not any(
-            "outside" in told for told in plan.methods.values()
-        )
+        taken = "--plugins" in _words(plan.command) and not any("outside" in told for told in plan.methods.values())
         return "Methods that --plugins adds are no part of the commit." if taken else ""
     each = [f"{name} from {folder}{_files(material.frame, name)}" for name, folder in sorted(outside.items())]
     return (
