@@ -7,14 +7,15 @@ import importlib.metadata
 import importlib.util
 import os
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from harness import ROOT
 from harness.contract import CLAIMS, FirsthitError, Method, Variant
+from harness.hosting.host import Host
 from harness.limits import is_finite
-from harness.stated import NAME, guarded, line_of, problem_of, stated
+from harness.stated import NAME, guarded, line_of, problem_of, read_file, stated
 from surfaces.model import is_number
 from surfaces.words import suggestion
 
@@ -23,15 +24,21 @@ ENTRY_POINTS = "firsthit.methods"
 
 A_METHOD = "a method is a folder with a method.py and a kernel.glsl"
 
+AHEAD = 4  # processes of plugins that are started while an earlier one is waited for
+
 AS_PRINTED = "as printed"  # a setting of every method that has a knob whose default is ours
 
 
 @dataclass(frozen=True)
 class Plugin:
-    """Hold a method and the folder that its kernel is in."""
+    """Hold a method and the folder that its kernel is in.
+
+    broken: why it cannot be loaded; `method` then states a name and nothing else, and takes any knob. None: it can
+    """
 
     method: Method
     folder: Path
+    broken: str | None = None
 
     def variant(self, given: Mapping[str, float | int]) -> Variant:
         """Give every knob of the method a value: the `given` one, else its default.
@@ -42,6 +49,8 @@ class Plugin:
         if not isinstance(given, Mapping):
             raise FirsthitError(f'{self.method.name}: knobs are values by name, as in {{"N": 3}}, not {given!r}')
         defaults = {parameter.name: parameter.default for parameter in self.method.parameters}
+        if self.broken is not None:
+            defaults = dict(given)
         for name in given:
             if name not in defaults:
                 hint = suggestion(name, sorted(defaults))
@@ -71,6 +80,8 @@ class Plugin:
         """
         if name == AS_PRINTED and self.method.printed:
             return dataclasses.replace(self.variant(self.method.printed), label=f"{self.method.name} {AS_PRINTED}")
+        if self.broken is not None:
+            return dataclasses.replace(self.variant({}), label=name)
         if name not in self.method.settings:
             known = [*self.method.settings, *([AS_PRINTED] if self.method.printed else [])]
             raise FirsthitError(
@@ -94,12 +105,25 @@ class Catalog:
 
     notes: what the user should know of how the methods were found
     extra: the folder of --plugins
+    folders: those of the broken ones, where they have one
     """
 
     plugins: dict[str, Plugin] = field(default_factory=dict)
     broken: dict[str, str] = field(default_factory=dict)
     notes: list[str] = field(default_factory=list)
     extra: Path | None = None
+    folders: dict[str, Path] = field(default_factory=dict)
+
+    def with_stand_ins(self) -> Catalog:
+        """Return the catalog with a stand-in for each broken method, which plans take for it: its rows then fail.
+
+        A config that names a method which cannot be loaded thus runs everything else.
+        """
+        standing = {
+            name: Plugin(Method(name, "a method that cannot be loaded"), self.folders.get(name, Path(name)), why)
+            for name, why in self.broken.items()
+        }
+        return dataclasses.replace(self, plugins=self.plugins | standing)
 
     @property
     def warnings(self) -> list[str]:
@@ -145,20 +169,54 @@ def _shown(path: Path) -> str:
     return os.path.relpath(path) if path.resolve().is_relative_to(Path.cwd()) else str(path)
 
 
-def _load(folder: Path, name: str | None) -> Method:
-    """Return the METHOD that `folder`/method.py states.
+class _Loader:
+    """Load methods: firsthit's own in this process, and each other one in a process of its own (harness.hosting)."""
 
-    Raises FirsthitError, with the reason, if it states none, or one that is not called `name`, where that is given.
-    """
+    def __init__(self) -> None:
+        self._hosts: dict[Path, Host] = {}
+        self._loaded: dict[Path, Method | FirsthitError] = {}
+
+    def begin(self, folders: Iterable[Path]) -> None:
+        """Start the processes of folders that `load` will be asked for."""
+        for folder in folders:
+            if folder.parent != BUILT_IN and folder not in self._hosts and (folder / "method.py").is_file():
+                self._hosts[folder] = Host(str(folder / "method.py"))
+                self._hosts[folder].begin()
+
+    def load(self, folder: Path) -> Method:
+        """Return the METHOD that `folder`/method.py states. Raises FirsthitError, with the reason, without one."""
+        if folder not in self._loaded:
+            try:
+                self._loaded[folder] = self._load(folder)
+            except FirsthitError as error:
+                self._loaded[folder] = error
+        if isinstance(found := self._loaded[folder], FirsthitError):
+            raise found
+        return found
+
+    def _load(self, folder: Path) -> Method:
+        path = folder / "method.py"
+        if not path.exists():
+            raise FirsthitError(f"{folder} has a kernel.glsl but no method.py; {A_METHOD}")
+        if not (folder / "kernel.glsl").exists():
+            raise FirsthitError(f"{folder} has a method.py but no kernel.glsl; {A_METHOD}")
+        read_file(path)
+        _check_kernel(folder / "kernel.glsl")
+        if folder.parent == BUILT_IN:
+            method = stated(path)
+            if not isinstance(method, Method):
+                raise FirsthitError(f"{path} does not define METHOD = Method(...)")
+            _check(method, folder)
+            return guarded(method, path)
+        self.begin([folder])
+        method = self._hosts[folder].load(path)
+        _check(method, folder)
+        return method
+
+
+def _check(method: Method, folder: Path) -> None:
+    """Raise FirsthitError, with the line, if what a method states can mean nothing."""
     path = folder / "method.py"
-    if not path.exists():
-        raise FirsthitError(f"{folder} has a kernel.glsl but no method.py; {A_METHOD}")
-    if not (folder / "kernel.glsl").exists():
-        raise FirsthitError(f"{folder} has a method.py but no kernel.glsl; {A_METHOD}")
-    _check_kernel(folder / "kernel.glsl")
-    method = stated(path)
-    if not isinstance(method, Method):
-        raise FirsthitError(f"{path} does not define METHOD = Method(...)")
     if problem := problem_of(method):
         raise FirsthitError(f"{path}:{line_of(path, problem.split()[0].rstrip(':'))}: {problem}")
     for claim in sorted(method.claims - CLAIMS.keys()):
@@ -170,18 +228,19 @@ def _load(folder: Path, name: str | None) -> Method:
             Plugin(method, folder).variant(values)
         except FirsthitError as error:
             raise FirsthitError(f"{path}:{line_of(path, 'settings')}: setting {setting!r}: {error}") from None
-    if name not in (None, method.name):
-        line = line_of(path, "name")
-        raise FirsthitError(f"{path}:{line}: the method is named {method.name!r}, its folder {name!r}; they must agree")
-    return guarded(method, path)
+
+
+def _check_name(method: Method, folder: Path, name: str) -> None:
+    """Raise FirsthitError, with the line, if a method is not called `name`."""
+    if name != method.name:
+        path = folder / "method.py"
+        at = f"{path}:{line_of(path, 'name')}"
+        raise FirsthitError(f"{at}: the method is named {method.name!r}, its folder {name!r}; they must agree")
 
 
 def _check_kernel(path: Path) -> None:
     """Raise FirsthitError, with file and line, if a kernel is no readable text, or asks for another file."""
-    try:
-        read = path.read_bytes()
-    except OSError as error:
-        raise FirsthitError(f"{path}: {error.strerror or error}") from None
+    read = read_file(path)
     try:
         text = read.decode()
     except UnicodeDecodeError as error:
@@ -232,7 +291,7 @@ def _extra_folders(extra: Path) -> list[Path]:
     raise FirsthitError(f"--plugins {extra}: there is no method in it; {A_METHOD}; {hint}")
 
 
-def _entry_point_folders() -> tuple[list[tuple[str, Path]], dict[str, str]]:
+def _entry_point_folders(loader: _Loader) -> tuple[list[tuple[str, Path]], dict[str, str]]:
     """Return names and folders of the methods that installed packages state by entry points, and why others have none.
 
     An entry point names a package of any name, which is one method's folder or holds the folders of several. Reasons
@@ -242,12 +301,12 @@ def _entry_point_folders() -> tuple[list[tuple[str, Path]], dict[str, str]]:
     broken: dict[str, str] = {}
     for point in importlib.metadata.entry_points(group=ENTRY_POINTS):
         try:
-            spec = importlib.util.find_spec(point.module)
+            places = _places(point.module)
         except Exception as error:  # somebody's package, which may fail in any way
-            broken[point.name] = f"its entry point names {point.value}: {type(error).__name__}: {error}"
+            why = str(error) if isinstance(error, FirsthitError) else f"{type(error).__name__}: {error}"
+            broken[point.name] = f"its entry point names {point.value}: {why}"
             continue
-        places = [Path(place) for place in (spec.submodule_search_locations if spec else None) or ()]
-        own = [(_stated_name(place), place) for place in places if (place / "method.py").exists()]
+        own = [(_stated_name(place, loader), place) for place in places if (place / "method.py").exists()]
         own += [(folder.name, folder) for place in places for folder in _folders(place)]
         if not own:
             broken[point.name] = f"its entry point names {point.value}, which is no package that holds a method.py"
@@ -255,10 +314,25 @@ def _entry_point_folders() -> tuple[list[tuple[str, Path]], dict[str, str]]:
     return found, broken
 
 
-def _stated_name(folder: Path) -> str:
+def _places(module: str) -> list[Path]:
+    """Return the folders of a package; [] for what is none. Of one in another one, looking for it runs that one's code.
+
+    Raises FirsthitError where that code goes wrong.
+    """
+    if "." in module:
+        host = Host(f"the package {module}")
+        try:
+            return host.places(module)
+        finally:
+            host.close()
+    spec = importlib.util.find_spec(module)
+    return [Path(place) for place in (spec.submodule_search_locations if spec else None) or ()]
+
+
+def _stated_name(folder: Path, loader: _Loader) -> str:
     """Return the name that a method states, whatever its folder is called; the folder's where it cannot be loaded."""
     try:
-        return _load(folder, None).name
+        return loader.load(folder).name
     except FirsthitError:
         return folder.name
 
@@ -270,10 +344,12 @@ def find_methods(extra: Path | None = None) -> Catalog:
     `extra` takes the place of an installed method of its name, and a note says so. Raises FirsthitError where no
     method is in `extra`, where a method has the name of one of the project, and where two installed ones have one name.
     """
-    installed, broken = _entry_point_folders()
+    loader = _Loader()
+    given = [] if extra is None else _extra_folders(extra)
+    loader.begin(given[:AHEAD])  # they start while ours are loaded
+    installed, broken = _entry_point_folders(loader)
     catalog = Catalog(extra=extra, broken=broken)
     own = _folders(BUILT_IN)
-    given = [] if extra is None else _extra_folders(extra)
     found: dict[str, Path] = {}
     for name, folder in (*_named(own), *installed, *_named(given)):
         if name in found and found[name].resolve() == folder.resolve():
@@ -282,11 +358,16 @@ def find_methods(extra: Path | None = None) -> Catalog:
             _check_replaceable(folder, found[name], own, given)
             catalog.notes.append(f"method {name!r}: {folder} of --plugins is used, and not the installed {found[name]}")
         found[name] = folder
+    waiting = list(found.values())
     for name, folder in found.items():
+        loader.begin(waiting[:AHEAD])
+        del waiting[0]
         try:
-            catalog.plugins[name] = Plugin(_load(folder, name), folder)
+            method = loader.load(folder)
+            _check_name(method, folder, name)
+            catalog.plugins[name] = Plugin(method, folder)
         except FirsthitError as error:
-            catalog.broken[name] = str(error)
+            catalog.broken[name], catalog.folders[name] = str(error), folder
     return catalog
 
 

@@ -23,10 +23,12 @@ LAYERS = (  # from the ground up; what stands in one line does not import each o
     ("surfaces.catalog", "surfaces.families", "surfaces.forms", "surfaces.gallery"),
     ("surfaces",),  # the package itself
     ("surfaces.files",),
+    ("harness.stopping",),
     ("harness.escaping", "harness.limits", "harness.memory"),
     ("harness.schemas",),
     ("harness.contract", "harness.__init__"),
     ("harness.stated",),
+    ("harness.hosting",),
     ("harness.plugins", "harness.results"),
     ("harness.terminal",),
     ("harness.console", "harness.hardcases"),
@@ -38,10 +40,11 @@ LAYERS = (  # from the ground up; what stands in one line does not import each o
     ("harness.accuracy",),
     ("harness.experiment",),
     ("harness.conformance", "harness.running", "harness.shipping"),
-    ("harness.gate", "harness.recommend"),
+    ("harness.gate", "harness.recommend", "harness.verifying"),
     ("firsthit",),
     ("harness.commands",),
     ("harness.cli",),
+    ("harness.start",),
 )
 REPORTS = (
     ("reports.wording", "reports.published", "reports.place"),

@@ -238,7 +238,8 @@ def test_a_method_py_that_ends_the_program_costs_itself_only(tmp_path, ends):
 
 
 def test_ctrl_c_while_a_method_py_is_run_ends_the_command(tmp_path):
-    _plugin(tmp_path / "mine", text="import os, signal\nos.kill(os.getpid(), signal.SIGINT)\n")
+    text = "import os, signal, time\nos.kill(os.getppid(), signal.SIGINT)\ntime.sleep(60)\n"
+    _plugin(tmp_path / "mine", text=text)
     with pytest.raises(KeyboardInterrupt):
         find_methods(tmp_path)
 

@@ -14,7 +14,11 @@ from typing import Protocol
 
 QUIET = "write errors and final results only"
 VERBOSE = "write every cell and check, also those that were skipped or reused, and what compilers say"
-PLUGINS = "a folder of further methods, one folder each, or the folder of one; stands before or after the command"
+PLUGINS = (
+    "a folder of further methods, one folder each, or the folder of one; stands before or after the command. "
+    "Plugins, installed ones too, are programs that run as you, with your rights: what goes wrong in one costs its own "
+    "rows, but nothing keeps it from your files"
+)
 
 GROUPS: dict[str, dict[str, str]] = {
     "experiment": {
@@ -30,6 +34,7 @@ GROUPS: dict[str, dict[str, str]] = {
         "gate": "fail where a config's results are worse than its blessed baseline",
         "bless": "make a config's present results the baseline of its gate",
     },
+    "verify": {"verify": "check stored rows again by what they say, and a sample's truth by the oracle; runs nothing"},
     "history": {"history": "draw a config's gated figures over the commits whose runs are kept, with their steps"},
     "recommend": {
         "recommend": "the fastest variant whose certified error stays within a bound, and why the others fell",

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 
 from harness.conformance.cases import Bench, Finding, Rays, not_checked
-from harness.conformance.examine import EXAMINATIONS
+from harness.conformance.examine import EXAMINATIONS, Located
 from harness.contract import CellStatus, DeviceInfo, FirsthitError, Hits, Program, Surface
 from harness.devices.executor import CellError, LocalExecutor
 from harness.devices.interface import LANGUAGES
@@ -38,8 +38,10 @@ def findings(bench: Bench, plugin: Plugin, chosen: Sequence[Surface]) -> Iterato
     each further step would take as long.
     """
     for examination in EXAMINATIONS:
-        for where, found in examination(bench, plugin, chosen):
+        for where, found in _parts(examination(bench, plugin, chosen)):
             try:
+                if isinstance(found, FirsthitError):
+                    raise found
                 yield from ((where, finding) for finding in found)
             except (CellError, FirsthitError) as error:
                 rule = "the program is built and runs to its end"
@@ -48,3 +50,11 @@ def findings(bench: Bench, plugin: Plugin, chosen: Sequence[Surface]) -> Iterato
                 if ended is CellStatus.TIMEOUT:
                     yield "the rest", not_checked("all else", "a step before it hung")
                     return
+
+
+def _parts(located: Iterator[Located]) -> Iterator[tuple[str, Iterator[Finding] | FirsthitError]]:
+    """Yield the parts of an examination; last the error with which it ended, as the method's own functions may do."""
+    try:
+        yield from located
+    except FirsthitError as error:
+        yield "the method's functions", error

@@ -1,26 +1,22 @@
 """Run a worker's process: `python -m harness.devices.serving DEVICE HANDLE`, which only the executor starts.
 
-It is started as a module and not by multiprocessing, which would run the caller's script once more in each worker. A
-script without a main guard, or a notebook, would then start workers of its own, or fail.
+harness.hosting.process says why it is started as a module.
 """
 
 from __future__ import annotations
 
 import contextlib
-import ctypes
 import os
 import re
 import signal
 import subprocess
 import sys
 import threading
-from collections.abc import Iterator
-from multiprocessing import Pipe
 from multiprocessing.connection import Connection
-from pathlib import Path
 from typing import IO, Any
 
 from harness import escaping
+from harness.hosting import process
 
 COUNTED = re.compile(rb"(\d+ (warning|error)s?( and \d+ errors?)? generated\.)?")  # what clang says last
 LONGEST_LINE = 100_000  # bytes; a longer one is several
@@ -30,31 +26,12 @@ STREAMS: dict[str, Any] = {"stdin": subprocess.DEVNULL, "stdout": subprocess.PIP
 def start(device: str) -> tuple[subprocess.Popen[bytes], Connection]:
     """Start the worker that holds `device`; return its process, and our end of the connection to it.
 
-    The worker looks for modules where this process does (`sys.path`), so that it runs the same harness. It reads no
-    input. What drivers write, and kernels that print, is handed on to standard error, but for the lines that count the
-    errors of a compiler's log, which is told elsewhere. Raises FirsthitError if no process can be started.
+    It reads no input. What drivers write, and kernels that print, is handed on to standard error, but for the lines
+    that count the errors of a compiler's log, which is told elsewhere. Raises FirsthitError if none can be started.
     """
-    ours, theirs = Pipe()
-    handle = theirs.fileno()
-    options = ["-P", *(["-S"] if sys.flags.no_site else [])]  # -P: no module is taken from the current folder
-    command = [sys.executable, *options, "-m", "harness.devices.serving", device, str(handle)]
-    environment = os.environ | {"PYTHONPATH": os.pathsep.join(path for path in sys.path if isinstance(path, str))}
-    try:
-        if sys.platform == "win32":
-            os.set_handle_inheritable(handle, True)
-            process = subprocess.Popen(command, env=environment, **STREAMS, close_fds=False)
-        else:
-            with _not_interrupted():
-                process = subprocess.Popen(command, env=environment, **STREAMS, pass_fds=[handle])
-    except OSError as error:
-        from harness.contract import FirsthitError
-
-        ours.close()
-        raise FirsthitError(f"cannot start {sys.executable} as the worker of {device}: {error}", exit_code=3) from None
-    finally:
-        theirs.close()
-    threading.Thread(target=_hand_on, args=(process.stdout,), daemon=True).start()
-    return process, ours
+    worker, ours = process.start("harness.devices.serving", [device], f"the worker of {device}", STREAMS)
+    threading.Thread(target=_hand_on, args=(worker.stdout,), daemon=True).start()
+    return worker, ours
 
 
 def _hand_on(said: IO[bytes]) -> None:
@@ -67,26 +44,6 @@ def _hand_on(said: IO[bytes]) -> None:
             if not COUNTED.fullmatch(line.strip()):
                 with contextlib.suppress(OSError):
                     os.write(2, escaping.output(line))
-
-
-@contextlib.contextmanager
-def _not_interrupted() -> Iterator[None]:
-    """Keep Ctrl-C from a process that the block starts, even before `main` ignores it, and from nothing else."""
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
-
-
-def _die_with_parent() -> None:
-    """End this process when its parent ends, and before it where the system runs out of memory."""
-    if sys.platform == "linux":
-        pr_set_pdeathsig = 1
-        with contextlib.suppress(OSError):
-            ctypes.CDLL(None).prctl(pr_set_pdeathsig, signal.SIGKILL)
-        with contextlib.suppress(OSError):
-            Path("/proc/self/oom_score_adj").write_text("1000", encoding="ascii")
 
 
 def serve(connection: Connection, device: str) -> None:
@@ -122,7 +79,7 @@ def main(device: str, handle: str) -> None:
 
     Drivers may take long to unload, and some crash when they do; by then everything has been answered.
     """
-    _die_with_parent()
+    process.die_with_parent()
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the runner decides when to stop; so this comes before long imports
     if sys.platform == "win32":
         from multiprocessing.connection import PipeConnection

@@ -28,6 +28,7 @@ from harness.experiment.cells import Cell, FamilyCell
 from harness.experiment.config import Experiment, views_of
 from harness.experiment.kinds import Asked, Casting
 from harness.experiment.kinds.model import NOT_RASTERED, Rastering
+from harness.experiment.kinds.shared import Shared
 from harness.experiment.size import cells_of
 from harness.experiment.targets import choose_devices, devices_of
 from harness.hardcases import groups
@@ -43,6 +44,7 @@ class Planned:
     skip: why it cannot run
     is_timed: False: the cell is checked only
     lacks: it cannot run for something that its device lacks, and not for its method
+    failure: why it fails before it runs: a method of it cannot be loaded, or went wrong when it was asked; None: not
     """
 
     cell: Cell
@@ -54,6 +56,7 @@ class Planned:
     kind: kinds.Kind
     is_timed: bool = True
     lacks: bool = False
+    failure: str | None = None
 
     @property
     def checks(self) -> tuple[Program, ...]:
@@ -92,37 +95,60 @@ def _refusal(asked: Asked, kind: kinds.Kind) -> str | None:
     return asked.method_kind.origin_refusal(method, cell.origin) or kind.refusal(asked)
 
 
-def _planned(cell: Cell, info: DeviceInfo | None, catalog: Catalog, experiment: Experiment, timed: bool) -> Planned:
+def _unloaded(cell: Cell, catalog: Catalog) -> str | None:
+    """Say why a method of a cell cannot be loaded; None if all can."""
+    groups = cell.scene.groups if cell.scene else ()
+    variants = (cell.variant, *(group.variant for group in groups if group.variant))
+    why = ((variant.method, catalog.get(variant.method).broken) for variant in variants)
+    return next((f"method {name!r} cannot be loaded: {reason}" for name, reason in why if reason is not None), None)
+
+
+def _planned(
+    cell: Cell, info: DeviceInfo | None, catalog: Catalog, experiment: Experiment, timed: bool, shared: Shared
+) -> Planned:
     method = catalog.get(cell.variant.method).method
     kind = kinds.of_cell(cell, method)
-    asked = Asked(cell, info, catalog, kinds.of_method(method), experiment.config.budget.triangles)
-    skip, casting = _refusal(asked, kind), None
-    if skip is None:
+    asked = Asked(cell, info, catalog, kinds.of_method(method), experiment.config.budget.triangles, shared)
+    skip, casting, failure = _absent(cell, info), None, _unloaded(cell, catalog)
+    if skip is None and failure is None:
         try:
-            casting = kind.casting(asked)
+            skip = _refusal(asked, kind)
+            casting = None if skip else kind.casting(asked)
         except FirsthitError as error:
             if error.exit_code == 3:  # the method went wrong, which is no refusal
-                raise
-            skip = str(error)
+                failure = str(error)
+            else:
+                skip = str(error)
     lacks = skip is not None and skip == (_absent(cell, info) or kind.lacking(asked))
-    planned = Planned(cell, "", {}, info, casting, skip, kind, timed, lacks)
-    # Probing finds which clock is to be trusted, when a run starts and its plan is printed already: no part of the key
-    facts = None if info is None else dataclasses.asdict(dataclasses.replace(info, clock="wall"))
+    planned = Planned(cell, "", {}, info, casting, skip, kind, timed, lacks, None if skip else failure)
     others = casting.others if casting else ()
     programs = [program for program in (*planned.checks, planned.timed, *others) if program]
     names = casting.methods if casting else (cell.variant.method,)
+    timed = timed and kind.is_timed
+    texts = {s.origin: s.hash for program in programs for s in (*program.sections, *program.vertex)}
+    common = shared.once(
+        ("common", names, timed), lambda: identities.common((catalog.get(name).folder for name in names), timed)
+    )
     identity = {
-        **kind.question(cell, experiment.config, timed),
+        **{name: shared.facts(said) for name, said in kind.question(cell, experiment.config, planned.is_timed).items()},
         **(casting.decides if casting else {}),
-        "program": {s.origin: s.hash for program in programs for s in (*program.sections, *program.vertex)},
-        "program order": [program.hash for program in programs],
-        "parameters": dict(cell.variant.parameters),
+        "program": shared.facts(texts),
+        "program order": shared.facts([program.hash for program in programs]),
+        "parameters": shared.facts(dict(cell.variant.parameters)),
         "precision": cell.precision,
-        "device": facts,
+        "device": shared.once(("device", info), lambda: _facts(info)),
         "skip": skip,
-        **identities.common((catalog.get(name).folder for name in names), timed and kind.is_timed),
+        **common,
     }
     return dataclasses.replace(planned, key=digest(cell.slot, identity), identity=identity)
+
+
+def _facts(info: DeviceInfo | None) -> dict[str, Any] | None:
+    """Return what a device's part in an identity says of it.
+
+    Probing finds which clock is to be trusted, when a run starts and its plan is printed already: no part of the key.
+    """
+    return None if info is None else dataclasses.asdict(dataclasses.replace(info, clock="wall"))
 
 
 def plan(
@@ -137,11 +163,11 @@ def plan(
     `tell` hears of each cell before its programs are made, since a surface's tables may take seconds. Raises
     FirsthitError where none of the devices that the config names is among those `found`.
     """
-    cells, planned = grid(experiment, catalog, found), []
+    cells, planned, shared = grid(experiment, catalog, found), [], Shared()
     total = cells_of(experiment, catalog, found)
     for number, (cell, info) in enumerate(cells, 1):
         tell(f"preparing [{number}/{total}] {cell.variant.method}: {cell.comparison} on {cell.device}")
-        planned.append(_planned(cell, info, catalog, experiment, timed))
+        planned.append(_planned(cell, info, catalog, experiment, timed, shared))
     return planned
 
 

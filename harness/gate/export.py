@@ -156,7 +156,7 @@ def _batches(casting: Any, folder: Path, name: str) -> list[str]:
 
 def _cell(planned: Any, catalog: Any, folder: Path, name: str) -> dict[str, Any]:
     """Return what `harness.gate.revision.Former` holds of a cell, as far as this revision says it."""
-    casting, skip = getattr(planned, "casting", None), planned.skip
+    casting, skip = getattr(planned, "casting", None), planned.skip or getattr(planned, "failure", None)
     variant, batches = getattr(planned.cell, "variant", None), []
     try:
         batches = _batches(casting, folder, name)
@@ -185,6 +185,8 @@ def export(path: Path, plugins: str, folder: Path, devices: list[str], own: dict
     Cells are on `devices`, and those of the variants named in `own` on the devices there.
     """
     catalog = _catalog(Path(plugins) if plugins else None)
+    if hasattr(catalog, "with_stand_ins"):  # a method that cannot be loaded there is skipped there
+        catalog = catalog.with_stand_ins()
     experiment, left_out = load(path, catalog, folder)
     if experiment is None:
         return {"cells": {}, "left_out": left_out}

@@ -6,6 +6,7 @@ constants that generated sections define. The last section is a program's entry 
 
 from __future__ import annotations
 
+import io
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
@@ -29,6 +30,7 @@ from harness.contract import (
 )
 from harness.contract import Language as Language
 from harness.kernels.complaints import recursion
+from harness.stated import read_file
 from surfaces.words import suggestion
 
 KERNELS = Path(__file__).parent / "glsl"
@@ -48,12 +50,17 @@ def file_section(path: Path) -> Section:
 
     Its origin is the path below the project (`methods/newton/kernel.glsl`) or else below the working folder, where
     editors find it, or the last three parts of an outer path. A method's file is read anew each time, since it may be
-    edited while a notebook runs.
+    edited while a notebook runs. Raises FirsthitError, with exit code 3, where it cannot be read any more.
     """
     full = path.absolute()
     here = next((top for top in (ROOT, Path.cwd()) if full.is_relative_to(top)), None)
     origin = full.relative_to(here) if here else Path(*full.parts[-3:])
-    text = _read(path) if path.is_relative_to(KERNELS) else path.read_text(encoding="utf-8-sig")
+    if path.is_relative_to(KERNELS):
+        return Section(origin.as_posix(), _read(path))
+    try:
+        text = io.TextIOWrapper(io.BytesIO(read_file(path)), encoding="utf-8-sig").read()
+    except UnicodeDecodeError:
+        raise FirsthitError(f"{path}: it is not written in UTF-8; save it in this encoding", exit_code=3) from None
     return Section(origin.as_posix(), text)
 
 

@@ -17,9 +17,12 @@ from __future__ import annotations
 
 import ast
 import re
+from pathlib import Path
 from typing import Any
 
+from harness.contract import FirsthitError
 from harness.plugins import BUILT_IN, Plugin
+from harness.stated import read_file
 
 _PART = re.compile(r"^\*\*(.+?)\*\*", re.MULTILINE)
 _RULE = re.compile(r" *--+(?: +--+)+")
@@ -37,7 +40,7 @@ def card(plugin: Plugin) -> dict[str, Any]:
     outside: the folder of a method from outside the project, else None
     """
     method = plugin.method
-    text = ast.get_docstring(ast.parse((plugin.folder / "method.py").read_text(encoding="utf-8"))) or ""
+    text = _docstring(plugin.folder / "method.py")
     title, _, rest = text.partition("\n")
     summary, *pieces = _PART.split(rest)
     doc, tables = {}, []
@@ -59,6 +62,14 @@ def card(plugin: Plugin) -> dict[str, Any]:
         "claims": sorted(method.claims),
         "outside": None if plugin.folder.is_relative_to(BUILT_IN) else str(plugin.folder),
     }
+
+
+def _docstring(path: Path) -> str:
+    """Return the docstring of a method.py; "" where it has none, or cannot be read, as a method that is not loaded."""
+    try:
+        return ast.get_docstring(ast.parse(read_file(path))) or ""
+    except (FirsthitError, SyntaxError, ValueError, RecursionError, MemoryError):
+        return ""
 
 
 def _parted(body: str) -> tuple[str, list[dict[str, Any]]]:

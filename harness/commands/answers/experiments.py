@@ -60,7 +60,7 @@ class CellFacts:
     device: where it runs
     state: done, where a result is kept; skip, where it cannot run; else to run
     status: of the result that is kept: ok, skipped, failed, timeout or crashed; null without one
-    reason: why it is skipped or did not finish; null for others
+    reason: why it is skipped, did not finish or, where its method cannot be asked, will fail; null for others
     seconds: how long it will take, by what its slot took before, or else by the budget; 0 where it does not run
     """
 
@@ -115,7 +115,7 @@ def cell(planned: Planned, row: Row | None, seconds: float) -> CellFacts:
         device=own.device,
         state=state,
         status=row["status"] if row else None,
-        reason=(row["reason"] or None) if row else planned.skip,
+        reason=(row["reason"] or None) if row else planned.skip or planned.failure,
         seconds=seconds,
     )
 
