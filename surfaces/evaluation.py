@@ -24,7 +24,10 @@ class Floats(Arithmetic):
     """Run a tape in float64 arrays of one shape."""
 
     def const(self, value: Fraction) -> np.float64:
-        return np.float64(value.numerator / value.denominator)
+        try:
+            return np.float64(value.numerator / value.denominator)
+        except OverflowError:
+            return np.float64(np.inf if value > 0 else -np.inf)
 
     def pi(self) -> np.float64:
         return np.float64(np.pi)

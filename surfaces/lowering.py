@@ -37,7 +37,8 @@ def enclosures(tape: Tape) -> dict[int, Enclosure]:
         for index, ball in balls.items():
             op = tape.ops[index]
             if not abs(ball) < 2**1000:
-                raise ZeroDivisionError(f"a constant {op.name} is undefined or too large")
+                what = "a constant" if op.name == "const" else f"a constant's {op.name}"
+                raise ZeroDivisionError(f"{what} is undefined, or 2^1000 or larger")
             found[index] = (op.args[0], op.args[0]) if op.name == "const" else fractions_of(ball)
     return found
 

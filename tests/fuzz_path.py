@@ -31,7 +31,8 @@ from surfaces.model import FirsthitError, domain_text
 from surfaces.numbers import Balls
 from surfaces.proofs.extent import remark
 from surfaces.tape import JUMPS, walk
-from tests.fuzz_formulas import LIMIT, PARAMETERS, Maker, mutated
+from tests.fuzz_formulas import LIMIT, mutated
+from tests.made_formulas import PARAMETERS, Maker
 
 DOMAINS = (
     "sphere:1.5",

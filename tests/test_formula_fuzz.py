@@ -15,7 +15,8 @@ import pytest
 from surfaces import formula
 from surfaces.tape import Tape
 from tests import fuzz_path
-from tests.fuzz_formulas import Maker, fuzz, wrong
+from tests.fuzz_formulas import fuzz, wrong
+from tests.made_formulas import Maker
 
 FUZZ = int(os.environ.get("FIRSTHIT_FUZZ", "1"))  # times as many formulas
 ROOT = Path(__file__).parent.parent

@@ -17,7 +17,7 @@ from typing import Any
 from flint import arb, fmpq
 
 from harness.contract import Domain, TruthStatus
-from harness.oracle import reals
+from harness.oracle import reals, taylor
 from harness.oracle.bernstein import Undecidable
 from harness.oracle.clip import End, clip_exactly
 from harness.oracle.dual import Dual, dual_functions
@@ -29,14 +29,28 @@ from harness.oracle.pruning import is_prunable, pruned
 from harness.oracle.reals import float_above, float_below, precision, rational
 from harness.oracle.slow import MISS, UNDECIDED, FirstHit, certified_hit
 
-PRECISIONS = (80, 256)
+FIRST_PRECISION = 80  # bits
 OPEN = 2.0**-28  # the width, in domain radii, below which pieces that ranges leave open are decided exactly
-MOST_PIECES = 3000  # that are tried for one ray and precision
 MOST_OPERATIONS = 2_000_000  # that are spent on pieces, so that a long formula has fewer of them
 FEWEST_PIECES = 60
+SERIES_COST = 200  # operations that one on series counts as
+FEWEST_SERIES = 10  # pieces that are tried by series
 PRUNED = 0.9  # the share of a program's length above which pruning it was not worth it
 PAUSE = 6  # pieces after which it is tried again then
 NARROW = 2.0**-50  # the width of certified intervals, in domain radii
+
+
+@dataclass(frozen=True)
+class Way:
+    """Say how a search encloses f: in balls of so many bits, on so many pieces at most, by ranges or by series."""
+
+    bits: int
+    pieces: int
+    series: bool = False
+
+
+# ranges decide almost all rays on few pieces; where terms cancel, they do not, and series do
+WAYS = (Way(FIRST_PRECISION, 300), Way(taylor.BITS, 100, series=True), Way(256, 3000))
 
 
 @dataclass
@@ -59,14 +73,14 @@ class SmoothSolver:
             return MISS
         scale = self.domain.radius / hypot(*ray[3:])
         exact = PiecewiseSolver(self.exact, exact_ray, ends, t_min) if self.exact else None
-        for bits in PRECISIONS[:1] if exact else PRECISIONS:
+        for way in WAYS[-1:] if exact else WAYS:
+            bits = FIRST_PRECISION if exact else way.bits
             try:
                 with precision(bits):
                     if bits not in self.constants:
                         self.constants[bits] = self.program.constants.converted(reals.leaf, reals.FUNCTIONS)
-                    search = _Search(self.program, self.constants[bits], ray, scale, t_min)
-                    floor = scale * OPEN if exact else ldexp(scale, -bits // 2)
-                    return search.first_hit(ends, floor, exact)
+                    search = _Search(self.program, self.constants[bits], ray, scale, t_min, way)
+                    return search.first_hit(ends, scale * OPEN if exact else ldexp(scale, -bits // 2), exact)
             except Undecidable:
                 continue
         return UNDECIDED
@@ -76,15 +90,21 @@ class _Search:
     """Hold the search on one ray at one precision; `scale` is the domain's radius in units of t."""
 
     def __init__(
-        self, program: Program, constants: list[Any], ray: Sequence[float], scale: float, t_min: float
+        self, program: Program, constants: list[Any], ray: Sequence[float], scale: float, t_min: float, way: Way
     ) -> None:
         self.program = program
+        self.way = way
         self.constants = constants
         self.duals = [Dual(c, arb(0)) for c in constants]
         self.axes = [(arb(o), arb(d)) for o, d in zip(ray[:3], ray[3:], strict=True)]
         self.scale = scale
         self.t_min = t_min
         self.pause = 0  # pieces for which pruning is not tried again
+
+    def affordable(self) -> int:
+        """Return how many pieces may be tried."""
+        cost = len(self.program.instructions) * (SERIES_COST if self.way.series else 1)
+        return min(self.way.pieces, max(FEWEST_SERIES if self.way.series else FEWEST_PIECES, MOST_OPERATIONS // cost))
 
     def prunes(self, program: Program) -> bool:
         """Return whether pruning a program for the next piece is worth trying."""
@@ -102,8 +122,7 @@ class _Search:
         enter, leave = (end.ball() for end in ends)
         room = self.scale * 2.0**-20 + abs(float(leave)) * 2.0**-40
         stack = [(arb(float_below(enter) - room), arb(float_above(leave) + room), self.program)]
-        affordable = MOST_OPERATIONS // len(self.program.instructions)
-        for _ in range(min(MOST_PIECES, max(FEWEST_PIECES, affordable))):
+        for _ in range(self.affordable()):
             if not stack:
                 return MISS
             lower, upper, program = stack.pop()
@@ -148,6 +167,9 @@ class _Piece:
         self.lower = lower
         self.upper = upper
         self.whole = lower.union(upper)
+        if search.way.series:
+            self.f = taylor.enclosed(program, search.constants, search.axes, self.whole)
+            return
         inputs = [Dual(o + d * self.whole, d) for o, d in search.axes]
         if not search.prunes(program):
             self.f = program.run(inputs, search.duals, DUAL_FUNCTIONS)
@@ -164,6 +186,8 @@ class _Piece:
 
     def slope(self, t: Any) -> Any:
         """Enclose f's slope over a ball in the piece."""
+        if self.search.way.series:
+            return self.f.slope
         inputs = [Dual(o + d * t, d) for o, d in self.search.axes]
         return self.program.run(inputs, self.search.duals, DUAL_FUNCTIONS).slope
 

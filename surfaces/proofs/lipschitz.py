@@ -99,7 +99,8 @@ def _on_boxes(tape: Tape, domain: Domain) -> bool:
     while len(lower) and left > 0.0:
         left -= len(slopes.ops) * (PER_OPERATION + PER_BOX * len(lower))
         steep = np.maximum(*(np.abs(end) for end in outputs(slopes, lower, upper)))
-        steeper = ~((steep * steep).sum(axis=1) <= ONE) & ~outside(domain, lower, upper)
+        with np.errstate(over="ignore"):
+            steeper = ~((steep * steep).sum(axis=1) <= ONE) & ~outside(domain, lower, upper)
         lower, upper = halved(lower[steeper], upper[steeper], used)
     return not len(lower)
 
@@ -263,7 +264,7 @@ class _Bounds:
         least = max(v.low, -v.high)
         if not least > 0.0:
             return None
-        return _added(_stretched(first, 1.0 / least), _stretched(second, _size(u) / least**2))
+        return _added(_stretched(first, 1.0 / least), _stretched(second, _size(u) / least / least))
 
 
 def _size(known: Range) -> float:
@@ -334,7 +335,7 @@ def _added(a: Matrix, b: Matrix) -> Matrix:
     u, v = _largest(a), _largest(b)
     if not math.isfinite(u + v) or min(u, v) <= 0.0:
         return _total([_scaled(a, 2.0), _scaled(b, 2.0)])
-    ratios = (math.sqrt(v / u), v / u)
+    ratios = [s for s in (math.sqrt(v / u), v / u) if s > 0.0] or [1.0]  # a quotient may underflow
     return min((_total([_scaled(a, 1.0 + s), _scaled(b, 1.0 + 1.0 / s)]) for s in ratios), key=_largest)
 
 
