@@ -242,5 +242,5 @@ CAMPAIGN = Campaign(
     small=1,
     whole=500,
     prepare=prepare,
-    limit=300,
+    limit=1200,
 )

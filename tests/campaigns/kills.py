@@ -138,5 +138,5 @@ CAMPAIGN = Campaign(
     whole=1000,
     each=EACH,
     prepare=prepare,
-    limit=300,
+    limit=1200,
 )

@@ -152,7 +152,7 @@ class Command:
         """List the processes that the command has started."""
         return [pid for pid in self.processes() if pid != self.process.pid]
 
-    def ended(self, within: float = 90.0) -> tuple[int, str]:
+    def ended(self, within: float = 300.0) -> tuple[int, str]:
         """Wait for the end; return the exit code and standard error, then standard output.
 
         Raises Fell where the command hangs, shows a traceback or leaves a process behind.

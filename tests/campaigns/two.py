@@ -205,5 +205,5 @@ CAMPAIGN = Campaign(
     small=1,
     whole=300,
     prepare=prepare,
-    limit=300,
+    limit=1200,
 )
