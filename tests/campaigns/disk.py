@@ -243,4 +243,5 @@ CAMPAIGN = Campaign(
     whole=500,
     prepare=prepare,
     limit=1200,
+    first=2,  # it runs `oracle`, read-only
 )

@@ -139,4 +139,5 @@ CAMPAIGN = Campaign(
     each=EACH,
     prepare=prepare,
     limit=1200,
+    first=1,  # it kills `run`
 )

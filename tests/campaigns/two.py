@@ -206,4 +206,5 @@ CAMPAIGN = Campaign(
     whole=300,
     prepare=prepare,
     limit=1200,
+    first=1,  # it runs beside a lock that was left there
 )
