@@ -42,6 +42,7 @@ max_wrong_share = 1.0
 seconds = 0.001
 rounds = 8
 repetitions = 8
+timeout = 600
 """
 NOT_CHECKED = {  # what only the device, the clock or the compiler could tell again
     *("build", "seconds", "environment", "extent", "casts", "prepass", "origin", "proxy", "normal", "pixel_tolerance"),

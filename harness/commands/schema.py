@@ -9,7 +9,7 @@ from harness.commands import Add
 
 ANSWERS = (  # of the commands that have --json; harness.commands.answers.table has their fields
     *("list surfaces", "list methods", "list configs", "list devices"),
-    *("devices", "plan", "why", "gate", "history", "recommend"),
+    *("devices", "plan", "why", "gate", "history", "recommend", "verify"),
 )
 
 

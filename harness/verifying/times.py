@@ -29,12 +29,15 @@ def times(row: Mapping[str, Any]) -> Iterator[Wrong]:
     if not all(math.isfinite(one) and one > 0.0 for one in (*samples, *wall)):
         yield Wrong("time.samples_ms", "a sample that is no time", "finite and positive times")
         return
-    if "sittings" in time:
-        yield from differing("time.sittings", sum(time["sittings"]), len(samples))
+    sittings = time.get("sittings", [len(samples)])
+    if sum(sittings) != len(samples) or min(sittings) < 1:
+        yield Wrong("time.sittings", sittings, f"counts of {len(samples)} samples")
+        return
     by_device = time["clock"] == "device"
     if not by_device:
         yield from differing("time.samples_ms", samples, wall)
-    stored = Samples(time["clock"], list(wall), list(samples) if by_device else [], list(rounds))
+    sitting = [number for number, count in enumerate(sittings) for _ in range(count)]
+    stored = Samples(time["clock"], list(wall), list(samples) if by_device else [], list(rounds), sitting)
     seed, interval = budget["seed"], budget["interval"]
     again: Mapping[str, Any] = time_of(stored, time["batch"], time["session"], seed=seed, interval=interval)
     for name, found in again.items():

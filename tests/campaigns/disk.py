@@ -242,5 +242,6 @@ CAMPAIGN = Campaign(
     small=1,
     whole=500,
     prepare=prepare,
-    limit=300,
+    limit=1200,
+    first=2,  # it runs `oracle`, read-only
 )

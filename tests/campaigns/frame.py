@@ -60,6 +60,7 @@ class Campaign:
     block: trials after which what was found is kept
     prepare: fills the shared folder once
     limit: seconds of one trial, after which it counts as a hang
+    first: the number of the small part's first trial, where trials differ in how long they take
     """
 
     name: str
@@ -72,6 +73,7 @@ class Campaign:
     block: int = 1
     prepare: Callable[[Path], None] = lambda _: None
     limit: int = 120
+    first: int = 0
 
 
 @dataclass

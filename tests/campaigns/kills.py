@@ -138,5 +138,6 @@ CAMPAIGN = Campaign(
     whole=1000,
     each=EACH,
     prepare=prepare,
-    limit=300,
+    limit=1200,
+    first=1,  # it kills `run`
 )

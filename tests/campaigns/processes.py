@@ -32,7 +32,7 @@ VIEWS = """title = "Views"
 surfaces = ["sphere"]
 sizes = [8]
 devices = ["{device}"]
-stages = ["compute", "rays"]
+stages = ["compute"]
 prepass = ["none", "beams"]
 baseline = "newton"
 [[method]]
@@ -53,7 +53,7 @@ HARD = """title = "Hard rays"
 surfaces = ["sphere"]
 sizes = [8]
 devices = ["{device}"]
-stages = ["{stage}"]
+stages = {stages}
 families = ["tangent_plane"]
 studies = ["torus_along_rays"]
 baseline = "newton"
@@ -97,9 +97,9 @@ def device_here() -> str:
 def write_configs(folder: Path) -> None:
     """Write the configs of campaigns into a folder: whole.toml, which includes two others, and gated.toml."""
     device = device_here()
-    stage = "raster" if device.startswith("opengl") else "rays"
+    stages = '["rays", "raster"]' if device.startswith("opengl") else '["rays"]'
     for name, text in (("views", VIEWS), ("hard", HARD), ("gated", GATED), ("whole", WHOLE)):
-        (folder / f"{name}.toml").write_text(text.format(device=device, stage=stage))
+        (folder / f"{name}.toml").write_text(text.format(device=device, stages=stages))
 
 
 @dataclass
@@ -152,7 +152,7 @@ class Command:
         """List the processes that the command has started."""
         return [pid for pid in self.processes() if pid != self.process.pid]
 
-    def ended(self, within: float = 90.0) -> tuple[int, str]:
+    def ended(self, within: float = 300.0) -> tuple[int, str]:
         """Wait for the end; return the exit code and standard error, then standard output.
 
         Raises Fell where the command hangs, shows a traceback or leaves a process behind.
@@ -219,7 +219,9 @@ def check_whole(folder: Path) -> None:
 
 
 def _parse(path: Path) -> None:
-    if path.suffix in (".npz", ".npy"):
+    if path.suffix == ".npy":
+        np.load(path, allow_pickle=False)
+    elif path.suffix == ".npz":
         with np.load(path, allow_pickle=False) as stored:
             for name in stored.files:
                 stored[name]

@@ -205,5 +205,6 @@ CAMPAIGN = Campaign(
     small=1,
     whole=300,
     prepare=prepare,
-    limit=300,
+    limit=1200,
+    first=1,  # it runs beside a lock that was left there
 )
