@@ -27,7 +27,7 @@ def start(device: str) -> tuple[subprocess.Popen[bytes], Connection]:
     """Start the worker that holds `device`; return its process, and our end of the connection to it.
 
     It reads no input. What drivers write, and kernels that print, is handed on to standard error, but for the lines
-    that count the errors of a compiler's log, which is told elsewhere. Raises FirsthitError if no process can be started.
+    that count the errors of a compiler's log, which is told elsewhere. Raises FirsthitError if none can be started.
     """
     worker, ours = process.start("harness.devices.serving", [device], f"the worker of {device}", STREAMS)
     threading.Thread(target=_hand_on, args=(worker.stdout,), daemon=True).start()

@@ -56,7 +56,7 @@ def _not_interrupted() -> Iterator[None]:
 
 
 def die_with_parent() -> None:
-    """End this process when its parent ends, and before it where the system runs out of memory; only Linux can do so."""
+    """End this process when its parent ends, and before it where the system runs out of memory; Linux alone can."""
     if sys.platform == "linux":
         pr_set_pdeathsig = 1
         with contextlib.suppress(OSError):
