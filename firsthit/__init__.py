@@ -211,6 +211,7 @@ def run(
     devices: Sequence[str] = (),
     force: bool = False,
     retry_failed: bool = False,
+    wait: bool = False,
     yes: bool = False,
     plugins: AnyPath | None = None,
     tell: Callable[[str], None] | None = None,
@@ -219,11 +220,13 @@ def run(
 
     `config` is the path of a TOML file, or the name of a config that firsthit ships, as in "quick". `devices` take the
     place of those that it names. Finished cells are reused; `force` runs them again, `retry_failed` runs those again
-    that failed, timed out or crashed. A plan of more than 20,000 cells is run with `yes` only. `tell` is
-    called with a line of text for whatever ends; `print` will do.
+    that failed, timed out or crashed. A plan of more than 20,000 cells is run with `yes` only. `tell` is called with a
+    line of text for whatever ends; `print` will do. Where another run writes into the same folder, `wait` waits until
+    it has ended. A run that was stopped, as by interrupting a notebook, goes on from there when it is called again.
 
     A cell that fails is a row that says why. Raises FirsthitError for an argument that makes no sense, with file and
-    line for a mistake in the config, and with exit_code 3 where none of its devices is here or a row cannot be written.
+    line for a mistake in the config, and with exit_code 3 where none of its devices is here, the folder is another
+    run's or a row cannot be written.
     """
     import shlex
 
@@ -231,11 +234,13 @@ def run(
 
     checked_path("config", config)
     folder = checked_path("runs", runs)
-    loaded = running.load(config, _folder(plugins), checked_names("devices", devices), yes=yes)
+    named, watcher = checked_names("devices", devices), running.teller(tell)
+    given = running.read(config, _folder(plugins), named, watcher, yes)
     words = ["firsthit", *(["--plugins", str(plugins)] if plugins else []), "run", str(config), "--runs", str(runs)]
     words += ["--yes"] if yes else []
     command = shlex.join([*words, *(word for name in devices for word in ("--device", name))])
-    return running.run(loaded, folder, command, force=force, retry_failed=retry_failed, watcher=running.teller(tell))
+    again = {"force": force, "retry_failed": retry_failed, "wait": wait}
+    return running.run(given, folder, command, watcher=watcher, **again)
 
 
 def load(folder: AnyPath) -> pd.DataFrame:
@@ -270,6 +275,7 @@ def recommend(
     require: Sequence[str] = (),
     yes: bool = False,
     runs: AnyPath = "runs",
+    wait: bool = False,
     plugins: AnyPath | None = None,
     tell: Callable[[str], None] | None = None,
 ) -> Recommendation:
@@ -278,8 +284,9 @@ def recommend(
     The bound is on a quantile of the errors ("max", "p999" or "p99") on `rays`² rays of each of `views` views, chosen
     by `seed`, and of half as many views held out, two at least. Pictures of `size`² pixels are timed for `seconds` a
     variant and view; under `fps` frames a second a variant falls. Without a precision float64 is tried where no float32
-    holds. Only methods that make all claims of `require`, names of CLAIMS, are tried. Rows are kept below `runs`;
-    `tell` is called with a line of text for each step and whatever ends. More than 20,000 checks need `yes`.
+    holds. Only methods that make all claims of `require`, names of CLAIMS, are tried. Rows are kept below `runs`, where
+    `wait` waits for another search of the same surface to end; `tell` is called with a line of text for each step and
+    whatever ends. More than 20,000 checks need `yes`.
 
     `contenders` of the answer is empty where nothing holds, and `fallen` says why. Raises FirsthitError for names and
     numbers that make no sense, and with exit_code 3 where the device is not here or a row cannot be written.
@@ -301,8 +308,9 @@ def recommend(
         seconds=seconds,
         require=tuple(checked_names("require", require)),
     )
-    folder, hears = checked_path("runs", runs), teller(tell)
-    return search.recommend(wish, find_methods(_folder(plugins)), device, folder, hears, yes=yes)
+    catalog, folder = find_methods(_folder(plugins)), checked_path("runs", runs)
+    stated = wish, catalog, device, folder, teller(tell)
+    return search.recommend(*stated, command="firsthit.recommend", wait=wait, yes=yes)
 
 
 def _surface(given: AnySurface) -> Surface:

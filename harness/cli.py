@@ -15,25 +15,28 @@ from typing import TYPE_CHECKING, NoReturn, TypeGuard
 
 from harness import __version__
 from harness.commands import GROUPS, PLUGINS, adder
+from harness.stopping import code_of, stoppable
 
 if TYPE_CHECKING:
     from _typeshed import SupportsWrite
 
 USAGE = 2
 FAILED = 3
-INTERRUPTED = 130  # 128 + SIGINT, as a shell says it
 CLOSED_PIPE = 141  # 128 + SIGPIPE
 EXIT_CODES = """exit codes:
   0    done
   1    a check, a gate or a bound does not hold
   2    the command or a config is wrong
   3    something failed while running, or could not be compared
+  129  stopped since its terminal was closed (SIGHUP)
   130  stopped by Ctrl-C
   141  who reads the output went away before its end
+  143  stopped by SIGTERM, as `kill` and `timeout` send it
 """
 FULL = (errno.ENOSPC, errno.EDQUOT)  # of a disk or a quota: no mistake of ours
 SIGNED = ("--formula", "--distance", "--view", "--surface")  # options whose values may begin with a minus sign
 RUN_CELLS = ("run", "gate", "bless", "recommend")  # commands that store a row as soon as its cell ends
+TIMED = ("run", "recommend")  # those of them whose cells are timed
 
 
 class UsageError(SystemExit):
@@ -91,7 +94,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     from harness.terminal import guarded
 
     options = argparse.Namespace(command=None, force=False, json=False, quiet=False, verbose=False)
-    with guarded():
+    with guarded(), stoppable():
         return _guarded(sys.argv[1:] if arguments is None else arguments, options)
 
 
@@ -102,8 +105,8 @@ def _guarded(arguments: Sequence[str], options: argparse.Namespace) -> int:
             return _ended(arguments, options)
         finally:
             _flush()  # a pipe that was closed is told here; told at the interpreter's end, it would be lost
-    except KeyboardInterrupt:
-        return INTERRUPTED
+    except KeyboardInterrupt as error:
+        return code_of(error)
     except BrokenPipeError:
         _write_nowhere()
         return CLOSED_PIPE
@@ -123,9 +126,12 @@ def _ended(arguments: Sequence[str], options: argparse.Namespace) -> int:
         return _run(arguments, options)
     except UsageError as error:
         usage, code, told = error, USAGE, error.message
-    except KeyboardInterrupt:
-        code, told = INTERRUPTED, _stopped(options)
-        _told(f"firsthit: {told}")
+    except KeyboardInterrupt as error:
+        code, told = code_of(error), _stopped(options)
+        try:
+            _told(f"firsthit: {told}")
+        except OSError:  # a terminal that was closed, which is what SIGHUP tells
+            _write_nowhere()
     except Exception as error:
         if isinstance(error, BrokenPipeError) or (_is_full(error) and error.filename is None):
             raise
@@ -210,8 +216,11 @@ def _stopped(options: argparse.Namespace) -> str:
     """Say what is left of a command that was stopped: cells that ended have rows, whatever else was going on."""
     if options.command not in RUN_CELLS:
         return "stopped"
-    same = "the command without --force" if options.force else "the same command"
-    return f"stopped; finished cells are kept, and {same} goes on from there"
+    retried = getattr(options, "retry", None)
+    less = "--force" if options.force else "--retry" if retried else ""
+    same = f"the command without {less}" if less else "the same command"
+    steps = ", and so are checks and rounds of those that were begun" if options.command in TIMED else ""
+    return f"stopped; finished cells are kept{steps}; {same} goes on from there"
 
 
 def _flush() -> None:

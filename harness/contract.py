@@ -12,6 +12,7 @@ import json
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import IntEnum, StrEnum
+from functools import cached_property
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from harness.limits import AZIMUTH, DISTANCE, ELEVATION, FIELD_OF_VIEW, POSITION, Name, hold
@@ -234,7 +235,7 @@ class Section:
     origin: str
     text: str
 
-    @property
+    @cached_property
     def hash(self) -> str:
         """Return a hash of the text; the origin is no part of it."""
         return digest(self.text)
@@ -267,7 +268,7 @@ class Program:
         """Return the text that the compiler is given, without that of the vertices."""
         return source(self.sections)
 
-    @property
+    @cached_property
     def hash(self) -> str:
         """Return a hash of language, precision, entry and all texts, those of the vertices included."""
         texts = [*(s.text for s in self.sections), *(["vertex"] if self.vertex else []), *(s.text for s in self.vertex)]

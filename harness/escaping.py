@@ -42,7 +42,7 @@ from surfaces.visible import visible as visible
 _HALVES = re.compile("[\ud800-\udfff]")
 _COMMAND = re.compile(r"^(\s*):(?=:)|#(?=#\w*\[)", re.MULTILINE)
 _SIGNS = re.compile(r"[\\`*\[\]<&|~$#]|(?<![^\W_])_|_(?![^\W_])|(?<=\w):(?=//)|(?<=www)\.", re.IGNORECASE)
-_QUOTED = "\\'"
+_QUOTED = "\\'#"
 _ENTITIES = {"&": "&amp;", "<": "&lt;"}
 _FORMULA = re.compile(r"'*[=+\-@＝＋－＠]")  # wide ones too, which spreadsheets of East Asia take
 
@@ -73,13 +73,16 @@ def output(line: bytes) -> bytes:
 
 def message(text: str) -> str:
     """Escape a text for the message of a workflow command of GitHub; its lines stay."""
-    shown = visible(text.replace("\r\n", "\n"), "\n")
-    return shown.replace("%", "%25").replace("\n", "%0A")
+    return _percented(visible(text.replace("\r\n", "\n"), "\n"))
 
 
 def property_(text: str) -> str:
     """Escape a text for a property of a workflow command of GitHub."""
-    return message(visible(text)).replace(":", "%3A").replace(",", "%2C")
+    return _percented(visible(text)).replace(":", "%3A").replace(",", "%2C")
+
+
+def _percented(text: str) -> str:
+    return text.replace("%", "%25").replace("\n", "%0A")
 
 
 def xml(text: str) -> str:
@@ -126,7 +129,8 @@ def code(text: str) -> str:
     """Return a text as code within a line of Markdown, whatever backticks it has; outside of tables."""
     shown = one_line(text)
     ticks = "`" * (1 + max((len(run) for run in re.findall("`+", shown)), default=0))
-    space = " " if "`" in shown or shown != shown.strip() or not shown else ""
+    padded = "`" in shown or shown != shown.strip(" ")  # a blank on either side is not read
+    space = " " if (padded and shown.strip(" ")) or not shown else ""
     return f"{ticks}{space}{shown}{space}{ticks}"
 
 
@@ -147,9 +151,9 @@ def every(value: Any) -> Any:
 
 
 def whole(value: Any) -> Any:
-    """Return a value as JSON has it whose texts can be written as UTF-8: halves of characters are shown."""
+    """Return a value as JSON has it whose texts can be written as UTF-8: a half of a character becomes U+FFFD."""
     if isinstance(value, str):
-        return _HALVES.sub(lambda found: shown(found[0]), value)
+        return _HALVES.sub("\ufffd", value)
     if isinstance(value, dict):
         return {whole(key): whole(item) for key, item in value.items()}
     return [whole(item) for item in value] if isinstance(value, list) else value
@@ -173,13 +177,13 @@ def _is_number(text: str) -> bool:
 def shell(words: Iterable[str]) -> str:
     r"""Return a command of these words, on one line, that a POSIX shell reads as these words.
 
-    A word with signs that cannot be seen is written as bash, zsh and ksh read it, `$'\x1b'`.
+    A word with signs that cannot be seen, or with ## as in ##[error], is written as `$'\033'`, for bash, zsh and ksh.
     """
     return " ".join(map(_word, words))
 
 
 def _word(word: str) -> str:
-    if visible(word.replace("\\", "")) == word.replace("\\", ""):
+    if visible(word.replace("\\", "")) == word.replace("\\", "") and "##" not in word:
         return shlex.quote(word)
     return f"$'{''.join(one if visible(one) == one and one not in _QUOTED else _octal(one) for one in word)}'"
 

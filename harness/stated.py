@@ -24,6 +24,7 @@ from typing import Any
 from harness import ROOT
 from harness.contract import GENERATED, PRECISIONS, Casts, FirsthitError, MeshRecipe, Method, Parameter
 from harness.limits import Distinct, is_finite
+from harness.stopping import is_asked
 from surfaces.model import is_number
 from surfaces.words import name_problem, suggestion, title_problem
 
@@ -62,7 +63,7 @@ def stated(path: Path) -> object:
         try:
             spec.loader.exec_module(module)
         except BaseException as error:
-            if isinstance(error, KeyboardInterrupt) and pressed:
+            if isinstance(error, KeyboardInterrupt) and (pressed or is_asked()):
                 raise
             raise FirsthitError(f"{told(path, full, error)}{_ending(error)}") from error
         finally:
@@ -173,7 +174,7 @@ def answered(function: Callable[..., Any], name: str, path: Path, full: Path, gi
         except FirsthitError:
             raise
         except BaseException as error:  # a plugin may fail in any way
-            if isinstance(error, KeyboardInterrupt) and pressed:
+            if isinstance(error, KeyboardInterrupt) and (pressed or is_asked()):
                 raise
             raise FirsthitError(f"{told(path, full, error)}, in {name}=...{_ending(error)}", exit_code=3) from error
     if wrong:

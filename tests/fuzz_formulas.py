@@ -63,6 +63,22 @@ def _sign(a: Any) -> Any:
     return mpmath.sign(a)
 
 
+def _over(function: Any) -> Any:
+    """Return one over a function, NaN where that is 0."""
+    return lambda a: 1 / function(a) if abs(a) < 50 and function(a) else mpmath.nan
+
+
+def _hermite(low: Any, high: Any, a: Any) -> Any:
+    if low == high:
+        return mpmath.nan
+    t = min(max((a - low) / (high - low), 0), 1)
+    return t * t * (3 - 2 * t)
+
+
+def _power(a: Any, b: Any) -> Any:
+    return a**b if a > 0 and abs(b * mpmath.log(a)) < 50 else mpmath.nan
+
+
 FUNCTIONS: dict[str, tuple[int, Any]] = {
     "sqrt": (1, lambda a: mpmath.sqrt(a) if a >= 0 else mpmath.nan),
     "exp": (1, lambda a: mpmath.exp(a) if abs(a) < 50 else mpmath.nan),
@@ -98,6 +114,40 @@ FUNCTIONS: dict[str, tuple[int, Any]] = {
     "clamp": (3, lambda a, low, high: min(max(a, low), high)),
     "mix": (3, lambda a, b, t: a + (b - a) * t),
     "step": (2, lambda edge, a: mpmath.mpf(int(a >= edge))),
+    "tan": (1, lambda a: mpmath.tan(a) if abs(mpmath.cos(a)) > 1e-6 else mpmath.nan),
+    "sec": (1, _over(mpmath.cos)),
+    "csc": (1, _over(mpmath.sin)),
+    "cot": (1, lambda a: mpmath.cos(a) / mpmath.sin(a) if mpmath.sin(a) else mpmath.nan),
+    "sech": (1, _over(mpmath.cosh)),
+    "csch": (1, _over(mpmath.sinh)),
+    "coth": (1, _over(mpmath.tanh)),
+    "acosh": (1, lambda a: mpmath.acosh(a) if a > 1 else mpmath.nan),
+    "atanh": (1, lambda a: mpmath.atanh(a) if abs(a) < 1 else mpmath.nan),
+    "arcsin": (1, lambda a: mpmath.asin(a) if abs(a) < 1 else mpmath.nan),
+    "arctan": (1, mpmath.atan),
+    "log2": (1, lambda a: mpmath.log(a, 2) if a > 0 else mpmath.nan),
+    "exp2": (1, lambda a: mpmath.mpf(2) ** a if abs(a) < 50 else mpmath.nan),
+    "radians": (1, mpmath.radians),
+    "degrees": (1, mpmath.degrees),
+    "saturate": (1, lambda a: min(max(a, 0), mpmath.mpf(1))),
+    "sgn": (1, _sign),
+    "fabs": (1, abs),
+    "frac": (1, lambda a: a - mpmath.floor(a)),
+    "sqr": (1, lambda a: a * a),
+    "pow": (2, _power),
+    "fmod": (2, lambda a, b: a - b * (mpmath.floor(a / b) if a / b >= 0 else mpmath.ceil(a / b)) if b else mpmath.nan),
+    "fmin": (2, min),
+    "fmax": (2, max),
+    "norm": (3, lambda a, b, c: mpmath.sqrt(a * a + b * b + c * c)),
+    "lerp": (3, lambda a, b, t: a + (b - a) * t),
+    "smoothstep": (3, _hermite),
+    "dot": (4, lambda a, b, p, q: a * p + b * q),
+}
+CONSTANTS = {
+    "pi": lambda: +mpmath.pi,
+    "π": lambda: +mpmath.pi,
+    "phi": lambda: +mpmath.phi,
+    "sqrt3": lambda: mpmath.sqrt(3),
 }
 COMPARISONS: dict[str, Any] = {
     "<": lambda a, b: a < b, "<=": lambda a, b: a <= b, "≤": lambda a, b: a <= b, ">": lambda a, b: a > b,
@@ -109,11 +159,12 @@ EXPONENTS = [("^2", 2), ("²", 2), ("**3", 3), ("⁴", 4), ("^-1", -1), ("⁻²"
 
 
 class Maker:
-    """Make random formulas. `names` are those that the formula has defined, with their values."""
+    """Make random formulas. `names` and `functions` are those that the formula has defined, with what they mean."""
 
     def __init__(self, pick: random.Random) -> None:
         self.pick = pick
         self.names: dict[str, Any] = {}
+        self.functions: dict[str, tuple[int, Any]] = {}
 
     def space(self) -> str:
         return self.pick.choice(SPACES)
@@ -121,7 +172,10 @@ class Maker:
     def leaf(self) -> Made:
         """Make a number or a name."""
         pick = self.pick
-        match pick.randrange(4):
+        match pick.randrange(5):
+            case 4 if pick.random() < 0.4:
+                text = pick.choice(list(CONSTANTS))
+                return Made(text, 60, CONSTANTS[text]())
             case 0:
                 text = pick.choice(["1", "2", "3", "0.5", ".25", "4.", "1e-2", "12.5", "0"])
                 return Made(text, 60, mpmath.mpf(text))
@@ -191,11 +245,13 @@ class Maker:
         return Made(f"({a.text}){text}", 40, value ** mpmath.mpf(n) if abs(value) < 1e6 else mpmath.nan)
 
     def call(self, depth: int) -> Made:
-        name = self.pick.choice(list(FUNCTIONS))
-        count, function = FUNCTIONS[name]
+        known = {**FUNCTIONS, **self.functions}
+        own = bool(self.functions) and self.pick.random() < 0.5
+        name = self.pick.choice(list(self.functions if own else known))
+        count, function = known[name]
         values = [self.made(depth if i == 0 else max(depth - 2, 0)) for i in range(count)]
-        known = not any(mpmath.isnan(v.value) or abs(v.value) > 1e9 for v in values)
-        value = function(*(v.value for v in values)) if known else mpmath.nan
+        finite = not any(mpmath.isnan(v.value) or abs(v.value) > 1e9 for v in values)
+        value = function(*(v.value for v in values)) if finite else mpmath.nan
         return Made(f"{name}({(self.space() + ',' + self.space()).join(v.text for v in values)})", 60, value)
 
     def sign(self, depth: int) -> Made:
@@ -224,14 +280,31 @@ class Maker:
             holds = holds if all_ else True
         unknown = mpmath.isnan(a.value) or mpmath.isnan(b.value)
         value = mpmath.nan if unknown else p.value if holds else q.value
+        if self.pick.random() < 0.1:
+            return Made(f"({text})", 60, mpmath.nan if unknown else mpmath.mpf(int(holds)))
         if self.pick.random() < 0.5:
             return Made(f"if({text}, {p.text}, {q.text})", 60, value)
         return Made(f"({text} ? {p.text} : {q.text})", 60, value)
 
+    def function(self) -> str:
+        """Define a function of one or two values, and return the text of that."""
+        a, b, name = self.made(1), self.made(1), self.pick.choice(["g", "blend", "q2"])
+        match self.pick.randrange(3):
+            case 0:
+                text, self.functions[name] = "u^2*{} - {}", (1, lambda u: u * u * a.value - b.value)
+            case 1:
+                text, self.functions[name] = "u*{} + v*{}", (2, lambda u, v: u * a.value + v * b.value)
+            case _:
+                text, self.functions[name] = "max(u, v*{}, {})", (2, lambda u, v: max(u, v * a.value, b.value))
+        given = "u" if self.functions[name][0] == 1 else "u, v"
+        return f"{self.pick.choice(['let ', ''])}{name}({given}) = {text.format(a.inside(59), b.inside(59))};\n"
+
     def formula(self) -> Made:
         """Make a whole formula, with definitions before it, comments and an equation."""
         pick, text = self.pick, ""
-        self.names = {}
+        self.names, self.functions = {}, {}
+        if pick.random() < 0.3:
+            text = self.function()
         for name in pick.sample(["d", "r1", "part", "q"], pick.choice([0, 0, 0, 1, 2])):
             value = self.made(pick.randrange(3))
             text += (

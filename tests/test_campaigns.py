@@ -40,9 +40,29 @@ def test_trials_are_made_by_the_seed_and_counted(tmp_path: Path) -> None:
 
 def test_a_campaign_goes_on_where_it_was_stopped(tmp_path: Path) -> None:
     first = frame.run(frame.campaign_named("formulas"), 3, 1, tmp_path, 1, lambda _: None)
-    kept = tmp_path / "seed-3.jsonl"
+    kept = frame.kept_in(tmp_path, 3)
     kept.write_text(kept.read_text() + '{"first": 1, "ca')
     assert frame.run(frame.campaign_named("formulas"), 3, 1, tmp_path, 1, lambda _: None).counts == first.counts
+
+
+def test_results_of_other_code_are_not_counted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    campaign = frame.campaign_named("formulas")
+    frame.run(campaign, 3, 1, tmp_path, 1, lambda _: None)
+    assert frame.read_kept(frame.kept_in(tmp_path, 3))[0].cases == campaign.each
+    monkeypatch.setattr(frame, "code", lambda: "other")
+    assert frame.read_kept(frame.kept_in(tmp_path, 3))[0].cases == 0
+
+
+def test_what_a_trial_started_is_ended_however_it_ends(tmp_path: Path) -> None:
+    ended: list[int] = []
+
+    def trial(dice: random.Random, place: Place) -> str:
+        del dice, place
+        frame.ENDINGS.append(lambda: ended.append(1))
+        raise Fell("it fell")
+
+    frame.trials(Campaign("ends", "begins something", "nothing", trial, 1, 1), 1, range(2), tmp_path)
+    assert ended == [1, 1] and not frame.ENDINGS
 
 
 def test_the_table_has_one_row_for_each_campaign(tmp_path: Path) -> None:

@@ -12,7 +12,8 @@ from harness.devices.raster import Batch
 from harness.devices.trial_launch import trial_launch
 from harness.experiment.cells import Cell
 from harness.experiment.kinds.casts import WAYS
-from harness.experiment.kinds.model import Asked, Drawing
+from harness.experiment.kinds.drawing import Drawing
+from harness.experiment.kinds.model import Asked
 from harness.experiment.kinds.programs import Programs
 from harness.experiment.kinds.shots import ShotKind
 from harness.kernels import prepass

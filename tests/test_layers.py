@@ -23,6 +23,7 @@ LAYERS = (  # from the ground up; what stands in one line does not import each o
     ("surfaces.catalog", "surfaces.families", "surfaces.forms", "surfaces.gallery"),
     ("surfaces",),  # the package itself
     ("surfaces.files",),
+    ("harness.stopping",),
     ("harness.escaping", "harness.limits", "harness.memory"),
     ("harness.schemas",),
     ("harness.contract", "harness.__init__"),
@@ -39,10 +40,11 @@ LAYERS = (  # from the ground up; what stands in one line does not import each o
     ("harness.accuracy",),
     ("harness.experiment",),
     ("harness.conformance", "harness.running", "harness.shipping"),
-    ("harness.gate", "harness.recommend"),
+    ("harness.gate", "harness.recommend", "harness.verifying"),
     ("firsthit",),
     ("harness.commands",),
     ("harness.cli",),
+    ("harness.start",),
 )
 REPORTS = (
     ("reports.wording", "reports.published", "reports.place"),

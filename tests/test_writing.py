@@ -27,13 +27,8 @@ RAYS = np.array([[0, 0, 5, 0, 0, -1]], np.float32)
 # what may write without the writer of harness.results, and why that is right
 EXEMPT = {
     "harness/commands/pictures.py": {"save"},  # into memory
-    "harness/devices/opencl.py": {
-        "TemporaryDirectory",
-        "write_text",
-        "copy",
-    },  # a list of drivers, gone when it is read
+    "harness/devices/opencl.py": {"write_text", "copy"},  # a list of drivers, gone when it is read
     "harness/gate/export.py": {"write_text", "savez"},  # into the folder of revision.py
-    "harness/gate/revision.py": {"TemporaryDirectory"},  # another revision's files, gone when they are read
     "harness/gate/servers.py": {"open"},  # appends to the summary of a step, which is GitHub's file
     "harness/oracle/cache.py": {"open", "savez"},  # into the writer's temporary file
     "harness/results/writing.py": {"mkstemp", "TemporaryDirectory", "open", "write_bytes", "savez_compressed"},
@@ -44,11 +39,11 @@ EXEMPT = {
     "reports/history/draw.py": {"write_text"},  # into the writer's temporary folder, as those below
     "reports/history/multiples.py": {"savefig"},
     "reports/reading/export.py": {"write_table", "write_csv"},
-    "reports/rendering/document.py": {"TemporaryDirectory", "copy", "write_text", "write_bytes"},
+    "reports/rendering/document.py": {"copy", "write_text", "write_bytes"},
     "reports/rendering/html.py": {"write_text"},
     "reports/rendering/pictures.py": {"save"},  # into memory
     "reports/report.py": {"to_csv", "write_text"},
-    "reports/site/build.py": {"TemporaryDirectory", "copyfile", "write_text"},  # into a folder that it then renames
+    "reports/site/build.py": {"copyfile", "write_text"},  # into a folder that it then renames
     "reports/site/pictures.py": {"save"},  # into that folder
 }
 WRITES = {"write_text", "write_bytes", "mkstemp", "mkdtemp", "TemporaryDirectory", "NamedTemporaryFile", "savefig"}

@@ -34,6 +34,7 @@ GROUPS: dict[str, dict[str, str]] = {
         "gate": "fail where a config's results are worse than its blessed baseline",
         "bless": "make a config's present results the baseline of its gate",
     },
+    "verify": {"verify": "check stored rows again by what they say, and a sample's truth by the oracle; runs nothing"},
     "history": {"history": "draw a config's gated figures over the commits whose runs are kept, with their steps"},
     "recommend": {
         "recommend": "the fastest variant whose certified error stays within a bound, and why the others fell",

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import shlex
-import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
@@ -12,17 +10,18 @@ from harness import console
 from harness.commands import Add
 from harness.commands.answers import experiments
 from harness.commands.machine import Answer, add_json
-from harness.commands.options import add_yes, tell
+from harness.commands.options import add_wait, add_yes, tell, typed
 from harness.commands.printer import Printer
 from harness.contract import FirsthitError
 from harness.experiment import config, identity, plan
 from harness.experiment.identity import Difference
 from harness.plugins import find_methods
+from harness.results.begun import Begun
 from harness.results.history import past_of
 from harness.results.store import Row, Store
 from harness.running.due import due, estimates
 from harness.running.failures import first_line
-from harness.running.run import Loaded, load, remarks, run
+from harness.running.run import Loaded, Read, load, read, remarks, run
 
 FIGURES, TABLES = ("svg", "pdf", "png"), ("latex", "csv", "markdown")  # forms; reports.for_papers.files writes them
 
@@ -40,6 +39,7 @@ def add_parsers(add: Add) -> None:
     parser.add_argument("--force", action="store_true", help="run every cell again")
     parser.add_argument("--retry", choices=["failed"], help="run failed, timed out and crashed cells again")
     parser.add_argument("--device", action="append", metavar="NAME", help="run on this device only; may be repeated")
+    add_wait(parser)
     parser.set_defaults(run=_run)
 
     parser = add("why", "firsthit why runs/quick/cells/0123456789abcdef.json")
@@ -95,13 +95,13 @@ def _add_config(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def _load(options: argparse.Namespace) -> Loaded:
-    return load(options.config, options.plugins, getattr(options, "device", None) or (), Printer(), options.yes)
+def _read(options: argparse.Namespace) -> Read:
+    return read(options.config, options.plugins, getattr(options, "device", None) or (), Printer(), options.yes)
 
 
 def _plan(options: argparse.Namespace) -> int | Answer:
     """Tell each config's cells, and how long those that must run will take."""
-    loaded = _load(options)
+    loaded = load(_read(options), Printer())
     made = [_planned(part, loaded, options.runs) for part in loaded.parts]
     parts = [facts for facts, _ in made]
     failures = dict.fromkeys(reason for _, reasons in made for reason in reasons)
@@ -126,7 +126,7 @@ def _planned(part: config.Experiment, loaded: Loaded, runs: Path) -> tuple[exper
     with console.doing(f"preparing the cells of {part.path}") as tell_step:
         planned = plan.plan(part, loaded.catalog, loaded.devices, tell=tell_step)
     store = Store(runs / part.name)
-    found = due(planned, store)
+    found = due(planned, store, asked=Begun(store.folder).again)
     seconds = estimates(found.todo, store, part.config.budget.seconds)
     facts = experiments.PlanFacts(
         str(part.path),
@@ -145,9 +145,8 @@ def _state(cell: experiments.CellFacts) -> str:
 
 
 def _run(options: argparse.Namespace) -> int:
-    command = shlex.join(["firsthit", *sys.argv[1:]])
-    retry = options.retry == "failed"
-    found = run(_load(options), options.runs, command, force=options.force, retry_failed=retry, watcher=Printer())
+    again = {"force": options.force, "retry_failed": options.retry == "failed", "wait": options.wait}
+    found = run(_read(options), options.runs, typed(), watcher=Printer(), **again)
     return 3 if found.unfinished else 0
 
 

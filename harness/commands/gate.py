@@ -9,7 +9,7 @@ from pathlib import Path
 from harness.commands import Add, telling
 from harness.commands.answers import gates
 from harness.commands.machine import Answer, add_json
-from harness.commands.options import add_history, add_yes, history_of, tell, writable
+from harness.commands.options import add_history, add_wait, add_yes, history_of, tell, typed, writable
 from harness.commands.printer import Printer
 from harness.contract import FirsthitError
 from harness.experiment import toml_file
@@ -25,6 +25,7 @@ from harness.gate.foretold import foretold
 from harness.gate.judge import Judged, Verdict, exit_code, rank
 from harness.gate.keep import Keeping, keeping
 from harness.gate.pictures import Before, blessed_in, rows_in
+from harness.results.lock import Lock
 
 
 def add_parsers(add: Add) -> None:
@@ -76,6 +77,7 @@ def _add_shared(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--runs", type=Path, default=Path("runs"), metavar="DIR", help="rows go here (default: runs)")
     parser.add_argument("--device", action="append", metavar="NAME", help="on this device only; may be repeated")
     parser.add_argument("--force", action="store_true", help="run every cell again")
+    add_wait(parser)
     add_yes(parser)
 
 
@@ -89,8 +91,8 @@ def _prepare(options: argparse.Namespace) -> Prepared:
     return prepare(options.config, options.plugins, options.device or (), Printer(), options.yes)
 
 
-def _check(options: argparse.Namespace, prepared: Prepared) -> Checked:
-    return prepared.check(options.runs, Printer(), options.force)
+def _lock(options: argparse.Namespace, prepared: Prepared) -> Lock:
+    return prepared.lock(options.runs, typed(), options.wait, Printer())
 
 
 def _gate(options: argparse.Namespace) -> int | Answer:
@@ -109,11 +111,12 @@ def _gate(options: argparse.Namespace) -> int | Answer:
     hopeless = _hopeless(options, prepared, before, path) if before else []
     if not other and hopeless and len(hopeless) == len(prepared.planned):
         return _tell(options, prepared, hopeless, before, path)
-    checked = _check(options, prepared)
-    if kept:
-        _keep(kept, checked)
-    judged = checked.judged(before) if before else []
-    compared = against.compare(checked, other, only, Printer(), options.force) if other else None
+    with _lock(options, prepared) as lock:
+        checked = prepared.check(lock, Printer(), options.force)
+        if kept:
+            _keep(kept, checked)
+        judged = checked.judged(before) if before else []
+        compared = against.compare(checked, other, only, Printer(), lock, options.force) if other else None
     return _tell(options, checked, judged + (compared.judged if compared else []), before, path, compared)
 
 
@@ -201,9 +204,16 @@ def _bless(options: argparse.Namespace) -> int:
         raise FirsthitError("--reason: say why the results are as they should be")
     options.config = located(options.config)
     path = _path(options)
-    old = baseline.read(path) if path.exists() else Baseline()
-    made = _check(options, _prepare(options)).blessed(options.reason.strip())
-    baseline.write(path, baseline.merged(old, made))
+    _blessed_so_far(path)  # a damaged one is told before anything runs
+    prepared = _prepare(options)
+    with _lock(options, prepared) as lock:
+        made = prepared.check(lock, Printer(), options.force).blessed(options.reason.strip())
+        lock.take()  # also where nothing was run: what another blesses meanwhile would be lost
+        baseline.write(path, baseline.merged(_blessed_so_far(path), made))
     total = sum(map(len, made.rows.values()))
     print(f"{path}: {total} rows blessed on {', '.join(facts['name'] for facts in made.devices.values())}")
     return 0
+
+
+def _blessed_so_far(path: Path) -> Baseline:
+    return baseline.read(path) if path.exists() else Baseline()

@@ -14,7 +14,8 @@ The rules are the same for every command:
 - Numbers are written in full: reading them gives the same float64. null says that there is no such value. A number that
   is infinite or not a number is a text, "Infinity", "-Infinity" or "NaN", which float() of Python and Number() of
   JavaScript read.
-- Everything outside ASCII is escaped, so that the object does not depend on the terminal's encoding.
+- Everything outside ASCII is escaped, so that the object does not depend on the terminal's encoding, and so is the
+  second sign of ##, so that no line is a command of a CI server.
 """
 
 from __future__ import annotations
@@ -76,7 +77,8 @@ def _write(out: TextIO, command: str | None, exit_code: int, error: str | None, 
     if taken := [name for name in content if name in OWN]:
         raise ValueError(f"content may not have a field {taken[0]!r}")
     values = (FORMAT, __version__, command, exit_code, error)
-    out.write(json.dumps({**dict(zip(OWN, values, strict=True)), **content}, indent=2, allow_nan=False) + "\n")
+    text = json.dumps({**dict(zip(OWN, values, strict=True)), **content}, indent=2, allow_nan=False)
+    out.write(text.replace("##", "#\\u0023") + "\n")  # ##[error] would be a command of a CI server
 
 
 def plain(value: Any) -> Any:

@@ -31,7 +31,8 @@ The rules are the same for every command:
   `Number()` of JavaScript read.
 - Names and meanings of the fields below are stable. New ones may come; where one is taken away or changes its meaning,
   `format` rises.
-- Everything outside ASCII is escaped.
+- Everything outside ASCII is escaped, and so is the second sign of `##`: no line is a command of a CI server, whatever
+  a config, a plugin or a driver says. A JSON reader gives the texts as they are.
 
 `firsthit schema --of COMMAND` prints the same as a JSON schema (draft 2020-12).
 

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import argparse
+import shlex
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import TypeVar
@@ -73,9 +75,20 @@ def add_timeout(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--timeout", type=number(TIMEOUT), default=60.0, metavar="SECONDS", help=help_)
 
 
+def add_wait(parser: argparse.ArgumentParser) -> None:
+    """Add the option that says what to do where another command writes into the folder of the results."""
+    help_ = "where another command writes into the same folder, wait until it has ended"
+    parser.add_argument("--wait", action="store_true", help=help_)
+
+
 def add_yes(parser: argparse.ArgumentParser) -> None:
     """Add the option without which a large plan is refused."""
     parser.add_argument("--yes", action="store_true", help=f"plan more than {MOST:,} cells too, if there are so many")
+
+
+def typed() -> str:
+    """Return the command line of this process, as one types it."""
+    return shlex.join(["firsthit", *sys.argv[1:]])
 
 
 def add_origin(parser: argparse.ArgumentParser) -> None:

@@ -14,11 +14,13 @@ from harness.commands.answers.recommending import Beside
 from harness.commands.machine import Answer, add_json
 from harness.commands.options import (
     add_surface,
+    add_wait,
     add_yes,
     methods_of,
     number,
     surface_of,
     surface_words,
+    typed,
     whole,
     writable,
 )
@@ -81,6 +83,7 @@ def add_parsers(add: Add) -> None:
     parser.add_argument("--seconds", type=number(SECONDS), default=USUAL["seconds"], metavar="S", help=seconds)
     parser.add_argument("--seed", type=whole(SEED), default=USUAL["seed"], help="of the views (default: 1)")
     parser.add_argument("--runs", type=Path, default=Path("runs"), metavar="DIR", help="rows go here (default: runs)")
+    add_wait(parser)
     page = "write the answer as a page with a picture and its error map: FILE.pdf, FILE.html or FILE.png"
     parser.add_argument("-o", "--output", type=Path, metavar="FILE", help=page)
     add_yes(parser)
@@ -106,9 +109,9 @@ def _recommend(options: argparse.Namespace) -> int | Answer:
     if page is not None:
         _check_page(page)
     catalog = methods_of(options)
-    found = recommend(
-        wish, catalog, options.device, options.runs, _Printer(), pictured=page is not None, yes=options.yes
-    )
+    stated = wish, catalog, options.device, options.runs, _Printer()
+    pictured, wait, yes = page is not None, options.wait, options.yes
+    found = recommend(*stated, pictured=pictured, command=typed(), wait=wait, yes=yes)
     again, ship = _commands(found, options, catalog)
     beside = Beside(again, ship, page)
     code = 0 if found.contenders else NOTHING_HOLDS

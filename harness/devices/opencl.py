@@ -7,7 +7,6 @@ import ctypes
 import os
 import shutil
 import sys
-import tempfile
 import time
 import warnings
 from collections.abc import Iterator, Sequence
@@ -20,6 +19,7 @@ import numpy as np
 from harness.contract import DeviceInfo, Program
 from harness.devices.interface import GPU_RESIDENT, Array, BuildError, Built, Device, Launch, Reserved, Step, Timing
 from harness.kernels.complaints import explained
+from harness.results.writing import temporary_folder
 
 SHORT = {"intel": "intel", "portable": "pocl", "nvidia": "nvidia", "amd": "amd", "rusticl": "rusticl", "apple": "apple"}
 INTEL_LIBRARIES = ("libintlc.so.5", "libimf.so", "libsvml.so", "libirng.so", "libtbb.so.12")
@@ -55,12 +55,12 @@ def _all_drivers_listed() -> Iterator[None]:
     for name in INTEL_LIBRARIES:
         with contextlib.suppress(OSError):  # the driver itself reports what it misses
             ctypes.CDLL(str(driver.parent / name), mode=ctypes.RTLD_GLOBAL)
-    with tempfile.TemporaryDirectory(prefix="firsthit-vendors-") as vendors:
-        (Path(vendors) / "intel.icd").write_text(f"{driver}\n")
+    with temporary_folder("firsthit-vendors") as vendors:
+        (vendors / "intel.icd").write_text(f"{driver}\n")
         if SYSTEM_VENDORS.is_dir():
             for icd in SYSTEM_VENDORS.glob("*.icd"):
-                shutil.copy(icd, Path(vendors) / icd.name)
-        os.environ["OCL_ICD_VENDORS"] = vendors
+                shutil.copy(icd, vendors / icd.name)
+        os.environ["OCL_ICD_VENDORS"] = str(vendors)
         try:
             yield
         finally:

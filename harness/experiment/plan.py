@@ -28,6 +28,7 @@ from harness.experiment.cells import Cell, FamilyCell
 from harness.experiment.config import Experiment, views_of
 from harness.experiment.kinds import Asked, Casting
 from harness.experiment.kinds.model import NOT_RASTERED, Rastering
+from harness.experiment.kinds.shared import Shared
 from harness.experiment.size import cells_of
 from harness.experiment.targets import choose_devices, devices_of
 from harness.hardcases import groups
@@ -102,10 +103,12 @@ def _unloaded(cell: Cell, catalog: Catalog) -> str | None:
     return next((f"method {name!r} cannot be loaded: {reason}" for name, reason in why if reason is not None), None)
 
 
-def _planned(cell: Cell, info: DeviceInfo | None, catalog: Catalog, experiment: Experiment, timed: bool) -> Planned:
+def _planned(
+    cell: Cell, info: DeviceInfo | None, catalog: Catalog, experiment: Experiment, timed: bool, shared: Shared
+) -> Planned:
     method = catalog.get(cell.variant.method).method
     kind = kinds.of_cell(cell, method)
-    asked = Asked(cell, info, catalog, kinds.of_method(method), experiment.config.budget.triangles)
+    asked = Asked(cell, info, catalog, kinds.of_method(method), experiment.config.budget.triangles, shared)
     skip, casting, failure = _absent(cell, info), None, _unloaded(cell, catalog)
     if skip is None and failure is None:
         try:
@@ -118,23 +121,34 @@ def _planned(cell: Cell, info: DeviceInfo | None, catalog: Catalog, experiment: 
                 skip = str(error)
     lacks = skip is not None and skip == (_absent(cell, info) or kind.lacking(asked))
     planned = Planned(cell, "", {}, info, casting, skip, kind, timed, lacks, None if skip else failure)
-    # Probing finds which clock is to be trusted, when a run starts and its plan is printed already: no part of the key
-    facts = None if info is None else dataclasses.asdict(dataclasses.replace(info, clock="wall"))
     others = casting.others if casting else ()
     programs = [program for program in (*planned.checks, planned.timed, *others) if program]
     names = casting.methods if casting else (cell.variant.method,)
+    timed = timed and kind.is_timed
+    texts = {s.origin: s.hash for program in programs for s in (*program.sections, *program.vertex)}
+    common = shared.once(
+        ("common", names, timed), lambda: identities.common((catalog.get(name).folder for name in names), timed)
+    )
     identity = {
-        **kind.question(cell, experiment.config, timed),
+        **{name: shared.facts(said) for name, said in kind.question(cell, experiment.config, planned.is_timed).items()},
         **(casting.decides if casting else {}),
-        "program": {s.origin: s.hash for program in programs for s in (*program.sections, *program.vertex)},
-        "program order": [program.hash for program in programs],
-        "parameters": dict(cell.variant.parameters),
+        "program": shared.facts(texts),
+        "program order": shared.facts([program.hash for program in programs]),
+        "parameters": shared.facts(dict(cell.variant.parameters)),
         "precision": cell.precision,
-        "device": facts,
+        "device": shared.once(("device", info), lambda: _facts(info)),
         "skip": skip,
-        **identities.common((catalog.get(name).folder for name in names), timed and kind.is_timed),
+        **common,
     }
     return dataclasses.replace(planned, key=digest(cell.slot, identity), identity=identity)
+
+
+def _facts(info: DeviceInfo | None) -> dict[str, Any] | None:
+    """Return what a device's part in an identity says of it.
+
+    Probing finds which clock is to be trusted, when a run starts and its plan is printed already: no part of the key.
+    """
+    return None if info is None else dataclasses.asdict(dataclasses.replace(info, clock="wall"))
 
 
 def plan(
@@ -149,11 +163,11 @@ def plan(
     `tell` hears of each cell before its programs are made, since a surface's tables may take seconds. Raises
     FirsthitError where none of the devices that the config names is among those `found`.
     """
-    cells, planned = grid(experiment, catalog, found), []
+    cells, planned, shared = grid(experiment, catalog, found), [], Shared()
     total = cells_of(experiment, catalog, found)
     for number, (cell, info) in enumerate(cells, 1):
         tell(f"preparing [{number}/{total}] {cell.variant.method}: {cell.comparison} on {cell.device}")
-        planned.append(_planned(cell, info, catalog, experiment, timed))
+        planned.append(_planned(cell, info, catalog, experiment, timed, shared))
     return planned
 
 

@@ -32,8 +32,9 @@ from harness.gate.outputs import INDENT, wrapped
 from harness.gate.revision import Former, Formers, Revision
 from harness.plugins import find_methods
 from harness.results.figures import SPEED, figures
+from harness.results.lock import Lock
 from harness.results.store import Row, Store
-from harness.running.due import due
+from harness.running.due import Again, begin, due
 from harness.running.environment import describe, probed
 from harness.running.fastest import settled
 from harness.running.run import Watcher
@@ -152,13 +153,14 @@ def at(
         return Other(there, revision.programs_at(there, config, experiment.config.devices if own else list(here), own))
 
 
-def compare(checked: Checked, other: Other, only: Only, watcher: Watcher, force: bool = False) -> Compared:
+def compare(checked: Checked, other: Other, only: Only, watcher: Watcher, lock: Lock, force: bool = False) -> Compared:
     """Judge every cell of `checked` against the other revision: its figures to their tolerances, and its speed.
 
     Cells that only the other revision has are missing, if `only` chooses them.
     Times are by the clock that the device's probes support. The other revision's rows are kept below the folder of
-    `checked`, in `against`; with `force` they are made again. `watcher` is told of each cell. A failure of one cell is
-    its verdict, and raises nothing; raises FirsthitError where a row cannot be stored.
+    `checked`, whose `lock` is taken to make them, in `against`; with `force` they are made again. `watcher` is told of
+    each cell. A failure of one cell is its verdict, and raises nothing; raises FirsthitError where the lock is
+    another's, or a row cannot be stored.
     """
     pairs = [_pair(p, checked.rows[p.key], other) for p in checked.planned]
     name, executor = (
@@ -166,7 +168,7 @@ def compare(checked: Checked, other: Other, only: Only, watcher: Watcher, force:
         LocalExecutor(checked.experiment.config.budget.timeout, checked.experiment.config.budget.memory),
     )
     try:
-        _run(pairs, checked, other.revision, executor, watcher, force)
+        _run(pairs, checked, other.revision, executor, watcher, lock, force)
         _judge(pairs, checked)
         speeds = [*_race(pairs, checked, name, executor, watcher)]
     finally:
@@ -250,20 +252,28 @@ def _former_cell(planned: Planned, former: Former) -> Planned:
 
 
 def _run(
-    pairs: list[_Pair], checked: Checked, there: Revision, executor: LocalExecutor, watcher: Watcher, force: bool
+    pairs: list[_Pair],
+    checked: Checked,
+    there: Revision,
+    executor: LocalExecutor,
+    watcher: Watcher,
+    lock: Lock,
+    force: bool,
 ) -> None:
     """Check the cells with the other revision's programs, and keep their rows; certified answers are shared."""
     store = Store(checked.folder / KEPT)
     store.truth = checked.folder / "truth"
     planned = [pair.then for pair in pairs if pair.then]
-    found = due(planned, store, "everything" if force else "unfinished")
+    again: Again = "everything" if force else "unfinished"
+    found, begun = due(planned, store, again), None
     if found.todo:
+        lock.take()
+        found, begun, _ = begin(planned, store, again)
         watcher.starts(len(found.todo), 1.0 * len(found.todo), Counter(p.cell.device for p in found.todo))
     environment = describe() | {"commit": there.commit[:12], "dirty": False}
     config = checked.experiment.config
-    rows = Runner(config, checked.catalog, store, executor, environment, watcher.cell, watcher.hears_builds).run(
-        found.todo
-    )
+    told = watcher.cell, watcher.hears_builds
+    rows = Runner(config, checked.catalog, store, executor, environment, *told).run(found.todo, begun)
     by_key = found.kept | {row["key"]: row for row in rows}
     for pair in pairs:
         if pair.then:

@@ -23,6 +23,7 @@ from harness.gate.entries import asked_of, baseline_of, facts_of, slot_of
 from harness.gate.foretold import others
 from harness.gate.judge import Judged, Verdict, judge, tolerances_of
 from harness.plugins import Catalog, find_methods
+from harness.results.lock import Lock
 from harness.results.store import Row
 from harness.running import batch
 from harness.running.due import UNFINISHED
@@ -59,13 +60,17 @@ class Prepared:
                 found.append(Judged(slot, p.cell.device, method, Verdict.INCOMPARABLE, held))
         return found
 
-    def check(self, runs: Path, watcher: Watcher, force: bool = False) -> Checked:
-        """Check the cells that have no finished row yet below `runs`, without timing them.
+    def lock(self, runs: Path, command: str, wait: bool, watcher: Watcher) -> Lock:
+        """Make the lock of the folder below `runs` that `check` stores rows in."""
+        return Lock(runs / f"gate-{self.experiment.name}", command, wait=wait, doing=watcher.doing)
 
-        With `force` all cells are checked again. `watcher` is told of each cell. Raises FirsthitError where a device
-        does not tell how it computes.
+    def check(self, lock: Lock, watcher: Watcher, force: bool = False) -> Checked:
+        """Check the cells that have no finished row yet in the folder of `lock`, without timing them.
+
+        With `force` all cells are checked again. `watcher` is told of each cell. The lock is taken if any cell is to be
+        checked. Raises FirsthitError where it is another's, or a device does not tell how it computes.
         """
-        folder = runs / f"gate-{self.experiment.name}"
+        folder = lock.folder
         executor = LocalExecutor(self.experiment.config.budget.timeout, self.experiment.config.budget.memory)
         usable = {p.device.name: p.device for p in self.planned if p.device and not p.device.problem}
         try:
@@ -74,7 +79,8 @@ class Prepared:
                 kept = kept_fingerprint(info, folder / "probes")[0]
                 with nullcontext() if kept else watcher.doing(f"taking the fingerprint of {name}'s arithmetic"):
                     arithmetic[name] = fingerprinted(executor, info, folder / "probes")
-            rows, earlier = batch.rows_of(self.planned, self.experiment, self.catalog, folder, executor, watcher, force)
+            stated = self.planned, self.experiment, self.catalog, folder, executor, watcher, lock
+            rows, earlier = batch.rows_of(*stated, force)
         finally:
             executor.close()
         watcher.failed([row for row in rows.values() if row["status"] in UNFINISHED])

@@ -6,7 +6,6 @@ import json
 import os
 import subprocess
 import sys
-import tempfile
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -19,6 +18,7 @@ from harness.contract import FirsthitError, Program, Section
 from harness.devices.raster import Batch
 from harness.experiment.kinds.programs import Programs
 from harness.results import git
+from harness.results.writing import temporary_folder
 
 EXPORT = Path(__file__).with_name("export.py")
 PLAN_SECONDS = 1800.0  # for the other revision's code to make all programs; a method.py of it may never end
@@ -113,11 +113,11 @@ def programs_at(
     Where plugins are in a repository of their own, the harness that plans them is the present one. Raises
     FirsthitError, with exit code 3, where the revision cannot be checked out, or its code cannot plan the config.
     """
-    with tempfile.TemporaryDirectory(prefix="firsthit-against-") as name:
-        tree = _checked_out(revision, Path(name))
+    with temporary_folder("firsthit-against") as place:
+        tree = _checked_out(revision, place)
         there = tree / revision.plugins.relative_to(revision.repository) if revision.plugins else None
         _held(revision, tree)
-        code, arrays = tree if revision.holds_harness else ROOT, Path(name) / "arrays"
+        code, arrays = tree if revision.holds_harness else ROOT, place / "arrays"
         arrays.mkdir()
         arguments = [
             str(config.resolve()),

@@ -56,7 +56,7 @@ def _not_interrupted() -> Iterator[None]:
 
 
 def die_with_parent() -> None:
-    """End this process when its parent ends, and before it where the system runs out of memory; Linux alone can."""
+    """End this process when its parent ends, and before it where memory runs out; only Linux can do so."""
     if sys.platform == "linux":
         pr_set_pdeathsig = 1
         with contextlib.suppress(OSError):

@@ -22,6 +22,7 @@ Leaf = Fraction | str  # a rational number, or "pi" or "e"
 POLYNOMIAL = frozenset({"input", "constant", "add", "sub", "mul", "sqr", "neg"})
 LONG = 500  # instructions of a program that lets go of results, which costs time
 JUMPS = frozenset({"floor", "atan2", "below", "select"})
+CHOICES = frozenset({"min", "max", "select"})
 
 
 @dataclass(frozen=True)
@@ -63,10 +64,15 @@ class Program:
         """Return whether the program uses sums and products only."""
         return all(i.name in POLYNOMIAL for i in self.instructions)
 
-    @property
+    @cached_property
     def jumps(self) -> bool:
         """Return whether f may not be continuous."""
         return any(i.name in JUMPS for i in self.instructions)
+
+    @cached_property
+    def chooses(self) -> bool:
+        """Return whether some operations have the value of one of their arguments."""
+        return any(i.name in CHOICES for i in self.instructions)
 
     @property
     def degree(self) -> int:

@@ -25,6 +25,7 @@ from harness.oracle.graph import Graph
 from harness.oracle.jumps import Sided, meets_cut, sides
 from harness.oracle.piecewise import PiecewiseSolver, exact_program
 from harness.oracle.program import Program, program_of
+from harness.oracle.pruning import is_prunable, pruned
 from harness.oracle.reals import float_above, float_below, precision, rational
 from harness.oracle.slow import MISS, UNDECIDED, FirstHit, certified_hit
 
@@ -33,6 +34,8 @@ OPEN = 2.0**-28  # the width, in domain radii, below which pieces that ranges le
 MOST_PIECES = 3000  # that are tried for one ray and precision
 MOST_OPERATIONS = 2_000_000  # that are spent on pieces, so that a long formula has fewer of them
 FEWEST_PIECES = 60
+PRUNED = 0.9  # the share of a program's length above which pruning it was not worth it
+PAUSE = 6  # pieces after which it is tried again then
 NARROW = 2.0**-50  # the width of certified intervals, in domain radii
 
 
@@ -81,16 +84,14 @@ class _Search:
         self.axes = [(arb(o), arb(d)) for o, d in zip(ray[:3], ray[3:], strict=True)]
         self.scale = scale
         self.t_min = t_min
+        self.pause = 0  # pieces for which pruning is not tried again
 
-    def value(self, t: Any) -> Any:
-        """Enclose f at the ball `t`."""
-        return self.program.run([o + d * t for o, d in self.axes], self.constants, reals.FUNCTIONS)
-
-    def range(self, t: Any) -> Dual:
-        """Enclose f and its slope over the ball `t`."""
-        inputs = [Dual(o + d * t, d) for o, d in self.axes]
-        result: Dual = self.program.run(inputs, self.duals, DUAL_FUNCTIONS)
-        return result
+    def prunes(self, program: Program) -> bool:
+        """Return whether pruning a program for the next piece is worth trying."""
+        if self.pause:
+            self.pause -= 1
+            return False
+        return is_prunable(program)
 
     def first_hit(self, ends: tuple[End, End], floor: float, exact: PiecewiseSolver | None) -> FirstHit:
         """Return the first hit, from pieces tried from front to back.
@@ -100,22 +101,25 @@ class _Search:
         """
         enter, leave = (end.ball() for end in ends)
         room = self.scale * 2.0**-20 + abs(float(leave)) * 2.0**-40
-        stack = [(arb(float_below(enter) - room), arb(float_above(leave) + room))]
+        stack = [(arb(float_below(enter) - room), arb(float_above(leave) + room), self.program)]
         affordable = MOST_OPERATIONS // len(self.program.instructions)
         for _ in range(min(MOST_PIECES, max(FEWEST_PIECES, affordable))):
             if not stack:
                 return MISS
-            lower, upper = stack.pop()
-            if upper < enter or lower > leave or self.is_empty(lower, upper):
+            lower, upper, program = stack.pop()
+            if upper < enter or lower > leave:
+                continue
+            piece = _Piece(self, program, lower, upper)
+            if piece.is_empty():
                 continue
             try:
-                root = self.single_root(lower, upper)
+                root = piece.single_root()
                 narrow = root is not None or upper - lower < floor
             except Undecidable:  # it has a root, which this precision does not narrow enough
                 root, narrow = None, True
             if not narrow:
                 middle = (lower + (upper - lower) * 0.484375).mid()
-                stack += [(middle, upper), (lower, middle)]
+                stack += [(middle, upper, piece.program), (lower, middle, piece.program)]
             elif root is not None and root > leave:
                 return MISS
             elif root is not None and root >= enter and root <= leave:
@@ -134,38 +138,67 @@ class _Search:
             raise Undecidable("a piece stays open, or a root may lie at an end")
         return exact.first_hit(lower.fmpq(), upper.fmpq(), self.scale * NARROW)
 
-    def is_empty(self, lower: Any, upper: Any) -> bool:
-        """Return whether a piece is proved to hold no root."""
-        whole = lower.union(upper)
-        f = self.range(whole)
-        if not f.value.contains(0):
-            return True
-        middle = whole.mid()
-        if not (self.value(middle) + f.slope * (whole - middle)).contains(0):
-            return True
-        return self.program.jumps and not f.slope.is_finite() and self.is_empty_on_all_sides(whole)
 
-    def is_empty_on_all_sides(self, whole: Any) -> bool:
-        """Return whether f is proved to be off 0 on all sides of the jumps that are open on a piece."""
-        points = [o + d * whole for o, d in self.axes]
-        return not any(self.program.run(points, self.constants, Sided(s).functions()).contains(0) for s in sides())
+class _Piece:
+    """Hold an interval of t, and f's program, which is shortened for it."""
 
-    def single_root(self, lower: Any, upper: Any) -> Any:
-        """Return the root of a piece as a ball of t; None if it is not proved to hold exactly one with opposite signs.
+    def __init__(self, search: _Search, program: Program, lower: Any, upper: Any) -> None:
+        self.search = search
+        self.program = program
+        self.lower = lower
+        self.upper = upper
+        self.whole = lower.union(upper)
+        inputs = [Dual(o + d * self.whole, d) for o, d in search.axes]
+        if not search.prunes(program):
+            self.f = program.run(inputs, search.duals, DUAL_FUNCTIONS)
+            return
+        results: list[Dual] = program.results(inputs, search.duals, DUAL_FUNCTIONS)
+        self.f = results[-1]
+        if self.f.value.contains(0):
+            self.program = pruned(program, [r.value for r in results])
+            search.pause = 0 if len(self.program.instructions) < PRUNED * len(program.instructions) else PAUSE
+
+    def value(self, t: Any) -> Any:
+        """Enclose f at a ball in the piece."""
+        return self.program.run([o + d * t for o, d in self.search.axes], self.search.constants, reals.FUNCTIONS)
+
+    def slope(self, t: Any) -> Any:
+        """Enclose f's slope over a ball in the piece."""
+        inputs = [Dual(o + d * t, d) for o, d in self.search.axes]
+        return self.program.run(inputs, self.search.duals, DUAL_FUNCTIONS).slope
+
+    def is_empty(self) -> bool:
+        """Return whether the piece is proved to hold no root."""
+        if not self.f.value.contains(0):
+            return True
+        middle = self.whole.mid()
+        if not (self.value(middle) + self.f.slope * (self.whole - middle)).contains(0):
+            return True
+        return self.program.jumps and not self.f.slope.is_finite() and self.is_empty_on_all_sides()
+
+    def is_empty_on_all_sides(self) -> bool:
+        """Return whether f is proved to be off 0 on all sides of the jumps that are open on the piece."""
+        points = [o + d * self.whole for o, d in self.search.axes]
+        constants = self.search.constants
+        return not any(self.program.run(points, constants, Sided(s).functions()).contains(0) for s in sides())
+
+    def single_root(self) -> Any:
+        """Return the piece's root as a ball of t; None if it is not proved to hold exactly one with opposite signs.
 
         Raises Undecidable if the root is not narrowed to NARROW.
         """
-        if self.range(lower.union(upper)).slope.contains(0):
+        lower, upper, scale = self.lower, self.upper, self.search.scale
+        if self.f.slope.contains(0):
             return None
         first, last = self.value(lower), self.value(upper)
         if first.contains(0) or last.contains(0) or (first > 0) == (last > 0):
             return None
         rising = last > 0
-        while upper - lower > self.scale * NARROW:
+        while upper - lower > scale * NARROW:
             whole = lower.union(upper)
             middle = whole.mid()
             value = self.value(middle)
-            step = middle - value / self.range(whole).slope
+            step = middle - value / self.slope(whole)
             tighter = max(lower, step.lower()), min(upper, step.upper())
             if 4 * (tighter[1] - tighter[0]) < 3 * (upper - lower):
                 lower, upper = tighter

@@ -20,6 +20,7 @@ from harness.plugins import Catalog
 from harness.recommend.candidates import count, variants, views
 from harness.recommend.model import Cause, Contender, Fallen, Quantile, Recommendation, Wish, named
 from harness.results.figures import disproved
+from harness.results.lock import Lock
 from harness.results.row import Accuracy
 from harness.results.store import Row, Store
 from harness.running import batch
@@ -43,16 +44,21 @@ def recommend(
     runs: Path,
     watcher: Watcher,
     pictured: bool = False,
+    *,
+    command: str,
+    wait: bool = False,
     yes: bool = False,
 ) -> Recommendation:
     """Search among all methods for the fastest variant that keeps the wish, on a device or the first usable one.
 
     If `pictured`, the variant that is recommended is checked on one more view, FRONT, on PICTURE_RAYS² rays, whose
     answers are kept as a picture; one that does not hold there falls as well. Rows go below `runs`, where a later
-    search finds them again; `watcher` is told of each step and cell.
+    search finds them again; `watcher` is told of each step and cell. Where another process searches there, `wait` waits
+    until it has ended; `command` tells others what is going on.
 
     Raises FirsthitError where `device` is no text, where there is more to check than is done without `yes`
-    (harness.experiment.size) and, with exit code 3, where there is no such device or a row cannot be stored.
+    (harness.experiment.size) and, with exit code 3, where there is no such device, the folder is another's or a row
+    cannot be stored.
     """
     from surfaces.proofs.extent import remark
 
@@ -66,13 +72,14 @@ def recommend(
     executor = LocalExecutor(STEP_SECONDS)
     try:
         info, _ = probed(executor, usable_device(device), folder / "probes")
-        return replace(Search(wish, catalog, info, executor, folder, watcher).run(pictured), extent=told)
+        with Lock(folder, command, wait=wait, doing=watcher.doing) as lock:
+            return replace(Search(wish, catalog, info, executor, lock, watcher).run(pictured), extent=told)
     finally:
         executor.close()
 
 
 class Search:
-    """Searches on one device; `watcher` is told of each step and cell. Rows are stored in `folder`."""
+    """Searches on one device; `watcher` is told of each step and cell. Rows are stored in the folder of `lock`."""
 
     def __init__(
         self,
@@ -80,11 +87,11 @@ class Search:
         catalog: Catalog,
         device: DeviceInfo,
         executor: LocalExecutor,
-        folder: Path,
+        lock: Lock,
         watcher: Watcher,
     ) -> None:
         self._wish, self._catalog, self._device = wish, catalog, device
-        self._executor, self._folder, self._watcher = executor, folder, watcher
+        self._executor, self._folder, self._watcher, self._lock = executor, lock.folder, watcher, lock
         sampled = views(wish.views + wish.held_out_views, wish.seed)
         self._truth: dict[str, tuple[int, int, int]] = {}  # judged rays, decided and undecided hits, by view
         self._disproved: dict[Variant, set[str]] = {}  # claims that rows contradict
@@ -331,7 +338,8 @@ class Search:
             self._folder.name, self._folder, "", config, tuple(of), (wish.surface,), (precision,), ("compute",)
         )
         planned = plan.plan(named, self._catalog, [self._device], timed=seconds is not None)
-        rows, _ = batch.rows_of(planned, named, self._catalog, self._folder, self._executor, self._watcher)
+        stated = planned, named, self._catalog, self._folder, self._executor, self._watcher
+        rows, _ = batch.rows_of(*stated, self._lock)
         return {p.cell.variant: rows[p.key] for p in planned}
 
 

@@ -77,6 +77,14 @@ class Time(TypedDict):
     wall_samples_ms: Annotated[Times, Leaf("the same by the host's clock, ms", column=None)]
     rounds: Annotated[list[int], "the round in which each sample was taken; rounds of one session pair"]
     session: Annotated[str, "names the interleaved run in which the cell was timed"]
+    sittings: Annotated[
+        list[int],
+        Leaf(
+            "how many samples were taken until the run was stopped, and each time it was taken up again; one number "
+            "where nothing stopped it",
+            column=None,
+        ),
+    ]
 
 
 class Build(TypedDict):

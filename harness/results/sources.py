@@ -27,6 +27,7 @@ NOT_DECIDING = {
     "harness/running/trace.py": "casts rays to look at, and stores no row",
     "harness/running/cards.py": "copies docstrings for the report",
     "harness/cli.py": "reads the command line",
+    "harness/start.py": "starts the command",
     "harness/py.typed": "says that type checkers may read the annotations",
     "surfaces/py.typed": "says that type checkers may read the annotations",
     "harness/commands": "read options and print; what an option changes is in the config, and so in the identity",
@@ -38,9 +39,11 @@ NOT_DECIDING = {
     "harness/recommend": "chooses among finished rows",
     "harness/results/commits.py": "keeps the figures of finished rows",
     "harness/results/columns.py": "prints a page of the documentation",
+    "harness/results/lock.py": "lets one command at a time write, whatever that is",
     "harness/results/schema.py": "says which columns reports make of finished rows",
     "harness/shipping": "writes programs out for others, and stores no row",
     "harness/schemas.py": "writes schemas, which no run reads",
+    "harness/verifying": "checks finished rows",
     "harness/studies": "are no cells; each has a key of its own, see harness/studies/__init__.py",
 }
 TRUTH = ("harness/contract.py", "harness/limits.py", "harness/oracle", "surfaces")

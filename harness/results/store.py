@@ -4,6 +4,8 @@ plan.json            the experiment as last run: which cells it names, on which 
 cells/<key>.json     one row
 arrays/<key>.npz     that row's answers on the accuracy grid, as pictures
 truth/<hash>.npz     the oracle's answers, shared by all rows with the same rays
+begun/               what is known of cells that have no row yet (harness.results.begun)
+.lock                who writes here now (harness.results.lock)
 """
 
 from __future__ import annotations
@@ -52,6 +54,10 @@ class Store:
     def _cell(self, key: str) -> Path:
         return self.folder / "cells" / f"{key}.json"
 
+    def has(self, key: str) -> bool:
+        """Tell whether there is a file of the row of `key`, whole or not."""
+        return self._cell(key).exists()
+
     def read(self, key: str) -> Row | None:
         """Return the row of `key`; None if there is none or its file is damaged (then `unreadable` says why)."""
         try:
@@ -68,9 +74,17 @@ class Store:
         Raises FirsthitError where a file cannot be written.
         """
         if arrays is not None:
-            row = row | {"arrays": f"arrays/{row['key']}.npz"}
-            savez_atomically(self.folder / row["arrays"], **arrays)
+            row = row | {"arrays": self.write_arrays(row["key"], arrays)}
         write_atomically(self._cell(row["key"]), sealed.sealed({"format": FORMAT, **row}))
+
+    def write_arrays(self, key: str, arrays: dict[str, NDArray[Any]]) -> str:
+        """Store the arrays of the row of `key`, which follows, and return their name below the folder.
+
+        Raises FirsthitError where they cannot be written.
+        """
+        name = f"arrays/{key}.npz"
+        savez_atomically(self.folder / name, **arrays)
+        return name
 
     def rows(self) -> Iterator[Row]:
         """Yield every row that can be read, current or stale."""

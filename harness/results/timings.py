@@ -12,6 +12,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -128,6 +129,27 @@ def steadiness(samples: Sequence[float]) -> dict[str, Any]:
         "outliers": sum(not low - reach <= sample <= high + reach for sample in samples),
         "warnings": warnings,
     }
+
+
+def sitting_warnings(samples: Sequence[float], sittings: Sequence[int]) -> list[str]:
+    """Warn, a sentence each, where a run that was stopped and taken up again gave other times afterwards.
+
+    `sittings` are the numbers of samples that each part of the run took, in order. Two parts differ where their medians
+    do by more than DRIFT_SHARE and by more than the middle half of either spreads over.
+    """
+    warnings, start = [], 0
+    for before, after in pairwise(sittings):
+        first, second = samples[start : start + before], samples[start + before : start + before + after]
+        start += before
+        change = float(np.median(second) / np.median(first)) - 1.0
+        spread = max(float(np.subtract(*np.quantile(part, (0.75, 0.25)))) for part in (first, second))
+        if abs(change) > DRIFT_SHARE and abs(change) * float(np.median(first)) > spread:
+            way = "slower" if change > 0.0 else "faster"
+            warnings.append(
+                f"sittings differ: it is {abs(change):.0%} {way} after the run was stopped and taken up again; "
+                "something on the machine has changed: run again with --force"
+            )
+    return warnings
 
 
 @dataclass(frozen=True)

@@ -2,13 +2,19 @@
 
 Everything goes to a temporary file in the same folder first, is flushed to the disk, and then takes the place of the
 file of its name, which a file system does in one step.
+
+What a process that was killed leaves of this is removed by the next one that writes into the same folder. Temporary
+files and folders have names that say whose they are, so that nobody removes what another still writes.
 """
 
 from __future__ import annotations
 
 import contextlib
 import os
+import re
+import shutil
 import tempfile
+import time
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any, cast
@@ -17,6 +23,82 @@ import numpy as np
 from numpy.typing import NDArray
 
 from harness.contract import FirsthitError
+from harness.results import owner
+
+NEW = ".new"
+OWNED = re.compile(r"(?P<machine>[0-9a-f]{8})-(?P<pid>\d{1,9})-(?P<born>\d{1,19})-[a-z0-9_]{8}(\..*)?", re.DOTALL)
+DAY = 86_400.0  # seconds, after which what a process of another machine left is nobody's
+_swept: set[tuple[Path, str]] = set()  # folders that this process has looked at, and for which names
+
+
+@contextlib.contextmanager
+def temporary_folder(name: str = NEW, within: Path | None = None) -> Iterator[Path]:
+    """Yield an empty folder that is removed when the block ends, in `within` or where the system keeps such folders.
+
+    Those of this name that processes which were killed left there are removed first. Raises OSError where the folder
+    cannot be made.
+    """
+    place = within or Path(tempfile.gettempdir())
+    _sweep_once(place, name)
+    with tempfile.TemporaryDirectory(prefix=_prefix(name), dir=place) as made:
+        yield Path(made)
+
+
+def sweep(folder: Path, name: str = NEW) -> list[Path]:
+    """Remove what `replacing` and its like left in `folder` where their process was killed, and return it.
+
+    What another machine's process left is removed when a day old, since whether that has ended cannot be seen. What
+    cannot be removed stays. `name` is as for `temporary_folder`.
+    """
+    left = left_in(folder, name)
+    for path in left:
+        if path.is_dir() and not path.is_symlink():
+            shutil.rmtree(path, ignore_errors=True)
+        else:
+            with contextlib.suppress(OSError):
+                path.unlink()
+    return [path for path in left if not os.path.lexists(path)]
+
+
+def sweep_below(folder: Path) -> list[Path]:
+    """Sweep a folder and those in it, and return what was removed."""
+    try:
+        inside = [path for path in sorted(folder.iterdir()) if path.is_dir() and not path.name.startswith(".")]
+    except OSError:
+        return []
+    return [path for place in (folder, *inside) for path in sweep(place)]
+
+
+def left_in(folder: Path, name: str = NEW) -> list[Path]:
+    """List what `sweep` removes."""
+    _swept.add((folder, name))
+    try:
+        return [path for path in folder.iterdir() if path.name.startswith(f"{name}-") and _is_left(path, name)]
+    except OSError:
+        return []
+
+
+def _is_left(path: Path, name: str) -> bool:
+    """Tell whether a path is a temporary one of a process that has ended."""
+    owned = OWNED.fullmatch(path.name.removeprefix(f"{name}-"))
+    if not owned:
+        return False
+    if owned["machine"] == owner.machine():
+        return owner.has_ended(int(owned["pid"]), int(owned["born"]))
+    try:
+        return time.time() - path.lstat().st_mtime > DAY
+    except OSError:
+        return False
+
+
+def _sweep_once(folder: Path, name: str = NEW) -> None:
+    if (folder, name) not in _swept:
+        sweep(folder, name)
+
+
+def _prefix(name: str = NEW) -> str:
+    """Return how the names of this process's temporary files and folders begin, by which `sweep` knows them."""
+    return f"{name}-{owner.machine()}-{os.getpid()}-{owner.born(os.getpid())}-"
 
 
 @contextlib.contextmanager
@@ -28,7 +110,8 @@ def replacing(path: Path) -> Iterator[Path]:
     """
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.", suffix=path.suffix)
+        _sweep_once(path.parent)
+        handle, name = tempfile.mkstemp(dir=path.parent, prefix=_prefix(), suffix=path.suffix)
         os.close(handle)
         temporary = Path(name)
         try:
@@ -52,9 +135,9 @@ def replacing_together(folder: Path, what: str) -> Iterator[Path]:
     """
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryDirectory(prefix=".new-", dir=folder) as name:
-            yield Path(name)
-            files = sorted(path for path in Path(name).iterdir() if path.is_file())
+        with temporary_folder(within=folder) as new:
+            yield new
+            files = sorted(path for path in new.iterdir() if path.is_file())
             for file in files:
                 _flush(file)
             for file in files:

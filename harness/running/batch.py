@@ -9,8 +9,10 @@ from harness.devices.executor import LocalExecutor
 from harness.experiment.config import Experiment
 from harness.experiment.plan import Planned
 from harness.plugins import Catalog
+from harness.results.lock import Lock
 from harness.results.store import Row, Store
-from harness.running.due import due
+from harness.results.writing import sweep_below
+from harness.running.due import Again, begin, due
 from harness.running.environment import describe
 from harness.running.run import Watcher
 from harness.running.runner import Runner
@@ -23,17 +25,23 @@ def rows_of(
     folder: Path,
     executor: LocalExecutor,
     watcher: Watcher,
+    lock: Lock,
     force: bool = False,
 ) -> tuple[dict[str, Row], frozenset[str]]:
     """Return each planned cell's row by its key, and the keys of the rows that are of an earlier run.
 
     A cell is run now where `folder` has no row of it, where its row says that it did not finish and, with `force`, in
-    any case; `watcher` is told of each. Raises FirsthitError where a row cannot be stored.
+    any case; `watcher` is told of each. The folder's `lock` is taken if any is to run. Raises FirsthitError where it
+    is another's, or a row cannot be stored.
     """
     store = Store(folder)
-    found = due(planned, store, "everything" if force else "unfinished")
+    sweep_below(folder)
+    again: Again = "everything" if force else "unfinished"
+    found, begun = due(planned, store, again), None
     if found.todo:
+        lock.take()
+        found, begun, _ = begin(planned, store, again)  # anew: another process may have stored rows until now
         watcher.starts(len(found.todo), 1.0 * len(found.todo), Counter(p.cell.device for p in found.todo))
     told = watcher.cell, watcher.hears_builds
-    rows = Runner(experiment.config, catalog, store, executor, describe(), *told).run(found.todo)
+    rows = Runner(experiment.config, catalog, store, executor, describe(), *told).run(found.todo, begun)
     return found.kept | {row["key"]: row for row in rows}, frozenset(found.kept)

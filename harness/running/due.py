@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
@@ -10,6 +10,7 @@ from typing import Literal
 from harness import studies
 from harness.contract import CellStatus
 from harness.experiment.plan import Planned
+from harness.results.begun import Begun
 from harness.results.store import Row, Store
 
 Again = Literal["nothing", "unfinished", "everything"]  # which cells run although they have a row
@@ -23,16 +24,33 @@ class Due:
 
     todo: list[Planned]  # in the plan's order
     kept: dict[str, Row]  # the other cells' rows by their keys, in the plan's order
+    replaced: frozenset[str]  # keys of those that must run although they have a row
 
 
-def due(planned: Sequence[Planned], store: Store, again: Again = "nothing") -> Due:
+def due(planned: Sequence[Planned], store: Store, again: Again = "nothing", asked: Collection[str] = ()) -> Due:
     """Separate the cells that must run from those whose stored row is kept.
 
-    A row that cannot be read counts as none; `store.unreadable` then says why.
+    `asked` are keys of cells that an earlier command was to run again, and did not come to (Begun.again). A row that
+    cannot be read counts as none; `store.unreadable` then says why.
     """
     stored = {p.key: store.read(p.key) for p in planned}
-    kept = {key: row for key, row in stored.items() if row and not _is_wanted_again(row, again)}
-    return Due([p for p in planned if p.key not in kept], kept)
+    rows = {key: row for key, row in stored.items() if row}
+    kept = {key: row for key, row in rows.items() if not (key in asked or _is_wanted_again(row, again))}
+    return Due([p for p in planned if p.key not in kept], kept, frozenset(rows.keys() - kept.keys()))
+
+
+def begin(planned: Sequence[Planned], store: Store, again: Again = "nothing") -> tuple[Due, Begun, list[Path]]:
+    """Find which cells must run and what is known of them already, and remove what is left of others.
+
+    Returns that with the files that were removed. Only who holds the folder's lock may call it. Raises FirsthitError
+    where the folder cannot be written.
+    """
+    begun = Begun(store.folder)
+    found = due(planned, store, again, begun.again)
+    keys = {p.key for p in found.todo}
+    begun.forget(keys if again == "everything" else found.replaced - begun.again)
+    begun.ask_again(found.replaced)
+    return found, begun, begun.sweep(keys, store.has)
 
 
 def studies_due(names: Iterable[str], folder: Path, again: Again = "nothing") -> list[str]:

@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from typing import Any
 
 from harness.contract import CellStatus, Method, Surface
-from harness.devices.interface import Timing
 from harness.devices.messages import Warmed
 from harness.experiment.kinds import of_method
 from harness.experiment.plan import Planned
 from harness.kernels.costs import operations_per_evaluation
 from harness.results import timings
+from harness.results.begun import Sample, counts
 from harness.results.row import Accuracy, Build, CellRow, RungVerdict, Time
 from surfaces.model import domain_text
 from surfaces.proofs import extent
+
+FIGURES = ("time", "build", "accuracy", "rungs")  # parts of a row that hold what was found
 
 
 @dataclass(eq=False)
@@ -27,13 +30,16 @@ class Samples:
     wall_ms: list[float] = field(default_factory=list)
     device_ms: list[float] = field(default_factory=list)  # of the device's own clock; fewer where it did not always say
     rounds: list[int] = field(default_factory=list)  # the round of each sample, so that cells of one run can be paired
+    sittings: list[int] = field(default_factory=list)  # the sitting of each sample
 
-    def add(self, timing: Timing, batch: int, round_number: int) -> None:
-        """Keep the time of `batch` frames, which were drawn in a row in one round."""
-        self.wall_ms.append(timing.wall_ms / batch)
-        if timing.device_ms is not None:
-            self.device_ms.append(timing.device_ms / batch)
+    def add(self, sample: Sample, round_number: int, sitting: int) -> None:
+        """Keep one repetition: the time of a frame, in the mean over those that were drawn in a row."""
+        wall_ms, device_ms, _ = sample
+        self.wall_ms.append(wall_ms)
+        if device_ms is not None:
+            self.device_ms.append(device_ms)
         self.rounds.append(round_number)
+        self.sittings.append(sitting)
 
     @property
     def by_device(self) -> bool:
@@ -131,7 +137,7 @@ def time_of(samples: Samples, batch: int, session: str, *, seed: int, interval: 
     ValueError for no samples.
     """
     median, lower, upper, _ = timings.median_interval(samples.times)
-    steady = timings.steadiness(samples.times)
+    steady, sittings = timings.steadiness(samples.times), counts(samples.sittings)
     bootstrap_lower, bootstrap_upper = timings.bootstrap_interval(samples.times, seed)
     return {
         "clock": "device" if samples.by_device else "wall",
@@ -139,6 +145,7 @@ def time_of(samples: Samples, batch: int, session: str, *, seed: int, interval: 
         "wall_samples_ms": samples.wall_ms,
         "rounds": samples.rounds,
         "session": session,
+        "sittings": sittings,
         "batch": batch,
         "median_ms": median,
         "lower_ms": lower,
@@ -151,8 +158,41 @@ def time_of(samples: Samples, batch: int, session: str, *, seed: int, interval: 
         "drift_chance": steady["drift_chance"],
         "spread_share": steady["spread_share"],
         "outliers": steady["outliers"],
-        "warnings": steady["warnings"],
+        "warnings": steady["warnings"] + timings.sitting_warnings(samples.times, sittings),
     }
+
+
+def without_figures(row: Mapping[str, Any], problem: str) -> dict[str, Any]:
+    """Return a row that cannot be stored as a failed one, which says why: without its figures, and with None elsewhere.
+
+    `problem` is said where every number of the row is finite.
+    """
+    wrong = next(_not_finite(row), None)
+    reason = f"a figure of its row is not finite: {wrong}" if wrong else f"its row cannot be stored: {problem}"
+    kept = {name: None if name in FIGURES else _stored(value) for name, value in row.items()}
+    return {**kept, "status": CellStatus.FAILED.value, "reason": reason}
+
+
+def _not_finite(value: object, place: str = "") -> Iterator[str]:
+    """Yield each number in a value that is not finite, with the names that lead to it."""
+    if isinstance(value, float) and not math.isfinite(value):
+        yield f"{place} is {value:g}"
+    elif isinstance(value, Mapping):
+        for name, item in value.items():
+            yield from _not_finite(item, f"{place}.{name}" if place else str(name))
+    elif isinstance(value, list | tuple):
+        for item in value:
+            yield from _not_finite(item, place)
+
+
+def _stored(value: Any) -> Any:
+    """Return a value as a file can hold it: None in the place of what it cannot."""
+    if isinstance(value, Mapping):
+        return {str(name): _stored(item) for name, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_stored(item) for item in value]
+    finite = not isinstance(value, float) or math.isfinite(value)
+    return value if finite and isinstance(value, str | int | float | None) else None
 
 
 def build_of(warmed: Warmed | None, checked_ms: float) -> Build:

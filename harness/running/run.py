@@ -27,9 +27,11 @@ from harness.experiment.size import cells_of, check_size
 from harness.hardcases import groups
 from harness.oracle import cache
 from harness.plugins import Catalog, find_methods
+from harness.results.lock import locked
 from harness.results.store import Row, Store
+from harness.results.writing import sweep_below
 from harness.running.cards import card
-from harness.running.due import UNFINISHED, Again, due, estimate_seconds, studies_due
+from harness.running.due import UNFINISHED, Again, begin, estimate_seconds, studies_due
 from harness.running.environment import describe, probed
 from harness.running.failures import failure_of, mistakes
 from harness.running.fastest import Tried, settled
@@ -37,12 +39,19 @@ from harness.running.runner import Runner
 
 
 @dataclass(frozen=True, eq=False)
-class Loaded:
-    """Hold a config, and all that is needed to plan and run it here."""
+class Read:
+    """Hold a config as it was read, before anybody has looked for devices."""
 
     whole: Experiment
     parts: tuple[Experiment, ...]  # the config itself, or those that it includes
     catalog: Catalog
+    yes: bool  # plans of any size are run
+
+
+@dataclass(frozen=True, eq=False)
+class Loaded(Read):
+    """Hold a config, and all that is needed to plan and run it here."""
+
     devices: list[DeviceInfo]  # of the backends that the config names
     tried: Mapping[str, Tried] = field(default_factory=dict)  # what was measured to find the fastest, by device
 
@@ -144,14 +153,14 @@ def teller(tell: Callable[[str], None] | None) -> Watcher:
     return Watcher() if tell is None else Teller(tell)
 
 
-def load(
+def read(
     name: str | Path,
     plugins: Path | None = None,
     devices: Sequence[str] = (),
     watcher: Watcher | None = None,
     yes: bool = False,
-) -> Loaded:
-    """Read a config, given by path or by the name of one that firsthit ships, and look for the devices it names.
+) -> Read:
+    """Read a config, given by path or by the name of one that firsthit ships.
 
     `plugins` is a folder of further methods; `devices` take the place of those that the config names. Raises
     FirsthitError where there is no such config, something in it is wrong, it includes configs that include others, or
@@ -165,31 +174,45 @@ def load(
     for told in [check_size(part, catalog, yes=yes) for part in parts]:
         if told:
             hears.warned(told)
+    return Read(whole, tuple(parts), catalog, yes)
+
+
+def load(given: Read, watcher: Watcher | None = None) -> Loaded:
+    """Look for the devices that a config names. Raises FirsthitError for too many cells on the devices found."""
+    hears, parts = watcher or Watcher(), given.parts
     named = {device for part in parts for device in part.wanted_devices()}
-    with hears.doing(f"looking for devices to run {whole.path} on"):
+    with hears.doing(f"looking for devices to run {given.whole.path} on"):
         found = discover_devices(named)
     made = settled(parts, found, hears)
     for part in made.parts:
-        check_size(part, catalog, found, yes)
-    return Loaded(whole, made.parts, catalog, found, made.tried)
+        check_size(part, given.catalog, found, given.yes)
+    return Loaded(given.whole, made.parts, given.catalog, given.yes, found, made.tried)
 
 
 def run(
-    loaded: Loaded,
+    given: Read,
     runs: Path,
     command: str,
     *,
     force: bool = False,
     retry_failed: bool = False,
+    wait: bool = False,
     watcher: Watcher | None = None,
 ) -> Run:
     """Run every cell that has no row yet and store its row below `runs`, in a folder of the config's name.
 
     `command` is what a reader of the results may type to get them again. `force` runs finished cells again,
-    `retry_failed` those that failed, timed out or crashed. A cell that fails is a row; FirsthitError is raised only
-    where no cell can be run or a result cannot be written.
+    `retry_failed` those that failed, timed out or crashed. Where another process writes into one of the folders, `wait`
+    waits until it has ended. A cell that fails is a row; FirsthitError is raised only where no cell can be run, a
+    folder is another's, or a result cannot be written.
     """
     hears = watcher or Watcher()
+    folders = [runs / one.name for one in (given.whole, *given.parts)]
+    with locked(folders, command, wait=wait, doing=hears.doing):
+        return _run(load(given, hears), runs, command, force, retry_failed, hears)
+
+
+def _run(loaded: Loaded, runs: Path, command: str, force: bool, retry_failed: bool, hears: Watcher) -> Run:
     folder = runs / loaded.whole.name
     if loaded.whole.included:
         told = _described(loaded.whole, command, describe())
@@ -247,13 +270,15 @@ def _run_part(part: Experiment, loaded: Loaded, runs: Path, command: str, again:
             | _named(part, planned, loaded.catalog)
         )
         _run_studies(part.config.studies, store.folder, again == "everything", hears)
-        found = due(planned, store, again)
+        found, begun, old = begin(planned, store, again)
+        if swept := [*old, *sweep_below(store.folder)]:
+            hears.told(f"{store.folder}: removed {len(swept)} files that killed commands left")
         for message in store.unreadable.values():
             hears.warned(f"{message}; running that cell again")
         seconds = estimate_seconds(found.todo, store, part.config.budget.seconds)
         hears.starts(len(found.todo), seconds, Counter(p.cell.device for p in found.todo))
         told = hears.cell, hears.hears_builds
-        rows = Runner(part.config, loaded.catalog, store, executor, environment, *told).run(found.todo)
+        rows = Runner(part.config, loaded.catalog, store, executor, environment, *told).run(found.todo, begun)
         if reason := cache.unwritten(store.truth):
             hears.warned(f"{reason}; the oracle's answers were kept in memory, and the next run computes them again")
     finally:

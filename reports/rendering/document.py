@@ -5,7 +5,6 @@ from __future__ import annotations
 import itertools
 import json
 import shutil
-import tempfile
 from collections.abc import Sequence
 from datetime import datetime
 from pathlib import Path
@@ -15,6 +14,7 @@ import matplotlib
 import typst
 
 from harness import escaping
+from harness.results.writing import temporary_folder
 from reports.content import Block, Code, Document, Figure, Gallery, Matrix, Section, Square, Table, Text
 from reports.drawing import shades
 
@@ -41,8 +41,7 @@ def write_page(document: Document, path: Path, created: str) -> None:
     `created` is as for `write_pdf`, and so is what is raised.
     """
     form = "png" if path.suffix.lower() == ".png" else "pdf"
-    with tempfile.TemporaryDirectory(prefix="firsthit-page-") as name:
-        folder = Path(name)
+    with temporary_folder("firsthit-page") as folder:
         _lay_out(document, folder, ONE_PAGE)
         told: dict[str, Any] = {"ppi": PIXELS_PER_INCH} if form == "png" else {"timestamp": _timestamp(created)}
         settings = {**_settings(folder), **told, "format": form, "sys_inputs": {"form": form}}

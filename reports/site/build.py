@@ -6,12 +6,12 @@ import contextlib
 import json
 import os
 import shutil
-import tempfile
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from harness.contract import FirsthitError
 from harness.results import sealed
+from harness.results.writing import left_in, temporary_folder
 from reports.drawing import images, style
 from reports.reading import export
 from reports.site import board, method_page, other_pages, pictures, run_page, standings, surface_page
@@ -117,6 +117,13 @@ def _listed(place: Path) -> set[str]:
         return set()
 
 
+def _put_back(place: Path) -> None:
+    """Put the old site back where a process was killed after it had taken it away, and before the new one was there."""
+    for left in left_in(place.parent, f".{place.name}"):
+        if (left / "old").exists() and not place.exists():
+            (left / "old").rename(place)
+
+
 @contextlib.contextmanager
 def _replacing(place: Path) -> Iterator[Path]:
     """Yield an empty folder beside `place`, which takes its place when the block ends.
@@ -125,8 +132,9 @@ def _replacing(place: Path) -> Iterator[Path]:
     """
     try:
         place.parent.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryDirectory(prefix=f".{place.name}.", dir=place.parent) as name:
-            new, old = Path(name) / "new", Path(name) / "old"
+        _put_back(place)
+        with temporary_folder(f".{place.name}", place.parent) as own:
+            new, old = own / "new", own / "old"
             new.mkdir()
             yield new
             if place.exists():

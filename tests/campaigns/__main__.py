@@ -1,7 +1,8 @@
 """Run campaigns: python -m tests.campaigns [NAME …] [--cases N] [--seed S] [--jobs J] [--table docs/reliability.md].
 
-Without a name all are run. What was found is kept below --folder by seed, and a campaign that was stopped goes on. The
-exit code is 1 where a promise did not hold. `--only N` makes one trial again, in this process.
+Without a name all are run. What was found is kept below --folder by seed and by what was tried: a campaign that was
+stopped goes on, and results of other code are not counted. Exit codes: 0 all promises hold, 1 one does not, 2 usage,
+130 stopped by Ctrl-C. `--only N` makes one trial again, in this process.
 """
 
 from __future__ import annotations
@@ -29,19 +30,33 @@ def main() -> int:
         parser.error(f"there is no campaign {', '.join(sorted(unknown))}; known: {', '.join(frame.names())}")
     fell = 0
     for name in options.names or frame.names():
-        campaign, folder = frame.campaign_named(name), options.folder / name
-        count = options.cases or campaign.whole
-        print(f"{name}: {count:,} cases, seed {options.seed}; {campaign.promise}", flush=True)
-        if options.only is not None:
-            frame.run(campaign, options.seed, 0, folder, 1, lambda _: None)  # which prepares the shared folder
-            found = frame.trials(campaign, options.seed, range(options.only, options.only + 1), folder / "shared")
-        else:
-            found = frame.run(campaign, options.seed, count, folder, options.jobs, _teller(count))
-        print("\n".join([table.line(name, found), *found.told]), flush=True)
-        if options.table and options.only is None:
-            table.write(options.table, campaign, found, options.seed)
-        fell += found.fell
+        try:
+            fell += _run(name, options)
+        except KeyboardInterrupt:
+            kept = frame.read_kept(frame.kept_in(options.folder / name, options.seed))[0]
+            told = f"{kept.cases:,} cases of {name} are kept, and the same command goes on from there"
+            print(f"stopped; {told}", file=sys.stderr, flush=True)
+            return 130
     return 1 if fell else 0
+
+
+def _run(name: str, options: argparse.Namespace) -> int:
+    """Run one campaign, print what it found, and return how many trials fell."""
+    campaign, folder = frame.campaign_named(name), options.folder / name
+    count = options.cases or campaign.whole
+    print(f"{name}: {count:,} cases, seed {options.seed}, code {frame.code()}; {campaign.promise}", flush=True)
+    kept = frame.kept_in(folder, options.seed)
+    if others := [path.name for path in sorted(folder.glob(f"seed-{options.seed}-*.jsonl")) if path != kept]:
+        print(f"  not counted, since they are of other code: {', '.join(others)}", flush=True)
+    if options.only is not None:
+        shared = frame.prepared(campaign, folder)
+        found = frame.trials(campaign, options.seed, range(options.only, options.only + 1), shared)
+    else:
+        found = frame.run(campaign, options.seed, count, folder, options.jobs, _teller(count))
+    print("\n".join([table.line(name, found), *found.told]), flush=True)
+    if options.table and options.only is None:
+        table.write(options.table, campaign, found, options.seed)
+    return found.fell
 
 
 def _teller(count: int) -> Callable[[frame.Found], None]:

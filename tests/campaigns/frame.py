@@ -22,6 +22,10 @@ from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
+from harness.results.sources import digest_of
+
+CODE = ("harness", "surfaces", "methods", "reports", "tests/campaigns")  # what a result is of
+ENDINGS: list[Callable[[], None]] = []  # to be called when a trial ends, however it ends
 KEPT = 20  # trials that fell whose words are kept
 
 
@@ -122,7 +126,11 @@ def trials(campaign: Campaign, seed: int, numbers: range, shared: Path) -> Found
 def _tried(campaign: Campaign, seed: int, number: int, shared: Path) -> str | Counter[str]:
     dice = random.Random(f"{campaign.name} {seed} {number}")
     with tempfile.TemporaryDirectory(prefix="firsthit-campaign-") as own, _limited(campaign.limit):
-        return campaign.trial(dice, Place(shared, Path(own)))
+        try:
+            return campaign.trial(dice, Place(shared, Path(own)))
+        finally:
+            while ENDINGS:
+                ENDINGS.pop()()
 
 
 @contextlib.contextmanager
@@ -141,42 +149,80 @@ def _limited(seconds: int) -> Iterator[None]:
         signal.signal(signal.SIGALRM, before)
 
 
-def run(campaign: Campaign, seed: int, count: int, folder: Path, jobs: int, tell: Callable[[Found], None]) -> Found:
-    """Try `count` cases in `jobs` processes, and return what all of them found, with those of an earlier call.
+def code() -> str:
+    """Return a hash of all that a campaign tries, and of the campaigns: results of other code are not counted."""
+    return digest_of(*CODE)[:8]
 
-    `folder` keeps what each block found, for this seed; `tell` hears of the whole after each block.
-    """
-    numbers_of_all = -(-count // campaign.each)
-    shared = folder / "shared"
+
+def kept_in(folder: Path, seed: int) -> Path:
+    """Return the file that keeps what a campaign found with this seed and this code."""
+    return folder / f"seed-{seed}-{code()}.jsonl"
+
+
+def read_kept(path: Path) -> tuple[Found, set[int]]:
+    """Return what an earlier call found, and the first numbers of the blocks that it made."""
+    whole, done = Found(), set[int]()
+    for line in path.read_text().splitlines() if path.exists() else []:
+        with contextlib.suppress(ValueError):  # the last line, where it was stopped while writing
+            read = json.loads(line)
+            done.add(read.pop("first"))
+            whole.add(Found(**read | {"counts": Counter(read["counts"])}))
+    return whole, done
+
+
+def prepared(campaign: Campaign, folder: Path) -> Path:
+    """Return the shared folder of a campaign, which is filled once for each state of the code."""
+    shared = folder / f"shared-{code()}"
     if not shared.exists():
         making = folder / "making"
         shutil.rmtree(making, ignore_errors=True)
         making.mkdir(parents=True)
         campaign.prepare(making)
         making.rename(shared)
-    kept, whole = folder / f"seed-{seed}.jsonl", Found()
-    done: set[int] = set()
-    for line in kept.read_text().splitlines() if kept.exists() else []:
-        with contextlib.suppress(ValueError):  # the last line, where it was stopped while writing
-            read = json.loads(line)
-            done.add(read.pop("first"))
-            whole.add(Found(**read | {"counts": Counter(read["counts"])}))
+    return shared
+
+
+def run(campaign: Campaign, seed: int, count: int, folder: Path, jobs: int, tell: Callable[[Found], None]) -> Found:
+    """Try `count` cases in `jobs` processes, and return what all of them found, with those of an earlier call.
+
+    `folder` keeps what each block found, for this seed and this code; `tell` hears of the whole after each block.
+    """
+    numbers_of_all, shared = -(-count // campaign.each), prepared(campaign, folder)
+    kept = kept_in(folder, seed)
+    whole, done = read_kept(kept)
     todo = [first for first in range(0, numbers_of_all, campaign.block) if first not in done]
-    context = get_context("spawn")
-    with ProcessPoolExecutor(jobs, context) as pool, kept.open("a") as file:
+    pool = ProcessPoolExecutor(jobs, get_context("spawn"), initializer=_quiet)
+    with kept.open("a") as file:
         waiting: dict[Any, int] = {}
-        while todo or waiting:
-            while todo and len(waiting) < jobs:
-                first = todo.pop(0)
-                numbers = range(first, min(first + campaign.block, numbers_of_all))
-                waiting[pool.submit(_block, campaign.name, seed, numbers, shared)] = first
-            for future in wait(waiting, return_when=FIRST_COMPLETED).done:
-                found, first = future.result(), waiting.pop(future)
-                whole.add(found)
-                file.write(json.dumps({"first": first, **vars(found)}) + "\n")
-                file.flush()
-                tell(whole)
+        try:
+            while todo or waiting:
+                while todo and len(waiting) < jobs:
+                    first = todo.pop(0)
+                    numbers = range(first, min(first + campaign.block, numbers_of_all))
+                    waiting[pool.submit(_block, campaign.name, seed, numbers, shared)] = first
+                for future in wait(waiting, return_when=FIRST_COMPLETED).done:
+                    found, first = future.result(), waiting.pop(future)
+                    whole.add(found)
+                    file.write(json.dumps({"first": first, **vars(found)}) + "\n")
+                    file.flush()
+                    tell(whole)
+        except BaseException:
+            for process in list(pool._processes.values()):
+                process.terminate()
+            raise
+        finally:
+            pool.shutdown(cancel_futures=True)
     return whole
+
+
+def _quiet() -> None:
+    """Leave Ctrl-C to the campaign, which ends its processes by SIGTERM; their trials then end what they started."""
+
+    def end(*_: Any) -> None:
+        raise SystemExit
+
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    signal.signal(signal.SIGTERM, end)
 
 
 def _block(name: str, seed: int, numbers: range, shared: Path) -> Found:

@@ -6,7 +6,6 @@ to the main process, to one of its workers or to all, after a random time or at 
 
 from __future__ import annotations
 
-import contextlib
 import json
 import os
 import random
@@ -14,104 +13,27 @@ import shutil
 import signal
 import time
 from collections import Counter
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 from pathlib import Path
 
-import numpy as np
-
 from tests.campaigns import processes
+from tests.campaigns.commands import COMMANDS, STORE_ROWS, fill, prepare, ready_of
 from tests.campaigns.frame import Campaign, Fell, Place
 from tests.campaigns.processes import Command, done
 
 EACH = 3
 SIGNALS = ("INT", "TERM", "HUP", "KILL")
-ENDED_BY = {"INT": (130,), "TERM": (143, -15), "HUP": (129, -1), "KILL": (-9,)}
+ENDED_BY = {"INT": (130, -2), "TERM": (143, -15), "HUP": (129, -1), "KILL": (-9,)}  # the latter before it has begun
 WHOM = ("main", "main", "worker", "group")
 KEPT_ROWS = "finished cells are kept"  # of the message of a command that stores rows
-
-
-@dataclass(frozen=True)
-class Killed:
-    """State a command that is killed.
-
-    arguments: its command line
-    needs: what it reads beside configs, by path, with the command that makes it; "" for what `prepare` makes
-    weight: how often it is chosen
-    again: what completes it, added to its arguments, where a worker that was killed cost a row
-    """
-
-    arguments: tuple[str, ...]
-    needs: Mapping[str, str]
-    weight: int
-    again: tuple[str, ...] = ()
-
-
-GATE = ("gated.toml", "--baseline", "base.toml")
-WRITTEN = ("--junit", "gate.xml", "--markdown", "gate.md", "--keep", "--history", "kept")
-RECOMMEND = ("--error", "0.01", "--size", "8", "--views", "1", "--rays", "4", "--seconds", "0.001", "-o", "page.html")
-RAYS = ("--surface", "torus", "--rays", "rays.npy", "-o", "truth.npz")
-COMMANDS = {
-    "run": Killed(("run", "views.toml"), {}, 6, ("--retry", "failed")),
-    "run-all": Killed(("run", "whole.toml"), {}, 6, ("--retry", "failed")),
-    "bless": Killed(("bless", *GATE, "--reason", "a trial"), {}, 2, ("--force",)),
-    "gate": Killed(("gate", *GATE, *WRITTEN), {"base.toml": "bless"}, 2, ("--force",)),
-    "report": Killed(("report", "runs/whole", "-o", "out"), {"runs": "run-all"}, 1),
-    "publish": Killed(("publish", "runs/views", "runs/hard", "-o", "site"), {"runs": "run-all"}, 1),
-    "history": Killed(("history", "gated.toml", "--history", "kept", "-o", "drawn"), {"kept": "gate"}, 1),
-    "oracle": Killed(("oracle", *RAYS), {"rays.npy": ""}, 1),
-    "recommend": Killed(("recommend", "--surface", "sphere", "--require", "conservative_bound", *RECOMMEND), {}, 1),
-}
-STORE_ROWS = ("run", "run-all", "bless", "gate", "recommend")
-CONFIGS = ("views.toml", "hard.toml", "whole.toml", "gated.toml")
-
-
-def _ready(shared: Path, name: str) -> tuple[Path, dict[str, float]]:
-    """Return a folder in which a command was run undisturbed, with the seconds it took and its changes of files.
-
-    It is made by the first trial that needs it, and those of the commands whose files the command reads before it.
-    """
-    folder, command = shared / name, COMMANDS[name]
-    if not folder.exists():
-        making = shared / f"making-{name}-{os.getpid()}"
-        shutil.rmtree(making, ignore_errors=True)
-        ready = making / "work"
-        ready.mkdir(parents=True)
-        _fill(shared, command, ready)
-        start, count = time.monotonic(), making / "count"
-        done(ready, *command.arguments, seam={"at": 10**9, "count": str(count)})
-        measured = {"seconds": time.monotonic() - start, "events": int(count.read_text())}
-        (making / "measured.json").write_text(json.dumps(measured))
-        with contextlib.suppress(OSError):  # another process was faster
-            making.rename(folder)
-    return folder / "work", json.loads((folder / "measured.json").read_text())
-
-
-def _fill(shared: Path, command: Killed, work: Path) -> None:
-    """Put the configs, and what else a command reads, into an empty folder."""
-    for name in CONFIGS:
-        shutil.copy2(shared / name, work / name)
-    for needed, maker in command.needs.items():
-        source = (_ready(shared, maker)[0] if maker else shared) / needed
-        (shutil.copytree if source.is_dir() else shutil.copy2)(source, work / needed)
-
-
-def prepare(shared: Path) -> None:
-    """Write configs and rays into the shared folder."""
-    processes.write_configs(shared)
-    rays = np.zeros((4000, 6))
-    rays[:, 3:] = np.random.default_rng(1).normal(size=(4000, 3))
-    rays[:, 3:] /= np.linalg.norm(rays[:, 3:], axis=1, keepdims=True)
-    rays[:, :3] = -3.0 * rays[:, 3:]
-    np.save(shared / "rays.npy", rays.astype(np.float32))
 
 
 def _trial(dice: random.Random, place: Place) -> Counter[str]:
     name = dice.choices(list(COMMANDS), [command.weight for command in COMMANDS.values()])[0]
     command, work = COMMANDS[name], place.own / "work"
-    ready, measured = _ready(place.shared, name)
+    ready, measured = ready_of(place.shared, name)
     work.mkdir()
-    _fill(place.shared, command, work)
+    fill(place.shared, command, work)
     if name.startswith("run") and dice.random() < 0.5:  # truth and probes are there already: kills hit cells more often
         for kept in (*ready.glob("runs/*/truth"), *ready.glob("runs/*/probes")):
             shutil.copytree(kept, work / kept.relative_to(ready))
@@ -141,10 +63,9 @@ def _kill(dice: random.Random, name: str, arguments: Sequence[str], work: Path, 
     after = processes.rows(work / "runs")
     if lost := [row for row, content in before.items() if after.get(row) != content and _is_finished(content)]:
         raise Fell(f"{what}: finished rows are lost or changed: {lost}")
-    ended = ENDED_BY[number] if whom != "worker" else ()
-    if code not in (*ended, 0, *([3] if whom == "worker" else [])):
+    if code not in (0, *((3,) if whom == "worker" else ENDED_BY[number])):
         raise Fell(f"{what}: exit code {code}; it told {told[-1500:]}")
-    if code == 130 and told.strip():
+    if code in (129, 130, 143) and told.strip():
         _check_told(what, name, told)
     if code == 0:
         return "ended before the kill" if whom != "worker" else "went on without the worker"
@@ -176,7 +97,7 @@ def _check_told(what: str, name: str, told: str) -> None:
 
 
 def _is_finished(content: bytes) -> bool:
-    return json.loads(content[content.index(b"{") :])["status"] not in processes.UNFINISHED
+    return json.loads(content)["status"] not in processes.UNFINISHED
 
 
 def _complete(dice: random.Random, name: str, work: Path, ready: Path) -> None:
@@ -208,8 +129,8 @@ def _blessed(folder: Path) -> list[str]:
 
 CAMPAIGN = Campaign(
     name="kills",
-    tries="sends INT, TERM, HUP or KILL to a command, one of its workers or all of them, at a random moment, EACH times,"
-    " and then completes it",
+    tries="sends INT, TERM, HUP or KILL to a command, one of its workers or all of them, at a random moment, EACH"
+    " times, and then completes it",
     promise="no finished cell lost or run again, no half-written file, no process left behind, no traceback, no wrong"
     " exit code, no litter after the same command has completed, no other result than an undisturbed run's",
     trial=_trial,

@@ -10,6 +10,7 @@ from harness.commands.answers.experiments import Plan, Why
 from harness.commands.answers.gates import Gate, History
 from harness.commands.answers.listed import Devices, ListedConfigs, ListedDevices, ListedMethods, ListedSurfaces
 from harness.commands.answers.recommending import Recommend
+from harness.commands.answers.verifying import Verify
 from harness.commands.machine import OWN
 
 ANSWERS: dict[str, type[Any]] = {  # by the command that answers it
@@ -23,6 +24,7 @@ ANSWERS: dict[str, type[Any]] = {  # by the command that answers it
     "gate": Gate,
     "history": History,
     "recommend": Recommend,
+    "verify": Verify,
 }
 
 

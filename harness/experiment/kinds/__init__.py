@@ -14,6 +14,8 @@ frame, and how answers become hits of rays. The rest of the harness asks the kin
     family    families of hard rays, which are checked and never timed
     raster    scenes in stage raster; draws makes their draw calls
     programs  what a cell is cast by, which another revision's programs can replace
+    shared    what the cells of a plan have in common, made and kept once
+    drawing   how a group of instances is to be drawn
 
 CONTRIBUTING.md, "a kind", lists all that a new one needs.
 """

@@ -24,7 +24,6 @@ from harness.devices.quadtree import Layout, layout_of
 from harness.experiment.kinds.model import Asked, Casting, Kind, RacedCasting
 from harness.experiment.kinds.programs import Programs
 from harness.experiment.kinds.shots import Shot, ShotKind
-from harness.kernels.assemble import with_free_loops
 from harness.scenes.camera import rays_of
 
 
@@ -116,4 +115,4 @@ class Beams(Kind):
     def casting(self, asked: Asked) -> Casting:
         check = asked.program(asked.cell.surface, "beams")
         layout = layout_of(dict(asked.cell.variant.parameters))
-        return BeamCasting(asked, check, with_free_loops(check), self.quadtree, layout)
+        return BeamCasting(asked, check, asked.freed(check), self.quadtree, layout)

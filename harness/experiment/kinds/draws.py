@@ -24,7 +24,7 @@ from dataclasses import dataclass
 from harness.contract import MeshRecipe, Method, Normal, Origin, Program, Proxy, Variant
 from harness.devices.raster import Batch, corners
 from harness.experiment.kinds.casts import of_method
-from harness.experiment.kinds.model import Drawing
+from harness.experiment.kinds.drawing import Drawing
 from harness.plugins import Catalog
 from harness.scenes.model import Group, Scene
 from harness.scenes.records import pack

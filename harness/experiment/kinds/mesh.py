@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from harness.contract import FirsthitError, Method, Program, Stage, Surface, Variant
-from harness.experiment.kinds.model import Asked, Casting, Drawing, Kind, MethodKind
+from harness.experiment.kinds.drawing import Drawing
+from harness.experiment.kinds.model import Asked, Casting, Kind, MethodKind
 from harness.kernels.raster import mesh_program
 from harness.plugins import Plugin
 from harness.scenes import meshes

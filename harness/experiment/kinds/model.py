@@ -13,7 +13,7 @@ from __future__ import annotations
 import dataclasses
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Literal, TypedDict
 
@@ -41,7 +41,9 @@ from harness.devices.interface import LANGUAGES
 from harness.devices.messages import Frame
 from harness.experiment.cells import Cell
 from harness.experiment.config import AccuracyChoice, Config, Experiment
+from harness.experiment.kinds.drawing import Drawing
 from harness.experiment.kinds.programs import Programs
+from harness.experiment.kinds.shared import Shared
 from harness.kernels.assemble import Entry, Language, method_program, with_free_loops
 from harness.kernels.functions import too_long, unsupported
 from harness.plugins import Catalog, Plugin
@@ -69,6 +71,7 @@ class Asked:
     info: of the cell's device; None if it is not here
     method_kind: the kind of the cell's method
     most_triangles: the most that a frame may have
+    shared: what cells of the same plan have in common
     """
 
     cell: Cell
@@ -76,6 +79,7 @@ class Asked:
     catalog: Catalog
     method_kind: MethodKind
     most_triangles: int
+    shared: Shared = field(default_factory=Shared)
 
     @property
     def plugin(self) -> Plugin:
@@ -97,8 +101,17 @@ class Asked:
         `language` is the device's if none is given. Raises FirsthitError as method_program does.
         """
         cell, plugin = self.cell, self.plugin
-        stated = plugin.method, plugin.folder, cell.variant, surface, cell.precision, language or self.language
-        return method_program(*stated, entry, narrowed, origin=cell.origin)
+        stated = cell.variant, surface, cell.precision, language or self.language
+
+        def make() -> Program:
+            made = method_program(plugin.method, plugin.folder, *stated, entry, narrowed, origin=cell.origin)
+            return self.shared.program(made)
+
+        return self.shared.once((plugin.folder, *stated, entry, narrowed, cell.origin), make)
+
+    def freed(self, program: Program) -> Program:
+        """Return a program whose loops are left to the compiler, as timed ones are."""
+        return self.shared.once(("freed", program), lambda: self.shared.program(with_free_loops(program)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -192,22 +205,6 @@ class MethodKind(ABC):
         `camera`, float32[12], is the camera whose image the shot is; None if the rays are listed ones.
         """
         return self.unlisted if camera is None else None
-
-
-@dataclass(frozen=True, eq=False)
-class Drawing:
-    """State how a group of instances is to be drawn.
-
-    pixels: pixel footprints that the method's tolerance may grow to; see harness.kernels.raster.raster_program for
-        this, `origin` and `normal`
-    """
-
-    group: Group
-    variant: Variant
-    proxy: Proxy
-    pixels: float = 0.0
-    origin: Origin = "nearest"
-    normal: Normal = "distance"
 
 
 class Kind(ABC):

@@ -76,4 +76,6 @@ class Narrowed(Kind):
         check, timed = (
             asked.program(cell.surface, entry, narrowed=prepass.parameters()) for entry in ("rays", "camera")
         )
-        return NarrowedCasting(asked, check, timed, prepass.program(cell.surface, cell.precision, asked.language))
+        stated = cell.surface, cell.precision, asked.language
+        first = asked.shared.once(("prepass", *stated), lambda: asked.shared.program(prepass.program(*stated)))
+        return NarrowedCasting(asked, check, timed, first)

@@ -161,4 +161,6 @@ class Raster(Kind):
         scene = cell.scene or single(cell.surface, cell.view)
         depth_map(scene, camera_for(cell.view, cell.surface))  # refuses an eye inside an instance
         drawn = draws(scene, cell.variant, cell.proxy, asked.catalog, cell.tolerance, cell.origin, cell.normal)
+        once = asked.shared.program
+        drawn = tuple(dataclasses.replace(draw, timed=once(draw.timed), check=once(draw.check)) for draw in drawn)
         return RasterCasting(asked, scene, drawn)

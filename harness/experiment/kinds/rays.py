@@ -15,10 +15,10 @@ from harness.contract import FirsthitError, Hits, Method, Origin, Program, Surfa
 from harness.devices.executor import LocalExecutor
 from harness.devices.messages import CameraFrame, Check, Frame, ListedCheck, ListedFrame
 from harness.experiment.config import Experiment
-from harness.experiment.kinds.model import Asked, Casting, Drawing, Kind, RacedCasting, Rastering
+from harness.experiment.kinds.drawing import Drawing
+from harness.experiment.kinds.model import Asked, Casting, Kind, RacedCasting, Rastering
 from harness.experiment.kinds.programs import Programs
 from harness.experiment.kinds.shots import Shot, ShotKind
-from harness.kernels.assemble import with_free_loops
 from harness.kernels.raster import raster_program
 from harness.plugins import Plugin
 from harness.scenes.camera import rays_of
@@ -140,5 +140,5 @@ class Rays(Kind):
     def casting(self, asked: Asked) -> Casting:
         surface = asked.cell.surface
         check = asked.program(surface, "rays")
-        timed = asked.program(surface, "camera") if asked.cell.stage == "compute" else with_free_loops(check)
+        timed = asked.program(surface, "camera") if asked.cell.stage == "compute" else asked.freed(check)
         return RayCasting(asked, check, timed)

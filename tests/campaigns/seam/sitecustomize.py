@@ -29,7 +29,7 @@ class Seam:
         """Hear an audit event of the interpreter."""
         if event in CHANGES or (event == "open" and isinstance(arguments[2], int) and arguments[2] & WRITES):
             path = arguments[0]
-            if isinstance(path, str | bytes | os.PathLike) and os.path.abspath(os.fsdecode(path)).startswith(
+            if isinstance(path, str | bytes | os.PathLike) and str(Path(os.fsdecode(path)).absolute()).startswith(
                 self.below
             ):
                 self.happens(event, os.fsdecode(path))
@@ -50,9 +50,9 @@ class Seam:
     def flushed(self, file):
         """Do what os.fsync does, as an event: some file systems say only there that they are full."""
         number = file if isinstance(file, int) else file.fileno()
-        path = os.readlink(f"/proc/self/fd/{number}") if os.path.exists("/proc/self/fd") else ""
-        if path.startswith(self.below):
-            self.happens("fsync", path)
+        link = Path(f"/proc/self/fd/{number}")
+        if link.exists() and str(link.readlink()).startswith(self.below):
+            self.happens("fsync", str(link.readlink()))
         fsync(file)
 
     def tell(self):

@@ -1,0 +1,8 @@
+"""Check stored rows again by what they say: a stranger's row, or one that lay on a disk for long.
+
+A row names its surface, rays, samples and answers. So its counts, quantiles and times can be computed again, and the
+truth that it was judged by can be certified anew. Nothing is cast, and no device is opened.
+
+`checks` lists what is done: `stated` (identity and columns), `times` (samples), `answers` (arrays), `truth` (the
+oracle) and `rungs` (families). Each takes a row and yields what does not hold, or says why it cannot tell.
+"""

@@ -1,0 +1,84 @@
+"""Check what a row says of a family's rungs: sums, and what follows from the family's rays and their truth."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any
+
+import numpy as np
+
+from harness.accuracy.rungs import knowable_margin
+from harness.contract import FirsthitError, Surface, Truth, TruthStatus
+from harness.hardcases import groups
+from harness.results.row import KINDS
+from harness.verifying.model import CannotTell, Wrong, differing
+from harness.verifying.truth import Rays
+
+Certify = Callable[[Surface, Rays], Truth]
+
+
+def sums(row: Mapping[str, Any]) -> Iterator[Wrong]:
+    """Yield the rungs whose counts contradict each other. Raises CannotTell for a row without rungs."""
+    if not row.get("rungs"):
+        raise CannotTell("it has no rungs")
+    for number, rung in enumerate(row["rungs"]):
+        at = f"rungs[{number}]"
+        parts = rung["decided"] + rung["undecidable"] + rung["undecided"]
+        yield from differing(f"{at}.rays", rung["rays"], parts)
+        decided = rung["right"] + sum(rung.get(kind, 0) for kind in KINDS)
+        yield from differing(f"{at}.decided", rung["decided"], decided)
+        if not 0 <= rung["undecidable_right"] <= rung["undecidable"]:
+            yield Wrong(f"{at}.undecidable_right", rung["undecidable_right"], f"0 to {rung['undecidable']}")
+        if rung["max_error"] is not None and not rung["right"]:
+            yield Wrong(f"{at}.max_error", rung["max_error"], "none, since no ray was answered rightly")
+
+
+def rungs(row: Mapping[str, Any], certify: Certify) -> Iterator[Wrong]:
+    """Yield what rungs say otherwise than the family's rays and their truth.
+
+    Raises CannotTell where this version has no such family, or another one of its name.
+    """
+    try:
+        family = groups.identity(row["family"])
+    except FirsthitError as error:
+        raise CannotTell(str(error)) from None
+    if row["identity"].get("family") != family:
+        raise CannotTell(f"the family {row['family']} has other rays here")
+    told = iter(enumerate(row["rungs"]))
+    for group in groups.groups(row["family"]):
+        truth, start = certify(group.surface, group.rays), 0
+        for rung in group.rungs:
+            number, stored = next(told, (-1, None))
+            if stored is None:
+                yield Wrong("rungs", f"{len(row['rungs'])} rungs", "more of them")
+                return
+            part = slice(start, start := start + len(rung.rays))
+            at, undecided = f"rungs[{number}]", truth.status[part] == TruthStatus.UNDECIDED
+            near = np.minimum(truth.margin[part], rung.margin) < knowable_margin(rung, row["precision"])
+            yield from differing(f"{at}.parameter", stored["parameter"], rung.parameter)
+            yield from differing(f"{at}.rays", stored["rays"], len(rung.rays))
+            if not stored.get("invalid"):  # whose rays are decided, whatever the truth
+                yield from differing(f"{at}.undecided", stored["undecided"], int(undecided.sum()))
+                yield from differing(f"{at}.undecidable", stored["undecidable"], int((near & ~undecided).sum()))
+            yield from _ratio(at, stored, truth, part, row["precision"], rung.surface)
+    if next(told, None):
+        yield Wrong("rungs", f"{len(row['rungs'])} rungs", "fewer of them")
+
+
+def _ratio(
+    at: str, stored: Mapping[str, Any], truth: Truth, part: slice, precision: str, surface: Surface
+) -> Iterator[Wrong]:
+    """Yield a rung's largest ratio where no ray of the rung could have it with its largest error."""
+    from harness.contract import UNIT_ROUNDOFF
+
+    if stored["max_error"] is None or stored["worst_ratio"] is None:
+        yield from differing(f"{at}.worst_ratio", stored["worst_ratio"], stored["max_error"])
+        return
+    unit = UNIT_ROUNDOFF[precision] * surface.domain.radius  # type: ignore[index]
+    conditions = np.fmax(truth.condition[part], 1.0)
+    conditions = conditions[np.isfinite(conditions)]
+    if not len(conditions):
+        return
+    least, most = stored["max_error"] / (unit * conditions.max()), stored["max_error"] / (unit * conditions.min())
+    if not least * (1.0 - 1e-9) <= stored["worst_ratio"] <= most * (1.0 + 1e-9):
+        yield Wrong(f"{at}.worst_ratio", stored["worst_ratio"], f"{least:.6g} to {most:.6g}")
