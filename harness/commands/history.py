@@ -47,7 +47,7 @@ def add_parsers(add: Add) -> None:
 def _history(options: argparse.Namespace) -> int | Answer:
     """Draw the history of a config. Raises FirsthitError where nothing is kept, or a package is missing."""
     config = located(options.config)
-    experiment = reading.load(config, find_methods(options.plugins))
+    experiment = reading.load(config, find_methods(options.plugins).with_stand_ins())
     folder = history_of(options, config)
     kept, problems = commits.read_all(folder)
     for problem in problems:

@@ -111,7 +111,7 @@ class _Process:
         if last and self._line:
             whole, self._line = [*whole, self._line], b""
         for line in whole:
-            sys.stderr.write(escaping.output(line).decode())
+            print(escaping.output(line).decode(), end="", file=sys.stderr)
 
 
 def _end(started: subprocess.Popen[bytes], pipe: Connection) -> None:
