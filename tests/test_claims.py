@@ -198,8 +198,8 @@ def test_a_claim_with_a_missing_figure_is_not_decided(tmp_path: Path, number: in
     stated, made = _claims_by_method()[number]
     assert claims.judge(stated, evidence(tmp_path / "whole", made)).outcome is not Outcome.UNTESTED
     for counts in ("misses", "wrong_root", "grazing_misses", "grazing_wrong_root", "false_hits", "exhausted"):
-        made["accuracy"][counts] = None
-    made["accuracy"]["feature_error"] = None
+        del made["accuracy"][counts]
+    del made["accuracy"]["feature_error"]
     verdict = claims.judge(stated, evidence(tmp_path / "missing", made))
     assert verdict.outcome is Outcome.UNDECIDED, verdict.figure
 

@@ -98,4 +98,5 @@ def _always(notes: tuple[Any, ...]) -> bool:
     return any(isinstance(note, Leaf) and note.always for note in notes)
 
 
-check = declared.checker(StoredRow, RULES, _always)
+check = declared.checker(StoredRow, RULES, _always)  # of rows of every version
+check_whole = declared.checker(StoredRow, RULES)  # of rows of this version, which have every leaf

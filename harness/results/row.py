@@ -211,14 +211,14 @@ class NamedProgram(TypedDict):
 
     hash: Annotated[
         str,
-        Leaf("names the text of the timed program, or of the checked one where none is timed", column="program_hash"),
+        Leaf("names the text of the timed program, or of the checked one where none is timed", column="program_hash", always=True),
     ]
 
 
 class Environment(TypedDict):
     """State when a row was written, and by which version of the project."""
 
-    started: Annotated[str, "when the row was written, ISO 8601"]
+    started: Annotated[str, Leaf("when the row was written, ISO 8601", always=True)]
     commit: Annotated[str | None, "the project's commit; null without git"]
     dirty: Annotated[bool, Leaf("whether files that git knows were changed since", column=None)]
 
