@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import copy
 import json
-import math
 import random
 import statistics
 import types
@@ -421,10 +420,10 @@ def agreeing(finished: dict[str, Any]) -> dict[str, Any]:
         time["upper_ms"] = max(min(max(samples), time["upper_ms"]), median)
     if found:
         for quantiles in (part for part in found.values() if isinstance(part, dict)):
-            most = quantiles.get("max", math.inf)
+            most = quantiles.get("max", max((v for v in quantiles.values() if v is not None), default=None))
             for name in PERCENTILES:
-                if name in quantiles:
-                    most = quantiles[name] = None if most is None else min(most, quantiles[name])
+                own = quantiles.get(name)
+                most = quantiles[name] = own if own is not None and most is not None and own < most else most
         found["truth_misses"] = found["rays"] - found["truth_hits"] - found["undecided"]
     return made
 

@@ -25,8 +25,8 @@ Row = dict[str, Any]  # as it was read, of this or an older version; harness/res
 def read_row(path: Path, key: str, *, older: bool = True) -> Row:
     """Read the row of a cell's file, and hold it against its checksum, its declaration and itself.
 
-    With `older`, leaves that not every version wrote may be missing. Raises FileNotFoundError where there is none, and OSError or ValueError where it is damaged, of another version or
-    of another cell.
+    With `older`, leaves that not every version wrote may be missing. Raises FileNotFoundError where there is none, and
+    OSError or ValueError where it is damaged, of another version or of another cell.
     """
     row = of_format(sealed.read(path), FORMAT)
     if row.get("key") != key:

@@ -6,6 +6,8 @@ import json
 import random
 import shutil
 from collections import Counter
+from collections.abc import Callable
+from functools import cache, partial
 from pathlib import Path
 from typing import Any
 
@@ -17,12 +19,11 @@ from reports import compare
 from reports.reading import load
 from tests import synthetic_run
 from tests.campaigns import damaged_kinds, mutations
-from tests.campaigns.damaged_kinds import KEY, KINDS, LADDER, REFUSED, Kind
+from tests.campaigns.damaged_kinds import KINDS, REFUSED, Kind
 from tests.campaigns.frame import Campaign, Fell, Place
 
 EACH = 100
-REPORTED = 0.25  # of all trials report a whole run
-CELLS = 6
+REPORTED = 0.1  # of all trials report a whole run
 
 
 def _prepare(shared: Path) -> None:
@@ -49,87 +50,93 @@ def _prepare(shared: Path) -> None:
     (shared / "run" / "plan.json").write_bytes(sealed.sealed(plan | studies))
 
 
-def _damaged(dice: random.Random, kind: Kind, path: Path) -> bool:
-    """Damage a good file; return whether its checksum was mended, so that only what it says is wrong."""
-    content = path.read_bytes()
-    if kind.form in ("npz", "npy") and dice.random() < 0.6:
-        if kind.form == "npz":
-            with np.load(path) as arrays:
-                path.write_bytes(mutations.repacked(dice, dict(arrays)))
-        else:
-            path.write_bytes(mutations._claimed(dice, content))
-        return True
+def _damaged(dice: random.Random, kind: Kind, path: Path) -> tuple[bytes, bool]:
+    """Return a good file's bytes, damaged, and whether its checksum was mended, so that only what it says is wrong."""
+    content = _content(path)
+    if kind.form == "npz" and dice.random() < 0.6:
+        return mutations.repacked(dice, _arrays(path)), True
+    if kind.form == "npy" and dice.random() < 0.6:
+        return mutations.claimed(dice, content), True
     if kind.form == "json" and dice.random() < 0.7:
-        document = mutations.changed(dice, {k: v for k, v in json.loads(content).items() if k != sealed.CHECKSUM})
-        text = mutations.text(document)
-        mended = dice.random() < 0.8
-        if mended and dice.random() < 0.2:  # what a file of an older version, without a checksum, is like
-            path.write_text(text)
-        elif mended and text.startswith("{\n"):
-            path.write_bytes(sealed.with_seal(text))
-        else:
-            path.write_bytes(content.split(b"\n")[0] + b"\n" + text.encode().partition(b"\n")[2])
-        return mended
-    path.write_bytes(mutations.scribbled(dice, content))
+        text = mutations.text(mutations.changed(dice, _document(path)))
+        match dice.randrange(10):
+            case 0 | 1:
+                return content.split(b"\n")[0] + b"\n" + text.encode().partition(b"\n")[2], False
+            case 2 | 3:  # as a file of an older version is, which has no checksum
+                return text.encode(), True
+        return _sealed(text), True
+    made = mutations.scribbled(dice, content)
     if kind.form == "json" and dice.random() < 0.5:
-        rest = path.read_bytes().partition(b"\n")[2].decode("utf-8", "replace")
-        path.write_bytes(sealed.with_seal("{\n" + rest))
-        return True
-    return kind.form in ("toml", "npy")  # such files have no checksum
+        return sealed.with_seal("{\n" + made.partition(b"\n")[2].decode("utf-8", "replace")), True
+    return made, kind.form in ("toml", "npy")  # such files have no checksum
+
+
+@cache
+def _content(path: Path) -> bytes:
+    return path.read_bytes()
+
+
+@cache
+def _document(path: Path) -> dict[str, Any]:
+    return {name: value for name, value in json.loads(_content(path)).items() if name != sealed.CHECKSUM}
+
+
+@cache
+def _arrays(path: Path) -> dict[str, Any]:
+    with np.load(path) as arrays:
+        return dict(arrays)
+
+
+def _sealed(text: str) -> bytes:
+    """Seal a document, also where it is empty."""
+    return sealed.with_seal(text) if text.startswith("{\n") else text.encode()
 
 
 def _tried(dice: random.Random, kind: Kind, good: Any, shared: Path, own: Path) -> str:
     """Damage a file of a kind, read it, and say what happened."""
-    path, replaced = own / kind.path, dice.random() < 0.01
-    content = (shared / kind.path).read_bytes()
-    path.write_bytes(content)
+    path, kept, mended = own / kind.path, None, False
+    if dice.random() < 0.01:
+        mutations.in_place_of(dice, path)
+    else:
+        kept, mended = _damaged(dice, kind, shared / kind.path)
+        path.write_bytes(kept)
     try:
-        if replaced:
-            mutations.in_place_of(dice, path)
-            mended = False
-        else:
-            mended = _damaged(dice, kind, path)
-        kept = None if replaced else path.read_bytes()
-        try:
-            found = kind.read(own)
-        except REFUSED as error:
-            if "\n" in sealed.problem(error):
-                raise Fell(f"{kind.name}: more than a line: {error}") from None
-            return "named"
-        except Exception as error:
-            raise _told(kind, kept) from error
-        if found is None:
-            return "made again"
-        if damaged_kinds.same(found, good):
-            return "harmless"
-        if not mended or not kind.sound(found):
-            raise _told(kind, kept)
-        return "possible"
+        found = kind.read(own)
+    except REFUSED as error:
+        if "\n" in sealed.problem(error):
+            raise Fell(f"{kind.name}: more than a line: {error}") from None
+        return "named"
+    except Exception as error:
+        raise _told(kind, kept) from error
     finally:
-        if path.is_dir() and not path.is_symlink():
-            path.rmdir()
-        path.unlink(missing_ok=True)
-        path.write_bytes(content)
+        if kept is None:
+            path.rmdir() if path.is_dir() and not path.is_symlink() else path.unlink()
+    if found is None:
+        return "made again"
+    if damaged_kinds.same(found, good):
+        return "harmless"
+    if not mended or not kind.sound(found):
+        raise _told(kind, kept)
+    return "possible"
 
 
 def _told(kind: Kind, content: bytes | None) -> Fell:
     return Fell(f"{kind.name}: of a file that begins with {content[:3000] if content else content!r}")
 
 
-def _possible(dice: random.Random, path: Path) -> None:
-    """Change a row until a reader takes it, or leave it as it is."""
-    content = path.read_bytes()
+def _possible(dice: random.Random, path: Path, good: Path, read: Callable[[], Any]) -> None:
+    """Change a file until its reader takes it, or leave it as it is."""
     for _ in range(30):
-        document = mutations.changed(dice, {k: v for k, v in json.loads(content).items() if k != sealed.CHECKSUM})
-        text = mutations.text(document)
-        if text.startswith("{\n"):
-            path.write_bytes(sealed.with_seal(text))
-            try:
-                store.read_row(path, path.stem)
-            except (OSError, ValueError):
-                continue
-            return
-    path.write_bytes(content)
+        document = mutations.changed(dice, _document(good))
+        if path.name == "plan.json" and dice.random() < 0.1:
+            document |= {dice.choice(("devices", "cells")): []}
+        path.write_bytes(_sealed(mutations.text(document)))
+        try:
+            read()
+        except REFUSED:
+            continue
+        return
+    path.write_bytes(_content(good))
 
 
 def _reported(dice: random.Random, shared: Path, own: Path) -> str:
@@ -138,16 +145,15 @@ def _reported(dice: random.Random, shared: Path, own: Path) -> str:
     shutil.copytree(shared / "run", run)
     paths = sorted(path for path in run.rglob("*") if path.is_file())
     for path in paths:
-        what = dice.random()
+        what, good = dice.random(), shared / "run" / path.relative_to(run)
         if path.parent.name == "cells" and what < 0.6:
-            _possible(dice, path)
+            _possible(dice, path, good, partial(store.read_row, path, path.stem))
         elif path.parent.name == "arrays" and what < 0.5:
-            with np.load(path) as arrays:
-                path.write_bytes(mutations.repacked(dice, dict(arrays)))
+            path.write_bytes(mutations.repacked(dice, _arrays(good)))
         elif path.name == "plan.json" and what < 0.8:
-            _possible_plan(dice, run)
+            _possible(dice, path, good, partial(load.plan_of, run))
         elif what > 0.93:
-            dice.choice((path.unlink, lambda path=path: mutations.in_place_of(dice, path)))()
+            dice.choice((path.unlink, partial(mutations.in_place_of, dice, path)))()
     if dice.random() < 0.1:
         shutil.rmtree(run / dice.choice(("arrays", "studies", "cells")))
     try:
@@ -156,25 +162,6 @@ def _reported(dice: random.Random, shared: Path, own: Path) -> str:
     except FirsthitError:
         return "runs: named"
     return "runs: reported"
-
-
-def _possible_plan(dice: random.Random, run: Path) -> None:
-    """Change a plan until a reader takes it, or leave it as it is."""
-    path = run / "plan.json"
-    content = path.read_bytes()
-    for _ in range(30):
-        document = mutations.changed(dice, {k: v for k, v in json.loads(content).items() if k != sealed.CHECKSUM})
-        if dice.random() < 0.1:
-            document |= {dice.choice(("devices", "cells")): []}
-        text = mutations.text(document)
-        if text.startswith("{\n"):
-            path.write_bytes(sealed.with_seal(text))
-            try:
-                load.plan_of(run)
-            except FirsthitError:
-                continue
-            return
-    path.write_bytes(content)
 
 
 def _trial(dice: random.Random, place: Place) -> Counter[str]:
@@ -190,10 +177,9 @@ def _trial(dice: random.Random, place: Place) -> Counter[str]:
     return seen
 
 
-assert KEY != LADDER
 CAMPAIGN = Campaign(
     name="damaged",
-    tries="damages a file of each kind and reads it as commands do; every 400th time reports a whole damaged run",
+    tries="damages a file of each kind and reads it as commands do; every 1,000th time reports a whole damaged run",
     promise="no traceback, no hang, no figure from a damaged file",
     trial=_trial,
     small=300,

@@ -95,7 +95,9 @@ def _sound_row(row: dict[str, Any]) -> bool:
         good &= len(time["samples_ms"]) > 0 and min(time["samples_ms"]) > 0.0
         middle = statistics.median(time["samples_ms"])
         good &= "median_ms" not in time or math.isclose(time["median_ms"], middle, rel_tol=1e-6)
-        good &= all(len(time.get(n, time["samples_ms"])) == len(time["samples_ms"]) for n in ("rounds", "wall_samples_ms"))
+        good &= all(
+            len(time.get(n, time["samples_ms"])) == len(time["samples_ms"]) for n in ("rounds", "wall_samples_ms")
+        )
     if found:
         good &= all(type(found[name]) is int and found[name] >= 0 for name in ("misses", "undecided") if name in found)
     return good and all(rung["right"] <= rung["decided"] <= rung["rays"] for rung in rungs)
@@ -153,7 +155,7 @@ def _history(folder: Path) -> Any:
     found, problems = commits.read_all(folder / "history")
     if problems:
         raise ValueError(problems[0])
-    return [vars(one) for one in found][0] if found else None
+    return vars(found[0]) if found else None
 
 
 def _mark(folder: Path) -> Any:
@@ -219,8 +221,10 @@ def prepare(folder: Path) -> None:
     (folder / "opencl.json").write_bytes(sealed.sealed(record | {"files": {}}))
     entry = {"scene": "s", "status": "ok", "program": "p", "misses": 3, "error_max": 1e-6, "last_bit": 1e-7}
     facts = {"name": "opencl:one", "processor": "P", "versions": {"pyopencl": "1"}, "arithmetic": found}
-    rows = {"newton torus": entry, "newton \"kiss\"": entry | {"status": "failed", "reason": "no\nway"}}
-    baseline.write(folder / "baseline.toml", Baseline("gate", {"opencl:one 1f3a6c": facts}, {"opencl:one 1f3a6c": rows}))
+    rows = {"newton torus": entry, 'newton "kiss"': entry | {"status": "failed", "reason": "no\nway"}}
+    baseline.write(
+        folder / "baseline.toml", Baseline("gate", {"opencl:one 1f3a6c": facts}, {"opencl:one 1f3a6c": rows})
+    )
     gated = {kept_runs.SLOT: kept_runs.row(misses=3, error_max=1.1e-6), "other": kept_runs.row(misses=0)}
     written = commits.write(folder / "history", kept_runs.kept(0, gated), "one")
     written.rename(folder / "history" / "2026-03-01-one.json")
