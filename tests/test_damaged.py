@@ -90,6 +90,8 @@ def test_a_row_whose_checksum_does_not_hold_is_no_row(tmp_path):
         (changed(VIEW, "time", "rounds", [1, 2]), "rounds has 2 items, samples_ms 20"),
         (changed(VIEW, "time", "wall_samples_ms", [1.0]), "wall_samples_ms has 1 items"),
         (changed(VIEW, "time", "rounds", [0] * 20), "a round stands twice"),
+        (changed(VIEW, "time", "rounds", 20), "time.rounds is no list: 20"),
+        (changed(VIEW, "time", "rounds", [0.5] * 20), "time.rounds[] is no whole number"),
         (changed(VIEW, "time", "samples_ms", []), "it has no samples"),
         (changed(VIEW, "time", "samples_ms", [0.0] * 20), "is not positive"),
         (changed(VIEW, "time", "upper_ms", 1e9), "do not lie around the median"),

@@ -23,7 +23,7 @@ from tests.campaigns.damaged_kinds import KINDS, REFUSED, Kind
 from tests.campaigns.frame import Campaign, Fell, Place
 
 EACH = 100
-REPORTED = 0.1  # of all trials report a whole run
+REPORTED = 0.05  # of all trials report a whole run
 
 
 def _prepare(shared: Path) -> None:
@@ -179,10 +179,10 @@ def _trial(dice: random.Random, place: Place) -> Counter[str]:
 
 CAMPAIGN = Campaign(
     name="damaged",
-    tries="damages a file of each kind and reads it as commands do; every 1,000th time reports a whole damaged run",
+    tries="damages a file of each kind and reads it as commands do; every 2,000th time reports a whole damaged run",
     promise="no traceback, no hang, no figure from a damaged file",
     trial=_trial,
-    small=300,
+    small=200,
     whole=100_000,
     each=EACH,
     block=2,
