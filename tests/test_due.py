@@ -7,7 +7,7 @@ import pytest
 from harness.results.store import Store
 from harness.running.due import PREPARING, due, estimate_seconds
 
-from .synthetic_run import cell
+from .synthetic_run import cell, whole
 
 STATUSES = ("ok", "skipped", "failed", "timeout", "crashed")
 
@@ -20,7 +20,7 @@ def planned(key, skip=None):
 def store(tmp_path):
     store = Store(tmp_path)
     for status in STATUSES:
-        row = cell("newton[EPSILON=0.001]", "torus", "opencl:intel", "float32") | {"key": status, "arrays": None}
+        row = whole(cell("newton[EPSILON=0.001]", "torus", "opencl:intel", "float32")) | {"key": status, "arrays": None}
         store.write(row | {"slot": f"slot of {status}", "status": status, "reason": "why", "seconds": 7.0})
     (tmp_path / "cells" / "damaged.json").write_text("{")
     return store

@@ -52,7 +52,7 @@ def test_a_pixel_of_several_samples_has_the_mean_of_their_colours(tmp_path: Path
     assert np.allclose(image[0, 0], (3 * light + shadow) / 4)
     assert np.allclose(image[0, 1], (3 + light) / 4), "three samples see the white behind"
     np.savez(tmp_path / "made.npz", samples=samples[:, :3], **blank)
-    with pytest.raises(ValueError, match="do not fill"):
+    with pytest.raises(ValueError, match="samples has the shape"):
         arrays.read(tmp_path / "made.npz")
 
 

@@ -88,7 +88,8 @@ def test_the_study_of_ranges_is_tabled_and_drawn(tmp_path: Path, monkeypatch: py
     document["studies"] = [{"study": "form_ranges", "key": "abc"}]
     (folder / "plan.json").write_text(json.dumps(document))
     (folder / "studies").mkdir()
-    (folder / "studies" / "abc.json").write_text(json.dumps({"format": 1, "rows": form_ranges.compute()}))
+    stored = {"format": 1, "study": "form_ranges", "key": "abc", "rows": form_ranges.compute()}
+    (folder / "studies" / "abc.json").write_text(json.dumps(stored))
     section = page(folder)
     made = lines(section, "What a form makes of f's range.")
     assert list(made) == [PRINTED, "nested", "squares"]

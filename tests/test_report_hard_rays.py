@@ -182,9 +182,9 @@ def test_a_method_that_answers_nothing_breaks_nowhere(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("change", "problem"),
     [
-        (lambda c: c["rungs"][1].pop("decided"), "decided is missing"),
-        (lambda c: c["rungs"].append(7), "a rung is no object: 7"),
-        (lambda c: c.update(rungs="many"), "rungs is missing or no list"),
+        (lambda c: c["rungs"][1].pop("decided"), "rungs[].decided is missing"),
+        (lambda c: c["rungs"].append(7), "rungs[] is no object: 7"),
+        (lambda c: c.update(rungs="many"), "rungs is no list: 'many'"),
         (lambda c: c.update(family="unheard_of"), "the plan says nothing of its family, 'unheard_of'"),
     ],
 )

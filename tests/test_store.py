@@ -8,12 +8,12 @@ from harness.results.store import Store
 from harness.results.stored import Rows, Stored
 from harness.results.writing import savez_atomically, write_atomically
 
-from .synthetic_run import cell
+from .synthetic_run import cell, whole
 
 
 def test_a_row_comes_back_and_names_its_arrays(tmp_path):
     store = Store(tmp_path)
-    made = cell("newton[EPSILON=0.001]", "torus", "opencl:intel", "float32") | {"key": "a1"}
+    made = whole(cell("newton[EPSILON=0.001]", "torus", "opencl:intel", "float32")) | {"key": "a1"}
     store.write(made, {"status": np.zeros((2, 2), np.uint8)})
     row = store.read("a1")
     assert row and row["arrays"] == "arrays/a1.npz"

@@ -9,7 +9,7 @@ import re
 from typing import Any
 
 from harness.results import declared
-from harness.results.row import KINDS, Accuracy, Leaf, Quantiles, RungVerdict, StoredRow, Time
+from harness.results.row import KINDS, Accuracy, Leaf, Part, Quantiles, RungVerdict, StoredRow, Time
 
 _ARRAYS = re.compile(r"arrays/[0-9A-Za-z]+\.npz")
 ROUNDING = 1e-9  # the share by which a median that was computed anew may differ
@@ -95,7 +95,8 @@ RULES = {Time: _time, Quantiles: _quantiles, Accuracy: _accuracy, RungVerdict: _
 
 def _always(notes: tuple[Any, ...]) -> bool:
     """Tell by a leaf's notes whether rows of every version have it."""
-    return any(isinstance(note, Leaf) and note.always for note in notes)
+    return any(isinstance(note, (Leaf, Part)) and note.always for note in notes)
 
 
-check = declared.checker(StoredRow, RULES, _always)
+check = declared.checker(StoredRow, RULES, _always)  # of rows of every version
+check_whole = declared.checker(StoredRow, RULES)  # of rows of this version, which have every leaf

@@ -185,7 +185,8 @@ def _object(kind: Any, rules: Mapping[Any, Rule], needed: Needed) -> Check:
 def _simple(hint: Any) -> tuple[tuple[Any, ...], float, float] | None:
     """Return types, least and largest value of a number; None for what is no number alone."""
     notes, kind = getattr(hint, "__metadata__", ()), getattr(hint, "__origin__", hint)
-    parts = [part for part in typing.get_args(kind) if part is not types.NoneType] or [kind]
+    united = typing.get_origin(kind) in (types.UnionType, typing.Union)
+    parts = [part for part in typing.get_args(kind) if part is not types.NoneType] if united else [kind]
     ends = _range(parts[0], next((note for note in notes if isinstance(note, Within)), None))
     if len(parts) > 1 or ends is None:
         return None

@@ -37,10 +37,11 @@ class Leaf:
 
 @dataclass(frozen=True)
 class Part:
-    """State the meaning of an object. The columns of its leaves begin with `prefix`."""
+    """State the meaning of an object. The columns of its leaves begin with `prefix`; `always` is a Leaf's."""
 
     meaning: str
     prefix: str
+    always: bool = False
 
 
 class Camera(TypedDict):
@@ -56,9 +57,13 @@ class Time(TypedDict):
     """Hold the timed repetitions of a cell, and what they say together."""
 
     clock: Annotated[str, "whose clock the times are by: device or wall, the host's"]
-    median_ms: Annotated[float, "median of samples_ms: the time of one frame, ms", POSITIVE]
-    lower_ms: Annotated[float, "lower end of the median's 95 % order-statistic interval, ms", POSITIVE]
-    upper_ms: Annotated[float, "upper end of the median's 95 % order-statistic interval, ms", POSITIVE]
+    median_ms: Annotated[float, Leaf("median of samples_ms: the time of one frame, ms", always=True), POSITIVE]
+    lower_ms: Annotated[
+        float, Leaf("lower end of the median's 95 % order-statistic interval, ms", always=True), POSITIVE
+    ]
+    upper_ms: Annotated[
+        float, Leaf("upper end of the median's 95 % order-statistic interval, ms", always=True), POSITIVE
+    ]
     overhead_share: Annotated[
         float | None,
         "what the host's clock tells beyond the device's, over the latter; null by the host's clock",
@@ -73,7 +78,7 @@ class Time(TypedDict):
     warnings: Annotated[list[str], "what is unsteady about the samples and what to do, a sentence each"]
     narrow: Annotated[bool, "whether the median's interval came within [budget] interval of it"]
     batch: Annotated[int, "frames drawn in a row for one sample, which is their mean"]
-    samples_ms: Annotated[Times, "the time of one frame, each time it was taken, in that order, ms"]
+    samples_ms: Annotated[Times, Leaf("the time of one frame, each time it was taken, in that order, ms", always=True)]
     wall_samples_ms: Annotated[Times, Leaf("the same by the host's clock, ms", column=None)]
     rounds: Annotated[list[int], "the round in which each sample was taken; rounds of one session pair"]
     session: Annotated[str, "names the interleaved run in which the cell was timed"]
@@ -105,21 +110,21 @@ class Build(TypedDict):
 class Quantiles(TypedDict):
     """Hold quantiles of a row's rays; each is null where no ray has a value."""
 
-    max: Annotated[float | None, "the largest", NOT_NEGATIVE]
-    p999: Annotated[float | None, "the 99.9th percentile", NOT_NEGATIVE]
-    p99: Annotated[float | None, "the 99th percentile", NOT_NEGATIVE]
-    p50: Annotated[float | None, "the median", NOT_NEGATIVE]
+    max: Annotated[float | None, Leaf("the largest", always=True), NOT_NEGATIVE]
+    p999: Annotated[float | None, Leaf("the 99.9th percentile", always=True), NOT_NEGATIVE]
+    p99: Annotated[float | None, Leaf("the 99th percentile", always=True), NOT_NEGATIVE]
+    p50: Annotated[float | None, Leaf("the median", always=True), NOT_NEGATIVE]
 
 
 class Lane(TypedDict):
     """Hold what the work items of one level of beams spend, and how long their lanes wait."""
 
-    level: Annotated[int, "of the quadtree; 0 is the whole picture"]
-    items: Annotated[int, "work items of the level"]
-    evaluations: Annotated[int, "evaluations of f that they spend together"]
+    level: Annotated[int, Leaf("of the quadtree; 0 is the whole picture", always=True)]
+    items: Annotated[int, Leaf("work items of the level", always=True)]
+    evaluations: Annotated[int, Leaf("evaluations of f that they spend together", always=True)]
     idle: Annotated[
         dict[str, Annotated[float, SHARE]],
-        "by the width of a group of lanes: the share of its time for which lanes wait for others",
+        Leaf("by the width of a group of lanes: the share of its time for which lanes wait for others", always=True),
     ]
 
 
@@ -129,44 +134,52 @@ KINDS = ("misses", "false_hits", "exhausted", "wrong_root", "invalid")  # of wro
 class Accuracy(TypedDict):
     """Hold the accuracy of the answers of a cell that is cast from a view."""
 
-    size: Annotated[int, Leaf("rays per side of the checked grid", column="accuracy_size")]
-    rays: Annotated[int, Leaf("rays checked", column="accuracy_rays")]
+    size: Annotated[int, Leaf("rays per side of the checked grid", column="accuracy_size", always=True)]
+    rays: Annotated[int, Leaf("rays checked", column="accuracy_rays", always=True)]
     domain_rays: Annotated[int, "of these, rays that meet the domain"]
     fragments: NotRequired[Annotated[int, "fragments of the timed frame; of stage raster"]]
     fragments_discarded: NotRequired[Annotated[int, "of these, fragments that hit nothing"]]
     pixels_drawn: NotRequired[Annotated[int, "pixels of the timed frame that show something; of stage raster"]]
     other_instance: NotRequired[Annotated[int, "clear rays of a scene that show another instance than is first"]]
-    truth_hits: Annotated[int, "rays that certainly hit"]
-    truth_misses: Annotated[int, "rays that certainly miss"]
-    undecided: Annotated[int, "rays that the oracle leaves undecided"]
-    grazing: Annotated[int, "rays that a shift under grazing_margin would give another answer"]
+    truth_hits: Annotated[int, Leaf("rays that certainly hit", always=True)]
+    truth_misses: Annotated[int, Leaf("rays that certainly miss", always=True)]
+    undecided: Annotated[int, Leaf("rays that the oracle leaves undecided", always=True)]
+    grazing: Annotated[int, Leaf("rays that a shift under grazing_margin would give another answer", always=True)]
     drowned: Annotated[int, "other rays on which rounding in the cell's precision can hide or feign a root"]
     judged: Annotated[int, "rays that are decided and clear: what shares of wrong rays are of"]
     grazing_margin: Annotated[float, "the shift that makes a ray grazing, over scene_radius", NOT_NEGATIVE]
-    scene_radius: Annotated[float, "the radius of what is seen, which errors are told over", POSITIVE]
+    scene_radius: Annotated[
+        float, Leaf("the radius of what is seen, which errors are told over", always=True), POSITIVE
+    ]
     domain_radius: Annotated[float, "the radius of the surface's domain", POSITIVE]
     certified_width: Annotated[
         float,
         Leaf("the widest certified interval of a right hit; errors smaller than it may show as 0", column=None),
         NOT_NEGATIVE,
     ]
-    misses: Annotated[int, "clear rays whose hit was missed"]
-    false_hits: Annotated[int, "clear rays that hit nothing and were answered by a hit"]
-    exhausted: Annotated[int, "clear rays that the method gave up"]
-    wrong_root: Annotated[int, "clear rays that were answered by a later root, or by a place that is no root"]
+    misses: Annotated[int, Leaf("clear rays whose hit was missed", always=True)]
+    false_hits: Annotated[int, Leaf("clear rays that hit nothing and were answered by a hit", always=True)]
+    exhausted: Annotated[int, Leaf("clear rays that the method gave up", always=True)]
+    wrong_root: Annotated[
+        int, Leaf("clear rays that were answered by a later root, or by a place that is no root", always=True)
+    ]
     invalid: Annotated[int, "clear rays whose answer is impossible, whatever the truth"]
-    grazing_misses: Annotated[int, "grazing rays whose hit was missed"]
-    grazing_false_hits: Annotated[int, "grazing rays that hit nothing and were answered by a hit"]
-    grazing_exhausted: Annotated[int, "grazing rays that the method gave up"]
-    grazing_wrong_root: Annotated[int, "grazing rays that were answered by a later root, or by no root"]
+    grazing_misses: Annotated[int, Leaf("grazing rays whose hit was missed", always=True)]
+    grazing_false_hits: Annotated[int, Leaf("grazing rays that hit nothing and were answered by a hit", always=True)]
+    grazing_exhausted: Annotated[int, Leaf("grazing rays that the method gave up", always=True)]
+    grazing_wrong_root: Annotated[
+        int, Leaf("grazing rays that were answered by a later root, or by no root", always=True)
+    ]
     grazing_invalid: Annotated[int, "grazing rays whose answer is impossible"]
     drowned_misses: Annotated[int, "drowned rays whose hit was missed"]
     drowned_false_hits: Annotated[int, "drowned rays that hit nothing and were answered by a hit"]
     drowned_exhausted: Annotated[int, "drowned rays that the method gave up"]
     drowned_wrong_root: Annotated[int, "drowned rays that were answered by a later root, or by no root"]
     drowned_invalid: Annotated[int, "drowned rays whose answer is impossible"]
-    error: Annotated[Quantiles, Part("the errors |t − t*| of clear rays that hit the right root", "error_")]
-    relative_error: Annotated[Quantiles, Part("the errors over scene_radius", "relative_error_")]
+    error: Annotated[
+        Quantiles, Part("the errors |t − t*| of clear rays that hit the right root", "error_", always=True)
+    ]
+    relative_error: Annotated[Quantiles, Part("the errors over scene_radius", "relative_error_", always=True)]
     feature_error: Annotated[
         Quantiles, Part("the errors over the feature radius, a torus's r, else over scene_radius", "feature_error_")
     ]
@@ -219,14 +232,18 @@ class NamedProgram(TypedDict):
 
     hash: Annotated[
         str,
-        Leaf("names the text of the timed program, or of the checked one where none is timed", column="program_hash"),
+        Leaf(
+            "names the text of the timed program, or of the checked one where none is timed",
+            column="program_hash",
+            always=True,
+        ),
     ]
 
 
 class Environment(TypedDict):
     """State when a row was written, and by which version of the project."""
 
-    started: Annotated[str, "when the row was written, ISO 8601"]
+    started: Annotated[str, Leaf("when the row was written, ISO 8601", always=True)]
     commit: Annotated[str | None, "the project's commit; null without git"]
     dirty: Annotated[bool, Leaf("whether files that git knows were changed since", column=None)]
 

@@ -17,22 +17,24 @@ from typing import Any
 from numpy.typing import NDArray
 
 from harness.results import agreement, sealed
+from harness.results.row import Environment, StoredRow
 from harness.results.writing import savez_atomically, write_atomically
 
 FORMAT = 1
 Row = dict[str, Any]  # as it was read, of this or an older version; harness/results/row.py declares what is in it
 
 
-def read_row(path: Path, key: str) -> Row:
+def read_row(path: Path, key: str, *, older: bool = True) -> Row:
     """Read the row of a cell's file, and hold it against its checksum, its declaration and itself.
 
-    Raises FileNotFoundError where there is none, and OSError or ValueError where it is damaged, of another version or
-    of another cell.
+    With `older`, leaves that not every version wrote may be missing. Raises FileNotFoundError where there is none, and
+    OSError or ValueError where it is damaged, of another version or of another cell.
     """
     row = of_format(sealed.read(path), FORMAT)
     if row.get("key") != key:
         raise ValueError(f"it names another cell's key, {row.get('key')!r:.40}")
-    agreement.check(row, "")
+    held = agreement.check if older else agreement.check_whole
+    held(row, "")
     return row
 
 
@@ -41,6 +43,9 @@ def of_format(document: dict[str, Any], number: int) -> dict[str, Any]:
     if type(document.get("format")) is not int or document["format"] != number:
         raise ValueError(f"its format is {document.get('format')!r:.40}, not {number}")
     return document
+
+
+_UNSAID: Row = dict.fromkeys(StoredRow.__annotations__) | {"environment": dict.fromkeys(Environment.__annotations__)}
 
 
 class Store:
@@ -59,9 +64,16 @@ class Store:
         return self._cell(key).exists()
 
     def read(self, key: str) -> Row | None:
-        """Return the row of `key`; None if there is none or its file is damaged (then `unreadable` says why)."""
+        """Return the row of `key`, with every leaf that is declared.
+
+        None if there is none or its file is damaged (then `unreadable` says why): what decides a row is in its key, so
+        that a row that lacks a leaf is no older one.
+        """
+        return self._read(key, older=False)
+
+    def _read(self, key: str, older: bool) -> Row | None:
         try:
-            return read_row(self._cell(key), key)
+            return read_row(self._cell(key), key, older=older)
         except FileNotFoundError:
             return None
         except (OSError, ValueError) as error:
@@ -87,10 +99,10 @@ class Store:
         return name
 
     def rows(self) -> Iterator[Row]:
-        """Yield every row that can be read, current or stale."""
+        """Yield every row that can be read, current or stale; what an older version did not write is null."""
         for path in sorted((self.folder / "cells").glob("*.json")):
-            if row := self.read(path.stem):
-                yield row
+            if row := self._read(path.stem, older=True):
+                yield _UNSAID | row
 
     def write_plan(self, plan: dict[str, Any]) -> None:
         """Store what the run sets out to do. Raises FirsthitError if it cannot be written."""

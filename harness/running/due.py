@@ -75,6 +75,6 @@ def estimate_seconds(todo: Iterable[Planned], store: Store, budget_seconds: floa
 
 def estimates(todo: Iterable[Planned], store: Store, budget_seconds: float) -> dict[str, float]:
     """Estimate the seconds of each cell, by its key: as many as its slot took before, else the whole budget's."""
-    before: dict[str, float] = {row["slot"]: row["seconds"] for row in store.rows()}
+    before: dict[str, float] = {row["slot"]: row["seconds"] or 0.0 for row in store.rows()}
     typical = budget_seconds + PREPARING
     return {p.key: before.get(p.cell.slot, 0.0 if p.skip or p.failure else typical) for p in todo}

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import contextlib
-import json
 import os
 import shutil
 from collections.abc import Iterator, Sequence
 from pathlib import Path
+from typing import TypedDict
 
 from harness.contract import FirsthitError
-from harness.results import sealed
+from harness.results import declared, sealed
 from harness.results.writing import left_in, temporary_folder
 from reports.drawing import images, style
 from reports.reading import export
@@ -21,6 +21,15 @@ from reports.site.markup import Frame, slug
 
 HERE = Path(__file__).parent
 MARK = "firsthit-site.json"  # lists the files of a site, so that it is known for one
+
+
+class _Mark(TypedDict):
+    """Declare what that file holds."""
+
+    files: list[str]
+
+
+_MARK = declared.checker(_Mark)
 TITLE = "firsthit: results"
 PARQUET, CSV = "data/results.parquet", "data/results.csv"
 
@@ -63,7 +72,7 @@ def _write(folder: Path, data: Gathered, frame: Frame, contact: str) -> tuple[st
     for name in ("site.css", "site.js"):
         shutil.copyfile(HERE / name, folder / name)
     files = sorted(path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file())
-    (folder / MARK).write_text(json.dumps({"format": 1, "files": files}, indent=0), encoding="utf-8")
+    (folder / MARK).write_bytes(sealed.sealed({"format": 1, "files": files}))
     return data.problems
 
 
@@ -112,9 +121,10 @@ def _listed(place: Path) -> set[str]:
     """Return the files that a site lists as its own; none where there is no list, or it is damaged."""
     try:
         told = sealed.read(place / MARK)
-        return {MARK, *(str(file) for file in told["files"])}
-    except (OSError, ValueError, TypeError, KeyError):
+        _MARK(told, "")
+    except (OSError, ValueError):
         return set()
+    return {MARK, *told["files"]}
 
 
 def _put_back(place: Path) -> None:
