@@ -29,6 +29,8 @@ nothing with the code that generates kernels, so that an error there cannot hide
 - With other constants (π, e) or functions, crossings and misses are decided, and touches if f is written with a
   repeated factor or as an absolute value. A root just where the slope is infinite, such as that of cbrt(x), stays
   undecided.
+- Where f's large terms cancel, as in cos² + sin² − 1 + y/10⁹, Taylor series decide crossings and misses (`taylor`). An
+  identity, which is 0 all over, stays undecided if it is not one of polynomials and roots.
 - A formula of many thousand operations is given fewer trials per ray, so that a ray may stay undecided.
 - `following`, `condition`, `margin` and `contrast` are estimates in plain float64 (`classify`).
 """
