@@ -221,7 +221,9 @@ def test_python_asks_too_and_yes_answers(tmp_path):
     assert "1,230,000,000 cells" in size.check_size(experiment, methods(), yes=True)
     assert len([*itertools.islice(plan.grid(experiment, methods(), DEVICES), 3)]) == 3  # none is made ahead
     with pytest.raises(FirsthitError, match="checks of variants on 1,000 views; more than 20,000"):
-        search.recommend(Wish(experiment.surfaces[0], 1e-3, views=1000), methods(), "no", tmp_path, run.Watcher())
+        search.recommend(
+            Wish(experiment.surfaces[0], 1e-3, views=1000), methods(), "no", tmp_path, run.Watcher(), command=""
+        )
 
 
 @pytest.mark.parametrize("name", ["front", "gallery", "methods", "toledo-fig6", "stability", "toledo-lod", "pipes"])

@@ -5,9 +5,9 @@ from __future__ import annotations
 import dataclasses
 import itertools
 import random
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeVar
 
 from harness.contract import (
     DeviceInfo,
@@ -33,6 +33,8 @@ from harness.experiment.size import cells_of
 from harness.experiment.targets import choose_devices, devices_of
 from harness.hardcases import groups
 from harness.plugins import Catalog
+
+Place = TypeVar("Place")
 
 
 @dataclass(frozen=True, eq=False)
@@ -210,7 +212,7 @@ def _views_of_surfaces(experiment: Experiment, catalog: Catalog, casters: list[_
     config = experiment.config
     stages = dict.fromkeys(stage for variant in experiment.variants for stage in experiment.stages_of(variant))
     scenes = itertools.product(experiment.surfaces, config.view, config.sizes, config.samples_per_pixel, stages)
-    for (surface, view, size, samples, stage), caster in itertools.product(scenes, casters):
+    for (surface, view, size, samples, stage), caster in _each_with(scenes, casters):
         if stage in experiment.stages_of(caster.variant):
             for raster in _rasterings(stage, caster.variant, experiment, catalog):
                 yield _cell(caster, Cell(caster.variant, surface, view, size, samples, "float32", stage, ""), raster)
@@ -220,10 +222,15 @@ def _scenes(experiment: Experiment, catalog: Catalog, casters: list[_Caster]) ->
     config = experiment.config
     for scene in experiment.scenes:
         views = itertools.product(views_of(scene, config), config.sizes, config.samples_per_pixel)
-        for (view, size, samples), caster in itertools.product(views, casters):
+        for (view, size, samples), caster in _each_with(views, casters):
             for raster in _rasterings("raster", caster.variant, experiment, catalog):
                 cell = Cell(caster.variant, scene.stand_in, view, size, samples, "float32", "raster", "", scene=scene)
                 yield _cell(caster, cell, raster)
+
+
+def _each_with(places: Iterable[Place], casters: list[_Caster]) -> Iterator[tuple[Place, _Caster]]:
+    """Pair each place with each caster; itertools.product would list all places, which may be many, ahead."""
+    return ((place, caster) for place in places for caster in casters)
 
 
 def _families(experiment: Experiment, casters: list[_Caster]) -> Iterator[Cell]:
