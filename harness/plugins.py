@@ -10,14 +10,17 @@ import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from harness import ROOT
 from harness.contract import CLAIMS, FirsthitError, Method, Variant
-from harness.hosting.host import Host
 from harness.limits import is_finite
 from harness.stated import NAME, guarded, line_of, problem_of, read_file, stated
 from surfaces.model import beginning, is_number
 from surfaces.words import LONGEST_NAME, suggestion
+
+if TYPE_CHECKING:
+    from harness.hosting.host import Host
 
 BUILT_IN = ROOT / "methods"
 ENTRY_POINTS = "firsthit.methods"
@@ -180,6 +183,8 @@ class _Loader:
         """Start the processes of folders that `load` will be asked for."""
         for folder in folders:
             if folder.parent != BUILT_IN and folder not in self._hosts and (folder / "method.py").is_file():
+                from harness.hosting.host import Host  # which commands without plugins do not pay for
+
                 self._hosts[folder] = Host(str(folder / "method.py"))
                 self._hosts[folder].begin()
 
@@ -320,6 +325,8 @@ def _places(module: str) -> list[Path]:
     Raises FirsthitError where that code goes wrong.
     """
     if "." in module:
+        from harness.hosting.host import Host
+
         host = Host(f"the package {module}")
         try:
             return host.places(module)

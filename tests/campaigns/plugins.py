@@ -11,6 +11,7 @@ import contextlib
 import io
 import os
 import random
+import shutil
 import subprocess
 import sys
 from collections import Counter
@@ -164,13 +165,18 @@ def _odd_file(dice: random.Random, folder: Path) -> None:
             os.truncate(path, 2**30)
 
 
+def _write(folder: Path, text: str) -> None:
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir()
+    (folder / "method.py").write_text(text, errors="surrogatepass")
+    (folder / "kernel.glsl").write_text(beside.KERNEL.replace("STEPS", "50"))
+
+
 def _trial(dice: random.Random, place: Place) -> Counter[str]:
     plugins = place.own / "plugins"
     beside.write_good(plugins)
-    (plugins / "bad").mkdir()
     text, where = _written(dice)
-    (plugins / "bad" / "method.py").write_text(text, errors="surrogatepass")
-    (plugins / "bad" / "kernel.glsl").write_text(beside.KERNEL.replace("STEPS", "50"))
+    _write(plugins / "bad", text)
     if dice.random() < 0.08:
         _odd_file(dice, plugins / "bad")
         where = "file"
@@ -181,6 +187,8 @@ def _trial(dice: random.Random, place: Place) -> Counter[str]:
         with contextlib.redirect_stdout(told), contextlib.redirect_stderr(told):
             _ask(plugins)
             memory.of_machine = whole
+            if where != "file":
+                _write(plugins / "bad", text)  # again, since it may have removed itself
             bad = beside.BAD + dice.choice(("", "deviations = true\n"))
             seen = beside.tried(place.own, plugins, place.shared, bad)
     except (Fell, FirsthitError) as error:
