@@ -8,7 +8,8 @@ from harness.results.store import Store
 from harness.results.stored import Rows, Stored
 from harness.results.writing import savez_atomically, write_atomically
 
-from .synthetic_run import cell, whole
+from .agreeing_rows import whole
+from .synthetic_run import cell
 
 
 def test_a_row_comes_back_and_names_its_arrays(tmp_path):
