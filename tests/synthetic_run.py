@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-import copy
 import json
 import random
 import statistics
-import types
-import typing
 from pathlib import Path
 from typing import Any
 
@@ -15,10 +12,10 @@ import numpy as np
 
 from harness.contract import digest
 from harness.results import timings
-from harness.results.row import StoredRow, Time
 from reports import content, report
 from reports.analysis import breaks, derive
 from reports.reading import load
+from tests.agreeing_rows import PERCENTILES, agreeing
 
 SURFACES = {"sphere": ("Sphere", 2, 1.0), "torus": ("Torus", 4, 0.6), "barth": ("Barth #6 $extic_* @65 <b>", 6, 0.2)}
 VARIANTS: dict[str, dict[str, float]] = {
@@ -29,7 +26,6 @@ VARIANTS: dict[str, dict[str, float]] = {
     "_odd#[STEP_$=0.5,RELAXATION_OF_THE_LAST_STEP=1.25]": {"STEP_$": 0.5, "RELAXATION_OF_THE_LAST_STEP": 1.25},
 }
 DEVICES = {"opencl:intel": 8.0, "opencl:pocl": 1.0, "opengl:llvmpipe": 4.0, "opencl:gpu#0_$": 60.0}
-PERCENTILES = ("max", "p999", "p99", "p50")
 FAMILIES = {
     "grazing": {
         "title": "Grazing #rays_ $*",
@@ -378,54 +374,6 @@ def tiny_run(folder: Path, *cells: dict[str, Any]) -> Path:
     for finished in cells:
         (folder / "cells" / f"{finished['key']}.json").write_text(json.dumps(agreeing(finished)))
     return folder
-
-
-def whole(finished: dict[str, Any], kind: Any = StoredRow) -> dict[str, Any]:
-    """Return a cell with every leaf that a row of this version has, as a run stores it."""
-    made = copy.deepcopy(finished)
-    for name, hint in typing.get_type_hints(kind).items():
-        if typing.get_origin(hint) is not typing.NotRequired and name not in made:
-            made[name] = _blank(hint)
-        inner = next((part for part in typing.get_args(hint) if typing.is_typeddict(part)), hint)
-        if typing.is_typeddict(inner) and isinstance(made.get(name), dict):
-            made[name] = whole(made[name], inner)
-        elif typing.is_typeddict(inner) and isinstance(made.get(name), list):
-            made[name] = [whole(item, inner) for item in made[name]]
-    if kind is Time:
-        made |= {"wall_samples_ms": made["samples_ms"]}
-        made |= {"bootstrap_lower_ms": made["lower_ms"], "bootstrap_upper_ms": made["upper_ms"]}
-    return made
-
-
-def _blank(hint: Any) -> Any:
-    """Return a value of a type that says nothing."""
-    origin, parts = typing.get_origin(hint), typing.get_args(hint)
-    if types.NoneType in parts:
-        return None
-    if origin is typing.Literal:
-        return parts[0]
-    if typing.is_typeddict(hint):
-        return whole({}, hint)
-    return {float: 1.0}.get(hint, (origin or hint)())
-
-
-def agreeing(finished: dict[str, Any]) -> dict[str, Any]:
-    """Return a cell whose figures agree with each other, where a test changed some of them."""
-    made = copy.deepcopy(finished)
-    time, found = made["time"], made["accuracy"]
-    if time:
-        samples = time["samples_ms"]
-        median = time["median_ms"] = statistics.median(samples)
-        time["lower_ms"] = min(max(min(samples), time["lower_ms"]), median)
-        time["upper_ms"] = max(min(max(samples), time["upper_ms"]), median)
-    if found:
-        for quantiles in (part for part in found.values() if isinstance(part, dict)):
-            most = quantiles.get("max", max((v for v in quantiles.values() if v is not None), default=None))
-            for name in PERCENTILES:
-                own = quantiles.get(name)
-                most = quantiles[name] = own if own is not None and most is not None and own < most else most
-        found["truth_misses"] = found["rays"] - found["truth_hits"] - found["undecided"]
-    return made
 
 
 def reported(folder: Path) -> tuple[load.Run, content.Document]:

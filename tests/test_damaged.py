@@ -23,8 +23,9 @@ from harness.scenes import meshes
 from harness.studies import condition_numbers, extrema_bounds, torus_along_rays
 from reports.reading import arrays, load
 
+from .agreeing_rows import whole
 from .synthetic_run import arrays as pictures
-from .synthetic_run import cell, family_cell, plan, tiny_run, whole
+from .synthetic_run import cell, family_cell, plan, tiny_run
 
 KEY = "a1"
 VIEW = whole(cell("newton[EPSILON=0.001]", "torus", "opencl:intel", "float32") | {"key": KEY})

@@ -7,7 +7,8 @@ import pytest
 from harness.results.store import Store
 from harness.running.due import PREPARING, due, estimate_seconds
 
-from .synthetic_run import cell, whole
+from .agreeing_rows import whole
+from .synthetic_run import cell
 
 STATUSES = ("ok", "skipped", "failed", "timeout", "crashed")
 

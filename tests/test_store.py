@@ -8,7 +8,8 @@ from harness.results.store import Store
 from harness.results.stored import Rows, Stored
 from harness.results.writing import savez_atomically, write_atomically
 
-from .synthetic_run import cell, whole
+from .agreeing_rows import whole
+from .synthetic_run import cell
 
 
 def test_a_row_comes_back_and_names_its_arrays(tmp_path):
@@ -61,7 +62,7 @@ def test_rows_are_read_when_they_are_asked_for(tmp_path):
     store = Store(tmp_path)
     kept, again = Stored(store), Stored(store)
     for key in ("a1", "b2", "c3"):
-        row = cell("newton[EPSILON=0.001]", "torus", "opencl:intel", "float32") | {"key": key, "arrays": None}
+        row = whole(cell("newton[EPSILON=0.001]", "torus", "opencl:intel", "float32")) | {"key": key, "arrays": None}
         store.write(row)
         kept.add(row)
     again.add({"key": "a1", "status": "ok"})

@@ -31,6 +31,7 @@ from reports.reading import arrays as reading
 from reports.reading import load
 from reports.site import build
 from tests import kept_runs, synthetic_run
+from tests.agreeing_rows import whole
 
 KEY, LADDER = "a0", "a1"
 COUNT = 64
@@ -193,8 +194,8 @@ def prepare(folder: Path) -> None:
     """Write a good file of each kind into a folder."""
     for inner in ("cells", "history"):
         (folder / inner).mkdir()
-    view = synthetic_run.whole(synthetic_run.cell("newton[EPSILON=1e-06]", "torus", "opencl:intel", "float32"))
-    hard = synthetic_run.whole(synthetic_run.family_cell("ray_march", "grazing", "opencl:intel", "float32"))
+    view = whole(synthetic_run.cell("newton[EPSILON=1e-06]", "torus", "opencl:intel", "float32"))
+    hard = whole(synthetic_run.family_cell("ray_march", "grazing", "opencl:intel", "float32"))
     for key, row in ((KEY, view), (LADDER, hard)):
         agreement.check_whole(row | {"key": key}, "")
         (folder / "cells" / f"{key}.json").write_bytes(sealed.sealed(row | {"key": key}))
