@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+import re
 import sys
 import threading
 import time
@@ -15,10 +16,9 @@ import unicodedata
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Any, Literal, TextIO
 
-from harness.escaping import harmless
-
 CLEAR = "\r\x1b[J"  # from the first live line to the end of the screen
 NEWLINE = "\r\n"
+PLAIN = re.compile("[ -~\n…–×→≤]*")  # what can be seen as it stands, in the words of our own
 NO_WRAP, WRAP = "\x1b[?7l", "\x1b[?7h"  # a line is cut where the terminal ends, whose width may not be known
 LIVE_SECONDS = 0.2  # between two states of live lines
 FIRST_SECONDS, NEXT_SECONDS = 2.0, 10.0  # before the first plain line of what goes on, and between two
@@ -99,6 +99,15 @@ def is_coloured(stream: TextIO) -> bool:
 def painted(text: str, colour: str) -> str:
     """Return a text in a colour of COLOURS, where standard error shows colours."""
     return f"\x1b[{COLOURS[colour]}m{text}\x1b[0m" if is_coloured(sys.stderr) else text
+
+
+def harmless(text: str) -> str:
+    """Return lines of an output as escaping.harmless does, which is imported only where it is needed: help is quick."""
+    if PLAIN.fullmatch(text) and "::" not in text and "##" not in text:
+        return text
+    from harness.escaping import harmless
+
+    return harmless(text)
 
 
 class Guarded:

@@ -93,11 +93,12 @@ def test_a_name_of_10000_letters_is_a_mistake_and_no_traceback(words, capsys, tm
 def test_what_a_kernel_prints_is_no_output_of_the_command(capfd):
     program = "print('::error file=x::y\\x1b[2J'); import sys; print('##[error]z', file=sys.stderr)"
     with subprocess.Popen([sys.executable, "-c", program], **serving.STREAMS) as process:
-        told = threading.Thread(target=serving._hand_on, args=(process.stdout,))
+        told = threading.Thread(target=serving._hand_on, args=(process.stdout, "opencl:x"))
         told.start()
         told.join()
     out, err = capfd.readouterr()
-    assert out == "" and sorted(err.splitlines()) == ["\\x23#[error]z", "\\x3a:error file=x::y\\x1b[2J"]
+    assert out == ""
+    assert sorted(err.splitlines()) == ["opencl:x: ::error file=x::y\\x1b[2J", "opencl:x: \\x23#[error]z"]
 
 
 def test_a_driver_may_say_anything_of_a_device():
