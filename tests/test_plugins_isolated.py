@@ -13,10 +13,11 @@ import pytest
 import surfaces
 from harness import conformance, memory
 from harness.cli import main
-from harness.contract import FirsthitError, MeshRecipe
+from harness.contract import FirsthitError, MeshRecipe, Section
 from harness.gate import checked, revision
 from harness.gate.judge import Change, Judged, Verdict, exit_code
 from harness.hosting import host
+from harness.kernels.complaints import recursion
 from harness.plugins import find_methods
 from harness.running.cards import card
 
@@ -287,6 +288,11 @@ def test_conform_finds_a_method_whose_functions_go_wrong_and_goes_on(tmp_path):
     bench = conformance.Bench("none", "cl", True, lambda *_: pytest.fail("nothing is cast"))
     found = list(conformance.findings(bench, find_methods(tmp_path).get("bad"), [TORUS]))
     assert found and all(finding.fails and "ended its process" in finding.detail for _, finding in found)
+
+
+def test_a_kernel_without_any_function_is_no_mistake_of_ours():
+    assert recursion(Section("bad/kernel.glsl", "")) is None
+    assert recursion(Section("bad/kernel.glsl", "Hit first*hit(Ray ray) { }")) is None
 
 
 def test_a_page_of_a_method_that_is_no_python_is_empty(tmp_path):

@@ -208,7 +208,7 @@ def recursion(kernel: Section) -> Complaint | None:
     """Return the complaint that a function of the kernel comes back to itself, on which some compilers die."""
     code = _code(kernel)
     heads = [head for head in _DEFINED.finditer(code) if head[1] != "if"]  # of `else if (…) {`
-    ends = [head.start() for head in heads[1:]] + [len(code)]
+    ends = [*(head.start() for head in heads[1:]), len(code)][: len(heads)]  # none where no function is recognised
     bodies = {head[1]: (head.end(), code[head.end() : end]) for head, end in zip(heads, ends, strict=True)}
     calls = {name: [other for other in bodies if _calls(body, other)] for name, (_, body) in bodies.items()}
     for name, (begin, body) in bodies.items():
