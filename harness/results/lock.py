@@ -89,10 +89,14 @@ class Lock:
         threading.Thread(target=_beat, args=(os.dup(self._file), self._ended), daemon=True).start()
 
     def release(self) -> None:
-        """Give the lock back, if it is held."""
+        """Give the lock back, if it is held; a folder in which nothing was written goes too."""
         if self._file is not None:
             file, self._file = self._file, None
             self._ended.set()
+            with contextlib.suppress(OSError):
+                if [one.name for one in self.folder.iterdir()] == [NAME]:
+                    self._path.unlink()
+                    self.folder.rmdir()
             with contextlib.suppress(OSError):
                 os.ftruncate(file, 0)
             if fcntl:
@@ -108,25 +112,32 @@ class Lock:
 
     def _taken(self) -> int:
         """Take the lock and return its open file. Raises Held, and OSError where the file cannot be written."""
-        self.folder.mkdir(parents=True, exist_ok=True)
-        file = os.open(self._path, os.O_RDWR | os.O_CREAT, 0o666)
-        try:
-            locked = _locked(file)
-            if locked is False or self._is_held(file, locked is True):
-                raise Held(self._told(file))
-            if not _is_at(file, self._path):  # removed by hand a moment ago
-                raise Held(f"{self.folder} is being written by another process")
-            text = json.dumps(_said(self._command)).encode()
-            os.ftruncate(file, 0)
-            os.pwrite(file, text, 0)
-            if locked is None:
-                time.sleep(PAUSE)
-                if _text(file) != text:
-                    raise Held(self._told(file))
-        except BaseException:
+        while True:
+            self.folder.mkdir(parents=True, exist_ok=True)
+            file = os.open(self._path, os.O_RDWR | os.O_CREAT, 0o666)
+            try:
+                if self._claim(file):
+                    return file
+            except BaseException:
+                os.close(file)
+                raise
             os.close(file)
-            raise
-        return file
+
+    def _claim(self, file: int) -> bool:
+        """Take the lock by its open file; return False where it was removed a moment ago. Raises as `_taken`."""
+        locked = _locked(file)
+        if locked is False or self._is_held(file, locked is True):
+            raise Held(self._told(file))
+        if not _is_at(file, self._path):
+            return False
+        text = json.dumps(_said(self._command)).encode()
+        os.ftruncate(file, 0)
+        os.pwrite(file, text, 0)
+        if locked is None:
+            time.sleep(PAUSE)
+            if _text(file) != text:
+                raise Held(self._told(file))
+        return True
 
     def _is_held(self, file: int, locked: bool) -> bool:
         """Tell whether the process that the text names still holds the lock, which the system has given us or lacks."""
