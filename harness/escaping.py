@@ -101,9 +101,10 @@ def html(text: str) -> str:
 def in_script(value: Any) -> str:
     """Write a value as JSON that can stand between script tags, whatever its texts are; it has ASCII letters alone.
 
-    Raises ValueError where a number is not finite.
+    Its texts are those that `html` writes, so that a script finds a name of the page in its data. Raises ValueError
+    where a number is not finite.
     """
-    text = json.dumps(value, allow_nan=False, separators=(",", ":"))
+    text = json.dumps(every(value), allow_nan=False, separators=(",", ":"))
     for letter in "<>&":
         text = text.replace(letter, f"\\u{ord(letter):04x}")
     return text
@@ -140,12 +141,14 @@ def fenced(text: str) -> str:
 
 
 def every(value: Any) -> Any:
-    """Return a JSON value whose texts are visible; their lines stay."""
+    """Return a JSON value whose texts, names of members too, are visible; their lines stay."""
     if isinstance(value, str):
         return visible(value, "\n\t")
     if isinstance(value, Mapping):
-        return {key: every(item) for key, item in value.items()}
-    return [every(item) for item in value] if isinstance(value, list | tuple) else value
+        return {every(key): every(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [item if type(item) in (int, float) else every(item) for item in value]
+    return value
 
 
 def cell(text: str) -> str:
