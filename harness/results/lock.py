@@ -7,9 +7,6 @@ A system lock of another machine may not be seen on a shared file system. So the
 BEAT seconds, and a text of another machine holds for SILENT seconds after its last touch. Where the file system has no
 locks at all, the text and the touch alone decide: two processes that begin within PAUSE seconds are told apart, and
 two that write the text in the same moment after it are not.
-
-The packages filelock and portalocker lock as well. They do not say who holds a lock, nor see another machine's, and
-what is left of this module beside them would be hardly shorter.
 """
 
 from __future__ import annotations
