@@ -126,18 +126,18 @@ def markdown(text: str) -> str:
 
 def code(text: str) -> str:
     """Return a text as code within a line of Markdown, whatever backticks it has; outside of tables."""
-    shown = one_line(text)
-    ticks = "`" * (1 + max((len(run) for run in re.findall("`+", shown)), default=0))
-    padded = "`" in shown or shown != shown.strip(" ")  # a blank on either side is not read
-    space = " " if (padded and shown.strip(" ")) or not shown else ""
-    return f"{ticks}{space}{shown}{space}{ticks}"
+    seen = one_line(text)
+    ticks = "`" * (1 + max((len(run) for run in re.findall("`+", seen)), default=0))
+    padded = "`" in seen or seen != seen.strip(" ")  # a blank on either side is not read
+    space = " " if (padded and seen.strip(" ")) or not seen else ""
+    return f"{ticks}{space}{seen}{space}{ticks}"
 
 
 def fenced(text: str) -> str:
     """Return lines as a block of code in Markdown, whatever backticks they have."""
-    shown = visible(text.replace("\r\n", "\n"), "\n\t")
-    fence = "`" * max(3, 1 + max((len(run) for run in re.findall("`+", shown)), default=0))
-    return f"{fence}\n{shown}\n{fence}"
+    seen = visible(text.replace("\r\n", "\n"), "\n\t")
+    fence = "`" * max(3, 1 + max((len(run) for run in re.findall("`+", seen)), default=0))
+    return f"{fence}\n{seen}\n{fence}"
 
 
 def every(value: Any) -> Any:
@@ -158,8 +158,8 @@ def cell(text: str) -> str:
     that is a text stays as it is, and so do line ends. Who wants the text itself takes the first ' away from one that
     has a ' or more before one of these signs.
     """
-    shown = visible(text, "\n")
-    return f"'{shown}" if _FORMULA.match(shown) and not _is_number(shown) else shown
+    seen = visible(text, "\n")
+    return f"'{seen}" if _FORMULA.match(seen) and not _is_number(seen) else seen
 
 
 def _is_number(text: str) -> bool:
