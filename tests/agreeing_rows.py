@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import json
 import types
 import typing
 from typing import Any
@@ -43,12 +44,12 @@ def _blank(hint: Any) -> Any:
 
 
 def stated(finished: dict[str, Any]) -> dict[str, Any]:
-    """Return a cell with the quantiles that a test left out: each is as large as the next higher one.
+    """Return a cell as its file has it, with the quantiles that a test left out, each as large as the next higher one.
 
     Nothing that a test stated is changed. Raises ValueError where the cell contradicts itself, since no such row is
     read: what the test says of it would not be tried.
     """
-    made = copy.deepcopy(finished)
+    made: dict[str, Any] = json.loads(json.dumps(finished))
     for quantiles in (part for part in (made["accuracy"] or {}).values() if isinstance(part, dict)):
         most = quantiles.get("max", max((v for v in quantiles.values() if v is not None), default=None))
         for name in PERCENTILES:

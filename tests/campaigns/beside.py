@@ -114,7 +114,7 @@ def checked(own: Path, plugins: Path, shared: Path, bad: str = BAD) -> dict[str,
     store.truth = shared / "truth"
     environment = {"commit": "0", "dirty": False}
     runner = Runner(experiment.config, catalog, store, executor(), environment, lambda *_: None)
-    return {row["slot"]: row for row in runner.run(planned)}
+    return {row["slot"]: row for row in runner.run(planned).values()}
 
 
 def tried(own: Path, plugins: Path, shared: Path, bad: str = BAD) -> Counter[str]:
