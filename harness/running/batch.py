@@ -41,6 +41,8 @@ def rows_of(
     if found.todo:
         lock.take()
         found, begun, _ = begin(planned, store, again)  # anew: another process may have stored rows until now
+        for message in store.unreadable.values():
+            watcher.warned(f"{message}; running that cell again")
         watcher.starts(len(found.todo), 1.0 * len(found.todo), Counter(p.cell.device for p in found.todo))
     told = watcher.cell, watcher.hears_builds
     rows = Runner(experiment.config, catalog, store, executor, describe(), *told).run(found.todo, begun)
