@@ -136,7 +136,8 @@ def _stored(folder, key, program, wrong=(), started="2026-01-01T00:00:00+00:00")
         "shade": np.where(codes > 0, np.nan, 0.5).astype(np.float32),
         "evaluations": np.full(codes.shape, 7, np.int32),
     }
-    row = {"format": FORMAT, "key": key, "slot": f"{SLOT} {DEVICE}", "program": {"hash": program}, "rungs": None, "family": None}
+    row = {"format": FORMAT, "key": key, "slot": f"{SLOT} {DEVICE}", "program": {"hash": program}}
+    row |= {"rungs": None, "family": None}
     row |= {"environment": {"started": started}, "status": "ok", "variant": "m", "surface": "sphere", "view": "default"}
     Store(folder).write(whole(row | {"precision": "float32", "arrays": None}), arrays)
     return Store(folder).read(key)
