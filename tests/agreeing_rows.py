@@ -9,9 +9,10 @@ import typing
 from typing import Any
 
 from harness.results import agreement
-from harness.results.row import StoredRow, Time
+from harness.results.row import Leaf, Part, StoredRow, Time
 
 PERCENTILES = ("max", "p999", "p99", "p50")
+PARTS = ("time", "accuracy", "environment", "family", "rungs")  # null where a row has them not, in every version
 
 
 def whole(finished: dict[str, Any], kind: Any = StoredRow) -> dict[str, Any]:
@@ -29,6 +30,27 @@ def whole(finished: dict[str, Any], kind: Any = StoredRow) -> dict[str, Any]:
         made |= {"wall_samples_ms": made["samples_ms"]}
         made |= {"bootstrap_lower_ms": made["lower_ms"], "bootstrap_upper_ms": made["upper_ms"]}
     return made
+
+
+def oldest(finished: dict[str, Any], kind: Any = StoredRow) -> dict[str, Any]:
+    """Return a cell that has nothing but what rows of every version have: what a report cannot do without."""
+    made: dict[str, Any] = {}
+    for name, hint in typing.get_type_hints(kind, include_extras=True).items():
+        notes = getattr(hint, "__metadata__", ())
+        kept = any(isinstance(note, Leaf | Part) and note.always for note in notes) or name in PARTS
+        value, inner = finished.get(name), _object_of(hint)
+        if not kept or name not in finished:
+            continue
+        if inner and isinstance(value, list):
+            made[name] = [oldest(item, inner) for item in value]
+        else:
+            made[name] = oldest(value, inner) if inner and isinstance(value, dict) else value
+    return made | ({"format": finished["format"]} if kind is StoredRow else {})
+
+
+def _object_of(hint: Any) -> Any:
+    """Return the TypedDict within a type; None where there is none."""
+    return hint if typing.is_typeddict(hint) else next(filter(None, map(_object_of, typing.get_args(hint))), None)
 
 
 def _blank(hint: Any) -> Any:

@@ -23,9 +23,9 @@ from harness.scenes import meshes
 from harness.studies import condition_numbers, extrema_bounds, torus_along_rays
 from reports.reading import arrays, load
 
-from .agreeing_rows import whole
+from .agreeing_rows import oldest, whole
+from .synthetic_run import VARIANTS, cell, family_cell, plan, printed, reported, tiny_run
 from .synthetic_run import arrays as pictures
-from .synthetic_run import cell, family_cell, plan, tiny_run
 
 KEY = "a1"
 VIEW = whole(cell("newton[EPSILON=0.001]", "torus", "opencl:intel", "float32") | {"key": KEY})
@@ -115,6 +115,22 @@ def test_a_row_whose_checksum_does_not_hold_is_no_row(tmp_path):
 )
 def test_a_row_that_contradicts_its_declaration_or_itself_is_unreadable(tmp_path, row, words):
     assert words in refused(tmp_path, sealed.sealed({"format": 1, **row}))
+
+
+def test_rows_of_old_versions_without_a_checksum_are_reported_whole(tmp_path):
+    cells = [cell(v, s, "opencl:intel", "float32") for v in VARIANTS for s in ("sphere", "torus")]
+    cells += [family_cell(v, "grazing", "opencl:intel", "float32") for v in VARIANTS if v != "null"]
+    old = [oldest(one) for one in cells]
+    assert "rounds" not in old[0]["time"] and "formula" not in old[0] and "invalid" not in old[-1]["rungs"][0]
+    run, document = reported(tiny_run(tmp_path / "run", *old))
+    assert not run.unreadable and (len(run.frame), len(run.families)) == (10, 4)
+    told = "\n".join(printed(section.blocks) for section in (document.summary, *document.sections))
+    assert all(f"{one['time']['median_ms']:.3g}" in told for one in cells if one["time"] and one["answers"])
+
+    del old[0]["time"]["samples_ms"]
+    (tmp_path / "run" / "cells" / f"{old[0]['key']}.json").write_text(json.dumps(old[0]))
+    (lost,) = load.load(tmp_path / "run").unreadable
+    assert lost.problem.startswith("time.samples_ms is missing")
 
 
 @pytest.mark.parametrize(

@@ -33,7 +33,7 @@ def moved(
     retime(made, median)
     none = {f"{prefix}{kind}": 0 for prefix in ("", "grazing_", "drowned_") for kind in KINDS}
     made["accuracy"] |= none | {"exhausted": wrong}
-    made["accuracy"]["relative_error"] |= {"max": error}
+    made["accuracy"]["relative_error"] = {"max": error}
     return made
 
 

@@ -41,6 +41,7 @@ def viewed(
     }
     rays = made["accuracy"]["rays"]
     made["accuracy"] |= {"domain_rays": rays // 2, "truth_hits": rays // 4, "misses": wrong}
+    made["accuracy"]["truth_misses"] = rays - rays // 4
     made["accuracy"] |= {"false_hits": 0, "exhausted": 0, "wrong_root": 0}
     return made
 
@@ -227,7 +228,7 @@ def test_points_are_of_right_rows_in_the_floors_own_rounds_and_the_rest_is_count
         cells.append(viewed("null", view, 0.3, surface))
     for made in cells:  # the machine was busy in rounds that only the null method was timed in
         if made["method"] == "null":
-            made["time"] |= {"samples_ms": [0.3] * 20 + [9.9] * 30, "rounds": list(range(50)), "median_ms": 9.9}
+            sampled(made, [0.3] * 20 + [9.9] * 30)
     frame = framed(tmp_path / "run", *cells)
     degree_axis = growth.AXES[1]
     (curve,) = curves(frame, degree_axis)
