@@ -105,6 +105,7 @@ def report(a: Run, b: Run) -> Document:
         Section("In one run only", tuple(_alone(a, b, by))),
         Section("Every cell in both", (_speed(timed, by, "Times of both, in A's order."),)),
     ]
+    blocks += _damaged(a, b)
     if len(shown):
         worst = shown.sort_values("size_of_change", ascending=False).head(WORST)
         blocks.append(_speed(worst, by, "The largest changes of speed."))
@@ -190,6 +191,16 @@ def _answers(both: pd.DataFrame, by: list[str]) -> list[Block]:
 def _same(x: Any, y: Any) -> bool:
     """Tell whether two cells of a frame are equal, or both absent."""
     return bool(wording.absent(x) and wording.absent(y)) or (not wording.absent(x) and not wording.absent(y) and x == y)
+
+
+def _damaged(a: Run, b: Run) -> list[Block]:
+    """List the files of both runs that could not be read, so that no cell is missing unsaid."""
+    body = [(side, file.file, file.problem) for side, run in (("A", a), ("B", b)) for file in run.unreadable]
+    if not body:
+        return []
+    columns = Column("run"), Column("file"), Column("problem", stretch=1)
+    caption = "Their cells are left out on all pages; run them again to have them made anew."
+    return [Table(columns, body[: tables.ROW_LIMIT], "Files that could not be read.", caption)]
 
 
 def _alone(a: Run, b: Run, by: list[str]) -> list[Block]:

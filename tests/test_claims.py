@@ -17,7 +17,7 @@ from reports.reading import load
 from reports.reading.arrays import Shelf
 from tests import stated_settings
 from tests.agreeing_rows import PERCENTILES
-from tests.synthetic_run import cell, retime, tiny_run
+from tests.synthetic_run import cell, retime, sampled, tiny_run
 
 ROOT = Path(__file__).parent.parent
 
@@ -218,9 +218,7 @@ def test_times_whose_intervals_meet_or_are_not_proved_decide_nothing(tmp_path: P
     def spread(made: dict[str, Any], width: float, samples: int = 20) -> dict[str, Any]:
         """Change `made` so that its samples are `width` below and above its median by turns; return it."""
         median = made["time"]["median_ms"]
-        made["time"]["samples_ms"] = [median * (1 + (width if i % 2 else -width)) for i in range(samples)]
-        made["time"]["rounds"] = list(range(samples))
-        return made
+        return sampled(made, [median * (1 + (width if i % 2 else -width)) for i in range(samples)])
 
     def outcome(name: str, ratio: float, samples: int = 20, width: float = 0.01) -> Outcome:
         cells = [spread(planted(picks.ONE_RAY, "torus", ratio), width, samples)]

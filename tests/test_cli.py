@@ -348,3 +348,20 @@ def test_the_command_is_installed():
         [sys.executable, "-m", "harness.cli", "--version"], capture_output=True, text=True, check=True
     )
     assert result.stdout.startswith("firsthit 0.")
+
+
+@pytest.mark.parametrize("name", ["/", ".", "..", ""])
+def test_a_config_that_is_no_file_is_a_sentence(name, capsys):
+    assert main(["plan", name]) == 2
+    assert "Traceback" not in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("command", [["gate"], ["bless", "--reason", "r"], ["gate", "--against", "HEAD"]])
+def test_a_gate_of_a_config_that_only_includes_others_is_refused_with_its_line(command, tmp_path, capsys):
+    (tmp_path / "part.toml").write_text('title = "p"\nsurfaces = ["torus"]\n[[method]]\nname = "newton"\n')
+    (tmp_path / "whole.toml").write_text('title = "w"\ninclude = ["part.toml"]\n')
+    (tmp_path / "baselines").mkdir()
+    (tmp_path / "baselines" / "whole.toml").write_text('format = 2\nconfig = "whole"\n')
+    assert main([*command, str(tmp_path / "whole.toml")]) == 2
+    err = capsys.readouterr().err
+    assert "whole.toml:2: include" in err and "part.toml" in err, err

@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+from xml.etree import ElementTree
 
 import pytest
 
@@ -101,20 +102,42 @@ def test_an_unchanged_tree_passes_ten_times_out_of_ten(gated):
         assert (code, out.splitlines()[-1]) == (0, "4 pass")
 
 
-def test_a_plugin_that_cannot_be_loaded_is_no_pass_though_no_row_names_it(gated):
+def test_a_plugin_that_cannot_be_loaded_is_no_pass_though_no_row_names_it(gated, tmp_path):
     assert gated()[0] == 0
     _copy(gated.plugins, MINE, "unnamed")
     _plant(gated.plugins, "unnamed", "method.py", "METHOD = Method(", "raise SystemExit(0)\nMETHOD = Method(")
-    code, _, err = gated()
+    code, out, err = gated("--junit", tmp_path / "g.xml", "--markdown", tmp_path / "g.md", "--github")
     assert code == 3
     assert "method 'unnamed' cannot be loaded" in err and "SystemExit" in err
+    suite = ElementTree.parse(tmp_path / "g.xml").getroot().find("testsuite")
+    assert (suite.get("tests"), suite.get("errors")) == ("5", "1")
+    (case,) = (case for case in suite.iter("testcase") if case.find("error") is not None)
+    assert case.get("name") == "method unnamed" and "SystemExit" in case.find("error").text
+    assert "method unnamed" in (tmp_path / "g.md").read_text()
+    assert "1 incomparable, 4 pass" in out and "::warning" in out
+
+
+def test_a_damaged_row_is_checked_again_and_named(gated, tmp_path):
+    assert gated()[0] == 0
+    row = next(tmp_path.glob("gate-*/cells/*.json"))
+    row.write_bytes(row.read_bytes()[:-9])
+    code, _, err = gated()
+    assert code == 0
+    assert f"{row} is damaged" in " ".join(err.split()) and "running that cell again" in err
+
+
+def test_the_command_that_gates_a_row_again_says_yes_where_the_gate_did(gated):
+    _plant(gated.plugins, "mine", "method.py", '"EPSILON",\n            0.001,', '"EPSILON", 0.05,')
+    told = gated("--yes", "--github")[1]
+    assert "again: firsthit" in told and told.count("again: firsthit") == told.count(" --yes --force")
 
 
 def test_a_config_whose_method_cannot_be_loaded_failed_and_is_no_mistake_of_usage(gated):
     _plant(gated.plugins, "mine", "method.py", "METHOD = Method(", "nonesuch\nMETHOD = Method(")
-    code, _, err = gated()
-    assert code == 3
-    assert err.count("NameError: name 'nonesuch' is not defined") == 1
+    code, out, err = gated()
+    assert (code, out.splitlines()[-1]) == (3, "2 incomparable, 2 pass")
+    told = [line for line in err.splitlines() if line.startswith("firsthit: method 'mine' cannot be loaded: ")]
+    assert len(told) == 1 and told[0].endswith("NameError: name 'nonesuch' is not defined")
 
 
 def test_finished_rows_are_used_again(gated):

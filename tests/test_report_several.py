@@ -71,6 +71,17 @@ def test_two_runs_are_held_against_each_other(tmp_path: Path) -> None:
         compare.paired(load.load(second), load.load(tiny_run(tmp_path / "d", other)))
 
 
+def test_a_comparison_names_the_files_that_it_cannot_read(tmp_path: Path) -> None:
+    cells = [cell(name, "torus", "opencl:intel", "float32") for name in ("ray_march", "newton[EPSILON=0.001]")]
+    first, second = tiny_run(tmp_path / "a", *cells), tiny_run(tmp_path / "b", *cells)
+    path = second / "cells" / f"{cells[1]['key']}.json"
+    path.write_bytes(path.read_bytes()[:-9])
+    told = printed(compare.report(load.load(first), load.load(second)).summary.blocks)
+    assert "Files that could not be read" in told and path.name in told
+    whole = printed(compare.report(load.load(first), load.load(first)).summary.blocks)
+    assert "could not be read" not in whole
+
+
 @pytest.mark.parametrize(
     ("include", "order"),
     [(("one", "two"), ["focus", "papers", "checklist", "winners"]), ((), ["focus", "winners", "papers", "checklist"])],

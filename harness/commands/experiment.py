@@ -95,17 +95,18 @@ def _add_config(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def _read(options: argparse.Namespace) -> Read:
-    return read(options.config, options.plugins, getattr(options, "device", None) or (), Printer(), options.yes)
+def _read(options: argparse.Namespace, printer: Printer) -> Read:
+    return read(options.config, options.plugins, getattr(options, "device", None) or (), printer, options.yes)
 
 
 def _plan(options: argparse.Namespace) -> int | Answer:
     """Tell each config's cells, and how long those that must run will take."""
-    loaded = load(_read(options), Printer())
+    printer = Printer()
+    loaded = load(_read(options, printer), printer)
     made = [_planned(part, loaded, options.runs) for part in loaded.parts]
     parts = [facts for facts, _ in made]
     failures = dict.fromkeys(reason for _, reasons in made for reason in reasons)
-    for reason in failures:
+    for reason in failures.keys() - set(loaded.catalog.warnings):  # those were told already
         tell(f"firsthit: {reason}")
     code = 3 if failures else 0
     if options.json:
@@ -127,6 +128,8 @@ def _planned(part: config.Experiment, loaded: Loaded, runs: Path) -> tuple[exper
         planned = plan.plan(part, loaded.catalog, loaded.devices, tell=tell_step)
     store = Store(runs / part.name)
     found = due(planned, store, asked=Begun(store.folder).again)
+    for message in store.unreadable.values():
+        tell(f"firsthit: {message}; `firsthit run` makes it again")
     seconds = estimates(found.todo, store, part.config.budget.seconds)
     facts = experiments.PlanFacts(
         str(part.path),
@@ -145,8 +148,9 @@ def _state(cell: experiments.CellFacts) -> str:
 
 
 def _run(options: argparse.Namespace) -> int:
+    printer = Printer()
     again = {"force": options.force, "retry_failed": options.retry == "failed", "wait": options.wait}
-    found = run(_read(options), options.runs, typed(), watcher=Printer(), **again)
+    found = run(_read(options, printer), options.runs, typed(), watcher=printer, **again)
     return 3 if found.unfinished or found.lost else 0
 
 

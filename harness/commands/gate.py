@@ -22,7 +22,7 @@ from harness.gate.checked import Checked, Prepared, prepare
 from harness.gate.chosen import Only
 from harness.gate.entries import slot_of
 from harness.gate.foretold import foretold
-from harness.gate.judge import Judged, Verdict, exit_code, rank
+from harness.gate.judge import Judged, Verdict, exit_code, rank, unloaded
 from harness.gate.keep import Keeping, keeping
 from harness.gate.pictures import Before, blessed_in, rows_in
 from harness.results.lock import Lock
@@ -87,8 +87,8 @@ def _path(options: argparse.Namespace) -> Path:
     return path
 
 
-def _prepare(options: argparse.Namespace) -> Prepared:
-    return prepare(options.config, options.plugins, options.device or (), Printer(), options.yes)
+def _prepare(options: argparse.Namespace, printer: Printer) -> Prepared:
+    return prepare(options.config, options.plugins, options.device or (), printer, options.yes)
 
 
 def _lock(options: argparse.Namespace, prepared: Prepared) -> Lock:
@@ -106,13 +106,14 @@ def _gate(options: argparse.Namespace) -> int | Answer:
     other = _other(options) if options.against is not None else None
     only = Only(tuple(options.only), _known(before, other))
     kept = _keeping(options, path) if options.keep else None
-    prepared = _prepare(options).chosen(only)
+    printer = Printer()
+    prepared = _prepare(options, printer).chosen(only)
     before = before and only.narrowed(before, map(slot_of, prepared.whole))
     hopeless = _hopeless(options, prepared, before, path) if before else []
     if not other and hopeless and len(hopeless) == len(prepared.planned):
         return _tell(options, prepared, hopeless, before, path)
     with _lock(options, prepared) as lock:
-        checked = prepared.check(lock, Printer(), options.force)
+        checked = prepared.check(lock, printer, options.force)
         if kept:
             _keep(kept, checked)
         judged = checked.judged(before) if before else []
@@ -147,8 +148,9 @@ def _tell(
     shown = telling.drawn(options, ran, judged, _answers_before(ran, before, compared)) if ran else {}
     held = " and ".join([str(path)] * bool(before) + [f"revision {options.against}"] * bool(options.against))
     about, more = telling.about_rows(options, prepared, judged, shown), compared.told if compared else None
-    telling.tell(options, prepared, judged, held, code, about, more)
-    if any(j.verdict is Verdict.INCOMPARABLE for j in judged):
+    shown_too = sorted([*judged, *unloaded(prepared.catalog.broken, judged)], key=rank)
+    telling.tell(options, prepared, shown_too, held, code, about, more)
+    if any(j.verdict is Verdict.INCOMPARABLE for j in shown_too):
         print("firsthit: incomparable is no pass", file=sys.stderr)
     if judged and all(j.verdict is Verdict.NEW for j in judged):
         told = "all rows are new, and nothing was compared, which is no pass; `firsthit bless` makes a baseline of them"
@@ -205,9 +207,10 @@ def _bless(options: argparse.Namespace) -> int:
     options.config = located(options.config)
     path = _path(options)
     _blessed_so_far(path)  # a damaged one is told before anything runs
-    prepared = _prepare(options)
+    printer = Printer()
+    prepared = _prepare(options, printer)
     with _lock(options, prepared) as lock:
-        made = prepared.check(lock, Printer(), options.force).blessed(options.reason.strip())
+        made = prepared.check(lock, printer, options.force).blessed(options.reason.strip())
         lock.take()  # also where nothing was run: what another blesses meanwhile would be lost
         baseline.write(path, baseline.merged(_blessed_so_far(path), made))
     total = sum(map(len, made.rows.values()))

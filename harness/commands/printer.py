@@ -17,6 +17,7 @@ class Printer(Watcher):
 
     def __init__(self) -> None:
         self._progress = console.Progress(0, 0.0, {})
+        self._wrong: set[str] = set()
         if SCREEN.level == "verbose":
             self.hears_builds = lambda slot, message: SCREEN.say(f"{slot}: {message}")
 
@@ -32,6 +33,7 @@ class Printer(Watcher):
         SCREEN.say(f"firsthit: {line}")
 
     def wrong(self, line: str) -> None:
+        self._wrong.add(line)
         SCREEN.say(f"firsthit: {line}", error=True)
 
     def starts(self, cells: int, seconds: float, devices: Mapping[str, int]) -> None:
@@ -39,12 +41,16 @@ class Printer(Watcher):
         self._progress = console.Progress(cells, seconds, devices)
 
     def cell(self, slot: str, row: Row | None) -> None:
-        self._progress(slot, row)
+        self._progress(slot, row and self._once(row))
 
     def failed(self, rows: Sequence[Row]) -> None:
         self._progress.pause()
-        for paragraph in mistakes(map(failure_of, rows), "cells"):
+        for paragraph in mistakes(map(failure_of, map(self._once, rows)), "cells"):
             SCREEN.say(paragraph, error=True)
+
+    def _once(self, row: Row) -> Row:
+        """Return a row that has no reason that was told as a warning before anything ran."""
+        return row | {"reason": "its method cannot be used, as told above"} if row["reason"] in self._wrong else row
 
     def ended(self, part: Run) -> None:
         self._progress.pause()

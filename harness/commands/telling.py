@@ -77,7 +77,7 @@ def _command(options: argparse.Namespace, judged: Judged) -> str:
     for name, value in (("--baseline", options.baseline), ("--against", options.against), ("--runs", runs)):
         if value:
             words += [name, str(value)]
-    return escaping.shell([*words, "--force"])
+    return escaping.shell([*words, *["--yes"] * options.yes, "--force"])
 
 
 def about_rows(

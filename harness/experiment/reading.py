@@ -43,6 +43,15 @@ def load_all(path: Path, catalog: Catalog) -> tuple[Experiment, list[Experiment]
     return whole, parts
 
 
+def load_one(path: Path, catalog: Catalog) -> Experiment:
+    """Read a config as `load` does. Raises FirsthitError, with file and line, for one that only includes others too."""
+    one = load(path, catalog)
+    if one.included:
+        message = f"include: this command takes one config; name one of {', '.join(map(str, one.included))}"
+        raise ConfigFile(path, one.text, {}).error(("include",), message)
+    return one
+
+
 def config_of(file: ConfigFile) -> Config:
     """Return what a config file states, without resolving names. Raises FirsthitError as `load`."""
     config: Config = _table(Config, file.table, (), file)

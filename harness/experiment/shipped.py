@@ -22,7 +22,7 @@ def located(config: str | Path) -> Path:
     Raises FirsthitError, with the nearest name, where there is neither.
     """
     path = Path(config)
-    if path.is_file() or path.suffix or len(path.parts) != 1:  # if it is not there, reading it says so
+    if path.is_file() or path.suffix or not path.name or len(path.parts) != 1:  # if it is not there, reading it says so
         return path
     known = names()
     if path.name in known:

@@ -137,7 +137,7 @@ def at(
     """
     there = revision.found(name, plugins)
     catalog = find_methods(plugins).with_stand_ins()
-    experiment = reading.load(config, catalog)
+    experiment = reading.load_one(config, catalog)
     experiment = experiment.on(devices)
     check_size(experiment, catalog, yes=yes)
     found = discover_devices(experiment.wanted_devices())

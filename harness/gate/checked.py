@@ -158,7 +158,7 @@ def prepare(
     than are planned without `yes` (harness.experiment.size).
     """
     catalog = find_methods(plugins).with_stand_ins()
-    experiment = reading.load(config, catalog)
+    experiment = reading.load_one(config, catalog)
     for line in catalog.warnings:
         watcher.wrong(line)
     experiment = experiment.on(devices)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Container, Mapping
+from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from types import MappingProxyType
@@ -196,6 +196,19 @@ def judge_row(
             changes.append(Change(name, old, "none", tolerance.allowed(old), Verdict.REGRESSED, tolerance))
     verdict = ORDER[min((ORDER.index(change.verdict) for change in changes), default=ORDER.index(Verdict.PASS))]
     return Judged(slot, device, method, verdict, "", tuple(changes), rule)
+
+
+def unloaded(broken: Mapping[str, str], judged: Sequence[Judged]) -> list[Judged]:
+    """Return a verdict on each method that cannot be loaded and has no row: with one of them a gate is no pass.
+
+    `broken` says why, by the method's name. The verdicts are for people and CI servers, who else read of passes alone.
+    """
+    methods = {j.method for j in judged}
+    return [
+        Judged(f"method {name}", "every device", name, Verdict.INCOMPARABLE, f"the method cannot be loaded: {why}")
+        for name, why in broken.items()
+        if name not in methods
+    ]
 
 
 def exit_code(judged: list[Judged], broken: Container[tuple[str, str]]) -> int:

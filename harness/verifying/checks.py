@@ -111,15 +111,15 @@ def _rows_of(folder: Path, found: Verified) -> Iterator[tuple[Store, Path, Row]]
     for slot, count in named.items():
         if count > 1:
             found.failing.append(Failing(folder / "plan.json", slot, "file", Wrong("cells", f"{count} cells", "one")))
-    there = set()
+    there = set()  # keys of rows, damaged ones too, which are no missing ones
     for file in sorted((folder / "cells").glob("*.json")):
         row = store.read(file.stem, older=True)
+        there.add(file.stem)
         if row is None:
             why = store.unreadable.get(file.stem, "it is gone").removeprefix(f"{file} is ")
             found.rows += 1
             found.failing.append(Failing(file, slots.get(file.stem, ""), "file", Wrong("the file", why, "a row")))
             continue
-        there.add(file.stem)
         if slots.get(file.stem, row["slot"]) != row["slot"]:
             wrong = Wrong("slot", row["slot"], slots[file.stem])
             found.failing.append(Failing(file, row["slot"], "file", wrong))
