@@ -24,7 +24,7 @@ CHECKS = {
     "times": "times follow from their samples",
     "answers": "counts and errors follow from the answers ray by ray",
     "truth": "the truth certified anew is the one it was judged by",
-    "stored truth": "so is the truth that the run's folder keeps, which is not certified anew",
+    "stored truth": "the truth that the run's folder keeps is the one it was judged by",
 }
 MOST_TRUTHS = 16  # that are held at once
 DAMAGED = (KeyError, TypeError, ValueError, AttributeError, IndexError, ArithmeticError, RecursionError, MemoryError)
