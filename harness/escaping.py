@@ -101,9 +101,10 @@ def html(text: str) -> str:
 def in_script(value: Any) -> str:
     """Write a value as JSON that can stand between script tags, whatever its texts are; it has ASCII letters alone.
 
-    Raises ValueError where a number is not finite.
+    Its texts are those that `html` writes, so that a script finds a name of the page in its data. Raises ValueError
+    where a number is not finite.
     """
-    text = json.dumps(value, allow_nan=False, separators=(",", ":"))
+    text = json.dumps(every(value), allow_nan=False, separators=(",", ":"))
     for letter in "<>&":
         text = text.replace(letter, f"\\u{ord(letter):04x}")
     return text
@@ -125,27 +126,29 @@ def markdown(text: str) -> str:
 
 def code(text: str) -> str:
     """Return a text as code within a line of Markdown, whatever backticks it has; outside of tables."""
-    shown = one_line(text)
-    ticks = "`" * (1 + max((len(run) for run in re.findall("`+", shown)), default=0))
-    padded = "`" in shown or shown != shown.strip(" ")  # a blank on either side is not read
-    space = " " if (padded and shown.strip(" ")) or not shown else ""
-    return f"{ticks}{space}{shown}{space}{ticks}"
+    seen = one_line(text)
+    ticks = "`" * (1 + max((len(run) for run in re.findall("`+", seen)), default=0))
+    padded = "`" in seen or seen != seen.strip(" ")  # a blank on either side is not read
+    space = " " if (padded and seen.strip(" ")) or not seen else ""
+    return f"{ticks}{space}{seen}{space}{ticks}"
 
 
 def fenced(text: str) -> str:
     """Return lines as a block of code in Markdown, whatever backticks they have."""
-    shown = visible(text.replace("\r\n", "\n"), "\n\t")
-    fence = "`" * max(3, 1 + max((len(run) for run in re.findall("`+", shown)), default=0))
-    return f"{fence}\n{shown}\n{fence}"
+    seen = visible(text.replace("\r\n", "\n"), "\n\t")
+    fence = "`" * max(3, 1 + max((len(run) for run in re.findall("`+", seen)), default=0))
+    return f"{fence}\n{seen}\n{fence}"
 
 
 def every(value: Any) -> Any:
-    """Return a JSON value whose texts are visible; their lines stay."""
+    """Return a JSON value whose texts, names of members too, are visible; their lines stay."""
     if isinstance(value, str):
         return visible(value, "\n\t")
     if isinstance(value, Mapping):
-        return {key: every(item) for key, item in value.items()}
-    return [every(item) for item in value] if isinstance(value, list | tuple) else value
+        return {every(key): every(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [item if type(item) in (int, float) else every(item) for item in value]
+    return value
 
 
 def cell(text: str) -> str:
@@ -155,8 +158,8 @@ def cell(text: str) -> str:
     that is a text stays as it is, and so do line ends. Who wants the text itself takes the first ' away from one that
     has a ' or more before one of these signs.
     """
-    shown = visible(text, "\n")
-    return f"'{shown}" if _FORMULA.match(shown) and not _is_number(shown) else shown
+    seen = visible(text, "\n")
+    return f"'{seen}" if _FORMULA.match(seen) and not _is_number(seen) else seen
 
 
 def _is_number(text: str) -> bool:

@@ -18,7 +18,7 @@ from numbers import Integral
 from pathlib import Path
 from typing import Any, Protocol
 
-from surfaces.model import FirsthitError, is_number
+from surfaces.model import FirsthitError, beginning, is_number
 from surfaces.words import LONGEST_NAME, name_problem, suggestion, unseen
 
 _UNSEEN = r"\u0000-\u001f\u007f"  # control characters, as a schema's patterns name them
@@ -292,11 +292,7 @@ def _word(name: str, value: Any, known: tuple[str, ...]) -> str:
 
 def shown(value: object) -> str:
     """Write a value for a message, shortened where it is long."""
-    try:
-        text = repr(value)
-    except ValueError:  # a whole number of more digits than Python writes
-        return "a number of thousands of digits"
-    return text if len(text) <= 60 else f"{text[:57]}..."
+    return beginning(value, 60, repr)
 
 
 def _plain(name: str, value: Any, whole: bool) -> float | int:

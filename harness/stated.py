@@ -12,11 +12,10 @@ import re
 import signal
 import stat
 import sys
-import threading
 import tokenize
 import traceback
 import typing
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from numbers import Integral
 from pathlib import Path
 from typing import Any
@@ -24,7 +23,7 @@ from typing import Any
 from harness import ROOT
 from harness.contract import GENERATED, PRECISIONS, Casts, FirsthitError, MeshRecipe, Method, Parameter
 from harness.limits import Distinct, is_finite
-from harness.stopping import is_asked
+from harness.stopping import Stopped
 from surfaces.model import is_number
 from surfaces.words import name_problem, suggestion, title_problem
 
@@ -59,11 +58,11 @@ def stated(path: Path) -> object:
     assert spec and spec.loader
     module = importlib.util.module_from_spec(spec)
     writes_bytecode, sys.dont_write_bytecode = sys.dont_write_bytecode, True
-    with _pressed() as pressed, contextlib.redirect_stdout(sys.stderr):  # what it prints is no result of the command
+    with contextlib.redirect_stdout(sys.stderr):  # what it prints is no result of the command
         try:
             spec.loader.exec_module(module)
         except BaseException as error:
-            if isinstance(error, KeyboardInterrupt) and (pressed or is_asked()):
+            if _ends_command(error):
                 raise
             raise FirsthitError(f"{told(path, full, error)}{_ending(error)}") from error
         finally:
@@ -71,24 +70,10 @@ def stated(path: Path) -> object:
     return getattr(module, "METHOD", None)
 
 
-@contextlib.contextmanager
-def _pressed() -> Iterator[list[int]]:
-    """Give a list that is empty until Ctrl-C is pressed, which then interrupts as ever."""
-    pressed: list[int] = []
-    before = signal.getsignal(signal.SIGINT)
-    if threading.current_thread() is not threading.main_thread() or not callable(before):
-        yield pressed
-        return
-
-    def note(number: int, frame: Any) -> None:
-        pressed.append(number)
-        before(number, frame)
-
-    signal.signal(signal.SIGINT, note)
-    try:
-        yield pressed
-    finally:
-        signal.signal(signal.SIGINT, before)
+def _ends_command(error: BaseException) -> bool:
+    """Tell whether somebody stops the command; in a plugin's process, which ignores Ctrl-C, only the plugin raises."""
+    ignored = signal.getsignal(signal.SIGINT) is signal.SIG_IGN
+    return isinstance(error, Stopped) or (isinstance(error, KeyboardInterrupt) and not ignored)
 
 
 def _ending(error: BaseException) -> str:
@@ -168,13 +153,13 @@ def answered(function: Callable[..., Any], name: str, path: Path, full: Path, gi
 
     Raises FirsthitError, with exit code 3 and with file and line, where it goes wrong or answers what makes no sense.
     """
-    with _pressed() as pressed, contextlib.redirect_stdout(sys.stderr):
+    with contextlib.redirect_stdout(sys.stderr):
         try:
             answer, wrong = plain_answer(name, function(*given))
         except FirsthitError:
             raise
         except BaseException as error:  # a plugin may fail in any way
-            if isinstance(error, KeyboardInterrupt) and (pressed or is_asked()):
+            if _ends_command(error):
                 raise
             raise FirsthitError(f"{told(path, full, error)}, in {name}=...{_ending(error)}", exit_code=3) from error
     if wrong:

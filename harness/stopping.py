@@ -31,11 +31,6 @@ def code_of(error: KeyboardInterrupt) -> int:
     return 128 + (error.number if isinstance(error, Stopped) else signal.SIGINT)
 
 
-def is_asked() -> bool:
-    """Tell whether a signal has asked this process to end, so that a Stopped is one and no look-alike."""
-    return bool(_asked)
-
-
 @contextlib.contextmanager
 def stoppable() -> Iterator[None]:
     """Raise Stopped in the block where SIGINT, SIGTERM or SIGHUP comes, and end the process at once at the second one.

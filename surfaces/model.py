@@ -8,7 +8,7 @@ from __future__ import annotations
 import contextlib
 import math
 import struct
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from numbers import Real
 from typing import Any, TypeGuard
@@ -35,13 +35,13 @@ def is_number(value: object) -> TypeGuard[float]:
     return isinstance(value, Real) and not isinstance(value, bool)
 
 
-def beginning(value: object) -> str:
-    """Write the first letters of a value for a message; Python does not write numbers of thousands of digits."""
+def beginning(value: object, most: int = 40, how: Callable[[object], str] = str) -> str:
+    """Write the first `most` letters of a value for a message; Python writes no numbers of thousands of digits."""
     try:
-        text = str(value)
+        text = how(value)
     except ValueError:
         return "a number of thousands of digits"
-    return text if len(text) <= 40 else f"{text[:40]}..."
+    return text if len(text) <= most else f"{text[:most]}..."
 
 
 def _rounded(value: object, what: str) -> float:

@@ -1,13 +1,14 @@
-"""Make rows that a test made up agree with themselves, and complete, as stored rows must be."""
+"""Make rows that a test made up complete, and refuse those that contradict themselves, as reading a row does."""
 
 from __future__ import annotations
 
 import copy
-import statistics
+import json
 import types
 import typing
 from typing import Any
 
+from harness.results import agreement
 from harness.results.row import StoredRow, Time
 
 PERCENTILES = ("max", "p999", "p99", "p50")
@@ -42,20 +43,16 @@ def _blank(hint: Any) -> Any:
     return {float: 1.0}.get(hint, (origin or hint)())
 
 
-def agreeing(finished: dict[str, Any]) -> dict[str, Any]:
-    """Return a cell whose figures agree with each other, where a test changed some of them."""
-    made = copy.deepcopy(finished)
-    time, found = made["time"], made["accuracy"]
-    if time:
-        samples = time["samples_ms"]
-        median = time["median_ms"] = statistics.median(samples)
-        time["lower_ms"] = min(max(min(samples), time["lower_ms"]), median)
-        time["upper_ms"] = max(min(max(samples), time["upper_ms"]), median)
-    if found:
-        for quantiles in (part for part in found.values() if isinstance(part, dict)):
-            most = quantiles.get("max", max((v for v in quantiles.values() if v is not None), default=None))
-            for name in PERCENTILES:
-                own = quantiles.get(name)
-                most = quantiles[name] = own if own is not None and most is not None and own < most else most
-        found["truth_misses"] = found["rays"] - found["truth_hits"] - found["undecided"]
+def stated(finished: dict[str, Any]) -> dict[str, Any]:
+    """Return a cell as its file has it, with the quantiles that a test left out, each as large as the next higher one.
+
+    Nothing that a test stated is changed. Raises ValueError where the cell contradicts itself, since no such row is
+    read: what the test says of it would not be tried.
+    """
+    made: dict[str, Any] = json.loads(json.dumps(finished))
+    for quantiles in (part for part in (made["accuracy"] or {}).values() if isinstance(part, dict)):
+        most = quantiles.get("max", max((v for v in quantiles.values() if v is not None), default=None))
+        for name in PERCENTILES:
+            most = quantiles.setdefault(name, most)
+    agreement.check(made, "")
     return made

@@ -30,6 +30,7 @@ from reports.drawing import canvas, charts, style
 from reports.reading import load
 
 EVIL = '</script><b title="x">&\u2028'  # a name that a surface or a plugin may have
+SHOWN = '</script><b title="x">&\\u2028'  # the same name on the page: what cannot be seen is written as an escape
 
 
 def picture(name: str, shade: int) -> Picture:

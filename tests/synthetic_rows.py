@@ -136,6 +136,14 @@ def retime(finished: dict[str, Any], median: float) -> dict[str, Any]:
     return finished
 
 
+def sampled(finished: dict[str, Any], samples: list[float]) -> dict[str, Any]:
+    """Change `finished` so that each round of one session timed one of these samples, ms; return it."""
+    median, lower, upper, _ = timings.median_interval(samples)
+    finished["time"] |= {"samples_ms": samples, "rounds": list(range(len(samples)))}
+    finished["time"] |= {"median_ms": median, "lower_ms": lower, "upper_ms": upper, **timings.steadiness(samples)}
+    return finished
+
+
 def family_cell(variant: str, family: str, device: str, precision: str) -> dict[str, Any]:
     """Make up a finished cell of a family of hard rays.
 

@@ -11,7 +11,7 @@ import numpy as np
 from reports import content, report
 from reports.analysis import breaks, derive
 from reports.reading import load
-from tests.agreeing_rows import agreeing
+from tests.agreeing_rows import stated
 from tests.synthetic_rows import (
     BROKEN_FROM as BROKEN_FROM,
 )
@@ -53,6 +53,9 @@ from tests.synthetic_rows import (
 )
 from tests.synthetic_rows import (
     rung as rung,
+)
+from tests.synthetic_rows import (
+    sampled as sampled,
 )
 from tests.synthetic_rows import (
     troubled as troubled,
@@ -148,11 +151,14 @@ def stability_run(folder: Path) -> Path:
 
 
 def tiny_run(folder: Path, *cells: dict[str, Any]) -> Path:
-    """Write a run of just these cells, without arrays, into `folder`, and return the folder."""
+    """Write a run of just these cells, without arrays, into `folder`, and return the folder.
+
+    Quantiles that a cell does not state are filled in. Raises ValueError where a cell contradicts itself.
+    """
     (folder / "cells").mkdir(parents=True)
     (folder / "plan.json").write_text(json.dumps(plan(list(cells))))
     for finished in cells:
-        (folder / "cells" / f"{finished['key']}.json").write_text(json.dumps(agreeing(finished)))
+        (folder / "cells" / f"{finished['key']}.json").write_text(json.dumps(stated(finished)))
     return folder
 
 

@@ -17,9 +17,11 @@ from harness.experiment.plan import Planned
 from harness.plugins import find_methods
 from harness.results import begun, timings
 from harness.results.begun import Begun
+from harness.results.row import Accuracy, Environment
 from harness.results.store import Store
 from harness.running.due import begin
 from harness.running.runner import Runner
+from tests.agreeing_rows import whole
 
 DEVICE = DeviceInfo("opencl:made_up", "t", "t", "t", None, False, "wall", ())
 CONFIG = """title = "t"
@@ -36,7 +38,9 @@ seconds = 1000.0
 repetitions = 12
 interval = 0.0
 """
-SUMMARY = {"rays": 16, "error": {"max": 1e-7}}
+ERROR = {"p50": 1e-8, "p99": 1e-7, "p999": 1e-7, "max": 1e-7}
+SUMMARY = whole({"rays": 16, "size": 4, "truth_hits": 16, "error": ERROR}, Accuracy)
+ENVIRONMENT = whole({"commit": None, "dirty": False}, Environment)
 
 
 class Casting:
@@ -98,9 +102,9 @@ def sit(tmp_path):
         chosen = [dataclasses.replace(p, casting=Casting(p.key, log, found)) for p in planned[:cells]]
         todo, kept, _ = begin(chosen, store, again)
         executor = Executor(log, stop, ms)
-        runner = Runner(experiment.config, catalog, store, executor, {"commit": None, "dirty": False}, lambda *_: None)
+        runner = Runner(experiment.config, catalog, store, executor, ENVIRONMENT, lambda *_: None)
         try:
-            return runner.run(todo.todo, kept), log
+            return list(runner.run(todo.todo, kept).values()), log
         except KeyboardInterrupt:
             return None, log
 
@@ -214,12 +218,12 @@ def test_retry_goes_on_without_retry_and_begins_failed_cells_anew(sit):
 @pytest.mark.parametrize(
     ("damage", "checks", "samples"),
     [
-        (lambda whole: whole[:-7], 0, 24 + 3),  # the last round's line is torn, as a power cut leaves it
-        (lambda whole: whole[:-7] + bytes(40), 0, 24 + 3),
-        (lambda whole: whole.replace(b'"batch":2', b'"batch":3', 1), 0, 24 + 4),  # one cell was never ready
+        (lambda text: text[:-7], 0, 24 + 3),  # the last round's line is torn, as a power cut leaves it
+        (lambda text: text[:-7] + bytes(40), 0, 24 + 3),
+        (lambda text: text.replace(b'"batch":2', b'"batch":3', 1), 0, 24 + 4),  # one cell was never ready
         (lambda _: b"", 3, 36),
         (lambda _: b"\xff\n" * 9, 3, 36),
-        (lambda whole: whole.replace(b'"format":1', b'"format":2'), 0, 24),
+        (lambda text: text.replace(b'"format":1', b'"format":2'), 0, 24),
     ],
 )
 def test_damage_costs_what_it_hits_and_nothing_else(sit, damage, checks, samples):
@@ -293,7 +297,7 @@ def test_what_has_rows_goes_at_once(sit):
 
 @pytest.mark.parametrize("number", [math.nan, math.inf])
 def test_a_figure_that_is_not_finite_costs_its_row(sit, number):
-    rows, _ = sit(outcome=Outcome(5.0, None, {"rays": 16, "error": {"max": number}}))
+    rows, _ = sit(outcome=Outcome(5.0, None, SUMMARY | {"error": ERROR | {"max": number}}))
     stored = [sit.store.read(key) for key in sit.keys]
     assert {row["status"] for row in stored} == {"failed"}
     assert stored[0]["reason"] == f"a figure of its row is not finite: accuracy.error.max is {number:g}"

@@ -152,9 +152,8 @@ def test_level_of_detail_is_judged_where_tori_are_farthest(
 @pytest.mark.parametrize(("bad", "expected"), [(160, Outcome.CONFIRMED), (0, Outcome.REFUTED), (18, Outcome.UNDECIDED)])
 def test_errors_near_singular_points_are_those_of_the_worst_view(tmp_path: Path, bad: int, expected: Outcome) -> None:
     views = (("zoomed", 0), ("zoomed closely", bad))
-    cells = [
-        planted(picks.STURM, "cayley", 1.0, view, grazing_false_hits=n, rays=141**2, size=141) for view, n in views
-    ]
+    checked = {"size": 141, "rays": 141**2, "truth_hits": 0, "truth_misses": 141**2}
+    cells = [planted(picks.STURM, "cayley", 1.0, view, grazing_false_hits=n, **checked) for view, n in views]
     verdict = claims.judge(claim("toledo2007", "evident after zooming"), evidence(tmp_path / "run", *cells))
     assert verdict.outcome is expected
     if bad:

@@ -15,7 +15,7 @@ from harness.experiment import reading
 from harness.plugins import AS_PRINTED, Plugin, find_methods
 from harness.running.cards import card
 
-from .synthetic_run import cell, printed, reported, tiny_run
+from .synthetic_run import cell, printed, reported, sampled, tiny_run
 
 CONFIG = """
 title = "t"
@@ -91,9 +91,8 @@ def _cell(plugin: Plugin, knobs: dict[str, Any], times: float, misses: int) -> A
     slot = f"{variant} torus"
     made |= {"slot": slot, "key": digest(slot), "method": "sturm", "variant": str(variant), "arrays": None}
     made |= {"parameters": dict(variant.parameters)}
-    made["time"] |= {"samples_ms": [times * (2.0 + 0.01 * i) for i in range(12)], "rounds": list(range(12))}
     made["accuracy"] |= {"misses": misses}
-    return made
+    return sampled(made, [times * (2.0 + 0.01 * i) for i in range(12)])
 
 
 def test_the_page_says_what_each_change_is_worth(tmp_path: Path):

@@ -187,7 +187,7 @@ def test_refuses_what_is_too_long_and_bad_parameters() -> None:
         ("x + log(-1)", "undefined"),
         ("x + sqrt(1 - 2)", "undefined"),
         ("x + 1/(sqrt2^2 - 2)", "undefined"),
-        ("x + exp(exp(7e2))", "too large"),
+        ("x + exp(exp(7e2))", r"2\^1000 or larger"),
         ("x - x", "does not depend"),
         ("1 + 2", "does not depend"),
         ("(x + y)^2 - x^2 - 2*x*y - y^2 + 3", "does not depend"),

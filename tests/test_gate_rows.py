@@ -13,9 +13,10 @@ from harness.cli import main
 from harness.gate import baseline, pictures
 from harness.gate.baseline import Baseline
 from harness.gate.judge import Judged, Verdict
-from harness.results.store import Store
+from harness.results.store import FORMAT, Store
 
 from . import test_gate as of_a_plugin
+from .agreeing_rows import whole
 
 pytestmark = pytest.mark.usefixtures("devices_found_once")
 
@@ -135,9 +136,10 @@ def _stored(folder, key, program, wrong=(), started="2026-01-01T00:00:00+00:00")
         "shade": np.where(codes > 0, np.nan, 0.5).astype(np.float32),
         "evaluations": np.full(codes.shape, 7, np.int32),
     }
-    row = {"key": key, "slot": f"{SLOT} {DEVICE}", "program": {"hash": program}, "rungs": None, "family": None}
+    row = {"format": FORMAT, "key": key, "slot": f"{SLOT} {DEVICE}", "program": {"hash": program}}
+    row |= {"rungs": None, "family": None}
     row |= {"environment": {"started": started}, "status": "ok", "variant": "m", "surface": "sphere", "view": "default"}
-    Store(folder).write(row | {"precision": "float32", "arrays": None}, arrays)
+    Store(folder).write(whole(row | {"precision": "float32", "arrays": None}), arrays)
     return Store(folder).read(key)
 
 

@@ -13,9 +13,10 @@ from pathlib import Path
 import pytest
 
 from harness import ROOT, cli
-from harness.contract import DeviceInfo, digest
+from harness.contract import DeviceInfo
 from harness.devices import discovery, kept_answers
 from harness.devices.executor import LocalExecutor
+from harness.results import sealed
 from harness.running.environment import probed
 
 from .conftest import usable_devices
@@ -258,11 +259,10 @@ def test_a_run_reports_and_is_keyed_by_the_device_itself_where_the_kept_answer_i
     config.write_text(CONFIG.format(device=info.name, seconds=0.01, more=""))
     _firsthit(tmp_path, "run", config, "--runs", tmp_path / "first")
     (file,) = (tmp_path / "cache").glob(f"firsthit/*/{backend}.json")
-    record = json.loads(file.read_text())
-    record.pop("digest")
+    record = sealed.read(file)
     for facts in record["devices"]:
         facts |= {"title": "no such device", "driver": "another driver", "compute_units": 1000, "float64": False}
-    file.write_text(json.dumps(record | {"digest": digest(record)}))
+    file.write_bytes(sealed.sealed(record))
     assert "no such device" in _firsthit(tmp_path, "list", "devices")[0], "nothing that can be seen speaks against it"
 
     _, said = _firsthit(tmp_path, "run", config, "--runs", tmp_path / "second")

@@ -29,6 +29,24 @@ lock.take()
 print("taken", flush=True)
 sys.stdin.read()
 """
+TAKES_TURNS = """import os, sys
+from pathlib import Path
+from harness.contract import FirsthitError
+from harness.results.lock import Lock
+folder, own, turns = Path(sys.argv[1]), Path(sys.argv[2]), 0
+print("ready", flush=True)
+sys.stdin.read(1)
+while turns < 500:
+    with Lock(folder, "turn") as lock:
+        try:
+            lock.take()
+        except FirsthitError as error:
+            assert "is being written" in str(error), error
+            continue
+        os.close(os.open(own, os.O_CREAT | os.O_EXCL))  # fails where the other process has it
+        own.unlink()
+        turns += 1
+"""
 
 
 def write(folder, said):
@@ -146,6 +164,35 @@ def test_several_folders_are_taken_together_or_not_at_all(tmp_path):
             raise AssertionError("one of the folders is another's")
         with Lock(tmp_path / "a", "free") as free:
             free.take()
+
+
+def test_two_that_make_and_remove_the_folder_in_turn_never_hold_it_both(tmp_path):
+    command = [sys.executable, "-c", TAKES_TURNS, str(tmp_path / "run"), str(tmp_path / "own")]
+    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE}
+    both = [subprocess.Popen(command, env=os.environ | {"PYTHONPATH": str(ROOT)}, **pipes) for _ in range(2)]
+    for process in both:
+        assert process.stdout.readline() == b"ready\n"
+    for process in both:
+        process.stdin.close()
+    assert [process.wait() for process in both] == [0, 0]
+
+
+def test_a_folder_goes_if_it_was_made_for_the_lock_and_nothing_was_written(tmp_path):
+    made, filled, found = (tmp_path / name for name in ("made", "filled", "found"))
+    found.mkdir()
+    with locked([made, filled, found], "first"):
+        (filled / "plan.json").write_text("{}")
+    assert (made.exists(), filled.exists(), found.exists()) == (False, True, True)
+
+
+def test_a_lock_that_was_removed_by_hand_takes_no_other_away(tmp_path):
+    folder = tmp_path / "run"
+    with Lock(folder, "second") as second:
+        with Lock(folder, "first") as first:
+            first.take()
+            (folder / lock.NAME).unlink()
+            second.take()
+        assert "`second`" in refusal(folder)
 
 
 def test_an_error_in_the_block_gives_the_lock_back(tmp_path):

@@ -18,6 +18,7 @@ from harness.devices.discovery import Known
 from harness.devices.fingerprint import digests
 from harness.devices.probes import Probes
 from harness.plugins import find_methods
+from harness.results import sealed
 
 from .conftest import usable_devices
 from .kept_runs import SLOT, series
@@ -194,12 +195,12 @@ def test_why_tells_what_differs_between_two_results(answered, ran, tmp_path):
     assert (alone["key"], alone["status"], alone["reason"]) == (first.stem, "ok", None)
     assert alone["slot"].startswith("sphere_tracing[AHEAD=")
     assert alone["before"] is alone["after"] is None and alone["since"] == []
-    row = json.loads(first.read_text())
+    row = sealed.read(first)
     row["key"], row["environment"]["started"] = "f" * 16, "2999-01-01T00:00:00+00:00"
     row["identity"]["device"]["driver"] = "another"
     row["identity"]["methodology"]["harness/limits.py"] = "edited"
     row["identity"]["method"].pop(gone := next(iter(row["identity"]["method"])))
-    (folder / f"{row['key']}.json").write_text(json.dumps(row))
+    (folder / f"{row['key']}.json").write_bytes(sealed.sealed(row))
     earlier = answered("why", first.stem, "--runs", runs)
     assert earlier["since"] is None and earlier["after"]["key"] == row["key"]
     changes = {tuple(one["part"]): (one["change"], one["before"], one["now"]) for one in earlier["after"]["changes"]}

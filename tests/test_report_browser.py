@@ -10,7 +10,7 @@ import pytest
 
 from reports.rendering import bundle, html
 from tests import browser
-from tests.html_content import EVIL, made
+from tests.html_content import SHOWN, made
 from tests.synthetic_run import write_run
 
 LOOKS = [(width, dark) for dark in (False, True) for width in (390, 1280)]
@@ -80,7 +80,7 @@ def test_tables_sort_by_value_and_filter(tab: browser.Browser) -> None:
     tab.click(f"{table}.querySelectorAll('.sort')[2]")
     assert tab.run(f"{rows}.map(r => r.cells[2].textContent)") == ["9", "9", "80", "80", "1,000", "1,000"]
     tab.type(f"{table}.querySelector('.filter')", "row 5")
-    assert tab.run(f"{rows}.map(r => r.cells[0].textContent)") == [f"row 5 {EVIL}"]
+    assert tab.run(f"{rows}.map(r => r.cells[0].textContent)") == [f"row 5 {SHOWN}"]
     assert tab.run(f"{table}.querySelector('.count').textContent") == "1 of 6 rows"
 
 
@@ -88,13 +88,13 @@ def test_squares_tell_their_notes_to_pointer_and_keys(tab: browser.Browser) -> N
     squares = "[...document.querySelectorAll('.square')]"
     assert tab.run(f"{TIP}.hidden")
     tab.hover(f"{squares}[1]")
-    assert tab.run(f"{TIP}.textContent") == f"note 1 {EVIL}"
+    assert tab.run(f"{TIP}.textContent") == f"note 1 {SHOWN}"
     assert tab.run(f"{squares}.filter(s => s.tabIndex === 0).length") == 1
     tab.run(f"{squares}[0].focus()")
-    assert tab.run(f"{TIP}.textContent") == f"note 0 {EVIL}"
+    assert tab.run(f"{TIP}.textContent") == f"note 0 {SHOWN}"
     for key, told in (("ArrowRight", 1), ("ArrowDown", 1), ("ArrowRight", 0), ("ArrowRight", 0)):
         tab.call("Input.dispatchKeyEvent", type="keyDown", key=key, code=key)
-        assert tab.run(f"{TIP}.textContent") == f"note {told} {EVIL}"
+        assert tab.run(f"{TIP}.textContent") == f"note {told} {SHOWN}"
     tab.call("Input.dispatchKeyEvent", type="keyDown", key="Escape", code="Escape")
     assert tab.run(f"{TIP}.hidden")
 
@@ -152,9 +152,9 @@ def test_the_explorer_follows_its_axes_and_its_rows(tab: browser.Browser) -> Non
         before = now
     panels = "[...document.querySelectorAll('.panel-chart h3')].map(h => h.textContent)"
     assert len(tab.run(panels)) > 1
-    assert f"Torus {EVIL}" in tab.run(panels)
-    tab.run(set_to.format("surface", f"Torus {EVIL}"))
-    assert tab.run(panels) == [f"Torus {EVIL}"]
+    assert f"Torus {SHOWN}" in tab.run(panels)
+    tab.run(set_to.format("surface", f"Torus {SHOWN}"))
+    assert tab.run(panels) == [f"Torus {SHOWN}"]
     tab.run(set_to.format("device", "opencl:pocl"))
     assert "opencl:pocl" in tab.run("document.querySelector('#explorer select[name=device]').value")
 
@@ -213,7 +213,7 @@ def test_the_slider_starts_with_two_methods_and_moves_the_edge(tab: browser.Brow
     options = tab.run(f"[...{gallery}.querySelector('.left').options].map(o => o.text)")
     assert len(options) == 6
     chosen = tab.run(f"['left', 'right'].map(s => {gallery}.querySelector(`.${{s}}`).selectedOptions[0].text)")
-    assert chosen == [f"newton, 2 {EVIL} – error", f"_odd# {EVIL} – error"]
+    assert chosen == [f"newton, 2 {SHOWN} – error", f"_odd# {SHOWN} – error"]
     assert tab.run(f"{gallery}.querySelector('.under').src !== {gallery}.querySelector('.above').src")
     tab.click(f"{gallery}.querySelector('.slider')")
     tab.call("Input.dispatchKeyEvent", type="keyDown", key="Home", code="Home", windowsVirtualKeyCode=36)

@@ -20,7 +20,7 @@ from reports.reading import load
 from reports.reading.arrays import Shelf
 from reports.rendering import document
 from reports.sentences import answer
-from tests.synthetic_run import SURFACES, cell, printed, retime, stability_run, tiny_run, write_run
+from tests.synthetic_run import SURFACES, cell, printed, retime, sampled, stability_run, tiny_run, write_run
 
 
 def timed(
@@ -99,17 +99,12 @@ def test_many_surfaces_are_counted(tmp_path: Path) -> None:
     assert lead.count("S1") == 0
 
 
-def rounds_of(made: dict[str, Any], *samples: float) -> dict[str, Any]:
-    made["time"] |= {"samples_ms": list(samples), "rounds": list(range(len(samples)))}
-    return made | {"time": made["time"] | {"median_ms": sorted(samples)[len(samples) // 2]}}
-
-
 @pytest.mark.parametrize(("times", "tied"), [((300.0, 310.0, 320.0), False), ((15.0, 16.0, 17.0), True)])
 def test_too_few_rounds_tell_only_times_that_are_far_apart(
     tmp_path: Path, times: tuple[float, ...], tied: bool
 ) -> None:
-    fast = rounds_of(timed("newton", "torus", 2.0), *[9.0, 10.0, 11.0] * 4)
-    (one,) = chosen(tmp_path / "run", fast, rounds_of(timed("slow", "torus", 2.0), *times))
+    fast = sampled(timed("newton", "torus", 2.0), [9.0, 10.0, 11.0] * 4)
+    (one,) = chosen(tmp_path / "run", fast, sampled(timed("slow", "torus", 2.0), list(times)))
     assert one.best.variant == "newton"
     assert one.tied[0] == (("Slow",) if tied else ())
     assert ("or Slow" in answer.lead([one])) is tied
@@ -132,7 +127,8 @@ def test_what_is_fast_and_inexact_is_no_tie_of_the_winner(tmp_path: Path) -> Non
 def test_a_surface_that_no_ray_hits_has_a_winner(tmp_path: Path) -> None:
     cells = [timed("newton", "torus", 2.0), timed("march", "torus", 9.0)]
     for made in cells:
-        made["accuracy"] |= {"error": {"max": None}, "relative_error": {"max": None}, "truth_hits": 0}
+        made["accuracy"] |= {"error": {"max": None}, "relative_error": {"max": None}}
+        made["accuracy"] |= {"truth_hits": 0, "truth_misses": made["accuracy"]["rays"]}
     found = chosen(tmp_path / "run", *cells)
     assert found[0].best.variant == "newton"
     assert "come from Newton on Torus (2.00 ms)" in answer.lead(found)

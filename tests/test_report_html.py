@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import base64
 import io
+import json
 import re
 import sys
+from html import unescape
 from html.parser import HTMLParser
 from pathlib import Path
 
@@ -13,7 +15,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from harness import cli
+from harness import cli, escaping
 from reports import compare, parts, report
 from reports.analysis import derive
 from reports.content import Column, Document, Table
@@ -78,6 +80,14 @@ def test_the_page_says_what_the_document_says_and_runs_none_of_it(text: str, mad
     assert "<b title" not in text
     assert text.count("</script>") == text.count("<script")
     assert not re.search("[\u00ad\u200b-\u200f\u2060\ufeff]", text), "an invisible character"
+
+
+def test_a_script_reads_the_texts_that_the_page_shows() -> None:
+    name = html_content.EVIL
+    read = re.sub("<.*?>", "", escaping.data("cells", {name: [name, 1, {"a": name}], "b": 0.5}))
+    shown = html_content.SHOWN
+    assert json.loads(read) == {shown: [shown, 1, {"a": shown}], "b": 0.5}
+    assert unescape(escaping.html(name)) == shown
 
 
 def test_the_same_run_gives_the_same_page(text: str, run: Path) -> None:

@@ -17,7 +17,7 @@ import pytest
 from harness import ROOT
 from harness.accuracy.judge import NAMES
 from harness.contract import Casts
-from harness.results import columns, row, schema
+from harness.results import columns, row, schema, sealed
 from harness.results.row import KINDS, Accuracy, StoredRow
 from harness.results.schema import DERIVED, LEAVES, SCHEMA
 from reports import parts, report
@@ -44,7 +44,7 @@ def run(tmp_path_factory) -> Path:
 
 @pytest.fixture(scope="module")
 def rows(run) -> list[dict[str, Any]]:
-    return [json.loads(path.read_text()) for path in sorted(run.parent.glob("*/cells/*.json"))]
+    return [sealed.read(path) for path in sorted(run.parent.glob("*/cells/*.json"))]
 
 
 def faults(kind: Any, value: Any, path: str = "row") -> list[str]:

@@ -165,7 +165,7 @@ def test_killing_a_worker_costs_one_cell_and_retry_mends_it(tmp_path, config):
     found = rows(runs / "t")[1]
     assert sorted(row["status"] for row in found.values()) == ["crashed"] + ["ok"] * 7
     reason = next(row["reason"] for row in found.values() if row["status"] == "crashed")
-    assert "SIGKILL" in reason
+    assert "killed by signal KILL" in reason
     again = run("run", path, "--runs", runs, "--retry", "failed")
     assert again.returncode == 0
     assert "1 cells run, 7 reused" in again.stdout

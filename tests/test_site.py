@@ -18,7 +18,8 @@ from harness.cli import main
 from harness.contract import FirsthitError, digest
 from reports.site import board, build
 from tests import browser
-from tests.synthetic_run import IDENTITY, arrays, cell, plan, stability_run
+from tests.agreeing_rows import stated
+from tests.synthetic_run import IDENTITY, arrays, cell, plan, sampled, stability_run
 
 SURFACES = ("torus", "barth")
 DEVICES = ("opencl:intel", "opengl:llvmpipe")
@@ -49,14 +50,14 @@ def timed(variant: str, surface: str, device: str) -> dict[str, Any]:
     """Make a cell with the time and the misses of VARIANTS, and a relative error that says which variant it is."""
     ms = VARIANTS[variant][0]
     made = cell(variant, surface, device, "float32")
-    made["time"] |= {"samples_ms": [ms] * 20, "median_ms": ms, "lower_ms": ms, "upper_ms": ms}
+    sampled(made, [ms] * 20)
     made["surface"] = f"../{EVIL}" if surface == "barth" else surface
     made["surface_title"] = EVIL if surface == "barth" else made["surface_title"]
     if made["answers"]:
         top = 1e-7 if "1e-06" in variant else 5e-4
         facts = made["accuracy"]
         facts |= {"misses": VARIANTS[variant][1], "false_hits": 0, "exhausted": 0, "wrong_root": 0, "invalid": 0}
-        facts["error"] |= {"max": top}
+        facts["error"] = {"max": top}
         facts["relative_error"] = {name: top for name in facts["relative_error"]}
     return made
 
@@ -78,9 +79,9 @@ def written(folder: Path, cpu: str, created: str, variants: tuple[str, ...] = tu
             stored["wrong"][:] = 0
             stored["wrong"].flat[np.flatnonzero(clear)[: one["accuracy"]["misses"]]] = 1
             stored["error"][stored["wrong"] == 1] = np.nan
-            one["accuracy"]["error"]["max"] = float(np.nanmax(stored["error"]))
+            one["accuracy"]["error"] = {"max": float(np.nanmax(stored["error"]))}
             np.savez_compressed(folder / one["arrays"], **stored)
-        (folder / "cells" / f"{one['key']}.json").write_text(json.dumps(one))
+        (folder / "cells" / f"{one['key']}.json").write_text(json.dumps(stated(one)))
     return folder
 
 
@@ -266,16 +267,23 @@ def test_rows_that_do_not_agree_with_their_answers_or_their_key_are_named(tmp_pa
 
 
 @pytest.mark.parametrize(
-    "part", [{"doc": []}, {"parameters": [{"name": "A"}]}, {"title": 3}, {"tables": [{"rows": 1}]}]
+    ("part", "problem"),
+    [
+        ({"doc": []}, "doc is no object"),
+        ({"parameters": [{"name": "A"}]}, "parameters[].default is missing"),
+        ({"title": 3}, "title is no text: 3"),
+        ({"tables": [{"rows": 1}]}, "tables[].rows is no list: 1"),
+        ({"tables": [{"part": "a", "header": ["b"], "rows": [["c", "d"]]}]}, "tables[]: a row is longer or shorter"),
+    ],
 )
-def test_a_plan_whose_methods_are_damaged_is_named(tmp_path, part):
+def test_a_plan_whose_methods_are_damaged_is_named(tmp_path, part, problem):
     folder = tmp_path / "mine"
     (folder / "cells").mkdir(parents=True)
     one = timed("newton[EPSILON=1e-06]", "torus", DEVICES[0])
     told = plan([one]) | {"name": "mine", "methods": {"newton": METHODS["newton"] | part}}
     (folder / "plan.json").write_text(json.dumps(told))
-    (folder / "cells" / f"{one['key']}.json").write_text(json.dumps(one))
-    with pytest.raises(FirsthitError, match="what its plan says of the method 'newton' is damaged"):
+    (folder / "cells" / f"{one['key']}.json").write_text(json.dumps(stated(one)))
+    with pytest.raises(FirsthitError, match=re.escape(f"mine/plan.json: methods.newton.{problem}")):
         build.build([folder], tmp_path / "site")
 
 

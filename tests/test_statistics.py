@@ -14,7 +14,6 @@ import pandas as pd
 import pytest
 
 from harness.contract import FirsthitError, digest
-from harness.devices.interface import Timing
 from harness.results import ranks, timings
 from harness.running.rows import Samples, time_of
 from reports import content
@@ -316,7 +315,7 @@ class _Slow:
         state: Any = SimpleNamespace(samples=Samples("wall"), timing=0.0)
         while True:
             taken = len(state.samples.wall_ms)
-            state.samples.add(Timing(1e3 * self.seconds * (1.0 + 0.3 * (taken % 2)), None), 1, taken)
+            state.samples.add((1e3 * self.seconds * (1.0 + 0.3 * (taken % 2)), None, self.seconds), taken, 0)
             state.timing += self.seconds
             if Runner._is_done(runner, state):
                 return taken + 1

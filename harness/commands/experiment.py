@@ -35,11 +35,11 @@ def add_parsers(add: Add) -> None:
 
     parser = add("run", "firsthit run quick --retry failed")
     _add_config(parser)
-    add_yes(parser)
     parser.add_argument("--force", action="store_true", help="run every cell again")
     parser.add_argument("--retry", choices=["failed"], help="run failed, timed out and crashed cells again")
     parser.add_argument("--device", action="append", metavar="NAME", help="run on this device only; may be repeated")
     add_wait(parser)
+    add_yes(parser)
     parser.set_defaults(run=_run)
 
     parser = add("why", "firsthit why runs/quick/cells/0123456789abcdef.json")

@@ -81,9 +81,9 @@ def add_wait(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--wait", action="store_true", help=help_)
 
 
-def add_yes(parser: argparse.ArgumentParser) -> None:
-    """Add the option without which a large plan is refused."""
-    parser.add_argument("--yes", action="store_true", help=f"plan more than {MOST:,} cells too, if there are so many")
+def add_yes(parser: argparse.ArgumentParser, what: str = "cells") -> None:
+    """Add the option without which a plan of very many cells, or of what `what` names, is refused."""
+    parser.add_argument("--yes", action="store_true", help=f"go on where there are more than {MOST:,} {what}")
 
 
 def typed() -> str:

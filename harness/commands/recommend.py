@@ -84,9 +84,9 @@ def add_parsers(add: Add) -> None:
     parser.add_argument("--seed", type=whole(SEED), default=USUAL["seed"], help="of the views (default: 1)")
     parser.add_argument("--runs", type=Path, default=Path("runs"), metavar="DIR", help="rows go here (default: runs)")
     add_wait(parser)
+    add_yes(parser, "checks")
     page = "write the answer as a page with a picture and its error map: FILE.pdf, FILE.html or FILE.png"
     parser.add_argument("-o", "--output", type=Path, metavar="FILE", help=page)
-    add_yes(parser)
     add_json(parser)
     parser.set_defaults(run=_recommend)
 

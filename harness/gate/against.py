@@ -34,11 +34,10 @@ from harness.plugins import find_methods
 from harness.results.figures import SPEED, figures
 from harness.results.lock import Lock
 from harness.results.store import Row, Store
-from harness.running.due import Again, begin, due
+from harness.running import batch
 from harness.running.environment import describe, probed
 from harness.running.fastest import settled
 from harness.running.run import Watcher
-from harness.running.runner import Runner
 
 ASKED = ("surface", "view", "sampling", "family", "precision", "raster")  # parts of an identity that a method is asked
 METHODS_OWN = ("meshes", "mesher", "variant")  # what methods decide of these
@@ -163,10 +162,8 @@ def compare(checked: Checked, other: Other, only: Only, watcher: Watcher, lock: 
     another's, or a row cannot be stored.
     """
     pairs = [_pair(p, checked.rows[p.key], other) for p in checked.planned]
-    name, executor = (
-        other.revision.name,
-        LocalExecutor(checked.experiment.config.budget.timeout, checked.experiment.config.budget.memory),
-    )
+    name, budget = other.revision.name, checked.experiment.config.budget
+    executor = LocalExecutor(budget.timeout, budget.memory)
     try:
         _run(pairs, checked, other.revision, executor, watcher, lock, force)
         _judge(pairs, checked)
@@ -264,20 +261,12 @@ def _run(
     store = Store(checked.folder / KEPT)
     store.truth = checked.folder / "truth"
     planned = [pair.then for pair in pairs if pair.then]
-    again: Again = "everything" if force else "unfinished"
-    found, begun = due(planned, store, again), None
-    if found.todo:
-        lock.take()
-        found, begun, _ = begin(planned, store, again)
-        watcher.starts(len(found.todo), 1.0 * len(found.todo), Counter(p.cell.device for p in found.todo))
     environment = describe() | {"commit": there.commit[:12], "dirty": False}
-    config = checked.experiment.config
-    told = watcher.cell, watcher.hears_builds
-    rows = Runner(config, checked.catalog, store, executor, environment, *told).run(found.todo, begun)
-    by_key = {**found.kept, **rows}
+    stated = planned, checked.experiment.config, checked.catalog, store, executor, watcher, lock
+    rows, _ = batch.rows_of(*stated, force, environment)
     for pair in pairs:
         if pair.then:
-            pair.before = by_key[pair.then.key]
+            pair.before = rows[pair.then.key]
 
 
 def _judge(pairs: list[_Pair], checked: Checked) -> None:

@@ -25,7 +25,7 @@ from harness.gate.foretold import others
 from harness.gate.judge import Judged, Verdict, judge, tolerances_of
 from harness.plugins import Catalog, find_methods
 from harness.results.lock import Lock
-from harness.results.store import Row
+from harness.results.store import Row, Store
 from harness.running import batch
 from harness.running.due import UNFINISHED
 from harness.running.environment import describe, fingerprinted, kept_fingerprint
@@ -80,7 +80,7 @@ class Prepared:
                 kept = kept_fingerprint(info, folder / "probes")[0]
                 with nullcontext() if kept else watcher.doing(f"taking the fingerprint of {name}'s arithmetic"):
                     arithmetic[name] = fingerprinted(executor, info, folder / "probes")
-            stated = self.planned, self.experiment, self.catalog, folder, executor, watcher, lock
+            stated = self.planned, self.experiment.config, self.catalog, Store(folder), executor, watcher, lock
             rows, earlier = batch.rows_of(*stated, force)
         finally:
             executor.close()

@@ -16,6 +16,10 @@ from harness.results import npz
 from harness.results.sources import TRUTH, digest_of, packages
 from harness.results.writing import replacing
 
+MOST_UNWRITTEN = 16  # answers of so many sets of rays; cells that share rays run one after the other
+_UNWRITTEN: dict[Path, Truth] = {}
+_PROBLEMS: dict[Path, str] = {}  # why answers could not be written, by folder
+
 
 def truth_path(folder: Path, surface: Surface, rays: NDArray[np.float32], t_min: float = 0.0) -> Path:
     """Return the file of the answers for exactly this surface, these rays and `t_min`.
@@ -68,11 +72,6 @@ def store(path: Path, truth: Truth) -> None:
         _UNWRITTEN[path] = truth
         while len(_UNWRITTEN) > MOST_UNWRITTEN:
             del _UNWRITTEN[next(iter(_UNWRITTEN))]
-
-
-MOST_UNWRITTEN = 16  # answers of so many sets of rays; cells that share rays run one after the other
-_UNWRITTEN: dict[Path, Truth] = {}
-_PROBLEMS: dict[Path, str] = {}
 
 
 def unwritten(folder: Path) -> str | None:

@@ -340,7 +340,7 @@ class Search:
             self._folder.name, self._folder, "", config, tuple(of), (wish.surface,), (precision,), ("compute",)
         )
         planned = plan.plan(named, self._catalog, [self._device], timed=seconds is not None)
-        stated = planned, named, self._catalog, self._folder, self._executor, self._watcher
+        stated = planned, config, self._catalog, Store(self._folder), self._executor, self._watcher
         rows, _ = batch.rows_of(*stated, self._lock)
         return {p.cell.variant: rows[p.key] for p in planned}
 

@@ -3,7 +3,7 @@
 begun/<session>.jsonl    the cells that are timed together: what checking found, how each was warmed, and each round
 begun/again.jsonl        the keys of cells that `--force` or `--retry` runs again, though they have rows
 
-A line is a check sum and a JSON object. A line that is torn, as a power cut leaves it, counts as not there. Lines are
+A line is a checksum and a JSON object. A line that is torn, as a power cut leaves it, counts as not there. Lines are
 only ever appended, in one write each, so that they stay when the process is killed. They are forced to the disk
 (fsync) when the last cell of a session is checked, and then between rounds every FLUSH seconds: that is what a power
 cut may cost.

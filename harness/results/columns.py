@@ -24,10 +24,10 @@ each cell that is a view, `results.parquet`, with the same columns, and, of fami
 a line for each rung.
 
 Lengths are in scene units, the surface's own coordinates, unless a line says otherwise. A clear ray is one that is
-neither grazing nor drowned; see “What a row says” in the [README](../README.md). A leaf that is null, or absent
-because it has no meaning for the cell, is an empty field of CSV and a null of Parquet. In CSV lists and objects are
-JSON, and a text that begins with `=`, `+`, `-` or `@`, which a spreadsheet would take for a formula, has a `'` before
-it; Parquet has the texts as they are.
+neither grazing nor drowned; see [When a row counts](rows.md). A leaf that is null, or absent because it has no meaning
+for the cell, is an empty field of CSV and a null of Parquet. In CSV lists and objects are JSON, and a text that begins
+with `=`, `+`, `-` or `@`, which a spreadsheet would take for a formula, has a `'` before it; Parquet has the texts as
+they are.
 
 This page is printed from `harness/results/row.py` and `harness/results/schema.py` by
 `python -m harness.results.columns > docs/columns.md`.

@@ -28,11 +28,10 @@ def past_of(key: str, runs: Path) -> Past:
         what = "several cells start" if matches else "no cell starts"
         raise FirsthitError(f"{what} with {key!r} below {runs}; see `firsthit plan CONFIG` for keys")
     store = Store(matches[0].parent.parent)
-    rows = {row["key"]: row for row in store.rows()}
-    row = rows.get(matches[0].stem)
+    row = store.read(matches[0].stem, older=True)
     if row is None:
         raise FirsthitError(f"{store.unreadable[matches[0].stem]}; `firsthit run` makes it again")
-    same = [other for other in rows.values() if other["slot"] == row["slot"]]
+    same = [other for other in store.rows() if other["slot"] == row["slot"]]
     same.sort(key=lambda other: str(other["environment"]["started"]))
     at = next(i for i, other in enumerate(same) if other["key"] == row["key"])
     return Past(row, same[at - 1] if at else None, same[at + 1] if at + 1 < len(same) else None)

@@ -7,9 +7,6 @@ A system lock of another machine may not be seen on a shared file system. So the
 BEAT seconds, and a text of another machine holds for SILENT seconds after its last touch. Where the file system has no
 locks at all, the text and the touch alone decide: two processes that begin within PAUSE seconds are told apart, and
 two that write the text in the same moment after it are not.
-
-The packages filelock and portalocker lock as well. They do not say who holds a lock, nor see another machine's, and
-what is left of this module beside them would be hardly shorter.
 """
 
 from __future__ import annotations
@@ -39,6 +36,7 @@ BEAT = 10.0  # seconds between two signs of life of who holds a lock
 SILENT = 60.0  # seconds without one, after which the lock of another machine's process is nobody's
 PAUSE = 0.1  # seconds
 NEXT_LOOK = 0.5  # seconds between two looks of who waits
+TRIES = 100  # to take a lock whose file or folder others remove
 Doing = Callable[[str], AbstractContextManager[Any]]  # says what goes on while a block runs
 
 
@@ -58,6 +56,7 @@ class Lock:
         self.folder, self._path = folder, folder / NAME
         self._command, self._wait, self._doing = command, wait, doing
         self._file: int | None = None
+        self._made = False  # whether this object made the folder
         self._ended = threading.Event()
 
     def __enter__(self) -> Lock:
@@ -89,12 +88,13 @@ class Lock:
         threading.Thread(target=_beat, args=(os.dup(self._file), self._ended), daemon=True).start()
 
     def release(self) -> None:
-        """Give the lock back, if it is held; a folder in which nothing was written goes too."""
+        """Give the lock back, if it is held; a folder that was made for it goes too, if nothing was written there."""
         if self._file is not None:
             file, self._file = self._file, None
             self._ended.set()
             with contextlib.suppress(OSError):
-                if [one.name for one in self.folder.iterdir()] == [NAME]:
+                alone = self._made and [one.name for one in self.folder.iterdir()] == [NAME]
+                if alone and _is_at(file, self._path):  # and no other's, where this one was removed by hand
                     self._path.unlink()
                     self.folder.rmdir()
             with contextlib.suppress(OSError):
@@ -112,16 +112,29 @@ class Lock:
 
     def _taken(self) -> int:
         """Take the lock and return its open file. Raises Held, and OSError where the file cannot be written."""
-        while True:
-            self.folder.mkdir(parents=True, exist_ok=True)
-            file = os.open(self._path, os.O_RDWR | os.O_CREAT, 0o666)
+        for tried in range(TRIES):
             try:
-                if self._claim(file):
-                    return file
-            except BaseException:
+                file = self._opened()
+                try:
+                    if self._claim(file):
+                        return file
+                except BaseException:
+                    os.close(file)
+                    raise
                 os.close(file)
-                raise
-            os.close(file)
+            except FileNotFoundError:  # who held the lock has just removed the folder
+                if tried == TRIES - 1:
+                    raise
+        raise OSError("others remove it all the time")
+
+    def _opened(self) -> int:
+        """Open the lock's file; it and its folder are made where they are missing. Raises OSError."""
+        try:
+            self.folder.mkdir(parents=True)
+            self._made = True
+        except FileExistsError:
+            self._made = False
+        return os.open(self._path, os.O_RDWR | os.O_CREAT, 0o666)
 
     def _claim(self, file: int) -> bool:
         """Take the lock by its open file; return False where it was removed a moment ago. Raises as `_taken`."""
@@ -137,6 +150,7 @@ class Lock:
             time.sleep(PAUSE)
             if _text(file) != text:
                 raise Held(self._told(file))
+            return _is_at(file, self._path)  # who held it before may have removed it meanwhile
         return True
 
     def _is_held(self, file: int, locked: bool) -> bool:

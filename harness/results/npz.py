@@ -49,9 +49,7 @@ def _read(packed: BinaryIO, kinds: Mapping[str, Any], fits: Fits, optional: froz
             if lacking is not None:
                 raise ValueError(f"it has no {lacking}")
             return {name: _member(file, members[f"{name}.npy"], name, np.dtype(kinds[name]), fits) for name in there}
-    except (
-        Exception
-    ) as error:  # whatever zipfile, zlib and NumPy's reader of headers say of bytes that are none of theirs
+    except Exception as error:  # zipfile, zlib and NumPy's reader of headers may raise anything
         raise ValueError(f"damaged: {sealed.problem(error) or type(error).__name__}") from None
 
 

@@ -14,7 +14,7 @@ from harness.results.declared import NOT_NEGATIVE, SHARE
 Versions = dict[str, str] | list[tuple[str, str]]  # by package; pairs in older plans
 
 
-class Probed(TypedDict, total=True):
+class Probed(TypedDict):
     """Hold what the probes of a device found (harness/devices/probes.py); nothing, for a device with a problem."""
 
     two_sum: NotRequired[Annotated[float, SHARE]]

@@ -63,17 +63,15 @@ class Store:
         """Tell whether there is a file of the row of `key`, whole or not."""
         return self._cell(key).exists()
 
-    def read(self, key: str) -> Row | None:
-        """Return the row of `key`, with every leaf that is declared.
+    def read(self, key: str, *, older: bool = False) -> Row | None:
+        """Return the row of `key`; None if there is none or its file is damaged (then `unreadable` says why).
 
-        None if there is none or its file is damaged (then `unreadable` says why): what decides a row is in its key, so
-        that a row that lacks a leaf is no older one.
+        With `older`, what an older version did not write is null. Without it, a row that lacks a leaf is damaged: the
+        key of a cell as it stands now holds this version, so that its row is no older one.
         """
-        return self._read(key, older=False)
-
-    def _read(self, key: str, older: bool) -> Row | None:
         try:
-            return read_row(self._cell(key), key, older=older)
+            row = read_row(self._cell(key), key, older=older)
+            return _UNSAID | row if older else row
         except FileNotFoundError:
             return None
         except (OSError, ValueError) as error:
@@ -101,8 +99,8 @@ class Store:
     def rows(self) -> Iterator[Row]:
         """Yield every row that can be read, current or stale; what an older version did not write is null."""
         for path in sorted((self.folder / "cells").glob("*.json")):
-            if row := self._read(path.stem, older=True):
-                yield _UNSAID | row
+            if row := self.read(path.stem, older=True):
+                yield row
 
     def write_plan(self, plan: dict[str, Any]) -> None:
         """Store what the run sets out to do. Raises FirsthitError if it cannot be written."""

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections import Counter
-from pathlib import Path
+from collections.abc import Mapping
+from typing import Any
 
 from harness.devices.executor import LocalExecutor
-from harness.experiment.config import Experiment
+from harness.experiment.config import Config
 from harness.experiment.plan import Planned
 from harness.plugins import Catalog
 from harness.results.lock import Lock
@@ -20,22 +21,22 @@ from harness.running.runner import Runner
 
 def rows_of(
     planned: list[Planned],
-    experiment: Experiment,
+    config: Config,
     catalog: Catalog,
-    folder: Path,
+    store: Store,
     executor: LocalExecutor,
     watcher: Watcher,
     lock: Lock,
     force: bool = False,
+    environment: Mapping[str, Any] | None = None,
 ) -> tuple[dict[str, Row], frozenset[str]]:
     """Return each planned cell's row by its key, and the keys of the rows that are of an earlier run.
 
-    A cell is run now where `folder` has no row of it, where its row says that it did not finish and, with `force`, in
-    any case; `watcher` is told of each. The folder's `lock` is taken if any is to run. Raises FirsthitError where it
-    is another's, or a row cannot be stored.
+    A cell is run now where `store` has no row of it, where its row says that it did not finish and, with `force`, in
+    any case; `watcher` is told of each. The folder's `lock` is taken if any is to run. Rows state the `environment`,
+    this one's if none is given. Raises FirsthitError where the lock is another's, or a row cannot be stored.
     """
-    store = Store(folder)
-    sweep_below(folder)
+    sweep_below(store.folder)
     again: Again = "everything" if force else "unfinished"
     found, begun = due(planned, store, again), None
     if found.todo:
@@ -44,6 +45,6 @@ def rows_of(
         for message in store.unreadable.values():
             watcher.warned(f"{message}; running that cell again")
         watcher.starts(len(found.todo), 1.0 * len(found.todo), Counter(p.cell.device for p in found.todo))
-    told = watcher.cell, watcher.hears_builds
-    rows = Runner(experiment.config, catalog, store, executor, describe(), *told).run(found.todo, begun)
+    told = dict(environment or describe()), watcher.cell, watcher.hears_builds
+    rows = Runner(config, catalog, store, executor, *told).run(found.todo, begun)
     return {**found.kept, **rows}, frozenset(found.kept)

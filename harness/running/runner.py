@@ -2,13 +2,8 @@
 
 A row is stored as soon as its cell ends, and only the runner writes rows. A cell that fails, hangs or takes its driver
 down costs its own row. Where the runner itself is stopped, only the step that ran is lost: what checking a cell found,
-and the samples of each round, are kept (harness.results.begun), and the next runner goes on from there.
-
-**Two sittings** Cells that are taken up again go on as one session, and rounds are numbered on, so that two samples
-of one round were always taken in turn. The identity of a cell holds program, driver, processor and settings: all that
-is the same in both sittings. What else may have changed, such as other programs' load or the processor's heat, is what
-may change within one sitting too: it cancels in ratios, which are of samples of one round, and a median over both
-sittings is one over both states. Where the sittings' medians differ, the row warns (timings.sitting_warning).
+and the samples of each round, are kept (harness.results.begun), and the next runner goes on from there. docs/rows.md
+says why times of two sittings, before and after a stop, make one row.
 """
 
 from __future__ import annotations

@@ -3,6 +3,7 @@
 A row names its surface, rays, samples and answers. So its counts, quantiles and times can be computed again, and the
 truth that it was judged by can be certified anew. Nothing is cast, and no device is opened.
 
-`checks` lists what is done: `stated` (identity and columns), `times` (samples), `answers` (arrays), `truth` (the
-oracle) and `rungs` (families). Each takes a row and yields what does not hold, or says why it cannot tell.
+Reading a row holds it against its checksum, its declaration and itself (harness.results). `checks` lists what else is
+done: `stated` (identity and columns), `times` (samples), `answers` (arrays), `truth` (the oracle) and `rungs` (the
+oracle on families). Each takes a row and yields what does not hold, or says why it cannot tell.
 """

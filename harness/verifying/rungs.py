@@ -1,4 +1,4 @@
-"""Check what a row says of a family's rungs: sums, and what follows from the family's rays and their truth."""
+"""Check what a row says of a family's rungs by the family's rays and their truth, which are certified anew."""
 
 from __future__ import annotations
 
@@ -10,27 +10,10 @@ import numpy as np
 from harness.accuracy.rungs import knowable_margin
 from harness.contract import FirsthitError, Surface, Truth, TruthStatus
 from harness.hardcases import groups
-from harness.results.row import KINDS
 from harness.verifying.model import CannotTell, Wrong, differing
 from harness.verifying.truth import Rays
 
 Certify = Callable[[Surface, Rays], Truth]
-
-
-def sums(row: Mapping[str, Any]) -> Iterator[Wrong]:
-    """Yield the rungs whose counts contradict each other. Raises CannotTell for a row without rungs."""
-    if not row.get("rungs"):
-        raise CannotTell("it has no rungs")
-    for number, rung in enumerate(row["rungs"]):
-        at = f"rungs[{number}]"
-        parts = rung["decided"] + rung["undecidable"] + rung["undecided"]
-        yield from differing(f"{at}.rays", rung["rays"], parts)
-        decided = rung["right"] + sum(rung.get(kind, 0) for kind in KINDS)
-        yield from differing(f"{at}.decided", rung["decided"], decided)
-        if not 0 <= rung["undecidable_right"] <= rung["undecidable"]:
-            yield Wrong(f"{at}.undecidable_right", rung["undecidable_right"], f"0 to {rung['undecidable']}")
-        if rung["max_error"] is not None and not rung["right"]:
-            yield Wrong(f"{at}.max_error", rung["max_error"], "none, since no ray was answered rightly")
 
 
 def rungs(row: Mapping[str, Any], certify: Certify) -> Iterator[Wrong]:

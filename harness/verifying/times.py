@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Mapping
 from typing import Any
 
@@ -23,12 +22,6 @@ def times(row: Mapping[str, Any]) -> Iterator[Wrong]:
     if not isinstance(budget, dict) or "wall_samples_ms" not in time:
         raise CannotTell("its identity names no budget, or its host's samples are not kept")
     samples, wall, rounds = time["samples_ms"], time["wall_samples_ms"], time["rounds"]
-    if not len(samples) == len(wall) == len(rounds) or not samples:
-        yield Wrong("time.samples_ms", f"{len(samples)} samples", f"{len(rounds)} rounds, {len(wall)} by the host")
-        return
-    if not all(math.isfinite(one) and one > 0.0 for one in (*samples, *wall)):
-        yield Wrong("time.samples_ms", "a sample that is no time", "finite and positive times")
-        return
     sittings = time.get("sittings", [len(samples)])
     if sum(sittings) != len(samples) or min(sittings) < 1:
         yield Wrong("time.sittings", sittings, f"counts of {len(samples)} samples")

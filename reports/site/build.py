@@ -23,13 +23,13 @@ HERE = Path(__file__).parent
 MARK = "firsthit-site.json"  # lists the files of a site, so that it is known for one
 
 
-class _Mark(TypedDict):
-    """Declare what that file holds."""
+class _Listing(TypedDict):
+    """Declare what MARK holds."""
 
     files: list[str]
 
 
-_MARK = declared.checker(_Mark)
+_LISTING = declared.checker(_Listing)
 TITLE = "firsthit: results"
 PARQUET, CSV = "data/results.parquet", "data/results.csv"
 
@@ -121,7 +121,7 @@ def _listed(place: Path) -> set[str]:
     """Return the files that a site lists as its own; none where there is no list, or it is damaged."""
     try:
         told = sealed.read(place / MARK)
-        _MARK(told, "")
+        _LISTING(told, "")
     except (OSError, ValueError):
         return set()
     return {MARK, *told["files"]}

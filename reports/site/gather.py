@@ -90,8 +90,6 @@ def gather(folders: Sequence[Path]) -> Gathered:
     for folder in folders:
         try:
             run = load.load(folder)
-            for own in run.folders.values():
-                _hold_stated(load.plan_of(own))
             loaded.append((run, derive.derive(run.frame, run.plan.peaks)))
         except FirsthitError as error:
             problems.append(str(error))
@@ -111,29 +109,6 @@ def gather(folders: Sequence[Path]) -> Gathered:
     every = labels.labelled(every.assign(on=_devices(every), page=_pages(every)), methods)
     shelf = Shelf({part.id: part.folder for part in parts})
     return Gathered(every, parts, methods, verdicts, tuple(dict.fromkeys(problems)), shelf)
-
-
-def _hold_stated(plan: Plan) -> None:
-    """Raise FirsthitError where a plan's methods or devices do not have the shape that pages are written from."""
-    for name, told in plan.methods.items():
-        texts = [told.get(part) or "" for part in ("label", "title", "summary", "source")]
-        tables = told.get("tables", [])
-        knobs = told.get("parameters", [])
-        try:
-            texts += [*told.get("doc", {}).values(), *told.get("claims", [])]
-            texts += [text for one in tables for row in (one["header"], *one["rows"]) for text in (one["part"], *row)]
-            texts += [text for knob in knobs for text in (knob["name"], knob["meaning"])]
-            numbers = [knob["default"] for knob in knobs] + [knob.get("printed") or 0 for knob in knobs]
-            alike = all(len(row) == len(one["header"]) for one in tables for row in one["rows"])
-            sound = alike and all(isinstance(text, str) for text in texts)
-            sound = sound and all(isinstance(number, int | float) for number in numbers)
-        except (AttributeError, KeyError, TypeError):
-            sound = False
-        if not sound:
-            raise FirsthitError(f"{plan.name}: what its plan says of the method {name!r:.40} is damaged")
-    for device in plan.devices:
-        if not isinstance(device.get("probes") or {}, Mapping):
-            raise FirsthitError(f"{plan.name}: what its plan says of a device's probes is damaged")
 
 
 def _whole(run: Run, file: str) -> bool:

@@ -22,6 +22,7 @@ from harness.experiment import plan, reading
 from harness.plugins import find_methods
 from harness.results.store import Row, Store
 from harness.running.due import UNFINISHED
+from harness.running.environment import describe
 from harness.running.runner import Runner
 from tests.campaigns.frame import Fell
 
@@ -112,9 +113,9 @@ def checked(own: Path, plugins: Path, shared: Path, bad: str = BAD) -> dict[str,
     planned = plan.plan(experiment, catalog, found, timed=False)
     store = Store(own / "runs")
     store.truth = shared / "truth"
-    environment = {"commit": "0", "dirty": False}
+    environment = describe()
     runner = Runner(experiment.config, catalog, store, executor(), environment, lambda *_: None)
-    return {row["slot"]: row for row in runner.run(planned)}
+    return {row["slot"]: row for row in runner.run(planned).values()}
 
 
 def tried(own: Path, plugins: Path, shared: Path, bad: str = BAD) -> Counter[str]:

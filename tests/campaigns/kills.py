@@ -124,7 +124,7 @@ def _complete(dice: random.Random, name: str, work: Path, ready: Path) -> None:
 
 def _blessed(folder: Path) -> list[str]:
     """Return the lines of a baseline that do not say when it was written."""
-    return [line for line in (folder / "base.toml").read_text().splitlines() if "20" not in line or "key" in line]
+    return [line for line in (folder / "base.toml").read_text().splitlines() if not line.startswith("blessed = ")]
 
 
 CAMPAIGN = Campaign(

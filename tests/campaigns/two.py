@@ -131,20 +131,19 @@ def _dead() -> int:
     return process.pid
 
 
-def _written(content: bytes, alive: bool = False, old: bool = False) -> Callable[[Path, random.Random], bool]:
+def _written(content: bytes) -> Callable[[Path, random.Random], bool]:
     def put(lock: Path, dice: random.Random) -> bool:
         del dice
         lock.write_bytes(content)
-        if old:
-            os.utime(lock, (1.0e9, 1.0e9))
-        return alive
+        return False
 
     return put
 
 
 def _dead_text(lock: Path, dice: random.Random) -> bool:
+    del dice
     lock.write_text(_text())
-    return bool(dice) and False
+    return False
 
 
 def _born_later(lock: Path, dice: random.Random) -> bool:
