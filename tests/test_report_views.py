@@ -17,6 +17,7 @@ from reports.analysis import derive, fits, viewstats
 from reports.drawing import images, line_labels, style, viewplots
 from reports.parts import evaluations, growth, view_dependence
 from reports.reading import arrays, load
+from tests.synthetic_rows import sampled
 from tests.synthetic_run import SURFACES, cell, printed, reported, tiny_run
 from tests.synthetic_run import arrays as made_arrays
 
