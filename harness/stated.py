@@ -41,6 +41,7 @@ LISTS = {
     "parameters": 'parameters=(Parameter("STEPS", 200, "steps along the ray"),)',
     "precisions": 'precisions=("float32",)',
 }
+ENDING = "; a method.py states METHOD, and does not end the program"  # what is said of one that tries to
 MOST_BYTES = 4 * 2**20  # of a kernel.glsl or a method.py, more than any compiler takes
 MOST_SHOWN = 2000  # letters of a text that a method.py answers with; of a value that makes no sense a tenth of that
 MOST_NUMBERS = 100_000  # of all tables of a program together; compilers give up sooner
@@ -78,7 +79,7 @@ def _ends_command(error: BaseException) -> bool:
 
 def _ending(error: BaseException) -> str:
     """Say of what would end the command that it may not."""
-    return "" if isinstance(error, Exception) else "; a method.py states METHOD, and does not end the program"
+    return "" if isinstance(error, Exception) else ENDING
 
 
 def told(path: Path, full: Path, error: BaseException) -> str:

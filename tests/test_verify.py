@@ -199,6 +199,21 @@ def test_one_altered_row_among_many_is_told(run: Path, tmp_path: Path, capsys: p
     assert "have no row" not in out, "a damaged row is no missing one"
 
 
+def test_a_row_without_checksum_is_told_as_one_and_gone_arrays_are_named(run: Path, tmp_path: Path) -> None:
+    folder = tmp_path / "run"
+    shutil.copytree(run, folder)
+    row = next(row for row in Store(run).rows() if row["arrays"])
+    (folder / row["arrays"]).unlink()
+    old = {name: value for name, value in row.items() if name != "checksum"}
+    (folder / "cells" / f"{row['key']}.json").write_text(json.dumps(old))
+    found = verified(folder)
+    ((check, reason),) = (one for one in found.not_checked if one[0] == "file")
+    assert found.not_checked[check, reason] == 1 and "no checksum" in reason
+    assert found.checked["file"] == found.rows - 1
+    (failing,) = found.failing
+    assert failing.wrong.stored == f"cannot read {folder / row['arrays']}: No such file or directory"
+
+
 def test_a_row_of_another_question_is_found(run: Path, tmp_path: Path) -> None:
     """Its identity was changed, and its key and checksum with it: it claims a view that it was not cast from."""
     folder = tmp_path / "run"

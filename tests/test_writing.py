@@ -2,6 +2,7 @@
 
 import ast
 import contextlib
+import os
 import signal
 import subprocess
 import sys
@@ -15,6 +16,7 @@ import pytest
 import surfaces
 from harness import studies
 from harness.cli import main
+from harness.commands import options
 from harness.contract import DeviceInfo, FirsthitError
 from harness.gate import baseline
 from harness.oracle import cache
@@ -267,3 +269,13 @@ def test_a_picture_of_another_kind_is_refused(tmp_path, capsys, command, name):
     assert main([command, *surface, "--method", "newton", "-o", str(tmp_path / name)]) == 2
     assert "pictures are PNG files; name it a" in capsys.readouterr().err
     assert not list(tmp_path.iterdir())
+
+
+def test_a_pipe_or_a_device_is_not_replaced_by_a_file(tmp_path):
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    with pytest.raises(FirsthitError, match="a device or a pipe"):
+        writing.write_atomically(pipe, b"x")
+    assert pipe.is_fifo() and list(tmp_path.iterdir()) == [pipe]
+    with pytest.raises(FirsthitError, match="a device or a pipe"):
+        options.writable(pipe)

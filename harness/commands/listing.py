@@ -8,7 +8,7 @@ import tomllib
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
-from harness import console
+from harness import console, escaping
 from harness.commands import Add
 from harness.commands.answers import listed
 from harness.commands.machine import Answer, add_json
@@ -60,7 +60,7 @@ def _methods(options: argparse.Namespace) -> str:
     ]
     stated = {claim for plugin in catalog.plugins.values() for claim in plugin.method.claims}
     meanings = [(claim, meaning) for claim, meaning in CLAIMS.items() if claim in stated]
-    broken = [f"{name}: cannot be loaded: {reason}" for name, reason in catalog.broken.items()]
+    broken = [escaping.one_line(f"{name}: cannot be loaded: {reason}") for name, reason in catalog.broken.items()]
     tables = (
         console.table(("name", "source", "as printed", "papers' settings", "claims"), rows),
         console.table(("claim", "meaning"), meanings),

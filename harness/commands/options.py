@@ -13,6 +13,7 @@ from harness.contract import ORIGINS, PRECISIONS, FirsthitError, Surface, Varian
 from harness.experiment.size import MOST
 from harness.limits import TIMEOUT, Limit
 from harness.plugins import Catalog, find_methods
+from harness.results.writing import SPECIAL, is_special
 from harness.running.trace import Caster, usable_device
 from harness.terminal import SCREEN
 
@@ -234,6 +235,8 @@ def writable(path: Path) -> Path:
 
     Commands ask this before long work, so that no finished result is lost.
     """
+    if is_special(path):
+        raise FirsthitError(f"cannot write {path}: {SPECIAL}")
     if path.is_dir() or not path.parent.is_dir():
         raise FirsthitError(f"cannot write {path}: {'it is a folder' if path.is_dir() else 'no such folder'}")
     return path

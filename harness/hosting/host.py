@@ -22,7 +22,7 @@ from harness import escaping
 from harness.contract import FirsthitError, MeshRecipe, Method, Parameter
 from harness.hosting import process
 from harness.memory import WATCHED_SECONDS, TooMuch, Watch
-from harness.stated import MOST_SHOWN, line_of, plain_answer
+from harness.stated import ENDING, MOST_SHOWN, line_of, plain_answer
 
 LOAD_SECONDS = 30.0  # for a process to start and to run a method.py, with what that imports
 CALL_SECONDS = 60.0  # for one call of a method's function, as a step on a device has by default
@@ -199,8 +199,10 @@ class Host:
         return made
 
     def _load(self) -> Any:
-        ending = "; a method.py states METHOD, and does not end the program"
-        found = self._ask("load", (self._path,), LOAD_SECONDS, lambda why: f"{self._path}: it {why}{ending}")
+        def said(why: str) -> str:
+            return f"{self._path}: it {why}{ENDING if why.startswith('ended') else ''}"
+
+        found = self._ask("load", (self._path,), LOAD_SECONDS, said)
         self._fresh = False
         return found
 

@@ -275,17 +275,19 @@ def _hear(session: Session, said: Mapping[str, Any]) -> None:
     if "sitting" in said:
         if said["format"] != FORMAT:
             raise ValueError(said["format"])
-        session.sitting = said["sitting"]
+        session.sitting = int(said["sitting"])
     elif "cell" in said:
-        session.cells[said["cell"]] = Kept(dict(said["checked"]))
+        session.cells[str(said["cell"])] = Kept(dict(said["checked"]))
     elif "warmed" in said:
         if kept := session.cells.get(said["of"]):
             kept.warmed = dict(said["warmed"])
     elif "round" in said:
-        session.next_round = max(session.next_round, said["round"] + 1)
-        for key, (wall, device, seconds) in said["samples"].items():
+        number = int(said["round"])
+        session.next_round = max(session.next_round, number + 1)
+        for key, (wall, device, seconds) in dict(said["samples"]).items():
             if kept := session.cells.get(key):
-                kept.samples[said["round"]] = (session.sitting, (wall, device, seconds))
+                sample = float(wall), None if device is None else float(device), float(seconds)
+                kept.samples[number] = (session.sitting, sample)
     else:
         for key in said["forget"]:
             session.cells.pop(key, None)
@@ -294,8 +296,9 @@ def _hear(session: Session, said: Mapping[str, Any]) -> None:
 def _wanted(path: Path) -> set[str]:
     wanted: set[str] = set()
     for said in _lines(path):
-        wanted.update(said.get("again", ()))
-        wanted.discard(said.get("ended", ""))
+        with contextlib.suppress(TypeError):  # of another version
+            wanted.update(map(str, said.get("again", ())))
+            wanted.discard(said.get("ended", ""))
     return wanted
 
 

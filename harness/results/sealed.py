@@ -100,6 +100,12 @@ def read(path: Path) -> dict[str, Any]:
     return unsealed(content(path))
 
 
+def is_sealed(path: Path) -> bool:
+    """Tell whether a file has a checksum, which older versions did not write. Raises OSError if it cannot be read."""
+    with path.open("rb") as file:
+        return bool(_SEAL.fullmatch(file.readline(200).rstrip(b"\r\n")))
+
+
 def unsealed(text: bytes) -> dict[str, Any]:
     """Read a sealed object, or one of an older version, which has no checksum. Raises ValueError for a damaged one."""
     first, _, rest = text.partition(b"\n")

@@ -28,6 +28,7 @@ from harness.results import owner
 NEW = ".new"
 OWNED = re.compile(r"(?P<machine>[0-9a-f]{8})-(?P<pid>\d{1,9})-(?P<born>\d{1,19})-[a-z0-9_]{8}(\..*)?", re.DOTALL)
 DAY = 86_400.0  # seconds, after which what a process of another machine left is nobody's
+SPECIAL = "it is a device or a pipe; name a file"
 _swept: set[tuple[Path, str]] = set()  # folders that this process has looked at, and for which names
 
 
@@ -96,6 +97,11 @@ def _sweep_once(folder: Path, name: str = NEW) -> None:
         sweep(folder, name)
 
 
+def is_special(path: Path) -> bool:
+    """Tell whether there is something at `path` that is neither a file nor a folder."""
+    return path.exists() and not path.is_file() and not path.is_dir()
+
+
 def _prefix(name: str = NEW) -> str:
     """Return how the names of this process's temporary files and folders begin, by which `sweep` knows them."""
     return f"{name}-{owner.machine()}-{os.getpid()}-{owner.born(os.getpid())}-"
@@ -106,8 +112,10 @@ def replacing(path: Path) -> Iterator[Path]:
     """Yield a temporary file for a library to write, which takes the place of `path` when the block ends.
 
     Where the block raises, `path` stays as it was and the temporary file is removed. Raises FirsthitError where nothing
-    can be written.
+    can be written, and for a device or a pipe, such as /dev/stdout, which a file would replace for good.
     """
+    if is_special(path):
+        raise FirsthitError(f"cannot write {path}: {SPECIAL}")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         _sweep_once(path.parent)

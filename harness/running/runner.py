@@ -160,14 +160,20 @@ class Runner:
             self._session.check(key, {"outcome": facts, "arrays": state.arrays, "seconds": seconds})
 
     def _take_up(self, state: _Live, kept: Kept) -> bool:
-        """Take over what is kept of a cell; return False, and take over nothing, where its arrays are gone."""
-        arrays = kept.checked["arrays"]
-        if arrays is not None and not (self._store.folder / arrays).exists():
+        """Take over what is kept of a cell.
+
+        Returns False, and takes over nothing, where its arrays are gone, or where what is kept says something else.
+        """
+        try:
+            outcome, arrays = Outcome(**kept.checked["outcome"]), kept.checked["arrays"]
+            warmed, preparing = kept.warmed and Warmed(**kept.warmed), float(kept.checked["seconds"])
+            if arrays is not None and not (self._store.folder / arrays).exists():
+                return False
+        except (KeyError, TypeError, ValueError):
             return False
-        state.outcome, state.arrays = Outcome(**kept.checked["outcome"]), arrays
-        state.preparing = kept.checked["seconds"]
-        if kept.warmed is not None:
-            state.warmed = Warmed(**kept.warmed)
+        state.outcome, state.arrays, state.preparing = outcome, arrays, preparing
+        if warmed:
+            state.warmed = warmed
             for round_number, (sitting, sample) in kept.samples.items():
                 state.samples.add(sample, round_number, sitting)
                 state.timing += sample[2]

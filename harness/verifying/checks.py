@@ -24,7 +24,7 @@ CHECKS = {
     "times": "times follow from their samples",
     "answers": "counts and errors follow from the answers ray by ray",
     "truth": "the truth certified anew is the one it was judged by",
-    "stored truth": "so is the truth that the run's folder keeps, which is not certified anew",
+    "stored truth": "the truth that the run's folder keeps is the one it was judged by",
 }
 MOST_TRUTHS = 16  # that are held at once
 DAMAGED = (KeyError, TypeError, ValueError, AttributeError, IndexError, ArithmeticError, RecursionError, MemoryError)
@@ -123,7 +123,10 @@ def _rows_of(folder: Path, found: Verified) -> Iterator[tuple[Store, Path, Row]]
         if slots.get(file.stem, row["slot"]) != row["slot"]:
             wrong = Wrong("slot", row["slot"], slots[file.stem])
             found.failing.append(Failing(file, row["slot"], "file", wrong))
-        found.checked["file"] += 1
+        if sealed.is_sealed(file):
+            found.checked["file"] += 1
+        else:
+            found.not_checked["file", "it has no checksum: a version before checksums wrote it, or it was changed"] += 1
         yield store, file, row
     found.missing += len(slots.keys() - there)
 
@@ -174,7 +177,9 @@ class _Row:
             self.found.checked[name] += 1
         except CannotTell as reason:
             self.found.not_checked[name, str(reason)] += 1
-        except (FirsthitError, OSError) as error:
+        except OSError as error:
+            wrong.append(Wrong("the row", f"cannot read {error.filename}: {error.strerror}", "what can be checked"))
+        except FirsthitError as error:
             wrong.append(Wrong("the row", str(error), "what can be checked"))
         except DAMAGED as error:
             wrong.append(Wrong("the row", f"{type(error).__name__}: {error}", "values of a row"))
