@@ -17,8 +17,7 @@ from reports.analysis import derive, fits, viewstats
 from reports.drawing import images, line_labels, style, viewplots
 from reports.parts import evaluations, growth, view_dependence
 from reports.reading import arrays, load
-from tests.synthetic_rows import sampled
-from tests.synthetic_run import SURFACES, cell, printed, reported, tiny_run
+from tests.synthetic_run import SURFACES, cell, printed, reported, sampled, tiny_run
 from tests.synthetic_run import arrays as made_arrays
 
 PAPER_STURM = [35.64, 35.16, 35.15, 35.32, 35.06, 34.07]  # toledo2007, Table 1, Mpixels/s
