@@ -6,7 +6,7 @@ import contextlib
 import json
 import os
 import pickle
-import select
+import selectors
 import signal
 import subprocess
 import sys
@@ -59,7 +59,7 @@ class _Process:
         request, reply, pipe = pickle.dumps((operation, arguments)), bytearray(), self._pipe.fileno()
         end = time.monotonic() + seconds
         while not reply.endswith(b"\n"):
-            readable, writable, _ = select.select([pipe, self._output], [pipe] if request else [], [], WATCHED_SECONDS)
+            readable, writable = _ready(pipe, self._output, bool(request))
             self._hand_on()
             try:
                 if writable:
@@ -112,6 +112,16 @@ class _Process:
             whole, self._line = [*whole, self._line], b""
         for line in whole:
             print(escaping.output(line).decode(), end="", file=sys.stderr)
+
+
+def _ready(pipe: int, output: int, asks: bool) -> tuple[set[int], bool]:
+    """Wait a moment for what can be read, and tell whether `pipe` can be written to, if that is asked."""
+    with selectors.DefaultSelector() as selector:  # select.select takes no file numbers above 1023
+        selector.register(pipe, selectors.EVENT_READ | (selectors.EVENT_WRITE if asks else 0))
+        selector.register(output, selectors.EVENT_READ)
+        found = {key.fd: events for key, events in selector.select(WATCHED_SECONDS)}
+    readable = {file for file, events in found.items() if events & selectors.EVENT_READ}
+    return readable, bool(found.get(pipe, 0) & selectors.EVENT_WRITE)
 
 
 def _end(started: subprocess.Popen[bytes], pipe: Connection) -> None:

@@ -17,6 +17,7 @@ import subprocess
 import sys
 from collections import Counter
 from pathlib import Path
+from unittest.mock import patch
 
 import surfaces
 from harness import memory
@@ -182,11 +183,10 @@ def _trial(dice: random.Random, place: Place) -> Counter[str]:
         _odd_file(dice, plugins / "bad")
         where = "file"
     told = io.StringIO()
-    host.LOAD_SECONDS = host.CALL_SECONDS = SECONDS
-    whole = memory.of_machine() or BYTES
-    host.Watch = functools.partial(memory.Watch, share=BYTES / whole)  # type: ignore[misc, assignment]
+    watch = functools.partial(memory.Watch, share=BYTES / (memory.of_machine() or BYTES))
+    limits = patch.multiple(host, LOAD_SECONDS=SECONDS, CALL_SECONDS=SECONDS, Watch=watch)
     try:
-        with contextlib.redirect_stdout(told), contextlib.redirect_stderr(told):
+        with limits, contextlib.redirect_stdout(told), contextlib.redirect_stderr(told):
             _ask(plugins)
             if where != "file":
                 _write(plugins / "bad", text)  # again, since it may have removed itself
