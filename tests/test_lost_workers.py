@@ -3,6 +3,7 @@
 import contextlib
 import io
 import os
+import signal
 import subprocess
 import sys
 import time
@@ -18,6 +19,7 @@ from harness.devices.executor import CellError, LocalExecutor
 from harness.experiment import plan, reading, targets
 from harness.plugins import find_methods
 from harness.running import environment, run
+from tests.conftest import usable_devices
 
 ROOT = Path(__file__).parents[1]
 SERVE = """
@@ -223,3 +225,16 @@ def test_a_list_of_rays_that_memory_does_not_hold_is_refused(monkeypatch, tmp_pa
     told = "a list of 268,435,456 rays would take 40.3 GB of memory, over the limit of 4 GB"
     with pytest.raises(FirsthitError, match=told):
         _ = planned.frame
+
+
+def test_what_stops_a_command_ends_no_worker_first():
+    running = LocalExecutor(60.0)
+    name = usable_devices()[0].name
+    try:
+        running.probe(name)
+        worker = running._processes[name].process
+        for number in (signal.SIGTERM, signal.SIGHUP, signal.SIGINT):
+            os.kill(worker.pid, number)
+        assert running.builds(name) is not None and worker.poll() is None
+    finally:
+        running.close()

@@ -47,8 +47,12 @@ def start(module: str, arguments: list[str], what: str, streams: dict[str, Any])
 
 @contextlib.contextmanager
 def _not_interrupted() -> Iterator[None]:
-    """Keep Ctrl-C from a process that the block starts, even before `main` ignores it, and from nothing else."""
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    """Keep what stops a command from a process that the block starts, and from nothing else.
+
+    A shell or a closed terminal sends it to all of the command's processes. The command alone decides when they end:
+    one that ended first would look as if it had crashed.
+    """
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT, signal.SIGTERM, signal.SIGHUP})
     try:
         yield
     finally:

@@ -63,7 +63,10 @@ def _kill(dice: random.Random, name: str, arguments: Sequence[str], work: Path, 
     after = processes.rows(work / "runs")
     if lost := [row for row, content in before.items() if after.get(row) != content and _is_finished(content)]:
         raise Fell(f"{what}: finished rows are lost or changed: {lost}")
-    if code not in (0, *((3,) if whom == "worker" else ENDED_BY[number])):
+    if whom != "worker" and (new := [row for row, one in after.items() if row not in before and not _is_finished(one)]):
+        raise Fell(f"{what}: a cell has a row as if its worker had crashed: {new}")
+    crashed = any(not _is_finished(content) for content in after.values())  # since a worker was killed, now or before
+    if code not in (0, *ENDED_BY[number], *([3] if crashed or whom == "worker" else [])):
         raise Fell(f"{what}: exit code {code}; it told {told[-1500:]}")
     if code in (129, 130, 143) and told.strip():
         _check_told(what, name, told)
@@ -88,8 +91,13 @@ def _send(dice: random.Random, command: Command, whom: str, number: signal.Signa
 
 
 def _check_told(what: str, name: str, told: str) -> None:
-    """Raise Fell where a command that was stopped does not say so, or does not say that cells are kept."""
+    """Raise Fell where a command that was stopped does not say so, or does not say that cells are kept.
+
+    One that had not begun says only that it was stopped.
+    """
     last = told.strip().splitlines()
+    if last == ["firsthit: stopped"]:
+        return
     if not any("stopped" in line for line in last) or (
         name in STORE_ROWS and not any(KEPT_ROWS in line for line in last)
     ):
