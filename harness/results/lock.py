@@ -114,14 +114,12 @@ class Lock:
         """Take the lock and return its open file. Raises Held, and OSError where the file cannot be written."""
         for tried in range(TRIES):
             try:
-                file = self._opened()
-                try:
+                with contextlib.ExitStack() as undo:
+                    file = self._opened()
+                    undo.callback(os.close, file)
                     if self._claim(file):
+                        undo.pop_all()  # it stays open
                         return file
-                except BaseException:
-                    os.close(file)
-                    raise
-                os.close(file)
             except FileNotFoundError:  # who held the lock has just removed the folder
                 if tried == TRIES - 1:
                     raise

@@ -8,7 +8,10 @@ from __future__ import annotations
 
 import math
 import os
+import struct
+import tokenize
 import zipfile
+import zlib
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import IO, Any, BinaryIO
@@ -23,6 +26,11 @@ Fits = Callable[[str, Shape], bool]  # tells whether the array of a name may hav
 LARGEST = 2**31  # bytes of a file
 MOST = 2**27  # numbers of an array
 MEMBERS = 64
+# What zipfile, zlib and NumPy's reader of headers raise for bytes that are none of theirs
+DAMAGE: tuple[type[Exception], ...] = (
+    *(ValueError, TypeError, LookupError, ArithmeticError, SyntaxError, EOFError, OSError, RuntimeError, MemoryError),
+    *(struct.error, tokenize.TokenError, zipfile.BadZipFile, zlib.error),
+)
 _PLAIN = (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED)
 _HEADERS = {(1, 0): np.lib.format.read_array_header_1_0, (2, 0): np.lib.format.read_array_header_2_0}
 
@@ -49,7 +57,7 @@ def _read(packed: BinaryIO, kinds: Mapping[str, Any], fits: Fits, optional: froz
             if lacking is not None:
                 raise ValueError(f"it has no {lacking}")
             return {name: _member(file, members[f"{name}.npy"], name, np.dtype(kinds[name]), fits) for name in there}
-    except Exception as error:  # zipfile, zlib and NumPy's reader of headers may raise anything
+    except DAMAGE as error:
         raise ValueError(f"damaged: {sealed.problem(error) or type(error).__name__}") from None
 
 
@@ -58,8 +66,8 @@ def read_alone(path: Path) -> NDArray[Any]:
     with sealed.opened(path, LARGEST) as file:
         try:
             return _array(file, os.fstat(file.fileno()).st_size, _no_numbers)
-        except Exception as error:
-            raise ValueError(sealed.problem(error)) from None
+        except DAMAGE as error:
+            raise ValueError(sealed.problem(error) or type(error).__name__) from None
 
 
 def _no_numbers(kind: np.dtype[Any], shape: Shape) -> str:
@@ -69,7 +77,7 @@ def _no_numbers(kind: np.dtype[Any], shape: Shape) -> str:
 
 
 def _member(file: zipfile.ZipFile, info: zipfile.ZipInfo, name: str, kind: np.dtype[Any], fits: Fits) -> NDArray[Any]:
-    """Read one array. Raises any error where the member is damaged."""
+    """Read one array. Raises one of DAMAGE where the member is damaged."""
 
     def wrong(found: np.dtype[Any], shape: Shape) -> str:
         if found != kind:
@@ -83,7 +91,7 @@ def _member(file: zipfile.ZipFile, info: zipfile.ZipInfo, name: str, kind: np.dt
 
 
 def _array(file: IO[bytes], size: int, wrong: Callable[[np.dtype[Any], Shape], str]) -> NDArray[Any]:
-    """Read an array of a file of `size` bytes. Raises any error where it is damaged, or `wrong` says what is."""
+    """Read an array of a file of `size` bytes. Raises one of DAMAGE where it is damaged, or `wrong` says what is."""
     shape, by_columns, kind = _HEADERS[np.lib.format.read_magic(file)](file)
     count = math.prod(shape)
     if not 0 <= count <= MOST or not all(0 <= side <= MOST for side in shape):

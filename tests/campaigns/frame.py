@@ -208,11 +208,10 @@ def run(campaign: Campaign, seed: int, count: int, folder: Path, jobs: int, tell
                     file.write(json.dumps({"first": first, **vars(found)}) + "\n")
                     file.flush()
                     tell(whole)
-        except BaseException:
-            for process in list(pool._processes.values()):
-                process.terminate()
-            raise
         finally:
+            if todo or waiting:  # it was stopped
+                for process in list(pool._processes.values()):
+                    process.terminate()
             pool.shutdown(cancel_futures=True)
     return whole
 
