@@ -39,7 +39,7 @@ def places(document: Value) -> list[tuple[Any, Any]]:
 def number(dice: random.Random, value: Value) -> Value:
     """Return a number near or far from another one."""
     if isinstance(value, bool) or not isinstance(value, (int, float)) or abs(value) > 2**64:
-        return dice.choice(ODD)
+        return copy.deepcopy(dice.choice(ODD))
     return dice.choice((value + 1, value - 1, -value, value * 2, value * 0.999, value / 1e9, value * 1e9, value * 1e30))
 
 
