@@ -35,6 +35,7 @@ from pathlib import Path
 from typing import Literal
 
 from harness.contract import Box, Method, Precision, Program, Section, Surface, Variant
+from harness.kernels.fourths import GRID, half_side
 from harness.kernels.assemble import (
     Language,
     cast_sections,
@@ -52,8 +53,8 @@ Stage = Literal["isolate", "finish", "packets", "rest"]
 STAGES: tuple[Stage, ...] = ("isolate", "finish", "packets", "rest")
 TILE = 16  # pixels along a side of the first level's tiles
 LEVELS = 2  # of tiles, each of half the side of the one before
-GRID = 16  # cells along a side of the table of bounds of fourth derivatives
-REACH = 1.125  # half side of that table's cube, and radius of the last ball of rounding errors, in domain radii
+REACH = 1.125  # radius of the last ball of the bounds of rounding errors, in domain radii
+RECORDS = {"OPEN_RECORD": 4, "SINGLE_RECORD": 36, "QUEUE_RECORD": 2}  # reals, reals and int32 that lists have for a tile
 NODES = [Fraction(2 * k - 3, 3) for k in range(4)]  # of a tile's cubic interpolation in one direction
 Row = Sequence[Fraction]
 
@@ -67,23 +68,21 @@ def stage_program(
     language: Language,
     stage: Stage,
     listed: bool,
-    rest: tuple[Method, Path],
+    rest: Path,
 ) -> Program:
     """Return the program of one stage. Its entry is named as the stage.
 
     `folder` holds the method's kernel.glsl. If `listed`, each pixel's ray is read from a buffer, else made from the
-    camera. `rest` is the method, and its folder, that casts the pixels that are left in stage "rest".
+    camera. `rest` is the folder of the kernel.glsl that casts the pixels that are left in stage "rest"; it has the same
+    method's knobs and tables.
     """
-    own = method if stage != "rest" else rest[0]
-    sections = ray_sections(surface, ("surface_value",), precision, language, early_libraries(own))
+    sections = ray_sections(surface, ("surface_value",), precision, language, early_libraries(method))
     if language == "glsl":
         sections.insert(1, kept_loops())
-    shape = {"LISTED": int(listed), "TILE": TILE, "LEVELS": LEVELS, "GRID": GRID, "REACH": REACH}
-    lines = [f"#define {name} {literal(value, precision, language)}" for name, value in shape.items()]
-    sections.append(Section("generated: shape of tiles", "\n".join(lines)))
+    sections.append(_shape(surface, precision, language, listed))
     sections += files("rays/camera.glsl")
     if stage == "rest":
-        sections += method_sections(*rest, variant, surface, precision, language)
+        sections += method_sections(method, rest, variant, surface, precision, language)
         sections += [*cast_sections("nearest"), *files(f"tiles/work.{language}")]
     else:
         sections += files(f"tiles/lanes_{precision}.{language}", f"tiles/lanes.{language}")
@@ -94,6 +93,20 @@ def stage_program(
         sections += method_sections(method, folder, variant, surface, precision, language)
     sections += files(f"tiles/entry_{stage}.{language}")
     return Program(language, precision, stage, tuple(sections))
+
+
+def _shape(surface: Surface, precision: Precision, language: Language, listed: bool) -> Section:
+    """Return the constants that the host and all stages share.
+
+    TABLE_HALF is half the side of the cube over which GRID³ cells have a bound of f's fourth derivatives. Points that
+    are out of the domain by more than MARGIN have no bounds. TILE_ITEMS work items share a tile, and TILE_GROUP are in
+    a work group.
+    """
+    half = half_side(surface.domain)
+    shape = {"TILE": TILE, "LEVELS": LEVELS, "GRID": GRID, **RECORDS, "TILE_ITEMS": 1, "TILE_GROUP": 1}
+    shape |= {"LISTED": int(listed), "REACH": REACH, "TABLE_HALF": half, "MARGIN": half / 9.0}
+    lines = [f"#define {name} {literal(value, precision, language)}" for name, value in shape.items()]
+    return Section("generated: shape of tiles", "\n".join(lines))
 
 
 def wide_value(surface: Surface, precision: Precision, language: Language) -> Section:

@@ -55,7 +55,7 @@ real error_at(Errors errors, int depth) {
 
 real rounding_of_samples(real away) {
     int shell = int(away * (real(SHELLS) / (REACH * DOMAIN_RADIUS)));
-    return TRUST * UNIT_ROUNDOFF * VALUE_ERRORS[min(shell, SHELLS - 1)];
+    return TRUST * UNIT_ROUNDOFF * TILE_ERRORS[min(shell, SHELLS - 1)];
 }
 
 // Returns the largest distance of the lanes' points from the domain's centre.
@@ -80,7 +80,7 @@ int cell_of(real place) {
 // looked up along the tile's middle ray, `half_side` pixels from the tile's sides. Each number holds for its cell's
 // neighbours too, so that steps of one cell leave none out.
 real remainder_between(Work work, Frame frame, Ray middle, real half_side, real start, real stop) {
-    real cells = real(GRID) / (2.0 * REACH * DOMAIN_RADIUS);
+    real cells = real(GRID) / (2.0 * TABLE_HALF);
     vec3 a = difference(ray_point(middle, start), DOMAIN_CENTER);
     vec3 b = difference(ray_point(middle, stop), DOMAIN_CENTER);
     vec3 way = difference(b, a);
@@ -142,7 +142,7 @@ void isolate_tiles(Work work, Frame frame) {
     real half_side = 0.5 * real(work.tile - 1) + WIDER;
     // a ray is at most this far from the nearest node's ray: half a diagonal of the net
     real inflate = 1.001 * (half_side / 3.0) * frame.diagonal * frame.far + 64.0 * UNIT_ROUNDOFF * DOMAIN_RADIUS;
-    real cells = real(GRID) / (2.0 * REACH * DOMAIN_RADIUS);
+    real cells = real(GRID) / (2.0 * TABLE_HALF);
     bool coarse = half_side * frame.diagonal * frame.far * cells > 0.484375;
     real least_width = SHORTEST * real(work.tile) * frame.pixel * frame.far;
     Rows to_control;
@@ -164,7 +164,7 @@ void isolate_tiles(Work work, Frame frame) {
         real stop = REAL_INFINITY;
         int spent = 0;
         if (!first) {
-            int parent = queued(work, 2 * above + (taken >> 2));
+            int parent = queued(work, QUEUE_RECORD * above + (taken >> 2));
             int record = (OPEN_RECORD + SINGLE_RECORD) * above + OPEN_RECORD * (taken >> 2);
             cell_x = 2 * (parent % above_across) + (taken & 1);
             cell_y = 2 * (parent / above_across) + ((taken >> 1) & 1);
@@ -218,8 +218,8 @@ void isolate_tiles(Work work, Frame frame) {
             real reach = stop - start;
             WideVec3 front = wide_point(o, start, d);
             WideVec3 back = wide_point(o, stop, d);
-            int inner = all_inside(front, (REACH - 1.0) * DOMAIN_RADIUS)
-                        && all_inside(back, (REACH - 1.0) * DOMAIN_RADIUS) ? SEARCHING : OPEN;
+            int inner = all_inside(front, MARGIN)
+                        && all_inside(back, MARGIN) ? SEARCHING : OPEN;
             depth = 0;
             path = 1;
             if (inner == SEARCHING) {
@@ -315,24 +315,26 @@ Pencil pencil_of(Work work, Frame frame, int i0, int j0) {
     Pencil rays;
     WideVec3 origin;
     WideVec3 d;
+    origin.x = wide(frame.eye.x);
+    origin.y = wide(frame.eye.y);
+    origin.z = wide(frame.eye.z);
+    real size = real(work.size);
+    wide x = (2.0 * lane_row(LANE_X, 0) + (real(2 * i0 + 1) - size)) / size;
+    wide y = ((size - real(2 * j0 + 1)) - 2.0 * lane_row(LANE_Y, 0)) / size;
+    d.x = (frame.forward.x + x * frame.right.x) + y * frame.up.x;
+    d.y = (frame.forward.y + x * frame.right.y) + y * frame.up.y;
+    d.z = (frame.forward.z + x * frame.right.z) + y * frame.up.z;
+    wide inverse = 1.0 / sqrt(wide_inner(d, d));
+    d.x = d.x * inverse;
+    d.y = d.y * inverse;
+    d.z = d.z * inverse;
     if (LISTED == 1) {
-        WideRay given = listed_rays(work, i0, j0);
-        origin = given.origin;
-        d = given.direction;
-    } else {
-        origin.x = wide(frame.eye.x);
-        origin.y = wide(frame.eye.y);
-        origin.z = wide(frame.eye.z);
-        real size = real(work.size);
-        wide x = (2.0 * lane_row(LANE_X, 0) + (real(2 * i0 + 1) - size)) / size;
-        wide y = ((size - real(2 * j0 + 1)) - 2.0 * lane_row(LANE_Y, 0)) / size;
-        d.x = (frame.forward.x + x * frame.right.x) + y * frame.up.x;
-        d.y = (frame.forward.y + x * frame.right.y) + y * frame.up.y;
-        d.z = (frame.forward.z + x * frame.right.z) + y * frame.up.z;
-        wide inverse = 1.0 / sqrt(wide_inner(d, d));
-        d.x = d.x * inverse;
-        d.y = d.y * inverse;
-        d.z = d.z * inverse;
+        WideRay ray;
+        ray.origin = origin;
+        ray.direction = d;
+        ray = with_listed(work, i0, j0, ray);
+        origin = ray.origin;
+        d = ray.direction;
     }
     vec3 center = DOMAIN_CENTER;
     rays.d = d;
@@ -415,7 +417,7 @@ Refined refined(Pencil rays, wide from, wide a, wide b, wide g, yes looking) {
 void finish_tiles(Work work, Frame frame) {
     int across = tiles_across(work.size, work.tile);
     int total = counted(work, 4 * work.level + 1);
-    int list = 2 * tiles_before(work.size, work.tile) + across * across;
+    int list = QUEUE_RECORD * tiles_before(work.size, work.tile) + across * across;
     real half_side = 0.5 * real(work.tile - 1) + WIDER;
     real slack = 16.0 * UNIT_ROUNDOFF * DOMAIN_RADIUS;
     int blocks = work.tile / 4;
@@ -458,7 +460,7 @@ void finish_tiles(Work work, Frame frame) {
                 hit = NOT(EITHER(MORE(span.lo, span.hi), MORE(found.t, span.hi)));
                 left = BOTH(hit, EITHER(left, LESS(found.t, span.lo)));
             }
-            answer_block(work, i0, j0, rays.shift, found.t, hit, spent + found.evaluations);
+            answer_block(work, i0, j0, rays.shift, found.t, hit, LEVELS + work.level, spent + found.evaluations);
             if (any_lane(left)) leave_pixels(work, i0, j0, left, wide(start));
         }
     }
@@ -479,7 +481,7 @@ void cast_packets(Work work, Frame frame) {
         if (taken >= total) break;
         int slot = taken / (blocks * blocks);
         int block = taken % (blocks * blocks);
-        int cell = queued(work, 2 * list + slot);
+        int cell = queued(work, QUEUE_RECORD * list + slot);
         int record = (OPEN_RECORD + SINGLE_RECORD) * list + OPEN_RECORD * slot;
         real start = entry_at(work, record);
         real stop = entry_at(work, record + 1);
@@ -519,7 +521,7 @@ void cast_packets(Work work, Frame frame) {
             WideVec3 front = wide_point(o, start, d);
             WideVec3 back = wide_point(o, stop, d);
             int inner = SEARCHING;
-            if (!all_inside(front, (REACH - 1.0) * DOMAIN_RADIUS) || !all_inside(back, (REACH - 1.0) * DOMAIN_RADIUS)) {
+            if (!all_inside(front, MARGIN) || !all_inside(back, MARGIN)) {
                 open_from = CHOOSE(active, wide(start), open_from);
                 opened = EITHER(opened, active);
                 active = NOWHERE;
@@ -603,7 +605,7 @@ void cast_packets(Work work, Frame frame) {
             open_from = CHOOSE(again, found_start, open_from);
             left = EITHER(left, again);
         }
-        answer_block(work, i0, j0, rays.shift, t, hit, evaluations);
+        answer_block(work, i0, j0, rays.shift, t, hit, 2 * LEVELS, evaluations);
         open_from = open_from - slack;
         if (any_lane(left)) leave_pixels(work, i0, j0, left, open_from);
     }

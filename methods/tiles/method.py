@@ -12,12 +12,17 @@ COORDINATES = 12.0  # error of a point's coordinates, in unit roundoffs of its d
 
 
 def _tables(surface: Surface, _knobs: Mapping[str, float | int], precision: Precision) -> dict[str, list[float]]:
+    from harness.kernels.fitting import fit_tables, inverse
     from harness.kernels.rounding import sample_errors_grow, value_errors
     from harness.kernels.tiles import REACH
 
     assert surface.degree is not None
-    return {
-        "VALUE_ERRORS": list(value_errors(surface, SHELLS, COORDINATES, REACH)),
+    matrix = inverse(surface.degree, "bernstein", precision)
+    return fit_tables(surface.degree, "bernstein", precision) | {
+        "TILE_ERRORS": list(value_errors(surface, SHELLS, COORDINATES, REACH)),
+        "VALUE_ERRORS": list(value_errors(surface, SHELLS, 6.0)),
+        "BINOMIALS": [float(comb(surface.degree, j)) for j in range(surface.degree + 1)],
+        "COLUMNS": [max(float(abs(row[i])) for row in matrix) for i in range(surface.degree + 1)],
         "GROWTH": sample_errors_grow(surface.degree, precision, DEPTHS),
     }
 

@@ -3,7 +3,7 @@ void list_single(Work work, int cell, wide root, wide slope, real start, real st
     int slot = next_in(work, 4 * work.level + 1);
     int across = tiles_across(work.size, work.tile);
     __global real *record = work.entries + singles_at(work.size, work.tile) + SINGLE_RECORD * slot;
-    work.queue[2 * tiles_before(work.size, work.tile) + across * across + slot] = cell;
+    work.queue[QUEUE_RECORD * tiles_before(work.size, work.tile) + across * across + slot] = cell;
     vstore16(root, 0, record);
     vstore16(slope, 1, record);
     record[32] = start;
@@ -13,8 +13,8 @@ void list_single(Work work, int cell, wide root, wide slope, real start, real st
 }
 
 // Answers the 16 pixels of the block at (i0, j0): hits where `hit`, at shift + t, else misses.
-void answer_block(Work work, int i0, int j0, wide shift, wide t, yes hit, int evaluations) {
-    int16 words = 4 * evaluations + (int_lanes(hit) & HIT);
+void answer_block(Work work, int i0, int j0, wide shift, wide t, yes hit, int stage, int evaluations) {
+    int16 words = answer_word(MISS, stage, evaluations) + (int_lanes(hit) & HIT);
     int across = work.size;
     if (LISTED == 0 && i0 + 4 <= across && j0 + 4 <= across) {
         __global real *to = work.t + j0 * across + i0;
@@ -63,25 +63,30 @@ void leave_pixels(Work work, int i0, int j0, yes which, wide from) {
         int j = j0 + (k >> 2);
         if (marks[k] == 0 || i >= work.size || j >= work.size) continue;
         int slot = next_in(work, LEFT);
-        work.queue[2 * before + slot] = j * work.size + i;
+        work.queue[QUEUE_RECORD * before + slot] = j * work.size + i;
         work.entries[(OPEN_RECORD + SINGLE_RECORD) * before + slot] = depths[k];
     }
 }
 
-// Returns the listed rays of a block's pixels.
-WideRay listed_rays(Work work, int i0, int j0) {
+// Returns the rays of a block's pixels, with the listed ones in place of the camera's.
+WideRay with_listed(Work work, int i0, int j0, WideRay rays) {
     real parts[6][16];
+    vstore16(rays.origin.x, 0, parts[0]);
+    vstore16(rays.origin.y, 0, parts[1]);
+    vstore16(rays.origin.z, 0, parts[2]);
+    vstore16(rays.direction.x, 0, parts[3]);
+    vstore16(rays.direction.y, 0, parts[4]);
+    vstore16(rays.direction.z, 0, parts[5]);
     for (int k = 0; k < 16; k++) {
-        int i = min(i0 + (k & 3), work.size - 1);
-        int j = min(j0 + (k >> 2), work.size - 1);
-        for (int c = 0; c < 6; c++) parts[c][k] = work.rays[6 * (j * work.size + i) + c];
+        int place = listed_place(work, i0 + (k & 3), j0 + (k >> 2));
+        for (int c = 0; c < 6 && place >= 0; c++) parts[c][k] = work.rays[place + c];
     }
-    WideRay ray;
-    ray.origin.x = vload16(0, parts[0]);
-    ray.origin.y = vload16(0, parts[1]);
-    ray.origin.z = vload16(0, parts[2]);
-    ray.direction.x = vload16(0, parts[3]);
-    ray.direction.y = vload16(0, parts[4]);
-    ray.direction.z = vload16(0, parts[5]);
-    return ray;
+    WideRay result;
+    result.origin.x = vload16(0, parts[0]);
+    result.origin.y = vload16(0, parts[1]);
+    result.origin.z = vload16(0, parts[2]);
+    result.direction.x = vload16(0, parts[3]);
+    result.direction.y = vload16(0, parts[4]);
+    result.direction.z = vload16(0, parts[5]);
+    return result;
 }

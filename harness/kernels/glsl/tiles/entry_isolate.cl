@@ -2,8 +2,8 @@
 __attribute__((reqd_work_group_size(1, 1, 1)))
 __kernel void isolate(__global const float *camera, __global real *t, __global int *answer, __global int *queue,
                       __global int *counts, __global real *entries, __global const real *fourths,
-                      __global const float *rays, int nx, int ny, int size, int tile, int level) {
-    Work work = {camera, t, answer, queue, counts, entries, fourths, rays, size, tile, level};
+                      __global const float *rays, int nx, int ny, int size, int tile, int level, int ratio) {
+    Work work = {camera, t, answer, queue, counts, entries, fourths, rays, size, tile, level, ratio};
     if (level < 0) {
         if (get_global_id(0) == 0) for (int k = 0; k < 64; k++) counts[k] = 0;
         return;

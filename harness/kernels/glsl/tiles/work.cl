@@ -1,13 +1,24 @@
 // The buffers that all stages share, and where lists lie in them.
-#define OPEN_RECORD 4     // reals in `entries` for an open tile: start, stop and evaluations spent
-#define SINGLE_RECORD 36  // reals for a single tile: 16 for the root, 16 for the slope, and four more
 #define LEFT 49           // places in `counts`: how many pixels are left for the last stage
 #define TAKEN 32          // and how many tiles of a level have been taken by isolate, by finish (8 later), by packets
 typedef struct Work {
     __global const float *camera; __global real *t; __global int *answer; __global int *queue; __global int *counts;
     __global real *entries; __global const real *fourths; __global const float *rays;
-    int size; int tile; int level;
+    int size; int tile; int level; int ratio;
 } Work;
+
+// Packs a pixel's status, evaluations, and the stage that answered it: a level's number where its tile is empty, LEVELS
+// more where it is single, 2 LEVELS for packets and one more for the rest.
+int answer_word(int status, int stage, int evaluations) {
+    return is_answer(status, evaluations) ? (evaluations * 32 + stage) * 4 + status : NO_ANSWER;
+}
+
+// Returns where the listed ray of a pixel begins in `rays`: that of each `ratio`th row and column; -1 if it has none.
+int listed_place(Work work, int i, int j) {
+    int ratio = work.ratio;
+    bool grid = i < work.size && j < work.size && i % ratio == (ratio - 1) / 2 && j % ratio == (ratio - 1) / 2;
+    return grid ? 6 * ((j / ratio) * (work.size / ratio) + i / ratio) : -1;
+}
 
 int tiles_across(int size, int tile) {
     return (size + tile - 1) / tile;
@@ -54,7 +65,7 @@ void list_open(Work work, int cell, real start, real stop, int spent) {
     int slot = next_in(work, 4 * work.level);
     int before = tiles_before(work.size, work.tile);
     __global real *record = work.entries + (OPEN_RECORD + SINGLE_RECORD) * before + OPEN_RECORD * slot;
-    work.queue[2 * before + slot] = cell;
+    work.queue[QUEUE_RECORD * before + slot] = cell;
     record[0] = start;
     record[1] = stop;
     record[2] = real(spent);
@@ -62,16 +73,10 @@ void list_open(Work work, int cell, real start, real stop, int spent) {
 
 // Answers that all pixels of a tile miss.
 void answer_empty(Work work, int i0, int j0, int evaluations) {
+    int word = answer_word(MISS, work.level, evaluations);
     for (int j = j0; j < min(j0 + work.tile, work.size); j++) {
         for (int i = i0; i < min(i0 + work.tile, work.size); i++) {
-            int place = j * work.size + i;
-            work.answer[place] = 4 * evaluations + MISS;
-            if (LISTED == 0) {
-                work.t[place] = 0.0;
-            } else {
-                work.t[2 * place] = 0.0;
-                work.t[2 * place + 1] = 0.0;
-            }
+            work.answer[j * work.size + i] = word;
         }
     }
 }
