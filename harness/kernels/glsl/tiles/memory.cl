@@ -1,0 +1,5 @@
+// What the work items of a group share; the entry reserves it.
+#define lane_numbers work.numbers
+#define lane_bits work.bits
+#define MEET barrier(CLK_LOCAL_MEM_FENCE);
+#define RESERVED __local real numbers[16 * (SURFACE_DEGREE + 1)]; __local int bits[16];
