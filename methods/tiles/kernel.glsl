@@ -1,0 +1,614 @@
+// Finds the first roots of f along the rays of a camera's pixels, by tiles: squares of pixels whose rays are isolated
+// together. Along node rays, 4 by 4 in a tile, f is fitted in Bernstein form; the coefficients are interpolated by
+// bicubic polynomials in Bernstein form, whose 16 control values are in the tile's lanes. A sign that all lanes have for
+// certain is that of every ray of the tile.
+#define N SURFACE_DEGREE
+#define SHELLS 16  // sizes of the tables VALUE_ERRORS and GROWTH
+#define DEPTHS 6
+#define WIDER 0.03125          // pixels by which the nodes' square is larger on each side than the pixels' middles
+#define REMAINDER 0.02165      // 16/81 / 24 (1 + 1.6312): of bicubic interpolation at 4 by 4 nodes, see method.py
+#define LEBESGUE 2.6608        // largest sum of the magnitudes of the nodes' weights, 1.6312^2
+#define BALLAST 7.0            // worst rounding error of TRANSFORM in unit roundoffs of the largest coefficient,
+#define MIXING 220.0           // and of the largest difference of two lanes
+#define THIRD 0.3333333432674407958984375
+
+#define SEARCHING 0
+#define EMPTY 1
+#define SINGLE 2
+#define OPEN 3
+
+// The camera. A ray's parameter is its depth, or what the depth exceeds `middle` by: at depth s, the ray (x, y) is at
+// eye + s (forward + x right + y up) = origin + middle (x right + y up) + (s - middle) (forward + x right + y up).
+STRUCT(Frame) struct Frame {
+    vec3 eye; vec3 forward; vec3 right; vec3 up;
+    vec3 normal;     // the depth of a point p is the inner product of p - eye and this
+    vec3 origin;     // the point at depth `middle` on the camera's axis
+    real middle;     // the depth of the domain's centre
+    real far;        // the largest depth in the domain
+    real pixel;      // the larger side of a pixel at depth 1
+    real diagonal;   // and its diagonal
+};
+
+Frame make_frame(vec3 eye, vec3 forward, vec3 right, vec3 up, int size) {
+    Frame frame;
+    frame.eye = eye;
+    frame.forward = forward;
+    frame.right = right;
+    frame.up = up;
+    frame.normal = depth_normal(forward, right, up);
+    frame.middle = inner_product(difference(DOMAIN_CENTER, eye), frame.normal);
+    frame.origin = advanced_ray(make_ray(eye, forward), frame.middle).origin;
+    frame.far = frame.middle + DOMAIN_RADIUS * sqrt(inner_product(frame.normal, frame.normal));
+    real squared_right = inner_product(right, right);
+    real squared_up = inner_product(up, up);
+    frame.pixel = 2.0 * sqrt(max(squared_right, squared_up)) / real(size);
+    frame.diagonal = 2.0 * sqrt(squared_right + squared_up) / real(size);
+    return frame;
+}
+
+// Bounds of a fit's errors: `off` grows with a piece's depth, `noise` does not, `unit` is one halving's per degree.
+STRUCT(Errors) struct Errors { real off; real noise; real unit; };
+
+real error_at(Errors errors, int depth) {
+    return GROWTH[min(depth, DEPTHS)] * errors.off + errors.noise + real(N * (depth + 1)) * errors.unit;
+}
+
+real rounding_of_samples(real away) {
+    int shell = int(away * (real(SHELLS) / (REACH * DOMAIN_RADIUS)));
+    return TRUST * UNIT_ROUNDOFF * TILE_ERRORS[min(shell, SHELLS - 1)];
+}
+
+// Returns the largest distance of the lanes' points from the domain's centre.
+real farthest(WideVec3 a, WideVec3 b) {
+    vec3 center = DOMAIN_CENTER;
+    WideVec3 p;
+    WideVec3 q;
+    p.x = a.x - center.x;
+    p.y = a.y - center.y;
+    p.z = a.z - center.z;
+    q.x = b.x - center.x;
+    q.y = b.y - center.y;
+    q.z = b.z - center.z;
+    return sqrt(most(max(wide_inner(p, p), wide_inner(q, q))));
+}
+
+int cell_of(real place) {
+    return clamp(int(place), 0, GRID - 1);
+}
+
+// Bounds the remainder of the tile's interpolation between two depths, from the bounds of fourth derivatives that are
+// looked up along the tile's middle ray, `half_side` pixels from the tile's sides. Each number holds for its cell's
+// neighbours too, so that steps of one cell leave none out.
+real remainder_between(Work work, Frame frame, Ray middle, real half_side, real start, real stop) {
+    real cells = real(GRID) / (2.0 * TABLE_HALF);
+    vec3 a = difference(ray_point(middle, start), DOMAIN_CENTER);
+    vec3 b = difference(ray_point(middle, stop), DOMAIN_CENTER);
+    vec3 way = difference(b, a);
+    int steps = 1 + int(cells * max(fabs(way.x), max(fabs(way.y), fabs(way.z))));
+    real share = 1.0 / real(steps);
+    real bound = 0.0;
+    for (int k = 0; k <= steps; k++) {
+        vec3 p = moved(a, share * real(k), way);
+        int z = cell_of(cells * p.z + 0.5 * real(GRID));
+        int y = cell_of(cells * p.y + 0.5 * real(GRID));
+        int x = cell_of(cells * p.x + 0.5 * real(GRID));
+        real until = min(start + share * (real(k) + 0.5) * (stop - start), stop);
+        real side = half_side * frame.pixel * (frame.middle + until);
+        bound = max(bound, (side * side) * (side * side) * fourth_at(work, (z * GRID + y) * GRID + x));
+    }
+    return REMAINDER * bound;
+}
+
+int single_bits(int above, int below) {
+    return bit_count(above & ~(above + 1)) + bit_count(below & ~(below + 1));
+}
+
+// Newton's method for the roots of each lane's polynomial, whose first coefficient and last differ in sign; it starts
+// from the cubic of make_bracket. Returns roots and slopes.
+STRUCT(WideRoot) struct WideRoot { wide x; wide slope; };
+
+#define FIND_ROOT(found, q, looking) { \
+    wide a_ = wide(0.0); \
+    wide b_ = wide(1.0); \
+    wide step_ = wide(1.0); \
+    found.x = CHOOSE(looking, 0.5 + THIRD * ((FIRST(q) + LAST(q)) / (FIRST(q) - LAST(q))), wide(0.5)); \
+    found.slope = wide(-1.0); \
+    BINOMIAL(q) \
+    for (int i_ = 0; i_ < 8 && any_lane(BOTH(looking, MORE(fabs(step_), wide(0.0009765625)))); i_++) { \
+        wide x_ = found.x; \
+        wide value_; \
+        wide rise_; \
+        EVALUATE(q, x_, value_, rise_) \
+        yes below_ = LESS(value_, wide(0.0)); \
+        b_ = CHOOSE(below_, x_, b_); \
+        a_ = CHOOSE(below_, a_, x_); \
+        wide next_ = x_ - value_ / rise_; \
+        next_ = CHOOSE(BOTH(NOT(LESS(next_, a_)), NOT(MORE(next_, b_))), next_, 0.5 * (a_ + b_)); \
+        step_ = next_ - x_; \
+        found.x = next_; \
+        found.slope = rise_; \
+    } \
+}
+
+// Stage 1. Tiles of one level: each is empty, single (every ray has its first root in one piece, and no other root
+// there), or open, and then its four quarters are searched on the next level, or its pixels by stage 3.
+void isolate_tiles(Work work, Frame frame) {
+    Poly stack[TRUSTED];
+    int across = tiles_across(work.size, work.tile);
+    bool first = work.level == 0;
+    int total = first ? across * across : 4 * counted(work, 4 * (work.level - 1));
+    int above_across = tiles_across(work.size, 2 * work.tile);
+    int above = tiles_before(work.size, 2 * work.tile);
+    real half_side = 0.5 * real(work.tile - 1) + WIDER;
+    // a ray is at most this far from the nearest node's ray: half a diagonal of the net
+    real inflate = 1.001 * (half_side / 3.0) * frame.diagonal * frame.far + 64.0 * UNIT_ROUNDOFF * DOMAIN_RADIUS;
+    real cells = real(GRID) / (2.0 * TABLE_HALF);
+    bool coarse = half_side * frame.diagonal * frame.far * cells > 0.484375;
+    real least_width = SHORTEST * real(work.tile) * frame.pixel * frame.far;
+    Rows to_control;
+    Rows to_nodes;
+    Rows to_powers;
+    MAKE_ROWS(to_control, TO_CONTROL)
+    MAKE_ROWS(to_nodes, TO_NODES)
+    MAKE_ROWS(to_powers, TO_POWERS)
+    wide node_x = (2.0 * lane_row(LANE_X, 0) - 3.0) / 3.0;
+    wide node_y = (2.0 * lane_row(LANE_Y, 0) - 3.0) / 3.0;
+    int all_fits = 0;
+    int all_pieces = 0;
+    for (;;) {
+        int taken = next_in(work, TAKEN + work.level);
+        if (taken >= total) break;
+        int cell_x = taken % across;
+        int cell_y = taken / across;
+        real start = -REAL_INFINITY;
+        real stop = REAL_INFINITY;
+        int spent = 0;
+        if (!first) {
+            int parent = queued(work, QUEUE_RECORD * above + (taken >> 2));
+            int record = (OPEN_RECORD + SINGLE_RECORD) * above + OPEN_RECORD * (taken >> 2);
+            cell_x = 2 * (parent % above_across) + (taken & 1);
+            cell_y = 2 * (parent / above_across) + ((taken >> 1) & 1);
+            start = entry_at(work, record);
+            stop = entry_at(work, record + 1);
+            spent = int(entry_at(work, record + 2));
+        }
+        if (cell_x >= across || cell_y >= across) continue;
+        int cell = cell_y * across + cell_x;
+        int i0 = cell_x * work.tile;
+        int j0 = cell_y * work.tile;
+
+        // node rays, and the tile's middle ray
+        real pixels = 1.0 / real(work.size);
+        real middle_x = real(2 * i0 + work.tile - work.size) * pixels;
+        real middle_y = real(work.size - 2 * j0 - work.tile) * pixels;
+        wide x = middle_x + (2.0 * half_side * pixels) * node_x;
+        wide y = middle_y - (2.0 * half_side * pixels) * node_y;
+        WideVec3 o;
+        WideVec3 d;
+        wide mx = frame.middle * x;
+        wide my = frame.middle * y;
+        o.x = frame.origin.x + mx * frame.right.x + my * frame.up.x;
+        o.y = frame.origin.y + mx * frame.right.y + my * frame.up.y;
+        o.z = frame.origin.z + mx * frame.right.z + my * frame.up.z;
+        d.x = frame.forward.x + x * frame.right.x + y * frame.up.x;
+        d.y = frame.forward.y + x * frame.right.y + y * frame.up.y;
+        d.z = frame.forward.z + x * frame.right.z + y * frame.up.z;
+        Ray middle = make_ray(moved(moved(frame.origin, frame.middle * middle_x, frame.right),
+                                    frame.middle * middle_y, frame.up),
+                              moved(moved(frame.forward, middle_x, frame.right), middle_y, frame.up));
+        WideSpan span = wide_span(o, d, inflate);
+        start = max(start, max(least(span.lo), -frame.middle));
+        real end = most(span.hi);
+        stop = min(stop, end);
+        if (stop <= start) stop = end;
+        int verdict = start < end ? SEARCHING : EMPTY;
+        if (coarse && verdict == SEARCHING) {
+            verdict = OPEN;
+            stop = end;
+        }
+        int depth = 0;
+        int path = 1;
+        int tries = 0;
+        bool negative = false;
+        Poly c;
+        Poly s;
+        CONSTANT(c, wide(0.0))
+        CONSTANT(s, wide(0.0))
+        while (verdict == SEARCHING) {
+            real reach = stop - start;
+            WideVec3 front = wide_point(o, start, d);
+            WideVec3 back = wide_point(o, stop, d);
+            int inner = all_inside(front, MARGIN)
+                        && all_inside(back, MARGIN) ? SEARCHING : OPEN;
+            depth = 0;
+            path = 1;
+            if (inner == SEARCHING) {
+                SAMPLE(s, o, d, start, reach)
+                all_fits += 1;
+                spent += 16 * (N + 1);
+                negative = first_lane_number(FIRST(s)) < 0.0;
+                if (negative) SCALE(s, -1.0)
+                FIT(s, c)
+                real largest = most(LARGEST(c));
+                Errors errors;
+                errors.unit = TRUST * UNIT_ROUNDOFF * largest;
+                errors.off = LEBESGUE * rounding_of_samples(farthest(front, back))
+                             + remainder_between(work, frame, middle, half_side, start, stop);
+                errors.noise = LEBESGUE * 2.0 * TRUST * UNIT_ROUNDOFF * real(N / 2 + 6) * most(WEIGHTED(s))
+                               + BALLAST * errors.unit + MIXING * TRUST * UNIT_ROUNDOFF * 2.0 * most(SPREAD(c));
+                TRANSFORM(c, to_control)
+                while (inner == SEARCHING) {
+                    real error = error_at(errors, depth);
+                    all_pieces += 1;
+                    if (all_lanes(MORE(LEAST(c), wide(error)))) {
+                        int up = bit_count(path & ~(path + 1));  // far halves that end here, with the piece itself
+                        if (up > depth) {
+                            inner = EMPTY;
+                        } else {
+                            depth -= up;
+                            path = (path >> up) + 1;
+                            c = stack[depth - 1];
+                        }
+                    } else {
+                        if (all_lanes(BOTH(LESS(LAST(c), wide(-error)), MORE(FIRST(c), wide(error))))) {
+                            bool falls = all_lanes(LESS(STEEPEST(c), wide(-2.0 * error)));
+                            if (!falls) falls = single_bits(SURE_ABOVE(c, error), SURE_BELOW(c, error)) >= N;
+                            if (falls) inner = SINGLE;
+                        }
+                        if (inner == SEARCHING && (depth == TRUSTED || reach < least_width * real(1 << depth))) inner = OPEN;
+                        if (inner == SEARCHING) {
+                            HALVE(c, s)
+                            stack[depth] = s;
+                            depth += 1;
+                            path *= 2;
+                        }
+                    }
+                }
+            }
+            if (inner == EMPTY) {
+                start = stop;
+                stop = end;
+                if (!(start < end)) verdict = EMPTY;
+            } else {
+                real width = reach / real(1 << depth);
+                start = start + width * real(path - (1 << depth));
+                stop = start + width;
+                verdict = inner;
+                tries += 1;
+                real wider = WIDENING * width;
+                if (inner == OPEN && tries <= REFITS && wider < reach) {
+                    verdict = SEARCHING;
+                    stop = min(start + wider, end);
+                }
+            }
+        }
+        int share = (spent + work.tile * work.tile - 1) / (work.tile * work.tile);
+        if (verdict == EMPTY) answer_empty(work, i0, j0, share);
+        if (verdict == SINGLE) {
+            real width = stop - start;
+            bool whole = all_inside(wide_point(o, start, d), -64.0 * UNIT_ROUNDOFF * DOMAIN_RADIUS)
+                         && all_inside(wide_point(o, stop, d), -64.0 * UNIT_ROUNDOFF * DOMAIN_RADIUS);
+            TRANSFORM(c, to_nodes)
+            WideRoot found;
+            FIND_ROOT(found, c, NOT(NOWHERE))
+            wide root = start + width * found.x;
+            wide slope = width / found.slope;
+            if (negative) slope = -slope;
+            TRANSFORM_ANY(root, to_powers)
+            TRANSFORM_ANY(slope, to_powers)
+            list_single(work, cell, root, slope, start, stop, whole, share);
+        }
+        if (verdict == OPEN) {
+            real slack = 8.0 * UNIT_ROUNDOFF * (fabs(start) + DOMAIN_RADIUS);
+            list_open(work, cell, start - slack, start + WIDENING * (stop - start), spent / 4);
+        }
+    }
+    add_to(work, 4 * work.level + 2, all_fits);
+    add_to(work, 4 * work.level + 3, all_pieces);
+}
+
+// The rays of the pixels of a block: o + t d, with d of length 1, begins nearest to the domain's centre. A depth s is
+// reached at t = base + (s - frame.middle) length.
+STRUCT(Pencil) struct Pencil { WideVec3 o; WideVec3 d; wide shift; wide base; wide length; };
+
+Pencil pencil_of(Work work, Frame frame, int i0, int j0) {
+    Pencil rays;
+    WideVec3 origin;
+    WideVec3 d;
+    origin.x = wide(frame.eye.x);
+    origin.y = wide(frame.eye.y);
+    origin.z = wide(frame.eye.z);
+    real size = real(work.size);
+    wide x = (2.0 * lane_row(LANE_X, 0) + (real(2 * i0 + 1) - size)) / size;
+    wide y = ((size - real(2 * j0 + 1)) - 2.0 * lane_row(LANE_Y, 0)) / size;
+    d.x = (frame.forward.x + x * frame.right.x) + y * frame.up.x;
+    d.y = (frame.forward.y + x * frame.right.y) + y * frame.up.y;
+    d.z = (frame.forward.z + x * frame.right.z) + y * frame.up.z;
+    wide inverse = 1.0 / sqrt(wide_inner(d, d));
+    d.x = d.x * inverse;
+    d.y = d.y * inverse;
+    d.z = d.z * inverse;
+    if (LISTED == 1) {
+        WideRay ray;
+        ray.origin = origin;
+        ray.direction = d;
+        ray = with_listed(work, i0, j0, ray);
+        origin = ray.origin;
+        d = ray.direction;
+    }
+    vec3 center = DOMAIN_CENTER;
+    rays.d = d;
+    rays.shift = (center.x - origin.x) * d.x + (center.y - origin.y) * d.y + (center.z - origin.z) * d.z;
+    rays.o.x = wide_advanced(origin.x, rays.shift, d.x);
+    rays.o.y = wide_advanced(origin.y, rays.shift, d.y);
+    rays.o.z = wide_advanced(origin.z, rays.shift, d.z);
+    rays.length = 1.0 / (d.x * frame.normal.x + d.y * frame.normal.y + d.z * frame.normal.z);
+    rays.base = (frame.normal.x * (frame.origin.x - rays.o.x) + frame.normal.y * (frame.origin.y - rays.o.y)
+                 + frame.normal.z * (frame.origin.z - rays.o.z)) * rays.length;
+    return rays;
+}
+
+// Newton's method on f itself within [a, b], from t on. `g` is the inverse of f's slope; it becomes that of the secant
+// where steps are long or fall off slowly. `good`: the last step is short, and f changes its sign between two points at
+// which it was evaluated.
+STRUCT(Refined) struct Refined { wide t; yes good; int evaluations; };
+
+Refined refined(Pencil rays, wide from, wide a, wide b, wide g, yes looking) {
+    real tolerance = TOLERANCE * (2.0 * DOMAIN_RADIUS);
+    real slow = SECANT * DOMAIN_RADIUS;
+    wide lo = a;
+    wide hi = b;
+    wide t = clamp(from, a, b);
+    wide f = wide_value(wide_point(rays.o, t, rays.d));
+    yes behind = MORE(f * g, wide(0.0));  // the root is before t
+    yes seen_before = NOT(behind);
+    yes seen_behind = behind;
+    hi = CHOOSE(behind, t, hi);
+    lo = CHOOSE(behind, lo, t);
+    wide next = t - f * g;
+    next = CHOOSE(BOTH(NOT(LESS(next, lo)), NOT(MORE(next, hi))), next, 0.5 * (lo + hi));
+    wide step = next - t;
+    int evaluations = 1;
+    for (int k = 0; k < STEPS && any_lane(BOTH(looking, MORE(fabs(step), wide(tolerance)))); k++) {
+        wide f1 = wide_value(wide_point(rays.o, next, rays.d));
+        evaluations += 1;
+        wide secant = step / (f1 - f);
+        yes poor = EITHER(MORE(fabs(step), wide(slow)), BOTH(MORE(fabs(step), wide(tolerance)), MORE(fabs(f1), 0.25 * fabs(f))));
+        g = CHOOSE(BOTH(poor, MORE(secant * g, wide(0.0))), secant, g);
+        t = next;
+        f = f1;
+        behind = MORE(f * g, wide(0.0));
+        seen_before = EITHER(seen_before, NOT(behind));
+        seen_behind = EITHER(seen_behind, behind);
+        hi = CHOOSE(behind, t, hi);
+        lo = CHOOSE(behind, lo, t);
+        next = t - f * g;
+        next = CHOOSE(BOTH(NOT(LESS(next, lo)), NOT(MORE(next, hi))), next, 0.5 * (lo + hi));
+        step = next - t;
+    }
+    // one last step with the mean of f over points around t, in which rounding errors cancel
+    wide sum = wide(0.0);
+    for (int k = 1; k <= PAIRS; k++) {
+        real away = real(k) * (APART * UNIT_ROUNDOFF * 2.0 * DOMAIN_RADIUS);
+        wide before = wide_value(wide_point(rays.o, next - away, rays.d));
+        wide after = wide_value(wide_point(rays.o, next + away, rays.d));
+        sum += before + after;
+        seen_before = EITHER(seen_before, NOT(MORE(before * g, wide(0.0))));
+        seen_behind = EITHER(seen_behind, MORE(after * g, wide(0.0)));
+    }
+    evaluations += 2 * PAIRS;
+    wide last = wide(0.0);
+    if (PAIRS > 0) last = sum * g * (1.0 / real(max(2 * PAIRS, 1)));
+    yes seen = BOTH(seen_before, seen_behind);
+    if (any_lane(BOTH(looking, NOT(seen)))) {
+        wide other = wide_value(wide_point(rays.o, CHOOSE(seen_before, b, a), rays.d));
+        evaluations += 1;
+        behind = MORE(other * g, wide(0.0));
+        seen = EITHER(seen, CHOOSE(seen_before, behind, NOT(behind)));
+    }
+    Refined result;
+    result.t = clamp(next - last, lo, hi);
+    result.good = BOTH(seen, BOTH(AT_MOST(fabs(step), wide(tolerance)), AT_MOST(fabs(last), wide(4.0 * tolerance))));
+    result.evaluations = evaluations;
+    return result;
+}
+
+// Stage 2. Pixels of single tiles: bicubic interpolation of the nodes' roots, and then f itself.
+void finish_tiles(Work work, Frame frame) {
+    int across = tiles_across(work.size, work.tile);
+    int total = counted(work, 4 * work.level + 1);
+    int list = QUEUE_RECORD * tiles_before(work.size, work.tile) + across * across;
+    real half_side = 0.5 * real(work.tile - 1) + WIDER;
+    real slack = 16.0 * UNIT_ROUNDOFF * DOMAIN_RADIUS;
+    int blocks = work.tile / 4;
+    for (;;) {
+        int taken = next_in(work, TAKEN + 8 + work.level);
+        if (taken >= total) break;
+        int cell = queued(work, list + taken);
+        int record = singles_at(work.size, work.tile) + SINGLE_RECORD * taken;
+        real start = entry_at(work, record + 32);
+        real stop = entry_at(work, record + 33);
+        bool whole = entry_at(work, record + 34) > 0.0;
+        int spent = int(entry_at(work, record + 35));
+        for (int block = 0; block < blocks * blocks; block++) {
+            int bi = 4 * (block % blocks);
+            int bj = 4 * (block / blocks);
+            int i0 = (cell % across) * work.tile + bi;
+            int j0 = (cell / across) * work.tile + bj;
+            if (i0 >= work.size || j0 >= work.size) continue;
+            Pencil rays = pencil_of(work, frame, i0, j0);
+            wide u = (lane_row(LANE_X, 0) + (real(bi) - 0.5 * real(work.tile - 1))) / half_side;
+            wide v = (lane_row(LANE_Y, 0) + (real(bj) - 0.5 * real(work.tile - 1))) / half_side;
+            wide root = wide(0.0);
+            wide g = wide(0.0);
+            for (int row = 3; row >= 0; row--) {
+                int at = record + 4 * row;
+                root = root * v + (((entry_at(work, at + 3) * u + entry_at(work, at + 2)) * u + entry_at(work, at + 1)) * u
+                                   + entry_at(work, at));
+                at = at + 16;
+                g = g * v + (((entry_at(work, at + 3) * u + entry_at(work, at + 2)) * u + entry_at(work, at + 1)) * u
+                             + entry_at(work, at));
+            }
+            wide a = rays.base + start * rays.length - slack;
+            wide b = rays.base + stop * rays.length + slack;
+            Refined found = refined(rays, rays.base + root * rays.length, a, b, g * rays.length, NOT(NOWHERE));
+            yes hit = NOT(NOWHERE);
+            yes left = NOT(found.good);
+            if (!whole) {
+                WideSpan span = wide_span(rays.o, rays.d, 0.0);
+                span.lo = max(span.lo, -rays.shift);
+                hit = NOT(EITHER(MORE(span.lo, span.hi), MORE(found.t, span.hi)));
+                left = BOTH(hit, EITHER(left, LESS(found.t, span.lo)));
+            }
+            answer_block(work, i0, j0, rays.shift, found.t, hit, LEVELS + work.level, spent + found.evaluations);
+            if (any_lane(left)) leave_pixels(work, i0, j0, left, wide(start));
+        }
+    }
+}
+
+// Stage 3. Pixels of open tiles, in blocks of 4 by 4: each has its own fit, and they are halved together.
+void cast_packets(Work work, Frame frame) {
+    Poly stack[TRUSTED];
+    int across = tiles_across(work.size, work.tile);
+    int list = tiles_before(work.size, work.tile);
+    int blocks = work.tile / 4;
+    int total = blocks * blocks * counted(work, 4 * (work.level - 1));
+    real slack = 16.0 * UNIT_ROUNDOFF * DOMAIN_RADIUS;
+    int all_fits = 0;
+    int all_pieces = 0;
+    for (;;) {
+        int taken = next_in(work, TAKEN + 16);
+        if (taken >= total) break;
+        int slot = taken / (blocks * blocks);
+        int block = taken % (blocks * blocks);
+        int cell = queued(work, QUEUE_RECORD * list + slot);
+        int record = (OPEN_RECORD + SINGLE_RECORD) * list + OPEN_RECORD * slot;
+        real start = entry_at(work, record);
+        real stop = entry_at(work, record + 1);
+        int i0 = (cell % across) * work.tile + 4 * (block % blocks);
+        int j0 = (cell / across) * work.tile + 4 * (block / blocks);
+        if (i0 >= work.size || j0 >= work.size) continue;
+        Pencil rays = pencil_of(work, frame, i0, j0);
+        // the same rays with their depth as parameter, less frame.middle
+        WideVec3 o = wide_point(rays.o, rays.base, rays.d);
+        WideVec3 d;
+        d.x = rays.d.x * rays.length;
+        d.y = rays.d.y * rays.length;
+        d.z = rays.d.z * rays.length;
+        WideSpan span = wide_span(rays.o, rays.d, 0.0);
+        span.lo = max(span.lo, -rays.shift);
+        wide own_lo = (span.lo - rays.base) / rays.length;
+        wide own_hi = (span.hi - rays.base) / rays.length + slack;
+        yes active = AT_MOST(span.lo, span.hi);
+        active = BOTH(active, AT_MOST(wide(start), own_hi));
+        yes opened = NOWHERE;
+        yes found = NOWHERE;
+        wide open_from = wide(start);
+        wide found_start = wide(0.0);
+        wide found_width = wide(0.0);
+        wide sign = wide(1.0);
+        start = max(start, least(CHOOSE(active, own_lo, wide(REAL_INFINITY))) - slack);
+        real end = most(CHOOSE(active, own_hi, wide(-REAL_INFINITY)));
+        stop = min(stop, end);
+        if (stop <= start) stop = end;
+        Poly c;
+        Poly s;
+        Poly q;
+        CONSTANT(q, wide(0.0))
+        int fits = 0;
+        while (any_lane(active) && start < end) {
+            real reach = stop - start;
+            WideVec3 front = wide_point(o, start, d);
+            WideVec3 back = wide_point(o, stop, d);
+            int inner = SEARCHING;
+            if (!all_inside(front, MARGIN) || !all_inside(back, MARGIN)) {
+                open_from = CHOOSE(active, wide(start), open_from);
+                opened = EITHER(opened, active);
+                active = NOWHERE;
+                inner = OPEN;
+            }
+            if (inner == SEARCHING) {
+                SAMPLE(s, o, d, start, reach)
+                fits += 1;
+                wide own_sign = CHOOSE(LESS(FIRST(s), wide(0.0)), wide(-1.0), wide(1.0));
+                sign = CHOOSE(active, own_sign, sign);
+                SCALE(s, own_sign)
+                FIT(s, c)
+                wide unit = TRUST * UNIT_ROUNDOFF * LARGEST(c);
+                wide noise = 2.0 * TRUST * UNIT_ROUNDOFF * real(N / 2 + 6) * WEIGHTED(s);
+                real off = rounding_of_samples(farthest(front, back));
+                int depth = 0;
+                int path = 1;
+                while (inner == SEARCHING) {
+                    wide error = GROWTH[min(depth, DEPTHS)] * off + noise + real(N * (depth + 1)) * unit;
+                    all_pieces += 1;
+                    real width = reach / real(1 << depth);
+                    real from = start + width * real(path - (1 << depth));
+                    active = BOTH(active, AT_MOST(wide(from), own_hi));
+                    yes unsure = BOTH(active, NOT(MORE(LEAST(c), error)));
+                    yes one = BOTH(unsure, BOTH(LESS(LAST(c), -error), MORE(FIRST(c), error)));
+                    if (any_lane(one)) {
+                        wide after;
+                        LARGEST_AFTER(c, error, after)
+                        one = BOTH(one, EITHER(LESS(after, -error), LESS(STEEPEST(c), -2.0 * error)));
+                        found_start = CHOOSE(one, wide(from), found_start);
+                        found_width = CHOOSE(one, wide(width), found_width);
+                        KEEP(q, one, c)
+                        found = EITHER(found, one);
+                        active = BOTH(active, NOT(one));
+                        unsure = BOTH(unsure, NOT(one));
+                    }
+                    if (depth == TRUSTED) {
+                        open_from = CHOOSE(unsure, wide(from), open_from);
+                        opened = EITHER(opened, unsure);
+                        active = BOTH(active, NOT(unsure));
+                        unsure = NOWHERE;
+                    }
+                    if (!any_lane(active)) {
+                        inner = OPEN;
+                    } else if (any_lane(unsure)) {
+                        HALVE(c, s)
+                        stack[depth] = s;
+                        depth += 1;
+                        path *= 2;
+                    } else {
+                        int up = bit_count(path & ~(path + 1));
+                        if (up > depth) {
+                            inner = EMPTY;
+                        } else {
+                            depth -= up;
+                            path = (path >> up) + 1;
+                            c = stack[depth - 1];
+                        }
+                    }
+                }
+            }
+            start = stop;
+            stop = end;
+        }
+        all_fits += fits;
+        int evaluations = fits * (N + 1);
+        yes hit = NOWHERE;
+        yes left = opened;
+        wide t = wide(0.0);
+        if (any_lane(found)) {
+            WideRoot inside;
+            FIND_ROOT(inside, q, found)
+            wide a = rays.base + found_start * rays.length - slack;
+            wide b = rays.base + (found_start + found_width) * rays.length + slack;
+            wide at = rays.base + (found_start + found_width * inside.x) * rays.length;
+            Refined result = refined(rays, at, a, b, sign * (found_width / inside.slope) * rays.length, found);
+            evaluations += result.evaluations;
+            t = result.t;
+            hit = BOTH(found, NOT(MORE(t, span.hi)));
+            yes again = BOTH(hit, EITHER(NOT(result.good), LESS(t, span.lo)));
+            open_from = CHOOSE(again, found_start, open_from);
+            left = EITHER(left, again);
+        }
+        answer_block(work, i0, j0, rays.shift, t, hit, 2 * LEVELS, evaluations);
+        open_from = open_from - slack;
+        if (any_lane(left)) leave_pixels(work, i0, j0, left, open_from);
+    }
+    add_to(work, 4 * work.level + 2, all_fits);
+    add_to(work, 4 * work.level + 3, all_pieces);
+}
