@@ -112,14 +112,14 @@ def doubts_of(plugin, surface, rays, name, precision="float32", **knobs):
     """What is found of a method's first answers on a device, in this process."""
     variant = plugin.variant(knobs)
 
-    def program(language):
-        return method_program(plugin.method, plugin.folder, variant, surface, precision, language, "rays")
+    def programs(language):
+        return (method_program(plugin.method, plugin.folder, variant, surface, precision, language, "rays"),)
 
-    def run(name, program, index):
-        return answers(opened(name), program, rays[index])
+    def run(name, programs, index):
+        return answers(opened(name), *programs, rays[index])
 
-    second = compilers.SecondBuild(name, precision, program, run)
-    hits = answers(opened(name), program(opened(name).language), rays)
+    second = compilers.SecondBuild(name, precision, programs, run)
+    hits = answers(opened(name), *programs(opened(name).language), rays)
     return compilers.doubts_about(surface, rays, hits, second)
 
 

@@ -52,13 +52,15 @@ class Step:
     """State one of the steps that a launch takes in order: a built program over a grid of work items.
 
     The program is given the launch's `buffers`, by their places, then the grid, then `numbers` (in GLSL by their
-    names).
+    names). `group` is how many work items share a work group; None: as many as the device takes for items that share
+    nothing. A GLSL program states its own, which must be the same.
     """
 
     built: Built
     buffers: tuple[int, ...]
     grid: tuple[int, int]
     numbers: Mapping[str, int] = field(default_factory=dict)
+    group: int | None = None
 
 
 @dataclass(frozen=True)

@@ -228,7 +228,8 @@ class OpenCLLaunch(Launch):
         on_processor = bool(queue.device.type & cl.device_type.CPU)
         self._steps = []
         for step in steps:
-            group = PROCESSOR_GROUP if on_processor and step.grid[0] % PROCESSOR_GROUP == 0 else GROUP
+            free = PROCESSOR_GROUP if on_processor and step.grid[0] % PROCESSOR_GROUP == 0 else GROUP
+            group = step.group or free
             items = (-(-step.grid[0] // group) * group, step.grid[1])
             self._steps.append((self._kernel(step), items, (group, 1)))
 

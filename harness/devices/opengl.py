@@ -166,7 +166,7 @@ def _most_groups(context: Any) -> int:
 
 
 def _groups(step: Step) -> int:
-    return -(-step.grid[0] // GROUP)
+    return -(-step.grid[0] // (step.group or GROUP))
 
 
 class OpenGLLaunch(Launch):

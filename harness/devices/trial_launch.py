@@ -7,6 +7,7 @@ import numpy as np
 from harness.contract import FirsthitError, Program
 from harness.devices.interface import Array, Built, Device, Launch, Reserved, Step, real_type
 from harness.devices.quadtree import LEVELS, PARENT
+from harness.devices.tiles import COUNTS, TILE_STAGES, plan_of
 
 AWAY = (0.0, 0.0, 1024.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0)  # a camera: eye, forward, right, up
 
@@ -27,6 +28,10 @@ def trial_launch(device: Device, program: Program, built: Built) -> Launch:
         buffers = [camera, *answer, span, ray, np.zeros(1, np.int32)] if narrowed else [ray, *answer]
     elif program.entry == "camera":
         buffers = [camera, *answer, span] if narrowed else [camera, *answer]
+    elif program.entry in TILE_STAGES:
+        scratch = [Reserved(64, np.int32), Reserved(COUNTS, np.int32, fill=0), Reserved(64, kind, fill=0)]
+        buffers = [camera, *answer, *scratch, np.zeros(max(1, plan_of(program).grid ** 3), kind), ray]
+        numbers = {"size": 1, "tile": 1, "level": 0, "ratio": 1}
     elif program.entry == "draw":
         buffers = [camera, *answer, Reserved(3, np.float32)]
     elif program.entry == "beams":

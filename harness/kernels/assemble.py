@@ -35,8 +35,24 @@ from surfaces.words import suggestion
 
 KERNELS = Path(__file__).parent / "glsl"
 AFTER_TABLES = ("fit_samples", "fit_whole")  # libraries that read a method's tables, and so come after them
-Entry = Literal["rays", "camera", "beams"]  # as what a method's program is started
-ROOMS: dict[Entry, str] = {"rays": "rays", "camera": "rays", "beams": "beams"}  # the folder of glsl/ that holds it
+TileStage = Literal["isolate", "finish", "packets", "rest"]  # of a frame of tiles, each a program of its own
+# As what a method's program is started. A stage that is `listed` casts listed rays where a pixel has one.
+Entry = Literal["rays", "camera", "beams", TileStage, "finish_listed", "packets_listed", "rest_listed"]
+STAGES: dict[Entry, tuple[TileStage, bool]] = {  # the entries of frames of tiles: the stage, and whether it is listed
+    "isolate": ("isolate", False),
+    "finish": ("finish", False),
+    "packets": ("packets", False),
+    "rest": ("rest", False),
+    "finish_listed": ("finish", True),
+    "packets_listed": ("packets", True),
+    "rest_listed": ("rest", True),
+}
+ROOMS: dict[Entry, str] = {  # the folder of glsl/ that holds an entry
+    "rays": "rays",
+    "camera": "rays",
+    "beams": "beams",
+    **dict.fromkeys(STAGES, "tiles"),
+}
 
 
 @cache
@@ -136,15 +152,19 @@ def method_program(
     t_min: float = 0.0,
     origin: Origin = "nearest",
 ) -> Program:
-    """Return the program that casts rays or beams at `surface` by `variant`.
+    """Return the program that casts rays, beams or a stage of tiles at `surface` by `variant`.
 
     `folder` holds the method's kernel.glsl. `narrowed` gives the prepass's parameters if rays are to be narrowed by it.
-    Listed rays begin at `t_min`, in units of t. `origin` says where the method sees its rays begin. In GLSL no loop may
-    be removed by the compiler, except in a camera's program, which is only timed.
+    Listed rays begin at `t_min`, in units of t; those of tiles at 0. `origin` says where the method sees its rays
+    begin. In GLSL no loop may be removed by the compiler, except in a camera's program, which is only timed.
 
     Raises FirsthitError if the surface lacks a function that the method needs, if t_min is no distance, or if the
     method does not cast rays and so cannot begin them elsewhere.
     """
+    if ROOMS[entry] != "rays" and origin != "nearest":
+        raise FirsthitError(f"an origin is chosen for rays, and the method {method.name} casts {ROOMS[entry]}")
+    if entry in STAGES:
+        return _stage_program(method, folder, variant, surface, precision, language, entry)
     listed = entry == "rays" and narrowed is None
     needs = (*method.needs, "surface_value") if listed else method.needs
     ahead: dict[str, Callable[..., list[Section]]] = {"rays": ray_sections, "beams": beam_sections}
@@ -152,14 +172,30 @@ def method_program(
     sections += method_sections(method, folder, variant, surface, precision, language)
     if ROOMS[entry] == "rays":
         sections += cast_sections(origin)
-    elif origin != "nearest":
-        raise FirsthitError(f"an origin is chosen for rays, and the method {method.name} casts {ROOMS[entry]}")
     if listed:
         sections += [_t_min_section(t_min, precision, language), *files("rays/listed.glsl")]
     sections += _entry_sections(entry, narrowed, language)
     if entry != "camera" and language == "glsl":
         sections.insert(1, kept_loops())
     return Program(language, precision, entry, tuple(sections))
+
+
+def _stage_program(
+    method: Method,
+    folder: Path,
+    variant: Variant,
+    surface: Surface,
+    precision: Precision,
+    language: Language,
+    entry: Entry,
+) -> Program:
+    """Return the program of a stage of tiles, as `method_program` does."""
+    from harness.kernels.tiles import stage_program
+
+    stage, listed = STAGES[entry]
+    return stage_program(
+        method, folder, variant, surface, precision, language, stage, listed, ROOT / "methods" / method.rest
+    )
 
 
 def early_libraries(method: Method) -> list[str]:

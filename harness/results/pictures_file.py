@@ -22,13 +22,17 @@ TYPES: dict[str, Any] = {
     "evaluations": np.int32,
     "status": np.uint8,
     "level": np.uint8,
+    "stage": np.uint8,
     "drowned": np.bool_,
     "samples": np.float32,
 }
-OPTIONAL = frozenset(("condition", "evaluations", "status", "level", "drowned", "samples"))  # not in every older run
+OPTIONAL = frozenset(
+    ("condition", "evaluations", "status", "level", "stage", "drowned", "samples")
+)  # not in every older run
 MOST_SIDE = 2**13
 MOST_SAMPLES = 64  # on each side of a pixel
 MOST_LEVEL = 30  # of a quadtree
+MOST_STAGE = 30  # of a frame of tiles
 
 
 def read(path: Path) -> dict[str, NDArray[Any]]:
@@ -54,7 +58,7 @@ def read(path: Path) -> dict[str, NDArray[Any]]:
 
 def _possible(name: str, array: NDArray[Any]) -> bool:
     """Tell whether an array holds only values that its name can have."""
-    most = {"truth": max(TruthStatus), "wrong": len(KINDS), "level": MOST_LEVEL}.get(name)
+    most = {"truth": max(TruthStatus), "wrong": len(KINDS), "level": MOST_LEVEL, "stage": MOST_STAGE}.get(name)
     if most is not None:
         return bool(array.max() <= most)
     if name in ("error", "evaluations"):

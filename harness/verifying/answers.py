@@ -75,7 +75,7 @@ def answers(row: Mapping[str, Any], kept: Arrays) -> Iterator[Wrong]:
         counts[f"drowned_{name}"] = int((kept["drowned"] & wrong).sum())
     if row["casts"] in ("beams", "quadtree"):
         counts["beam_only"] = int((_right_hits(kept) & np.isnan(kept["error"]) & _decided(kept)).sum())
-    else:
+    elif row["casts"] != "tiles":  # whose evaluations are of all pixels of the check's frame
         spent = kept["evaluations"][kept["status"] != RayStatus.INVALID]
         mean = float(spent.mean()) if len(spent) else None
         yield from differing("accuracy.evaluations_mean", told["evaluations_mean"], mean, 1e-12)

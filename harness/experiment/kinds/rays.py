@@ -34,6 +34,7 @@ class RayMethods(ShotKind):
 
     what = "rays"
     entries = ("rays", "camera")
+    shot_entries = ("rays",)
     unlisted = None
     undrawn = None
 
@@ -85,8 +86,8 @@ class RayMethods(ShotKind):
     def compiled_drawing(self, plugin: Plugin, surface: Surface) -> Program | None:
         return raster_program(plugin.method, plugin.folder, plugin.variant({}), surface, "box", True)
 
-    def shot(self, program: Program, shot: Shot, index: NDArray[np.intp]) -> Check[Hits]:
-        return ListedCheck(program, shot.rays[index])
+    def shot(self, programs: tuple[Program, ...], shot: Shot, index: NDArray[np.intp]) -> Check[Hits]:
+        return ListedCheck(programs[0], shot.rays[index])
 
     def shot_hits(self, answer: Hits) -> Hits:
         return answer
@@ -133,10 +134,10 @@ def listed_again(asked: Asked, executor: LocalExecutor, cast: Cast, former: Prog
     run = with_listed_rays(executor, cast.rays)
     if former is None:
         return SecondBuild(
-            cell.device, cell.precision, lambda language: asked.program(cell.surface, "rays", language), run
+            cell.device, cell.precision, lambda language: (asked.program(cell.surface, "rays", language),), run
         )
     second = former.second
-    return SecondBuild(cell.device, cell.precision, lambda _: second, run) if second else None
+    return SecondBuild(cell.device, cell.precision, lambda _: (second,), run) if second else None
 
 
 class Rays(Kind):

@@ -1,0 +1,107 @@
+"""Frames of tiles: their stages are launched in order, and what is checked are the very rays of the oracle.
+
+The stages here are a stand-in's (tile_stand_in), which isolate nothing: Newton's method casts each pixel.
+"""
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+import surfaces
+from harness.contract import View
+from harness.devices.interface import hits_from, launch_camera, launch_rays
+from harness.devices.messages import FirstRun
+from harness.devices.tiles import TileCheck, TileFrame, tile_hits_from
+from harness.experiment.kinds.tiles import checked_over, frame_of
+from harness.kernels.assemble import method_program
+from harness.plugins import find_methods
+from harness.scenes.camera import camera_for, rays_of
+
+from . import tile_stand_in
+from .conftest import opened
+from .tile_stand_in import METHOD
+
+VIEW = View("far", azimuth=30, elevation=35, distance=9.0)
+SIZE = 61  # its tiles reach out of it
+
+
+TORUS = surfaces.get("torus")
+
+
+@cache
+def alone(name, precision, entry):
+    """The stand-in's method by itself, built."""
+    plugin, device = find_methods().get(METHOD), opened(name)
+    stated = plugin.method, plugin.folder, plugin.variant({}), TORUS, precision, device.language
+    program = method_program(*stated, entry)
+    return device, program, device.build(program)
+
+
+@cache
+def frames(name, precision, listed):
+    """The stand-in's programs, and the same built."""
+    device = opened(name)
+    programs = tile_stand_in.programs(TORUS, precision, device.language, listed)
+    return programs, [device.build(program) for program in programs]
+
+
+def outputs_of(launch):
+    launch.run()
+    outputs = [values.copy() for values in launch.read()]
+    launch.release()
+    return outputs
+
+
+def same(found, expected):
+    return all(
+        np.array_equal(a, b, equal_nan=True) for a, b in zip(vars(found).values(), vars(expected).values(), strict=True)
+    )
+
+
+@pytest.mark.parametrize("precision", ["float32", "float64"])
+def test_each_pixel_of_a_frame_is_answered_once_by_the_stage_that_is_due(device, precision):
+    if precision == "float64" and not device.info.float64:
+        pytest.skip("no float64 here")
+    camera = camera_for(VIEW, TORUS)
+    programs, built = frames(device.info.name, precision, False)
+    hits, stages = tile_hits_from(outputs_of(frame_of(programs, TORUS, camera, SIZE).launch(device, built)))
+    expected = hits_from(outputs_of(launch_camera(*alone(device.info.name, precision, "camera"), camera, SIZE)))
+    due = tile_stand_in.expected_stages(TORUS, camera, SIZE)
+    assert set(due.ravel()) == set(range(6))
+    assert np.array_equal(stages.reshape(SIZE, SIZE), due)
+    assert same(hits, expected)
+
+
+@pytest.mark.parametrize(("side", "samples", "ratio"), [(9, 9, 1), (9, 18, 2), (9, 26, 3), (8, 27, 4), (12, 5, 1)])
+def test_a_check_casts_the_rays_of_the_grid_as_they_were_made_on_the_host(device, side, samples, ratio):
+    camera = camera_for(VIEW, TORUS)
+    rays = rays_of(camera, side)
+    moved, found = checked_over(camera, side, samples)
+    assert found == ratio
+    programs, built = frames(device.info.name, "float32", True)
+    check = TileCheck(frame_of(programs, TORUS, moved, ratio * side), rays, ratio, np.arange(side * side))
+    outputs = outputs_of(check.launch(device, built))
+    answer = check.answer(FirstRun(device.info, check.hits(outputs), outputs))
+    expected = hits_from(outputs_of(launch_rays(*alone(device.info.name, "float32", "rays"), rays)))
+    assert same(answer.hits, expected)
+    due = tile_stand_in.expected_stages(TORUS, moved, ratio * side)
+    assert np.array_equal(answer.stages, due.ravel()[check.pixels])
+    assert answer.shares == {
+        name: np.mean(due == stage)
+        for stage, name in enumerate(["empty_16", "empty_8", "single_16", "single_8", "packets", "rest"])
+    }
+    assert answer.evaluations[1] >= expected.evaluations.max()
+
+
+@pytest.mark.parametrize(("side", "samples"), [(8, 8), (8, 15), (6, 18), (8, 32), (5, 49)])
+def test_the_grids_rays_go_through_middles_of_the_checks_pixels(side, samples):
+    camera = camera_for(VIEW, TORUS)
+    moved, ratio = checked_over(camera, side, samples)
+    size = ratio * side
+    assert size >= samples and size - samples < side
+    frame = TileFrame((None,) * 4, moved, size, np.zeros(0))
+    pixels = TileCheck(frame, rays_of(camera, side), ratio, np.arange(side * side)).pixels
+    apart = rays_of(moved, size)[pixels, 3:].astype(float) - rays_of(camera, side)[:, 3:]
+    width = 2 * np.linalg.norm(camera[6:9]) / size
+    assert np.abs(apart).max() < 1e-5 * width + 2e-7
