@@ -93,7 +93,8 @@ def stage_program(
         sections += [*cast_sections("nearest"), *files(f"tiles/work.{language}", "tiles/lists.glsl", "tiles/rest.glsl")]
     else:
         sections += _lane_sections(stage, precision, language, form)
-        sections += [wide_value(surface, precision, language), macros(surface, precision, language, form)]
+        held: Lanes = form if form == "vector" or _exchanges(stage, form) else "own"
+        sections += [wide_value(surface, precision, language), macros(surface, precision, language, held)]
         sections += files(*_net_files(stage, form))
         domain = "box" if isinstance(surface.domain, Box) else "sphere"
         sections += [*_lane_tables(precision, language), *files(f"tiles/domain_{domain}.glsl")]

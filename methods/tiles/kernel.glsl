@@ -395,7 +395,7 @@ Pencil pencil_of(Work work, Frame frame, int i0, int j0) {
 // which it was evaluated.
 STRUCT(Refined) struct Refined { wide t; yes good; int evaluations; };
 
-Refined refined(Pencil rays, wide from, wide a, wide b, wide g, yes looking) {
+Refined refined(Work work, Pencil rays, wide from, wide a, wide b, wide g, yes looking) {
     real tolerance = TOLERANCE * (2.0 * DOMAIN_RADIUS);
     real slow = SECANT * DOMAIN_RADIUS;
     wide lo = a;
@@ -517,7 +517,7 @@ void finish_tiles(Work work, Frame frame) {
             wide g = bicubic_value(slopes, u, v);
             wide a = rays.base + start * rays.length - slack;
             wide b = rays.base + stop * rays.length + slack;
-            Refined found = refined(rays, rays.base + root * rays.length, a, b, g * rays.length, NOT(NOWHERE));
+            Refined found = refined(work, rays, rays.base + root * rays.length, a, b, g * rays.length, NOT(NOWHERE));
             yes hit = NOT(NOWHERE);
             yes left = NOT(found.good);
             if (!whole) {
@@ -663,7 +663,7 @@ void cast_packets(Work work, Frame frame) {
             wide a = rays.base + found_start * rays.length - slack;
             wide b = rays.base + (found_start + found_width) * rays.length + slack;
             wide at = rays.base + (found_start + found_width * inside.x) * rays.length;
-            Refined result = refined(rays, at, a, b, sign * (found_width / inside.slope) * rays.length, found);
+            Refined result = refined(work, rays, at, a, b, sign * (found_width / inside.slope) * rays.length, found);
             evaluations += result.evaluations;
             t = result.t;
             hit = BOTH(found, NOT(MORE(t, span.hi)));
