@@ -108,12 +108,11 @@ def _lane_sections(stage: Stage, precision: Precision, language: Language, lanes
     if lanes == "vector":
         head = (f"tiles/lanes_{precision}.{language}", f"tiles/lanes.{language}", "tiles/wide.glsl")
         return files(*head, f"tiles/work.{language}", "tiles/lists.glsl", f"tiles/blocks.{language}")
-    work = [f"tiles/work.{language}", "tiles/lists.glsl"]
+    first, exchange = [], "own"
     if _exchanges(stage, lanes):
-        work = [f"tiles/memory.{language}", *work, "tiles/exchange_group.glsl"]
-    else:
-        work = [*work, "tiles/exchange_own.glsl"]
-    return files("tiles/lanes_one.glsl", "tiles/wide.glsl", *work, "tiles/blocks_one.glsl")
+        first, exchange = [f"tiles/memory.{language}"], "group"
+    work = (f"tiles/work.{language}", "tiles/lists.glsl", f"tiles/exchange_{exchange}.glsl", "tiles/blocks_one.glsl")
+    return files(*first, "tiles/lanes_one.glsl", "tiles/wide.glsl", *work)
 
 
 def _net_files(stage: Stage, lanes: Lanes) -> list[str]:
@@ -146,6 +145,7 @@ def _shape(
     group = 64 if stage == "rest" else 1 if not one else 16 if _exchanges(stage, lanes) else 8 if items == 1 else 64
     shape = {"TILE": TILE, "LEVELS": LEVELS, "GRID": GRID, **RECORDS, "TILE_ITEMS": items, "TILE_GROUP": group}
     shape["TILE_TURNS"] = 8 if lanes == "own" else 1
+    shape["OPEN_TILES"] = int(lanes == "own")
     shape |= {"LISTED": int(listed), "REACH": REACH, "TABLE_HALF": half, "MARGIN": half / 9.0}
     lines = [f"#define {name} {literal(value, precision, language)}" for name, value in shape.items()]
     return Section("generated: shape of tiles", "\n".join(lines))
@@ -272,10 +272,10 @@ def _exchanged_transform(n: int) -> list[str]:
     """Return the statements of TRANSFORM where sixteen work items share a tile: all coefficients are exchanged at once."""
     lines = []
     for direction, bits in (("u", (1, 2, 3)), ("v", (4, 8, 12))):
-        lines += [f"lane_numbers[{16 * j} + work.lane] = c.k{j};" for j in range(n + 1)] + ["MEET"]
+        lines += [f"lane_numbers[{16 * j} + OWN_LANE] = c.k{j};" for j in range(n + 1)] + ["MEET"]
         for j in range(n + 1):
             terms = [
-                f"rows.{direction}{i} * (lane_numbers[{16 * j} + (work.lane ^ {bit})] - c.k{j})"
+                f"rows.{direction}{i} * (lane_numbers[{16 * j} + (OWN_LANE ^ {bit})] - c.k{j})"
                 for i, bit in enumerate(bits, start=1)
             ]
             lines.append(f"c.k{j} = c.k{j} + ({' + '.join(terms)});")

@@ -10,5 +10,8 @@
 #define NOT(a) (!(a))
 #define NOWHERE false
 #define CHOOSE(mask, a, b) ((mask) ? (a) : (b))
-#define lane_row(name, k) name[16 * (k) + work.lane]
+#ifndef OWN_LANE
+#define OWN_LANE work.lane
+#endif
+#define lane_row(name, k) name[16 * (k) + OWN_LANE]
 #define wide_advanced(o, t, d) advanced(o, t, d)

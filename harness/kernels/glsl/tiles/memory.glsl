@@ -4,3 +4,4 @@
 #define MEET memoryBarrierShared(); barrier();
 shared real shared_numbers[16 * (SURFACE_DEGREE + 1)];
 shared int shared_bits[16];
+#define OWN_LANE int(gl_LocalInvocationID.x)
