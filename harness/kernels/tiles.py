@@ -32,12 +32,13 @@ from collections.abc import Callable, Sequence
 from fractions import Fraction
 from math import comb
 from pathlib import Path
-from typing import Literal
 
 from harness.contract import Box, Method, Precision, Program, Section, Surface, Variant
 from harness.kernels.fourths import GRID, half_side
 from harness.kernels.assemble import (
     Language,
+    Lanes,
+    TileStage,
     cast_sections,
     early_libraries,
     file_section,
@@ -49,8 +50,7 @@ from harness.kernels.assemble import (
     table_section,
 )
 
-Stage = Literal["isolate", "finish", "packets", "rest"]
-STAGES: tuple[Stage, ...] = ("isolate", "finish", "packets", "rest")
+STAGES: tuple[TileStage, ...] = ("isolate", "finish", "packets", "rest")
 TILE = 16  # pixels along a side of the first level's tiles
 LEVELS = 2  # of tiles, each of half the side of the one before
 REACH = 1.125  # radius of the last ball of the bounds of rounding errors, in domain radii
@@ -66,9 +66,10 @@ def stage_program(
     surface: Surface,
     precision: Precision,
     language: Language,
-    stage: Stage,
+    stage: TileStage,
     listed: bool,
     rest: Path,
+    lanes: Lanes = "vector",
 ) -> Program:
     """Return the program of one stage. Its entry is named as the stage.
 
@@ -103,7 +104,7 @@ def _shape(surface: Surface, precision: Precision, language: Language, listed: b
     a work group.
     """
     half = half_side(surface.domain)
-    shape = {"TILE": TILE, "LEVELS": LEVELS, "GRID": GRID, **RECORDS, "TILE_ITEMS": 1, "TILE_GROUP": 1}
+    shape = {"TILE": TILE, "LEVELS": LEVELS, "GRID": GRID, **RECORDS, "TILE_ITEMS": 1, "TILE_GROUP": 1, "TILE_TURNS": 1}
     shape |= {"LISTED": int(listed), "REACH": REACH, "TABLE_HALF": half, "MARGIN": half / 9.0}
     lines = [f"#define {name} {literal(value, precision, language)}" for name, value in shape.items()]
     return Section("generated: shape of tiles", "\n".join(lines))
