@@ -180,20 +180,16 @@ def test_a_bound_rounded_to_float32_is_one():
         table[0, 0, 0] = 0.0
 
 
-def test_the_remainders_factors_are_those_of_the_nodes():
-    nodes = [flint.fmpq(2 * k - 3, 3) for k in range(4)]
-    x = flint.fmpq_poly([0, 1])
-    weights = []
-    for node in nodes:
-        weight = flint.fmpq_poly([1])
-        for other in nodes:
-            weight *= (x - other) / (node - other) if other != node else 1
-        weights.append(weight)
-    middles = [flint.fmpq(k, 500) for k in range(-500, 501)]
-    largest = max(float(sum(abs(weight(m)) for weight in weights)) for m in middles)
-    assert largest <= fourths.LEBESGUE < 1.0001 * largest
-    product = max(float(abs((m - nodes[0]) * (m - nodes[1]) * (m - nodes[2]) * (m - nodes[3]))) for m in middles)
-    assert 0.9999 * fourths.REMAINDER < product / 24.0 <= fourths.REMAINDER
+@pytest.mark.parametrize("nodes", [fourths.NODES, (-1.0, -1.0 / 3.0, 1.0 / 3.0, 1.0), (-0.9, -0.1, 0.2, 1.0)])
+def test_what_is_said_of_interpolation_holds_and_is_near(nodes):
+    error, lebesgue = fourths.interpolation(nodes)
+    x = np.linspace(-1.0, 1.0, 20_001)
+    product, sizes = np.ones_like(x), np.zeros_like(x)
+    for k, node in enumerate(nodes):
+        product *= x - node
+        sizes += np.abs(np.prod([(x - other) / (node - other) for other in (*nodes[:k], *nodes[k + 1 :])], axis=0))
+    assert 1.0 < error / (np.abs(product).max() / 24.0) < 1.00001
+    assert 1.0 < lebesgue / sizes.max() < 1.00001
 
 
 def test_what_has_no_bound_is_refused():

@@ -57,9 +57,9 @@ def tiles_of(surface, seed, count):
 
 
 def places_of(rng, count):
-    """Return places in [-1, 1]²: half of them at random, half between nodes, where interpolation is farthest off."""
+    """Return places in [-1, 1]²: half of them at random, half where interpolation is farthest off."""
     places = rng.uniform(-1.0, 1.0, (count, 2))
-    places[: count // 2] = rng.choice([-1.0, -0.75, 0.0, 0.75, 1.0], (count // 2, 2))
+    places[: count // 2] = rng.choice([-1.0, -0.74, 0.0, 0.74, 1.0], (count // 2, 2))
     return places
 
 
@@ -88,7 +88,8 @@ def hidden(gap):
     """
     eye, half = 4.0, 0.05
     width = eye * half  # of half the tile there
-    wave = f"((x/{width!r})^2 - 1)*(9*(x/{width!r})^2 - 1)"
+    inner, outer = model.NODES[2:] * width
+    wave = f"((x/{outer})^2 - 1)*((x/{inner})^2 - 1)"
     surface = surfaces.from_formula(f"z^2 + {gap!r} - {wave}", "sphere:1")
     camera = np.array([[0.0, 0.0, -eye], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
     tile = model.Tile(surface, camera, (0.0, 0.0), (half, half))

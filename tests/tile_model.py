@@ -27,13 +27,13 @@ from surfaces.tape import walk
 
 BITS = 200
 DEPTHS = 6
-NODES = np.array([-1.0, -1.0 / 3.0, 1.0 / 3.0, 1.0])
+NODES = np.array(fourths.NODES)
 Floats = NDArray[np.float64]
 
 
 def weights(at: float) -> list[flint.arb]:
     """Return the weights of the four nodes in cubic interpolation at a place in [-1, 1]."""
-    nodes = [flint.arb(flint.fmpq(2 * k - 3, 3)) for k in range(4)]
+    nodes = [flint.arb(float(node)) for node in NODES]
     found = []
     for k, node in enumerate(nodes):
         weight = flint.arb(1)
@@ -81,8 +81,8 @@ class Tile:
 
     def nodes(self, start: float, stop: float) -> list[list[list[flint.arb]]]:
         """Return the Bernstein coefficients along the node rays, [row b][column a][coefficient]."""
-        thirds = [flint.arb(flint.fmpq(2 * k - 3, 3)) for k in range(4)]
-        return [[coefficients_on(self.polynomial(a, b), self.degree, start, stop) for a in thirds] for b in thirds]
+        places = [float(node) for node in NODES]
+        return [[coefficients_on(self.polynomial(a, b), self.degree, start, stop) for a in places] for b in places]
 
     def net(self, start: float, stop: float) -> Floats:
         """Return the control values of the interpolated coefficients: float64[degree + 1, 16]."""
@@ -111,8 +111,8 @@ class Tile:
         """Return the depths between which the tile's rays may be in a domain that is a sphere; equal if nowhere."""
         eye, forward, right, up = self.camera
         near, far = math.inf, -math.inf
-        for a in NODES:
-            for b in NODES:
+        for a in (-1.0, 0.0, 1.0):
+            for b in (-1.0, 0.0, 1.0):
                 way = forward + (self.middle[0] + self.half[0] * a) * right + (self.middle[1] + self.half[1] * b) * up
                 to = np.array(self.surface.domain.center) - eye
                 square, along = way @ way, to @ way
@@ -144,7 +144,8 @@ class Tile:
             i, j, k3 = np.clip((point + half_side) / side, 0, grid - 1).astype(int)
             largest = np.maximum(largest, until**4 * table[k3, j, i])
         a, b = (np.prod(row ** np.array([*fourths.POWERS, (0, 0, 0)]), axis=1) for row in across)
-        return float(fourths.REMAINDER * largest @ (a + fourths.LEBESGUE * b))
+        error, lebesgue = fourths.interpolation()
+        return float(error * largest @ (a + (lebesgue if self.degree >= 8 else 1.0) * b))
 
 
 def coefficients_on(polynomial: flint.arb_poly, degree: int, start: float, stop: float) -> list[flint.arb]:

@@ -19,18 +19,24 @@ precision. Its errors are at most ROUNDINGS unit roundoffs of the same sums with
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from functools import cache, lru_cache
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
+from numpy.polynomial import Polynomial
 from numpy.typing import NDArray
 
 from harness.contract import Box, Domain, FirsthitError, Surface
 
-LEBESGUE = 1.63114  # of cubic interpolation at -1, -1/3, 1/3 and 1: the largest sum of the nodes' weights
-REMAINDER = 2.0 / 243.0  # of cubic interpolation there, over the fourth derivative: see docs/tiles.md
+NODES = (
+    -0.9609375,
+    -0.3984375,
+    0.3984375,
+    0.9609375,
+)  # of cubic interpolation on [-1, 1], in both directions of a tile
 GRID = 32  # cells along the cube's side
 BEYOND = 1.0  # sides of a cell: how far its entries hold beyond it
 WIDER = Fraction(9, 8)  # half the cube's side over half the domain's
@@ -78,6 +84,31 @@ def fourth_bounds(surface: Surface, grid: int = GRID, beyond: float = BEYOND) ->
     table[..., :-1] = np.moveaxis(parts, 0, -1)
     table.setflags(write=False)
     return table
+
+
+def interpolation(nodes: Sequence[float] = NODES) -> tuple[float, float]:
+    """Return bounds of cubic interpolation on [-1, 1], at four nodes in ascending order.
+
+    The first is the largest error over the largest fourth derivative. The second, Lebesgue's constant, is the largest
+    interpolated value over the largest value at the nodes.
+    """
+    whole = Polynomial.fromroots(nodes)
+    weights = []
+    for k, node in enumerate(nodes):
+        others = Polynomial.fromroots([*nodes[:k], *nodes[k + 1 :]])
+        weights.append(others / others(node))
+    error = lebesgue = 0.0
+    for start, stop in pairwise((-1.0, *nodes, 1.0)):  # no weight changes its sign in one of these
+        sizes = sum((w * math.copysign(1.0, w((start + stop) / 2.0)) for w in weights), Polynomial([0.0]))
+        error = max(error, _largest(whole, start, stop) / 24.0)
+        lebesgue = max(lebesgue, _largest(sizes, start, stop))
+    return error * FLOAT32, lebesgue * FLOAT32
+
+
+def _largest(polynomial: Polynomial, start: float, stop: float) -> float:
+    """Return a polynomial's largest magnitude in an interval."""
+    turns = [z.real for z in polynomial.deriv().roots() if abs(z.imag) < 1e-6 and start < z.real < stop]
+    return max(abs(float(polynomial(x))) for x in (start, stop, *turns))
 
 
 def expanded(surface: Surface) -> Floats:
