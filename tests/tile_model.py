@@ -144,8 +144,8 @@ class Tile:
             i, j, k3 = np.clip((point + half_side) / side, 0, grid - 1).astype(int)
             largest = np.maximum(largest, until**4 * table[k3, j, i])
         a, b = (np.prod(row ** np.array([*fourths.POWERS, (0, 0, 0)]), axis=1) for row in across)
-        error, lebesgue = fourths.interpolation()
-        return float(error * largest @ (a + (lebesgue if self.degree >= 8 else 1.0) * b))
+        across_factor, down_factor = fourths.remainder_factors(self.degree)
+        return float(largest @ (across_factor * a + down_factor * b))
 
 
 def coefficients_on(polynomial: flint.arb_poly, degree: int, start: float, stop: float) -> list[flint.arb]:

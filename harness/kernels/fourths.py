@@ -26,7 +26,6 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from numpy.polynomial import Polynomial
 from numpy.typing import NDArray
 
 from harness.contract import Box, Domain, FirsthitError, Surface
@@ -86,29 +85,36 @@ def fourth_bounds(surface: Surface, grid: int = GRID, beyond: float = BEYOND) ->
     return table
 
 
-def interpolation(nodes: Sequence[float] = NODES) -> tuple[float, float]:
+def remainder_factors(degree: int) -> tuple[float, float]:
+    """Return factors a, b: on a tile, bicubic interpolation at NODES is off by at most a X + b Y.
+
+    X and Y are the largest fourth derivatives by the place in [-1, 1] across the tile and down it. `degree` is f's.
+    """
+    error, lebesgue = interpolation(NODES)
+    return error, error * (lebesgue if degree >= 8 else 1.0)  # see docs/tiles.md
+
+
+def interpolation(nodes: Sequence[float]) -> tuple[float, float]:
     """Return bounds of cubic interpolation on [-1, 1], at four nodes in ascending order.
 
     The first is the largest error over the largest fourth derivative. The second, Lebesgue's constant, is the largest
     interpolated value over the largest value at the nodes.
     """
-    whole = Polynomial.fromroots(nodes)
-    weights = []
-    for k, node in enumerate(nodes):
-        others = Polynomial.fromroots([*nodes[:k], *nodes[k + 1 :]])
-        weights.append(others / others(node))
+    whole = np.asarray(np.poly(nodes))
+    others = [np.asarray(np.poly([*nodes[:k], *nodes[k + 1 :]])) for k in range(4)]
+    weights = [other / np.polyval(other, node) for other, node in zip(others, nodes, strict=True)]
     error = lebesgue = 0.0
     for start, stop in pairwise((-1.0, *nodes, 1.0)):  # no weight changes its sign in one of these
-        sizes = sum((w * math.copysign(1.0, w((start + stop) / 2.0)) for w in weights), Polynomial([0.0]))
+        signs = [math.copysign(1.0, np.polyval(weight, (start + stop) / 2.0)) for weight in weights]
         error = max(error, _largest(whole, start, stop) / 24.0)
-        lebesgue = max(lebesgue, _largest(sizes, start, stop))
+        lebesgue = max(lebesgue, _largest(np.array(signs) @ np.array(weights), start, stop))
     return error * FLOAT32, lebesgue * FLOAT32
 
 
-def _largest(polynomial: Polynomial, start: float, stop: float) -> float:
-    """Return a polynomial's largest magnitude in an interval."""
-    turns = [z.real for z in polynomial.deriv().roots() if abs(z.imag) < 1e-6 and start < z.real < stop]
-    return max(abs(float(polynomial(x))) for x in (start, stop, *turns))
+def _largest(polynomial: Floats, start: float, stop: float) -> float:
+    """Return the largest magnitude of a polynomial in an interval; its highest coefficient is first."""
+    turns = [z.real for z in np.roots(np.polyder(polynomial)) if abs(z.imag) < 1e-6 and start < z.real < stop]
+    return max(abs(float(np.polyval(polynomial, x))) for x in (start, stop, *turns))
 
 
 def expanded(surface: Surface) -> Floats:
