@@ -32,12 +32,13 @@ from collections.abc import Callable, Sequence
 from fractions import Fraction
 from math import comb
 from pathlib import Path
-from typing import Literal
 
 from harness.contract import Box, Method, Precision, Program, Section, Surface, Variant
-from harness.kernels.fourths import GRID, half_side
+from harness.kernels.fourths import GRID, NODES, POWERS, half_side, interpolation, remainder_factors
 from harness.kernels.assemble import (
     Language,
+    Lanes,
+    TileStage,
     cast_sections,
     early_libraries,
     file_section,
@@ -49,14 +50,11 @@ from harness.kernels.assemble import (
     table_section,
 )
 
-Lanes = Literal["vector", "group", "own"]
-Stage = Literal["isolate", "finish", "packets", "rest"]
-STAGES: tuple[Stage, ...] = ("isolate", "finish", "packets", "rest")
+STAGES: tuple[TileStage, ...] = ("isolate", "finish", "packets", "rest")
 TILE = 16  # pixels along a side of the first level's tiles
 LEVELS = 2  # of tiles, each of half the side of the one before
 REACH = 1.125  # radius of the last ball of the bounds of rounding errors, in domain radii
 RECORDS = {"OPEN_RECORD": 4, "SINGLE_RECORD": 36, "QUEUE_RECORD": 2}  # reals, reals and int32 that lists have for a tile
-NODES = [Fraction(2 * k - 3, 3) for k in range(4)]  # of a tile's cubic interpolation in one direction
 Row = Sequence[Fraction]
 
 
@@ -67,7 +65,7 @@ def stage_program(
     surface: Surface,
     precision: Precision,
     language: Language,
-    stage: Stage,
+    stage: TileStage,
     listed: bool,
     rest: Path,
     lanes: Lanes | None = None,
@@ -98,12 +96,13 @@ def stage_program(
         sections += files(*_net_files(stage, form))
         domain = "box" if isinstance(surface.domain, Box) else "sphere"
         sections += [*_lane_tables(precision, language), *files(f"tiles/domain_{domain}.glsl")]
+        sections += [table_section("POWERS", [float(v) for b in POWERS for v in b], precision, language)]
         sections += method_sections(method, folder, variant, surface, precision, language)
     sections += files(f"tiles/entry_{stage}.{language}")
     return Program(language, precision, stage, tuple(sections))
 
 
-def _lane_sections(stage: Stage, precision: Precision, language: Language, lanes: Lanes) -> list[Section]:
+def _lane_sections(stage: TileStage, precision: Precision, language: Language, lanes: Lanes) -> list[Section]:
     """Return the operations on lanes, the buffers, and what a stage reads and writes."""
     if lanes == "vector":
         head = (f"tiles/lanes_{precision}.{language}", f"tiles/lanes.{language}", "tiles/wide.glsl")
@@ -115,7 +114,7 @@ def _lane_sections(stage: Stage, precision: Precision, language: Language, lanes
     return files(*first, "tiles/lanes_one.glsl", "tiles/wide.glsl", *work)
 
 
-def _net_files(stage: Stage, lanes: Lanes) -> list[str]:
+def _net_files(stage: TileStage, lanes: Lanes) -> list[str]:
     """Return the files on what isolation keeps of a tile's polynomials."""
     if lanes == "vector":
         return ["tiles/nets_shared.glsl"]
@@ -124,13 +123,13 @@ def _net_files(stage: Stage, lanes: Lanes) -> list[str]:
     return ["tiles/nets_own.glsl", "tiles/tiles_own.glsl"]
 
 
-def _exchanges(stage: Stage, lanes: Lanes) -> bool:
+def _exchanges(stage: TileStage, lanes: Lanes) -> bool:
     """Tell whether a stage's work items exchange numbers."""
     return lanes == "group" and stage == "isolate"
 
 
 def _shape(
-    surface: Surface, precision: Precision, language: Language, listed: bool, stage: Stage, lanes: Lanes
+    surface: Surface, precision: Precision, language: Language, listed: bool, stage: TileStage, lanes: Lanes
 ) -> Section:
     """Return the constants that the host and all stages share.
 
@@ -139,7 +138,9 @@ def _shape(
     a work group. A step needs TILE_ITEMS for each TILE_TURNS of its tiles: where a program's text costs the same however
     few of a vector's work items have a tile, each takes several.
     """
+    assert surface.degree is not None
     half = half_side(surface.domain)
+    error_x, error_y = remainder_factors(surface.degree)
     one = lanes != "vector"
     items = 16 if one and stage in ("finish", "packets") or _exchanges(stage, lanes) else 1
     group = 64 if stage == "rest" else 1 if not one else 16 if _exchanges(stage, lanes) else 8 if items == 1 else 64
@@ -147,6 +148,7 @@ def _shape(
     shape["TILE_TURNS"] = 8 if lanes == "own" else 1
     shape["OPEN_TILES"] = int(lanes == "own")
     shape |= {"LISTED": int(listed), "REACH": REACH, "TABLE_HALF": half, "MARGIN": half / 9.0}
+    shape |= {"REMAINDER_X": error_x, "REMAINDER_Y": error_y, "LEBESGUE": interpolation(NODES)[1]}
     lines = [f"#define {name} {literal(value, precision, language)}" for name, value in shape.items()]
     return Section("generated: shape of tiles", "\n".join(lines))
 
@@ -168,11 +170,12 @@ def _lane_tables(precision: Precision, language: Language) -> list[Section]:
     """Return the tables by which TRANSFORM works: six or eight rows of sixteen numbers, one for each lane.
 
     Lane k is node (k & 3, k >> 2). Row number i of one direction has each lane's factor of the lane whose index in that
-    direction differs by the bits i. LANE_X, LANE_Y: each lane's own indices.
+    direction differs by the bits i. LANE_X, LANE_Y: each lane's own indices. NODE_X, NODE_Y: its node's place.
     """
     lanes = [(k & 3, k >> 2) for k in range(16)]
     made = {"LANE_X": [float(x) for x, _ in lanes], "LANE_Y": [float(y) for _, y in lanes]}
-    for name, matrix in (("TO_CONTROL", to_control()), ("TO_NODES", to_nodes()), ("TO_POWERS", to_powers())):
+    made |= {"NODE_X": [NODES[x] for x, _ in lanes], "NODE_Y": [NODES[y] for _, y in lanes]}
+    for name, matrix in (("TO_CONTROL", to_control()), ("TO_POWERS", to_powers())):
         across = [float(matrix[x][x ^ i]) for i in range(4) for x, _ in lanes]
         down = [float(matrix[y][y ^ i]) for i in range(4) for _, y in lanes]
         made[name] = across + down
@@ -181,7 +184,7 @@ def _lane_tables(precision: Precision, language: Language) -> list[Section]:
 
 def to_nodes() -> list[Row]:
     """Return the matrix that turns cubic Bernstein coefficients on [-1, 1] into values at NODES."""
-    return [[comb(3, j) * ((1 + x) / 2) ** j * ((1 - x) / 2) ** (3 - j) for j in range(4)] for x in NODES]
+    return [[comb(3, j) * ((1 + x) / 2) ** j * ((1 - x) / 2) ** (3 - j) for j in range(4)] for x in map(Fraction, NODES)]
 
 
 def to_control() -> list[Row]:
@@ -191,7 +194,7 @@ def to_control() -> list[Row]:
 
 def to_powers() -> list[Row]:
     """Return the matrix that turns values at NODES into the coefficients of 1, x, x², x³."""
-    return _inverse([[x**j for j in range(4)] for x in NODES])
+    return _inverse([[x**j for j in range(4)] for x in map(Fraction, NODES)])
 
 
 def _inverse(matrix: Sequence[Row]) -> list[Row]:
@@ -301,7 +304,7 @@ def _own_net(n: int, number: Callable[[float], str]) -> list[tuple[str, list[str
         ("KEEP_LANE(net, c)", [f"net.v[{16 * j} + work.lane] = c.k{j};" for j in ks]),
         ("FIND_SPREAD(net, spread_)", spread),
         ("CONTROL(net)", control),
-        ("POWERS(lanes)", _mixed("lanes", 0, to_powers(), number, differences=False)),
+        ("TO_CUBIC(lanes)", _mixed("lanes", 0, to_powers(), number, differences=False)),
         ("BUNDLED(net, b)", bundled),
         ("HALVE_FALL(near, far)", [*fall, f"far.k{n} = real(0);"]),
     ]

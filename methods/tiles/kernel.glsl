@@ -6,8 +6,8 @@
 #define SHELLS 16  // sizes of the tables VALUE_ERRORS and GROWTH
 #define DEPTHS 6
 #define WIDER 0.03125          // pixels by which the nodes' square is larger on each side than the pixels' middles
-#define REMAINDER 0.02165      // 16/81 / 24 (1 + 1.6312): of bicubic interpolation at 4 by 4 nodes, see method.py
-#define LEBESGUE 2.6608        // largest sum of the magnitudes of the nodes' weights, 1.6312^2
+#define RIM 0.0390625          // from the outermost nodes to the square's sides, in half sides: 5/128
+#define GAP 0.3984375          // half the distance between the inner nodes: 51/128
 #define BALLAST 7.0            // worst rounding error of TRANSFORM in unit roundoffs of the largest coefficient,
 #define MIXING 220.0           // and of the largest difference of two lanes
 #define THIRD 0.3333333432674407958984375
@@ -73,10 +73,10 @@ wide squared_distance(WideVec3 a, WideVec3 b) {
 }
 
 // Returns each lane's node ray, its depth less frame.middle as parameter. The tile's middle ray is (x, y), and `reach`
-// the distance of the outermost nodes from it.
+// is half the side of the nodes' square.
 WideRay node_ray(Work work, Frame frame, real x, real y, real reach) {
-    wide nx = x + (reach / 3.0) * (2.0 * lane_row(LANE_X, 0) - 3.0);
-    wide ny = y - (reach / 3.0) * (2.0 * lane_row(LANE_Y, 0) - 3.0);
+    wide nx = x + reach * lane_row(NODE_X, 0);
+    wide ny = y - reach * lane_row(NODE_Y, 0);
     wide mx = frame.middle * nx;
     wide my = frame.middle * ny;
     WideRay ray;
@@ -104,16 +104,41 @@ real remainder_between(Work work, Frame frame, Ray middle, real half_side, real 
     int steps = 1 + int(cells * max(fabs(way.x), max(fabs(way.y), fabs(way.z))));
     real share = 1.0 / real(steps);
     real bound = 0.0;
+    int table = bounds_at(work);
     for (int k = 0; k <= steps; k++) {
         vec3 p = moved(a, share * real(k), way);
         int z = cell_of(cells * p.z + 0.5 * real(GRID));
         int y = cell_of(cells * p.y + 0.5 * real(GRID));
         int x = cell_of(cells * p.x + 0.5 * real(GRID));
         real until = min(start + share * (real(k) + 0.5) * (stop - start), stop);
-        real side = half_side * frame.pixel * (frame.middle + until);
-        bound = max(bound, (side * side) * (side * side) * fourth_at(work, (z * GRID + y) * GRID + x));
+        real side = half_side * (frame.middle + until);
+        bound = max(bound, (side * side) * (side * side) * entry_at(work, table + (z * GRID + y) * GRID + x));
     }
-    return REMAINDER * bound;
+    return bound;
+}
+
+// Contracts the table of f's fourth derivatives for the frame: a cell's bound is that of the interpolation's error on a
+// tile whose half side is a pixel at depth 1. Each of `items` work items takes every so many cells.
+void contract_bounds(Work work, vec3 right, vec3 up, int item, int items) {
+    real weights[16];
+    real pixel = 1.0 / real(work.size);
+    for (int a = 0; a < 15; a++) {
+        real across = REMAINDER_X;
+        real down = REMAINDER_Y;
+        for (int k = 0; k < 4; k++) {
+            bool x = real(k) < POWERS[3 * a];
+            bool y = !x && real(k) < POWERS[3 * a] + POWERS[3 * a + 1];
+            across = across * 2.0 * pixel * fabs(x ? right.x : (y ? right.y : right.z));
+            down = down * 2.0 * pixel * fabs(x ? up.x : (y ? up.y : up.z));
+        }
+        weights[a] = across + down;
+    }
+    int table = bounds_at(work);
+    for (int cell = item; cell < GRID * GRID * GRID; cell += items) {
+        real bound = 0.0;
+        for (int a = 0; a < 15; a++) bound += weights[a] * fourth_at(work, 16 * cell + a);
+        enter(work, table + cell, bound);
+    }
 }
 
 int single_bits(int above, int below) {
@@ -158,8 +183,11 @@ void isolate_tiles(Work work, Frame frame) {
     int above = tiles_before(work.size, 2 * work.tile);
     real half_side = 0.5 * real(work.tile - 1) + WIDER;
     // a ray is at most this far from the nearest node's ray: half a diagonal of the net
-    real inflate = 1.001 * (half_side / 3.0) * frame.diagonal * frame.far + 64.0 * UNIT_ROUNDOFF * DOMAIN_RADIUS;
+    real rounding = 64.0 * UNIT_ROUNDOFF * DOMAIN_RADIUS;
+    real inflate = 1.0009765625 * GAP * half_side * frame.diagonal * frame.far + rounding;
+    real rim = 1.0009765625 * RIM * half_side * frame.diagonal * frame.far + rounding;
     real cells = real(GRID) / (2.0 * TABLE_HALF);
+    // the table's bounds hold one cell beyond a cell, and a step along the middle ray leaves half of that
     bool coarse = half_side * frame.diagonal * frame.far * cells > 0.484375;
     real least_width = SHORTEST * real(work.tile) * frame.pixel * frame.far;
     Rows to_control;
@@ -231,7 +259,7 @@ void isolate_tiles(Work work, Frame frame) {
                 WideRay node = node_ray(work, frame, middle_x, middle_y, nodes);
                 WideVec3 front = wide_point(node.origin, wide(start), node.direction);
                 WideVec3 back = wide_point(node.origin, wide(stop), node.direction);
-                bool here = all_lanes(BOTH(inside(front, MARGIN), inside(back, MARGIN)));
+                bool here = all_lanes(BOTH(inside(front, MARGIN - rim), inside(back, MARGIN - rim)));
                 in_table = in_table && here;
                 squared = max(squared, most(squared_distance(front, back)));
             }
@@ -239,7 +267,6 @@ void isolate_tiles(Work work, Frame frame) {
             depth = 0;
             path = 1;
             if (inner == SEARCHING) {
-                real largest = 0.0;
                 real weighted = 0.0;
                 EACH_LANE {
                     WideRay node = node_ray(work, frame, middle_x, middle_y, nodes);
@@ -247,7 +274,6 @@ void isolate_tiles(Work work, Frame frame) {
                     if (FIRST_TURN) negative = first_lane_number(FIRST(s)) < 0.0;
                     if (negative) SCALE(s, -1.0)
                     FIT(s, c)
-                    largest = max(largest, most(LARGEST(c)));
                     weighted = max(weighted, most(WEIGHTED(s)));
                     KEEP_LANE(net, c)
                 }
@@ -255,14 +281,14 @@ void isolate_tiles(Work work, Frame frame) {
                 spent += 16 * (N + 1);
                 real spread = 0.0;
                 FIND_SPREAD(net, spread)
-                Errors errors;
-                errors.unit = TRUST * UNIT_ROUNDOFF * largest;
-                errors.off = LEBESGUE * rounding_of_samples(sqrt(squared))
-                             + remainder_between(work, frame, middle, half_side, start, stop);
-                errors.noise = LEBESGUE * 2.0 * TRUST * UNIT_ROUNDOFF * real(N / 2 + 6) * weighted
-                               + BALLAST * errors.unit + MIXING * TRUST * UNIT_ROUNDOFF * 2.0 * spread;
                 CONTROL(net)
                 BUNDLED(net, bundle)
+                Errors errors;
+                errors.unit = TRUST * UNIT_ROUNDOFF * LARGEST_IN(bundle);
+                errors.off = LEBESGUE * LEBESGUE * rounding_of_samples(sqrt(squared) + rim)
+                             + remainder_between(work, frame, middle, half_side, start, stop);
+                errors.noise = TRUST * UNIT_ROUNDOFF * (2.0 * LEBESGUE * LEBESGUE * real(N / 2 + 6) * weighted
+                                                        + MIXING * 2.0 * spread) + BALLAST * errors.unit;
                 while (inner == SEARCHING) {
                     real error = error_at(errors, depth);
                     all_pieces += 1;
@@ -320,8 +346,7 @@ void isolate_tiles(Work work, Frame frame) {
                 WideRay node = node_ray(work, frame, middle_x, middle_y, nodes);
                 WideVec3 front = wide_point(node.origin, wide(start), node.direction);
                 WideVec3 back = wide_point(node.origin, wide(stop), node.direction);
-                real less = -64.0 * UNIT_ROUNDOFF * DOMAIN_RADIUS;
-                bool here = all_lanes(BOTH(inside(front, less), inside(back, less)));
+                bool here = all_lanes(BOTH(inside(front, -rim), inside(back, -rim)));
                 whole = whole && here;
                 SAMPLE(s, node.origin, node.direction, start, width)
                 if (negative) SCALE(s, -1.0)
@@ -334,8 +359,8 @@ void isolate_tiles(Work work, Frame frame) {
                 KEEP_NUMBER(roots, root)
                 KEEP_NUMBER(slopes, slope)
             }
-            POWERS(roots)
-            POWERS(slopes)
+            TO_CUBIC(roots)
+            TO_CUBIC(slopes)
             list_single(work, cell, roots, slopes, start, stop, whole, share);
         }
         if (verdict == OPEN) {
