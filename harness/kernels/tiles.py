@@ -34,10 +34,9 @@ from math import comb
 from pathlib import Path
 from typing import Literal
 
-from harness.contract import Box, Method, Precision, Program, Section, Surface, Variant
+from harness.contract import Box, Language, Method, Precision, Program, Section, Surface, Variant
 from harness.kernels.fourths import GRID, half_side
-from harness.kernels.assemble import (
-    Language,
+from harness.kernels.sections import (
     cast_sections,
     early_libraries,
     file_section,
