@@ -3,17 +3,19 @@
 The stages here are a stand-in's (tile_stand_in), which isolate nothing: Newton's method casts each pixel.
 """
 
+import dataclasses
 from functools import cache
 
 import numpy as np
 import pytest
 
 import surfaces
-from harness.contract import View
+from harness.contract import RayStatus, View
 from harness.devices.interface import hits_from, launch_camera, launch_rays
 from harness.devices.messages import FirstRun
 from harness.devices.tiles import TileCheck, TileFrame, tile_hits_from
-from harness.experiment.kinds.tiles import checked_over, frame_of
+from harness.experiment.kinds.tiles import TileMethods, checked_over, frame_of
+from harness.hardcases import groups
 from harness.kernels.assemble import method_program
 from harness.plugins import find_methods
 from harness.scenes.camera import camera_for, rays_of
@@ -105,3 +107,34 @@ def test_the_grids_rays_go_through_middles_of_the_checks_pixels(side, samples):
     apart = rays_of(moved, size)[pixels, 3:].astype(float) - rays_of(camera, side)[:, 3:]
     width = 2 * np.linalg.norm(camera[6:9]) / size
     assert np.abs(apart).max() < 1e-5 * width + 2e-7
+
+
+def pictures(device, rays, edit=lambda program: program):
+    """The hits of rays in the middles of small frames, by the stand-in with its programs changed."""
+    programs, _ = frames(device.info.name, "float32", True)
+    programs = tuple(edit(program) for program in programs)
+    check = TileMethods().hard_check(programs, TORUS, rays)
+    return check.run(device, [device.build(program) for program in check.programs])
+
+
+def test_a_hard_ray_is_cast_in_the_middle_of_a_small_frame_as_it_is_when_listed(device):
+    (group,) = groups.groups("origin_inside")
+    rays = np.concatenate([group.rays[::101], groups.groups("grazing")[0].rays[::101]])
+    expected = hits_from(outputs_of(launch_rays(*alone(device.info.name, "float32", "rays"), rays)))
+    assert same(pictures(device, rays), expected)
+
+
+def test_a_pixel_that_no_stage_answers_has_no_answer_in_any_small_frame(device):
+    def idle(program):
+        """Let `finish` do nothing."""
+        sections = [
+            dataclasses.replace(
+                s, text=s.text.replace("while (e < counts[2 + level]", "while (e < 0 * counts[2 + level]")
+            )
+            for s in program.sections
+        ]
+        return dataclasses.replace(program, sections=tuple(sections))
+
+    rays = rays_of(camera_for(VIEW, TORUS), 5)[11:14]  # each is in a frame's first tile, which is single
+    assert (pictures(device, rays, idle).status == RayStatus.INVALID).all()
+    assert (pictures(device, rays).status != RayStatus.INVALID).all()

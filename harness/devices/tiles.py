@@ -22,15 +22,28 @@ import numpy as np
 from numpy.typing import NDArray
 
 from harness.contract import Hits, Program, RayStatus
-from harness.devices.interface import Array, Built, Device, Launch, Reserved, Step, real_type, unpacked
-from harness.devices.messages import FirstRun, Frame, HitsCheck
+from harness.devices.interface import (
+    Array,
+    Built,
+    Device,
+    Launch,
+    Reserved,
+    Step,
+    StepLaunch,
+    real_type,
+    same_values,
+    unpacked,
+)
+from harness.devices.messages import Check, FirstRun, Frame, HitsCheck, need_steady
 from harness.devices.quadtree import ITEMS_PER_UNIT, MOST_ITEMS, UNITS
-from harness.kernels.assemble import TileStage
+from harness.kernels.sections import TileStage
 
+T, ANSWER = 1, 2  # places of outputs among BUFFERS
+NO_ANSWER = -1  # what a pixel reads as that no stage answers, or not validly
 COUNTS = 64  # counters
 GROUPS_PER_UNIT = 32  # work groups that take tiles, for each compute unit of a processor
 MOST_GROUPS = 2**15  # of any step; OpenGL promises 65535
-BUFFERS = tuple(range(8))  # camera, t, answer, queue, counts, entries, fourths, rays: of each step
+BUFFERS = (0, 1, 2, 3, 4, 5, 6, 7)  # camera, t, answer, queue, counts, entries, fourths, rays: of each step
 TILE_STAGES = get_args(TileStage)
 UNREAD = np.zeros(6, np.float32)  # what a frame has in the place of listed rays
 
@@ -46,6 +59,7 @@ class Plan:
     kept: reals in the entries for each tile, beside one for each pixel
     items: work items that share a tile
     group: work items of a work group that takes tiles
+    turns: tiles that the work items of one are to take one after the other, where nothing else limits their number
     """
 
     side: int
@@ -55,6 +69,7 @@ class Plan:
     kept: int
     items: int
     group: int
+    turns: int
 
     @property
     def sides(self) -> list[int]:
@@ -76,7 +91,7 @@ def plan_of(program: Program) -> Plan:
 
     kept = told("OPEN_RECORD") + told("SINGLE_RECORD")
     shape = told("TILE"), told("LEVELS"), told("GRID")
-    return Plan(*shape, told("QUEUE_RECORD"), kept, told("TILE_ITEMS"), told("TILE_GROUP"))
+    return Plan(*shape, told("QUEUE_RECORD"), kept, told("TILE_ITEMS"), told("TILE_GROUP"), told("TILE_TURNS"))
 
 
 def tiles(size: int, side: int) -> int:
@@ -95,7 +110,8 @@ def tile_steps(device: Device, plan: Plan, built: Sequence[Built], size: int, ra
 
     def step(program: Built, tile: int, level: int) -> Step:
         numbers = {"size": size, "tile": tile, "level": level, "ratio": ratio}
-        return Step(program, BUFFERS, (min(plan.items * tiles(size, tile), most), 1), numbers, plan.group)
+        items = -(-plan.items * tiles(size, tile) // plan.turns)
+        return Step(program, BUFFERS, (min(items, most), 1), numbers, plan.group)
 
     by_level = list(enumerate(plan.sides))
     last = plan.sides[-1]
@@ -114,7 +130,7 @@ class TileFrame(Frame):
     stages: the programs isolate, finish, packets and rest
     camera: float32[12] (eye, forward, right, up); forward may be moved aside by less than a pixel
     size: pixels per side
-    fourths: bounds of f's fourth derivatives, [grid, grid, grid] as the plan says
+    fourths: bounds of f's fourth derivatives, as harness.kernels.fourths makes them; [0] if the plan has no grid
     """
 
     stages: tuple[Program, Program, Program, Program]
@@ -137,7 +153,7 @@ class TileAnswer:
     hits: [n], t along the listed rays
     stages: uint8[n], the number in Plan.stages of what answered each pixel
     evaluations: mean and largest number over the frame's pixels, as Hits.spent returns them
-    shares: of the frame's pixels that each stage answered, by the stage's name
+    shares: of the frame's answered pixels that each stage answered, by the stage's name; all 0 if none is answered
     """
 
     hits: Hits
@@ -183,14 +199,52 @@ class TileCheck(HitsCheck[TileAnswer]):
         _, stages = tile_hits_from(first.outputs)
         names = plan_of(self.frame.stages[0]).stages
         counts = np.bincount(stages[hits.status != RayStatus.INVALID], minlength=len(names))
-        shares = {name: float(counts[stage]) / len(stages) for stage, name in enumerate(names)}
+        shares = {name: float(counts[stage] / max(1, counts.sum())) for stage, name in enumerate(names)}
         picked = Hits(hits.t[pixels], hits.status[pixels], hits.evaluations[pixels])
         return TileAnswer(picked, stages[pixels], hits.spent, shares)
 
 
+@dataclass(frozen=True, eq=False)
+class TilePictures(Check[Hits]):
+    """State a check that casts listed rays, each in the middle of a small frame of its own, one after the other.
+
+    frame: of programs that take listed rays; it has an odd number of pixels a side, and its camera is not looked at
+    rays: float32[n, 6]
+    cameras: float32[n, 12], of each ray's frame, whose middle the ray goes through
+    """
+
+    frame: TileFrame
+    rays: NDArray[np.float32]
+    cameras: NDArray[np.float32]
+
+    @property
+    def programs(self) -> tuple[Program, ...]:
+        return self.frame.stages
+
+    def run(self, device: Device, built: Sequence[Built]) -> Hits:
+        launch = launch_tiles(device, self.frame, built, np.zeros(6, np.float32), self.frame.size)
+        first, again = (self._cast(launch) for _ in range(2))
+        launch.release()
+        same = [same_values(values, getattr(again, name)) for name, values in vars(first).items()]
+        need_steady(~np.logical_and.reduce(same), "rays")
+        return first
+
+    def _cast(self, launch: StepLaunch) -> Hits:
+        """Cast each ray, and return its hit: [n]."""
+        blank, hits = np.full(self.frame.size**2, NO_ANSWER, np.int32), list[Hits]()
+        for camera, ray in zip(self.cameras, self.rays, strict=True):
+            launch.write(BUFFERS[0], camera)
+            launch.write(ANSWER, blank)
+            launch.write(BUFFERS[-1], ray)
+            launch.run()
+            hits.append(tile_hits_from(launch.read())[0])
+        middle = len(blank) // 2
+        return Hits(*(np.array([getattr(one, name)[middle] for one in hits]) for name in vars(hits[0])))
+
+
 def launch_tiles(
     device: Device, frame: TileFrame, built: Sequence[Built], rays: NDArray[np.float32], ratio: int
-) -> Launch:
+) -> StepLaunch:
     """Launch a frame whose programs are `built`. Outputs: t and answer of each pixel, for tile_hits_from.
 
     rays, ratio: as in TileCheck, where the programs take listed rays. A pixel that no stage answers then reads as one
@@ -202,14 +256,14 @@ def launch_tiles(
     buffers: list[Array | Reserved] = [
         np.ascontiguousarray(frame.camera, np.float32),
         Reserved(2 * pixels if listed else pixels, real),
-        Reserved(pixels, np.int32, fill=-1 if listed else None),
+        Reserved(pixels, np.int32, fill=NO_ANSWER if listed else None),
         Reserved(plan.queued * covering + pixels, np.int32),
         Reserved(COUNTS, np.int32),
         Reserved(plan.kept * covering + pixels, real),
-        np.ascontiguousarray(frame.fourths, real) if plan.grid else np.zeros(1, real),
+        np.ascontiguousarray(frame.fourths, real).ravel() if plan.grid else np.zeros(1, real),
         rays,
     ]
-    return device.launch_steps(buffers, (1, 2), tile_steps(device, plan, built, frame.size, ratio))
+    return device.launch_steps(buffers, (T, ANSWER), tile_steps(device, plan, built, frame.size, ratio))
 
 
 def tile_hits_from(outputs: Sequence[Array]) -> tuple[Hits, NDArray[np.uint8]]:
