@@ -94,14 +94,15 @@ int cell_of(real place) {
 }
 
 // Bounds the remainder of the tile's interpolation between two depths, from the bounds of fourth derivatives that are
-// looked up along the tile's middle ray, `half_side` pixels from the tile's sides. Each number holds for its cell's
-// neighbours too, so that steps of one cell leave none out.
-real remainder_between(Work work, Frame frame, Ray middle, real half_side, real start, real stop) {
+// looked up along the tile's middle ray, `half_side` pixels from the tile's sides. A cell's bound holds one cell beyond
+// it. So if the tile's rays are `aside` cells from the middle one, steps of 2 (1 - aside) cells leave nothing out.
+real remainder_between(Work work, Frame frame, Ray middle, real half_side, real aside, real start, real stop) {
     real cells = real(GRID) / (2.0 * TABLE_HALF);
     vec3 a = difference(ray_point(middle, start), DOMAIN_CENTER);
     vec3 b = difference(ray_point(middle, stop), DOMAIN_CENTER);
     vec3 way = difference(b, a);
-    int steps = 1 + int(cells * max(fabs(way.x), max(fabs(way.y), fabs(way.z))));
+    real most_way = max(fabs(way.x), max(fabs(way.y), fabs(way.z)));
+    int steps = 1 + int(cells * most_way / (2.0 * (0.9990234375 - aside)));
     real share = 1.0 / real(steps);
     real bound = 0.0;
     int table = bounds_at(work);
@@ -187,8 +188,8 @@ void isolate_tiles(Work work, Frame frame) {
     real inflate = 1.0009765625 * GAP * half_side * frame.diagonal * frame.far + rounding;
     real rim = 1.0009765625 * RIM * half_side * frame.diagonal * frame.far + rounding;
     real cells = real(GRID) / (2.0 * TABLE_HALF);
-    // the table's bounds hold one cell beyond a cell, and a step along the middle ray leaves half of that
-    bool coarse = half_side * frame.diagonal * frame.far * cells > 0.484375;
+    real aside = half_side * frame.diagonal * frame.far * cells;
+    bool coarse = aside > 0.75;
     real least_width = SHORTEST * real(work.tile) * frame.pixel * frame.far;
     Rows to_control;
     Rows to_powers;
@@ -286,7 +287,7 @@ void isolate_tiles(Work work, Frame frame) {
                 Errors errors;
                 errors.unit = TRUST * UNIT_ROUNDOFF * LARGEST_IN(bundle);
                 errors.off = LEBESGUE * LEBESGUE * rounding_of_samples(sqrt(squared) + rim)
-                             + remainder_between(work, frame, middle, half_side, start, stop);
+                             + remainder_between(work, frame, middle, half_side, aside, start, stop);
                 errors.noise = TRUST * UNIT_ROUNDOFF * (2.0 * LEBESGUE * LEBESGUE * real(N / 2 + 6) * weighted
                                                         + MIXING * 2.0 * spread) + BALLAST * errors.unit;
                 while (inner == SEARCHING) {
@@ -607,6 +608,7 @@ void cast_packets(Work work, Frame frame) {
         Poly q;
         CONSTANT(q, wide(0.0))
         int fits = 0;
+        real open_width = 0.0;
         while (any_lane(waiting) && start < end) {
             real reach = stop - start;
             WideVec3 front = wide_point(o, start, d);
@@ -650,6 +652,7 @@ void cast_packets(Work work, Frame frame) {
                         unsure = BOTH(unsure, NOT(one));
                     }
                     if (depth == TRUSTED) {
+                        open_width = width;
                         open_from = CHOOSE(unsure, wide(from), open_from);
                         opened = EITHER(opened, unsure);
                         waiting = BOTH(waiting, NOT(unsure));
@@ -676,6 +679,13 @@ void cast_packets(Work work, Frame frame) {
             }
             start = stop;
             stop = end;
+            // what is open is fitted anew, on a shorter piece
+            if (any_lane(opened) && open_width > 0.0 && fits < PACKET_FITS) {
+                waiting = EITHER(waiting, opened);
+                start = least(CHOOSE(opened, open_from, wide(end)));
+                stop = min(start + WIDENING * open_width, end);
+                opened = NOWHERE;
+            }
         }
         all_fits += fits;
         int evaluations = fits * (N + 1);
