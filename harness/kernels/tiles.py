@@ -32,11 +32,12 @@ from collections.abc import Callable, Sequence
 from fractions import Fraction
 from math import comb
 from pathlib import Path
-from typing import Literal
 
 from harness.contract import Box, Language, Method, Precision, Program, Section, Surface, Variant
-from harness.kernels.fourths import GRID, half_side
+from harness.kernels.fourths import GRID, NODES, POWERS, half_side, interpolation, remainder_factors
 from harness.kernels.sections import (
+    Lanes,
+    TileStage,
     cast_sections,
     early_libraries,
     file_section,
@@ -48,13 +49,11 @@ from harness.kernels.sections import (
     table_section,
 )
 
-Stage = Literal["isolate", "finish", "packets", "rest"]
-STAGES: tuple[Stage, ...] = ("isolate", "finish", "packets", "rest")
+STAGES: tuple[TileStage, ...] = ("isolate", "finish", "packets", "rest")
 TILE = 16  # pixels along a side of the first level's tiles
 LEVELS = 2  # of tiles, each of half the side of the one before
 REACH = 1.125  # radius of the last ball of the bounds of rounding errors, in domain radii
 RECORDS = {"OPEN_RECORD": 4, "SINGLE_RECORD": 36, "QUEUE_RECORD": 2}  # reals, reals and int32 that lists have for a tile
-NODES = [Fraction(2 * k - 3, 3) for k in range(4)]  # of a tile's cubic interpolation in one direction
 Row = Sequence[Fraction]
 
 
@@ -65,9 +64,10 @@ def stage_program(
     surface: Surface,
     precision: Precision,
     language: Language,
-    stage: Stage,
+    stage: TileStage,
     listed: bool,
     rest: Path,
+    lanes: str = "vector",
 ) -> Program:
     """Return the program of one stage. Its entry is named as the stage.
 
@@ -89,6 +89,7 @@ def stage_program(
         sections += [wide_value(surface, precision, language), macros(surface, precision, language)]
         domain = "box" if isinstance(surface.domain, Box) else "sphere"
         sections += [*_lane_tables(precision, language), *files(f"tiles/domain_{domain}.glsl")]
+        sections += [table_section("POWERS", [float(v) for b in POWERS for v in b], precision, language)]
         sections += method_sections(method, folder, variant, surface, precision, language)
     sections += files(f"tiles/entry_{stage}.{language}")
     return Program(language, precision, stage, tuple(sections))
@@ -101,9 +102,12 @@ def _shape(surface: Surface, precision: Precision, language: Language, listed: b
     are out of the domain by more than MARGIN have no bounds. TILE_ITEMS work items share a tile, and TILE_GROUP are in
     a work group.
     """
+    assert surface.degree is not None
     half = half_side(surface.domain)
-    shape = {"TILE": TILE, "LEVELS": LEVELS, "GRID": GRID, **RECORDS, "TILE_ITEMS": 1, "TILE_GROUP": 1}
+    error_x, error_y = remainder_factors(surface.degree)
+    shape = {"TILE": TILE, "LEVELS": LEVELS, "GRID": GRID, **RECORDS, "TILE_ITEMS": 1, "TILE_GROUP": 1, "TILE_TURNS": 1}
     shape |= {"LISTED": int(listed), "REACH": REACH, "TABLE_HALF": half, "MARGIN": half / 9.0}
+    shape |= {"REMAINDER_X": error_x, "REMAINDER_Y": error_y, "LEBESGUE": interpolation(NODES)[1]}
     lines = [f"#define {name} {literal(value, precision, language)}" for name, value in shape.items()]
     return Section("generated: shape of tiles", "\n".join(lines))
 
@@ -125,10 +129,11 @@ def _lane_tables(precision: Precision, language: Language) -> list[Section]:
     """Return the tables by which TRANSFORM works: six or eight rows of sixteen numbers, one for each lane.
 
     Lane k is node (k & 3, k >> 2). Row number i of one direction has each lane's factor of the lane whose index in that
-    direction differs by the bits i. LANE_X, LANE_Y: each lane's own indices.
+    direction differs by the bits i. LANE_X, LANE_Y: each lane's own indices. NODE_X, NODE_Y: its node's place.
     """
     lanes = [(k & 3, k >> 2) for k in range(16)]
     made = {"LANE_X": [float(x) for x, _ in lanes], "LANE_Y": [float(y) for _, y in lanes]}
+    made |= {"NODE_X": [NODES[x] for x, _ in lanes], "NODE_Y": [NODES[y] for _, y in lanes]}
     for name, matrix in (("TO_CONTROL", to_control()), ("TO_NODES", to_nodes()), ("TO_POWERS", to_powers())):
         across = [float(matrix[x][x ^ i]) for i in range(4) for x, _ in lanes]
         down = [float(matrix[y][y ^ i]) for i in range(4) for _, y in lanes]
@@ -138,7 +143,7 @@ def _lane_tables(precision: Precision, language: Language) -> list[Section]:
 
 def to_nodes() -> list[Row]:
     """Return the matrix that turns cubic Bernstein coefficients on [-1, 1] into values at NODES."""
-    return [[comb(3, j) * ((1 + x) / 2) ** j * ((1 - x) / 2) ** (3 - j) for j in range(4)] for x in NODES]
+    return [[comb(3, j) * ((1 + x) / 2) ** j * ((1 - x) / 2) ** (3 - j) for j in range(4)] for x in map(Fraction, NODES)]
 
 
 def to_control() -> list[Row]:
@@ -148,7 +153,7 @@ def to_control() -> list[Row]:
 
 def to_powers() -> list[Row]:
     """Return the matrix that turns values at NODES into the coefficients of 1, x, x², x³."""
-    return _inverse([[x**j for j in range(4)] for x in NODES])
+    return _inverse([[x**j for j in range(4)] for x in map(Fraction, NODES)])
 
 
 def _inverse(matrix: Sequence[Row]) -> list[Row]:

@@ -6,8 +6,8 @@
 #define SHELLS 16  // sizes of the tables VALUE_ERRORS and GROWTH
 #define DEPTHS 6
 #define WIDER 0.03125          // pixels by which the nodes' square is larger on each side than the pixels' middles
-#define REMAINDER 0.02165      // 16/81 / 24 (1 + 1.6312): of bicubic interpolation at 4 by 4 nodes, see method.py
-#define LEBESGUE 2.6608        // largest sum of the magnitudes of the nodes' weights, 1.6312^2
+#define RIM 0.0390625          // from the outermost nodes to the square's sides, in half sides: 5/128
+#define GAP 0.3984375          // half the distance between the inner nodes: 51/128
 #define BALLAST 7.0            // worst rounding error of TRANSFORM in unit roundoffs of the largest coefficient,
 #define MIXING 220.0           // and of the largest difference of two lanes
 #define THIRD 0.3333333432674407958984375
@@ -87,16 +87,41 @@ real remainder_between(Work work, Frame frame, Ray middle, real half_side, real 
     int steps = 1 + int(cells * max(fabs(way.x), max(fabs(way.y), fabs(way.z))));
     real share = 1.0 / real(steps);
     real bound = 0.0;
+    int table = bounds_at(work);
     for (int k = 0; k <= steps; k++) {
         vec3 p = moved(a, share * real(k), way);
         int z = cell_of(cells * p.z + 0.5 * real(GRID));
         int y = cell_of(cells * p.y + 0.5 * real(GRID));
         int x = cell_of(cells * p.x + 0.5 * real(GRID));
         real until = min(start + share * (real(k) + 0.5) * (stop - start), stop);
-        real side = half_side * frame.pixel * (frame.middle + until);
-        bound = max(bound, (side * side) * (side * side) * fourth_at(work, (z * GRID + y) * GRID + x));
+        real side = half_side * (frame.middle + until);
+        bound = max(bound, (side * side) * (side * side) * entry_at(work, table + (z * GRID + y) * GRID + x));
     }
-    return REMAINDER * bound;
+    return bound;
+}
+
+// Contracts the table of f's fourth derivatives for the frame: a cell's bound is that of the interpolation's error on a
+// tile whose half side is a pixel at depth 1. Each of `items` work items takes every so many cells.
+void contract_bounds(Work work, vec3 right, vec3 up, int item, int items) {
+    real weights[16];
+    real pixel = 1.0 / real(work.size);
+    for (int a = 0; a < 15; a++) {
+        real across = REMAINDER_X;
+        real down = REMAINDER_Y;
+        for (int k = 0; k < 4; k++) {
+            bool x = real(k) < POWERS[3 * a];
+            bool y = !x && real(k) < POWERS[3 * a] + POWERS[3 * a + 1];
+            across = across * 2.0 * pixel * fabs(x ? right.x : (y ? right.y : right.z));
+            down = down * 2.0 * pixel * fabs(x ? up.x : (y ? up.y : up.z));
+        }
+        weights[a] = across + down;
+    }
+    int table = bounds_at(work);
+    for (int cell = item; cell < GRID * GRID * GRID; cell += items) {
+        real bound = 0.0;
+        for (int a = 0; a < 15; a++) bound += weights[a] * fourth_at(work, 16 * cell + a);
+        set_entry(work, table + cell, bound);
+    }
 }
 
 int single_bits(int above, int below) {
@@ -141,8 +166,11 @@ void isolate_tiles(Work work, Frame frame) {
     int above = tiles_before(work.size, 2 * work.tile);
     real half_side = 0.5 * real(work.tile - 1) + WIDER;
     // a ray is at most this far from the nearest node's ray: half a diagonal of the net
-    real inflate = 1.001 * (half_side / 3.0) * frame.diagonal * frame.far + 64.0 * UNIT_ROUNDOFF * DOMAIN_RADIUS;
+    real rounding = 64.0 * UNIT_ROUNDOFF * DOMAIN_RADIUS;
+    real inflate = 1.0009765625 * GAP * half_side * frame.diagonal * frame.far + rounding;
+    real rim = 1.0009765625 * RIM * half_side * frame.diagonal * frame.far + rounding;
     real cells = real(GRID) / (2.0 * TABLE_HALF);
+    // the table's bounds hold one cell beyond a cell, and a step along the middle ray leaves half of that
     bool coarse = half_side * frame.diagonal * frame.far * cells > 0.484375;
     real least_width = SHORTEST * real(work.tile) * frame.pixel * frame.far;
     Rows to_control;
@@ -151,8 +179,8 @@ void isolate_tiles(Work work, Frame frame) {
     MAKE_ROWS(to_control, TO_CONTROL)
     MAKE_ROWS(to_nodes, TO_NODES)
     MAKE_ROWS(to_powers, TO_POWERS)
-    wide node_x = (2.0 * lane_row(LANE_X, 0) - 3.0) / 3.0;
-    wide node_y = (2.0 * lane_row(LANE_Y, 0) - 3.0) / 3.0;
+    wide node_x = lane_row(NODE_X, 0);
+    wide node_y = lane_row(NODE_Y, 0);
     int all_fits = 0;
     int all_pieces = 0;
     for (;;) {
@@ -218,8 +246,7 @@ void isolate_tiles(Work work, Frame frame) {
             real reach = stop - start;
             WideVec3 front = wide_point(o, start, d);
             WideVec3 back = wide_point(o, stop, d);
-            int inner = all_inside(front, MARGIN)
-                        && all_inside(back, MARGIN) ? SEARCHING : OPEN;
+            int inner = all_inside(front, MARGIN - rim) && all_inside(back, MARGIN - rim) ? SEARCHING : OPEN;
             depth = 0;
             path = 1;
             if (inner == SEARCHING) {
@@ -229,14 +256,14 @@ void isolate_tiles(Work work, Frame frame) {
                 negative = first_lane_number(FIRST(s)) < 0.0;
                 if (negative) SCALE(s, -1.0)
                 FIT(s, c)
-                real largest = most(LARGEST(c));
-                Errors errors;
-                errors.unit = TRUST * UNIT_ROUNDOFF * largest;
-                errors.off = LEBESGUE * rounding_of_samples(farthest(front, back))
-                             + remainder_between(work, frame, middle, half_side, start, stop);
-                errors.noise = LEBESGUE * 2.0 * TRUST * UNIT_ROUNDOFF * real(N / 2 + 6) * most(WEIGHTED(s))
-                               + BALLAST * errors.unit + MIXING * TRUST * UNIT_ROUNDOFF * 2.0 * most(SPREAD(c));
+                real spread = 2.0 * most(SPREAD(c));
                 TRANSFORM(c, to_control)
+                Errors errors;
+                errors.unit = TRUST * UNIT_ROUNDOFF * most(LARGEST(c));
+                errors.off = LEBESGUE * LEBESGUE * rounding_of_samples(farthest(front, back) + rim)
+                             + remainder_between(work, frame, middle, half_side, start, stop);
+                errors.noise = TRUST * UNIT_ROUNDOFF * (2.0 * LEBESGUE * LEBESGUE * real(N / 2 + 6) * most(WEIGHTED(s))
+                                                        + MIXING * spread) + BALLAST * errors.unit;
                 while (inner == SEARCHING) {
                     real error = error_at(errors, depth);
                     all_pieces += 1;
@@ -286,8 +313,7 @@ void isolate_tiles(Work work, Frame frame) {
         if (verdict == EMPTY) answer_empty(work, i0, j0, share);
         if (verdict == SINGLE) {
             real width = stop - start;
-            bool whole = all_inside(wide_point(o, start, d), -64.0 * UNIT_ROUNDOFF * DOMAIN_RADIUS)
-                         && all_inside(wide_point(o, stop, d), -64.0 * UNIT_ROUNDOFF * DOMAIN_RADIUS);
+            bool whole = all_inside(wide_point(o, start, d), -rim) && all_inside(wide_point(o, stop, d), -rim);
             TRANSFORM(c, to_nodes)
             WideRoot found;
             FIND_ROOT(found, c, NOT(NOWHERE))

@@ -38,6 +38,8 @@ def _accepts(surface: Surface) -> str | None:
 METHOD = Method(
     name="tiles",
     source="firsthit",
+    casts="tiles",
+    rest="bernstein",
     needs=("surface_value",),
     libraries=("dual", "fit", "polynomial", "fit_samples"),
     parameters=(

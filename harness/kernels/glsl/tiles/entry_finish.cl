@@ -1,5 +1,5 @@
 // Runs stage 2 on the single tiles of one level.
-__attribute__((reqd_work_group_size(1, 1, 1)))
+__attribute__((reqd_work_group_size(1, 1, 1), vec_type_hint(wide)))
 __kernel void finish(__global const float *camera, __global real *t, __global int *answer, __global int *queue,
                      __global int *counts, __global real *entries, __global const real *fourths,
                      __global const float *rays, int nx, int ny, int size, int tile, int level, int ratio) {

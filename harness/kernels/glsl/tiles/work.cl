@@ -53,6 +53,15 @@ real fourth_at(Work work, int cell) {
     return work.fourths[cell];
 }
 
+void set_entry(Work work, int place, real value) {
+    work.entries[place] = value;
+}
+
+// Returns where the contracted bounds lie in `entries`: behind the pixels that are left.
+int bounds_at(Work work) {
+    return (OPEN_RECORD + SINGLE_RECORD) * tiles_before(work.size, TILE >> LEVELS) + work.size * work.size;
+}
+
 int next_in(Work work, int counter) {
     return atomic_inc(&work.counts[counter]);
 }
