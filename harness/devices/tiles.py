@@ -5,7 +5,7 @@ its work from counters on the device until there is none.
 
     step            program  what it does
     --------------  -------  -------------------------------------------------------------------
-    clear           isolate  sets the counters to 0
+    clear           isolate  sets the counters to 0, and prepares the table of bounds for the camera
     isolate, level  isolate  tiles of a level: each is empty, has a single root, or is left open
     finish, level   finish   pixels of the level's tiles with a single root
     packets         packets  pixels of the last level's open tiles, 4 x 4 at a time
@@ -15,7 +15,7 @@ its work from counters on the device until there is none.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import get_args
 
 import numpy as np
@@ -42,7 +42,7 @@ T, ANSWER = 1, 2  # places of outputs among BUFFERS
 NO_ANSWER = -1  # what a pixel reads as that no stage answers, or not validly
 COUNTS = 64  # counters
 GROUPS_PER_UNIT = 32  # work groups that take tiles, for each compute unit of a processor
-MOST_GROUPS = 2**15  # of any step; OpenGL promises 65535
+MOST_CELLS = 4096  # work items that prepare the table of bounds
 BUFFERS = (0, 1, 2, 3, 4, 5, 6, 7)  # camera, t, answer, queue, counts, entries, fourths, rays: of each step
 TILE_STAGES = get_args(TileStage)
 UNREAD = np.zeros(6, np.float32)  # what a frame has in the place of listed rays
@@ -56,10 +56,10 @@ class Plan:
     levels: how many levels there are
     grid: cells a side of the table of bounds; 0: it reads none
     queued: int32 in the queue for each tile, beside one for each pixel
-    kept: reals in the entries for each tile, beside one for each pixel
-    items: work items that share a tile
-    group: work items of a work group that takes tiles
-    turns: tiles that the work items of one are to take one after the other, where nothing else limits their number
+    kept: reals in the entries for each tile, beside one for each pixel and each cell of the table
+    items: work items that share a tile, or in stage rest a pixel
+    group: work items of a work group; 1: a processor's, of which few run at once
+    turns: tiles or pixels that each work item is to take one after the other
     """
 
     side: int
@@ -99,28 +99,32 @@ def tiles(size: int, side: int) -> int:
     return int((-(-size // side)) ** 2)
 
 
-def tile_steps(device: Device, plan: Plan, built: Sequence[Built], size: int, ratio: int) -> list[Step]:
-    """Return a frame's steps; `built` holds its programs isolate, finish, packets and rest, built.
+def tile_steps(device: Device, plans: Sequence[Plan], built: Sequence[Built], size: int, ratio: int) -> list[Step]:
+    """Return a frame's steps; `plans` and `built` are of its programs isolate, finish, packets and rest.
 
     Each step has all BUFFERS. `ratio` is as in TileCheck, 1 for a frame that is timed.
     """
-    isolate, finish, packets, rest = built
-    units = device.info.compute_units or UNITS
-    most = plan.group * (GROUPS_PER_UNIT * units if plan.group == 1 else MOST_GROUPS)
+    isolate, finish, packets, rest = zip(plans, built, strict=True)
+    units, plan = device.info.compute_units or UNITS, plans[0]
 
-    def step(program: Built, tile: int, level: int) -> Step:
+    def step(stage: tuple[Plan, Built], tile: int, level: int, pieces: int) -> Step:
+        own, program = stage
         numbers = {"size": size, "tile": tile, "level": level, "ratio": ratio}
-        items = -(-plan.items * tiles(size, tile) // plan.turns)
-        return Step(program, BUFFERS, (min(items, most), 1), numbers, plan.group)
+        most = GROUPS_PER_UNIT * units if own.group == 1 else MOST_ITEMS
+        return Step(program, BUFFERS, (min(-(-own.items * pieces // own.turns), most), 1), numbers, own.group)
 
-    by_level = list(enumerate(plan.sides))
+    by_level = [(level, side, tiles(size, side)) for level, side in enumerate(plan.sides)]
     last = plan.sides[-1]
-    steps = [Step(isolate, BUFFERS, (COUNTS, 1), step(isolate, plan.side, -1).numbers, plan.group)]
-    steps += [step(isolate, side, level) for level, side in by_level]
-    steps += [step(finish, side, level) for level, side in by_level]
-    steps.append(step(packets, last, plan.levels))
-    items = min(size * size, MOST_ITEMS, ITEMS_PER_UNIT * max(UNITS, units))
-    return [*steps, Step(rest, BUFFERS, (items, 1), step(rest, last, plan.levels + 1).numbers)]
+    clear = step(isolate, plan.side, -1, plan.grid**3)
+    steps = [replace(clear, grid=(max(COUNTS, min(clear.grid[0], MOST_CELLS)), 1))]
+    steps += [step(isolate, side, level, count) for level, side, count in by_level]
+    steps += [step(finish, side, level, count) for level, side, count in by_level]
+    steps.append(step(packets, last, plan.levels, tiles(size, last)))
+    cast = step(rest, last, plan.levels + 1, size * size)
+    if plans[3].group > 1:
+        return [*steps, cast]
+    items = min(size * size, ITEMS_PER_UNIT * max(UNITS, units))
+    return [*steps, replace(cast, grid=(items, 1), group=None)]
 
 
 @dataclass(frozen=True, eq=False)
@@ -250,8 +254,8 @@ def launch_tiles(
     rays, ratio: as in TileCheck, where the programs take listed rays. A pixel that no stage answers then reads as one
     without an answer.
     """
-    plan, real = plan_of(frame.stages[0]), real_type(frame.stages[0])
-    pixels, listed = frame.size**2, rays is not UNREAD
+    plans, real = [plan_of(program) for program in frame.stages], real_type(frame.stages[0])
+    plan, pixels, listed = plans[0], frame.size**2, rays is not UNREAD
     covering = sum(tiles(frame.size, side) for side in plan.sides)
     buffers: list[Array | Reserved] = [
         np.ascontiguousarray(frame.camera, np.float32),
@@ -259,11 +263,11 @@ def launch_tiles(
         Reserved(pixels, np.int32, fill=NO_ANSWER if listed else None),
         Reserved(plan.queued * covering + pixels, np.int32),
         Reserved(COUNTS, np.int32),
-        Reserved(plan.kept * covering + pixels, real),
+        Reserved(plan.kept * covering + pixels + plan.grid**3, real),
         np.ascontiguousarray(frame.fourths, real).ravel() if plan.grid else np.zeros(1, real),
         rays,
     ]
-    return device.launch_steps(buffers, (T, ANSWER), tile_steps(device, plan, built, frame.size, ratio))
+    return device.launch_steps(buffers, (T, ANSWER), tile_steps(device, plans, built, frame.size, ratio))
 
 
 def tile_hits_from(outputs: Sequence[Array]) -> tuple[Hits, NDArray[np.uint8]]:

@@ -31,10 +31,15 @@ def trial_launch(device: Device, program: Program, built: Built) -> Launch:
         buffers = [camera, *answer, span] if narrowed else [camera, *answer]
     elif program.entry in TILE_STAGES:
         plan = plan_of(program)
-        scratch = [Reserved(64, np.int32), Reserved(COUNTS, np.int32, fill=0), Reserved(256, kind, fill=0)]
+        scratch = [
+            Reserved(64, np.int32),
+            Reserved(COUNTS, np.int32, fill=0),
+            Reserved(256 + plan.grid**3, kind, fill=0),
+        ]
         buffers = [camera, *answer, *scratch, np.zeros(16 * plan.grid**3 + 1, kind), ray]
         group = None if program.entry == "rest" else plan.group
-        numbers = {"size": 1, "tile": 1, "level": 0, "ratio": 1}
+        level = {"packets": plan.levels, "rest": plan.levels + 1}.get(program.entry, 0)
+        numbers = {"size": 1, "tile": plan.sides[-1] if level else plan.side, "level": level, "ratio": 1}
     elif program.entry == "draw":
         buffers = [camera, *answer, Reserved(3, np.float32)]
     elif program.entry == "beams":
