@@ -43,9 +43,21 @@ METHOD = Method(
     needs=("surface_value",),
     libraries=("dual", "fit", "polynomial", "fit_samples"),
     parameters=(
-        Parameter("TOLERANCE", 2.0**-18, "last step of the refinement, over the domain's diameter", finer="down", per="2.0 * DOMAIN_RADIUS"),
-        Parameter("PAIRS", 2, "pairs of samples around the root, over which the last step takes the mean of f; 0: no such step"),
-        Parameter("APART", 4.0, "distance between neighbouring samples of PAIRS, in unit roundoffs of the domain's diameter"),
+        Parameter(
+            "TOLERANCE",
+            2.0**-18,
+            "last step of the refinement, over the domain's diameter",
+            finer="down",
+            per="2.0 * DOMAIN_RADIUS",
+        ),
+        Parameter(
+            "PAIRS",
+            2,
+            "pairs of samples around the root, over which the last step takes the mean of f; 0: no such step",
+        ),
+        Parameter(
+            "APART", 4.0, "distance between neighbouring samples of PAIRS, in unit roundoffs of the domain's diameter"
+        ),
         Parameter("SECANT", 2.0**-12, "steps longer than this, in domain radii, set the slope to the secant's"),
         Parameter("STEPS", 6, "most steps of the refinement of a pixel, before it is cast by itself"),
         Parameter("TRUST", 0.015625, "share of the worst case of the rounding errors that counts as their bound"),
