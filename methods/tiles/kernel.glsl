@@ -327,7 +327,7 @@ void isolate_tiles(Work work, Frame frame) {
         }
         if (verdict == OPEN) {
             real slack = 8.0 * UNIT_ROUNDOFF * (fabs(start) + DOMAIN_RADIUS);
-            list_open(work, cell, start - slack, start + WIDENING * (stop - start), spent / 4);
+            list_open(work, cell, start - slack, start + AHEAD * (stop - start), spent / 4);
         }
     }
     add_to(work, 4 * work.level + 2, all_fits);
