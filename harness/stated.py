@@ -31,7 +31,7 @@ NAME = re.compile("[A-Za-z][A-Za-z0-9_]*")  # of a method: a Python module's, an
 KNOB = re.compile("[A-Z][A-Z0-9_]*")  # a constant's name in GLSL and in OpenCL C
 CASTS = typing.get_args(Casts)
 LIBRARIES = ROOT / "harness" / "kernels" / "glsl" / "lib"
-METHODS = ROOT / "methods"
+METHODS = sorted(path.parent.name for path in (ROOT / "methods").glob("*/kernel.glsl"))
 
 # What the fields of a Method are, and what to write where they are something else.
 FUNCTIONS = ("accepts", "tolerance", "tables", "mesh")
@@ -248,13 +248,12 @@ def problem_of(method: Method) -> str | None:
         ("precisions", "precision", method.precisions, PRECISIONS),
         ("needs", "generated function", method.needs, GENERATED),
         ("libraries", "kernel library", method.libraries, libraries),
+        ("rest", "method of this project", (method.rest,) if method.rest else (), METHODS),
     )
     for field, what, names, known in named:
         for name in names:
             if name not in known:
                 return f"{field}: there is no {what} {name!r}; {suggestion(name, known)}"
-    if problem := _rest_problem(method):
-        return problem
     if not method.precisions:
         return f"precisions is empty; write {LISTS['precisions']}, or leave it out for both"
     knobs = [parameter.name for parameter in method.parameters if isinstance(parameter, Parameter)]
@@ -267,16 +266,6 @@ def problem_of(method: Method) -> str | None:
         return problem
     tried = math.prod(1 + len(parameter.sweep) for parameter in method.parameters)
     return f"parameters: sweeps have {tried:,} combinations; shorten them" if tried > MOST_COMBINATIONS else None
-
-
-def _rest_problem(method: Method) -> str | None:
-    """Say what is wrong with the method that casts what tiles leave, and what to write; None where nothing is."""
-    if method.casts != "tiles":
-        return f"rest is of methods that cast tiles, and this one casts {method.casts}" if method.rest else None
-    known = sorted(path.parent.name for path in METHODS.glob("*/kernel.glsl"))
-    if method.rest in known:
-        return None
-    return f"rest: there is no method {method.rest!r} of this project; {suggestion(method.rest, known)}"
 
 
 def _setting_problem(method: Method) -> str | None:

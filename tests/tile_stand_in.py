@@ -13,8 +13,8 @@ import numpy as np
 
 from harness.contract import Program, Section
 from harness.experiment.kinds.tiles import CHECKED, TIMED
-from harness.kernels import assemble
-from harness.kernels.assemble import STAGES, cast_sections, early_libraries, files, kept_loops, method_sections
+from harness.kernels.assemble import STAGES
+from harness.kernels.sections import cast_sections, early_libraries, files, kept_loops, method_sections, ray_sections
 from harness.plugins import find_methods
 from harness.scenes.camera import meets, rays_of
 
@@ -28,6 +28,7 @@ SHAPE = {
     "QUEUE_RECORD": 2,
     "TILE_ITEMS": 1,
     "TILE_GROUP": 1,
+    "TILE_TURNS": 1,
 }
 BUFFERS = (
     ("camera", "float", "readonly"),
@@ -152,9 +153,9 @@ void rest_stage(G int nothing) {
 """
 
 
-def stage_program(method, _folder, variant, surface, precision, language, stage, listed, rest):
+def stage_program(method, _folder, variant, surface, precision, language, stage, listed, rest, _lanes):
     """Return the program of a stage, as harness.kernels.tiles.stage_program does."""
-    sections = assemble.ray_sections(surface, method.needs, precision, language, early_libraries(method))
+    sections = ray_sections(surface, method.needs, precision, language, early_libraries(method))
     sections += method_sections(method, rest, variant, surface, precision, language)
     shape = SHAPE | {"LISTED": int(listed), "TILE_GROUP": 1 if language == "cl" else 8}
     shape["TILE_GROUP"] = 64 if stage == "rest" else shape["TILE_GROUP"]
@@ -187,13 +188,13 @@ def programs(surface, precision, language, listed, **knobs):
     """Return a frame's programs, of listed rays or not."""
     plugin = find_methods().get(METHOD)
     stated = plugin.method, plugin.folder, plugin.variant(knobs), surface, precision, language
-    made = (stage_program(*stated, *STAGES[entry], plugin.folder) for entry in (CHECKED if listed else TIMED))
+    made = (stage_program(*stated, *STAGES[entry], plugin.folder, None) for entry in (CHECKED if listed else TIMED))
     return tuple(made)
 
 
-def stand_in(name="stand_in"):
+def stand_in():
     """Return a method that casts tiles, to be run with this module's `stage_program`."""
-    return replace(find_methods().get(METHOD).method, name=name, casts="tiles", rest=METHOD)
+    return replace(find_methods().get(METHOD).method, name="stand_in", casts="tiles", rest=METHOD)
 
 
 def expected_stages(surface, camera, size):

@@ -33,10 +33,10 @@ from fractions import Fraction
 from math import comb
 from pathlib import Path
 
-from harness.contract import Box, Method, Precision, Program, Section, Surface, Variant
+from harness.contract import Box, Language, Method, Precision, Program, Section, Surface, Variant
 from harness.kernels.fourths import GRID, NODES, POWERS, half_side, interpolation, remainder_factors
-from harness.kernels.assemble import (
-    Language,
+from harness.kernels.sections import (
+    Lanes,
     TileStage,
     cast_sections,
     early_libraries,

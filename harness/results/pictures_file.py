@@ -32,7 +32,7 @@ OPTIONAL = frozenset(
 MOST_SIDE = 2**13
 MOST_SAMPLES = 64  # on each side of a pixel
 MOST_LEVEL = 30  # of a quadtree
-MOST_STAGE = 30  # of a frame of tiles
+MOST_STAGE = 31  # of a frame of tiles
 
 
 def read(path: Path) -> dict[str, NDArray[Any]]:

@@ -204,7 +204,7 @@ class Accuracy(TypedDict):
     stages: NotRequired[
         Annotated[
             dict[str, Annotated[float, SHARE]],
-            "of tiles: the share of the checked frame's pixels that each stage of the frame answers",
+            "of tiles: the share of the checked frame's pixels that each stage answers, by its name",
         ]
     ]
     lanes: NotRequired[

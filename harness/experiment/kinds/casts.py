@@ -10,7 +10,8 @@ from dataclasses import dataclass
 from harness.contract import Casts, Method
 from harness.experiment.kinds.beams import BeamMethods, Beams
 from harness.experiment.kinds.mesh import Mesh, MeshMethods
-from harness.experiment.kinds.model import Kind, MethodKind
+from harness.experiment.kinds.methods import MethodKind
+from harness.experiment.kinds.model import Kind
 from harness.experiment.kinds.rays import RayMethods, Rays
 from harness.experiment.kinds.tiles import TileMethods, Tiles
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from harness.contract import Hits, Origin, Program, Surface
 from harness.devices.messages import Check
-from harness.experiment.kinds.model import MethodKind
+from harness.experiment.kinds.methods import MethodKind
 from harness.kernels.assemble import Entry
 
 
@@ -36,12 +36,12 @@ class Shot:
 
 
 class ShotKind(MethodKind):
-    """State what follows for methods that can cast a shot.
+    """State what follows for methods that can cast a shot."""
 
-    shot_entries: the entries of the programs that cast it
-    """
-
-    shot_entries: tuple[Entry, ...]
+    @property
+    @abstractmethod
+    def shot_entries(self) -> tuple[Entry, ...]:
+        """List the entries of the programs that cast a shot; kinds state it as a class attribute."""
 
     @abstractmethod
     def shot(self, programs: tuple[Program, ...], shot: Shot, index: NDArray[np.intp]) -> Check[Any]:

@@ -19,14 +19,18 @@ from harness.accuracy.compilers import SecondBuild
 from harness.contract import FirsthitError, Hits, Program, Surface
 from harness.devices.executor import LocalExecutor
 from harness.devices.messages import Check, Frame
-from harness.devices.tiles import TileAnswer, TileCheck, TileFrame, plan_of
+from harness.devices.tiles import TileAnswer, TileCheck, TileFrame, TilePictures, plan_of
 from harness.experiment.kinds.model import Asked, Casting, Kind, RacedCasting
 from harness.experiment.kinds.programs import Programs
 from harness.experiment.kinds.shots import Shot, ShotKind
-from harness.kernels.assemble import Entry, Language, with_free_loops
+from harness.kernels.assemble import Entry, Language
+from harness.kernels.sections import with_free_loops
 from harness.scenes.camera import rays_of
 
 TIMED: tuple[Entry, ...] = ("isolate", "finish", "packets", "rest")
+PICTURE = (
+    15  # pixels a side of the picture about a hard ray: a tile of the first level, without its last row and column
+)
 CHECKED: tuple[Entry, ...] = ("isolate", "finish_listed", "packets_listed", "rest_listed")
 
 
@@ -38,6 +42,12 @@ class TileMethods(ShotKind):
     unlisted = "casts the tiles of a camera's image, and listed rays have none"
     undrawn = "casts the tiles of a camera's image, and fragments have none"
     shot_entries = CHECKED
+    hard_entries = CHECKED
+    answers_rays = True
+
+    def hard_check(self, programs: tuple[Program, ...], surface: Surface, rays: NDArray[np.float32]) -> Check[Hits]:
+        cameras = np.stack([camera_about(ray) for ray in rays])
+        return TilePictures(frame_of(programs, surface, cameras[0], PICTURE), rays, cameras)
 
     def shot(self, programs: tuple[Program, ...], shot: Shot, index: NDArray[np.intp]) -> Check[TileAnswer]:
         assert shot.camera is not None
@@ -54,14 +64,29 @@ class TileMethods(ShotKind):
 def frame_of(stages: tuple[Program, ...], surface: Surface, camera: NDArray[np.float32], size: int) -> TileFrame:
     """Return the frame of size x size pixels by the programs of `stages`, which are isolate, finish, packets and rest.
 
-    `camera` is float32[12]. Raises FirsthitError if the programs read bounds of the surface that there are none of.
+    `camera` is float32[12]. Raises FirsthitError if the programs read bounds of the surface that there are none of, or,
+    as another revision's may, other ones.
     """
     from harness.kernels.fourths import fourth_bounds
 
     isolate, finish, packets, rest = stages
     grid = plan_of(isolate).grid
-    bounds = fourth_bounds(surface, grid) if grid else np.zeros((0, 0, 0))
+    bounds = fourth_bounds(surface) if grid else np.zeros(0)
+    if grid not in (0, len(bounds)):
+        raise FirsthitError(f"the programs read bounds over {grid} cells a side, and here {len(bounds)} are made")
     return TileFrame((isolate, finish, packets, rest), camera, size, bounds)
+
+
+def camera_about(ray: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Return the camera float32[12] of a picture of PICTURE x PICTURE pixels, whose middle pixel has the ray.
+
+    `ray` is float32[6]. The pixels are as wide as in an image of 30 degrees and 1024 pixels.
+    """
+    eye, forward = np.split(ray.astype(np.float64), 2)
+    forward = forward / np.linalg.norm(forward)
+    right = np.cross(forward, np.eye(3)[np.argmin(np.abs(forward))])
+    right *= PICTURE * math.tan(math.radians(15.0)) / 1024 / np.linalg.norm(right)
+    return np.concatenate([eye, forward, right, np.cross(right, forward)]).astype(np.float32)
 
 
 def checked_over(camera: NDArray[np.float32], rays_per_side: int, size: int) -> tuple[NDArray[np.float32], int]:
@@ -133,6 +158,10 @@ class TileCasting(RacedCasting):
 @dataclass(frozen=True)
 class Tiles(Kind):
     """Make castings of tiles, in stage compute."""
+
+    def unable(self, asked: Asked) -> str | None:
+        method = asked.method
+        return None if method.rest else f"the method {method.name} states no `rest`, which casts what no tile decides"
 
     def casting(self, asked: Asked) -> Casting:
         surface = asked.cell.surface
