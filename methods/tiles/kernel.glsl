@@ -329,7 +329,7 @@ void isolate_tiles(Work work, Frame frame) {
                 verdict = inner;
                 tries += 1;
                 real wider = WIDENING * width;
-                if (inner == OPEN && tries <= REFITS && wider < reach) {
+                if (inner == OPEN && tries <= REFITS && (wider < reach || path > (1 << depth))) {
                     verdict = SEARCHING;
                     stop = min(start + wider, end);
                 }
