@@ -329,7 +329,7 @@ void isolate_tiles(Work work, Frame frame) {
                 verdict = inner;
                 tries += 1;
                 real wider = WIDENING * width;
-                if (inner == OPEN && tries <= REFITS && wider < reach) {
+                if (inner == OPEN && tries <= REFITS && (wider < reach || path > (1 << depth))) {
                     verdict = SEARCHING;
                     stop = min(start + wider, end);
                 }
@@ -366,7 +366,7 @@ void isolate_tiles(Work work, Frame frame) {
         }
         if (verdict == OPEN) {
             real slack = 8.0 * UNIT_ROUNDOFF * (fabs(start) + DOMAIN_RADIUS);
-            if (LEADS) list_open(work, cell, start - slack, start + WIDENING * (stop - start), spent / 4);
+            if (LEADS) list_open(work, cell, start - slack, start + AHEAD * (stop - start), spent / 4);
         }
     }
     if (LEADS) {
