@@ -67,26 +67,32 @@ def stage_program(
     stage: TileStage,
     listed: bool,
     rest: Path,
-    lanes: str = "vector",
+    lanes: Lanes | None = None,
 ) -> Program:
     """Return the program of one stage. Its entry is named as the stage.
 
     `folder` holds the method's kernel.glsl. If `listed`, each pixel's ray is read from a buffer, else made from the
     camera. `rest` is the folder of the kernel.glsl that casts the pixels that are left in stage "rest"; it has the same
     method's knobs and tables.
+
+    `lanes` says who has a tile's sixteen lanes: "vector": a work item, in vectors of sixteen numbers (OpenCL only);
+    "group": sixteen work items, which exchange numbers through local memory where a stage needs it; "own": no lane
+    needs another one, since a work item isolates a tile alone. Default: "vector" for OpenCL, "own" for GLSL.
     """
+    form: Lanes = lanes or ("vector" if language == "cl" else "own")
     sections = ray_sections(surface, ("surface_value",), precision, language, early_libraries(method))
     if language == "glsl":
         sections.insert(1, kept_loops())
-    sections.append(_shape(surface, precision, language, listed))
+    sections.append(_shape(surface, precision, language, listed, stage, form))
     sections += files("rays/camera.glsl")
     if stage == "rest":
         sections += method_sections(method, rest, variant, surface, precision, language)
-        sections += [*cast_sections("nearest"), *files(f"tiles/work.{language}")]
+        sections += [*cast_sections("nearest"), *files(f"tiles/work.{language}", "tiles/lists.glsl", "tiles/rest.glsl")]
     else:
-        sections += files(f"tiles/lanes_{precision}.{language}", f"tiles/lanes.{language}")
-        sections += files("tiles/wide.glsl", f"tiles/work.{language}", f"tiles/blocks.{language}")
-        sections += [wide_value(surface, precision, language), macros(surface, precision, language)]
+        sections += _lane_sections(stage, precision, language, form)
+        held: Lanes = form if form == "vector" or _exchanges(stage, form) else "own"
+        sections += [wide_value(surface, precision, language), macros(surface, precision, language, held)]
+        sections += files(*_net_files(stage, form))
         domain = "box" if isinstance(surface.domain, Box) else "sphere"
         sections += [*_lane_tables(precision, language), *files(f"tiles/domain_{domain}.glsl")]
         sections += [table_section("POWERS", [float(v) for b in POWERS for v in b], precision, language)]
@@ -95,17 +101,51 @@ def stage_program(
     return Program(language, precision, stage, tuple(sections))
 
 
-def _shape(surface: Surface, precision: Precision, language: Language, listed: bool) -> Section:
+def _lane_sections(stage: TileStage, precision: Precision, language: Language, lanes: Lanes) -> list[Section]:
+    """Return the operations on lanes, the buffers, and what a stage reads and writes."""
+    if lanes == "vector":
+        head = (f"tiles/lanes_{precision}.{language}", f"tiles/lanes.{language}", "tiles/wide.glsl")
+        return files(*head, f"tiles/work.{language}", "tiles/lists.glsl", f"tiles/blocks.{language}")
+    first, exchange = [], "own"
+    if _exchanges(stage, lanes):
+        first, exchange = [f"tiles/memory.{language}"], "group"
+    work = (f"tiles/work.{language}", "tiles/lists.glsl", f"tiles/exchange_{exchange}.glsl", "tiles/blocks_one.glsl")
+    return files(*first, "tiles/lanes_one.glsl", "tiles/wide.glsl", *work)
+
+
+def _net_files(stage: TileStage, lanes: Lanes) -> list[str]:
+    """Return the files on what isolation keeps of a tile's polynomials."""
+    if lanes == "vector":
+        return ["tiles/nets_shared.glsl"]
+    if _exchanges(stage, lanes):
+        return ["tiles/nets_shared.glsl", "tiles/tiles_group.glsl"]
+    return ["tiles/nets_own.glsl", "tiles/tiles_own.glsl"]
+
+
+def _exchanges(stage: TileStage, lanes: Lanes) -> bool:
+    """Tell whether a stage's work items exchange numbers."""
+    return lanes == "group" and stage == "isolate"
+
+
+def _shape(
+    surface: Surface, precision: Precision, language: Language, listed: bool, stage: TileStage, lanes: Lanes
+) -> Section:
     """Return the constants that the host and all stages share.
 
     TABLE_HALF is half the side of the cube over which GRID³ cells have a bound of f's fourth derivatives. Points that
     are out of the domain by more than MARGIN have no bounds. TILE_ITEMS work items share a tile, and TILE_GROUP are in
-    a work group.
+    a work group. A step needs TILE_ITEMS for each TILE_TURNS of its tiles: where a program's text costs the same however
+    few of a vector's work items have a tile, each takes several.
     """
     assert surface.degree is not None
     half = half_side(surface.domain)
     error_x, error_y = remainder_factors(surface.degree)
-    shape = {"TILE": TILE, "LEVELS": LEVELS, "GRID": GRID, **RECORDS, "TILE_ITEMS": 1, "TILE_GROUP": 1, "TILE_TURNS": 1}
+    one = lanes != "vector"
+    items = 16 if one and stage in ("finish", "packets") or _exchanges(stage, lanes) else 1
+    group = 64 if stage == "rest" else 1 if not one else 16 if _exchanges(stage, lanes) else 8 if items == 1 else 64
+    shape = {"TILE": TILE, "LEVELS": LEVELS, "GRID": GRID, **RECORDS, "TILE_ITEMS": items, "TILE_GROUP": group}
+    shape["TILE_TURNS"] = 8 if lanes == "own" else 1
+    shape["OPEN_TILES"] = int(lanes == "own")
     shape |= {"LISTED": int(listed), "REACH": REACH, "TABLE_HALF": half, "MARGIN": half / 9.0}
     shape |= {"REMAINDER_X": error_x, "REMAINDER_Y": error_y, "LEBESGUE": interpolation(NODES)[1]}
     lines = [f"#define {name} {literal(value, precision, language)}" for name, value in shape.items()]
@@ -134,7 +174,7 @@ def _lane_tables(precision: Precision, language: Language) -> list[Section]:
     lanes = [(k & 3, k >> 2) for k in range(16)]
     made = {"LANE_X": [float(x) for x, _ in lanes], "LANE_Y": [float(y) for _, y in lanes]}
     made |= {"NODE_X": [NODES[x] for x, _ in lanes], "NODE_Y": [NODES[y] for _, y in lanes]}
-    for name, matrix in (("TO_CONTROL", to_control()), ("TO_NODES", to_nodes()), ("TO_POWERS", to_powers())):
+    for name, matrix in (("TO_CONTROL", to_control()), ("TO_POWERS", to_powers())):
         across = [float(matrix[x][x ^ i]) for i in range(4) for x, _ in lanes]
         down = [float(matrix[y][y ^ i]) for i in range(4) for _, y in lanes]
         made[name] = across + down
@@ -164,7 +204,7 @@ def _inverse(matrix: Sequence[Row]) -> list[Row]:
     return [[Fraction(int(v.p), int(v.q)) for v in row] for row in made.inv().tolist()]
 
 
-def macros(surface: Surface, precision: Precision, language: Language) -> Section:
+def macros(surface: Surface, precision: Precision, language: Language, lanes: Lanes) -> Section:
     """Return struct Poly and the macros that are listed above, for the surface's degree."""
     from harness.kernels.fitting import fit_tables, inverse
 
@@ -196,18 +236,101 @@ def macros(surface: Surface, precision: Precision, language: Language) -> Sectio
         ("LEAST(c)", _paired("min", [f"c.k{j}" for j in ks])),
         ("SPREAD(c)", _paired("max", [f"fabs(c.k{j} - first_lane(c.k{j}))" for j in ks])),
         ("STEEPEST(c)", _paired("max", [f"c.k{j} - c.k{j - 1}" for j in ks if j])),
-        ("SURE_ABOVE(c, e)", " | ".join(f"(all_lanes(MORE(c.k{j}, wide(e))) ? {1 << j} : 0)" for j in ks)),
-        ("SURE_BELOW(c, e)", " | ".join(f"(all_lanes(LESS(c.k{n - j}, wide(-e))) ? {1 << j} : 0)" for j in ks)),
+        ("SURE_ABOVE(c, e)", _sure(n, lanes, above=True)),
+        ("SURE_BELOW(c, e)", _sure(n, lanes, above=False)),
         ("FIRST(c)", "c.k0"),
         ("LAST(c)", f"c.k{n}"),
         ("CONSTANT(c, v)", " ".join(f"c.k{j} = v;" for j in ks)),
     ]
+    if lanes == "own":
+        made += _own_net(n, number)
+        values.append(("LARGEST_FALL(c)", _paired("max", [f"c.k{j}" for j in range(n)])))
+    elif lanes == "group":
+        made.append(("TRANSFORM(c, rows)", _exchanged_transform(n)))
     lines = [struct]
-    for head, statements in made:
+    for head, statements in dict(made).items():
         body = " \\\n    ".join(["{", *statements])
         lines.append(f"#define {head} {body} }}")
     lines += [f"#define {head} ({text})" if head != "CONSTANT(c, v)" else f"#define {head} {{ {text} }}" for head, text in values]
     return Section(f"generated: polynomials of degree {n}", "\n".join(lines))
+
+
+def _sure(n: int, lanes: Lanes, above: bool) -> str:
+    """Return the text of SURE_ABOVE or SURE_BELOW."""
+    terms = []
+    for j in range(n + 1):
+        k = j if above else n - j
+        if lanes == "own":
+            sure = f"c.lo.k{k} > e" if above else f"c.hi.k{k} < -e"
+        else:
+            sure = f"MORE(c.k{k}, wide(e))" if above else f"LESS(c.k{k}, wide(-e))"
+            sure = f"all_lanes({sure})" if lanes == "vector" else sure
+        terms.append(f"({sure} ? {1 << j} : 0)")
+    text = " | ".join(terms)
+    return f"all_bits({text})" if lanes == "group" else text
+
+
+def _exchanged_transform(n: int) -> list[str]:
+    """Return the statements of TRANSFORM where sixteen work items share a tile: all coefficients are exchanged at once."""
+    lines = []
+    for direction, bits in (("u", (1, 2, 3)), ("v", (4, 8, 12))):
+        lines += [f"lane_numbers[{16 * j} + OWN_LANE] = c.k{j};" for j in range(n + 1)] + ["MEET"]
+        for j in range(n + 1):
+            terms = [
+                f"rows.{direction}{i} * (lane_numbers[{16 * j} + (OWN_LANE ^ {bit})] - c.k{j})"
+                for i, bit in enumerate(bits, start=1)
+            ]
+            lines.append(f"c.k{j} = c.k{j} + ({' + '.join(terms)});")
+        lines.append("MEET")
+    return lines
+
+
+def _own_net(n: int, number: Callable[[float], str]) -> list[tuple[str, list[str]]]:
+    """Return the macros on a Net, a Bundle and Lanes of a work item that has all lanes; see nets_own.glsl."""
+    ks, lanes = range(n + 1), range(16)
+    spread = [f"spread_ = max(spread_, fabs(net.v[{16 * j + k}] - net.v[{16 * j}]));" for j in ks for k in lanes if k]
+    bundled = []
+    for j in ks:
+        bundled.append(f"b.lo.k{j} = {_paired('min', [f'net.v[{16 * j + k}]' for k in lanes])};")
+        bundled.append(f"b.hi.k{j} = {_paired('max', [f'net.v[{16 * j + k}]' for k in lanes])};")
+    for j in range(n):
+        falls = [f"net.v[{16 * j + 16 + k}] - net.v[{16 * j + k}]" for k in lanes]
+        bundled.append(f"b.fall.k{j} = {_paired('max', falls)};")
+    bundled.append(f"b.fall.k{n} = real(0);")
+    control = [line for j in ks for line in _mixed("net", 16 * j, to_control(), number, differences=True)]
+    fall = _halve(n - 1, number) + [f"{half}.k{j} = 0.5 * {half}.k{j};" for half in ("near", "far") for j in range(n)]
+    return [
+        ("KEEP_LANE(net, c)", [f"net.v[{16 * j} + work.lane] = c.k{j};" for j in ks]),
+        ("FIND_SPREAD(net, spread_)", spread),
+        ("CONTROL(net)", control),
+        ("TO_CUBIC(lanes)", _mixed("lanes", 0, to_powers(), number, differences=False)),
+        ("BUNDLED(net, b)", bundled),
+        ("HALVE_FALL(near, far)", [*fall, f"far.k{n} = real(0);"]),
+    ]
+
+
+def _mixed(name: str, at: int, matrix: Sequence[Row], number: Callable[[float], str], differences: bool) -> list[str]:
+    """Return statements that apply a 4 by 4 matrix in both directions to the sixteen numbers of a net from `at` on.
+
+    If `differences`, each number's row has the sum 1, and is applied as TRANSFORM_ONE does.
+    """
+    lines = ["{"]
+    for kind, source, step, lane in (("h", None, 1, lambda x, y: 4 * y + x), ("", "h", 4, lambda x, y: 4 * x + y)):
+        results = []
+        for y in range(4):
+            for x in range(4):
+                def read(k: int, y: int = y) -> str:
+                    return f"h{lane(k, y)}_" if source else f"{name}.v[{at + lane(k, y)}]"
+
+                own = read(x)
+                row = [(float(matrix[x][x ^ i]), read(x ^ i)) for i in range(4)]
+                if differences:
+                    text = f"{own} + ({' + '.join(f'{number(w)} * ({v} - {own})' for w, v in row[1:])})"
+                else:
+                    text = " + ".join(f"{number(w)} * {v}" for w, v in row)
+                results.append(f"{name}.v[{at + lane(x, y)}] = {text};" if source else f"real h{lane(x, y)}_ = {text};")
+        lines += results
+    return [*lines, "}"]
 
 
 def _paired(function: str, terms: Sequence[str]) -> str:

@@ -58,8 +58,8 @@ real rounding_of_samples(real away) {
     return TRUST * UNIT_ROUNDOFF * TILE_ERRORS[min(shell, SHELLS - 1)];
 }
 
-// Returns the largest distance of the lanes' points from the domain's centre.
-real farthest(WideVec3 a, WideVec3 b) {
+// Returns each lane's square of the larger distance of two points from the domain's centre.
+wide squared_distance(WideVec3 a, WideVec3 b) {
     vec3 center = DOMAIN_CENTER;
     WideVec3 p;
     WideVec3 q;
@@ -69,7 +69,24 @@ real farthest(WideVec3 a, WideVec3 b) {
     q.x = b.x - center.x;
     q.y = b.y - center.y;
     q.z = b.z - center.z;
-    return sqrt(most(max(wide_inner(p, p), wide_inner(q, q))));
+    return max(wide_inner(p, p), wide_inner(q, q));
+}
+
+// Returns each lane's node ray, its depth less frame.middle as parameter. The tile's middle ray is (x, y), and `reach`
+// is half the side of the nodes' square.
+WideRay node_ray(Work work, Frame frame, real x, real y, real reach) {
+    wide nx = x + reach * lane_row(NODE_X, 0);
+    wide ny = y - reach * lane_row(NODE_Y, 0);
+    wide mx = frame.middle * nx;
+    wide my = frame.middle * ny;
+    WideRay ray;
+    ray.origin.x = frame.origin.x + mx * frame.right.x + my * frame.up.x;
+    ray.origin.y = frame.origin.y + mx * frame.right.y + my * frame.up.y;
+    ray.origin.z = frame.origin.z + mx * frame.right.z + my * frame.up.z;
+    ray.direction.x = frame.forward.x + nx * frame.right.x + ny * frame.up.x;
+    ray.direction.y = frame.forward.y + nx * frame.right.y + ny * frame.up.y;
+    ray.direction.z = frame.forward.z + nx * frame.right.z + ny * frame.up.z;
+    return ray;
 }
 
 int cell_of(real place) {
@@ -77,14 +94,15 @@ int cell_of(real place) {
 }
 
 // Bounds the remainder of the tile's interpolation between two depths, from the bounds of fourth derivatives that are
-// looked up along the tile's middle ray, `half_side` pixels from the tile's sides. Each number holds for its cell's
-// neighbours too, so that steps of one cell leave none out.
-real remainder_between(Work work, Frame frame, Ray middle, real half_side, real start, real stop) {
+// looked up along the tile's middle ray, `half_side` pixels from the tile's sides. A cell's bound holds one cell beyond
+// it. So if the tile's rays are `aside` cells from the middle one, steps of 2 (1 - aside) cells leave nothing out.
+real remainder_between(Work work, Frame frame, Ray middle, real half_side, real aside, real start, real stop) {
     real cells = real(GRID) / (2.0 * TABLE_HALF);
     vec3 a = difference(ray_point(middle, start), DOMAIN_CENTER);
     vec3 b = difference(ray_point(middle, stop), DOMAIN_CENTER);
     vec3 way = difference(b, a);
-    int steps = 1 + int(cells * max(fabs(way.x), max(fabs(way.y), fabs(way.z))));
+    real most_way = max(fabs(way.x), max(fabs(way.y), fabs(way.z)));
+    int steps = 1 + int(cells * most_way / (2.0 * (0.9990234375 - aside)));
     real share = 1.0 / real(steps);
     real bound = 0.0;
     int table = bounds_at(work);
@@ -120,7 +138,7 @@ void contract_bounds(Work work, vec3 right, vec3 up, int item, int items) {
     for (int cell = item; cell < GRID * GRID * GRID; cell += items) {
         real bound = 0.0;
         for (int a = 0; a < 15; a++) bound += weights[a] * fourth_at(work, 16 * cell + a);
-        set_entry(work, table + cell, bound);
+        enter(work, table + cell, bound);
     }
 }
 
@@ -158,7 +176,7 @@ STRUCT(WideRoot) struct WideRoot { wide x; wide slope; };
 // Stage 1. Tiles of one level: each is empty, single (every ray has its first root in one piece, and no other root
 // there), or open, and then its four quarters are searched on the next level, or its pixels by stage 3.
 void isolate_tiles(Work work, Frame frame) {
-    Poly stack[TRUSTED];
+    Bundle stack[TRUSTED];
     int across = tiles_across(work.size, work.tile);
     bool first = work.level == 0;
     int total = first ? across * across : 4 * counted(work, 4 * (work.level - 1));
@@ -170,21 +188,17 @@ void isolate_tiles(Work work, Frame frame) {
     real inflate = 1.0009765625 * GAP * half_side * frame.diagonal * frame.far + rounding;
     real rim = 1.0009765625 * RIM * half_side * frame.diagonal * frame.far + rounding;
     real cells = real(GRID) / (2.0 * TABLE_HALF);
-    // the table's bounds hold one cell beyond a cell, and a step along the middle ray leaves half of that
-    bool coarse = half_side * frame.diagonal * frame.far * cells > 0.484375;
+    real aside = half_side * frame.diagonal * frame.far * cells;
+    bool coarse = aside > 0.75;
     real least_width = SHORTEST * real(work.tile) * frame.pixel * frame.far;
     Rows to_control;
-    Rows to_nodes;
     Rows to_powers;
     MAKE_ROWS(to_control, TO_CONTROL)
-    MAKE_ROWS(to_nodes, TO_NODES)
     MAKE_ROWS(to_powers, TO_POWERS)
-    wide node_x = lane_row(NODE_X, 0);
-    wide node_y = lane_row(NODE_Y, 0);
     int all_fits = 0;
     int all_pieces = 0;
-    for (;;) {
-        int taken = next_in(work, TAKEN + work.level);
+    for (int turn = 0;; turn++) {
+        int taken = next_tile(work, TAKEN + work.level, turn);
         if (taken >= total) break;
         int cell_x = taken % across;
         int cell_y = taken / across;
@@ -209,24 +223,19 @@ void isolate_tiles(Work work, Frame frame) {
         real pixels = 1.0 / real(work.size);
         real middle_x = real(2 * i0 + work.tile - work.size) * pixels;
         real middle_y = real(work.size - 2 * j0 - work.tile) * pixels;
-        wide x = middle_x + (2.0 * half_side * pixels) * node_x;
-        wide y = middle_y - (2.0 * half_side * pixels) * node_y;
-        WideVec3 o;
-        WideVec3 d;
-        wide mx = frame.middle * x;
-        wide my = frame.middle * y;
-        o.x = frame.origin.x + mx * frame.right.x + my * frame.up.x;
-        o.y = frame.origin.y + mx * frame.right.y + my * frame.up.y;
-        o.z = frame.origin.z + mx * frame.right.z + my * frame.up.z;
-        d.x = frame.forward.x + x * frame.right.x + y * frame.up.x;
-        d.y = frame.forward.y + x * frame.right.y + y * frame.up.y;
-        d.z = frame.forward.z + x * frame.right.z + y * frame.up.z;
+        real nodes = 2.0 * half_side * pixels;
         Ray middle = make_ray(moved(moved(frame.origin, frame.middle * middle_x, frame.right),
                                     frame.middle * middle_y, frame.up),
                               moved(moved(frame.forward, middle_x, frame.right), middle_y, frame.up));
-        WideSpan span = wide_span(o, d, inflate);
-        start = max(start, max(least(span.lo), -frame.middle));
-        real end = most(span.hi);
+        real near = REAL_INFINITY;
+        real end = -REAL_INFINITY;
+        EACH_LANE {
+            WideRay node = node_ray(work, frame, middle_x, middle_y, nodes);
+            WideSpan span = wide_span(node.origin, node.direction, inflate);
+            near = min(near, least(span.lo));
+            end = max(end, most(span.hi));
+        }
+        start = max(start, max(near, -frame.middle));
         stop = min(stop, end);
         if (stop <= start) stop = end;
         int verdict = start < end ? SEARCHING : EMPTY;
@@ -240,52 +249,69 @@ void isolate_tiles(Work work, Frame frame) {
         bool negative = false;
         Poly c;
         Poly s;
-        CONSTANT(c, wide(0.0))
-        CONSTANT(s, wide(0.0))
+        Net net;
+        Bundle bundle;
+        Bundle far;
         while (verdict == SEARCHING) {
             real reach = stop - start;
-            WideVec3 front = wide_point(o, start, d);
-            WideVec3 back = wide_point(o, stop, d);
-            int inner = all_inside(front, MARGIN - rim) && all_inside(back, MARGIN - rim) ? SEARCHING : OPEN;
+            bool in_table = true;
+            real squared = 0.0;
+            EACH_LANE {
+                WideRay node = node_ray(work, frame, middle_x, middle_y, nodes);
+                WideVec3 front = wide_point(node.origin, wide(start), node.direction);
+                WideVec3 back = wide_point(node.origin, wide(stop), node.direction);
+                bool here = all_lanes(BOTH(inside(front, MARGIN - rim), inside(back, MARGIN - rim)));
+                in_table = in_table && here;
+                squared = max(squared, most(squared_distance(front, back)));
+            }
+            int inner = in_table ? SEARCHING : OPEN;
             depth = 0;
             path = 1;
             if (inner == SEARCHING) {
-                SAMPLE(s, o, d, start, reach)
+                real weighted = 0.0;
+                EACH_LANE {
+                    WideRay node = node_ray(work, frame, middle_x, middle_y, nodes);
+                    SAMPLE(s, node.origin, node.direction, start, reach)
+                    if (FIRST_TURN) negative = first_lane_number(FIRST(s)) < 0.0;
+                    if (negative) SCALE(s, -1.0)
+                    FIT(s, c)
+                    weighted = max(weighted, most(WEIGHTED(s)));
+                    KEEP_LANE(net, c)
+                }
                 all_fits += 1;
                 spent += 16 * (N + 1);
-                negative = first_lane_number(FIRST(s)) < 0.0;
-                if (negative) SCALE(s, -1.0)
-                FIT(s, c)
-                real spread = 2.0 * most(SPREAD(c));
-                TRANSFORM(c, to_control)
+                real spread = 0.0;
+                FIND_SPREAD(net, spread)
+                CONTROL(net)
+                BUNDLED(net, bundle)
                 Errors errors;
-                errors.unit = TRUST * UNIT_ROUNDOFF * most(LARGEST(c));
-                errors.off = LEBESGUE * LEBESGUE * rounding_of_samples(farthest(front, back) + rim)
-                             + remainder_between(work, frame, middle, half_side, start, stop);
-                errors.noise = TRUST * UNIT_ROUNDOFF * (2.0 * LEBESGUE * LEBESGUE * real(N / 2 + 6) * most(WEIGHTED(s))
-                                                        + MIXING * spread) + BALLAST * errors.unit;
+                errors.unit = TRUST * UNIT_ROUNDOFF * LARGEST_IN(bundle);
+                errors.off = LEBESGUE * LEBESGUE * rounding_of_samples(sqrt(squared) + rim)
+                             + remainder_between(work, frame, middle, half_side, aside, start, stop);
+                errors.noise = TRUST * UNIT_ROUNDOFF * (2.0 * LEBESGUE * LEBESGUE * real(N / 2 + 6) * weighted
+                                                        + MIXING * 2.0 * spread) + BALLAST * errors.unit;
                 while (inner == SEARCHING) {
                     real error = error_at(errors, depth);
                     all_pieces += 1;
-                    if (all_lanes(MORE(LEAST(c), wide(error)))) {
+                    if (ALL_ABOVE(bundle, error)) {
                         int up = bit_count(path & ~(path + 1));  // far halves that end here, with the piece itself
                         if (up > depth) {
                             inner = EMPTY;
                         } else {
                             depth -= up;
                             path = (path >> up) + 1;
-                            c = stack[depth - 1];
+                            bundle = stack[depth - 1];
                         }
                     } else {
-                        if (all_lanes(BOTH(LESS(LAST(c), wide(-error)), MORE(FIRST(c), wide(error))))) {
-                            bool falls = all_lanes(LESS(STEEPEST(c), wide(-2.0 * error)));
-                            if (!falls) falls = single_bits(SURE_ABOVE(c, error), SURE_BELOW(c, error)) >= N;
+                        if (CROSSES(bundle, error)) {
+                            bool falls = FALLS(bundle, error);
+                            if (!falls) falls = single_bits(SURE_ABOVE(bundle, error), SURE_BELOW(bundle, error)) >= N;
                             if (falls) inner = SINGLE;
                         }
                         if (inner == SEARCHING && (depth == TRUSTED || reach < least_width * real(1 << depth))) inner = OPEN;
                         if (inner == SEARCHING) {
-                            HALVE(c, s)
-                            stack[depth] = s;
+                            HALVE_BUNDLE(bundle, far)
+                            stack[depth] = far;
                             depth += 1;
                             path *= 2;
                         }
@@ -303,34 +329,50 @@ void isolate_tiles(Work work, Frame frame) {
                 verdict = inner;
                 tries += 1;
                 real wider = WIDENING * width;
-                if (inner == OPEN && tries <= REFITS && wider < reach) {
+                if (inner == OPEN && tries <= REFITS && (wider < reach || path > (1 << depth))) {
                     verdict = SEARCHING;
                     stop = min(start + wider, end);
                 }
             }
         }
+        if (verdict == SINGLE) spent += 16 * (N + 1);
         int share = (spent + work.tile * work.tile - 1) / (work.tile * work.tile);
         if (verdict == EMPTY) answer_empty(work, i0, j0, share);
         if (verdict == SINGLE) {
             real width = stop - start;
-            bool whole = all_inside(wide_point(o, start, d), -rim) && all_inside(wide_point(o, stop, d), -rim);
-            TRANSFORM(c, to_nodes)
-            WideRoot found;
-            FIND_ROOT(found, c, NOT(NOWHERE))
-            wide root = start + width * found.x;
-            wide slope = width / found.slope;
-            if (negative) slope = -slope;
-            TRANSFORM_ANY(root, to_powers)
-            TRANSFORM_ANY(slope, to_powers)
-            list_single(work, cell, root, slope, start, stop, whole, share);
+            bool whole = true;
+            Lanes roots;
+            Lanes slopes;
+            EACH_LANE {
+                WideRay node = node_ray(work, frame, middle_x, middle_y, nodes);
+                WideVec3 front = wide_point(node.origin, wide(start), node.direction);
+                WideVec3 back = wide_point(node.origin, wide(stop), node.direction);
+                bool here = all_lanes(BOTH(inside(front, -rim), inside(back, -rim)));
+                whole = whole && here;
+                SAMPLE(s, node.origin, node.direction, start, width)
+                if (negative) SCALE(s, -1.0)
+                FIT(s, c)
+                WideRoot found;
+                FIND_ROOT(found, c, NOT(NOWHERE))
+                wide root = start + width * found.x;
+                wide slope = width / found.slope;
+                if (negative) slope = -slope;
+                KEEP_NUMBER(roots, root)
+                KEEP_NUMBER(slopes, slope)
+            }
+            TO_CUBIC(roots)
+            TO_CUBIC(slopes)
+            list_single(work, cell, roots, slopes, start, stop, whole, share);
         }
         if (verdict == OPEN) {
             real slack = 8.0 * UNIT_ROUNDOFF * (fabs(start) + DOMAIN_RADIUS);
-            list_open(work, cell, start - slack, start + WIDENING * (stop - start), spent / 4);
+            if (LEADS) list_open(work, cell, start - slack, start + AHEAD * (stop - start), spent / 4);
         }
     }
-    add_to(work, 4 * work.level + 2, all_fits);
-    add_to(work, 4 * work.level + 3, all_pieces);
+    if (LEADS) {
+        add_to(work, 4 * work.level + 2, all_fits);
+        add_to(work, 4 * work.level + 3, all_pieces);
+    }
 }
 
 // The rays of the pixels of a block: o + t d, with d of length 1, begins nearest to the domain's centre. A depth s is
@@ -379,7 +421,7 @@ Pencil pencil_of(Work work, Frame frame, int i0, int j0) {
 // which it was evaluated.
 STRUCT(Refined) struct Refined { wide t; yes good; int evaluations; };
 
-Refined refined(Pencil rays, wide from, wide a, wide b, wide g, yes looking) {
+Refined refined(Work work, Pencil rays, wide from, wide a, wide b, wide g, yes looking) {
     real tolerance = TOLERANCE * (2.0 * DOMAIN_RADIUS);
     real slow = SECANT * DOMAIN_RADIUS;
     wide lo = a;
@@ -439,6 +481,36 @@ Refined refined(Pencil rays, wide from, wide a, wide b, wide g, yes looking) {
     return result;
 }
 
+// A cubic polynomial a + b u + c u² + d u³, and one whose coefficients are cubic polynomials of u.
+STRUCT(Cubic) struct Cubic { real a; real b; real c; real d; };
+STRUCT(Bicubic) struct Bicubic { Cubic r0; Cubic r1; Cubic r2; Cubic r3; };
+
+Cubic kept_cubic(Work work, int place) {
+    Cubic cubic;
+    cubic.a = entry_at(work, place);
+    cubic.b = entry_at(work, place + 1);
+    cubic.c = entry_at(work, place + 2);
+    cubic.d = entry_at(work, place + 3);
+    return cubic;
+}
+
+Bicubic kept_bicubic(Work work, int place) {
+    Bicubic bicubic;
+    bicubic.r0 = kept_cubic(work, place);
+    bicubic.r1 = kept_cubic(work, place + 4);
+    bicubic.r2 = kept_cubic(work, place + 8);
+    bicubic.r3 = kept_cubic(work, place + 12);
+    return bicubic;
+}
+
+wide cubic_value(Cubic p, wide u) {
+    return ((p.d * u + p.c) * u + p.b) * u + p.a;
+}
+
+wide bicubic_value(Bicubic p, wide u, wide v) {
+    return ((cubic_value(p.r3, u) * v + cubic_value(p.r2, u)) * v + cubic_value(p.r1, u)) * v + cubic_value(p.r0, u);
+}
+
 // Stage 2. Pixels of single tiles: bicubic interpolation of the nodes' roots, and then f itself.
 void finish_tiles(Work work, Frame frame) {
     int across = tiles_across(work.size, work.tile);
@@ -447,11 +519,13 @@ void finish_tiles(Work work, Frame frame) {
     real half_side = 0.5 * real(work.tile - 1) + WIDER;
     real slack = 16.0 * UNIT_ROUNDOFF * DOMAIN_RADIUS;
     int blocks = work.tile / 4;
-    for (;;) {
-        int taken = next_in(work, TAKEN + 8 + work.level);
+    for (int turn = 0;; turn++) {
+        int taken = next_tile(work, TAKEN + 8 + work.level, turn);
         if (taken >= total) break;
         int cell = queued(work, list + taken);
         int record = singles_at(work.size, work.tile) + SINGLE_RECORD * taken;
+        Bicubic roots = kept_bicubic(work, record);
+        Bicubic slopes = kept_bicubic(work, record + 16);
         real start = entry_at(work, record + 32);
         real stop = entry_at(work, record + 33);
         bool whole = entry_at(work, record + 34) > 0.0;
@@ -465,19 +539,11 @@ void finish_tiles(Work work, Frame frame) {
             Pencil rays = pencil_of(work, frame, i0, j0);
             wide u = (lane_row(LANE_X, 0) + (real(bi) - 0.5 * real(work.tile - 1))) / half_side;
             wide v = (lane_row(LANE_Y, 0) + (real(bj) - 0.5 * real(work.tile - 1))) / half_side;
-            wide root = wide(0.0);
-            wide g = wide(0.0);
-            for (int row = 3; row >= 0; row--) {
-                int at = record + 4 * row;
-                root = root * v + (((entry_at(work, at + 3) * u + entry_at(work, at + 2)) * u + entry_at(work, at + 1)) * u
-                                   + entry_at(work, at));
-                at = at + 16;
-                g = g * v + (((entry_at(work, at + 3) * u + entry_at(work, at + 2)) * u + entry_at(work, at + 1)) * u
-                             + entry_at(work, at));
-            }
+            wide root = bicubic_value(roots, u, v);
+            wide g = bicubic_value(slopes, u, v);
             wide a = rays.base + start * rays.length - slack;
             wide b = rays.base + stop * rays.length + slack;
-            Refined found = refined(rays, rays.base + root * rays.length, a, b, g * rays.length, NOT(NOWHERE));
+            Refined found = refined(work, rays, rays.base + root * rays.length, a, b, g * rays.length, NOT(NOWHERE));
             yes hit = NOT(NOWHERE);
             yes left = NOT(found.good);
             if (!whole) {
@@ -502,8 +568,8 @@ void cast_packets(Work work, Frame frame) {
     real slack = 16.0 * UNIT_ROUNDOFF * DOMAIN_RADIUS;
     int all_fits = 0;
     int all_pieces = 0;
-    for (;;) {
-        int taken = next_in(work, TAKEN + 16);
+    for (int turn = 0;; turn++) {
+        int taken = next_tile(work, TAKEN + 16, turn);
         if (taken >= total) break;
         int slot = taken / (blocks * blocks);
         int block = taken % (blocks * blocks);
@@ -525,16 +591,16 @@ void cast_packets(Work work, Frame frame) {
         span.lo = max(span.lo, -rays.shift);
         wide own_lo = (span.lo - rays.base) / rays.length;
         wide own_hi = (span.hi - rays.base) / rays.length + slack;
-        yes active = AT_MOST(span.lo, span.hi);
-        active = BOTH(active, AT_MOST(wide(start), own_hi));
+        yes waiting = AT_MOST(span.lo, span.hi);
+        waiting = BOTH(waiting, AT_MOST(wide(start), own_hi));
         yes opened = NOWHERE;
         yes found = NOWHERE;
         wide open_from = wide(start);
         wide found_start = wide(0.0);
         wide found_width = wide(0.0);
         wide sign = wide(1.0);
-        start = max(start, least(CHOOSE(active, own_lo, wide(REAL_INFINITY))) - slack);
-        real end = most(CHOOSE(active, own_hi, wide(-REAL_INFINITY)));
+        start = max(start, least(CHOOSE(waiting, own_lo, wide(REAL_INFINITY))) - slack);
+        real end = most(CHOOSE(waiting, own_hi, wide(-REAL_INFINITY)));
         stop = min(stop, end);
         if (stop <= start) stop = end;
         Poly c;
@@ -542,27 +608,28 @@ void cast_packets(Work work, Frame frame) {
         Poly q;
         CONSTANT(q, wide(0.0))
         int fits = 0;
-        while (any_lane(active) && start < end) {
+        real open_width = 0.0;
+        while (any_lane(waiting) && start < end) {
             real reach = stop - start;
             WideVec3 front = wide_point(o, start, d);
             WideVec3 back = wide_point(o, stop, d);
             int inner = SEARCHING;
-            if (!all_inside(front, MARGIN) || !all_inside(back, MARGIN)) {
-                open_from = CHOOSE(active, wide(start), open_from);
-                opened = EITHER(opened, active);
-                active = NOWHERE;
+            if (!all_lanes(BOTH(inside(front, MARGIN), inside(back, MARGIN)))) {
+                open_from = CHOOSE(waiting, wide(start), open_from);
+                opened = EITHER(opened, waiting);
+                waiting = NOWHERE;
                 inner = OPEN;
             }
             if (inner == SEARCHING) {
                 SAMPLE(s, o, d, start, reach)
                 fits += 1;
                 wide own_sign = CHOOSE(LESS(FIRST(s), wide(0.0)), wide(-1.0), wide(1.0));
-                sign = CHOOSE(active, own_sign, sign);
+                sign = CHOOSE(waiting, own_sign, sign);
                 SCALE(s, own_sign)
                 FIT(s, c)
                 wide unit = TRUST * UNIT_ROUNDOFF * LARGEST(c);
                 wide noise = 2.0 * TRUST * UNIT_ROUNDOFF * real(N / 2 + 6) * WEIGHTED(s);
-                real off = rounding_of_samples(farthest(front, back));
+                real off = rounding_of_samples(sqrt(most(squared_distance(front, back))));
                 int depth = 0;
                 int path = 1;
                 while (inner == SEARCHING) {
@@ -570,8 +637,8 @@ void cast_packets(Work work, Frame frame) {
                     all_pieces += 1;
                     real width = reach / real(1 << depth);
                     real from = start + width * real(path - (1 << depth));
-                    active = BOTH(active, AT_MOST(wide(from), own_hi));
-                    yes unsure = BOTH(active, NOT(MORE(LEAST(c), error)));
+                    waiting = BOTH(waiting, AT_MOST(wide(from), own_hi));
+                    yes unsure = BOTH(waiting, NOT(MORE(LEAST(c), error)));
                     yes one = BOTH(unsure, BOTH(LESS(LAST(c), -error), MORE(FIRST(c), error)));
                     if (any_lane(one)) {
                         wide after;
@@ -581,16 +648,17 @@ void cast_packets(Work work, Frame frame) {
                         found_width = CHOOSE(one, wide(width), found_width);
                         KEEP(q, one, c)
                         found = EITHER(found, one);
-                        active = BOTH(active, NOT(one));
+                        waiting = BOTH(waiting, NOT(one));
                         unsure = BOTH(unsure, NOT(one));
                     }
                     if (depth == TRUSTED) {
+                        open_width = width;
                         open_from = CHOOSE(unsure, wide(from), open_from);
                         opened = EITHER(opened, unsure);
-                        active = BOTH(active, NOT(unsure));
+                        waiting = BOTH(waiting, NOT(unsure));
                         unsure = NOWHERE;
                     }
-                    if (!any_lane(active)) {
+                    if (!any_lane(waiting)) {
                         inner = OPEN;
                     } else if (any_lane(unsure)) {
                         HALVE(c, s)
@@ -611,6 +679,13 @@ void cast_packets(Work work, Frame frame) {
             }
             start = stop;
             stop = end;
+            // what is open is fitted anew, on a shorter piece
+            if (any_lane(opened) && open_width > 0.0 && fits < PACKET_FITS) {
+                waiting = EITHER(waiting, opened);
+                start = least(CHOOSE(opened, open_from, wide(end)));
+                stop = min(start + WIDENING * open_width, end);
+                opened = NOWHERE;
+            }
         }
         all_fits += fits;
         int evaluations = fits * (N + 1);
@@ -623,7 +698,7 @@ void cast_packets(Work work, Frame frame) {
             wide a = rays.base + found_start * rays.length - slack;
             wide b = rays.base + (found_start + found_width) * rays.length + slack;
             wide at = rays.base + (found_start + found_width * inside.x) * rays.length;
-            Refined result = refined(rays, at, a, b, sign * (found_width / inside.slope) * rays.length, found);
+            Refined result = refined(work, rays, at, a, b, sign * (found_width / inside.slope) * rays.length, found);
             evaluations += result.evaluations;
             t = result.t;
             hit = BOTH(found, NOT(MORE(t, span.hi)));

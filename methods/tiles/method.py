@@ -52,6 +52,8 @@ METHOD = Method(
         Parameter("TRUSTED", 6, "halvings of a fitted piece before a tile is open"),
         Parameter("WIDENING", 8.0, "length of the next piece to be fitted, over that of the piece just decided"),
         Parameter("REFITS", 1, "how often a tile that is open is fitted anew before its quarters are"),
+        Parameter("PACKET_FITS", 4, "fits of a block of open pixels before those still open are cast by themselves"),
+        Parameter("AHEAD", 4.0, "length of the first piece that is fitted in an open tile's parts, over the open piece"),
         Parameter("SHORTEST", 2.0, "shortest piece of a tile, over the tile's side"),
         Parameter("COUNTED", 5, "as bernstein's"),
         Parameter("COMPENSATED", 17, "as bernstein's"),

@@ -40,14 +40,7 @@ void answer_block(Work work, int i0, int j0, wide shift, wide t, yes hit, int st
         int i = i0 + (k & 3);
         int j = j0 + (k >> 2);
         if (i >= across || j >= across) continue;
-        int place = j * across + i;
-        work.answer[place] = word[k];
-        if (LISTED == 0) {
-            work.t[place] = shifts[k] + ts[k];
-        } else {
-            work.t[2 * place] = shifts[k];
-            work.t[2 * place + 1] = ts[k];
-        }
+        answer_pixel(work, j * across + i, shifts[k], ts[k], word[k]);
     }
 }
 
@@ -90,3 +83,16 @@ WideRay with_listed(Work work, int i0, int j0, WideRay rays) {
     result.direction.z = vload16(0, parts[5]);
     return result;
 }
+
+// Answers that all pixels of a tile miss.
+void answer_empty(Work work, int i0, int j0, int evaluations) {
+    int word = answer_word(MISS, work.level, evaluations);
+    for (int j = j0; j < min(j0 + work.tile, work.size); j++) {
+        for (int i = i0; i < min(i0 + work.tile, work.size); i++) {
+            work.answer[j * work.size + i] = word;
+        }
+    }
+}
+
+#define next_tile(work, counter, turn) next_in(work, counter)
+#define LEADS true

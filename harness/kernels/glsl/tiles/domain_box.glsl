@@ -28,12 +28,12 @@ WideSpan wide_span(WideVec3 o, WideVec3 d, real more) {
     return span;
 }
 
-// Returns whether points are in all lanes in the domain, which is larger by `more`.
-bool all_inside(WideVec3 p, real more) {
+// Returns in which lanes points are in the domain, which is larger by `more`.
+yes inside(WideVec3 p, real more) {
     vec3 lower = DOMAIN_LOWER;
     vec3 upper = DOMAIN_UPPER;
-    yes inside = BOTH(MORE(p.x, wide(lower.x - more)), LESS(p.x, wide(upper.x + more)));
-    inside = BOTH(inside, BOTH(MORE(p.y, wide(lower.y - more)), LESS(p.y, wide(upper.y + more))));
-    inside = BOTH(inside, BOTH(MORE(p.z, wide(lower.z - more)), LESS(p.z, wide(upper.z + more))));
-    return all_lanes(inside);
+    yes within = BOTH(MORE(p.x, wide(lower.x - more)), LESS(p.x, wide(upper.x + more)));
+    within = BOTH(within, BOTH(MORE(p.y, wide(lower.y - more)), LESS(p.y, wide(upper.y + more))));
+    within = BOTH(within, BOTH(MORE(p.z, wide(lower.z - more)), LESS(p.z, wide(upper.z + more))));
+    return within;
 }

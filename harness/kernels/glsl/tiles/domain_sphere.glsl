@@ -20,13 +20,13 @@ WideSpan wide_span(WideVec3 o, WideVec3 d, real more) {
     return span;
 }
 
-// Returns whether points are in all lanes in the domain, which is larger by `more`.
-bool all_inside(WideVec3 p, real more) {
+// Returns in which lanes points are in the domain, which is larger by `more`.
+yes inside(WideVec3 p, real more) {
     vec3 center = DOMAIN_CENTER;
     WideVec3 from;
     from.x = p.x - center.x;
     from.y = p.y - center.y;
     from.z = p.z - center.z;
     real radius = DOMAIN_RADIUS + more;
-    return all_lanes(LESS(wide_inner(from, from), wide(radius * radius)));
+    return LESS(wide_inner(from, from), wide(radius * radius));
 }

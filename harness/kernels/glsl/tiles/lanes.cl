@@ -13,7 +13,8 @@
 #define first_lane(v) ((wide)((v).s0))
 #define first_lane_number(v) ((v).s0)
 #define lane_row(name, k) vload16(k, name)
-#define bit_count(v) popcount(v)
+#define EACH_LANE
+#define FIRST_TURN true
 
 // Reads lanes whose index differs in some bits.
 #define OTHER_1(v) ((v).s1032547698badcfe)
