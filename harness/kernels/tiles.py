@@ -39,7 +39,7 @@ STAGES: tuple[TileStage, ...] = ("isolate", "finish", "packets", "rest")
 TILE = 16  # pixels along a side of the first level's tiles
 LEVELS = 2  # of tiles, each of half the side of the one before
 REACH = 1.125  # radius of the last ball of the bounds of rounding errors, in domain radii
-RECORDS = {"OPEN_RECORD": 4, "SINGLE_RECORD": 36, "QUEUE_RECORD": 2}  # reals, reals, int32 that lists have for a tile
+RECORDS = {"OPEN_RECORD": 4, "SINGLE_RECORD": 40, "QUEUE_RECORD": 2}  # reals, reals, int32 that lists have for a tile
 
 
 def stage_program(
@@ -80,7 +80,6 @@ def stage_program(
         sections += files(*_net_files(stage, form))
         domain = "box" if isinstance(surface.domain, Box) else "sphere"
         sections += [*_lane_tables(precision, language), *files(f"tiles/domain_{domain}.glsl")]
-        sections += [table_section("POWERS", [float(v) for b in POWERS for v in b], precision, language)]
         sections += method_sections(method, folder, variant, surface, precision, language)
     sections += files(f"tiles/entry_{stage}.{language}")
     return Program(language, precision, stage, tuple(sections))
@@ -164,10 +163,12 @@ def _lane_tables(precision: Precision, language: Language) -> list[Section]:
 
     Lane k is node (k & 3, k >> 2). Row number i of one direction has each lane's factor of the lane whose index in that
     direction differs by the bits i. LANE_X, LANE_Y: each lane's own indices. NODE_X, NODE_Y: its node's place.
+    POWERS_X, POWERS_Y, POWERS_Z: the powers of its entry in the table of fourth derivatives.
     """
     lanes = [(k & 3, k >> 2) for k in range(16)]
     made = {"LANE_X": [float(x) for x, _ in lanes], "LANE_Y": [float(y) for _, y in lanes]}
     made |= {"NODE_X": [NODES[x] for x, _ in lanes], "NODE_Y": [NODES[y] for _, y in lanes]}
+    made |= {f"POWERS_{axis}": [*(float(b[k]) for b in POWERS), 0.0] for k, axis in enumerate("XYZ")}
     for name, matrix in (("TO_CONTROL", to_control()), ("TO_POWERS", to_powers())):
         across = [float(matrix[x][x ^ i]) for i in range(4) for x, _ in lanes]
         down = [float(matrix[y][y ^ i]) for i in range(4) for _, y in lanes]

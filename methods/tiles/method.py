@@ -68,6 +68,7 @@ METHOD = Method(
         Parameter(
             "AHEAD", 4.0, "length of the first piece that is fitted in an open tile's parts, over the open piece"
         ),
+        Parameter("LEANS", 1, "1: an open tile is tried once more with nodes in planes that lean as the surface does"),
         Parameter("SHORTEST", 2.0, "shortest piece of a tile, over the tile's side"),
         Parameter("COUNTED", 5, "as bernstein's"),
         Parameter("COMPENSATED", 17, "as bernstein's"),
