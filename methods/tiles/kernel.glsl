@@ -579,7 +579,13 @@ Refined refined(Work work, Pencil rays, wide from, wide a, wide b, wide g, yes l
     }
     evaluations += 2 * PAIRS;
     wide last = wide(0.0);
-    if (PAIRS > 0) last = sum * g * (1.0 / real(max(2 * PAIRS, 1)));
+    if (PAIRS > 0) {
+        wide mean = sum * (1.0 / real(max(2 * PAIRS, 1)));
+        // the secant's slope is better where the step is long enough for rounding errors not to matter
+        wide secant = step / (mean - f);
+        yes long_step = MORE(fabs(step), wide(32.0 * UNIT_ROUNDOFF * 2.0 * DOMAIN_RADIUS));
+        last = mean * CHOOSE(BOTH(long_step, MORE(secant * g, wide(0.0))), secant, g);
+    }
     yes seen = BOTH(seen_before, seen_behind);
     if (any_lane(BOTH(looking, NOT(seen)))) {
         wide other = wide_value(wide_point(rays.o, CHOOSE(seen_before, b, a), rays.d));
