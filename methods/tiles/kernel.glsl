@@ -12,6 +12,8 @@
 #define MIXING 220.0           // and of the largest difference of two lanes
 #define THIRD 0.3333333432674407958984375
 
+#define ASIDE 0.75             // most cells that a tile's rays may be from its middle ray, in one coordinate
+
 #define SEARCHING 0
 #define EMPTY 1
 #define SINGLE 2
@@ -26,7 +28,6 @@ STRUCT(Frame) struct Frame {
     real middle;     // the depth of the domain's centre
     real far;        // the largest depth in the domain
     real pixel;      // the larger side of a pixel at depth 1
-    real diagonal;   // and its diagonal
 };
 
 Frame make_frame(vec3 eye, vec3 forward, vec3 right, vec3 up, int size) {
@@ -42,7 +43,6 @@ Frame make_frame(vec3 eye, vec3 forward, vec3 right, vec3 up, int size) {
     real squared_right = inner_product(right, right);
     real squared_up = inner_product(up, up);
     frame.pixel = 2.0 * sqrt(max(squared_right, squared_up)) / real(size);
-    frame.diagonal = 2.0 * sqrt(squared_right + squared_up) / real(size);
     return frame;
 }
 
@@ -72,74 +72,148 @@ wide squared_distance(WideVec3 a, WideVec3 b) {
     return max(wide_inner(p, p), wide_inner(q, q));
 }
 
-// Returns each lane's node ray, its depth less frame.middle as parameter. The tile's middle ray is (x, y), and `reach`
-// is half the side of the nodes' square.
-WideRay node_ray(Work work, Frame frame, real x, real y, real reach) {
-    wide nx = x + reach * lane_row(NODE_X, 0);
-    wide ny = y - reach * lane_row(NODE_Y, 0);
-    wide mx = frame.middle * nx;
-    wide my = frame.middle * ny;
+// A pyramid from the eye that holds a tile's rays: at depth s it is the parallelogram of the middle ray's point plus
+// s (u across + v down), u and v in [-1, 1]. Its parameter is s less frame.middle.
+STRUCT(Tile) struct Tile { Ray middle; vec3 across; vec3 down; };
+
+// Returns each lane's node ray.
+WideRay node_ray(Work work, Frame frame, Tile tile) {
+    wide u = lane_row(NODE_X, 0);
+    wide v = lane_row(NODE_Y, 0);
+    wide x = u * tile.across.x + v * tile.down.x;
+    wide y = u * tile.across.y + v * tile.down.y;
+    wide z = u * tile.across.z + v * tile.down.z;
     WideRay ray;
-    ray.origin.x = frame.origin.x + mx * frame.right.x + my * frame.up.x;
-    ray.origin.y = frame.origin.y + mx * frame.right.y + my * frame.up.y;
-    ray.origin.z = frame.origin.z + mx * frame.right.z + my * frame.up.z;
-    ray.direction.x = frame.forward.x + nx * frame.right.x + ny * frame.up.x;
-    ray.direction.y = frame.forward.y + nx * frame.right.y + ny * frame.up.y;
-    ray.direction.z = frame.forward.z + nx * frame.right.z + ny * frame.up.z;
+    ray.origin.x = tile.middle.origin.x + frame.middle * x;
+    ray.origin.y = tile.middle.origin.y + frame.middle * y;
+    ray.origin.z = tile.middle.origin.z + frame.middle * z;
+    ray.direction.x = tile.middle.direction.x + x;
+    ray.direction.y = tile.middle.direction.y + y;
+    ray.direction.z = tile.middle.direction.z + z;
     return ray;
+}
+
+// Returns the largest distance of the tile's rays from its middle ray at depth 1, and the largest in one coordinate.
+real corner_of(Tile tile) {
+    vec3 sum = moved(tile.across, 1.0, tile.down);
+    vec3 rest = difference(tile.across, tile.down);
+    return sqrt(max(inner_product(sum, sum), inner_product(rest, rest)));
+}
+
+real widest_of(Tile tile) {
+    return max(fabs(tile.across.x) + fabs(tile.down.x),
+               max(fabs(tile.across.y) + fabs(tile.down.y), fabs(tile.across.z) + fabs(tile.down.z)));
 }
 
 int cell_of(real place) {
     return clamp(int(place), 0, GRID - 1);
 }
 
-// Bounds the remainder of the tile's interpolation between two depths, from the bounds of fourth derivatives that are
-// looked up along the tile's middle ray, `half_side` pixels from the tile's sides. A cell's bound holds one cell beyond
-// it. So if the tile's rays are `aside` cells from the middle one, steps of 2 (1 - aside) cells leave nothing out.
-real remainder_between(Work work, Frame frame, Ray middle, real half_side, real aside, real start, real stop) {
+// Returns |v| to each lane's power, 0 to 4.
+wide power_of(wide power, real v) {
+    wide result = wide(1.0);
+    for (int k = 0; k < 4; k++) result = CHOOSE(MORE(power, wide(real(k))), fabs(v) * result, result);
+    return result;
+}
+
+// Returns each lane's factor of a fourth derivative in the bound of the remainder at depth 1.
+wide remainder_weight(Work work, Tile tile) {
+    wide x = lane_row(POWERS_X, 0);
+    wide y = lane_row(POWERS_Y, 0);
+    wide z = lane_row(POWERS_Z, 0);
+    wide across = power_of(x, tile.across.x) * power_of(y, tile.across.y) * power_of(z, tile.across.z);
+    wide down = power_of(x, tile.down.x) * power_of(y, tile.down.y) * power_of(z, tile.down.z);
+    return REMAINDER_X * across + REMAINDER_Y * down;
+}
+
+// Bounds the remainder of the tile's interpolation between two depths, from the bounds of fourth derivatives, one a
+// lane, that are looked up along the tile's middle ray. A cell's bounds hold one cell beyond it. So if the tile's rays
+// are `aside` cells from the middle one, steps of 2 (1 - aside) cells leave nothing out.
+real remainder_between(Work work, Frame frame, Tile tile, real aside, real start, real stop) {
     real cells = real(GRID) / (2.0 * TABLE_HALF);
-    vec3 a = difference(ray_point(middle, start), DOMAIN_CENTER);
-    vec3 b = difference(ray_point(middle, stop), DOMAIN_CENTER);
+    vec3 a = difference(ray_point(tile.middle, start), DOMAIN_CENTER);
+    vec3 b = difference(ray_point(tile.middle, stop), DOMAIN_CENTER);
     vec3 way = difference(b, a);
     real most_way = max(fabs(way.x), max(fabs(way.y), fabs(way.z)));
     int steps = 1 + int(cells * most_way / (2.0 * (0.9990234375 - aside)));
     real share = 1.0 / real(steps);
-    real bound = 0.0;
-    int table = bounds_at(work);
+    Lanes bounds;
+    EACH_LANE {
+        KEEP_NUMBER(bounds, wide(0.0))
+    }
     for (int k = 0; k <= steps; k++) {
         vec3 p = moved(a, share * real(k), way);
         int z = cell_of(cells * p.z + 0.5 * real(GRID));
         int y = cell_of(cells * p.y + 0.5 * real(GRID));
         int x = cell_of(cells * p.x + 0.5 * real(GRID));
-        real until = min(start + share * (real(k) + 0.5) * (stop - start), stop);
-        real side = half_side * (frame.middle + until);
-        bound = max(bound, (side * side) * (side * side) * entry_at(work, table + (z * GRID + y) * GRID + x));
+        real depth = frame.middle + min(start + share * (real(k) + 0.5) * (stop - start), stop);
+        real grown = (depth * depth) * (depth * depth);
+        EACH_LANE {
+            RAISE_NUMBER(bounds, grown * fourth_row(work, 16 * ((z * GRID + y) * GRID + x)))
+        }
+    }
+    real bound = 0.0;
+    EACH_LANE {
+        bound += total(remainder_weight(work, tile) * NUMBER(bounds));
     }
     return bound;
 }
 
-// Contracts the table of f's fourth derivatives for the frame: a cell's bound is that of the interpolation's error on a
-// tile whose half side is a pixel at depth 1. Each of `items` work items takes every so many cells.
-void contract_bounds(Work work, vec3 right, vec3 up, int item, int items) {
-    real weights[16];
-    real pixel = 1.0 / real(work.size);
-    for (int a = 0; a < 15; a++) {
-        real across = REMAINDER_X;
-        real down = REMAINDER_Y;
-        for (int k = 0; k < 4; k++) {
-            bool x = real(k) < POWERS[3 * a];
-            bool y = !x && real(k) < POWERS[3 * a] + POWERS[3 * a + 1];
-            across = across * 2.0 * pixel * fabs(x ? right.x : (y ? right.y : right.z));
-            down = down * 2.0 * pixel * fabs(x ? up.x : (y ? up.y : up.z));
+// How a tile leans: by which share a plane of its nodes at one parameter is deeper at the tile's right side, and at its
+// lower side, than in the middle. `range` is the largest distance of the nodes' roots from that plane.
+STRUCT(Lean) struct Lean { real across; real down; real middle; real range; };
+
+// Estimates the plane of the nodes' first roots from the secants of f, from [start, stop] on.
+Lean lean_of(Work work, Frame frame, Tile tile, real start, real stop) {
+    real width = stop - start;
+    real sum = 0.0;
+    real squares = 0.0;
+    real across = 0.0;
+    real down = 0.0;
+    Lanes roots;
+    EACH_LANE {
+        WideRay node = node_ray(work, frame, tile);
+        wide a = wide(start);
+        wide t = wide(stop);
+        wide fa = wide_value(wide_point(node.origin, a, node.direction));
+        for (int k = 0; k < 3; k++) {
+            wide f = wide_value(wide_point(node.origin, t, node.direction));
+            wide next = t - f * ((t - a) / (f - fa));
+            a = t;
+            fa = f;
+            t = clamp(CHOOSE(LESS(fabs(next), wide(REAL_INFINITY)), next, t), wide(start - 2.0 * width),
+                      wide(stop + 6.0 * width));
         }
-        weights[a] = across + down;
+        KEEP_NUMBER(roots, t)
+        sum += total(t);
+        squares += total(lane_row(NODE_X, 0) * lane_row(NODE_X, 0));
+        across += total(lane_row(NODE_X, 0) * t);
+        down += total(lane_row(NODE_Y, 0) * t);
     }
-    int table = bounds_at(work);
-    for (int cell = item; cell < GRID * GRID * GRID; cell += items) {
-        real bound = 0.0;
-        for (int a = 0; a < 15; a++) bound += weights[a] * fourth_at(work, 16 * cell + a);
-        enter(work, table + cell, bound);
+    Lean lean;
+    lean.middle = 0.0625 * sum;
+    across = across / squares;
+    down = down / squares;
+    lean.range = 0.0;
+    EACH_LANE {
+        wide t = lean.middle + across * lane_row(NODE_X, 0) + down * lane_row(NODE_Y, 0);
+        lean.range = max(lean.range, most(fabs(NUMBER(roots) - t)));
     }
+    lean.across = across / (frame.middle + lean.middle);
+    lean.down = down / (frame.middle + lean.middle);
+    return lean;
+}
+
+// Returns a tile that holds the same rays, with nodes in leaning planes.
+Tile leaning(Tile tile, Lean lean) {
+    real grown = 1.0 / (1.0 - fabs(lean.across) - fabs(lean.down));
+    Tile result;
+    result.middle = tile.middle;
+    result.across = moved(tile.across, lean.across, tile.middle.direction);
+    result.down = moved(tile.down, lean.down, tile.middle.direction);
+    result.across = vec3(grown * result.across.x, grown * result.across.y, grown * result.across.z);
+    result.down = vec3(grown * result.down.x, grown * result.down.y, grown * result.down.z);
+    return result;
 }
 
 int single_bits(int above, int below) {
@@ -183,13 +257,8 @@ void isolate_tiles(Work work, Frame frame) {
     int above_across = tiles_across(work.size, 2 * work.tile);
     int above = tiles_before(work.size, 2 * work.tile);
     real half_side = 0.5 * real(work.tile - 1) + WIDER;
-    // a ray is at most this far from the nearest node's ray: half a diagonal of the net
     real rounding = 64.0 * UNIT_ROUNDOFF * DOMAIN_RADIUS;
-    real inflate = 1.0009765625 * GAP * half_side * frame.diagonal * frame.far + rounding;
-    real rim = 1.0009765625 * RIM * half_side * frame.diagonal * frame.far + rounding;
     real cells = real(GRID) / (2.0 * TABLE_HALF);
-    real aside = half_side * frame.diagonal * frame.far * cells;
-    bool coarse = aside > 0.75;
     real least_width = SHORTEST * real(work.tile) * frame.pixel * frame.far;
     Rows to_control;
     Rows to_powers;
@@ -219,19 +288,29 @@ void isolate_tiles(Work work, Frame frame) {
         int i0 = cell_x * work.tile;
         int j0 = cell_y * work.tile;
 
-        // node rays, and the tile's middle ray
         real pixels = 1.0 / real(work.size);
         real middle_x = real(2 * i0 + work.tile - work.size) * pixels;
         real middle_y = real(work.size - 2 * j0 - work.tile) * pixels;
-        real nodes = 2.0 * half_side * pixels;
-        Ray middle = make_ray(moved(moved(frame.origin, frame.middle * middle_x, frame.right),
-                                    frame.middle * middle_y, frame.up),
-                              moved(moved(frame.forward, middle_x, frame.right), middle_y, frame.up));
+        real side = 2.0 * half_side * pixels;
+        Tile tile;
+        tile.middle = make_ray(moved(moved(frame.origin, frame.middle * middle_x, frame.right),
+                                     frame.middle * middle_y, frame.up),
+                               moved(moved(frame.forward, middle_x, frame.right), middle_y, frame.up));
+        tile.across = vec3(side * frame.right.x, side * frame.right.y, side * frame.right.z);
+        tile.down = vec3(-side * frame.up.x, -side * frame.up.y, -side * frame.up.z);
+        Lean lean;
+        lean.across = 0.0;
+        lean.down = 0.0;
+        bool leans = false;
+        real aside = cells * frame.far * widest_of(tile);
+        real corner = 1.0009765625 * frame.far * corner_of(tile);
+        real rim = RIM * corner + rounding;
         real near = REAL_INFINITY;
         real end = -REAL_INFINITY;
         EACH_LANE {
-            WideRay node = node_ray(work, frame, middle_x, middle_y, nodes);
-            WideSpan span = wide_span(node.origin, node.direction, inflate);
+            WideRay node = node_ray(work, frame, tile);
+            // a ray is at most so far from the nearest node's ray: half a diagonal of the net
+            WideSpan span = wide_span(node.origin, node.direction, GAP * corner + rounding);
             near = min(near, least(span.lo));
             end = max(end, most(span.hi));
         }
@@ -239,7 +318,7 @@ void isolate_tiles(Work work, Frame frame) {
         stop = min(stop, end);
         if (stop <= start) stop = end;
         int verdict = start < end ? SEARCHING : EMPTY;
-        if (coarse && verdict == SEARCHING) {
+        if (aside > ASIDE && verdict == SEARCHING) {
             verdict = OPEN;
             stop = end;
         }
@@ -247,6 +326,8 @@ void isolate_tiles(Work work, Frame frame) {
         int path = 1;
         int tries = 0;
         bool negative = false;
+        real open_start = start;
+        real open_width = 0.0;
         Poly c;
         Poly s;
         Net net;
@@ -257,7 +338,7 @@ void isolate_tiles(Work work, Frame frame) {
             bool in_table = true;
             real squared = 0.0;
             EACH_LANE {
-                WideRay node = node_ray(work, frame, middle_x, middle_y, nodes);
+                WideRay node = node_ray(work, frame, tile);
                 WideVec3 front = wide_point(node.origin, wide(start), node.direction);
                 WideVec3 back = wide_point(node.origin, wide(stop), node.direction);
                 bool here = all_lanes(BOTH(inside(front, MARGIN - rim), inside(back, MARGIN - rim)));
@@ -270,7 +351,7 @@ void isolate_tiles(Work work, Frame frame) {
             if (inner == SEARCHING) {
                 real weighted = 0.0;
                 EACH_LANE {
-                    WideRay node = node_ray(work, frame, middle_x, middle_y, nodes);
+                    WideRay node = node_ray(work, frame, tile);
                     SAMPLE(s, node.origin, node.direction, start, reach)
                     if (FIRST_TURN) negative = first_lane_number(FIRST(s)) < 0.0;
                     if (negative) SCALE(s, -1.0)
@@ -287,7 +368,7 @@ void isolate_tiles(Work work, Frame frame) {
                 Errors errors;
                 errors.unit = TRUST * UNIT_ROUNDOFF * LARGEST_IN(bundle);
                 errors.off = LEBESGUE * LEBESGUE * rounding_of_samples(sqrt(squared) + rim)
-                             + remainder_between(work, frame, middle, half_side, aside, start, stop);
+                             + remainder_between(work, frame, tile, aside, start, stop);
                 errors.noise = TRUST * UNIT_ROUNDOFF * (2.0 * LEBESGUE * LEBESGUE * real(N / 2 + 6) * weighted
                                                         + MIXING * 2.0 * spread) + BALLAST * errors.unit;
                 while (inner == SEARCHING) {
@@ -308,7 +389,7 @@ void isolate_tiles(Work work, Frame frame) {
                             if (!falls) falls = single_bits(SURE_ABOVE(bundle, error), SURE_BELOW(bundle, error)) >= N;
                             if (falls) inner = SINGLE;
                         }
-                        if (inner == SEARCHING && (depth == TRUSTED || reach < least_width * real(1 << depth))) inner = OPEN;
+                        if (inner == SEARCHING && (depth == TRUSTED || reach < (leans ? 0.25 * least_width : least_width) * real(1 << depth))) inner = OPEN;
                         if (inner == SEARCHING) {
                             HALVE_BUNDLE(bundle, far)
                             stack[depth] = far;
@@ -332,6 +413,27 @@ void isolate_tiles(Work work, Frame frame) {
                 if (inner == OPEN && tries <= REFITS && (wider < reach || path > (1 << depth))) {
                     verdict = SEARCHING;
                     stop = min(start + wider, end);
+                } else if (inner == OPEN && !leans && LEANS > 0) {
+                    // once more in planes that lean as the surface does
+                    open_start = start;
+                    open_width = width;
+                    leans = true;
+                    lean = lean_of(work, frame, tile, start, stop);
+                    spent += 64;
+                    Tile other = leaning(tile, lean);
+                    real share = fabs(lean.across) + fabs(lean.down);
+                    real other_aside = cells * frame.far * widest_of(other);
+                    if (share < 0.25 && other_aside < ASIDE && lean.range < width) {
+                        verdict = SEARCHING;
+                        tries = 0;
+                        tile = other;
+                        aside = other_aside;
+                        rim = RIM * 1.0009765625 * frame.far * corner_of(tile) + rounding;
+                        start = (frame.middle + start) * (1.0 - share) - frame.middle - rounding;
+                        end = (frame.middle + end) * (1.0 + share) - frame.middle + rounding;
+                        stop = min(lean.middle + 2.0 * lean.range + width, end);
+                        if (stop <= start) stop = end;
+                    }
                 }
             }
         }
@@ -344,7 +446,7 @@ void isolate_tiles(Work work, Frame frame) {
             Lanes roots;
             Lanes slopes;
             EACH_LANE {
-                WideRay node = node_ray(work, frame, middle_x, middle_y, nodes);
+                WideRay node = node_ray(work, frame, tile);
                 WideVec3 front = wide_point(node.origin, wide(start), node.direction);
                 WideVec3 back = wide_point(node.origin, wide(stop), node.direction);
                 bool here = all_lanes(BOTH(inside(front, -rim), inside(back, -rim)));
@@ -362,9 +464,15 @@ void isolate_tiles(Work work, Frame frame) {
             }
             TO_CUBIC(roots)
             TO_CUBIC(slopes)
-            list_single(work, cell, roots, slopes, start, stop, whole, share);
+            list_single(work, cell, roots, slopes, start, stop, whole, share, lean.across, lean.down);
         }
         if (verdict == OPEN) {
+            if (leans) {
+                // no ray has a root before this depth
+                real share = fabs(lean.across) + fabs(lean.down);
+                start = max(open_start, (frame.middle + start) / (1.0 + share) - frame.middle);
+                stop = start + open_width;
+            }
             real slack = 8.0 * UNIT_ROUNDOFF * (fabs(start) + DOMAIN_RADIUS);
             if (LEADS) list_open(work, cell, start - slack, start + AHEAD * (stop - start), spent / 4);
         }
@@ -530,6 +638,9 @@ void finish_tiles(Work work, Frame frame) {
         real stop = entry_at(work, record + 33);
         bool whole = entry_at(work, record + 34) > 0.0;
         int spent = int(entry_at(work, record + 35));
+        real lean_x = entry_at(work, record + 36);
+        real lean_y = entry_at(work, record + 37);
+        real shrunk = 1.0 - fabs(lean_x) - fabs(lean_y);
         for (int block = 0; block < blocks * blocks; block++) {
             int bi = 4 * (block % blocks);
             int bj = 4 * (block / blocks);
@@ -539,11 +650,18 @@ void finish_tiles(Work work, Frame frame) {
             Pencil rays = pencil_of(work, frame, i0, j0);
             wide u = (lane_row(LANE_X, 0) + (real(bi) - 0.5 * real(work.tile - 1))) / half_side;
             wide v = (lane_row(LANE_Y, 0) + (real(bj) - 0.5 * real(work.tile - 1))) / half_side;
+            // in the nodes' planes, which lean, the place and the depth are `grown` times those in planes of one depth
+            wide deeper = lean_x * u + lean_y * v;
+            wide grown = 1.0 / (1.0 - deeper);
+            u = u * grown * shrunk;
+            v = v * grown * shrunk;
             wide root = bicubic_value(roots, u, v);
             wide g = bicubic_value(slopes, u, v);
-            wide a = rays.base + start * rays.length - slack;
-            wide b = rays.base + stop * rays.length + slack;
-            Refined found = refined(work, rays, rays.base + root * rays.length, a, b, g * rays.length, NOT(NOWHERE));
+            wide begin = rays.base + frame.middle * deeper * grown * rays.length;
+            wide length = grown * rays.length;
+            wide a = begin + start * length - slack;
+            wide b = begin + stop * length + slack;
+            Refined found = refined(work, rays, begin + root * length, a, b, g * length, NOT(NOWHERE));
             yes hit = NOT(NOWHERE);
             yes left = NOT(found.good);
             if (!whole) {
@@ -553,7 +671,7 @@ void finish_tiles(Work work, Frame frame) {
                 left = BOTH(hit, EITHER(left, LESS(found.t, span.lo)));
             }
             answer_block(work, i0, j0, rays.shift, found.t, hit, LEVELS + work.level, spent + found.evaluations);
-            if (any_lane(left)) leave_pixels(work, i0, j0, left, wide(start));
+            if (any_lane(left)) leave_pixels(work, i0, j0, left, wide((frame.middle + start) / (2.0 - shrunk) - frame.middle));
         }
     }
 }

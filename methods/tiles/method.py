@@ -43,9 +43,21 @@ METHOD = Method(
     needs=("surface_value",),
     libraries=("dual", "fit", "polynomial", "fit_samples"),
     parameters=(
-        Parameter("TOLERANCE", 2.0**-18, "last step of the refinement, over the domain's diameter", finer="down", per="2.0 * DOMAIN_RADIUS"),
-        Parameter("PAIRS", 2, "pairs of samples around the root, over which the last step takes the mean of f; 0: no such step"),
-        Parameter("APART", 4.0, "distance between neighbouring samples of PAIRS, in unit roundoffs of the domain's diameter"),
+        Parameter(
+            "TOLERANCE",
+            2.0**-18,
+            "last step of the refinement, over the domain's diameter",
+            finer="down",
+            per="2.0 * DOMAIN_RADIUS",
+        ),
+        Parameter(
+            "PAIRS",
+            2,
+            "pairs of samples around the root, over which the last step takes the mean of f; 0: no such step",
+        ),
+        Parameter(
+            "APART", 4.0, "distance between neighbouring samples of PAIRS, in unit roundoffs of the domain's diameter"
+        ),
         Parameter("SECANT", 2.0**-12, "steps longer than this, in domain radii, set the slope to the secant's"),
         Parameter("STEPS", 6, "most steps of the refinement of a pixel, before it is cast by itself"),
         Parameter("TRUST", 0.015625, "share of the worst case of the rounding errors that counts as their bound"),
@@ -53,7 +65,10 @@ METHOD = Method(
         Parameter("WIDENING", 8.0, "length of the next piece to be fitted, over that of the piece just decided"),
         Parameter("REFITS", 1, "how often a tile that is open is fitted anew before its quarters are"),
         Parameter("PACKET_FITS", 4, "fits of a block of open pixels before those still open are cast by themselves"),
-        Parameter("AHEAD", 4.0, "length of the first piece that is fitted in an open tile's parts, over the open piece"),
+        Parameter(
+            "AHEAD", 4.0, "length of the first piece that is fitted in an open tile's parts, over the open piece"
+        ),
+        Parameter("LEANS", 1, "1: an open tile is tried once more with nodes in planes that lean as the surface does"),
         Parameter("SHORTEST", 2.0, "shortest piece of a tile, over the tile's side"),
         Parameter("COUNTED", 5, "as bernstein's"),
         Parameter("COMPENSATED", 17, "as bernstein's"),

@@ -1,5 +1,6 @@
 // What a stage writes and reads for all lanes at once. Lane k is pixel (k & 3, k >> 2) of a block.
-void list_single(Work work, int cell, wide root, wide slope, real start, real stop, bool whole, int spent) {
+void list_single(Work work, int cell, wide root, wide slope, real start, real stop, bool whole, int spent,
+                 real lean_x, real lean_y) {
     int slot = next_in(work, 4 * work.level + 1);
     int across = tiles_across(work.size, work.tile);
     __global real *record = work.entries + singles_at(work.size, work.tile) + SINGLE_RECORD * slot;
@@ -10,6 +11,8 @@ void list_single(Work work, int cell, wide root, wide slope, real start, real st
     record[33] = stop;
     record[34] = whole ? 1.0 : 0.0;
     record[35] = real(spent);
+    record[36] = lean_x;
+    record[37] = lean_y;
 }
 
 // Answers the 16 pixels of the block at (i0, j0): hits where `hit`, at shift + t, else misses.

@@ -3,6 +3,7 @@
 #define EACH_LANE
 #define FIRST_TURN true
 #define most(v) most_of(work, v)
+#define total(v) total_of(work, v)
 #define least(v) (-most_of(work, -(v)))
 #define all_bits(v) all_bits_of(work, v)
 #define all_lanes(mask) (all_bits((mask) ? 1 : 0) != 0)
@@ -21,6 +22,15 @@ real most_of(Work work, real v) {
     MEET
     real result = lane_numbers[0];
     for (int k = 1; k < 16; k++) result = max(result, lane_numbers[k]);
+    MEET
+    return result;
+}
+
+real total_of(Work work, real v) {
+    lane_numbers[OWN_LANE] = v;
+    MEET
+    real result = lane_numbers[0];
+    for (int k = 1; k < 16; k++) result += lane_numbers[k];
     MEET
     return result;
 }

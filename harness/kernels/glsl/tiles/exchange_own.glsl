@@ -2,6 +2,7 @@
 #define EACH_LANE for (work.lane = 0; work.lane < 16; work.lane++)
 #define FIRST_TURN (work.lane == 0)
 #define most(v) (v)
+#define total(v) (v)
 #define least(v) (v)
 #define all_bits(v) (v)
 #define all_lanes(mask) (mask)

@@ -13,6 +13,7 @@
 #define first_lane(v) ((wide)((v).s0))
 #define first_lane_number(v) ((v).s0)
 #define lane_row(name, k) vload16(k, name)
+#define fourth_row(work, place) vload16(0, (work).fourths + (place))
 #define EACH_LANE
 #define FIRST_TURN true
 
@@ -28,6 +29,12 @@ real most(wide v) {
     real lanes[8];
     vstore8(max(v.lo, v.hi), 0, lanes);
     return max(max(max(lanes[0], lanes[1]), max(lanes[2], lanes[3])), max(max(lanes[4], lanes[5]), max(lanes[6], lanes[7])));
+}
+
+real total(wide v) {
+    real lanes[8];
+    vstore8(v.lo + v.hi, 0, lanes);
+    return ((lanes[0] + lanes[1]) + (lanes[2] + lanes[3])) + ((lanes[4] + lanes[5]) + (lanes[6] + lanes[7]));
 }
 
 real least(wide v) {

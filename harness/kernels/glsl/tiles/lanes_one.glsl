@@ -15,3 +15,4 @@
 #endif
 #define lane_row(name, k) name[16 * (k) + OWN_LANE]
 #define wide_advanced(o, t, d) advanced(o, t, d)
+#define fourth_row(work, place) fourth_at(work, (place) + OWN_LANE)

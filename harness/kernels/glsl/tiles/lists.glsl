@@ -29,11 +29,6 @@ int singles_at(int size, int tile) {
     return (OPEN_RECORD + SINGLE_RECORD) * tiles_before(size, tile) + OPEN_RECORD * across * across;
 }
 
-// Returns where the contracted bounds lie in `entries`: behind the pixels that are left.
-int bounds_at(Work work) {
-    return (OPEN_RECORD + SINGLE_RECORD) * tiles_before(work.size, TILE >> LEVELS) + work.size * work.size;
-}
-
 // Puts a tile on its level's list of open ones.
 void list_open(Work work, int cell, real start, real stop, int spent) {
     int slot = next_in(work, 4 * work.level);

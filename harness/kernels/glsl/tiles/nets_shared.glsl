@@ -4,6 +4,8 @@
 #define Lanes wide
 #define KEEP_LANE(net, c) { net = c; }
 #define KEEP_NUMBER(lanes, v) { lanes = v; }
+#define RAISE_NUMBER(lanes, v) { lanes = max(lanes, v); }
+#define NUMBER(lanes) lanes
 #define CONTROL(net) TRANSFORM(net, to_control)
 #define TO_CUBIC(lanes) TRANSFORM_ANY(lanes, to_powers)
 #define FIND_SPREAD(net, spread) { spread = most(SPREAD(net)); }

@@ -1,7 +1,8 @@
 // What isolation writes for a tile where sixteen work items have one lane each.
 #define LEADS (OWN_LANE == 0)
 
-void list_single(Work work, int cell, real root, real slope, real start, real stop, bool whole, int spent) {
+void list_single(Work work, int cell, real root, real slope, real start, real stop, bool whole, int spent,
+                 real lean_x, real lean_y) {
     if (LEADS) lane_bits[0] = next_in(work, 4 * work.level + 1);
     MEET
     int slot = lane_bits[0];
@@ -16,6 +17,8 @@ void list_single(Work work, int cell, real root, real slope, real start, real st
     enter(work, record + 33, stop);
     enter(work, record + 34, whole ? real(1) : real(0));
     enter(work, record + 35, real(spent));
+    enter(work, record + 36, lean_x);
+    enter(work, record + 37, lean_y);
 }
 
 // Answers that all pixels of a tile miss.

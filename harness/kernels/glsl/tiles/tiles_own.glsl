@@ -1,7 +1,8 @@
 // What isolation writes for a tile where one work item has all sixteen lanes.
 #define LEADS true
 
-void list_single(Work work, int cell, Lanes root, Lanes slope, real start, real stop, bool whole, int spent) {
+void list_single(Work work, int cell, Lanes root, Lanes slope, real start, real stop, bool whole, int spent,
+                 real lean_x, real lean_y) {
     int slot = next_in(work, 4 * work.level + 1);
     int before = tiles_before(work.size, work.tile);
     int across = tiles_across(work.size, work.tile);
@@ -15,6 +16,8 @@ void list_single(Work work, int cell, Lanes root, Lanes slope, real start, real 
     enter(work, record + 33, stop);
     enter(work, record + 34, whole ? real(1) : real(0));
     enter(work, record + 35, real(spent));
+    enter(work, record + 36, lean_x);
+    enter(work, record + 37, lean_y);
 }
 
 // Answers that all pixels of a tile miss.
