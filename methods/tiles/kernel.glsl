@@ -129,7 +129,7 @@ wide remainder_weight(Work work, Tile tile) {
 // Bounds the remainder of the tile's interpolation between two depths, from the bounds of fourth derivatives, one a
 // lane, that are looked up along the tile's middle ray. A cell's bounds hold one cell beyond it. So if the tile's rays
 // are `aside` cells from the middle one, steps of 2 (1 - aside) cells leave nothing out.
-real remainder_between(Work work, Frame frame, Tile tile, real aside, real start, real stop) {
+real remainder_between(Work work, Frame frame, Tile tile, Lanes weights, real aside, real start, real stop) {
     real cells = real(GRID) / (2.0 * TABLE_HALF);
     vec3 a = difference(ray_point(tile.middle, start), DOMAIN_CENTER);
     vec3 b = difference(ray_point(tile.middle, stop), DOMAIN_CENTER);
@@ -154,7 +154,7 @@ real remainder_between(Work work, Frame frame, Tile tile, real aside, real start
     }
     real bound = 0.0;
     EACH_LANE {
-        bound += total(remainder_weight(work, tile) * NUMBER(bounds));
+        bound += total(NUMBER(weights) * NUMBER(bounds));
     }
     return bound;
 }
@@ -307,12 +307,14 @@ void isolate_tiles(Work work, Frame frame) {
         real rim = RIM * corner + rounding;
         real near = REAL_INFINITY;
         real end = -REAL_INFINITY;
+        Lanes weights;
         EACH_LANE {
             WideRay node = node_ray(work, frame, tile);
             // a ray is at most so far from the nearest node's ray: half a diagonal of the net
             WideSpan span = wide_span(node.origin, node.direction, GAP * corner + rounding);
             near = min(near, least(span.lo));
             end = max(end, most(span.hi));
+            KEEP_NUMBER(weights, remainder_weight(work, tile))
         }
         start = max(start, max(near, -frame.middle));
         stop = min(stop, end);
@@ -368,7 +370,7 @@ void isolate_tiles(Work work, Frame frame) {
                 Errors errors;
                 errors.unit = TRUST * UNIT_ROUNDOFF * LARGEST_IN(bundle);
                 errors.off = LEBESGUE * LEBESGUE * rounding_of_samples(sqrt(squared) + rim)
-                             + remainder_between(work, frame, tile, aside, start, stop);
+                             + remainder_between(work, frame, tile, weights, aside, start, stop);
                 errors.noise = TRUST * UNIT_ROUNDOFF * (2.0 * LEBESGUE * LEBESGUE * real(N / 2 + 6) * weighted
                                                         + MIXING * 2.0 * spread) + BALLAST * errors.unit;
                 while (inner == SEARCHING) {
@@ -427,6 +429,9 @@ void isolate_tiles(Work work, Frame frame) {
                         verdict = SEARCHING;
                         tries = 0;
                         tile = other;
+                        EACH_LANE {
+                            KEEP_NUMBER(weights, remainder_weight(work, tile))
+                        }
                         aside = other_aside;
                         rim = RIM * 1.0009765625 * frame.far * corner_of(tile) + rounding;
                         start = (frame.middle + start) * (1.0 - share) - frame.middle - rounding;
