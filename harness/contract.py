@@ -155,8 +155,9 @@ class Method:
     tables: constant arrays of reals that the kernel reads, by name, from surface, knobs and precision
     answers: False for a method that finds nothing and measures what the harness itself costs
     casts: what the kernel defines. "rays": `Hit first_hit(Ray, real t0, real t1)`. "beams" and "quadtree":
-        `void cast_cell(Work, Cell)`, called for every pixel or, level by level, for a quadtree's cells. "tiles": the
-        stages of a frame, which `harness.kernels.tiles` states, for tiles of pixels and for their pixels. "mesh":
+        `void cast_cell(Work, Cell)`, called for every pixel or, level by level, for a quadtree's cells. "tiles":
+        `void isolate_tiles(Work, Frame)`, `void finish_tiles(Work, Frame)` and `void cast_packets(Work, Frame)`, the
+        stages of a frame, each of which takes tiles of pixels until there are none (harness.kernels.tiles). "mesh":
         `vec3 mesh_normal(vec3)`, for triangles that are rasterised in place of rays
     rest: of a method that casts tiles, the method of this project whose kernel casts the rays that no tile decides; it
         is given this method's own knobs and tables

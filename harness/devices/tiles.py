@@ -5,7 +5,7 @@ its work from counters on the device until there is none.
 
     step            program  what it does
     --------------  -------  -------------------------------------------------------------------
-    clear           isolate  sets the counters to 0, and prepares the table of bounds for the camera
+    clear           isolate  sets the counters to 0
     isolate, level  isolate  tiles of a level: each is empty, has a single root, or is left open
     finish, level   finish   pixels of the level's tiles with a single root
     packets         packets  pixels of the last level's open tiles, 4 x 4 at a time
@@ -42,7 +42,6 @@ T, ANSWER = 1, 2  # places of outputs among BUFFERS
 NO_ANSWER = -1  # what a pixel reads as that no stage answers, or not validly
 COUNTS = 64  # counters
 GROUPS_PER_UNIT = 32  # work groups that take tiles, for each compute unit of a processor
-MOST_CELLS = 4096  # work items that prepare the table of bounds
 BUFFERS = (0, 1, 2, 3, 4, 5, 6, 7)  # camera, t, answer, queue, counts, entries, fourths, rays: of each step
 TILE_STAGES = get_args(TileStage)
 UNREAD = np.zeros(6, np.float32)  # what a frame has in the place of listed rays
@@ -56,7 +55,7 @@ class Plan:
     levels: how many levels there are
     grid: cells a side of the table of bounds; 0: it reads none
     queued: int32 in the queue for each tile, beside one for each pixel
-    kept: reals in the entries for each tile, beside one for each pixel and each cell of the table
+    kept: reals in the entries for each tile, beside one for each pixel
     items: work items that share a tile, or in stage rest a pixel
     group: work items of a work group; 1: a processor's, of which few run at once
     turns: tiles or pixels that each work item is to take one after the other
@@ -115,8 +114,7 @@ def tile_steps(device: Device, plans: Sequence[Plan], built: Sequence[Built], si
 
     by_level = [(level, side, tiles(size, side)) for level, side in enumerate(plan.sides)]
     last = plan.sides[-1]
-    clear = step(isolate, plan.side, -1, plan.grid**3)
-    steps = [replace(clear, grid=(max(COUNTS, min(clear.grid[0], MOST_CELLS)), 1))]
+    steps = [replace(step(isolate, plan.side, -1, 1), grid=(COUNTS, 1))]
     steps += [step(isolate, side, level, count) for level, side, count in by_level]
     steps += [step(finish, side, level, count) for level, side, count in by_level]
     steps.append(step(packets, last, plan.levels, tiles(size, last)))
@@ -263,7 +261,7 @@ def launch_tiles(
         Reserved(pixels, np.int32, fill=NO_ANSWER if listed else None),
         Reserved(plan.queued * covering + pixels, np.int32),
         Reserved(COUNTS, np.int32),
-        Reserved(plan.kept * covering + pixels + plan.grid**3, real),
+        Reserved(plan.kept * covering + pixels, real),
         np.ascontiguousarray(frame.fourths, real).ravel() if plan.grid else np.zeros(1, real),
         rays,
     ]

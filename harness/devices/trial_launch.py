@@ -34,7 +34,7 @@ def trial_launch(device: Device, program: Program, built: Built) -> Launch:
         scratch = [
             Reserved(64, np.int32),
             Reserved(COUNTS, np.int32, fill=0),
-            Reserved(256 + plan.grid**3, kind, fill=0),
+            Reserved(256, kind, fill=0),
         ]
         buffers = [camera, *answer, *scratch, np.zeros(16 * plan.grid**3 + 1, kind), ray]
         group = None if program.entry == "rest" else plan.group
