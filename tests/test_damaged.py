@@ -191,6 +191,16 @@ def test_arrays_of_another_type_or_shape_are_refused_before_anything_is_allocate
         npz.read(path, {"lower": np.float64}, lambda *_: True)
 
 
+def test_an_array_whose_name_was_damaged_is_not_taken_for_one_of_another_version(tmp_path):
+    path = tmp_path / "a.npz"
+    np.savez_compressed(path, lower=np.zeros(3), upper=np.ones(3))
+    content = path.read_bytes()
+    directory = content.index(b"PK\x01\x02")  # the names stand before each member and once more in the directory
+    path.write_bytes(content[:directory] + content[directory:].replace(b"upper.npy", b"upqer.npy"))
+    with pytest.raises(ValueError, match="damaged"):
+        npz.read(path, {"lower": np.float64, "upper": np.float64}, lambda *_: True, frozenset({"upper"}))
+
+
 def test_truth_that_is_damaged_or_contradicts_itself_is_made_again(tmp_path):
     torus = surfaces.get("torus")
     truth = cached_first_hits(torus, RAYS, tmp_path)
