@@ -10,7 +10,7 @@ from harness import console
 from harness.commands import Add
 from harness.commands.answers import experiments
 from harness.commands.machine import Answer, add_json
-from harness.commands.options import add_wait, add_yes, tell, typed
+from harness.commands.options import add_wait, add_yes, tell, tell_wrong, typed
 from harness.commands.printer import Printer
 from harness.contract import FirsthitError
 from harness.experiment import config, identity, plan
@@ -107,7 +107,7 @@ def _plan(options: argparse.Namespace) -> int | Answer:
     parts = [facts for facts, _ in made]
     failures = dict.fromkeys(reason for _, reasons in made for reason in reasons)
     for reason in failures.keys() - set(loaded.catalog.warnings):  # those were told already
-        tell(f"firsthit: {reason}")
+        tell_wrong(f"firsthit: {reason}")
     code = 3 if failures else 0
     if options.json:
         return Answer(experiments.Plan(parts), code)
@@ -129,7 +129,7 @@ def _planned(part: config.Experiment, loaded: Loaded, runs: Path) -> tuple[exper
     store = Store(runs / part.name)
     found = due(planned, store, asked=Begun(store.folder).again)
     for message in store.unreadable.values():
-        tell(f"firsthit: {message}; `firsthit run` makes it again")
+        tell_wrong(f"firsthit: {message}; `firsthit run` makes it again")
     seconds = estimates(found.todo, store, part.config.budget.seconds)
     facts = experiments.PlanFacts(
         str(part.path),

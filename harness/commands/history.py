@@ -11,7 +11,7 @@ from harness import console
 from harness.commands import Add
 from harness.commands.answers import gates
 from harness.commands.machine import Answer, add_json
-from harness.commands.options import add_history, history_of, tell
+from harness.commands.options import add_history, history_of, tell_wrong
 from harness.contract import FirsthitError
 from harness.escaping import shell
 from harness.experiment import reading
@@ -51,7 +51,7 @@ def _history(options: argparse.Namespace) -> int | Answer:
     folder = history_of(options, config)
     kept, problems = commits.read_all(folder)
     for problem in problems:
-        tell(f"firsthit: {problem}")
+        tell_wrong(f"firsthit: {problem}")
     if not kept:
         plugins = ["--plugins", str(options.plugins)] if options.plugins else []
         command = shell(["firsthit", *plugins, "gate", str(options.config), "--keep"])

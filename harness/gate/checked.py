@@ -155,7 +155,7 @@ class Checked(Prepared):
 
 
 def _without(planned: Planned, untold: Mapping[str, str]) -> Planned:
-    """Return a cell as it is or, where `untold` says why its device does not tell how it computes, as one that fails."""
+    """Return a cell as it is or, if `untold` has a reason against its device, as one that fails for it."""
     reason = untold.get(planned.cell.device)
     if reason is None or planned.skip is not None or planned.failure is not None:
         return planned

@@ -279,7 +279,7 @@ def _run_part(part: Experiment, loaded: Loaded, runs: Path, command: str, again:
         if swept := [*old, *sweep_below(store.folder)]:
             hears.told(f"{store.folder}: removed {len(swept)} file{'s' * (len(swept) > 1)} that killed commands left")
         for message in store.unreadable.values():
-            hears.warned(f"{message}; running that cell again")
+            hears.wrong(f"{message}; running that cell again")
         seconds = estimate_seconds(found.todo, store, part.config.budget.seconds)
         hears.starts(len(found.todo), seconds, Counter(p.cell.device for p in found.todo))
         told = hears.cell, hears.hears_builds
