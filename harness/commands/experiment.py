@@ -12,7 +12,7 @@ from harness.commands.answers import experiments
 from harness.commands.machine import Answer, add_json
 from harness.commands.options import add_wait, add_yes, tell, tell_wrong, typed
 from harness.commands.printer import Printer
-from harness.contract import FirsthitError
+from harness.contract import FirsthitError, plural
 from harness.experiment import config, identity, plan
 from harness.experiment.identity import Difference
 from harness.plugins import find_methods
@@ -113,7 +113,8 @@ def _plan(options: argparse.Namespace) -> int | Answer:
         return Answer(experiments.Plan(parts), code)
     for part in parts:
         print(console.table(("key", "cell", "state"), [(cell.key, cell.slot, _state(cell)) for cell in part.cells]))
-        print(f"{part.config}: {len(part.cells)} cells, {part.to_run} to run, about {console.duration(part.seconds)}")
+        cells, seconds = plural(len(part.cells), "cell"), console.duration(part.seconds)
+        print(f"{part.config}: {cells}, {part.to_run} to run, about {seconds}")
     return code
 
 

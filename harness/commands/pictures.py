@@ -22,7 +22,7 @@ from harness.commands.options import (
     whole,
     writable_png,
 )
-from harness.contract import FirsthitError, RayStatus, Surface, View
+from harness.contract import FirsthitError, RayStatus, Surface, View, plural
 from harness.limits import FIELD_OF_VIEW, PICTURE, Within
 from harness.results.writing import write_atomically
 from harness.running.picture import picture
@@ -98,7 +98,7 @@ def _show(options: argparse.Namespace) -> int:
     pixels, hits = picture(caster_of(options), surface, view, options.size, tell)
     save(Image.fromarray(pixels), output)
     exhausted = int((hits.status == RayStatus.EXHAUSTED).sum())
-    told = f"{np.mean(hits.status == RayStatus.HIT):.1%} of {len(hits.t)} rays hit, {exhausted} exhausted"
+    told = f"{np.mean(hits.status == RayStatus.HIT):.1%} of {plural(len(hits.t), 'ray')} hit, {exhausted} exhausted"
     bad = invalid(hits)
     print(f"{output}: {told}" + (f", {bad} invalid" if bad else ""))
     for line in reading(surface).told() if options.formula is not None else ():
@@ -137,5 +137,5 @@ def _sheet(options: argparse.Namespace) -> int:
         sheet.paste(Image.fromarray(pixels), (x, y))
         draw.text((x + width // 2, y + options.size + label // 2), name, fill="black", anchor="mm")
     save(sheet, output)
-    print(f"{output}: {len(names)} surfaces")
+    print(f"{output}: {plural(len(names), 'surface')}")
     return 0

@@ -8,7 +8,7 @@ from pathlib import Path
 from harness.commands import Add
 from harness.commands.options import add_origin, add_timeout, given_variant, methods_of, whole, writable_png
 from harness.commands.pictures import need_pillow, save
-from harness.contract import PROXIES, FirsthitError
+from harness.contract import PROXIES, FirsthitError, plural
 from harness.experiment import reading
 from harness.experiment.shipped import located
 from harness.limits import PICTURE
@@ -56,7 +56,7 @@ def _scene(options: argparse.Namespace) -> int:
     save(Image.fromarray(picture.pixels), output)
     print(
         f"{output}: {scene.title}; {picture.drawn:.1%} of the pixels drawn, "
-        f"{1.0 - picture.hits / max(1, picture.fragments):.1%} of {picture.fragments:,} fragments discarded"
-        + (f", {picture.invalid} pixels invalid" if picture.invalid else "")
+        f"{1.0 - picture.hits / max(1, picture.fragments):.1%} of {plural(picture.fragments, 'fragment')} discarded"
+        + (f", {plural(picture.invalid, 'pixel')} invalid" if picture.invalid else "")
     )
     return 0

@@ -14,7 +14,7 @@ from typing import Any
 
 from harness import console
 from harness.accuracy.check import too_wrong
-from harness.contract import CellStatus, FirsthitError, digest
+from harness.contract import CellStatus, FirsthitError, digest, plural
 from harness.devices.discovery import discover_devices
 from harness.devices.executor import LocalExecutor
 from harness.experiment import plan, reading
@@ -99,7 +99,9 @@ class Compared:
         lines = [f"accuracy against {self.name}: {said}"]
         if raced := [_ratio_line(j) for j in self.judged if j.changes and j.changes[0].figure == SPEED.name]:
             lines += [f"speed against {self.name}:", _ratios(raced, width)]
-        lines += [f"not raced: {count} cells whose program changed; {why}" for why, count in self.unraced.items()]
+        lines += [
+            f"not raced: {plural(count, 'cell')} whose program changed; {why}" for why, count in self.unraced.items()
+        ]
         return "\n".join(lines)
 
 

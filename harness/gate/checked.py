@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 
-from harness.contract import FirsthitError
+from harness.contract import FirsthitError, plural
 from harness.devices.discovery import discover_devices
 from harness.devices.executor import LocalExecutor
 from harness.devices.fingerprint import Fingerprint
@@ -141,7 +141,7 @@ class Checked(Prepared):
         if broken:
             row = broken[0]
             why = first_line(row["reason"] or row["status"])
-            message = f"not blessed: {len(broken)} cells did not finish, first {row['slot']}: {why}"
+            message = f"not blessed: {plural(len(broken), 'cell')} did not finish, first {row['slot']}: {why}"
             raise FirsthitError(message, exit_code=3)
         environment = describe()
         dirty = " with uncommitted changes" if environment["dirty"] else ""

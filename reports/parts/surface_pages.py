@@ -64,7 +64,8 @@ def _printed(finished: pd.DataFrame) -> tuple[pd.DataFrame, list[Block]]:
     printed = tables.worth_printing(finished)
     if len(printed) == len(finished):
         return printed, []
-    kept = f"{len(printed):,} of {len(finished):,} rows: those on a front, {tables.baseline(finished)} and the floor"
+    of_all = f"{len(printed):,} of {wording.plural(len(finished), 'row')}"
+    kept = f"{of_all}: those on a front, {tables.baseline(finished)} and the floor"
     if len(printed) > tables.ROW_LIMIT:
         kept_scenes = {shown.fullest(own) for _, own in printed.groupby("surface", sort=False)}
         printed = printed[printed["comparison"].isin(kept_scenes)]
