@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from harness import memory
 from harness.accuracy.answers import invalid
 from harness.commands import Add
 from harness.commands.options import (
@@ -35,6 +36,7 @@ if TYPE_CHECKING:
 
 
 COLUMNS = Within(1, 1000)
+BYTES_PER_PIXEL = 6  # of a sheet: three while it is drawn, and as many for the file
 ANY_SURFACE = "interval_march"  # a method that draws whatever can be read
 
 
@@ -129,6 +131,10 @@ def _sheet(options: argparse.Namespace) -> int:
     caster = caster_of(options)
     label, columns = 14, options.columns
     width, height = options.size, options.size + label
+    area = columns * width * math.ceil(len(names) / columns) * height
+    what = f"a sheet of {plural(len(names), 'picture')} of {options.size}x{options.size} pixels"
+    if reason := memory.refusal(BYTES_PER_PIXEL * area, what, "take a smaller --size"):
+        raise FirsthitError(reason, exit_code=3)
     sheet = Image.new("RGB", (columns * width, math.ceil(len(names) / columns) * height), "white")
     draw = ImageDraw.Draw(sheet)
     for i, name in enumerate(names):
