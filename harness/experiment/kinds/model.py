@@ -369,7 +369,7 @@ class ViewCasting(Casting):
 
     def rays_held(self, choice: AccuracyChoice) -> int:
         """Count the rays that this process holds while it checks: those that are judged, and all that are shaded."""
-        return choice.size**2 + (self.samples**2 if self.cell.samples_per_pixel > 1 else 0)
+        return choice.size**2 * (1 + self.cell.samples_per_pixel * (self.cell.samples_per_pixel > 1))
 
     def check(self, executor: LocalExecutor, choice: AccuracyChoice, folder: Path, framed: bool) -> Outcome:
         cell = self.cell
