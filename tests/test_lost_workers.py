@@ -10,6 +10,7 @@ import time
 from multiprocessing import Pipe
 from pathlib import Path
 
+import pandas as pd
 import pytest
 
 import firsthit
@@ -27,6 +28,7 @@ from harness.plugins import find_methods
 from harness.running import environment, picture, run
 from harness.verifying import truth as verified_truth
 from harness.verifying.model import CannotTell
+from reports.reading import arrays
 from tests.conftest import usable_devices
 
 ROOT = Path(__file__).parents[1]
@@ -269,6 +271,16 @@ def test_a_check_that_memory_does_not_hold_is_refused_before_any_ray(tmp_path, m
         FirsthitError, match=rf"{told} .* GB of memory, over the limit of 1 GB; take a smaller"
     ) as raised:
         planned.casting.check(None, choice, tmp_path, False)
+    assert raised.value.exit_code == 3
+
+
+@pytest.mark.usefixtures("little_memory")
+def test_maps_that_memory_does_not_hold_together_are_refused_before_any_is_read(monkeypatch):
+    monkeypatch.setattr(arrays, "read", _refuse)
+    rows = pd.DataFrame({"arrays": [f"arrays/{i}.npz" for i in range(9)], "accuracy_rays": [4096.0**2] * 9})
+    told = r"the maps of 9 cells, 16,777,216 rays at most, would take .* GB of memory, over the limit of 1 GB; run with"
+    with pytest.raises(FirsthitError, match=told) as raised:
+        arrays.Shelf({}).together(rows)
     assert raised.value.exit_code == 3
 
 

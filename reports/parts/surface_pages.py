@@ -78,7 +78,7 @@ def _pages(material: Material, rows: pd.DataFrame, name: str) -> tuple[list[Bloc
     own = shown.on_pages(rows)
     if own.empty:
         return [Text("No cell of this surface gave a result.")], []
-    cells = [(row, read) for row in shown.in_strip(rows).itertuples() if (read := material.shelf.get(row)) is not None]
+    cells = material.shelf.together(shown.in_strip(rows))
     plots = fronts.speed_against_error(own, material.method_marks, name, _title(own), material.focus)
     table = surface_tables.compact_table(own)
     choice = cards.chosen(own)
