@@ -309,7 +309,7 @@ def _announced(part: Experiment, catalog: Catalog, chosen: Mapping[str, DeviceIn
     here = [info for info in chosen.values() if info]
     cells = cells_of(part, catalog, here)
     where = f" on {', '.join(info.name for info in here)}" if here else ""
-    return f"{part.path}: {cells} cells{where}; preparing devices and cells"
+    return f"{part.path}: {cells:,} cells{where}; preparing devices and cells"
 
 
 def _named(part: Experiment, planned: Sequence[Planned], catalog: Catalog) -> dict[str, Any]:
