@@ -15,6 +15,7 @@ from harness.commands.printer import Printer
 from harness.contract import FirsthitError, plural
 from harness.experiment import config, identity, plan
 from harness.experiment.identity import Difference
+from harness.experiment.size import cells_of
 from harness.plugins import find_methods
 from harness.results.begun import Begun
 from harness.results.history import past_of
@@ -125,7 +126,8 @@ def _planned(part: config.Experiment, loaded: Loaded, runs: Path) -> tuple[exper
     """
     for told in remarks(part):
         tell(f"firsthit: {told}")
-    with console.doing(f"preparing the cells of {part.path}") as tell_step:
+    cells = cells_of(part, loaded.catalog, loaded.devices)
+    with console.doing(f"{part.path}: {cells:,} cells; preparing them") as tell_step:
         planned = plan.plan(part, loaded.catalog, loaded.devices, tell=tell_step)
     store = Store(runs / part.name)
     found = due(planned, store, asked=Begun(store.folder).again)

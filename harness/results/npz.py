@@ -38,8 +38,8 @@ _HEADERS = {(1, 0): np.lib.format.read_array_header_1_0, (2, 0): np.lib.format.r
 def read(path: Path, kinds: Mapping[str, Any], fits: Fits, optional: frozenset[str] = frozenset()) -> dict[str, Any]:
     """Read the arrays that `kinds` names with their types; those that are `optional` may be missing.
 
-    Other members of the file are ignored, if their names are whole. Raises OSError where the file cannot be read, and ValueError where it is
-    damaged, or an array has another type or a shape that does not fit.
+    Other members of the file are ignored, if their names are whole. Raises OSError where the file cannot be read, and
+    ValueError where it is damaged, or an array has another type or a shape that does not fit.
     """
     with sealed.opened(path, LARGEST) as packed:
         return _read(packed, kinds, fits, optional)
