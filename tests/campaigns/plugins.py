@@ -118,7 +118,7 @@ VALUES = (
     *("frozenset({'no_missed_root'})", "{'a': {'N': 1}}", "{'a': {'N': math.nan}}", "{'a': {'M': 1}}", "{'a': Evil()}"),
     *("{'a\\nb': {'N': 1}}", "('surface_value',)", "('float64',)", "frozenset({Text('x')})", "('x' * 10**5,)"),
 )
-# What is odd and does no harm, in every place where a deed may be; and what is odd and may be stated or answered.
+# What is odd and does no harm alone, in every place where a deed may be; and what is odd and may be stated or answered.
 ODD_DEEDS = (
     *("os.chdir('/')", "os.environ.clear()", "sys.argv.clear()", "sys.excepthook = None", "atexit.register(os.abort)"),
     *("signal.signal(signal.SIGTERM, signal.SIG_IGN)", "sys.stdout = sys.stderr = None", "sys.stdout.close()"),
@@ -132,7 +132,7 @@ ODD_FIELDS = {
     "needs": ("['surface_along', 'surface_value_along']", "('surface_value_along', 'surface_along', 'surface_value')"),
     "libraries": ("[]", "('interval',)"),
     "parameters": (
-        *("()", "[Parameter('N', 1, '')]", "(Parameter('N', 1e-30, 'n', sweep=(-1.0, 1e30)),)"),
+        *("[Parameter('N', 1, '')]", "(Parameter('N', 1e-30, 'n', sweep=(-1.0, 1e30)),)"),
         *("(Parameter('N', numpy.int64(2), 'n', sweep=tuple(range(999))),)", "(Parameter('N', 1, 'n', printed=2.0),)"),
     ),
     "settings": ("{'a': {}}", "{'a': {'N': 2}, 'b': {'N': numpy.float32(3)}}"),
@@ -156,7 +156,7 @@ FILES = ("absent", "folder", "pipe", "circle", "huge", "binary", "empty", "unrea
 def _written(dice: random.Random) -> tuple[str, str]:
     """Return the text of a method.py, and where it is hostile; "odd" of one that does no harm."""
     odd = dice.random() < ODD_SHARE
-    deed = "; ".join(dice.sample(ODD_DEEDS if odd else DEEDS[:-1], dice.choice((1, 1, 2))))
+    deed = dice.choice(ODD_DEEDS) if odd else "; ".join(dice.sample(DEEDS[:-1], dice.choice((1, 1, 2))))
     place = dice.choice(
         ("load", "load", "end", "function", "function", "function", "answer", "answer", "field", "field")
     )
