@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from harness import memory
 from harness.accuracy.answers import invalid
+from harness.accuracy.check import BYTES_PER_RAY
 from harness.accuracy.scene_truth import hits_of
 from harness.contract import FirsthitError, Origin, Proxy, Variant
 from harness.devices.discovery import discover_devices
@@ -18,7 +19,7 @@ from harness.experiment.kinds import draws
 from harness.experiment.targets import able
 from harness.kernels.raster import fill_program
 from harness.plugins import Catalog
-from harness.running.picture import BYTES_PER_RAY, RAYS_PER_PIXEL
+from harness.running.picture import RAYS_PER_PIXEL
 from harness.scenes.camera import camera_for
 from harness.scenes.model import Scene
 from harness.scenes.records import depth_map
