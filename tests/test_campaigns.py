@@ -12,12 +12,14 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import mpmath
 import pytest
 
 from harness import ROOT
 from tests.campaigns import frame, table
 from tests.campaigns.frame import Campaign, Fell, Place
 from tests.conftest import usable_devices
+from tests.made_formulas import largest
 
 
 @pytest.mark.parametrize("name", frame.names())
@@ -122,3 +124,7 @@ def test_the_table_has_one_row_for_each_campaign(tmp_path: Path) -> None:
         table.write(page, COIN, frame.trials(COIN, seed, range(20), tmp_path), seed)
     lines = page.read_text().splitlines()
     assert lines[4].startswith("| coin | 20 | ") and "| 2 |" in lines[4] and lines[5:] == ["", "more"]
+
+
+def test_a_made_formula_has_no_value_where_one_of_its_parts_has_none() -> None:
+    assert mpmath.isnan(largest(mpmath.mpf(1), mpmath.nan, mpmath.mpf(2)))
