@@ -26,7 +26,17 @@ from typing import Any
 
 from harness.results.sources import digest_of
 
-CODE = ("harness", "surfaces", "methods", "reports", "tests/campaigns")  # what a result is of
+# What a result is of: all that a campaign tries, the campaigns, and what they make and know of it
+MADE = (
+    "agreeing_rows",
+    "exact_roots",
+    "exact_surfaces",
+    "fuzz_formulas",
+    "hostile_texts",
+    "kept_runs",
+    "made_formulas",
+)
+CODE = ("harness", "surfaces", "methods", "reports", "tests/campaigns", *(f"tests/{name}.py" for name in MADE))
 ENDINGS: list[Callable[[], None]] = []  # to be called when a trial ends, however it ends
 KEPT = 20  # trials that fell whose words are kept
 
