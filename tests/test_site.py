@@ -5,8 +5,6 @@ from __future__ import annotations
 import json
 import re
 import shutil
-import subprocess
-import sys
 from collections.abc import Iterator
 from html.parser import HTMLParser
 from pathlib import Path
@@ -18,7 +16,6 @@ import pytest
 
 from harness.cli import main
 from harness.contract import FirsthitError, digest
-from harness.results import owner
 from reports.site import board, build
 from tests import browser
 from tests.agreeing_rows import stated
@@ -294,19 +291,6 @@ def test_nothing_is_written_where_no_run_can_be_read(tmp_path, runs):
     with pytest.raises(FirsthitError, match="no run could be read"):
         build.build([runs / "damaged", tmp_path / "nowhere"], tmp_path / "site")
     assert list(tmp_path.iterdir()) == []
-
-
-def test_what_a_killed_publish_left_is_put_back_or_removed(tmp_path):
-    ended = subprocess.Popen([sys.executable, "-c", ""])
-    ended.wait()
-    for letter in "ab":
-        left = tmp_path / f".site-{owner.machine()}-{ended.pid}-1-{letter * 8}"
-        (left / "new").mkdir(parents=True)
-    (left / "old").mkdir()
-    (left / "old" / "page").write_text("old")
-    with pytest.raises(ZeroDivisionError), build._replacing(tmp_path / "site"):
-        raise ZeroDivisionError
-    assert [path.relative_to(tmp_path).as_posix() for path in sorted(tmp_path.rglob("*"))] == ["site", "site/page"]
 
 
 def test_a_site_that_fails_half_way_leaves_the_old_one(tmp_path, runs, monkeypatch):
