@@ -40,6 +40,9 @@ campaign: $(READY)
 
 bench: $(READY)
 	$(BIN)/python -m tests.benchmarks.startup
+	$(BIN)/python -m tests.benchmarks.oracle_speed
+	$(BIN)/python -m tests.benchmarks.plan_memory 14
+	$(BIN)/python -m tests.benchmarks.storing
 	$(BIN)/python -m pytest -q tests/benchmarks --benchmark-enable --benchmark-only --benchmark-autosave
 
 gate: $(READY)

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, NoReturn, TypeGuard
 
 from harness import __version__
 from harness.commands import GROUPS, PLUGINS, adder
-from harness.stopping import code_of, stoppable
+from harness.stopping import asked, code_of, stoppable
 
 if TYPE_CHECKING:
     from _typeshed import SupportsWrite
@@ -127,16 +127,15 @@ def _ended(arguments: Sequence[str], options: argparse.Namespace) -> int:
     except UsageError as error:
         usage, code, told = error, USAGE, error.message
     except KeyboardInterrupt as error:
-        code, told = code_of(error), _stopped(options)
-        try:
-            _told(f"firsthit: {told}")
-        except OSError:  # a terminal that was closed, which is what SIGHUP tells
-            _write_nowhere()
+        code, told = _ended_by(error, options)
     except Exception as error:
-        if isinstance(error, BrokenPipeError) or (_is_full(error) and error.filename is None):
+        stop = asked()
+        if not stop and (isinstance(error, BrokenPipeError) or (_is_full(error) and error.filename is None)):
             raise
         code, told = _known(error)
-        if told:
+        if stop:  # a library may answer the signal by an error of its own, as NumPy does while it is imported
+            code, told = _ended_by(stop, options)
+        elif told:
             _told(f"firsthit: {told}")
         else:
             told = f"{type(error).__name__}: {error}"
@@ -150,6 +149,16 @@ def _ended(arguments: Sequence[str], options: argparse.Namespace) -> int:
     if usage:
         raise usage
     return code
+
+
+def _ended_by(stop: KeyboardInterrupt, options: argparse.Namespace) -> tuple[int, str]:
+    """Say that a command was stopped; return its exit code and what was said."""
+    told = _stopped(options)
+    try:
+        _told(f"firsthit: {told}")
+    except OSError:  # a terminal that was closed, which is what SIGHUP tells
+        _write_nowhere()
+    return code_of(stop), told
 
 
 def _signed(arguments: Sequence[str]) -> list[str]:

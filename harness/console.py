@@ -8,6 +8,7 @@ import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
+from harness.contract import plural
 from harness.escaping import one_line
 from harness.terminal import SCREEN, fitting, is_live, padded, size, width
 
@@ -184,7 +185,7 @@ def warnings(rows: Sequence[Row]) -> list[str]:
     lines = []
     for told in troubled.values():
         text, slot = told[0]
-        others = f", and {len(told) - 1} more cells like it" if len(told) > 1 else ""
+        others = f", and {plural(len(told) - 1, 'more cell')} like it" if len(told) > 1 else ""
         lines.append(f"{slot}{others}: {text}")
     return lines
 
@@ -196,4 +197,5 @@ def undecided(rows: Sequence[Row]) -> list[str]:
         return []
     rays = sum(accuracy["undecided"] for accuracy in found)
     hits = sum(accuracy["truth_hits"] for accuracy in found) + rays
-    return [f"the oracle left {rays} of {hits} hits undecided in {len(found)} cells; no accuracy is of them"]
+    left = f"{rays} of {plural(hits, 'hit')} undecided in {plural(len(found), 'cell')}"
+    return [f"the oracle left {left}; no accuracy is of them"]

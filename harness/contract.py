@@ -23,6 +23,7 @@ from surfaces.model import Sphere as Sphere
 from surfaces.model import Surface as Surface
 from surfaces.model import as_float32 as as_float32
 from surfaces.visible import joined, shown
+from surfaces.words import plural as plural
 from surfaces.words import suggestion as suggestion
 
 if TYPE_CHECKING:

@@ -179,12 +179,14 @@ def answered(connection: Connection, watch: Watch, seconds: float) -> bool:
     return True
 
 
-def refusal(wanted: float, what: str, share: float = SHARE) -> str | None:
-    """Say why this process should not make `what`, of `wanted` bytes; None where it may.
+def refusal(wanted: float, what: str, instead: str, share: float = SHARE) -> str | None:
+    """Say why this process should not make `what`, of `wanted` bytes, and what to do `instead`; None where it may.
 
-    Both this process and one that it watches may then hold `share` of the machine's memory.
+    Both this process and one that it watches may then hold `share` of the machine's memory. The command's estimate is
+    asked before any array is made, since the system may end some other process once memory is spent.
     """
     whole = of_machine()
     if whole is None or wanted <= share * whole:
         return None
-    return f"{what} would take {wanted / GIGA:.3g} GB of memory, over the limit of {share * whole / GIGA:.3g} GB"
+    limit = f"over the limit of {share * whole / GIGA:.3g} GB"
+    return f"{what} would take {wanted / GIGA:.3g} GB of memory, {limit}; {instead}"

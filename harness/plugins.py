@@ -9,6 +9,7 @@ import os
 import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -51,17 +52,20 @@ class Plugin:
         """
         if not isinstance(given, Mapping):
             raise FirsthitError(f'{self.method.name}: knobs are values by name, as in {{"N": 3}}, not {given!r}')
-        defaults = {parameter.name: parameter.default for parameter in self.method.parameters}
-        if self.broken is not None:
-            defaults = dict(given)
+        defaults = self._defaults if self.broken is None else dict(given)
         for name in given:
             if name not in defaults:
                 hint = suggestion(name, sorted(defaults))
                 raise FirsthitError(f"method {self.method.name!r} has no parameter {name!r}; {hint}")
-        bound = {name: self._bound(name, given.get(name, default), default) for name, default in defaults.items()}
+        bound = defaults | {name: self._bound(name, value, defaults[name]) for name, value in given.items()}
         turned = ",".join(f"{name}={bound[name]:g}" for name in sorted(given))
         label = f"{self.method.name}[{turned}]" if turned else self.method.name
         return Variant(self.method.name, tuple(sorted(bound.items())), label)
+
+    @cached_property
+    def _defaults(self) -> dict[str, float | int]:
+        """Return the default of each knob. Raises FirsthitError for one that is no value of a knob."""
+        return {knob.name: self._bound(knob.name, knob.default, knob.default) for knob in self.method.parameters}
 
     def _bound(self, name: str, value: float, default: float) -> float | int:
         """Return a knob's value as a number of its default's kind. Raises FirsthitError where it cannot be one."""

@@ -58,6 +58,11 @@ def stoppable() -> Iterator[None]:
         _asked.clear()
 
 
+def asked() -> Stopped | None:
+    """Return what `stoppable` raised for a signal that came since its block began; None if none came."""
+    return Stopped(_asked[0]) if _asked else None
+
+
 def _stop(number: int, _: FrameType | None) -> None:
     if not _asked:
         _asked.append(number)

@@ -180,7 +180,7 @@ def _answers(both: pd.DataFrame, by: list[str]) -> list[Block]:
         ("evaluations per ray cast", wording.number),
     )
     columns = [Column(side, show, numeric=True, over=over) for over, show in shows for side in ("A", "B")]
-    caption = f"{len(body)} of {len(both)} cells answer differently in some way."
+    caption = f"{len(body)} of {wording.plural(len(both), 'cell')} answer differently in some way."
     caption += wording.zeros(both["error_max_a"], both["error_max_b"])
     table = Table(
         (*_places(by), Column("status"), *columns), body[: tables.ROW_LIMIT], "Answers that changed.", caption
@@ -212,5 +212,12 @@ def _alone(a: Run, b: Run, by: list[str]) -> list[Block]:
     blocks: list[Block] = []
     for side, own, other in (("A", keys[0], keys[1]), ("B", keys[1], keys[0])):
         only = [cell for cell in own if cell not in other]
-        blocks.append(Table(tuple(_places(by)), only[: tables.ROW_LIMIT], f"Only in {side}.", f"{len(only):,} cells."))
+        blocks.append(
+            Table(
+                tuple(_places(by)),
+                only[: tables.ROW_LIMIT],
+                f"Only in {side}.",
+                f"{wording.plural(len(only), 'cell')}.",
+            )
+        )
     return blocks

@@ -9,7 +9,7 @@ from pathlib import Path
 import pandas as pd
 
 from harness.results.writing import replacing_together
-from reports import first_page, parts
+from reports import first_page, parts, wording
 from reports.analysis import breaks, derive
 from reports.content import Document
 from reports.drawing import charts
@@ -50,7 +50,7 @@ def build(
     """
     folder = checked(place(run) if output is None else output)
     loaded = load.load(run)
-    tell(f"deriving figures of {len(loaded.frame):,} rows")
+    tell(f"deriving figures of {wording.plural(len(loaded.frame), 'row')}")
     frame = derive.derive(load.over(loaded.frame, baseline), loaded.plan.peaks)
     rungs = breaks.derive(loaded.families, loaded.rungs)
     material = Material(loaded, frame, rungs, Shelf(loaded.folders), load.focus_of(loaded, focus))

@@ -12,6 +12,8 @@ from typing import Any
 
 import pandas as pd
 
+from harness.contract import plural as plural
+
 NONE = "–"
 REFUSED = "·"  # in a matrix: the method refuses it
 WRONG_RAYS = {  # what a sentence calls wrong rays, by their kind
@@ -138,11 +140,6 @@ def power_of_ten(exponent: int) -> str:
 def raised(base: int, exponent: int) -> str:
     """Write a number with a raised exponent: 2⁻¹⁸."""
     return str(base) + str(exponent).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
-
-
-def plural(n: int, noun: str) -> str:
-    """Write a count and its noun: 1 row, 2 rows."""
-    return f"{n:,} {noun}" if n == 1 else f"{n:,} {noun}s"
 
 
 def listed(names: Sequence[str]) -> str:

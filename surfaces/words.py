@@ -1,4 +1,4 @@
-"""Make the words by which a mistaken name is answered."""
+"""Make words: those by which a mistaken name is answered, and a count with its noun."""
 
 from __future__ import annotations
 
@@ -23,6 +23,11 @@ def suggestion(name: str, known: Iterable[str], most: int = 1, otherwise: str = 
     if near:
         return f"did you mean {repr(near[0]) if most == 1 else ', '.join(near)}?"
     return otherwise or f"known: {', '.join(names) or 'none'}"
+
+
+def plural(n: int, noun: str) -> str:
+    """Write a count and its noun: 1 row, 2 rows."""
+    return f"{n:,} {noun}" if n == 1 else f"{n:,} {noun}s"
 
 
 def name_problem(name: str) -> str | None:

@@ -155,7 +155,7 @@ class Hit:
 def first_hit(
     parts: Sequence[Poly], sign: Callable[[Signs], int], inside: Sequence[Poly], low: Fraction, high: Fraction
 ) -> Hit | None:
-    """Return where f is 0 first while all of `inside` are not negative; None where it never is.
+    """Return where f is 0 first, or begins to be 0, while all of `inside` are not negative; None where it never is.
 
     `sign` returns f's sign where the `parts` have these signs. `low` and `high` lie before and behind all that is
     inside.
@@ -182,6 +182,8 @@ def first_hit(
         if hit(at):
             sides = sign(before[: len(parts)]), sign(behind[: len(parts)])
             return Hit(num, first, last, sides[0] * sides[1] < 0)
+        if hit(behind):  # f is 0 from here on, and not here: this is where its roots begin
+            return Hit(num, first, last, False)
     return None
 
 

@@ -42,6 +42,11 @@ def _sign(a: Any) -> Any:
     return mpmath.sign(a)
 
 
+def largest(*values: Any) -> Any:
+    """Return the largest value, NaN where one is not known: Python's `max` may pass it over."""
+    return mpmath.nan if any(mpmath.isnan(value) for value in values) else max(values)
+
+
 def _over(function: Any) -> Any:
     """Return one over a function, NaN where that is 0."""
     return lambda a: 1 / function(a) if abs(a) < 50 and function(a) else mpmath.nan
@@ -274,7 +279,7 @@ class Maker:
             case 1:
                 text, self.functions[name] = "u*{} + v*{}", (2, lambda u, v: u * a.value + v * b.value)
             case _:
-                text, self.functions[name] = "max(u, v*{}, {})", (2, lambda u, v: max(u, v * a.value, b.value))
+                text, self.functions[name] = "max(u, v*{}, {})", (2, lambda u, v: largest(u, v * a.value, b.value))
         given = "u" if self.functions[name][0] == 1 else "u, v"
         return f"{self.pick.choice(['let ', ''])}{name}({given}) = {text.format(a.inside(59), b.inside(59))};\n"
 

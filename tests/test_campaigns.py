@@ -2,13 +2,24 @@
 
 from __future__ import annotations
 
+import os
 import random
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
+import mpmath
 import pytest
 
+from harness import ROOT
 from tests.campaigns import frame, table
 from tests.campaigns.frame import Campaign, Fell, Place
+from tests.conftest import usable_devices
+from tests.made_formulas import largest
 
 
 @pytest.mark.parametrize("name", frame.names())
@@ -18,6 +29,8 @@ def test_the_small_part_of_a_campaign(name: str, tmp_path: Path) -> None:
     last = campaign.first - (-campaign.small // campaign.each)
     found = frame.trials(campaign, 1, range(campaign.first, last), tmp_path)
     assert not found.fell, "\n".join(found.told)
+    if name == "plugins" and usable_devices():
+        assert found.counts["ok"], "a plugin that is only odd has good rows"
 
 
 def _trial(dice: random.Random, place: Place) -> str:
@@ -44,6 +57,44 @@ def test_a_campaign_goes_on_where_it_was_stopped(tmp_path: Path) -> None:
     kept = frame.kept_in(tmp_path, 3)
     kept.write_text(kept.read_text() + '{"first": 1, "ca')
     assert frame.run(frame.campaign_named("formulas"), 3, 1, tmp_path, 1, lambda _: None).counts == first.counts
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT, signal.SIGHUP, signal.SIGKILL])
+def test_the_processes_of_a_campaign_end_with_it(tmp_path: Path, number: signal.Signals) -> None:
+    command = [sys.executable, "-m", "tests.campaigns", "formulas", "--jobs", "2", "--folder", str(tmp_path)]
+    options: dict[str, Any] = {"cwd": ROOT, "stdout": subprocess.DEVNULL, "stderr": subprocess.PIPE, "text": True}
+    with subprocess.Popen(command, env=os.environ | {"PYTHONPATH": str(ROOT)}, **options) as campaign:
+        until(lambda: len(_working(campaign.pid)) == 2)
+        started = _children(campaign.pid)
+        campaign.send_signal(number)
+        told = campaign.communicate(timeout=60)[1]
+    if number == signal.SIGKILL:
+        assert campaign.returncode == -number
+    else:
+        assert campaign.returncode == 128 + number and "the same command goes on" in told and "Traceback" not in told
+    until(lambda: not any(map(_lives, started)))
+
+
+def _children(pid: int) -> list[int]:
+    return [int(child) for child in Path(f"/proc/{pid}/task/{pid}/children").read_text().split()]
+
+
+def _working(pid: int) -> list[int]:
+    """The processes of its pool: those that have read what they are to try."""
+    return [child for child in _children(pid) if b"spawn_main" in Path(f"/proc/{child}/cmdline").read_bytes()]
+
+
+def _lives(pid: int) -> bool:
+    stat = Path(f"/proc/{pid}/stat")
+    return stat.exists() and stat.read_text().rpartition(")")[2].split()[0] != "Z"
+
+
+def until(holds: Callable[[], bool]) -> None:
+    for _ in range(600):
+        if holds():
+            return
+        time.sleep(0.1)
+    raise AssertionError("it did not come to it in a minute")
 
 
 def test_results_of_other_code_are_not_counted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -73,3 +124,7 @@ def test_the_table_has_one_row_for_each_campaign(tmp_path: Path) -> None:
         table.write(page, COIN, frame.trials(COIN, seed, range(20), tmp_path), seed)
     lines = page.read_text().splitlines()
     assert lines[4].startswith("| coin | 20 | ") and "| 2 |" in lines[4] and lines[5:] == ["", "more"]
+
+
+def test_a_made_formula_has_no_value_where_one_of_its_parts_has_none() -> None:
+    assert mpmath.isnan(largest(mpmath.mpf(1), mpmath.nan, mpmath.mpf(2)))

@@ -327,7 +327,7 @@ def test_compile_reports_a_broken_plugin_with_its_line(tmp_path, capsys):
 def test_compile_is_on_the_devices_that_are_named(capsys):
     name = usable_devices()[0].name
     code, out, _ = told(capsys, "compile", "--method", "ray_march", "--surface", "sphere", "--device", name)
-    assert code == 0 and "programs compiled on 1 devices, 0 failed" in out
+    assert code == 0 and "programs compiled on 1 device, 0 failed" in out
     assert [line.partition(": ")[0] for line in out.splitlines()[:-1]] == [name]
     assert told(capsys, "compile", "--method", "ray_march", "--device", "opencl:none")[0] == 3
 

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 import surfaces
+from harness.cli import main
 from harness.contract import DeviceInfo, FirsthitError
 from harness.devices import probes
 from harness.gate import baseline
@@ -24,6 +25,7 @@ from harness.studies import condition_numbers, extrema_bounds, torus_along_rays
 from reports.reading import arrays, load
 
 from .agreeing_rows import oldest, whole
+from .conftest import usable_devices
 from .synthetic_run import VARIANTS, cell, family_cell, plan, printed, reported, tiny_run
 from .synthetic_run import arrays as pictures
 
@@ -191,6 +193,16 @@ def test_arrays_of_another_type_or_shape_are_refused_before_anything_is_allocate
         npz.read(path, {"lower": np.float64}, lambda *_: True)
 
 
+def test_an_array_whose_name_was_damaged_is_not_taken_for_one_of_another_version(tmp_path):
+    path = tmp_path / "a.npz"
+    np.savez_compressed(path, lower=np.zeros(3), upper=np.ones(3))
+    content = path.read_bytes()
+    directory = content.index(b"PK\x01\x02")  # the names stand before each member and once more in the directory
+    path.write_bytes(content[:directory] + content[directory:].replace(b"upper.npy", b"upqer.npy"))
+    with pytest.raises(ValueError, match="damaged"):
+        npz.read(path, {"lower": np.float64, "upper": np.float64}, lambda *_: True, frozenset({"upper"}))
+
+
 def test_truth_that_is_damaged_or_contradicts_itself_is_made_again(tmp_path):
     torus = surfaces.get("torus")
     truth = cached_first_hits(torus, RAYS, tmp_path)
@@ -282,3 +294,19 @@ def test_a_baseline_that_toml_cannot_hold_is_one_line(tmp_path, text):
     with pytest.raises(FirsthitError, match="baseline") as caught:
         baseline.read(path)
     assert "\n" not in str(caught.value) and len(str(caught.value)) < 500
+
+
+@pytest.mark.usefixtures("devices_found_once")
+def test_a_damaged_row_is_told_on_a_quiet_screen_too(tmp_path, capsys):
+    config = tmp_path / "tiny.toml"
+    device = usable_devices()[0].name
+    config.write_text(
+        f'title = "t"\nsurfaces = ["sphere"]\nsizes = [16]\ndevices = ["{device}"]\n[[method]]\nname = "newton"\n'
+    )
+    assert main(["plan", str(config), "--runs", str(tmp_path), "--json"]) == 0
+    (cell,) = json.loads(capsys.readouterr().out)["parts"][0]["cells"]
+    row = tmp_path / "tiny" / "cells" / f"{cell['key']}.json"
+    row.parent.mkdir(parents=True)
+    row.write_text("{")
+    assert main(["plan", str(config), "--runs", str(tmp_path), "-q"]) == 0
+    assert f"{row} is damaged" in " ".join(capsys.readouterr().err.split())

@@ -12,7 +12,7 @@ import surfaces
 from harness.contract import Truth, TruthStatus
 from harness.oracle import first_hits
 from tests.campaigns import oracle as campaign
-from tests.exact_roots import Poly, constant, first_hit, linear
+from tests.exact_roots import Poly, Signs, constant, first_hit, linear
 from tests.exact_surfaces import Shape, X, Y, Z, number
 
 T = Poly([0, 1])
@@ -38,6 +38,15 @@ def test_a_root_at_an_end_counts_and_one_behind_it_does_not() -> None:
     assert first_hit([p], lambda s: s[0], inside, Fraction(-1), Fraction(2)) is not None
     shorter = [constant(Fraction(1999999, 1000000)) - T * T, T]
     assert first_hit([p], lambda s: s[0], shorter, Fraction(-1), Fraction(2)) is None
+
+
+def test_where_f_begins_to_be_zero_counts_as_its_first_root() -> None:
+    def sign(signs: Signs) -> int:  # of t < 1 ? 1 : 0
+        return 1 if signs[0] <= 0 else 0
+
+    hit = first_hit([T - constant(1)], sign, [constant(9) - T * T, T], Fraction(-1), Fraction(4))
+    assert hit is not None
+    assert (hit.at_least(Fraction(1)), hit.at_most(Fraction(1)), hit.crosses) == (True, True, False)
 
 
 SPHERE = X**2 + Y**2 + Z**2 - number(1)

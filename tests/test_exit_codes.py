@@ -138,6 +138,20 @@ def test_a_signal_in_a_step_of_a_worker_has_its_code_and_keeps_what_finished(end
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="signals of Unix")
+def test_a_library_that_answers_a_signal_by_an_error_of_its_own_does_not_hide_that_it_came(monkeypatch, capsys):
+    def stopped_while_numpy_is_imported(*_: object) -> int:
+        try:
+            os.kill(os.getpid(), signal.SIGTERM)
+        except KeyboardInterrupt:
+            raise ImportError("PyCapsule_Import could not import module datetime") from None
+        return 0
+
+    monkeypatch.setattr("harness.cli._run", stopped_while_numpy_is_imported)
+    assert main(["list", "methods"]) == 143
+    assert capsys.readouterr().err == "firsthit: stopped\n"
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="signals of Unix")
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_the_second_signal_ends_at_once_and_an_echo_of_the_first_does_not(number):
     code = (

@@ -201,6 +201,26 @@ def test_a_cell_that_is_skipped_or_fails_at_one_revision_has_a_verdict_by_its_st
     assert code == 3 and verdict(out, VIEW) == "incomparable" and "2 not compared" in out
 
 
+def test_a_method_that_is_broken_at_the_other_revision_alone_is_not_improved(gated):
+    gated.config.write_text(gated.config.read_text().replace("speed = {", "# {"))
+    gated.plant("plugins/mine/method.py", "METHOD = Method(", "raise SystemExit(0)\nMETHOD = Method(")
+    gated.commit()
+    git(gated.top, "checkout", "-q", "HEAD~1", "--", "plugins")
+    code, out, _ = gated("--against", "HEAD")
+    assert code == 3 and verdict(out, VIEW) == verdict(out, FAMILY) == "incomparable", out
+    assert out.count("at the other revision method 'mine' cannot be loaded") == 3
+    assert "improved" not in out and "missing" not in out and "2 not compared" in out
+
+
+def test_a_method_that_goes_wrong_at_the_other_revision_alone_is_not_improved(gated):
+    gated.plant("plugins/mine/method.py", "    tables", "    accepts=lambda surface: 1 / 0,\n    tables")
+    gated.commit()
+    git(gated.top, "checkout", "-q", "HEAD~1", "--", "plugins")
+    code, out, _ = gated("--against", "HEAD")
+    assert code == 3 and verdict(out, VIEW) == verdict(out, FAMILY) == "incomparable", out
+    assert "improved" not in out and "ZeroDivisionError" in out
+
+
 def altered(monkeypatch, change):
     """Let the other revision tell of its cells what `change` makes of them."""
     found = revision.programs_at

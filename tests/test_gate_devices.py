@@ -1,12 +1,15 @@
 """A baseline that was blessed on one device gates another one, and what cannot be compared is told before anything."""
 
 import dataclasses
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
 
 from harness.cli import main
+from harness.contract import CellStatus
 from harness.devices import host
+from harness.devices.executor import CellError, LocalExecutor
 from harness.experiment import identity, plan, reading
 from harness.gate import entries
 from harness.gate.entries import asked_of
@@ -213,3 +216,37 @@ def test_what_was_asked_tells_other_surfaces_views_and_instances_apart(tmp_path,
     before = _scenes(_planned(ASKED, tmp_path, "opengl:llvmpipe"))
     after = _scenes(_planned(ASKED.replace(old, new), tmp_path, "opengl:llvmpipe"))
     assert len(set(after.values()) - set(before.values())) == changed
+
+
+def test_a_device_that_does_not_tell_how_it_computes_costs_its_own_rows(tmp_path, two_devices, capsys, monkeypatch):
+    _copy(tmp_path / "plugins", MINE, "mine")
+    _copy(tmp_path / "plugins", THEIRS, "theirs")
+    config = tmp_path / "plugin.toml"
+    config.write_text(CONFIG.format(device='", "'.join(two_devices)))
+    shared = ["--plugins", str(tmp_path / "plugins")]
+    more = [str(config), "--runs", str(tmp_path)]
+    assert main([*shared, "bless", *more, "--reason", "the first"]) == 0
+    blessed = (tmp_path / "baselines" / "plugin.toml").read_text()
+    for file in (tmp_path / "gate-plugin" / "probes").iterdir():
+        file.unlink()
+    taken = LocalExecutor.fingerprint
+
+    def fingerprint(self, device):
+        if device == two_devices[1]:
+            raise CellError(CellStatus.CRASHED, "the worker was killed")
+        return taken(self, device)
+
+    monkeypatch.setattr(LocalExecutor, "fingerprint", fingerprint)
+    capsys.readouterr()
+    junit = tmp_path / "gate.xml"
+    for force in ([], ["--force"]):
+        assert main([*shared, "gate", *more, "--junit", str(junit), *force]) == 3
+        out = capsys.readouterr().out
+        told = f"the fingerprint of {two_devices[1]} cannot be taken: the worker was killed"
+        assert out.splitlines()[-1] == "4 incomparable, 4 pass" and out.count(told) == 4
+        cases = {(case.get("name"), case.get("classname")): case for case in ElementTree.parse(junit).iter("testcase")}
+        errors = [case.find("error").text for case in cases.values() if case.find("error") is not None]
+        assert len(cases) == 8 and len(errors) == 4 and all(told in error for error in errors)
+    assert main([*shared, "bless", *more, "--reason", "again"]) == 3
+    assert "not blessed" in capsys.readouterr().err
+    assert (tmp_path / "baselines" / "plugin.toml").read_text() == blessed

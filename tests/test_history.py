@@ -292,6 +292,16 @@ def test_where_nothing_can_be_drawn_the_command_says_what_to_do(tmp_path, monkey
     assert not (tmp_path / "out").exists()
 
 
+def test_a_damaged_file_is_told_on_a_quiet_screen_too(tmp_path, capsys):
+    config = tmp_path / "tiny.toml"
+    config.write_text('title = "t"\nsurfaces = ["torus"]\n[[method]]\nname = "newton"\n')
+    folder = tmp_path / "history" / "tiny"
+    commits.write(folder, kept(0, {SLOT: row(misses=0)}), "one")
+    (folder / "two.json").write_text("{")
+    assert main(["history", str(config), "-q", "-o", str(tmp_path / "out")]) == 0
+    assert f"{folder / 'two.json'}" in " ".join(capsys.readouterr().err.split())
+
+
 def test_a_tolerance_of_the_config_decides_what_a_step_is():
     own = {"misses": Tolerance("lower", 3.0, 0.0)}
     found = series.graphs(runs_of(0, 3, 7), None, own)

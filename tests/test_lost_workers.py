@@ -10,15 +10,25 @@ import time
 from multiprocessing import Pipe
 from pathlib import Path
 
+import pandas as pd
 import pytest
 
+import firsthit
+import surfaces
 from harness import memory
-from harness.contract import CellStatus, DeviceInfo, FirsthitError, LostDevice
+from harness.cli import main
+from harness.contract import CellStatus, DeviceInfo, FirsthitError, LostDevice, View
 from harness.devices import discovery, executor, interface, serving
 from harness.devices.executor import CellError, LocalExecutor
 from harness.experiment import plan, reading, targets
+from harness.experiment.kinds import beams
+from harness.experiment.kinds import model as kinds_model
+from harness.experiment.kinds import rays as kinds_rays
 from harness.plugins import find_methods
-from harness.running import environment, run
+from harness.running import environment, picture, run
+from harness.verifying import truth as verified_truth
+from harness.verifying.model import CannotTell
+from reports.reading import arrays
 from tests.conftest import usable_devices
 
 ROOT = Path(__file__).parents[1]
@@ -225,6 +235,79 @@ def test_a_list_of_rays_that_memory_does_not_hold_is_refused(monkeypatch, tmp_pa
     told = "a list of 268,435,456 rays would take 40.3 GB of memory, over the limit of 4 GB"
     with pytest.raises(FirsthitError, match=told):
         _ = planned.frame
+
+
+def _refuse(*_, **__):
+    raise AssertionError("rays were made")
+
+
+@pytest.fixture
+def little_memory(monkeypatch):
+    """Make this machine one of 2 GB, on which the places that make rays of a view may make none."""
+    monkeypatch.setattr(memory, "of_machine", lambda: 2_000_000_000)
+    for module in (picture, kinds_model, kinds_rays, beams, verified_truth):
+        monkeypatch.setattr(module, "rays_of", _refuse)
+
+
+@pytest.mark.parametrize(
+    ("more", "told"),
+    [
+        ("[accuracy]\nsize = 4096", "a check of 16,777,216 rays would take"),
+        ("[accuracy]\nsize = 2048\n[samples]", "a check of 71,303,168 rays would take"),
+    ],
+)
+@pytest.mark.parametrize("method", ["newton", "interval_uniform"])
+@pytest.mark.usefixtures("little_memory")
+def test_a_check_that_memory_does_not_hold_is_refused_before_any_ray(tmp_path, method, more, told):
+    path = tmp_path / "large.toml"
+    named = f'[[method]]\nname = "{method}"\n'
+    text = 'title = "t"\nsurfaces = ["sphere"]\ndevices = ["opengl:one"]\n'
+    samples = "samples_per_pixel = [16]\n" if "samples" in more else ""
+    path.write_text(text + samples + named + more.removesuffix("[samples]"))
+    catalog = find_methods()
+    (planned,) = plan.plan(reading.load(path, catalog), catalog, [OTHER], timed=False)
+    choice = reading.load(path, catalog).config.accuracy
+    with pytest.raises(
+        FirsthitError, match=rf"{told} .* GB of memory, over the limit of 1 GB; take a smaller"
+    ) as raised:
+        planned.casting.check(None, choice, tmp_path, False)
+    assert raised.value.exit_code == 3
+
+
+@pytest.mark.usefixtures("little_memory")
+def test_maps_that_memory_does_not_hold_together_are_refused_before_any_is_read(monkeypatch):
+    monkeypatch.setattr(arrays, "read", _refuse)
+    rows = pd.DataFrame({"arrays": [f"arrays/{i}.npz" for i in range(9)], "accuracy_rays": [4096.0**2] * 9})
+    told = r"the maps of 9 cells, 16,777,216 rays at most, would take .* GB of memory, over the limit of 1 GB; run with"
+    with pytest.raises(FirsthitError, match=told) as raised:
+        arrays.Shelf({}).together(rows)
+    assert raised.value.exit_code == 3
+
+
+@pytest.mark.usefixtures("little_memory")
+def test_rays_that_memory_does_not_hold_are_not_certified_anew(monkeypatch):
+    monkeypatch.setattr(verified_truth, "surface_of", lambda _: surfaces.get("sphere"))
+    monkeypatch.setattr(verified_truth, "view_of", lambda _: View("shown"))
+    row = {"accuracy": {"size": 4096}, "stage": "compute"}
+    with pytest.raises(CannotTell, match=r"certifying 16,777,216 rays would take .* verify it on a machine with more"):
+        verified_truth.rays_for(row)
+
+
+@pytest.mark.usefixtures("little_memory")
+def test_a_picture_that_memory_does_not_hold_is_refused_before_any_ray(tmp_path, capsys):
+    device, output = usable_devices()[0].name, tmp_path / "a.png"
+    words = ["--method", "newton", "--device", device, "--size", "4096", "-o", str(output)]
+    told = "GB of memory, over the limit of 1 GB; take a smaller"
+    for command in (["show", "--surface", "sphere"], ["sheet"]):
+        assert main([*command, *words]) == 3
+        error = " ".join(capsys.readouterr().err.split())
+        assert told in error and ("a picture of 4096x4096 pixels" in error or "a sheet of" in error)
+    with pytest.raises(FirsthitError, match=told):
+        firsthit.render("x^2 + y^2 + z^2 - 1", "newton", size=4096, device=device)
+    path = tmp_path / "c.toml"
+    path.write_text('title = "t"\n[[method]]\nname = "newton"\n[scene.mine]\ngenerate = "lattice"\ncounts = [8]\n')
+    assert main(["scene", str(path), "--method", "newton", "--size", "4096", "-o", str(output)]) == 3
+    assert told in " ".join(capsys.readouterr().err.split()) and not output.exists()
 
 
 def test_what_stops_a_command_ends_no_worker_first():

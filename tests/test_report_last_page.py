@@ -52,6 +52,23 @@ def test_a_reason_is_told_once_with_its_cells_methods_and_surfaces(tmp_path: Pat
     assert printed(page.details).count("no interval arithmetic") == 4, "every cell is among the details"
 
 
+def test_a_compilers_message_is_told_without_the_lines_that_it_quotes(tmp_path: Path) -> None:
+    """The mistakes of one method follow each other, whatever its compilers call them."""
+    said = {"pocl": "kernel.glsl:1:51: undeclared 'f'\n    | return f(|x|);\n    |        ^\nkernel.glsl:2: |y| too"}
+    said["mesa"] = "kernel.glsl:1: no function 'f'\n    | return f(|x|);"
+    cells = [
+        refused(method, where, reason.replace("kernel", method))
+        for where, reason in said.items()
+        for method in ("newton", "sturm")
+    ]
+    page = last_page(tiny_run(tmp_path / "run", *cells))
+    text = printed(page.blocks)
+    assert "sturm.glsl:1:51: undeclared 'f' sturm.glsl:2: |y| too | " in text and "return f" not in text
+    assert "return f" not in printed(page.details)
+    methods = re.findall(r"1 \| skipped \| (\w+)\.glsl", text)
+    assert methods == ["newton", "newton", "sturm", "sturm"]
+
+
 def test_a_run_in_which_nothing_failed_says_so_and_needs_no_page_of_its_own(tmp_path: Path) -> None:
     made = cell("ray_march", "torus", "opencl:intel", "float32") | {"arrays": None}
     page = last_page(tiny_run(tmp_path / "run", made))

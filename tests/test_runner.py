@@ -168,7 +168,7 @@ def test_killing_a_worker_costs_one_cell_and_retry_mends_it(tmp_path, config):
     assert "killed by signal KILL" in reason
     again = run("run", path, "--runs", runs, "--retry", "failed")
     assert again.returncode == 0
-    assert "1 cells run, 7 reused" in again.stdout
+    assert "1 cell run, 7 reused" in again.stdout
 
 
 def test_interrupting_keeps_what_is_finished(tmp_path, config):
@@ -239,7 +239,7 @@ def test_a_truncated_row_is_told_and_run_again(tmp_path, config):
     again = run("run", path, "--runs", runs)
     assert again.returncode == 0
     assert victim.name in again.stderr
-    assert "1 cells run, 7 reused" in again.stdout
+    assert "1 cell run, 7 reused" in again.stdout
 
 
 def test_why_names_what_changed(tmp_path, config):

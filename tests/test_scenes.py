@@ -192,3 +192,25 @@ def test_a_scene_of_a_config_is_drawn(tmp_path, capsys):
         assert 0.2 < (np.asarray(drawn) < 255).any(axis=2).mean() < 0.9
     assert main(["scene", str(path), "--name", "latice 8", "--method", "newton", "-o", str(output)]) == 2
     assert "did you mean 'lattice 8'?" in capsys.readouterr().err
+
+
+@pytest.mark.usefixtures("gl")
+def test_a_method_that_cannot_be_loaded_costs_the_scenes_that_name_it(tmp_path, capsys):
+    pytest.importorskip("PIL.Image")
+    path, output, plugins = tmp_path / "c.toml", tmp_path / "s.png", tmp_path / "plugins"
+    (plugins / "bad").mkdir(parents=True)
+    (plugins / "bad" / "method.py").write_text("raise SystemExit(0)\n")
+    (plugins / "bad" / "kernel.glsl").touch()
+    path.write_text(
+        'title = "t"\n[[method]]\nname = "newton"\n[[method]]\nname = "bad"\n[method.parameters]\nN = [3]\n'
+        '[[scene.mine.placed]]\nsurface = "torus"\n[[scene.other.placed]]\nsurface = "torus"\nmethod = "bad"\n'
+    )
+    command = ["--plugins", str(plugins), "scene", str(path), "--size", "32", "-o", str(output)]
+    assert main([*command, "--method", "newton"]) == 0, capsys.readouterr().err
+    assert output.exists() and "'bad' cannot be loaded" in capsys.readouterr().err
+    output.unlink()
+    for asks in (["--method", "newton", "--name", "other"], ["--method", "bad"]):
+        assert main([*command, *asks]) == 3
+        told = capsys.readouterr().err.splitlines()[-1]
+        assert "cannot be loaded" in told and "SystemExit" in told and not output.exists()
+        assert ("scene 'other' names the method 'bad'" in told) == ("--name" in asks)

@@ -382,3 +382,9 @@ def test_choices_filter_the_standings_and_the_winners(site, tab):
     assert tab.run(shown)
     choose("method", "newton")
     assert len(tab.run(_LINES)) == 1
+
+
+def test_a_run_that_cannot_be_read_is_told_on_a_quiet_screen_too(monkeypatch, tmp_path, capsys):
+    monkeypatch.setattr(build, "build", lambda *_: (tmp_path / "index.html", ["cannot read run/plan.json"]))
+    assert main(["publish", "run", "-q", "-o", str(tmp_path)]) == 0
+    assert "firsthit: cannot read run/plan.json" in capsys.readouterr().err

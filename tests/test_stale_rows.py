@@ -109,7 +109,7 @@ def test_what_decides_a_row_makes_it_run_again_and_nothing_else_does(copy):
     assert "0 cells run, 2 reused" in copy.run()[0]
 
     (copy.plugin / "helper.py").write_text("LIMIT = 5\n")
-    assert "1 cells run, 1 reused" in copy.run()[0]
+    assert "1 cell run, 1 reused" in copy.run()[0]
 
     evaluate = "\n_of_old = evaluate\n\n\ndef evaluate(*given):\n    return 1000.0 * _of_old(*given)\n"
     copy.append("surfaces/evaluation.py", evaluate)

@@ -196,7 +196,7 @@ def test_one_altered_row_among_many_is_told(run: Path, tmp_path: Path, capsys: p
     assert main(["verify", str(folder)]) == 1
     out = capsys.readouterr().out
     assert "checksum does not hold" in out
-    assert "have no row" not in out, "a damaged row is no missing one"
+    assert "without a row" not in out, "a damaged row is no missing one"
 
 
 def test_a_row_without_checksum_is_told_as_one_and_gone_arrays_are_named(run: Path, tmp_path: Path) -> None:

@@ -145,7 +145,7 @@ def test_a_run_and_its_report_work_there_and_name_no_commit_of_others(installed)
     if not usable_devices():
         pytest.skip("no device")
     (installed.work / "one.toml").write_text(CONFIG)
-    assert "1 cells run, 0 reused; 1 ok" in installed.run("firsthit", "run", "one.toml")
+    assert "1 cell run, 0 reused; 1 ok" in installed.run("firsthit", "run", "one.toml")
     plan = json.loads((installed.work / "runs/one/plan.json").read_text())
     assert plan["environment"]["commit"] is None and plan["environment"]["dirty"] is False
     installed.run("firsthit", "report", "runs/one")

@@ -7,7 +7,7 @@ import pytest
 
 from harness.contract import DeviceInfo, FirsthitError
 from harness.devices.interface import device_named, working
-from surfaces.words import suggestion
+from surfaces.words import plural, suggestion
 
 ROOT = Path(__file__).parent.parent
 
@@ -48,3 +48,7 @@ def test_a_device_that_is_not_here_is_answered_with_those_that_are():
         with pytest.raises(FirsthitError) as caught:
             device_named(name, found)
         assert (str(caught.value), caught.value.exit_code) == (words, 3)
+
+
+def test_a_count_and_its_noun_agree():
+    assert [plural(n, "row") for n in (0, 1, 2, 1000)] == ["0 rows", "1 row", "2 rows", "1,000 rows"]

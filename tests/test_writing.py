@@ -21,9 +21,10 @@ from harness.contract import DeviceInfo, FirsthitError
 from harness.gate import baseline
 from harness.oracle import cache
 from harness.oracle import first_hits as certified
-from harness.results import writing
+from harness.results import owner, writing
 from harness.results.store import Store
 from harness.results.writing import replacing, replacing_together, savez_atomically, write_atomically
+from reports.site import build
 
 ROOT = Path(__file__).parent.parent
 RAYS = np.array([[0, 0, 5, 0, 0, -1]], np.float32)
@@ -279,3 +280,16 @@ def test_a_pipe_or_a_device_is_not_replaced_by_a_file(tmp_path):
     assert pipe.is_fifo() and list(tmp_path.iterdir()) == [pipe]
     with pytest.raises(FirsthitError, match="a device or a pipe"):
         options.writable(pipe)
+
+
+def test_what_a_killed_publish_left_is_put_back_or_removed(tmp_path):
+    ended = subprocess.Popen([sys.executable, "-c", ""])
+    ended.wait()
+    for letter in "ab":
+        left = tmp_path / f".site-{owner.machine()}-{ended.pid}-1-{letter * 8}"
+        (left / "new").mkdir(parents=True)
+    (left / "old").mkdir()
+    (left / "old" / "page").write_text("old")
+    with pytest.raises(ZeroDivisionError), build._replacing(tmp_path / "site"):
+        raise ZeroDivisionError
+    assert [path.relative_to(tmp_path).as_posix() for path in sorted(tmp_path.rglob("*"))] == ["site", "site/page"]

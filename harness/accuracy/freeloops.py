@@ -15,7 +15,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 
 from harness.accuracy.compilers import DOUBTFUL
-from harness.contract import Hits, Program, RayStatus
+from harness.contract import Hits, Program, RayStatus, plural
 from harness.kernels.sections import with_free_loops
 
 
@@ -32,6 +32,6 @@ def removed(programs: Iterable[Program], kept: Hits, cast: Callable[[], Hits]) -
     if count <= DOUBTFUL * len(gave_up):
         return None
     return (
-        f"on {count} of {len(gave_up)} rays the kernel ends only because this device's compiler removes a loop whose "
-        "result is not used; the check keeps this loop, and it turns until the driver ends it"
+        f"on {count} of {plural(len(gave_up), 'ray')} the kernel ends only because this device's compiler removes a "
+        "loop whose result is not used; the check keeps this loop, and it turns until the driver ends it"
     )

@@ -13,7 +13,7 @@ from harness import conformance, console
 from harness.commands import Add
 from harness.commands.options import add_timeout, methods_of, named_surface
 from harness.conformance import Finding
-from harness.contract import PRECISIONS, CellStatus
+from harness.contract import PRECISIONS, CellStatus, plural
 from harness.devices.discovery import usable_devices
 from harness.devices.executor import LocalExecutor
 from harness.running.failures import Failure, mistakes
@@ -67,7 +67,7 @@ def _conform(options: argparse.Namespace) -> int:
     for paragraph in mistakes(ended, "cases"):
         print(paragraph)
     failed = sum(finding.fails for *_, finding in rows)
-    print(f"{sum(not finding.unchecked for *_, finding in rows)} checks, {failed} failed")
+    print(f"{plural(sum(not finding.unchecked for *_, finding in rows), 'check')}, {failed} failed")
     idle = sorted(set(names) - {name for name, _, finding in rows if not finding.unchecked})
     if idle:
         print(f"nothing was checked of {', '.join(idle)}: what is not checked does not conform")
@@ -91,8 +91,10 @@ def told(device: str, found: Iterable[tuple[str, str, Finding]], verbose: bool) 
     checked = [finding for *_, finding in found if not finding.unchecked]
     failing = [(where, finding) for _, where, finding in found if finding.fails]
     ended = sum(finding.ended is not None for *_, finding in found)
-    beside = f"; {ended} {'case' if ended == 1 else 'cases'} did not run to the end, see below" if ended else ""
-    lines = [f"{name} on {device}: {len(checked) - len(failing)} of {len(checked)} checks hold{beside}"]
+    beside = f"; {plural(ended, 'case')} did not run to the end, see below" if ended else ""
+    hold = "holds" if len(checked) == 1 else "hold"
+    held = f"{len(checked) - len(failing)} of {plural(len(checked), 'check')} {hold}"
+    lines = [f"{name} on {device}: {held}{beside}"]
     if verbose:
         rows = [
             (finding.check, where, _outcome(finding), _number(finding.value), _number(finding.limit))

@@ -10,11 +10,12 @@ from harness import console
 from harness.commands import Add
 from harness.commands.answers import experiments
 from harness.commands.machine import Answer, add_json
-from harness.commands.options import add_wait, add_yes, tell, typed
+from harness.commands.options import add_wait, add_yes, tell, tell_wrong, typed
 from harness.commands.printer import Printer
-from harness.contract import FirsthitError
+from harness.contract import FirsthitError, plural
 from harness.experiment import config, identity, plan
 from harness.experiment.identity import Difference
+from harness.experiment.size import cells_of
 from harness.plugins import find_methods
 from harness.results.begun import Begun
 from harness.results.history import past_of
@@ -107,13 +108,14 @@ def _plan(options: argparse.Namespace) -> int | Answer:
     parts = [facts for facts, _ in made]
     failures = dict.fromkeys(reason for _, reasons in made for reason in reasons)
     for reason in failures.keys() - set(loaded.catalog.warnings):  # those were told already
-        tell(f"firsthit: {reason}")
+        tell_wrong(f"firsthit: {reason}")
     code = 3 if failures else 0
     if options.json:
         return Answer(experiments.Plan(parts), code)
     for part in parts:
         print(console.table(("key", "cell", "state"), [(cell.key, cell.slot, _state(cell)) for cell in part.cells]))
-        print(f"{part.config}: {len(part.cells)} cells, {part.to_run} to run, about {console.duration(part.seconds)}")
+        cells, seconds = plural(len(part.cells), "cell"), console.duration(part.seconds)
+        print(f"{part.config}: {cells}, {part.to_run} to run, about {seconds}")
     return code
 
 
@@ -124,12 +126,13 @@ def _planned(part: config.Experiment, loaded: Loaded, runs: Path) -> tuple[exper
     """
     for told in remarks(part):
         tell(f"firsthit: {told}")
-    with console.doing(f"preparing the cells of {part.path}") as tell_step:
+    cells = cells_of(part, loaded.catalog, loaded.devices)
+    with console.doing(f"{part.path}: {cells:,} cells; preparing them") as tell_step:
         planned = plan.plan(part, loaded.catalog, loaded.devices, tell=tell_step)
     store = Store(runs / part.name)
     found = due(planned, store, asked=Begun(store.folder).again)
     for message in store.unreadable.values():
-        tell(f"firsthit: {message}; `firsthit run` makes it again")
+        tell_wrong(f"firsthit: {message}; `firsthit run` makes it again")
     seconds = estimates(found.todo, store, part.config.budget.seconds)
     facts = experiments.PlanFacts(
         str(part.path),

@@ -11,7 +11,7 @@ from harness.commands.answers import gates
 from harness.commands.machine import Answer, add_json
 from harness.commands.options import add_history, add_wait, add_yes, history_of, tell, typed, writable
 from harness.commands.printer import Printer
-from harness.contract import FirsthitError
+from harness.contract import FirsthitError, plural
 from harness.experiment import toml_file
 from harness.experiment.shipped import located
 from harness.gate import against, baseline, chosen
@@ -214,7 +214,7 @@ def _bless(options: argparse.Namespace) -> int:
         lock.take()  # also where nothing was run: what another blesses meanwhile would be lost
         baseline.write(path, baseline.merged(_blessed_so_far(path), made))
     total = sum(map(len, made.rows.values()))
-    print(f"{path}: {total} rows blessed on {', '.join(facts['name'] for facts in made.devices.values())}")
+    print(f"{path}: {plural(total, 'row')} blessed on {', '.join(facts['name'] for facts in made.devices.values())}")
     return 0
 
 

@@ -11,8 +11,8 @@ from harness import console
 from harness.commands import Add
 from harness.commands.answers import gates
 from harness.commands.machine import Answer, add_json
-from harness.commands.options import add_history, history_of, tell
-from harness.contract import FirsthitError
+from harness.commands.options import add_history, history_of, tell_wrong
+from harness.contract import FirsthitError, plural
 from harness.escaping import shell
 from harness.experiment import reading
 from harness.experiment.shipped import located
@@ -51,7 +51,7 @@ def _history(options: argparse.Namespace) -> int | Answer:
     folder = history_of(options, config)
     kept, problems = commits.read_all(folder)
     for problem in problems:
-        tell(f"firsthit: {problem}")
+        tell_wrong(f"firsthit: {problem}")
     if not kept:
         plugins = ["--plugins", str(options.plugins)] if options.plugins else []
         command = shell(["firsthit", *plugins, "gate", str(options.config), "--keep"])
@@ -75,7 +75,7 @@ def _history(options: argparse.Namespace) -> int | Answer:
     if listed:
         print(console.table(("step", "figure", "cell", "device", "before → now", "commit", "subject"), listed))
     more = f", {len(steps) - SHOWN} of them not listed here" if len(steps) > SHOWN else ""
-    runs, found = _counted(len(kept), "kept run"), _counted(len(steps), "step")
+    runs, found = plural(len(kept), "kept run"), plural(len(steps), "step")
     print(f"{output / 'index.html'}: {runs}, {found}{more}")
     return 0
 
@@ -105,10 +105,6 @@ def _draw(
     meanings = {name: _meaning(name, tolerance) for name, tolerance in tolerances.items()}
     told = draw.Told(kept[0].config, tolerances, meanings, (ordered,), problems)
     return draw.build(kept, line, told, output)
-
-
-def _counted(count: int, what: str) -> str:
-    return f"{count} {what}{'' if count == 1 else 's'}"
 
 
 def _meaning(name: str, tolerance: Tolerance) -> str:

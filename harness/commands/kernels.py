@@ -9,6 +9,7 @@ import sys
 from harness import console
 from harness.commands import Add
 from harness.commands.options import add_timeout, methods_of, named_surface
+from harness.contract import plural
 from harness.devices.discovery import usable_devices
 from harness.running.compiling import compile_all
 from harness.running.failures import mistakes
@@ -43,11 +44,11 @@ def _compile(options: argparse.Namespace) -> int:
     for name, programs in done.built.items():
         if programs:
             typical, (most, which) = statistics.median(took for took, _ in programs), max(programs)
-            print(
-                f"{name}: {len(programs)} programs, {typical * 1e-3:.2f} s each, at most {most * 1e-3:.2f} s: {which}"
-            )
+            times = f"{typical * 1e-3:.2f} s each, at most {most * 1e-3:.2f} s: {which}"
+            print(f"{name}: {plural(len(programs), 'program')}, {times}")
     total = sum(map(len, done.built.values()))
     left_out = f", {done.left_out} not tried after one that did not end" if done.left_out else ""
     unloaded = f"; not loaded: {', '.join(broken)}" if broken else ""
-    print(f"{total} programs compiled on {len(usable)} devices, {len(done.failed)} failed{left_out}{unloaded}")
+    tried = f"{plural(total, 'program')} compiled on {plural(len(usable), 'device')}"
+    print(f"{tried}, {len(done.failed)} failed{left_out}{unloaded}")
     return 3 if done.failed or broken else 0

@@ -189,7 +189,7 @@ def methods_of(options: argparse.Namespace) -> Catalog:
     for name in [named] if isinstance(named, str) else named:
         catalog.get(name)
     for line in catalog.warnings:
-        tell(f"firsthit: {line}")
+        tell_wrong(f"firsthit: {line}")
     return catalog
 
 
@@ -220,6 +220,11 @@ def history_of(options: argparse.Namespace, config: Path) -> Path:
 def tell(line: str) -> None:
     """Write a line that is not a result, on standard error; a quiet screen leaves it out."""
     SCREEN.say(line)
+
+
+def tell_wrong(line: str) -> None:
+    """Write on standard error what is wrong, though the command goes on, as of a damaged file; quiet screens too."""
+    SCREEN.say(line, error=True)
 
 
 def writable_png(path: Path) -> Path:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from harness import memory
 from harness.accuracy.answers import invalid
 from harness.commands import Add
 from harness.commands.options import (
@@ -22,7 +23,7 @@ from harness.commands.options import (
     whole,
     writable_png,
 )
-from harness.contract import FirsthitError, RayStatus, Surface, View
+from harness.contract import FirsthitError, RayStatus, Surface, View, plural
 from harness.limits import FIELD_OF_VIEW, PICTURE, Within
 from harness.results.writing import write_atomically
 from harness.running.picture import picture
@@ -35,6 +36,7 @@ if TYPE_CHECKING:
 
 
 COLUMNS = Within(1, 1000)
+BYTES_PER_PIXEL = 6  # of a sheet: three while it is drawn, and as many for the file
 ANY_SURFACE = "interval_march"  # a method that draws whatever can be read
 
 
@@ -98,7 +100,7 @@ def _show(options: argparse.Namespace) -> int:
     pixels, hits = picture(caster_of(options), surface, view, options.size, tell)
     save(Image.fromarray(pixels), output)
     exhausted = int((hits.status == RayStatus.EXHAUSTED).sum())
-    told = f"{np.mean(hits.status == RayStatus.HIT):.1%} of {len(hits.t)} rays hit, {exhausted} exhausted"
+    told = f"{np.mean(hits.status == RayStatus.HIT):.1%} of {plural(len(hits.t), 'ray')} hit, {exhausted} exhausted"
     bad = invalid(hits)
     print(f"{output}: {told}" + (f", {bad} invalid" if bad else ""))
     for line in reading(surface).told() if options.formula is not None else ():
@@ -129,6 +131,10 @@ def _sheet(options: argparse.Namespace) -> int:
     caster = caster_of(options)
     label, columns = 14, options.columns
     width, height = options.size, options.size + label
+    area = columns * width * math.ceil(len(names) / columns) * height
+    what = f"a sheet of {plural(len(names), 'picture')} of {options.size}x{options.size} pixels"
+    if reason := memory.refusal(BYTES_PER_PIXEL * area, what, "take a smaller --size"):
+        raise FirsthitError(reason, exit_code=3)
     sheet = Image.new("RGB", (columns * width, math.ceil(len(names) / columns) * height), "white")
     draw = ImageDraw.Draw(sheet)
     for i, name in enumerate(names):
@@ -137,5 +143,5 @@ def _sheet(options: argparse.Namespace) -> int:
         sheet.paste(Image.fromarray(pixels), (x, y))
         draw.text((x + width // 2, y + options.size + label // 2), name, fill="black", anchor="mm")
     save(sheet, output)
-    print(f"{output}: {len(names)} surfaces")
+    print(f"{output}: {plural(len(names), 'surface')}")
     return 0

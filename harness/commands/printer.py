@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from contextlib import AbstractContextManager
 
 from harness import console
+from harness.contract import plural
 from harness.results.store import Row
 from harness.running.failures import failure_of, mistakes
 from harness.running.run import Run, Watcher
@@ -59,6 +60,6 @@ class Printer(Watcher):
                 SCREEN.say(f"reused: {row['slot']}: {console.outcome(row)}")
         told = ", ".join(f"{count} {status}" for status, count in part.counts.items() if count)
         if told:
-            print(f"{part.folder}: {len(part.rows)} cells run, {len(part.reused)} reused; {told}")
+            print(f"{part.folder}: {plural(len(part.rows), 'cell')} run, {len(part.reused)} reused; {told}")
         for line in (*console.undecided(part.rows + part.reused), *console.warnings(part.rows)):
             self.warned(line)

@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 
 from harness.commands import Add
-from harness.commands.options import tell
+from harness.commands.options import tell_wrong
 from harness.contract import FirsthitError
 
 
@@ -39,6 +39,6 @@ def _publish(options: argparse.Namespace) -> int:
         raise FirsthitError(message, exit_code=3) from None
     index, problems = build.build(options.folders, options.output, options.title or build.TITLE, options.contact)
     for problem in problems:
-        tell(f"firsthit: {problem}")
+        tell_wrong(f"firsthit: {problem}")
     print(index)
     return 0

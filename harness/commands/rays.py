@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from harness.accuracy.judge import undecided_too_many
 from harness.commands import Add
 from harness.commands.options import add_method, add_surface, caster_of, number, surface_of, tell, writable
-from harness.contract import FirsthitError, RayStatus, TruthStatus
+from harness.contract import FirsthitError, RayStatus, TruthStatus, plural
 from harness.experiment.config import AccuracyChoice
 from harness.limits import Within
 from harness.results import npz
@@ -70,7 +70,10 @@ def _trace(options: argparse.Namespace) -> int:
     hits = cast(caster_of(options), surface, rays, t_min=options.t_min, tell=tell)
     savez_atomically(output, t=hits.t, status=hits.status, evaluations=hits.evaluations)
     counts = {status: int((hits.status == status).sum()) for status in RayStatus}
-    print(f"{output}: {len(rays)} rays, " + ", ".join(f"{n} {status.name.lower()}" for status, n in counts.items()))
+    print(
+        f"{output}: {plural(len(rays), 'ray')}, "
+        + ", ".join(f"{n} {status.name.lower()}" for status, n in counts.items())
+    )
     return 0
 
 
@@ -83,5 +86,8 @@ def _oracle(options: argparse.Namespace) -> int:
         print(f"firsthit: {reason} can be measured by these answers", file=sys.stderr)
     savez_atomically(output, lower=truth.lower, upper=truth.upper, status=truth.status)
     counts = {status: int((truth.status == status).sum()) for status in TruthStatus}
-    print(f"{output}: {len(rays)} rays, " + ", ".join(f"{n} {status.name.lower()}" for status, n in counts.items()))
+    print(
+        f"{output}: {plural(len(rays), 'ray')}, "
+        + ", ".join(f"{n} {status.name.lower()}" for status, n in counts.items())
+    )
     return 0

@@ -8,10 +8,11 @@ from pathlib import Path
 from harness.commands import Add
 from harness.commands.options import add_origin, add_timeout, given_variant, methods_of, whole, writable_png
 from harness.commands.pictures import need_pillow, save
-from harness.contract import PROXIES, FirsthitError
+from harness.contract import PROXIES, FirsthitError, plural
 from harness.experiment import reading
 from harness.experiment.shipped import located
 from harness.limits import PICTURE
+from harness.plugins import Catalog
 from harness.running.scene_picture import draw_scene
 from harness.scenes.model import Scene
 from surfaces.words import suggestion
@@ -43,20 +44,34 @@ def _chosen(scenes: tuple[Scene, ...], name: str | None, path: Path) -> Scene:
     return scenes[0] if name is None else names[name]
 
 
+def _need_methods(scene: Scene, catalog: Catalog) -> None:
+    """Raise FirsthitError, with exit code 3, where a method that instances of the scene name cannot be loaded."""
+    names = dict.fromkeys(group.variant.method for group in scene.groups if group.variant)
+    for name in names:
+        if (why := catalog.broken.get(name)) is not None:
+            told = f"scene {scene.name!r} names the method {name!r}, which cannot be loaded: {why}"
+            raise FirsthitError(told, exit_code=3)
+
+
 def _scene(options: argparse.Namespace) -> int:
-    """Draw a config's scene into a file. Raises FirsthitError for a size that no image has."""
+    """Draw a config's scene into a file.
+
+    Methods of the config that cannot be loaded are no obstacle, unless the scene names one. Raises FirsthitError for
+    that, and for a size that no image has.
+    """
     need_pillow()
     from PIL import Image
 
     output, catalog = writable_png(options.output), methods_of(options)
     path = located(options.config)
-    scene = _chosen(reading.load(path, catalog).scenes, options.name, path)
+    scene = _chosen(reading.load(path, catalog.with_stand_ins()).scenes, options.name, path)
+    _need_methods(scene, catalog)
     variant = given_variant(options, catalog)
     picture = draw_scene(scene, variant, catalog, options.proxy, options.origin, options.size, options.timeout)
     save(Image.fromarray(picture.pixels), output)
     print(
         f"{output}: {scene.title}; {picture.drawn:.1%} of the pixels drawn, "
-        f"{1.0 - picture.hits / max(1, picture.fragments):.1%} of {picture.fragments:,} fragments discarded"
-        + (f", {picture.invalid} pixels invalid" if picture.invalid else "")
+        f"{1.0 - picture.hits / max(1, picture.fragments):.1%} of {plural(picture.fragments, 'fragment')} discarded"
+        + (f", {plural(picture.invalid, 'pixel')} invalid" if picture.invalid else "")
     )
     return 0

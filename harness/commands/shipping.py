@@ -15,7 +15,7 @@ from harness.commands.options import (
     surface_of,
     surface_words,
 )
-from harness.contract import PRECISIONS, FirsthitError, Language, Precision, Variant
+from harness.contract import PRECISIONS, FirsthitError, Language, Precision, Variant, plural
 from harness.devices.interface import LANGUAGES
 from harness.escaping import shell
 from harness.plugins import Catalog
@@ -88,8 +88,8 @@ def _kernel(options: argparse.Namespace) -> int:
         print(f"made  {options.output / name}")
     if tried:
         print(
-            f"tried on {device}: compiled in {tried.compile_ms / 1e3:.2g} s; {tried.rays} rays, {tried.hits} hits, all "
-            "answered as by the program that firsthit checks, to the last bit"
+            f"tried on {device}: compiled in {tried.compile_ms / 1e3:.2g} s; {plural(tried.rays, 'ray')}, "
+            f"{plural(tried.hits, 'hit')}, all answered as by the program that firsthit checks, to the last bit"
         )
     print(f"next:  {shell(['python', str(options.output / 'draw.py'), 'surface.png'])}")
     return 0

@@ -10,7 +10,7 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 from harness import escaping
-from harness.contract import FirsthitError
+from harness.contract import FirsthitError, plural
 from harness.gate import outputs, pictures, servers
 from harness.gate.about import About, Place, abouts, cell_slot
 from harness.gate.checked import Checked, Prepared
@@ -118,7 +118,7 @@ def tell(
             print(more(width))
     if options.pictures:
         count = sum(1 for own in about.values() if own.picture)
-        print(f"{options.pictures}: {count} {'picture' if count == 1 else 'pictures'} of wrong rays")
+        print(f"{options.pictures}: {plural(count, 'picture')} of wrong rays")
     if options.github:
         kernels = {name: plugin.folder / "kernel.glsl" for name, plugin in prepared.catalog.plugins.items()}
         if written := servers.github(judged, kernels, about):

@@ -12,6 +12,7 @@ from harness.commands import Add
 from harness.commands.answers import verifying
 from harness.commands.machine import Answer, add_json
 from harness.commands.options import whole
+from harness.contract import plural
 from harness.limits import SEED
 from harness.verifying.checks import CHECKS, Verified, verify
 
@@ -82,8 +83,8 @@ def _print(found: Verified) -> None:
     for (name, reason), count in sorted(found.not_checked.items()):
         print(f"  {name}: of {count} it cannot tell: {reason}")
     rows = len({one.file for one in found.failing})
-    missing = f"; {found.missing} cells of the plan have no row" if found.missing else ""
-    print(f"{found.rows} rows, {rows} do not hold{missing}")
+    missing = f"; without a row: {plural(found.missing, 'cell')} of the plan" if found.missing else ""
+    print(f"{plural(found.rows, 'row')}, {rows} {'does' if rows == 1 else 'do'} not hold{missing}")
 
 
 def _short(value: object) -> str:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from harness.accuracy.answers import validated
 from harness.accuracy.judge import FAR, NAMES, Wrong
 from harness.conformance.cases import INSIDE, TYPICAL, Case, Finding, not_checked
-from harness.contract import CLAIMS, UNIT_ROUNDOFF, Hits, Precision, RayStatus, TruthStatus
+from harness.contract import CLAIMS, UNIT_ROUNDOFF, Hits, Precision, RayStatus, TruthStatus, plural
 from harness.oracle.noise import root_shift
 from harness.plugins import Plugin
 from surfaces.evaluation import tape_of
@@ -37,7 +37,7 @@ def decided(case: Case) -> Finding:
         open_ / (hits + open_) if hits else np.nan,
         MOST_UNDECIDED,
         "share of the rays that hit or may hit which the oracle leaves undecided; without decided hits none passes",
-        f"{hits} hits decided, {open_} undecided, of {len(case.rays)} rays",
+        f"{plural(hits, 'hit')} decided, {open_} undecided, of {plural(len(case.rays), 'ray')}",
         "check it on another surface: of this one nothing certain is known",
     )
 

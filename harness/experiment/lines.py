@@ -150,13 +150,14 @@ def excess(text: str) -> tuple[int, str] | None:
         if kind == "sign":
             depth += (found in "[{") - (found in "]}")
             parts = parts + 1 if found == "." else 0
-        elif kind == "line":
-            parts = 0
-        elif kind == "word" and len(found) > DIGITS and _WHOLE.fullmatch(found):
-            return line, f"a number of more than {DIGITS} digits, which no value of a config has"
-        if max(depth, parts) > DEEPEST:
-            return line, f"a value that is nested more than {DEEPEST} deep; no key of a config is"
-        line += found.count("\n")
+            if depth > DEEPEST or parts > DEEPEST:
+                return line, f"a value that is nested more than {DEEPEST} deep; no key of a config is"
+        elif kind == "word":
+            if len(found) > DIGITS and _WHOLE.fullmatch(found):
+                return line, f"a number of more than {DIGITS} digits, which no value of a config has"
+        else:
+            parts = 0 if kind == "line" else parts
+            line += found.count("\n")
     return None
 
 

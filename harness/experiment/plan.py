@@ -46,7 +46,8 @@ class Planned:
     skip: why it cannot run
     is_timed: False: the cell is checked only
     lacks: it cannot run for something that its device lacks, and not for its method
-    failure: why it fails before it runs: a method of it cannot be loaded, or went wrong when it was asked; None: not
+    failure: why it fails before it runs: a method of it cannot be loaded, or went wrong when it was asked, or its
+        device does not tell how it computes; None: not
     """
 
     cell: Cell

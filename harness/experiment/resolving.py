@@ -166,20 +166,21 @@ def _variants_of(choice: MethodChoice, plugin: Plugin, file: ConfigFile, where: 
     Raises FirsthitError, with file and line, for a setting or knob that there is not, and for a value that it cannot
     have.
     """
-    variants = []
+    variants, alone = list[Variant](), list[Variant]()
     for i, name in enumerate(choice.settings):
         with _placed(file, (*where, "settings", i)):
             variants.append(plugin.setting(name))
     for name, values in choice.parameters.items():
         for i, value in enumerate(values):
             with _placed(file, (*where, "parameters", name, i)):
-                plugin.variant({name: value})
+                alone.append(plugin.variant({name: value}))
     with _placed(file, (*where, "parameters")):
         if (count := math.prod(map(len, choice.parameters.values()))) > MOST_VARIANTS:
             raise FirsthitError(f"the values of its knobs make {count:,} variants; {MOST_VARIANTS:,} at most")
     variants += plugin.deviations() if choice.deviations else []
     if choice.parameters or not variants:
-        variants += [plugin.variant(point) for point in _grid(choice.parameters)]
+        is_one = len(choice.parameters) == 1
+        variants += alone if is_one else [plugin.variant(point) for point in _grid(choice.parameters)]
     return variants
 
 
@@ -199,8 +200,7 @@ def _check_named(config: Config, file: ConfigFile, catalog: Catalog, variants: l
     answering = [variant for variant in variants if catalog.get(variant.method).method.answers]
     known = dict.fromkeys([*(variant.method for variant in answering), *map(str, answering)])
     for name, given in (("baseline", config.baseline), ("focus", config.focus)):
-        problem = Known(lambda: known).broken([given])
-        if name in file.table and problem:
+        if name in file.table and (problem := Known(lambda: known).broken([given])):
             raise file.error((name,), f"{name}: {problem}")
 
 

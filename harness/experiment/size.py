@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 
-from harness.contract import DeviceInfo, FirsthitError, Variant
+from harness.contract import DeviceInfo, FirsthitError
 from harness.experiment import kinds
 from harness.experiment.config import FASTEST, Experiment, views_of
 from harness.experiment.targets import choose_devices
@@ -24,19 +25,19 @@ def cells_of(experiment: Experiment, catalog: Catalog, found: Sequence[DeviceInf
     frames = len(experiment.surfaces) * len(config.view) * shots
     scenes = sum(len(views_of(scene, config)) for scene in experiment.scenes) * shots
     total = 0
-    for variant in experiment.variants:
-        method = catalog.get(variant.method).method
+    alike = Counter((one.method, experiment.stages_of(one), experiment.devices_of(one)) for one in experiment.variants)
+    for (name, stages, words), variants in alike.items():
+        method = catalog.get(name).method
         rastered = len(kinds.rasterings("raster", method, experiment)) if scenes else 0
-        staged = sum(len(kinds.rasterings(stage, method, experiment)) for stage in experiment.stages_of(variant))
+        staged = sum(len(kinds.rasterings(stage, method, experiment)) for stage in stages)
         origins = len(kinds.of_method(method).origins(experiment))
-        casters = len(experiment.prepasses) * origins * len(experiment.precisions)
-        devices = _devices(experiment, variant, found)
+        casters = variants * len(experiment.prepasses) * origins * len(experiment.precisions)
+        devices = _devices(experiment, words, found)
         total += casters * devices * (frames * staged + scenes * rastered + len(config.families))
     return total
 
 
-def _devices(experiment: Experiment, variant: Variant, found: Sequence[DeviceInfo] | None) -> int:
-    words = experiment.devices_of(variant)
+def _devices(experiment: Experiment, words: Sequence[str], found: Sequence[DeviceInfo] | None) -> int:
     if found is None:
         return max(1, len({*words} - {"all", "any", FASTEST}))
     return len(choose_devices(list(words), list(found), kinds.only_rasters(experiment)))

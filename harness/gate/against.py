@@ -14,7 +14,7 @@ from typing import Any
 
 from harness import console
 from harness.accuracy.check import too_wrong
-from harness.contract import CellStatus, FirsthitError, digest
+from harness.contract import CellStatus, FirsthitError, digest, plural
 from harness.devices.discovery import discover_devices
 from harness.devices.executor import LocalExecutor
 from harness.experiment import plan, reading
@@ -99,7 +99,9 @@ class Compared:
         lines = [f"accuracy against {self.name}: {said}"]
         if raced := [_ratio_line(j) for j in self.judged if j.changes and j.changes[0].figure == SPEED.name]:
             lines += [f"speed against {self.name}:", _ratios(raced, width)]
-        lines += [f"not raced: {count} cells whose program changed; {why}" for why, count in self.unraced.items()]
+        lines += [
+            f"not raced: {plural(count, 'cell')} whose program changed; {why}" for why, count in self.unraced.items()
+        ]
         return "\n".join(lines)
 
 
@@ -201,6 +203,8 @@ def _pair(planned: Planned, row: Row, other: Other) -> _Pair:
         pair.tell(Verdict.INCOMPARABLE, str(planned.skip))
     elif planned.failure is not None:
         pair.tell(Verdict.INCOMPARABLE, planned.failure)
+    elif why_not := other.formers.failure(planned.cell.slot, planned.cell.variant.method):
+        pair.tell(Verdict.INCOMPARABLE, f"at the other revision {why_not}")
     elif former is None:
         names = (planned.cell.variant.method, *planned.cell.comparison.split())
         why = [other.formers.left_out[name] for name in names if name in other.formers.left_out]
@@ -307,7 +311,7 @@ def _missing(checked: Checked, other: Other, only: Only) -> list[Judged]:
     for slot, former in gone:
         device = slot.rpartition(" ")[2]
         name = slot.removesuffix(f" {device}")
-        if device in devices and name in wanted:
+        if device in devices and name in wanted and not former.failure:
             reason = "the other revision has it, and this one does not"
             judged.append(Judged(f"{name}: accuracy", device, former.method, Verdict.MISSING, reason))
     return judged
@@ -340,12 +344,12 @@ def _race(
 def _unraced(planned: Planned, pair: _Pair, most_wrong: float) -> Judged | None:
     """Judge the speed of a cell where there is no race; None where there is one."""
     base, former = _speed(planned), pair.former
+    if pair.told and pair.told.verdict is Verdict.INCOMPARABLE:
+        return replace(base, verdict=Verdict.INCOMPARABLE, reason=pair.told.reason)
     if former is None or former.programs.timed is None:
         reason = f"the other revision skips it: {former.skip}" if former else "the other revision has no such cell"
         return replace(base, verdict=Verdict.NEW, reason=reason)
-    if pair.before is None:
-        return replace(base, verdict=Verdict.INCOMPARABLE, reason=pair.told.reason if pair.told else "")
-    assert planned.timed
+    assert planned.timed and pair.before
     if former.programs.timed.hash == planned.timed.hash:
         return replace(base, reason=SAME)
     if wrong := _unfit(pair.now, most_wrong):

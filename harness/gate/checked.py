@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import nullcontext
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 
-from harness.contract import FirsthitError
+from harness.contract import FirsthitError, plural
 from harness.devices.discovery import discover_devices
 from harness.devices.executor import LocalExecutor
+from harness.devices.fingerprint import Fingerprint
 from harness.devices.interface import lost, told_lost
 from harness.experiment import plan, reading
 from harness.experiment.config import FASTEST, Experiment
@@ -68,25 +69,37 @@ class Prepared:
     def check(self, lock: Lock, watcher: Watcher, force: bool = False) -> Checked:
         """Check the cells that have no finished row yet in the folder of `lock`, without timing them.
 
-        With `force` all cells are checked again. `watcher` is told of each cell. The lock is taken if any cell is to be
-        checked. Raises FirsthitError where it is another's, or a device does not tell how it computes.
+        With `force` all cells are checked again. `watcher` is told of each cell. The cells of a device that does not
+        tell how it computes fail for that reason, and none of them runs. The lock is taken if any cell is to be
+        checked. Raises FirsthitError where it is another's.
         """
         folder = lock.folder
         executor = LocalExecutor(self.experiment.config.budget.timeout, self.experiment.config.budget.memory)
-        usable = {p.device.name: p.device for p in self.planned if p.device and not p.device.problem}
         try:
-            arithmetic = {}
-            for name, info in usable.items():
-                kept = kept_fingerprint(info, folder / "probes")[0]
-                with nullcontext() if kept else watcher.doing(f"taking the fingerprint of {name}'s arithmetic"):
-                    arithmetic[name] = fingerprinted(executor, info, folder / "probes")
-            stated = self.planned, self.experiment.config, self.catalog, Store(folder), executor, watcher, lock
+            arithmetic, untold = self._arithmetic(executor, folder / "probes", watcher)
+            whole, planned = ([_without(p, untold) for p in cells] for cells in (self.whole, self.planned))
+            stated = planned, self.experiment.config, self.catalog, Store(folder), executor, watcher, lock
             rows, earlier = batch.rows_of(*stated, force)
         finally:
             executor.close()
         watcher.failed([row for row in rows.values() if row["status"] in UNFINISHED])
-        now = baseline_of(self.whole, rows, self.catalog, self.experiment.name, arithmetic)
-        return Checked(self.experiment, self.catalog, self.whole, self.planned, rows, now, folder, earlier)
+        now = baseline_of(whole, rows, self.catalog, self.experiment.name, arithmetic)
+        return Checked(self.experiment, self.catalog, whole, planned, rows, now, folder, earlier)
+
+    def _arithmetic(
+        self, executor: LocalExecutor, cache: Path, watcher: Watcher
+    ) -> tuple[dict[str, Fingerprint], dict[str, str]]:
+        """Return the fingerprints of the chosen cells' devices, and why others have none, by the devices' names."""
+        usable = {p.device.name: p.device for p in self.planned if p.device and not p.device.problem}
+        arithmetic, untold = {}, {}
+        for name, info in usable.items():
+            kept = kept_fingerprint(info, cache)[0]
+            with nullcontext() if kept else watcher.doing(f"taking the fingerprint of {name}'s arithmetic"):
+                try:
+                    arithmetic[name] = fingerprinted(executor, info, cache)
+                except FirsthitError as error:
+                    untold[name] = str(error)
+        return arithmetic, untold
 
 
 @dataclass(frozen=True, eq=False)
@@ -128,7 +141,7 @@ class Checked(Prepared):
         if broken:
             row = broken[0]
             why = first_line(row["reason"] or row["status"])
-            message = f"not blessed: {len(broken)} cells did not finish, first {row['slot']}: {why}"
+            message = f"not blessed: {plural(len(broken), 'cell')} did not finish, first {row['slot']}: {why}"
             raise FirsthitError(message, exit_code=3)
         environment = describe()
         dirty = " with uncommitted changes" if environment["dirty"] else ""
@@ -141,11 +154,19 @@ class Checked(Prepared):
         return dataclasses.replace(self.now, devices=devices)
 
 
+def _without(planned: Planned, untold: Mapping[str, str]) -> Planned:
+    """Return a cell as it is or, if `untold` has a reason against its device, as one that fails for it."""
+    reason = untold.get(planned.cell.device)
+    if reason is None or planned.skip is not None or planned.failure is not None:
+        return planned
+    return dataclasses.replace(planned, failure=reason, casting=None)
+
+
 def _failed(judged: Judged, failure: str | None) -> Judged:
     """Return the verdict on a row: incomparable if its cell failed, for `failure`, before it ran."""
     if failure is None:
         return judged
-    return dataclasses.replace(judged, verdict=Verdict.INCOMPARABLE, reason=failure, changes=())
+    return dataclasses.replace(judged, verdict=Verdict.INCOMPARABLE, reason=failure, changes=(), rule="")
 
 
 def prepare(

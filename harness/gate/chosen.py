@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
-from harness.contract import FirsthitError, suggestion
+from harness.contract import FirsthitError, plural, suggestion
 from harness.gate.baseline import Baseline
 
 
@@ -56,5 +56,5 @@ def _picked(text: str, names: Iterable[str]) -> set[str]:
     if found := {name for name in known if pattern.search(name)}:
         return found
     words = sorted({word for name in known for word in name.split()})
-    some = f"the first of {len(known)} rows is {known[0]!r}" if known else "there are no rows"
+    some = f"the first of {plural(len(known), 'row')} is {known[0]!r}" if known else "there are no rows"
     raise FirsthitError(f"--only: no row's name holds {text!r}; {suggestion(text, words, otherwise=some)}")

@@ -159,7 +159,7 @@ def _batches(casting: Any, folder: Path, name: str) -> list[str]:
 
 def _cell(planned: Any, catalog: Any, folder: Path, name: str) -> dict[str, Any]:
     """Return what `harness.gate.revision.Former` holds of a cell, as far as this revision says it."""
-    casting, skip = getattr(planned, "casting", None), planned.skip or getattr(planned, "failure", None)
+    casting, skip = getattr(planned, "casting", None), planned.skip
     variant, batches = getattr(planned.cell, "variant", None), []
     try:
         batches = _batches(casting, folder, name)
@@ -170,6 +170,7 @@ def _cell(planned: Any, catalog: Any, folder: Path, name: str) -> dict[str, Any]
     second, others = _second(casting), getattr(casting, "others", (before,) if before else ())
     return {
         "skip": skip,
+        "failure": getattr(planned, "failure", None),
         "checks": [_json(program) for program in planned.checks or ()],
         "timed": _json(planned.timed) if planned.timed else None,
         "others": [_json(program) for program in others],
@@ -188,7 +189,7 @@ def export(path: Path, plugins: str, folder: Path, devices: list[str], own: dict
     Cells are on `devices`, and those of the variants named in `own` on the devices there.
     """
     catalog = _catalog(Path(plugins) if plugins else None)
-    if hasattr(catalog, "with_stand_ins"):  # a method that cannot be loaded there is skipped there
+    if hasattr(catalog, "with_stand_ins"):  # the cells of a method that cannot be loaded there fail there
         catalog = catalog.with_stand_ins()
     experiment, left_out = load(path, catalog, folder)
     if experiment is None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
+from harness.contract import plural
 from harness.devices.discovery import known_devices
 from harness.gate.comparable import OTHER_SCENE
 from harness.gate.judge import Judged, Verdict
@@ -18,8 +19,8 @@ def foretold(found: Sequence[Judged], total: int, config: Path, baseline: Path) 
     told = [j for j in found if j.verdict is Verdict.INCOMPARABLE or len(found) == total]
     if not told:
         return ""
-    rows_of = f"{total} {'row' if total == 1 else 'rows'}"
-    lines = [f"firsthit: {len(told)} of {rows_of} cannot be compared with {baseline}, whatever the methods answer:"]
+    rows_of = f"{len(told)} of {plural(total, 'row')}"
+    lines = [f"firsthit: {rows_of} cannot be compared with {baseline}, whatever the methods answer:"]
     for reason in dict.fromkeys(j.reason for j in told):
         rows = [j for j in told if j.reason == reason]
         more = f" and {len(rows) - 1} more" * (len(rows) > 1)

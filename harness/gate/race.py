@@ -19,7 +19,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import Literal
 
-from harness.contract import CellStatus, DeviceInfo
+from harness.contract import CellStatus, DeviceInfo, plural
 from harness.devices.executor import CellError, LocalExecutor
 from harness.devices.interface import Timing
 from harness.experiment.config import Experiment
@@ -69,7 +69,7 @@ def verdict_of(base: Judged, ratio: Ratio | None, tolerance: Tolerance) -> Judge
     """
     if ratio is None or not ratio.proved:
         rounds = ratio.pairs if ratio else 0
-        reason = f"{rounds} rounds prove nothing; raise [budget] seconds"
+        reason = f"{plural(rounds, 'round')} {'proves' if rounds == 1 else 'prove'} nothing; raise [budget] seconds"
         return replace(base, verdict=Verdict.INCOMPARABLE, reason=reason)
     allowed = tolerance.allowed(1.0)
     slack = allowed - 1.0
@@ -77,7 +77,7 @@ def verdict_of(base: Judged, ratio: Ratio | None, tolerance: Tolerance) -> Judge
         return replace(base, verdict=Verdict.INCOMPARABLE, reason="the times' ratio is no number")
     kept, better = ratio.lower <= allowed, ratio.upper < 1.0 - slack
     verdict = Verdict.IMPROVED if better else Verdict.PASS if kept else Verdict.REGRESSED
-    told = f"{TOLD}{ratio.lower:.3f} to {ratio.upper:.3f} (95 %, {ratio.pairs} rounds)"
+    told = f"{TOLD}{ratio.lower:.3f} to {ratio.upper:.3f} (95 %, {plural(ratio.pairs, 'round')})"
     change = Change(SPEED.name, 1.0, ratio.median, allowed, verdict, tolerance)
     return replace(base, verdict=verdict, reason=told, changes=(change,))
 

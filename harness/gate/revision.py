@@ -32,12 +32,14 @@ class Former:
 
     programs: what it is cast by
     skip: why the cell is skipped there; None where it is not
+    failure: why it fails there before it runs: its method cannot be loaded, or goes wrong when it is asked; None: not
     claims: those that its method states there; None where that revision does not say
     identity: what that revision says of the cell's identity (harness.experiment.identity)
     """
 
     programs: Programs
     skip: str | None
+    failure: str | None
     method: str
     claims: tuple[str, ...] | None
     identity: Mapping[str, Any]
@@ -49,6 +51,15 @@ class Formers:
 
     cells: Mapping[str, Former]
     left_out: Mapping[str, str]
+
+    def failure(self, slot: str, method: str) -> str | None:
+        """Say why a method's cell fails there before it runs; None where it does not.
+
+        A method that cannot be loaded there does not say what it casts. So its cells may have other slots there.
+        """
+        if slot in self.cells:
+            return self.cells[slot].failure
+        return next((cell.failure for cell in self.cells.values() if cell.method == method and cell.failure), None)
 
 
 @dataclass(frozen=True)
@@ -215,7 +226,7 @@ def _former(cell: dict[str, Any]) -> Former:
     batches = tuple(_batch(check, file) for check, file in zip(checks, cell["batches"], strict=False))
     programs = Programs(checks, timed, others, cell["parameters"], batches, second)
     claims = None if cell["claims"] is None else tuple(cell["claims"])
-    return Former(programs, cell["skip"], cell["method"] or "", claims, cell["identity"])
+    return Former(programs, cell["skip"], cell["failure"], cell["method"] or "", claims, cell["identity"])
 
 
 def _program(stored: dict[str, Any]) -> Program:

@@ -6,12 +6,12 @@ rounds. The fastest are checked once more on held-out views, by which they were 
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence, Sized
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
 from harness.accuracy.judge import NAMES
-from harness.contract import CellStatus, DeviceInfo, FirsthitError, Precision, Variant, View, digest
+from harness.contract import CellStatus, DeviceInfo, FirsthitError, Precision, Variant, View, digest, plural
 from harness.devices.executor import LocalExecutor
 from harness.experiment import plan
 from harness.experiment.config import AccuracyChoice, BudgetChoice, Config, Experiment, MethodChoice
@@ -121,7 +121,8 @@ class Search:
         worst: dict[Variant, tuple[float, float]] = {}
         self._disproved.clear()
         methods = {variant.method for variant in alive}
-        many = f"{_many(alive, 'variant')} of {_many(methods, 'method')} on {_many(self._tuning, 'view')}"
+        of, on = plural(len(methods), "method"), plural(len(self._tuning), "view")
+        many = f"{plural(len(alive), 'variant')} of {of} on {on}"
         self._watcher.told(f"{precision}: step 1 of 3 checks {many}; one that is wrong or over the error falls")
         alive = self._check(alive, precision, self._tuning, found, worst)
         slow: list[Fallen] = []
@@ -145,7 +146,7 @@ class Search:
         worst: dict[Variant, tuple[float, float]],
     ) -> None:
         """Check the variants that were timed on the views held out, and make contenders of those that hold."""
-        held_out = f"{_many(timed, 'variant')} on {_many(self._held_out, 'view')} held out"
+        held_out = f"{plural(len(timed), 'variant')} on {plural(len(self._held_out), 'view')} held out"
         self._watcher.told(f"{precision}: step 3 of 3 checks {held_out}")
         kept = self._check(list(timed), precision, self._held_out, found, worst)
         made = [self._contender(variant, precision, timed[variant], *worst[variant]) for variant in kept]
@@ -218,7 +219,7 @@ class Search:
         counts = {name: accuracy[name] for name in (*NAMES.values(), "grazing_invalid", "drowned_invalid")}
         if any(not count <= 0 for count in counts.values()):
             wrong = ", ".join(f"{count} {name.replace('_', ' ')}" for name, count in counts.items() if count)
-            why = f"answers rays wrongly {where}: {wrong} of {accuracy['judged']} rays"
+            why = f"answers rays wrongly {where}: {wrong} of {plural(accuracy['judged'], 'ray')}"
             return Fallen(variant, precision, Cause.WRONG, why)
         broken = {claim for claim in self._catalog.get(variant.method).method.claims if disproved(claim, row)}
         self._disproved.setdefault(variant, set()).update(broken)
@@ -262,7 +263,7 @@ class Search:
         largest error of each variant so far.
         """
         small = min(SMALL, self._wish.size)
-        many = f"{_many(alive, 'variant')} shortly, at {small}x{small}"
+        many = f"{plural(len(alive), 'variant')} shortly, at {small}x{small}"
         told = f"one that takes over {HOPELESS:g} times as long as the fastest falls"
         self._watcher.told(f"{precision}: step 2 of 3 times {many}; {told}")
         short = self._medians(alive, precision, self._tuning[0], small, self._wish.seconds / 4.0, found)
@@ -274,7 +275,7 @@ class Search:
             told = f"{times:.3g} times as long as {named(order[0])}: {short[variant]:.3g} ms at {small}x{small}"
             why = f"keeps the error, but takes {told}"
             slow.append(Fallen(variant, precision, Cause.SLOW, why, worst[variant][0], times))
-        many = f"{_many(chosen, 'variant')} in turns on {_many(self._tuning, 'view')}"
+        many = f"{plural(len(chosen), 'variant')} in turns on {plural(len(self._tuning), 'view')}"
         self._watcher.told(f"{precision}: step 2 of 3 times the fastest: {many}")
         wish, by_view = self._wish, []
         for view in self._tuning:
@@ -352,7 +353,3 @@ def certified_error(accuracy: Accuracy, quantile: Quantile) -> float | None:
     """
     measured = accuracy["error"][quantile]
     return None if measured is None else float(measured + accuracy["certified_width"])
-
-
-def _many(of: Sized, noun: str) -> str:
-    return f"{len(of)} {noun}{'' if len(of) == 1 else 's'}"

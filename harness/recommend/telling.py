@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from harness.contract import CLAIMS, Precision, Surface, Variant
+from harness.contract import CLAIMS, Precision, Surface, Variant, plural
 from harness.recommend.model import HEADROOM, Cause, Contender, Fallen, Recommendation, Wish, named
 
 BEST_FIRST = (
@@ -98,7 +98,7 @@ def guarantee(best: Contender) -> str:
 
 def checked(found: Recommendation, wish: Wish) -> str:
     """Say on how many rays the recommended variant was checked, and what this says of other rays."""
-    chosen_by = f"{wish.views} view{'' if wish.views == 1 else 's'} to choose by"
+    chosen_by = f"{plural(wish.views, 'view')} to choose by"
     views = f"{chosen_by} and {wish.held_out_views} held out, of {wish.rays}x{wish.rays} rays each"
     told = f"Outside the grazing and the drowned class no ray is wrong on {views}."
     if found.picture is not None:
@@ -113,7 +113,7 @@ def undecided(found: Recommendation) -> str:
     if not found.undecided:
         return ""
     hits = found.decided + found.undecided
-    return f" The oracle left {found.undecided} of {hits} hits undecided; they bound no error."
+    return f" The oracle left {found.undecided} of {plural(hits, 'hit')} undecided; they bound no error."
 
 
 def mind(found: Recommendation) -> str:

@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 from typing import Any
 
+from harness.contract import plural
 from harness.results import declared
 from harness.results.row import KINDS, Accuracy, Leaf, Part, Quantiles, RungVerdict, StoredRow, Time
 
@@ -24,7 +25,7 @@ def _time(time: dict[str, Any]) -> str | None:
         return "it has no samples"
     for name in ("wall_samples_ms", "rounds"):
         if name in time and len(time[name]) != len(samples):
-            return f"{name} has {len(time[name])} items, samples_ms {len(samples)}"
+            return f"{name} has {plural(len(time[name]), 'item')}, samples_ms {len(samples)}"
     if len(set(time.get("rounds", ()))) != len(time.get("rounds", ())):
         return "a round stands twice in rounds"
     ordered, count = sorted(samples), len(samples)

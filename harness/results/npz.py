@@ -38,8 +38,8 @@ _HEADERS = {(1, 0): np.lib.format.read_array_header_1_0, (2, 0): np.lib.format.r
 def read(path: Path, kinds: Mapping[str, Any], fits: Fits, optional: frozenset[str] = frozenset()) -> dict[str, Any]:
     """Read the arrays that `kinds` names with their types; those that are `optional` may be missing.
 
-    Other members of the file are ignored. Raises OSError where the file cannot be read, and ValueError where it is
-    damaged, or an array has another type or a shape that does not fit.
+    Other members of the file are ignored, if their names are whole. Raises OSError where the file cannot be read, and
+    ValueError where it is damaged, or an array has another type or a shape that does not fit.
     """
     with sealed.opened(path, LARGEST) as packed:
         return _read(packed, kinds, fits, optional)
@@ -56,6 +56,8 @@ def _read(packed: BinaryIO, kinds: Mapping[str, Any], fits: Fits, optional: froz
             lacking = next((name for name in there if f"{name}.npy" not in members), None)
             if lacking is not None:
                 raise ValueError(f"it has no {lacking}")
+            for info in file.infolist():  # a member whose name was damaged would pass for one of another version
+                file.open(info).close()  # zipfile holds the name in the directory against that of the member
             return {name: _member(file, members[f"{name}.npy"], name, np.dtype(kinds[name]), fits) for name in there}
     except DAMAGE as error:
         raise ValueError(f"damaged: {sealed.problem(error) or type(error).__name__}") from None

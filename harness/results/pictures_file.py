@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from harness.contract import TruthStatus
+from harness import memory
+from harness.contract import TruthStatus, plural
 from harness.results import npz
 from harness.results.row import KINDS
 
@@ -26,13 +28,25 @@ TYPES: dict[str, Any] = {
     "drowned": np.bool_,
     "samples": np.float32,
 }
-OPTIONAL = frozenset(
+OPTIONAL = frozenset(  # not in every older run
     ("condition", "evaluations", "status", "level", "stage", "drowned", "samples")
-)  # not in every older run
+)
+BYTES_PER_RAY = 26  # of one row's arrays, as they are read
+BYTES_DRAWN = 150  # of a ray while one row's maps are drawn
 MOST_SIDE = 2**13
 MOST_SAMPLES = 64  # on each side of a pixel
 MOST_LEVEL = 30  # of a quadtree
 MOST_STAGE = 31  # of a frame of tiles
+
+
+def refusal(rays: Sequence[int]) -> str | None:
+    """Say why the arrays of rows with so many rays each should not be read and drawn together; None where they may.
+
+    Samples of a pixel are not counted.
+    """
+    wanted = BYTES_PER_RAY * sum(rays) + BYTES_DRAWN * max(rays, default=0)
+    what = f"drawing the maps of {plural(len(rays), 'cell')}, {plural(max(rays, default=0), 'ray')} at most,"
+    return memory.refusal(wanted, what, "run with a smaller [accuracy] size, or report on a machine with more memory")
 
 
 def read(path: Path) -> dict[str, NDArray[Any]]:

@@ -51,6 +51,7 @@ def sweep(folder: Path, name: str = NEW) -> list[Path]:
     What another machine's process left is removed when a day old, since whether that has ended cannot be seen. What
     cannot be removed stays. `name` is as for `temporary_folder`.
     """
+    _swept.add((folder, name))
     left = left_in(folder, name)
     for path in left:
         if path.is_dir() and not path.is_symlink():
@@ -72,7 +73,6 @@ def sweep_below(folder: Path) -> list[Path]:
 
 def left_in(folder: Path, name: str = NEW) -> list[Path]:
     """List what `sweep` removes."""
-    _swept.add((folder, name))
     try:
         return [path for path in folder.iterdir() if path.name.startswith(f"{name}-") and _is_left(path, name)]
     except OSError:

@@ -43,7 +43,7 @@ def rows_of(
         lock.take()
         found, begun, _ = begin(planned, store, again)  # anew: another process may have stored rows until now
         for message in store.unreadable.values():
-            watcher.warned(f"{message}; running that cell again")
+            watcher.wrong(f"{message}; running that cell again")
         watcher.starts(len(found.todo), 1.0 * len(found.todo), Counter(p.cell.device for p in found.todo))
     told = dict(environment or describe()), watcher.cell, watcher.hears_builds
     rows = Runner(config, catalog, store, executor, *told).run(found.todo, begun)

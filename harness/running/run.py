@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from harness import ROOT, console, memory, studies
-from harness.contract import CellStatus, DeviceInfo, LostDevice
+from harness.contract import CellStatus, DeviceInfo, LostDevice, plural
 from harness.devices.discovery import discover_devices
 from harness.devices.executor import LocalExecutor
 from harness.devices.probes import Probes
@@ -134,7 +134,7 @@ class Teller(Watcher):
     def starts(self, cells: int, seconds: float, devices: Mapping[str, int]) -> None:
         del devices
         self._left = cells
-        self._tell(f"{cells} cells to run, about {console.duration(seconds)}")
+        self._tell(f"{plural(cells, 'cell')} to run, about {console.duration(seconds)}")
 
     def cell(self, slot: str, row: Row | None) -> None:
         if row:
@@ -277,9 +277,9 @@ def _run_part(part: Experiment, loaded: Loaded, runs: Path, command: str, again:
         _run_studies(part.config.studies, store.folder, again == "everything", hears)
         found, begun, old = begin(planned, store, again)
         if swept := [*old, *sweep_below(store.folder)]:
-            hears.told(f"{store.folder}: removed {len(swept)} file{'s' * (len(swept) > 1)} that killed commands left")
+            hears.told(f"{store.folder}: removed {plural(len(swept), 'file')} that killed commands left")
         for message in store.unreadable.values():
-            hears.warned(f"{message}; running that cell again")
+            hears.wrong(f"{message}; running that cell again")
         seconds = estimate_seconds(found.todo, store, part.config.budget.seconds)
         hears.starts(len(found.todo), seconds, Counter(p.cell.device for p in found.todo))
         told = hears.cell, hears.hears_builds
@@ -309,7 +309,7 @@ def _announced(part: Experiment, catalog: Catalog, chosen: Mapping[str, DeviceIn
     here = [info for info in chosen.values() if info]
     cells = cells_of(part, catalog, here)
     where = f" on {', '.join(info.name for info in here)}" if here else ""
-    return f"{part.path}: {cells} cells{where}; preparing devices and cells"
+    return f"{part.path}: {plural(cells, 'cell')}{where}; preparing devices and cells"
 
 
 def _named(part: Experiment, planned: Sequence[Planned], catalog: Catalog) -> dict[str, Any]:
@@ -329,6 +329,6 @@ def _run_studies(names: Sequence[str], folder: Path, force: bool, hears: Watcher
     for name in names:
         if name in todo:
             done = studies.run(name, folder)
-            hears.told(f"study {name}: {len(done['rows'])} rows, {console.duration(done['seconds'])}")
+            hears.told(f"study {name}: {plural(len(done['rows']), 'row')}, {console.duration(done['seconds'])}")
         else:
             hears.told(f"study {name}: reused")

@@ -7,7 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from harness import memory
 from harness.accuracy.answers import invalid
+from harness.accuracy.check import BYTES_PER_RAY
 from harness.accuracy.scene_truth import hits_of
 from harness.contract import FirsthitError, Origin, Proxy, Variant
 from harness.devices.discovery import discover_devices
@@ -17,6 +19,7 @@ from harness.experiment.kinds import draws
 from harness.experiment.targets import able
 from harness.kernels.raster import fill_program
 from harness.plugins import Catalog
+from harness.running.picture import RAYS_PER_PIXEL
 from harness.scenes.camera import camera_for
 from harness.scenes.model import Scene
 from harness.scenes.records import depth_map
@@ -39,8 +42,12 @@ def draw_scene(
     """Draw a scene as `size` pixels a side, on the first device here that rasterises.
 
     `variant` draws the instances that have no method of their own; `timeout` is in seconds and for one step. Raises
-    FirsthitError where a method cannot draw the scene, and with exit code 3 where no device rasterises or one fails.
+    FirsthitError where a method cannot draw the scene, and with exit code 3 where no device rasterises, one fails, or
+    memory does not hold the rays.
     """
+    what = f"a picture of {size}x{size} pixels, with {RAYS_PER_PIXEL} rays each,"
+    if reason := memory.refusal(BYTES_PER_RAY * RAYS_PER_PIXEL * size**2, what, "take a smaller size"):
+        raise FirsthitError(reason, exit_code=3)
     if reason := draws.refusal(scene, variant, catalog):
         raise FirsthitError(f"{variant} cannot draw {scene.name}: {reason}")
     usable = [info.name for info in discover_devices() if able(info) and not info.problem]

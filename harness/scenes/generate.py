@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from harness.contract import Box, FirsthitError, Surface, Variant, View
+from harness.contract import Box, FirsthitError, Surface, Variant, View, plural
 from harness.limits import Within
 from harness.scenes.model import Floats, Group, Scene
 
@@ -93,7 +93,7 @@ def molecule(count: int, seed: int, view: View) -> Scene:
     scale = np.array([RADII[element] for element in elements])
     colours = np.array([COLOURS[element] for element in elements])
     group = Group((surfaces.get("sphere"),), place, turns(source, count), scale, colours)
-    return Scene(f"molecule {count}", f"A molecule of {count:,} spheres", (group,), view, "molecule")
+    return Scene(f"molecule {count}", f"A molecule of {plural(count, 'sphere')}", (group,), view, "molecule")
 
 
 def _part(name: str, formula: str, box: Box, distance: str | None = None, **parameters: str) -> Surface:
@@ -203,7 +203,7 @@ def pipes(count: int, seed: int, view: View) -> Scene:
             place, turn, colours = (np.array(values, float) for values in zip(*parts, strict=True))
             own = Variant("polygon", (("N", 4),), "plates of triangles") if kind == "plate" else None
             groups.append(Group((surface,), place, turn, np.ones(len(parts)), colours, own))
-    return Scene(f"pipes {count}", f"A pipe assembly of {count:,} parts", tuple(groups), view, "pipes")
+    return Scene(f"pipes {count}", f"A pipe assembly of {plural(count, 'part')}", tuple(groups), view, "pipes")
 
 
 def _frame(axis: Cell) -> Floats:

@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from harness.contract import FirsthitError, Sphere, Surface, Variant, View, digest
+from harness.contract import FirsthitError, Sphere, Surface, Variant, View, digest, plural
 
 Floats = NDArray[np.float64]
 COLOUR = (0.36, 0.58, 0.82)
@@ -32,12 +32,14 @@ class Group:
     def __post_init__(self) -> None:
         n = len(self.place)
         if len(self.surfaces) not in (1, n) or not n:
-            raise FirsthitError(f"a group of {n} instances cannot have {len(self.surfaces)} surfaces")
+            raise FirsthitError(
+                f"a group of {plural(n, 'instance')} cannot have {plural(len(self.surfaces), 'surface')}"
+            )
         if len({surface.formula for surface in self.surfaces}) > 1:
             raise FirsthitError("the instances of a group share one formula")
         shapes = (self.turn.shape, self.scale.shape, self.colours.shape)
         if shapes != ((n, 3, 3), (n,), (n, 3)) or not (self.scale > 0.0).all():
-            raise FirsthitError(f"a group of {n} instances needs as many turns, positive scales and colours")
+            raise FirsthitError(f"a group of {plural(n, 'instance')} needs as many turns, positive scales and colours")
 
     def __len__(self) -> int:
         return len(self.place)

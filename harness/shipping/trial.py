@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from harness.contract import FirsthitError, Hits, Program, RayStatus, View
+from harness.contract import FirsthitError, Hits, Program, RayStatus, View, plural
 from harness.devices.executor import CellError, LocalExecutor
 from harness.devices.interface import Array, Built, Device, Launch, hits_from, launch_camera, real_type, same_values
 from harness.devices.messages import FirstRun, HitsCheck
@@ -80,6 +80,7 @@ def try_on(shipment: Shipment, device: str, timeout: float) -> Trial:
     mine, theirs = vars(shipped.answer), vars(checked.answer)
     same = np.logical_and.reduce([same_values(mine[name], theirs[name]) for name in theirs])
     if not same.all():
-        told = f"answers {int((~same).sum())} of {same.size} rays otherwise than the program that firsthit checks"
+        rays = f"{int((~same).sum())} of {plural(same.size, 'ray')}"
+        told = f"answers {rays} otherwise than the program that firsthit checks"
         raise FirsthitError(f"on {device} the shipped program {told}; nothing was written", exit_code=3)
     return Trial(same.size, int((shipped.answer.status == RayStatus.HIT).sum()), shipped.compile_ms)

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from harness.accuracy.rungs import knowable_margin
-from harness.contract import FirsthitError, Surface, Truth, TruthStatus
+from harness.contract import FirsthitError, Surface, Truth, TruthStatus, plural
 from harness.hardcases import groups
 from harness.verifying.model import CannotTell, Wrong, differing
 from harness.verifying.truth import Rays
@@ -33,7 +33,7 @@ def rungs(row: Mapping[str, Any], certify: Certify) -> Iterator[Wrong]:
         for rung in group.rungs:
             number, stored = next(told, (-1, None))
             if stored is None:
-                yield Wrong("rungs", f"{len(row['rungs'])} rungs", "more of them")
+                yield Wrong("rungs", f"{plural(len(row['rungs']), 'rung')}", "more of them")
                 return
             part = slice(start, start := start + len(rung.rays))
             at, undecided = f"rungs[{number}]", truth.status[part] == TruthStatus.UNDECIDED
@@ -45,7 +45,7 @@ def rungs(row: Mapping[str, Any], certify: Certify) -> Iterator[Wrong]:
                 yield from differing(f"{at}.undecidable", stored["undecidable"], int((near & ~undecided).sum()))
             yield from _ratio(at, stored, truth, part, row["precision"], rung.surface)
     if next(told, None):
-        yield Wrong("rungs", f"{len(row['rungs'])} rungs", "fewer of them")
+        yield Wrong("rungs", f"{plural(len(row['rungs']), 'rung')}", "fewer of them")
 
 
 def _ratio(

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from harness.contract import plural
 from harness.results import sources
 from harness.running.rows import Samples, time_of
 from harness.verifying.model import CannotTell, Wrong, differing
@@ -24,7 +25,7 @@ def times(row: Mapping[str, Any]) -> Iterator[Wrong]:
     samples, wall, rounds = time["samples_ms"], time["wall_samples_ms"], time["rounds"]
     sittings = time.get("sittings", [len(samples)])
     if sum(sittings) != len(samples) or min(sittings) < 1:
-        yield Wrong("time.sittings", sittings, f"counts of {len(samples)} samples")
+        yield Wrong("time.sittings", sittings, f"counts of {plural(len(samples), 'sample')}")
         return
     by_device = time["clock"] == "device"
     if not by_device:

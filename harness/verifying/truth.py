@@ -13,8 +13,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from harness import memory
 from harness.accuracy import judge
-from harness.contract import UNIT_ROUNDOFF, Hits, RayStatus, Surface, Truth, TruthStatus
+from harness.accuracy.check import BYTES_PER_RAY
+from harness.contract import UNIT_ROUNDOFF, Hits, RayStatus, Surface, Truth, TruthStatus, plural
 from harness.results import sources
 from harness.scenes.camera import camera_for, meets, pixel_footprint, rays_of
 from harness.verifying.answers import TOP, Arrays, quantiles
@@ -35,7 +37,11 @@ def rays_for(row: Mapping[str, Any]) -> tuple[Surface, Rays]:
     surface, view = surface_of(row), view_of(row)
     if not is_known(surface) and view.distance is None:
         raise CannotTell("its eye's distance follows from a length of a surface that the catalog here has not")
-    return surface, rays_of(camera_for(view, surface), row["accuracy"]["size"])
+    size = row["accuracy"]["size"]
+    what, instead = f"certifying {plural(size**2, 'ray')}", "verify it on a machine with more memory"
+    if reason := memory.refusal(BYTES_PER_RAY * size**2, what, instead):
+        raise CannotTell(reason)
+    return surface, rays_of(camera_for(view, surface), size)
 
 
 def truth(row: Mapping[str, Any], kept: Arrays, surface: Surface, rays: Rays, found: Truth) -> Iterator[Wrong]:

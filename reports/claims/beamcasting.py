@@ -147,7 +147,8 @@ def _complexity(evidence: Evidence) -> Verdict | None:
     low, high = math.tanh(middle - reach), math.tanh(middle + reach)
     told = f"{rank:.2f}, at 95 % from {low:.2f} to {high:.2f}".replace("-", "−")
     return verdict(
-        at_least(low, high, 0.5), f"rank correlation of operations and time over {len(own)} surfaces: {told}"
+        at_least(low, high, 0.5),
+        f"rank correlation of operations and time over {wording.plural(len(own), 'surface')}: {told}",
     )
 
 

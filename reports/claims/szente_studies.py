@@ -33,7 +33,7 @@ def _digits(evidence: Evidence) -> Verdict | None:
         return None
     same = [f"{ours.loc[row['basis'], n]:.2f}" == row[f"degree_{n}"] for row in paper.rows for n in ours.columns]
     missing = bool(ours.isna().any(axis=None)) or not same
-    told = f"{sum(same)} of {len(same)} figures agree in every printed digit"
+    told = f"{sum(same)} of {wording.plural(len(same), 'figure')} agree in every printed digit"
     return verdict(None if missing else all(same), told)
 
 

@@ -131,7 +131,9 @@ def _more_precise(evidence: Evidence) -> Verdict | None:
         if pick in FINE:
             less = rows["feature_error_max_closed"] - rows["feature_error_max"]
             held.append(every(less, lambda gain: gain > 0.0))
-            told[-1] += f" (larger than Loop-Blinn's in {int((less <= 0.0).sum())} of {len(less)} cases)"
+            told[-1] += (
+                f" (larger than Loop-Blinn's in {int((less <= 0.0).sum())} of {wording.plural(len(less), 'case')})"
+            )
     return verdict(both(*held), f"largest errors over {cases(closed)}: {', '.join(told)}") if held else None
 
 

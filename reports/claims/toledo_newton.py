@@ -63,7 +63,7 @@ def _won(groups: list[pd.DataFrame], pick: Pick) -> Verdict:
         won += bool(len(others) and (others["lower_ms"] > newton["upper_ms"].iloc[0]).all())
     settings = len({words for own in groups for words in own["words"]})
     even = len(groups) - won - len(lost)
-    figure = f"fastest of {settings} settings in {won} of {len(groups)} cases (views, on each device)"
+    figure = f"fastest of {settings} settings in {won} of {wording.plural(len(groups), 'case')} (views, on each device)"
     figure += f"; beaten by {', '.join(dict.fromkeys(lost))}" if lost else ""
     figure += f"; not told apart from the fastest in {even}" if even else ""
     return verdict(False if lost else True if not even else None, figure)

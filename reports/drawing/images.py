@@ -36,7 +36,7 @@ def gallery(shelf: Shelf, rows: pd.DataFrame, caption: str, name: str, scale: tu
     """
     views = rows["view"].nunique() > 1
     rows = rows.assign(panel=rows["surface_title"] + (", " + rows["view"] if views else "") + ": " + rows["setting"])
-    cells = [(row, arrays) for row in rows.itertuples() if (arrays := shelf.get(row)) is not None]
+    cells = shelf.together(rows)
     if not cells:
         return None
     panels = tuple(

@@ -223,7 +223,7 @@ def _results_caption(rows: pd.DataFrame) -> tuple[str, str]:
     judged = rows.loc[rows["accuracy_rays"].notna(), ["accuracy_rays", "grazing", "grazing_margin", "undecided"]]
     for row in judged.head(1).itertuples():
         checked = (
-            f" Errors and counts of wrong rays are of {row.accuracy_rays:,} rays, of which "
+            f" Errors and counts of wrong rays are of {wording.plural(row.accuracy_rays, 'ray')}, of which "
             f"{wording.count(row.grazing)} pass another answer within {wording.error(row.grazing_margin)} of the "
             f"scene's "
             "radius: these grazing rays are counted apart. So are drowned ones, on which |f| falls under its own "

@@ -194,7 +194,7 @@ def _maps(of: ViewSet, variants: Mapping[str, pd.DataFrame], scales: Scales, nam
         name,
         made,
         f"Maps over the sphere of directions of time and error of {wording.listed(labels)}.",
-        f"{of.place}, {len(of.views)} directions.",
+        f"{of.place}, {wording.plural(len(of.views), 'direction')}.",
         "Each pair: left the time per ray over the variant's own mean, right the largest error. All directions lie in "
         "an ellipse (Mollweide's equal-area map), the z axis up; a dot is a direction, and its colour fills the places "
         "nearest to it. Red crosses are directions with wrong rays, larger where there are more, of "

@@ -76,5 +76,6 @@ def _square(own: pd.DataFrame | None) -> Square:
     if own is None:
         return Square(wording.NONE, note="does not apply or was not judged")
     wrong, rays = int(own["wrong_rays"].sum()), int(own["accuracy_rays"].sum())
-    note = f"{wrong:,} wrong of {rays:,} rays, largest error {wording.error(own['error_max'].max())} scene units"
+    largest = f"largest error {wording.error(own['error_max'].max())} scene units"
+    note = f"{wrong:,} wrong of {wording.plural(rays, 'ray')}, {largest}"
     return Square(f"{wrong:,} wrong" if wrong else "right", WRONG if wrong else GOOD, note)

@@ -114,8 +114,8 @@ def _views(material: Material) -> Iterator[Plate]:
         if lines:
             wrong = bool((of.rows["wrong_rays"].fillna(0) > 0).any())
             told = sentence(
-                f"{of.place}: {len(of.views)} views, a mark each. A variant that does not depend on the view has all "
-                "its marks at 1×.",
+                f"{of.place}: {wording.plural(len(of.views), 'view')}, a mark each. A variant that does not depend on "
+                "the view has all its marks at 1×.",
                 "Hollow marks answer some rays wrongly." if wrong else "",
             )
             name = slug("view-dependence", str(of.first.surface), *(str(getattr(of.first, column)) for column in more))

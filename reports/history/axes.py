@@ -61,8 +61,3 @@ def short(graph: Graph, value: Value) -> str:
 def across(at: float, commits: int) -> float:
     """Return the place of a commit between 0 and 1, of an axis with so many commits on the line."""
     return (at + 0.5) / max(commits, 1)
-
-
-def counted(count: int, what: str) -> str:
-    """Write a count with what is counted: 1 row, 2 rows."""
-    return f"{count} {what}{'' if count == 1 else 's'}"

@@ -9,8 +9,8 @@ from pathlib import Path
 from harness.contract import FirsthitError
 from harness.results.commits import Kept
 from harness.results.writing import replacing_together
+from reports import wording
 from reports.history import multiples, page, series
-from reports.history.axes import counted
 from reports.history.page import History
 from reports.history.series import Graph, Rule, Step
 
@@ -51,7 +51,9 @@ def build(kept: Sequence[Kept], line: Sequence[str] | None, told: Told, folder: 
         )
         for name, own in by_figure.items():
             ends = f"{places[0].commit.date[:10]} to {places[-1].commit.date[:10]}"
-            many = f"{counted(history.commits, 'commit')} on the line, {ends}; {counted(len(own), 'graph')}"
+            many = (
+                f"{wording.plural(history.commits, 'commit')} on the line, {ends}; {wording.plural(len(own), 'graph')}"
+            )
             below = (meanings.get(name, ""), f"{many}; ▲ a step for the worse, ▼ for the better, ○ apart")
             multiples.write(own, history.commits, f"{told.title}: {name}", below, made / f"{name}.png")
     return steps

@@ -10,7 +10,8 @@ from pathlib import Path
 
 from harness.escaping import html as escaped
 from harness.results.commits import Commit
-from reports.history.axes import Scale, across, counted, labels
+from reports import wording
+from reports.history.axes import Scale, across, labels
 from reports.history.series import Graph, Place, Point, Span, Step
 
 HERE = Path(__file__).parent
@@ -86,7 +87,7 @@ def _subtitle(history: History) -> str:
     dates = sorted(place.commit.date[:10] for place in history.places)
     apart = len(history.places) - history.commits
     more = f", {apart} drawn apart" if apart else ""
-    return f"{counted(history.commits, 'commit')}{more}, {dates[0]} to {dates[-1]}"
+    return f"{wording.plural(history.commits, 'commit')}{more}, {dates[0]} to {dates[-1]}"
 
 
 def _most(lengths: Sequence[int]) -> int:
@@ -215,7 +216,8 @@ def _drawing(history: History, graph: Graph, spans: Sequence[Span], numbers: Map
         f'<text x="{LEFT:.0f}" y="82">{first}</text><text x="{LEFT + WIDTH:.0f}" y="82" text-anchor="end">{last}</text>'
     )
     log = '<text x="2" y="82">log</text>' if scale.logarithmic else ""
-    said = f"{graph.figure} of {graph.slot} on {graph.device}: {len(graph.spans)} values, {len(graph.steps)} steps"
+    counts = f"{wording.plural(len(graph.spans), 'value')}, {wording.plural(len(graph.steps), 'step')}"
+    said = f"{graph.figure} of {graph.slot} on {graph.device}: {counts}"
     return (
         f'<svg viewBox="0 0 300 84" role="group" aria-label="{escaped(said)}">'
         f'<path class="axis" d="M{LEFT:.0f} {TOP + HEIGHT + 4:.0f}h{WIDTH:.0f}"/>{texts}{dates}{log}'
@@ -303,7 +305,7 @@ def _flat(history: History, graphs: Sequence[Graph], opened: bool) -> str:
         '<tr><th scope="col">row</th><th scope="col">device</th><th scope="col" class="n">value</th>'
         '<th scope="col" class="n">kept</th><th scope="col">over commits</th></tr>'
     )
-    many = counted(len(graphs), "row")
+    many = wording.plural(len(graphs), "row")
     return (
         f"<details{' open' if opened else ''}><summary>{many} with the same value at every commit</summary>"
         f'<div class="scroll" tabindex="0"><table><thead>{head}</thead><tbody>{"".join(rows)}</tbody></table></div>'

@@ -64,7 +64,8 @@ def _printed(finished: pd.DataFrame) -> tuple[pd.DataFrame, list[Block]]:
     printed = tables.worth_printing(finished)
     if len(printed) == len(finished):
         return printed, []
-    kept = f"{len(printed):,} of {len(finished):,} rows: those on a front, {tables.baseline(finished)} and the floor"
+    of_all = f"{len(printed):,} of {wording.plural(len(finished), 'row')}"
+    kept = f"{of_all}: those on a front, {tables.baseline(finished)} and the floor"
     if len(printed) > tables.ROW_LIMIT:
         kept_scenes = {shown.fullest(own) for _, own in printed.groupby("surface", sort=False)}
         printed = printed[printed["comparison"].isin(kept_scenes)]
@@ -77,7 +78,7 @@ def _pages(material: Material, rows: pd.DataFrame, name: str) -> tuple[list[Bloc
     own = shown.on_pages(rows)
     if own.empty:
         return [Text("No cell of this surface gave a result.")], []
-    cells = [(row, read) for row in shown.in_strip(rows).itertuples() if (read := material.shelf.get(row)) is not None]
+    cells = material.shelf.together(shown.in_strip(rows))
     plots = fronts.speed_against_error(own, material.method_marks, name, _title(own), material.focus)
     table = surface_tables.compact_table(own)
     choice = cards.chosen(own)

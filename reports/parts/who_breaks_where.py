@@ -170,7 +170,7 @@ def _by_group(judged: pd.DataFrame, place: str) -> Matrix:
         for variant in columns:
             taken = own[(own["variant"] == variant) & own["share"].notna()]
             right = int((taken["share"] == 0).sum())
-            note = f"right on {right} of the {len(taken)} surfaces that it takes and was judged on"
+            note = f"right on {right} of the {wording.plural(len(taken), 'surface')} that it takes and was judged on"
             share = right / max(len(taken), 1)
             made = Square(f"{right}/{len(taken)}", shades.shade(1.0 - share), note)
             squares.append(made if len(taken) else shades.silent(wording.REFUSED, "takes none of them"))

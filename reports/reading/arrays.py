@@ -8,8 +8,10 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 from numpy.typing import NDArray
 
+from harness.contract import FirsthitError
 from harness.results import pictures_file
 from harness.results.sealed import problem
 from reports.reading.run import Unreadable
@@ -62,6 +64,16 @@ class Shelf:
 
     folders: Mapping[str, Path]  # by the name of the run
     damaged: dict[str, Unreadable] = field(default_factory=dict)  # by file
+
+    def together(self, rows: pd.DataFrame) -> list[tuple[Any, Arrays]]:
+        """Return those rows of the frame whose arrays can be read, with these, as `get` returns them.
+
+        Raises FirsthitError, with exit code 3, where this machine's memory does not hold them together.
+        """
+        stored = rows[rows["arrays"].notna()]
+        if reason := pictures_file.refusal([int(rays) for rays in stored["accuracy_rays"].dropna()]):
+            raise FirsthitError(reason, exit_code=3)
+        return [(row, arrays) for row in rows.itertuples() if (arrays := self.get(row)) is not None]
 
     def get(self, row: Any) -> Arrays | None:
         """Return the arrays of a row of the frame.

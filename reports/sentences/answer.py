@@ -126,7 +126,7 @@ def gain(found: Sequence[Choice]) -> str:
     low, high = wording.factor(told[0]), wording.factor(told[-1])
     left = len(rows) - len(told)
     rest = f" ({left} left out, whose {'time is' if left == 1 else 'times are'} floor-bound)" if left else ""
-    where = "" if len(rows) == len(found) else f", on {len(rows)} of {len(found)} surfaces"
+    where = "" if len(rows) == len(found) else f", on {len(rows)} of {wording.plural(len(found), 'surface')}"
     where += " on which that is right too" if best < len(found) else ""
     where += f"; on {itself} it is the fastest itself" if itself else ""
     return f"{low if low == high else f'{low} to {high}'} as fast as {name}{where}{rest}."
@@ -218,7 +218,8 @@ def bought(found: Sequence[Choice]) -> str:
     if len(trades) > 4:
         counted = Counter(str(trade.row.method_label) for _, trade in trades)
         each = [f"{label} on {count}" for label, count in counted.most_common()]
-        return f"On {len(trades)} of {len(found)} surfaces: {wording.listed(each)}. “Trade-offs” lists them."
+        of_all = f"{len(trades)} of {wording.plural(len(found), 'surface')}"
+        return f"On {of_all}: {wording.listed(each)}. “Trade-offs” lists them."
     by_label: dict[str, list[str]] = {}
     for one, trade in trades:
         told = f"{one.name} ({trade.told})"

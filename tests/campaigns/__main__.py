@@ -2,7 +2,7 @@
 
 Without a name all are run. What was found is kept below --folder by seed and by what was tried: a campaign that was
 stopped goes on, and results of other code are not counted. Exit codes: 0 all promises hold, 1 one does not, 2 usage,
-130 stopped by Ctrl-C. `--only N` makes one trial again, in this process.
+130 stopped by Ctrl-C, 143 by SIGTERM, 129 by SIGHUP. `--only N` makes one trial again, in this process.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
+from harness.stopping import code_of, stoppable
 from tests.campaigns import frame, table
 
 
@@ -31,12 +32,13 @@ def main() -> int:
     fell = 0
     for name in options.names or frame.names():
         try:
-            fell += _run(name, options)
-        except KeyboardInterrupt:
+            with stoppable():
+                fell += _run(name, options)
+        except KeyboardInterrupt as error:
             kept = frame.read_kept(frame.kept_in(options.folder / name, options.seed))[0]
             told = f"{kept.cases:,} cases of {name} are kept, and the same command goes on from there"
             print(f"stopped; {told}", file=sys.stderr, flush=True)
-            return 130
+            return code_of(error)
     return 1 if fell else 0
 
 

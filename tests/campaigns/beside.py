@@ -118,25 +118,29 @@ def checked(own: Path, plugins: Path, shared: Path, bad: str = BAD) -> dict[str,
     return {row["slot"]: row for row in runner.run(planned).values()}
 
 
-def tried(own: Path, plugins: Path, shared: Path, bad: str = BAD) -> Counter[str]:
+def tried(own: Path, plugins: Path, shared: Path, bad: str = BAD, good: bool = False) -> Counter[str]:
     """Check all cells, and count what became of the hostile method's rows, as `judged` does.
 
     Where another method's row ran out of time or was killed, all are checked again: a loaded machine does so at times,
-    a hostile method each time.
+    a hostile method each time. So are all where the hostile method's rows have to be `good`.
     """
     if not pickle.loads((shared / "devices.pickle").read_bytes()):
         return Counter({"no device": 1})
     for _ in range(TRIES):
         rows = checked(own, plugins, shared, bad)
-        others = [row["status"] for row in rows.values() if row["method"] in METHODS]
-        if not {CellStatus.TIMEOUT, CellStatus.CRASHED} & set(others):
+        bound = [row["status"] for row in rows.values() if good or row["method"] in METHODS]
+        if not {CellStatus.TIMEOUT, CellStatus.CRASHED} & set(bound):
             break
         shutil.rmtree(own / "runs")
-    return judged(rows, shared)
+    return judged(rows, shared, good)
 
 
-def judged(rows: dict[str, Row], shared: Path) -> Counter[str]:
-    """Count what became of the hostile method's rows. Raises Fell where another method's row changed, or one lacks."""
+def judged(rows: dict[str, Row], shared: Path, good: bool = False) -> Counter[str]:
+    """Count what became of the hostile method's rows.
+
+    Raises Fell where another method's row changed, or one lacks, or where the hostile method's rows have to be `good`
+    and one is not.
+    """
     before = json.loads((shared / "rows.json").read_text())
     now = {slot: row for slot, row in rows.items() if row["method"] in METHODS}
     if before.keys() != now.keys():
@@ -152,6 +156,8 @@ def judged(rows: dict[str, Row], shared: Path) -> Counter[str]:
             raise Fell(f"{row['slot']} is {row['status']}, without a reason")
         if row["status"] == CellStatus.OK and row["accuracy"] is None:
             raise Fell(f"{row['slot']} is ok, and nothing was judged")
+        if good and row["status"] != CellStatus.OK:
+            raise Fell(f"{row['slot']} did no harm, and is {row['status']}: {row['reason']}")
         seen[f"{row['status']}"] += 1
     if not seen:
         raise Fell("the hostile method has no rows")

@@ -8,23 +8,35 @@ from __future__ import annotations
 import contextlib
 import importlib
 import json
+import os
 import random
 import shutil
 import signal
 import tempfile
+import threading
 import time
 import traceback
 from collections import Counter
 from collections.abc import Callable, Iterator
 from concurrent.futures import FIRST_COMPLETED, ProcessPoolExecutor, wait
 from dataclasses import dataclass, field
-from multiprocessing import get_context
+from multiprocessing import get_context, parent_process
 from pathlib import Path
 from typing import Any
 
 from harness.results.sources import digest_of
 
-CODE = ("harness", "surfaces", "methods", "reports", "tests/campaigns")  # what a result is of
+# What a result is of: all that a campaign tries, the campaigns, and what they make and know of it
+MADE = (
+    "agreeing_rows",
+    "exact_roots",
+    "exact_surfaces",
+    "fuzz_formulas",
+    "hostile_texts",
+    "kept_runs",
+    "made_formulas",
+)
+CODE = ("harness", "surfaces", "methods", "reports", "tests/campaigns", *(f"tests/{name}.py" for name in MADE))
 ENDINGS: list[Callable[[], None]] = []  # to be called when a trial ends, however it ends
 KEPT = 20  # trials that fell whose words are kept
 
@@ -217,14 +229,27 @@ def run(campaign: Campaign, seed: int, count: int, folder: Path, jobs: int, tell
 
 
 def _quiet() -> None:
-    """Leave Ctrl-C to the campaign, which ends its processes by SIGTERM; their trials then end what they started."""
+    """Leave Ctrl-C and SIGHUP to the campaign, which ends its processes by SIGTERM; so does its own end, by any signal.
+
+    Their trials then end what they started.
+    """
 
     def end(*_: Any) -> None:
         raise SystemExit
 
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    def follow() -> None:
+        if campaign := parent_process():
+            campaign.join()
+            os.kill(os.getpid(), signal.SIGTERM)
+
+    for number in (signal.SIGINT, signal.SIGHUP):
+        signal.signal(number, lambda *_: None)  # what is ignored, the commands that trials start would ignore too
     signal.signal(signal.SIGTERM, end)
+    threading.Thread(target=follow, daemon=True).start()
 
 
 def _block(name: str, seed: int, numbers: range, shared: Path) -> Found:
-    return trials(campaign_named(name), seed, numbers, shared)
+    try:
+        return trials(campaign_named(name), seed, numbers, shared)
+    except SystemExit:  # the pool would take it for the block's result, and wait for another one
+        os._exit(128 + signal.SIGTERM)

@@ -1,8 +1,9 @@
 """Load and ask hostile plugins, beside a good one and one of firsthit's own methods, on every device here.
 
 A deed is done while method.py is read, or in one of the method's functions; or a field or an answer is what it may not
-be, or a file of the plugin is no ordinary one. Most trials ask in this process, since a plugin's code has one of its
-own; some run a whole command, whose exit code is looked at.
+be, or a file of the plugin is no ordinary one. A quarter of the plugins are only odd: they do and state what is
+strange and allowed, and their rows have to be good. Most trials ask in this process, since a plugin's code has one of
+its own; some run a whole command, whose exit code is looked at.
 """
 
 from __future__ import annotations
@@ -39,7 +40,7 @@ host.Watch = functools.partial(memory.Watch, share={BYTES} / memory.of_machine()
 from harness.cli import main
 sys.exit(main())
 """
-COMMAND_SHARE = 0.1  # of trials that run a command too
+COMMAND_SHARE = 0.3  # of trials that run a command too
 
 HEAD = """import atexit, builtins, json, math, numpy, os, pickle, shutil, signal, sys, threading, time
 from firsthit import Method, Parameter
@@ -117,35 +118,72 @@ VALUES = (
     *("frozenset({'no_missed_root'})", "{'a': {'N': 1}}", "{'a': {'N': math.nan}}", "{'a': {'M': 1}}", "{'a': Evil()}"),
     *("{'a\\nb': {'N': 1}}", "('surface_value',)", "('float64',)", "frozenset({Text('x')})", "('x' * 10**5,)"),
 )
+# What is odd and does no harm alone, in every place where a deed may be; and what is odd and may be stated or answered.
+ODD_DEEDS = (
+    *("os.chdir('/')", "os.environ.clear()", "sys.argv.clear()", "sys.excepthook = None", "atexit.register(os.abort)"),
+    *("signal.signal(signal.SIGTERM, signal.SIG_IGN)", "sys.stdout = sys.stderr = None", "sys.stdout.close()"),
+    *("atexit.register(spin)", "threading.Thread(target=spin, daemon=True).start()", "os.fork() or time.sleep(9)"),
+    *("os.fork() or (os.setsid(), time.sleep(9))", "os.fork() or os._exit(0)", "print('x' * 10**6)", "print('\\x00')"),
+    *("print('\\x1b[2J\\n::error::x\\n##[error]y')", "os.write(1, os.urandom(9999))", "os.write(2, b'y' * 10**6)"),
+)
+ODD_FIELDS = {
+    "source": ("'x' * 100", "'Łoś & <b>, $1 \\\\ 2%'", "Text('t')"),
+    "label": ("''", "'A_b*c'", "'Łoś'"),
+    "needs": ("['surface_along', 'surface_value_along']", "('surface_value_along', 'surface_along', 'surface_value')"),
+    "libraries": ("[]", "('interval',)"),
+    "parameters": (
+        *("[Parameter('N', 1, '')]", "(Parameter('N', 1e-30, 'n', sweep=(-1.0, 1e30)),)"),
+        *("(Parameter('N', numpy.int64(2), 'n', sweep=tuple(range(999))),)", "(Parameter('N', 1, 'n', printed=2.0),)"),
+    ),
+    "settings": ("{'a': {}}", "{'a': {'N': 2}, 'b': {'N': numpy.float32(3)}}"),
+    "claims": ("set()", "frozenset()"),
+    "precisions": ("['float32']", "('float64', 'float32')"),
+}
+ODD_ANSWERS = {
+    "accepts": ("None",),
+    "tolerance": ("0", "1e30", "-1.0", "1e-320", "numpy.float32(2)", "10**30"),
+    "tables": (
+        *("{}", "{'A': [1.0, 2]}", "{'A': numpy.ones(3)}", "{'A': range(1, 4)}", "{'A': {1.0: 2}}", "{'A': [-0.0]}"),
+        *("{'A': [1.0] * 999}", "{'A': [1], 'B': [2]}", "{'A': (numpy.float64(1),)}"),
+    ),
+    "mesh": ("MeshRecipe('contour', 8)", "MeshRecipe('parametric', 2.0**4)"),
+}
+ODD_SHARE = 0.25  # of plugins that are only odd
 FIELDS = ("name", "source", "label", "needs", "libraries", "parameters", "settings", "claims", "answers", "precisions")
 FILES = ("absent", "folder", "pipe", "circle", "huge", "binary", "empty", "unreadable", "to /dev/zero")
 
 
 def _written(dice: random.Random) -> tuple[str, str]:
-    """Return the text of a method.py, and where it is hostile."""
-    deed = "; ".join(dice.sample(DEEDS[:-1], dice.choice((1, 1, 2))))
+    """Return the text of a method.py, and where it is hostile; "odd" of one that does no harm."""
+    odd = dice.random() < ODD_SHARE
+    deed = dice.choice(ODD_DEEDS) if odd else "; ".join(dice.sample(DEEDS[:-1], dice.choice((1, 1, 2))))
     place = dice.choice(
         ("load", "load", "end", "function", "function", "function", "answer", "answer", "field", "field")
     )
     stated = {"name": "'bad'", "source": "'t'", "parameters": "(Parameter('N', 1, 'n', printed=2),)"}
+    stated["needs"] = "('surface_along', 'surface_value_along')"  # which the kernel calls
     functions = ""
     if place in ("function", "answer"):
         for name in dice.sample(FUNCTIONS[:3], dice.choice((1, 1, 2))) + dice.choice(([], ["mesh"])):
-            answer = dice.choice(VALUES) if place == "answer" else "None"
+            answer = dice.choice(VALUES if place == "answer" and not odd else ODD_ANSWERS[name])
             when = dice.choice(("True", "True", "given[0].name == 'torus'", "os.getpid() % 2"))
             does = deed if place == "function" else "pass"
             does = does if ";" not in does and " = " not in does else f"exec({does!r}, globals())"
             functions += f"def {name}(*given):\n    if {when}:\n        {does}\n    return {answer}\n\n"
             stated[name] = name
     elif place == "field":
-        for name in dice.sample((*FIELDS, "casts", *FUNCTIONS), dice.choice((1, 1, 2, 3))):
-            stated[name] = dice.choice(VALUES)
-    how = dice.choice(("Method", "Method", "Method", "type('M', (Method,), {'label': property(lambda _: 1 / 0)})"))
+        fields = sorted(ODD_FIELDS) if odd else (*FIELDS, "casts", *FUNCTIONS)
+        for name in dice.sample(fields, dice.choice((1, 1, 2, 3))):
+            stated[name] = dice.choice(ODD_FIELDS[name] if odd else VALUES)
+    how = dice.choice(
+        ("Method", "Method", "Method", "type('M', (Method,), {'label': property(lambda _: 1 / 0, lambda *_: None)})")
+    )
+    how = "Method" if odd else how
     method = f"METHOD = {how}({', '.join(f'{name}={value}' for name, value in stated.items())})\n"
     first, last = (deed + "\n" if place == one else "" for one in ("load", "end"))
-    if dice.random() < 0.03:
+    if not odd and dice.random() < 0.03:
         first = DEEDS[-1] + "\n"
-    return HEAD + first + functions + method + last, place
+    return HEAD + first + functions + method + last, "odd" if odd else place
 
 
 def _odd_file(dice: random.Random, folder: Path) -> None:
@@ -179,7 +217,7 @@ def _trial(dice: random.Random, place: Place) -> Counter[str]:
     beside.write_good(plugins)
     text, where = _written(dice)
     _write(plugins / "bad", text)
-    if dice.random() < 0.08:
+    if where != "odd" and dice.random() < 0.08:
         _odd_file(dice, plugins / "bad")
         where = "file"
     told = io.StringIO()
@@ -191,7 +229,7 @@ def _trial(dice: random.Random, place: Place) -> Counter[str]:
             if where != "file":
                 _write(plugins / "bad", text)  # again, since it may have removed itself
             bad = beside.BAD + dice.choice(("", "deviations = true\n"))
-            seen = beside.tried(place.own, plugins, place.shared, bad)
+            seen = beside.tried(place.own, plugins, place.shared, bad, good=where == "odd")
     except (Fell, FirsthitError) as error:
         raise Fell(f"{where}: {error}\n{text[len(HEAD) :]}") from None
     if "\x1b" in told.getvalue() or "\n::error" in told.getvalue():
@@ -264,4 +302,5 @@ CAMPAIGN = Campaign(
     block=5,
     prepare=beside.prepare,
     limit=180,
+    first=8,  # of a hostile one, and of one that is only odd
 )

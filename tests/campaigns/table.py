@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from datetime import date
 from pathlib import Path
 
@@ -10,6 +11,8 @@ from tests.campaigns.frame import Campaign, Found
 
 HEAD = "| Campaign | Cases | What happened | Promise | Fell | Seed | Date, commit, machine |"
 
+MANY = 12  # outcomes, beyond which those of many kinds are counted together
+
 
 def line(name: str, found: Found) -> str:
     """Return one line for the terminal."""
@@ -17,7 +20,14 @@ def line(name: str, found: Found) -> str:
 
 
 def _counts(found: Found) -> str:
-    return ", ".join(f"{count:,} {outcome}" for outcome, count in found.counts.most_common())
+    """Say how often each outcome was met; of outcomes `KIND: WHAT` how often each WHAT, if there are many."""
+    counts, kinds = found.counts, {outcome.partition(": ")[0] for outcome in found.counts if ": " in outcome}
+    if len(counts) > MANY and kinds:
+        counts = Counter()
+        for outcome, count in found.counts.items():
+            counts[outcome.rpartition(": ")[2]] += count
+    told = ", ".join(f"{count:,} {outcome}" for outcome, count in counts.most_common())
+    return f"{told}, of {len(kinds)} kinds" if counts is not found.counts else told
 
 
 def write(path: Path, campaign: Campaign, found: Found, seed: int) -> None:

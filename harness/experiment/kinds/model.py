@@ -3,9 +3,8 @@
 A `MethodKind` (methods.py) belongs to what a method's kernel defines (`Method.casts`): rays, beams, a quadtree of
 beams, tiles, a mesh. A `Kind` belongs to a cell: it is the way in which the cell's method is asked to cast. A Kind
 refuses a cell, or makes its `Casting`, which holds the cell's programs and runs them. Most castings are a
-`ViewCasting`, which checks answers on a grid of a view's rays.
-
-Each abstract method must be given by a new kind. The others have an answer that is right for most kinds.
+`ViewCasting`, which checks answers on a grid of a view's rays. A new kind gives each abstract method; the others have
+an answer that is right for most kinds.
 """
 
 from __future__ import annotations
@@ -292,8 +291,13 @@ class ViewCasting(Casting):
         rays = rays_of(self.camera, side)
         return headlight(self.cell.surface, rays, self.cast(executor, side).hits).reshape(side, side)
 
+    def rays_held(self, choice: AccuracyChoice) -> int:
+        """Count the rays that this process holds while it checks: those that are judged, and all that are shaded."""
+        return choice.size**2 * (1 + self.cell.samples_per_pixel * (self.cell.samples_per_pixel > 1))
+
     def check(self, executor: LocalExecutor, choice: AccuracyChoice, folder: Path, framed: bool) -> Outcome:
         cell = self.cell
+        check.need_memory(self.rays_held(choice))
         cast = self.cast(executor, choice.size)
         footprint = pixel_footprint(self.camera, cell.size)
         summary, pictures = check.figures(cast, folder, choice.grazing_margin, cell.precision, footprint)

@@ -23,6 +23,7 @@ from harness.devices.executor import LocalExecutor
 from harness.devices.messages import Frame
 from harness.devices.raster import Picture, RasterCheck, RasterFrame
 from harness.experiment.cells import Cell
+from harness.experiment.config import AccuracyChoice
 from harness.experiment.kinds.draws import Draw, draws, identity, refusal, too_many
 from harness.experiment.kinds.model import Asked, Casting, Kind, KindFacts, ViewCasting
 from harness.experiment.kinds.narrowed import REFUSAL as NO_PREPASS
@@ -127,6 +128,9 @@ class RasterCasting(ViewCasting):
             "fragments_discarded": fragments - found,
             "pixels_drawn": int((picture.batch >= 0).sum()),
         }
+
+    def rays_held(self, choice: AccuracyChoice) -> int:
+        return choice.size**2 + self.samples**2  # the whole frame is drawn once, to count its fragments
 
     def samples_shade(self, executor: LocalExecutor, size: int) -> NDArray[np.float32] | None:
         return None

@@ -12,7 +12,7 @@ from harness import memory
 from harness.accuracy.answers import validated
 from harness.accuracy.check import Cast
 from harness.accuracy.compilers import SecondBuild, with_listed_rays
-from harness.contract import FirsthitError, Hits, Method, Origin, Program, Surface, Variant
+from harness.contract import FirsthitError, Hits, Method, Origin, Program, Surface, Variant, plural
 from harness.devices.executor import LocalExecutor
 from harness.devices.messages import CameraFrame, Check, Frame, ListedCheck, ListedFrame
 from harness.experiment.config import Experiment
@@ -27,6 +27,7 @@ from harness.scenes.camera import rays_of
 from harness.scenes.model import Group
 from harness.scenes.records import MOST_PARAMETERS
 
+SMALLER = "take a smaller size or fewer samples a pixel"
 BYTES_PER_RAY = 150  # of this process while it makes a list of rays and sends it: float64 until the list is complete
 
 
@@ -112,7 +113,8 @@ class RayCasting(RacedCasting):
     def frame(self) -> Frame | None:
         assert self.timed
         if self.cell.stage == "rays":
-            if reason := memory.refusal(BYTES_PER_RAY * self.samples**2, f"a list of {self.samples**2:,} rays"):
+            what = f"a list of {plural(self.samples**2, 'ray')}"
+            if reason := memory.refusal(BYTES_PER_RAY * self.samples**2, what, SMALLER):
                 raise FirsthitError(reason, exit_code=3)
             return ListedFrame(self.timed, rays_of(self.camera, self.samples))
         return CameraFrame(self.timed, self.camera, self.samples)

@@ -20,6 +20,7 @@ SHORT_LIMIT = 180  # characters of the reason of a group of cells
 GROUPS = 12  # reasons that the page has room for
 FAMILY = "family: "  # begins the name of a place that is no surface
 NAMED = 3  # methods or places that are named; more are counted
+_QUOTED = re.compile(r"^ *\|.*\n?", re.MULTILINE)  # a line of a kernel, or a mark below it, under a compiler's message
 _REFUSED = re.compile(r"the method refuses the surface [^:]+: ")
 _NOTHING_FAILED = "Every planned cell ran and gave a result."
 
@@ -40,13 +41,16 @@ def details(material: Material) -> tuple[Block, ...]:
 
 
 def _troubles(material: Material) -> pd.DataFrame:
-    """Return the cells that did not end as `ok`, with their `place`: the surface, scene or family."""
+    """Return the cells that did not end as `ok`, with their `place`: the surface, scene or family.
+
+    Their reasons have no lines of kernels any more, which nobody can read once a reason is one paragraph.
+    """
     frame, families, facts = material.frame, material.run.families, material.run.plan.facts
     views = frame.assign(place=frame["surface_title"])
     hard = families.assign(place=[f"{FAMILY}{facts[name].title}" for name in families["family"]])
     told = ["status", "reason", "device", "precision", "place", "variant", "label", "method_label"]
     rows = pd.concat([of[of["status"] != CellStatus.OK][told] for of in (views, hard)])
-    return rows.assign(reason=rows["reason"].fillna("").astype(str))
+    return rows.assign(reason=[_QUOTED.sub("", reason) for reason in rows["reason"].fillna("").astype(str)])
 
 
 def _ended(rows: pd.DataFrame) -> str:
@@ -85,15 +89,16 @@ def _by_reason(rows: pd.DataFrame) -> Table:
     """
     rows = rows.assign(short=[_REFUSED.sub("", reason) for reason in rows["reason"]])
     rows = rows.assign(kind=[re.sub(r"\d+", "#", short) for short in rows["short"]])
-    groups = sorted(rows.groupby(["status", "kind"], sort=True), key=lambda group: -len(group[1]))
+    named = [(len(of), of["method_label"].iloc[0], status, of) for (status, _), of in rows.groupby(["status", "kind"])]
+    groups = sorted(named, key=lambda group: (-group[0], group[1]))
     body = []
-    for (status, _), of in groups[:GROUPS]:
+    for _, _, status, of in groups[:GROUPS]:
         noun = "place" if of["place"].str.startswith(FAMILY).any() else "surface"
         methods, places = _named(of["method_label"], "method"), _named(of["place"], noun)
         reason = wording.excerpt(of["short"].iloc[0], SHORT_LIMIT) or None
         body.append((len(of), status, reason, methods, places, _named(of["device"], "device")))
     rest = len(groups) - len(body)
-    caption = f"{wording.plural(rest, 'more reason')} in {sum(len(of) for _, of in groups[GROUPS:]):,} cells."
+    caption = f"{wording.plural(rest, 'more reason')} in {sum(count for count, *_ in groups[GROUPS:]):,} cells."
     return Table(
         (
             Column("cells", wording.count, numeric=True),

@@ -100,7 +100,7 @@ def _figure_1(material: Material) -> list[Section]:
     """Show the levels at which boxes are eliminated, by the rows of the figure's own config; [] without any."""
     rows = material.evidence.rows(picks.ADAPTIVE, ("octdong",))
     rows = rows[rows["run"] == run_of("beamcasting-fig1.toml")].sort_values("size", kind="stable")
-    found = [(row, arrays) for row in rows.itertuples() if (arrays := material.shelf.get(row)) is not None]
+    found = material.shelf.together(rows)
     found = [(row, arrays) for row, arrays in found if arrays.level is not None and arrays.status is not None]
     if not found:
         return []

@@ -57,7 +57,7 @@ def _galleries(material: Material, figure: Figure, rows: pd.DataFrame, legend: b
 
     A line that is not full has a gallery of its own, so that what comes after it begins a line.
     """
-    drawn = [(row, arrays) for row in rows.itertuples() if (arrays := material.shelf.get(row)) is not None]
+    drawn = material.shelf.together(rows)
     if not drawn:
         return []
     painter = Painter(f"{run_of(figure.config)}-", material.error_scale, _titles(drawn))

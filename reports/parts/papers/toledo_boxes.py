@@ -41,7 +41,7 @@ def _panels(material: Material, config: str) -> list[Panel]:
     rows = material.evidence.of(config).rows(picks.STURM)
     rows = rows[(rows["run"] == run_of(config)) & (rows["stage"] == "raster") & (rows["proxy"] == "box")]
     rows = derive.on_first_device(rows)
-    drawn = [(row, arrays) for row in rows.itertuples() if (arrays := material.shelf.get(row)) is not None]
+    drawn = material.shelf.together(rows)
     return [_panel(row, arrays) for row, arrays in drawn if arrays.evaluations is not None]
 
 

@@ -11,6 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure as Drawing
 from matplotlib.lines import Line2D
 
+from reports import wording
 from reports.claims.verdict_tables import introduced, verdict_tables
 from reports.content import Block, Figure, Section, Text
 from reports.drawing import style
@@ -65,7 +66,7 @@ def _figure(cases: list[dict[str, Any]]) -> Figure:
     return Figure(
         "toledo-figure-3",
         drawn,
-        f"T and its two derivatives along {len(cases)} rays, with the roots of each.",
+        f"T and its two derivatives along {wording.plural(len(cases), 'ray')}, with the roots of each.",
     )
 
 

@@ -1,0 +1,90 @@
+"""Measure what two ways of the oracle save: `python -m tests.benchmarks.oracle_speed`.
+
+The oracle decides most rays together in float64, and leaves the others, the slow rays, to single searches in balls of
+more bits. These searches are measured here, on rays of a grid, with a way and without it, in turns. Without pruning, a
+minimum keeps all its arguments on each piece of a ray; without Taylor series, pieces on which f's large terms cancel
+are only cut and enclosed more precisely. Printed are milliseconds of processor time a ray, and how many rays stay
+undecided. Nothing is asserted.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import time
+from collections.abc import Iterator
+from unittest.mock import patch
+
+import numpy as np
+
+import surfaces
+from harness.contract import Surface, TruthStatus
+from harness.oracle import transcendental
+from harness.oracle.reading import graph_of
+from harness.oracle.transcendental import SmoothSolver
+
+TURNS = 2
+SPHERES = 200
+
+
+@contextlib.contextmanager
+def without_pruning() -> Iterator[None]:
+    """Keep every operation of a formula on every piece of a ray."""
+    with patch.object(transcendental, "is_prunable", lambda _: False):
+        yield
+
+
+@contextlib.contextmanager
+def without_series() -> Iterator[None]:
+    """Enclose f by ranges only."""
+    with patch.object(transcendental, "WAYS", tuple(way for way in transcendental.WAYS if not way.series)):
+        yield
+
+
+def rays(count: int) -> np.ndarray:
+    """Return `count` rays from above, of a grid: origins and directions, count x 6."""
+    side = np.linspace(-0.8, 0.8, 6)
+    listed = [(x, y, 3.0, 0.1 * x - 0.03, 0.02 - 0.1 * y, -1.0) for x in side for y in side]
+    return np.array(listed[:count], np.float32)
+
+
+def spheres() -> Surface:
+    """Return the union of SPHERES spheres, as the minimum of their distances."""
+    at = np.random.default_rng(1).integers(-64, 65, (SPHERES, 3)) / 64
+    each = (f"sqrt((x-({x}))^2+(y-({y}))^2+(z-({z}))^2)-{(k % 4 + 1) / 16}" for k, (x, y, z) in enumerate(at))
+    return surfaces.from_formula(f"min({', '.join(each)})", "sphere:2")
+
+
+def measure(surface: Surface, listed: np.ndarray) -> tuple[np.ndarray, int]:
+    """Return the seconds of processor time that each ray takes, and how many stay undecided."""
+    solver, seconds, undecided = SmoothSolver(graph_of(surfaces.tape_of(surface)), surface.domain), [], 0
+    for ray in listed.tolist():
+        began = time.process_time()
+        undecided += solver.first_hit(ray).status == TruthStatus.UNDECIDED
+        seconds.append(time.process_time() - began)
+    return np.array(seconds[1:]), undecided  # without the first, whose constants are made
+
+
+def main() -> None:
+    """Measure both cases, and print a line for each."""
+    cancels = surfaces.from_formula("cos(x)^2 + sin(x)^2 - 1 + 1e-9*y", "sphere:1.5")
+    cases = (
+        ("a minimum of 200 spheres, pruned", spheres(), without_pruning),
+        ("cos² + sin² − 1 + y/10⁹, by series", cancels, without_series),
+    )
+    for what, surface, without in cases:
+        listed = rays(36)
+        taken: dict[str, list[np.ndarray]] = {"with": [], "without": []}
+        open_: dict[str, int] = {}
+        for _ in range(TURNS):
+            for how, context in (("with", contextlib.nullcontext), ("without", without)):
+                with context():
+                    seconds, open_[how] = measure(surface, listed)
+                taken[how].append(seconds)
+        for how, found in taken.items():
+            each = 1e3 * np.min(found, axis=0)
+            told = f"mean {each.mean():.1f} ms, slowest three {np.sort(each)[-3:].mean():.1f} ms a ray"
+            print(f"{what}: {how:7} it {told}; {open_[how]} of {len(listed)} rays undecided", flush=True)
+
+
+if __name__ == "__main__":
+    main()
