@@ -125,7 +125,7 @@ Hit first_hit(Ray ray, real t0, real t1) {
         for (int j = 0; j <= N; j++) c[j] = b[j];
 
         // error bounds: of a sample (off), of a halving (unit), of the fit (noise)
-        real away = sqrt(near + max((drift + start) * start, (drift + end) * end));
+        real away = sqrt(max(near + max((drift + start) * start, (drift + end) * end), real(0)));
         real off = TRUST * UNIT_ROUNDOFF * VALUE_ERRORS[min(int(away * (real(SHELLS) / DOMAIN_RADIUS)), SHELLS - 1)];
         real unit = TRUST * UNIT_ROUNDOFF * largest(b);
         real weighted = 0.0;
