@@ -3,6 +3,8 @@
 #define N SURFACE_DEGREE
 #define SHELLS 16  // sizes of the tables VALUE_ERRORS and GROWTH
 #define DEPTHS 6
+#define FINEST 4.0  // least tolerance, in unit roundoffs
+#define SHORT 0.0625  // longest last step, over the root of the tolerance
 
 // The least coefficient of a piece, and the largest of those behind the first coefficient that is not certainly
 // positive.
@@ -125,7 +127,7 @@ Hit first_hit(Ray ray, real t0, real t1) {
         for (int j = 0; j <= N; j++) c[j] = b[j];
 
         // error bounds: of a sample (off), of a halving (unit), of the fit (noise)
-        real away = sqrt(near + max((drift + start) * start, (drift + end) * end));
+        real away = sqrt(max(near + max((drift + start) * start, (drift + end) * end), real(0)));
         real off = TRUST * UNIT_ROUNDOFF * VALUE_ERRORS[min(int(away * (real(SHELLS) / DOMAIN_RADIUS)), SHELLS - 1)];
         real unit = TRUST * UNIT_ROUNDOFF * largest(b);
         real weighted = 0.0;
@@ -208,18 +210,28 @@ Hit first_hit(Ray ray, real t0, real t1) {
     if (fz >= 0.0 && hit.evaluations >= MAX_EVALUATIONS) return exhausted(hit, base);
     if (fz >= 0.0) return hit;
 
-    // Newton's method, kept within the bracket, with f's own value and the fit's slope
+    // Newton's method, kept within the bracket, with f's own value and the fit's slope. A step s leaves an error of
+    // about f''/(2 f') s^2, and up to four times that next to a double root; f'' is the change of the slope over the step
+    // before. As that says nothing where f'' passes through zero, the last step is short too.
     for (int j = 0; j <= N; j++) c[j] = BINOMIALS[j] * c[j];
     real fa = sign * surface_value(ray_point(ray, base + size * a));
     hit.evaluations += 1;
-    real tolerance = TOLERANCE * (t1 - t0) / size;
+    real whole = (t1 - t0) / size;  // the ray's length, in which tolerances are stated
+    real tolerance = max(TOLERANCE, FINEST * UNIT_ROUNDOFF) * whole;
+    real longest = SHORT * sqrt(tolerance * whole);
     Bracket bracket = make_bracket(a, z, max(fa, real(0)), fz);
     Dual f = make_dual(fz, (fz - max(fa, real(0))) / (z - a));
-    for (int i = 0; i < MOST_STEPS && bracket.step > tolerance; i++) {
+    real left = bracket.step;
+    for (int i = 0; i < MOST_STEPS && (left > tolerance || bracket.step > longest); i++) {
+        real before = bracket.step;
+        real slope = f.derivative;
         f = polynomial_dual(c, N, true, bracket.x);
         f.value = sign * surface_value(ray_point(ray, base + size * bracket.x));
         hit.evaluations += 1;
         bracket = newton_step(bracket, f, false);
+        bool halved = f.derivative >= 0.0 || fabs(f.value) >= -1.5 * f.derivative * bracket.step;
+        real bend = fabs(1.0 - slope / f.derivative) / before;
+        left = halved ? bracket.step : 2.0 * bend * bracket.step * bracket.step;
     }
     // one last Newton step with the mean of f over points around t, in which rounding errors cancel
     real t = base + size * bracket.x;

@@ -3,6 +3,7 @@
 #define N SURFACE_DEGREE
 #define SHELLS 16  // sizes of the tables VALUE_ERRORS and SLOPE_GROWTH
 #define DEPTHS 6
+#define FINEST 4.0  // least length of a step, in unit roundoffs of the ray's length: below it x may stand still
 
 // Computes the coefficients e on [x, x + width] of the polynomial that has the coefficients d on [0, 1], by two runs of
 // de Casteljau's algorithm.
@@ -104,6 +105,7 @@ Hit first_hit(Ray ray, real t0, real t1) {
     LowerCurve rising = falling;
     if (SIDES == 2) rising = bound_of_negative(d, N - 1);
     real steepest = slope_error(off, size, slope, 1.0) + steepest_slope(falling, rising, 0.0, 1.0, N - 1);
+    real shortest = max(TOLERANCE, FINEST * UNIT_ROUNDOFF);
     real window = 1.0;
     real a = 0.0;
     real x = 0.0;
@@ -121,7 +123,7 @@ Hit first_hit(Ray ray, real t0, real t1) {
         if (LOCAL == 2 && window < 1.0) {
             steepest = slope_error(off, size, slope, 1.0) + steepest_slope(falling, rising, x, x + window, N - 1);
         }
-        real step = max(TOLERANCE, fx < steepest * window ? fx / steepest : window);
+        real step = max(shortest, fx < steepest * window ? fx / steepest : window);
         a = x;
         fa = fx;
         x = min(x + step, 1.0);
