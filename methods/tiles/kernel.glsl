@@ -12,6 +12,7 @@
 #define MIXING 220.0           // and of the largest difference of two lanes
 #define THIRD 0.3333333432674407958984375
 
+#define FINEST 4.0             // least tolerance of the refinement, in unit roundoffs
 #define ASIDE 0.75             // most cells that a tile's rays may be from its middle ray, in one coordinate
 
 #define SEARCHING 0
@@ -250,7 +251,7 @@ STRUCT(WideRoot) struct WideRoot { wide x; wide slope; };
 // Stage 1. Tiles of one level: each is empty, single (every ray has its first root in one piece, and no other root
 // there), or open, and then its four quarters are searched on the next level, or its pixels by stage 3.
 void isolate_tiles(Work work, Frame frame) {
-    Bundle stack[TRUSTED];
+    Bundle stack[HALVINGS];
     int across = tiles_across(work.size, work.tile);
     bool first = work.level == 0;
     int total = first ? across * across : 4 * counted(work, 4 * (work.level - 1));
@@ -391,7 +392,7 @@ void isolate_tiles(Work work, Frame frame) {
                             if (!falls) falls = single_bits(SURE_ABOVE(bundle, error), SURE_BELOW(bundle, error)) >= N;
                             if (falls) inner = SINGLE;
                         }
-                        if (inner == SEARCHING && (depth == TRUSTED || reach < (leans ? 0.25 * least_width : least_width) * real(1 << depth))) inner = OPEN;
+                        if (inner == SEARCHING && (depth == HALVINGS || reach < (leans ? 0.25 * least_width : least_width) * real(1 << depth))) inner = OPEN;
                         if (inner == SEARCHING) {
                             HALVE_BUNDLE(bundle, far)
                             stack[depth] = far;
@@ -535,7 +536,8 @@ Pencil pencil_of(Work work, Frame frame, int i0, int j0) {
 STRUCT(Refined) struct Refined { wide t; yes good; int evaluations; };
 
 Refined refined(Work work, Pencil rays, wide from, wide a, wide b, wide g, yes looking) {
-    real tolerance = TOLERANCE * (2.0 * DOMAIN_RADIUS);
+    real tolerance = max(TOLERANCE, FINEST * UNIT_ROUNDOFF) * (2.0 * DOMAIN_RADIUS);
+    real longest = STEP * (2.0 * DOMAIN_RADIUS);
     real slow = SECANT * DOMAIN_RADIUS;
     wide lo = a;
     wide hi = b;
@@ -550,11 +552,11 @@ Refined refined(Work work, Pencil rays, wide from, wide a, wide b, wide g, yes l
     next = CHOOSE(BOTH(NOT(LESS(next, lo)), NOT(MORE(next, hi))), next, 0.5 * (lo + hi));
     wide step = next - t;
     int evaluations = 1;
-    for (int k = 0; k < STEPS && any_lane(BOTH(looking, MORE(fabs(step), wide(tolerance)))); k++) {
+    for (int k = 0; k < STEPS && any_lane(BOTH(looking, MORE(fabs(step), wide(longest)))); k++) {
         wide f1 = wide_value(wide_point(rays.o, next, rays.d));
         evaluations += 1;
         wide secant = step / (f1 - f);
-        yes poor = EITHER(MORE(fabs(step), wide(slow)), BOTH(MORE(fabs(step), wide(tolerance)), MORE(fabs(f1), 0.25 * fabs(f))));
+        yes poor = EITHER(MORE(fabs(step), wide(slow)), BOTH(MORE(fabs(step), wide(longest)), MORE(fabs(f1), 0.25 * fabs(f))));
         g = CHOOSE(BOTH(poor, MORE(secant * g, wide(0.0))), secant, g);
         t = next;
         f = f1;
@@ -579,12 +581,14 @@ Refined refined(Work work, Pencil rays, wide from, wide a, wide b, wide g, yes l
     }
     evaluations += 2 * PAIRS;
     wide last = wide(0.0);
+    wide left = fabs(step);  // what the last step leaves
     if (PAIRS > 0) {
         wide mean = sum * (1.0 / real(max(2 * PAIRS, 1)));
         // the secant's slope is better where the step is long enough for rounding errors not to matter
         wide secant = step / (mean - f);
         yes long_step = MORE(fabs(step), wide(32.0 * UNIT_ROUNDOFF * 2.0 * DOMAIN_RADIUS));
         last = mean * CHOOSE(BOTH(long_step, MORE(secant * g, wide(0.0))), secant, g);
+        left = fabs(last) * min(fabs(mean), fabs(f)) / max(fabs(f), wide(REAL_TINY));
     }
     yes seen = BOTH(seen_before, seen_behind);
     if (any_lane(BOTH(looking, NOT(seen)))) {
@@ -595,7 +599,8 @@ Refined refined(Work work, Pencil rays, wide from, wide a, wide b, wide g, yes l
     }
     Refined result;
     result.t = clamp(next - last, lo, hi);
-    result.good = BOTH(seen, BOTH(AT_MOST(fabs(step), wide(tolerance)), AT_MOST(fabs(last), wide(4.0 * tolerance))));
+    result.good = BOTH(seen, BOTH(AT_MOST(fabs(step), wide(longest)), AT_MOST(fabs(last), wide(4.0 * longest))));
+    result.good = BOTH(result.good, AT_MOST(left, wide(PAIRS > 0 ? tolerance : longest)));
     result.evaluations = evaluations;
     return result;
 }
@@ -689,7 +694,7 @@ void finish_tiles(Work work, Frame frame) {
 
 // Stage 3. Pixels of open tiles, in blocks of 4 by 4: each has its own fit, and they are halved together.
 void cast_packets(Work work, Frame frame) {
-    Poly stack[TRUSTED];
+    Poly stack[HALVINGS];
     int across = tiles_across(work.size, work.tile);
     int list = tiles_before(work.size, work.tile);
     int blocks = work.tile / 4;
@@ -780,7 +785,7 @@ void cast_packets(Work work, Frame frame) {
                         waiting = BOTH(waiting, NOT(one));
                         unsure = BOTH(unsure, NOT(one));
                     }
-                    if (depth == TRUSTED) {
+                    if (depth == HALVINGS) {
                         open_width = width;
                         open_from = CHOOSE(unsure, wide(from), open_from);
                         opened = EITHER(opened, unsure);
