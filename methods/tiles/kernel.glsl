@@ -13,6 +13,7 @@
 #define THIRD 0.3333333432674407958984375
 
 #define FINEST 4.0             // least tolerance of the refinement, in unit roundoffs
+#define SHORT 0.0625           // longest last step but one, over the root of the tolerance
 #define ASIDE 0.75             // most cells that a tile's rays may be from its middle ray, in one coordinate
 
 #define SEARCHING 0
@@ -531,14 +532,15 @@ Pencil pencil_of(Work work, Frame frame, int i0, int j0) {
 }
 
 // Newton's method on f itself within [a, b], from t on. `g` is the inverse of f's slope; it becomes that of the secant
-// where steps are long or fall off slowly. `good`: the last step is short, and f changes its sign between two points at
+// where a step is so long that rounding errors do not matter. `good`: the last step is short, and f changes its sign between two points at
 // which it was evaluated.
 STRUCT(Refined) struct Refined { wide t; yes good; int evaluations; };
 
 Refined refined(Work work, Pencil rays, wide from, wide a, wide b, wide g, yes looking) {
-    real tolerance = max(TOLERANCE, FINEST * UNIT_ROUNDOFF) * (2.0 * DOMAIN_RADIUS);
-    real longest = STEP * (2.0 * DOMAIN_RADIUS);
-    real slow = SECANT * DOMAIN_RADIUS;
+    real share = max(TOLERANCE, FINEST * UNIT_ROUNDOFF);
+    real tolerance = share * (2.0 * DOMAIN_RADIUS);
+    real longest = min(STEP, SHORT * sqrt(share)) * (2.0 * DOMAIN_RADIUS);
+    real clear = 32.0 * UNIT_ROUNDOFF * (2.0 * DOMAIN_RADIUS);  // a step in which rounding errors do not matter
     wide lo = a;
     wide hi = b;
     wide t = clamp(from, a, b);
@@ -556,8 +558,7 @@ Refined refined(Work work, Pencil rays, wide from, wide a, wide b, wide g, yes l
         wide f1 = wide_value(wide_point(rays.o, next, rays.d));
         evaluations += 1;
         wide secant = step / (f1 - f);
-        yes poor = EITHER(MORE(fabs(step), wide(slow)), BOTH(MORE(fabs(step), wide(longest)), MORE(fabs(f1), 0.25 * fabs(f))));
-        g = CHOOSE(BOTH(poor, MORE(secant * g, wide(0.0))), secant, g);
+        g = CHOOSE(BOTH(MORE(fabs(step), wide(clear)), MORE(secant * g, wide(0.0))), secant, g);
         t = next;
         f = f1;
         behind = MORE(f * g, wide(0.0));
@@ -584,10 +585,8 @@ Refined refined(Work work, Pencil rays, wide from, wide a, wide b, wide g, yes l
     wide left = fabs(step);  // what the last step leaves
     if (PAIRS > 0) {
         wide mean = sum * (1.0 / real(max(2 * PAIRS, 1)));
-        // the secant's slope is better where the step is long enough for rounding errors not to matter
         wide secant = step / (mean - f);
-        yes long_step = MORE(fabs(step), wide(32.0 * UNIT_ROUNDOFF * 2.0 * DOMAIN_RADIUS));
-        last = mean * CHOOSE(BOTH(long_step, MORE(secant * g, wide(0.0))), secant, g);
+        last = mean * CHOOSE(BOTH(MORE(fabs(step), wide(clear)), MORE(secant * g, wide(0.0))), secant, g);
         left = fabs(last) * min(fabs(mean), fabs(f)) / max(fabs(f), wide(REAL_TINY));
     }
     yes seen = BOTH(seen_before, seen_behind);
