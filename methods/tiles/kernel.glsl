@@ -13,6 +13,7 @@
 #define THIRD 0.3333333432674407958984375
 
 #define FINEST 4.0             // least tolerance of the refinement, in unit roundoffs
+#define LAST_STEPS 2           // most steps by means of f
 #define SHORT 0.0625           // longest last step but one, over the root of the tolerance
 #define ASIDE 0.75             // most cells that a tile's rays may be from its middle ray, in one coordinate
 
@@ -570,24 +571,30 @@ Refined refined(Work work, Pencil rays, wide from, wide a, wide b, wide g, yes l
         next = CHOOSE(BOTH(NOT(LESS(next, lo)), NOT(MORE(next, hi))), next, 0.5 * (lo + hi));
         step = next - t;
     }
-    // one last step with the mean of f over points around t, in which rounding errors cancel
-    wide sum = wide(0.0);
-    for (int k = 1; k <= PAIRS; k++) {
-        real away = real(k) * (APART * UNIT_ROUNDOFF * 2.0 * DOMAIN_RADIUS);
-        wide before = wide_value(wide_point(rays.o, next - away, rays.d));
-        wide after = wide_value(wide_point(rays.o, next + away, rays.d));
-        sum += before + after;
-        seen_before = EITHER(seen_before, NOT(MORE(before * g, wide(0.0))));
-        seen_behind = EITHER(seen_behind, MORE(after * g, wide(0.0)));
-    }
-    evaluations += 2 * PAIRS;
-    wide last = wide(0.0);
-    wide left = fabs(step);  // what the last step leaves
-    if (PAIRS > 0) {
+    // one last step with the mean of f over points around t, in which rounding errors cancel; a second one where the
+    // first leaves too much by its own estimate: it leaves that share of itself which is left of f
+    yes short_step = AT_MOST(fabs(step), wide(longest));
+    wide left = fabs(step);
+    for (int turn = 0; turn < LAST_STEPS && PAIRS > 0; turn++) {
+        if (turn > 0 && !any_lane(BOTH(looking, MORE(left, wide(tolerance))))) break;
+        wide sum = wide(0.0);
+        for (int k = 1; k <= PAIRS; k++) {
+            real away = real(k) * (APART * UNIT_ROUNDOFF * 2.0 * DOMAIN_RADIUS);
+            wide before = wide_value(wide_point(rays.o, next - away, rays.d));
+            wide after = wide_value(wide_point(rays.o, next + away, rays.d));
+            sum += before + after;
+            seen_before = EITHER(seen_before, NOT(MORE(before * g, wide(0.0))));
+            seen_behind = EITHER(seen_behind, MORE(after * g, wide(0.0)));
+        }
+        evaluations += 2 * PAIRS;
         wide mean = sum * (1.0 / real(max(2 * PAIRS, 1)));
         wide secant = step / (mean - f);
-        last = mean * CHOOSE(BOTH(MORE(fabs(step), wide(clear)), MORE(secant * g, wide(0.0))), secant, g);
-        left = fabs(last) * min(fabs(mean), fabs(f)) / max(fabs(f), wide(REAL_TINY));
+        g = CHOOSE(BOTH(MORE(fabs(step), wide(clear)), MORE(secant * g, wide(0.0))), secant, g);
+        step = -mean * g;
+        next = next + step;
+        left = fabs(step) * min(fabs(mean), fabs(f)) / max(fabs(f), wide(REAL_TINY));
+        left = CHOOSE(MORE(fabs(step), wide(0.25 * clear)), left, wide(0.0));  // a step among rounding errors
+        f = mean;
     }
     yes seen = BOTH(seen_before, seen_behind);
     if (any_lane(BOTH(looking, NOT(seen)))) {
@@ -597,9 +604,8 @@ Refined refined(Work work, Pencil rays, wide from, wide a, wide b, wide g, yes l
         seen = EITHER(seen, CHOOSE(seen_before, behind, NOT(behind)));
     }
     Refined result;
-    result.t = clamp(next - last, lo, hi);
-    result.good = BOTH(seen, BOTH(AT_MOST(fabs(step), wide(longest)), AT_MOST(fabs(last), wide(4.0 * longest))));
-    result.good = BOTH(result.good, AT_MOST(left, wide(PAIRS > 0 ? tolerance : longest)));
+    result.t = clamp(next, lo, hi);
+    result.good = BOTH(BOTH(seen, short_step), AT_MOST(left, wide(PAIRS > 0 ? tolerance : longest)));
     result.evaluations = evaluations;
     return result;
 }
