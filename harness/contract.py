@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 Precision = Literal["float32", "float64"]
 Stage = Literal["compute", "rays", "raster"]
 Language = Literal["glsl", "cl"]
-Casts = Literal["rays", "beams", "quadtree", "mesh"]
+Casts = Literal["rays", "beams", "quadtree", "tiles", "mesh"]
 Proxy = Literal["box", "sphere", "tetrahedron"]
 Normal = Literal["distance", "gradient", "core_circle"]
 Prepass = Literal["none", "beams"]
@@ -156,8 +156,12 @@ class Method:
     tables: constant arrays of reals that the kernel reads, by name, from surface, knobs and precision
     answers: False for a method that finds nothing and measures what the harness itself costs
     casts: what the kernel defines. "rays": `Hit first_hit(Ray, real t0, real t1)`. "beams" and "quadtree":
-        `void cast_cell(Work, Cell)`, called for every pixel or, level by level, for a quadtree's cells. "mesh":
+        `void cast_cell(Work, Cell)`, called for every pixel or, level by level, for a quadtree's cells. "tiles":
+        `void isolate_tiles(Work, Frame)`, `void finish_tiles(Work, Frame)` and `void cast_packets(Work, Frame)`, the
+        stages of a frame, each of which takes tiles of pixels until there are none (harness.kernels.tiles). "mesh":
         `vec3 mesh_normal(vec3)`, for triangles that are rasterised in place of rays
+    rest: of a method that casts tiles, the method of this project whose kernel casts the rays that no tile decides; it
+        is given this method's own knobs and tables
     mesh: how a method that casts a mesh tessellates a surface, from surface and knobs
     """
 
@@ -175,6 +179,7 @@ class Method:
     answers: bool = True
     precisions: tuple[Precision, ...] = PRECISIONS
     casts: Casts = "rays"
+    rest: str = ""
     mesh: Callable[[Surface, Mapping[str, float | int]], MeshRecipe] | None = None
 
     @property
@@ -251,7 +256,7 @@ def source(sections: Sequence[Section]) -> str:
 class Program:
     """Hold one program text for one compiler and precision.
 
-    entry: what it is started as: "rays", "camera", "beams", "map", "raster", "mesh", "fill" or "draw"
+    entry: what it is started as: "rays", "camera", "beams", a stage of tiles, "map", "raster", "mesh", "fill" or "draw"
     sections: its text in order; for "raster" and "mesh" that of the fragments
     vertex: for "raster" and "mesh" the text of the vertices, else nothing
     optimised: False: built without optimisation, to compare its answers with the other's; OpenCL compilers only

@@ -31,10 +31,16 @@ NAME = re.compile("[A-Za-z][A-Za-z0-9_]*")  # of a method: a Python module's, an
 KNOB = re.compile("[A-Z][A-Z0-9_]*")  # a constant's name in GLSL and in OpenCL C
 CASTS = typing.get_args(Casts)
 LIBRARIES = ROOT / "harness" / "kernels" / "glsl" / "lib"
+METHODS = sorted(path.parent.name for path in (ROOT / "methods").glob("*/kernel.glsl"))
 
 # What the fields of a Method are, and what to write where they are something else.
 FUNCTIONS = ("accepts", "tolerance", "tables", "mesh")
-TEXTS = {"name": 'name="mine"', "source": 'source="where it was published"', "label": 'label="Mine"'}
+TEXTS = {
+    "name": 'name="mine"',
+    "source": 'source="where it was published"',
+    "label": 'label="Mine"',
+    "rest": 'rest="bernstein"',
+}
 LISTS = {
     "needs": 'needs=("surface_value",)',
     "libraries": 'libraries=("interval",)',
@@ -242,6 +248,7 @@ def problem_of(method: Method) -> str | None:
         ("precisions", "precision", method.precisions, PRECISIONS),
         ("needs", "generated function", method.needs, GENERATED),
         ("libraries", "kernel library", method.libraries, libraries),
+        ("rest", "method of this project", (method.rest,) if method.rest else (), METHODS),
     )
     for field, what, names, known in named:
         for name in names:

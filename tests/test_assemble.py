@@ -7,15 +7,9 @@ import pytest
 import surfaces
 from harness.contract import FirsthitError, Program, Section
 from harness.devices.interface import BuildError, map_rows
-from harness.kernels.assemble import (
-    KERNELS,
-    file_section,
-    literal,
-    map_program,
-    method_program,
-    table_section,
-)
+from harness.kernels.assemble import map_program, method_program
 from harness.kernels.complaints import explained
+from harness.kernels.sections import KERNELS, file_section, literal, table_section
 from harness.plugins import BUILT_IN, find_methods
 
 

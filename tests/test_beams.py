@@ -13,8 +13,9 @@ from harness.accuracy.judge import Verdicts, Wrong, judge
 from harness.contract import FirsthitError, Hits, RayStatus, Section, Surface, Truth, TruthStatus, View
 from harness.devices.interface import map_rows
 from harness.devices.quadtree import beam_hits_from, launch_beams, layout_of
-from harness.kernels.assemble import KERNELS, file_section, map_program, method_program
+from harness.kernels.assemble import map_program, method_program
 from harness.kernels.functions import surface_sections, unsupported
+from harness.kernels.sections import KERNELS, file_section
 from harness.plugins import find_methods
 from harness.scenes.camera import camera_for, rays_of, scene_radius
 

@@ -12,7 +12,7 @@ from harness.accuracy import compilers
 from harness.conformance import dense
 from harness.contract import Hits, RayStatus, Section
 from harness.devices.interface import BuildError, hits_from, launch_rays, map_rows
-from harness.kernels import assemble
+from harness.kernels import sections
 from harness.kernels.assemble import map_program, method_program
 from harness.oracle import first_hits
 from harness.plugins import find_methods
@@ -112,28 +112,28 @@ def doubts_of(plugin, surface, rays, name, precision="float32", **knobs):
     """What is found of a method's first answers on a device, in this process."""
     variant = plugin.variant(knobs)
 
-    def program(language):
-        return method_program(plugin.method, plugin.folder, variant, surface, precision, language, "rays")
+    def programs(language):
+        return (method_program(plugin.method, plugin.folder, variant, surface, precision, language, "rays"),)
 
-    def run(name, program, index):
-        return answers(opened(name), program, rays[index])
+    def run(name, programs, index):
+        return answers(opened(name), *programs, rays[index])
 
-    second = compilers.SecondBuild(name, precision, program, run)
-    hits = answers(opened(name), program(opened(name).language), rays)
+    second = compilers.SecondBuild(name, precision, programs, run)
+    hits = answers(opened(name), *programs(opened(name).language), rays)
     return compilers.doubts_about(surface, rays, hits, second)
 
 
 @pytest.fixture
 def vectors_of_three(monkeypatch):
     """Programs are written as they were, with vectors of three in OpenCL."""
-    real = assemble.file_section
+    real = sections.file_section
 
     def narrow(path):
         section = real(path)
         text = re.sub(r"(float|double)4\)\(x, y, z, 0\.0f?\)", r"\g<1>3)(x, y, z)", section.text)
         return Section(section.origin, re.sub(r"typedef (float|double)4 vec3", r"typedef \g<1>3 vec3", text))
 
-    monkeypatch.setattr(assemble, "file_section", narrow)
+    monkeypatch.setattr(sections, "file_section", narrow)
 
 
 @pytest.mark.skipif("opencl:intel" not in OPENCL, reason="only Intel's compiler is known to fail so")

@@ -6,8 +6,8 @@ import pytest
 
 import surfaces
 from harness.kernels import costs
-from harness.kernels.assemble import KERNELS
 from harness.kernels.functions import surface_sections
+from harness.kernels.sections import KERNELS
 from harness.plugins import find_methods
 
 OPERATION = re.compile(r" [-+*/] |\b(?:min|max|sqrt|exp|log|log2|pow|sin|cos|tan|floor|fma)\(")

@@ -11,7 +11,8 @@ from harness.contract import FirsthitError, RayStatus, TruthStatus, View
 from harness.devices.executor import LocalExecutor
 from harness.devices.interface import find_devices, hits_from, launch_camera, launch_rays, map_rows, open_device
 from harness.devices.probes import PEAK_OPERATIONS, PEAK_SHAPES, peak_section, probe
-from harness.kernels.assemble import KERNELS, file_section, map_program, method_program
+from harness.kernels.assemble import map_program, method_program
+from harness.kernels.sections import KERNELS, file_section
 from harness.oracle import first_hits
 from harness.plugins import find_methods
 from harness.scenes.camera import camera_for, rays_of

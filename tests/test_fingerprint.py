@@ -19,7 +19,8 @@ from harness.devices.executor import CellError, LocalExecutor
 from harness.devices.fingerprint import TEXTS, unlike
 from harness.devices.interface import BuildError, hits_from, launch_rays
 from harness.devices.raster import Rasteriser
-from harness.kernels.assemble import KERNELS, files, method_program
+from harness.kernels.assemble import method_program
+from harness.kernels.sections import KERNELS, files
 from harness.plugins import find_methods
 from harness.running.environment import fingerprinted
 from harness.scenes.camera import camera_for, rays_of

@@ -9,7 +9,7 @@ from harness import ROOT
 from harness.cli import main
 from harness.experiment import identity
 from harness.gate import against, revision
-from harness.kernels import assemble
+from harness.kernels import sections
 
 from .conftest import usable_devices
 
@@ -89,7 +89,7 @@ def gated(tmp_path, capsys, shared_runs):
 
     def gate(*arguments, plugins=plugins, runs=shared_runs):
         capsys.readouterr()
-        for remembered in (assemble._read, identity._of_method):  # files do not change while a command runs
+        for remembered in (sections._read, identity._of_method):  # files do not change while a command runs
             remembered.cache_clear()
         code = main(["--plugins", str(plugins), "gate", str(config), "--runs", str(runs), *arguments])
         captured = capsys.readouterr()

@@ -11,7 +11,7 @@ import pytest
 from harness import ROOT
 from harness.cli import main
 from harness.gate.judge import Tolerance, Verdict, tolerances_of
-from harness.kernels import assemble
+from harness.kernels import sections
 from harness.results import commits
 from reports.history import axes, series
 
@@ -205,7 +205,7 @@ def _plant(top, old, new):
     path = top / "methods" / "mine" / "kernel.glsl"
     assert path.read_text().count(old) == 1
     path.write_text(path.read_text().replace(old, new))
-    assemble._read.cache_clear()  # a process reads a kernel once
+    sections._read.cache_clear()  # a process reads a kernel once
 
 
 def test_real_gate_runs_of_six_commits_give_the_steps_that_were_planted(project):

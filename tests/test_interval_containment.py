@@ -17,8 +17,9 @@ from numpy.typing import NDArray
 import surfaces
 from harness.contract import Precision, Section, Surface
 from harness.devices.interface import Device, map_rows
-from harness.kernels.assemble import KERNELS, Language, map_program
+from harness.kernels.assemble import Language, map_program
 from harness.kernels.functions import libraries_for, surface_sections, unsupported
+from harness.kernels.sections import KERNELS
 from surfaces.numbers import Balls
 from surfaces.tape import Tape, walk
 

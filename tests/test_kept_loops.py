@@ -15,8 +15,9 @@ from harness.conformance.cases import view_case
 from harness.conformance.checks import agreement
 from harness.contract import Hits, Method, Program, RayStatus, Variant, View, digest
 from harness.devices.interface import BuildError, hits_from, launch_rays
-from harness.kernels.assemble import kept_loops, method_program, with_free_loops
+from harness.kernels.assemble import method_program
 from harness.kernels.raster import raster_program
+from harness.kernels.sections import kept_loops, with_free_loops
 from harness.plugins import find_methods
 from harness.scenes.camera import camera_for, meets, rays_of
 

@@ -17,11 +17,12 @@ from harness.experiment.kinds.model import Asked
 from harness.experiment.kinds.programs import Programs
 from harness.experiment.kinds.shots import ShotKind
 from harness.kernels import prepass
-from harness.kernels.assemble import KERNELS, ROOMS, Entry, method_program
+from harness.kernels.assemble import ROOMS, STAGES, Entry, method_program
+from harness.kernels.sections import KERNELS
 from harness.plugins import find_methods
 from harness.scenes.model import single
 
-BY_ENTRY = {"rays": "newton", "camera": "newton", "beams": "interval_uniform"}
+BY_ENTRY = {"rays": "newton", "camera": "newton", "beams": "interval_uniform", **dict.fromkeys(STAGES, "tiles")}
 
 
 class Recording:
@@ -45,7 +46,8 @@ def test_every_entry_of_a_kind_has_a_folder_and_files():
     assert set(ROOMS) == set(get_args(Entry)) == set(BY_ENTRY)
     assert {entry for way in WAYS.values() for entry in way.methods.entries} == set(ROOMS)
     for entry, room in ROOMS.items():
-        assert all((KERNELS / room / f"entry_{entry}.{language}").exists() for language in ("glsl", "cl"))
+        name, _ = STAGES.get(entry, (entry, False))
+        assert all((KERNELS / room / f"entry_{name}.{language}").exists() for language in ("glsl", "cl"))
 
 
 @pytest.mark.parametrize("entry", ROOMS)
@@ -56,17 +58,19 @@ def test_every_entry_is_tried_over_one_item(entry):
 
 
 def test_an_entry_that_nobody_knows_how_to_try_is_told_with_the_file_to_mend():
-    unknown = dataclasses.replace(program("rays"), entry="tiles")
-    with pytest.raises(FirsthitError, match=r"harness/devices/trial_launch\.py .* tiles program"):
+    unknown = dataclasses.replace(program("rays"), entry="fans")
+    with pytest.raises(FirsthitError, match=r"harness/devices/trial_launch\.py .* fans program"):
         trial_launch(Recording(), unknown, None)
 
 
-@pytest.mark.parametrize("left_out", ["what", "entries", "unlisted", "undrawn", "shot", "shot_hits", "validated"])
+@pytest.mark.parametrize(
+    "left_out", ["what", "entries", "unlisted", "undrawn", "shot_entries", "shot", "shot_hits", "validated"]
+)
 def test_a_kind_of_methods_that_leaves_something_out_cannot_be_made(left_out):
     stated = dict.fromkeys(ShotKind.__abstractmethods__)
     del stated[left_out]
     with pytest.raises(TypeError, match=left_out):
-        type("Tiles", (ShotKind,), stated)()
+        type("Fans", (ShotKind,), stated)()
 
 
 def test_a_kind_that_cannot_be_listed_refuses_listed_rays_and_rays_of_no_camera():

@@ -12,8 +12,8 @@ import pytest
 from harness import console, terminal
 from harness.cli import main
 from harness.contract import CellStatus, Program, Section
-from harness.kernels.assemble import file_section
 from harness.kernels.complaints import complaints_in, explained, recursion
+from harness.kernels.sections import file_section
 from harness.plugins import BUILT_IN
 from harness.running.failures import Failure, mistakes
 

@@ -101,7 +101,12 @@ STATED = "from firsthit import Method, Parameter\nMETHOD = Method('mine', 't', {
 @pytest.mark.parametrize(
     ("stated", "words"),
     [
-        ("casts='foo'", "casts: there is no way of casting 'foo'; known: rays, beams, quadtree, mesh"),
+        ("casts='foo'", "casts: there is no way of casting 'foo'; known: rays, beams, quadtree, tiles, mesh"),
+        (
+            "casts='tiles', rest='bernsteen'",
+            "rest: there is no method of this project 'bernsteen'; did you mean 'bernstein'?",
+        ),
+        ("rest=3", "rest is 3; write a text"),
         ("precisions=('half',)", "precisions: there is no precision 'half'; known: float32, float64"),
         (
             "parameters=(Parameter('N', 1, 'n'), Parameter('N', 2, 'n'))",

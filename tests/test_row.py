@@ -93,6 +93,7 @@ def test_every_kind_of_cell_ran(rows):
         *(("rays", stage) for stage in ("compute", "rays", "raster")),
         ("beams", "compute"),
         ("quadtree", "compute"),
+        ("tiles", "compute"),
         ("mesh", "raster"),
     }
     assert {row["casts"] for row in ok} == set(typing.get_args(Casts)), "tests/tiny_runs.py has a method of each"

@@ -130,7 +130,7 @@ def named(path: tuple[Any, ...]) -> str:
 
 def is_left_out(row: dict[str, Any], name: str) -> bool:
     left = set(NOT_CHECKED)
-    left.update(ONLY_BY_DEVICE["beams"] if row["casts"] in ("beams", "quadtree") else ())
+    left.update(ONLY_BY_DEVICE["beams"] if row["casts"] in ("beams", "quadtree", "tiles") else ())
     left.update(ONLY_BY_DEVICE["raster"] if row["stage"] == "raster" else ())
     return any(name == one or name.startswith(f"{one}.") for one in left)
 

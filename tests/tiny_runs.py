@@ -37,6 +37,9 @@ deviations = true
 name = "interval_uniform"
 
 [[method]]
+name = "tiles"
+
+[[method]]
 name = "uncompiled"
 
 [[method]]

@@ -58,7 +58,7 @@ class Cast:
     rays: NDArray[np.float32]
     hits: Hits
     compile_ms: float
-    facts: Mapping[str, int | float | list[Lane] | None]
+    facts: Mapping[str, int | float | list[Lane] | dict[str, float] | None]
     pictures: dict[str, NDArray[Any]]
 
     def certified(self, folder: Path, margin: float) -> Certified:

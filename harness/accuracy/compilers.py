@@ -51,7 +51,7 @@ NOISE = 1e-6  # of f's largest magnitude along the ray: the sign of smaller valu
 Floats = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 Index = NDArray[np.intp]
-Run = Callable[[str, Program, Index], Hits]
+Run = Callable[[str, tuple[Program, ...], Index], Hits]
 
 
 @dataclass(frozen=True)
@@ -74,13 +74,13 @@ class Doubts:
 class SecondBuild:
     """State how the same kernel is compiled in another way, and cast.
 
-    program: makes the program in a language
-    run: casts rays, by their places int[k], with a program on a device, and returns hits [k]; it may raise CellError
+    programs: makes the programs in a language
+    run: casts rays, by their places int[k], with programs on a device, and returns hits [k]; it may raise CellError
     """
 
     device: str
     precision: Precision
-    program: Callable[[Language], Program]
+    programs: Callable[[Language], tuple[Program, ...]]
     run: Run
 
     def answers(self, index: Index) -> tuple[str, Hits] | None:
@@ -89,15 +89,16 @@ class SecondBuild:
         if there is None:
             return None
         told = "without optimisation" + ("" if there == self.device else f" by {there}")
+        programs = tuple(dataclasses.replace(program, optimised=False) for program in self.programs("cl"))
         try:
-            return told, self.run(there, dataclasses.replace(self.program("cl"), optimised=False), index)
+            return told, self.run(there, programs, index)
         except CellError:
             return None
 
 
 def with_listed_rays(executor: LocalExecutor, rays: NDArray[np.float32]) -> Run:
     """Return how the second build of a program of listed rays, float32[n, 6], is run."""
-    return lambda device, program, index: executor.check(device, ListedCheck(program, rays[index])).answer
+    return lambda device, programs, index: executor.check(device, ListedCheck(programs[0], rays[index])).answer
 
 
 @cache

@@ -16,7 +16,7 @@ from collections.abc import Callable, Iterable
 
 from harness.accuracy.compilers import DOUBTFUL
 from harness.contract import Hits, Program, RayStatus, plural
-from harness.kernels.assemble import with_free_loops
+from harness.kernels.sections import with_free_loops
 
 
 def removed(programs: Iterable[Program], kept: Hits, cast: Callable[[], Hits]) -> str | None:

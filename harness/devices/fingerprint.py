@@ -20,7 +20,8 @@ from harness.devices.interface import BuildError, Device, Launch, same_values
 from harness.devices.messages import need_steady
 from harness.devices.raster import Rasteriser
 from harness.devices.raster_arithmetic import raster_arithmetic
-from harness.kernels.assemble import files, map_program
+from harness.kernels.assemble import map_program
+from harness.kernels.sections import files
 
 # "float32", "float64" (where the device has it), "raster" (where it draws triangles) and "host" → part → hash of bits
 Fingerprint = dict[str, dict[str, str]]

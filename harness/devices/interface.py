@@ -52,13 +52,15 @@ class Step:
     """State one of the steps that a launch takes in order: a built program over a grid of work items.
 
     The program is given the launch's `buffers`, by their places, then the grid, then `numbers` (in GLSL by their
-    names).
+    names). `group` is how many work items share a work group; None: as many as the device takes for items that share
+    nothing. A GLSL program states its own, which must be the same.
     """
 
     built: Built
     buffers: tuple[int, ...]
     grid: tuple[int, int]
     numbers: Mapping[str, int] = field(default_factory=dict)
+    group: int | None = None
 
 
 @dataclass(frozen=True)
@@ -99,6 +101,14 @@ class Launch(ABC):
         """Free the buffers on the device. The launch cannot be run or read afterwards."""
 
 
+class StepLaunch(Launch):
+    """Hold a launch of steps, whose buffers can be given other values before it is run again."""
+
+    @abstractmethod
+    def write(self, place: int, values: Array) -> None:
+        """Upload values into the buffer at `place`, which holds as many of the same type."""
+
+
 class Device(ABC):
     """Hold an open device."""
 
@@ -117,7 +127,7 @@ class Device(ABC):
     @abstractmethod
     def launch_steps(
         self, buffers: Sequence[Array | Reserved], outputs: Sequence[int], steps: Sequence[Step]
-    ) -> Launch:
+    ) -> StepLaunch:
         """Upload or reserve `buffers`, and make ready to take `steps`; the buffers at the places `outputs` can be read.
 
         Raises FirsthitError if the device cannot run so many work items at once.

@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from harness.contract import DeviceInfo, Program
-from harness.devices.interface import GPU_RESIDENT, Array, BuildError, Built, Device, Launch, Reserved, Step, Timing
+from harness.devices.interface import GPU_RESIDENT, Array, BuildError, Built, Device, Reserved, Step, StepLaunch, Timing
 from harness.kernels.complaints import explained
 from harness.results.writing import temporary_folder
 
@@ -191,11 +191,11 @@ class OpenCLDevice(Device):
 
     def launch_steps(
         self, buffers: Sequence[Array | Reserved], outputs: Sequence[int], steps: Sequence[Step]
-    ) -> Launch:
+    ) -> StepLaunch:
         return OpenCLLaunch(self._context, self._queue, buffers, outputs, steps)
 
 
-class OpenCLLaunch(Launch):
+class OpenCLLaunch(StepLaunch):
     """Hold built kernels and their buffers in an OpenCL context. Outputs must be Reserved buffers."""
 
     def __init__(
@@ -228,7 +228,8 @@ class OpenCLLaunch(Launch):
         on_processor = bool(queue.device.type & cl.device_type.CPU)
         self._steps = []
         for step in steps:
-            group = PROCESSOR_GROUP if on_processor and step.grid[0] % PROCESSOR_GROUP == 0 else GROUP
+            free = PROCESSOR_GROUP if on_processor and step.grid[0] % PROCESSOR_GROUP == 0 else GROUP
+            group = step.group or free
             items = (-(-step.grid[0] // group) * group, step.grid[1])
             self._steps.append((self._kernel(step), items, (group, 1)))
 
@@ -249,6 +250,9 @@ class OpenCLLaunch(Launch):
         self._queue.finish()
         wall = time.perf_counter() - start
         return Timing(wall * 1e3, sum(events[-1].profile.end - events[0].profile.start for events in runs) * 1e-6)
+
+    def write(self, place: int, values: Array) -> None:
+        _binding().enqueue_copy(self._queue, self._buffers[place], values)
 
     def read(self) -> list[Array]:
         cl = _binding()

@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from harness.contract import DeviceInfo, FirsthitError, Program, source
-from harness.devices.interface import GPU_RESIDENT, Array, BuildError, Built, Device, Launch, Reserved, Step, Timing
+from harness.devices.interface import GPU_RESIDENT, Array, BuildError, Built, Device, Reserved, Step, StepLaunch, Timing
 from harness.devices.opengl_raster import OpenGLRasterLaunch
 from harness.devices.raster import Batch, Rasteriser, RasterLaunch
 from harness.kernels.complaints import explained
@@ -157,7 +157,7 @@ class OpenGLDevice(Device, Rasteriser):
 
     def launch_steps(
         self, buffers: Sequence[Array | Reserved], outputs: Sequence[int], steps: Sequence[Step]
-    ) -> Launch:
+    ) -> StepLaunch:
         return OpenGLLaunch(self._context, buffers, outputs, steps)
 
 
@@ -166,10 +166,10 @@ def _most_groups(context: Any) -> int:
 
 
 def _groups(step: Step) -> int:
-    return -(-step.grid[0] // GROUP)
+    return -(-step.grid[0] // (step.group or GROUP))
 
 
-class OpenGLLaunch(Launch):
+class OpenGLLaunch(StepLaunch):
     """Hold built compute shaders and their buffers.
 
     Raises FirsthitError if a step needs more work groups than the device runs at once.
@@ -216,6 +216,9 @@ class OpenGLLaunch(Launch):
         step.built.run(_groups(step), step.grid[1])
         if len(self._steps) > 1:
             self._context.memory_barrier()
+
+    def write(self, place: int, values: Array) -> None:
+        self._buffers[place].write(values.tobytes())
 
     def read(self) -> list[Array]:
         return [np.frombuffer(buffer.read(), kind) for buffer, kind in self._outputs]

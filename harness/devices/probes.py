@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 
 from harness.contract import Precision, Section
 from harness.devices.interface import Device, map_rows, real_type
-from harness.kernels.assemble import KERNELS, file_section, map_program
+from harness.kernels.assemble import map_program
+from harness.kernels.sections import KERNELS, file_section
 from harness.results.declared import NOT_NEGATIVE, SHARE
 
 CASES = 65536

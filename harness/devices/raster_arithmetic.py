@@ -11,8 +11,8 @@ from harness.contract import Proxy
 from harness.devices.bits import hash_of
 from harness.devices.interface import Device
 from harness.devices.raster import RECORD, Batch, RasterCheck, RasterFrame, corners
-from harness.kernels.assemble import KERNELS
 from harness.kernels.raster import fill_program, mesh_program, proof_program
+from harness.kernels.sections import KERNELS
 
 SIZE = 150  # pixels a side: no multiple of any tile's
 INSTANCES = 16  # of each proxy, and of the mesh

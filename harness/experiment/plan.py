@@ -27,7 +27,7 @@ from harness.experiment import kinds
 from harness.experiment.cells import Cell, FamilyCell
 from harness.experiment.config import Experiment, views_of
 from harness.experiment.kinds import Asked, Casting
-from harness.experiment.kinds.model import NOT_RASTERED, Rastering
+from harness.experiment.kinds.methods import NOT_RASTERED, Rastering
 from harness.experiment.kinds.shared import Shared
 from harness.experiment.size import cells_of
 from harness.experiment.targets import choose_devices, devices_of

@@ -137,6 +137,9 @@ def _second(casting: Any) -> Program | None:
     """Return the kernel as an OpenCL program of listed rays, for a second build of it; None where there is none."""
     try:
         second = casting.second_build(None, SimpleNamespace(rays=None))
+        if second and hasattr(second, "programs"):
+            alone, *others = second.programs("cl")
+            return None if others else alone
         return second.program("cl") if second else None
     except (AttributeError, TypeError, FirsthitError):  # a revision without second builds, or with others
         return None

@@ -65,7 +65,7 @@ class Guest:
 def _plain(method: Method) -> dict[str, Any]:
     """Return what a method states as texts, numbers, lists and dicts. Of functions only the names are returned."""
     return {
-        **{name: str.__str__(getattr(method, name)) for name in ("name", "source", "label", "casts")},
+        **{name: str.__str__(getattr(method, name)) for name in ("name", "source", "label", "casts", "rest")},
         **{name: list(map(str.__str__, getattr(method, name))) for name in ("needs", "libraries", "precisions")},
         "parameters": list(map(_knob, method.parameters)),
         "settings": {

@@ -6,122 +6,47 @@ constants that generated sections define. The last section is a program's entry 
 
 from __future__ import annotations
 
-import io
-import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import replace
-from fractions import Fraction
-from functools import cache
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Literal
 
 from harness import ROOT
-from harness.contract import (
-    Box,
-    FirsthitError,
-    Method,
-    Origin,
-    Parameter,
-    Precision,
-    Program,
-    Section,
-    Surface,
-    Variant,
-)
+from harness.contract import FirsthitError, Method, Origin, Precision, Program, Section, Surface, Variant
 from harness.contract import Language as Language
-from harness.kernels.complaints import recursion
-from harness.stated import read_file
-from surfaces.words import suggestion
+from harness.kernels.sections import (
+    KERNELS,
+    Lanes,
+    TileStage,
+    beam_sections,
+    cast_sections,
+    early_libraries,
+    file_section,
+    files,
+    head_sections,
+    kept_loops,
+    method_sections,
+    ray_sections,
+    t_min_section,
+)
 
-KERNELS = Path(__file__).parent / "glsl"
-AFTER_TABLES = ("fit_samples", "fit_whole")  # libraries that read a method's tables, and so come after them
-Entry = Literal["rays", "camera", "beams"]  # as what a method's program is started
-ROOMS: dict[Entry, str] = {"rays": "rays", "camera": "rays", "beams": "beams"}  # the folder of glsl/ that holds it
-
-
-@cache
-def _read(path: Path) -> str:
-    """Return the text of a file of ours, which is read once."""
-    return path.read_text(encoding="utf-8")
-
-
-def file_section(path: Path) -> Section:
-    """Return one file as a section.
-
-    Its origin is the path below the project (`methods/newton/kernel.glsl`) or else below the working folder, where
-    editors find it, or the last three parts of an outer path. A method's file is read anew each time, since it may be
-    edited while a notebook runs. Raises FirsthitError, with exit code 3, where it cannot be read any more.
-    """
-    full = path.absolute()
-    here = next((top for top in (ROOT, Path.cwd()) if full.is_relative_to(top)), None)
-    origin = full.relative_to(here) if here else Path(*full.parts[-3:])
-    if path.is_relative_to(KERNELS):
-        return Section(origin.as_posix(), _read(path))
-    try:
-        text = io.TextIOWrapper(io.BytesIO(read_file(path)), encoding="utf-8-sig").read()
-    except UnicodeDecodeError:
-        raise FirsthitError(f"{path}: it is not written in UTF-8; save it in this encoding", exit_code=3) from None
-    return Section(origin.as_posix(), text)
-
-
-def files(*names: str) -> list[Section]:
-    """Return files below glsl/ as sections."""
-    return [file_section(KERNELS / name) for name in names]
-
-
-def _library(name: str) -> Section:
-    """Return a file of glsl/lib as a section. Raises FirsthitError if there is none of that name."""
-    path = KERNELS / "lib" / f"{name}.glsl"
-    if not path.exists():
-        known = sorted(p.stem for p in path.parent.glob("*.glsl"))
-        raise FirsthitError(f"there is no kernel library {name!r}; {suggestion(name, known)}")
-    return file_section(path)
-
-
-def head_sections(language: Language, precision: Precision, libraries: Iterable[str]) -> list[Section]:
-    """Return prelude, number type and libraries, each once: eft, ray, hit and those given, in this order."""
-    ordered = list(dict.fromkeys(("eft", "ray", "hit", *libraries)))
-    head = files(f"prelude.{language}", f"{precision}.{language}")
-    return head + [_library(name) for name in ordered]
-
-
-def literal(value: float | int, precision: Precision, language: Language) -> str:
-    """Return a number as source text: an int as it is, a real with every digit and the suffix of its type."""
-    if isinstance(value, int):
-        return f"({value})" if value < 0 else str(value)
-    suffix = "f" if precision == "float32" else {"glsl": "lf", "cl": ""}[language]
-    text = repr(float(value))
-    if "e" in text and "." not in text:
-        text = text.replace("e", ".0e")
-    return f"({text}{suffix})" if value < 0 else text + suffix
-
-
-def _parameter_section(
-    variant: Variant, precision: Precision, language: Language, loosened: Mapping[str, Parameter] | None = None
-) -> Section:
-    """Define a variant's knobs as constants.
-
-    `loosened` holds the knobs, by name, whose value depends on the instance that a fragment casts at: a tolerance is
-    at least the instance's, and a number of halvings at most what reaches it. `Parameter.per` turns one into the other.
-    """
-    lines = []
-    for name, value in variant.parameters:
-        text = literal(value, precision, language)
-        if loosened and name in loosened:
-            per = loosened[name].per
-            if loosened[name].finer == "up":
-                text = f"min({text}, max(1, int(ceil(log2(({per}) / instance_tolerance)))))"
-            else:
-                text = f"max({text}, instance_tolerance / ({per}))"
-        lines.append(f"#define {name} {text}")
-    return Section(f"generated: parameters of {variant.method}", "\n".join(lines))
-
-
-def table_section(name: str, values: Sequence[float], precision: Precision, language: Language) -> Section:
-    """Return a constant array of reals as a section, `TABLE real NAME[n]`, with every digit of its numbers."""
-    from harness.kernels.printing import table
-
-    return Section(f"generated: table {name}", table(name, values, precision, language))
+METHODS = ROOT / "methods"
+# As what a method's program is started. A stage that is `listed` casts listed rays where a pixel has one.
+Entry = Literal["rays", "camera", "beams", TileStage, "finish_listed", "packets_listed", "rest_listed"]
+STAGES: dict[Entry, tuple[TileStage, bool]] = {  # the entries of frames of tiles: the stage, and whether it is listed
+    "isolate": ("isolate", False),
+    "finish": ("finish", False),
+    "packets": ("packets", False),
+    "rest": ("rest", False),
+    "finish_listed": ("finish", True),
+    "packets_listed": ("packets", True),
+    "rest_listed": ("rest", True),
+}
+ROOMS: dict[Entry, str] = {  # the folder of glsl/ that holds an entry
+    "rays": "rays",
+    "camera": "rays",
+    "beams": "beams",
+    **dict.fromkeys(STAGES, "tiles"),
+}
 
 
 def method_program(
@@ -135,16 +60,26 @@ def method_program(
     narrowed: Section | None = None,
     t_min: float = 0.0,
     origin: Origin = "nearest",
+    lanes: Lanes | None = None,
 ) -> Program:
-    """Return the program that casts rays or beams at `surface` by `variant`.
+    """Return the program that casts rays, beams or a stage of tiles at `surface` by `variant`.
 
     `folder` holds the method's kernel.glsl. `narrowed` gives the prepass's parameters if rays are to be narrowed by it.
-    Listed rays begin at `t_min`, in units of t. `origin` says where the method sees its rays begin. In GLSL no loop may
-    be removed by the compiler, except in a camera's program, which is only timed.
+    Listed rays begin at `t_min`, in units of t; those of tiles at 0. `origin` says where the method sees its rays
+    begin. `lanes` is for tiles, as `lanes_on` chooses it for a device; a processor's if none is given. In GLSL no loop
+    may be removed by the compiler, except in a camera's program, which is only timed.
 
     Raises FirsthitError if the surface lacks a function that the method needs, if t_min is no distance, or if the
     method does not cast rays and so cannot begin them elsewhere.
     """
+    if ROOMS[entry] != "rays" and origin != "nearest":
+        raise FirsthitError(f"an origin is chosen for rays, and the method {method.name} casts {ROOMS[entry]}")
+    if entry in STAGES:
+        from harness.kernels.tiles import stage_program
+
+        stage, listed = STAGES[entry]
+        stated = method, folder, variant, surface, precision, language
+        return stage_program(*stated, stage, listed, METHODS / method.rest, lanes or lanes_on(language, None))
     listed = entry == "rays" and narrowed is None
     needs = (*method.needs, "surface_value") if listed else method.needs
     ahead: dict[str, Callable[..., list[Section]]] = {"rays": ray_sections, "beams": beam_sections}
@@ -152,40 +87,19 @@ def method_program(
     sections += method_sections(method, folder, variant, surface, precision, language)
     if ROOMS[entry] == "rays":
         sections += cast_sections(origin)
-    elif origin != "nearest":
-        raise FirsthitError(f"an origin is chosen for rays, and the method {method.name} casts {ROOMS[entry]}")
     if listed:
-        sections += [_t_min_section(t_min, precision, language), *files("rays/listed.glsl")]
+        sections += [t_min_section(t_min, precision, language), *files("rays/listed.glsl")]
     sections += _entry_sections(entry, narrowed, language)
     if entry != "camera" and language == "glsl":
         sections.insert(1, kept_loops())
     return Program(language, precision, entry, tuple(sections))
 
 
-def early_libraries(method: Method) -> list[str]:
-    """Return the libraries of a method that stand before the surface's functions."""
-    return [name for name in method.libraries if name not in AFTER_TABLES]
-
-
-def ray_sections(
-    surface: Surface,
-    needs: Iterable[str],
-    precision: Precision,
-    language: Language,
-    libraries: Iterable[str],
-    free: bool = False,
-) -> list[Section]:
-    """Return what stands before the kernel of a method that casts rays: libraries, the surface and its domain.
-
-    `free` is as for `surface_sections`.
-    """
-    from harness.kernels.functions import libraries_for, surface_sections
-
-    sections = head_sections(language, precision, (*libraries_for(needs, surface), *libraries))
-    if free:
-        sections += files("raster/free.glsl")
-    sections += surface_sections(surface, needs, precision, language, free)
-    return [*sections, _domain_section(surface)]
+def lanes_on(language: Language, resident: int | None) -> Lanes:
+    """Choose how lanes lie on work items; `resident` is the device's, as in DeviceInfo."""
+    if resident is not None:
+        return "group"
+    return "vector" if language == "cl" else "own"
 
 
 def _entry_sections(entry: Entry, narrowed: Section | None, language: Language) -> list[Section]:
@@ -196,83 +110,6 @@ def _entry_sections(entry: Entry, narrowed: Section | None, language: Language) 
     if entry == "rays" and language == "glsl":
         sections += files("turns.glsl")
     return sections + files(f"{ROOMS[entry]}/entry_{entry}{'_narrowed' if narrowed else ''}.{language}")
-
-
-def kept_loops() -> Section:
-    """Return what keeps the compiler from removing loops of a GLSL program whose answers are checked.
-
-    It stands after the prelude, since #version must come first.
-    """
-    return file_section(KERNELS / "kept_loops.glsl")
-
-
-def with_free_loops(program: Program) -> Program:
-    """Return a program as it is timed, where a compiler may remove the loops that nothing depends on."""
-    return replace(program, sections=tuple(s for s in program.sections if s != kept_loops()))
-
-
-def cast_sections(origin: Origin) -> list[Section]:
-    """Return what the harness does with every ray before and after the method: shift, clip and call."""
-    return files(f"rays/origin_{origin}.glsl", "rays/cast.glsl")
-
-
-def _t_min_section(t_min: float, precision: Precision, language: Language) -> Section:
-    """Define T_MIN, the least number of the precision that is not under t_min.
-
-    Raises FirsthitError if t_min is negative or not finite.
-    """
-    from harness.kernels.printing import bounds, number
-
-    if not 0.0 <= t_min < math.inf:
-        raise FirsthitError(f"t_min is {t_min:g}: give a distance along the ray, finite and not under 0")
-    _, least = bounds(Fraction(t_min), Fraction(t_min), precision)
-    return Section("generated: where listed rays begin", f"#define T_MIN {number(least, precision, language)}")
-
-
-def _domain_section(surface: Surface) -> Section:
-    """Return the function that clips a ray by the kind of domain that the surface has."""
-    return file_section(KERNELS / ("domain_box.glsl" if isinstance(surface.domain, Box) else "domain_sphere.glsl"))
-
-
-def method_sections(
-    method: Method,
-    folder: Path,
-    variant: Variant,
-    surface: Surface,
-    precision: Precision,
-    language: Language,
-    loose: bool = False,
-) -> list[Section]:
-    """Return the method's own sections, which come after the surface's: its knobs, tables, late libraries and kernel.
-
-    If `loose`, knobs that state `per` may be loosened, see `_parameter_section`. Raises FirsthitError with exit code 3
-    where a function of the kernel calls itself.
-    """
-    loosened = {p.name: p for p in method.parameters if p.per} if loose else None
-    sections = [_parameter_section(variant, precision, language, loosened)] if variant.parameters else []
-    if method.tables:
-        tables = method.tables(surface, dict(variant.parameters), precision)
-        sections += [table_section(name, values, precision, language) for name, values in tables.items()]
-    sections += [_library(name) for name in method.libraries if name in AFTER_TABLES]
-    kernel = file_section(folder / "kernel.glsl")
-    if complaint := recursion(kernel):
-        raise FirsthitError(str(complaint), exit_code=3)
-    return [*sections, kernel]
-
-
-def beam_sections(
-    surface: Surface, needs: Iterable[str], precision: Precision, language: Language, libraries: Iterable[str] = ()
-) -> list[Section]:
-    """Return what stands before the kernel of a method that casts beams: libraries, the surface and the quadtree.
-
-    Raises FirsthitError if the surface lacks one of the functions in `needs`.
-    """
-    from harness.kernels.functions import libraries_for, surface_sections
-
-    sections = head_sections(language, precision, (*libraries_for(needs, surface), *libraries))
-    sections += surface_sections(surface, needs, precision, language)
-    turns = ["turns.glsl"] if language == "glsl" else []
-    return sections + files("beams/beam.glsl", *turns, f"beams/quadtree.{language}", "beams/cells.glsl")
 
 
 def map_program(

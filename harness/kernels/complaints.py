@@ -28,6 +28,10 @@ ENTRIES = {  # what a method's kernel must define, by what its program is starte
     "camera": "Hit first_hit(Ray ray, real t0, real t1)",
     "raster": "Hit first_hit(Ray ray, real t0, real t1)",
     "beams": "void cast_cell(Work work, Cell cell)",
+    "isolate": "void isolate_tiles(Work work, Frame frame)",
+    "finish": "void finish_tiles(Work work, Frame frame)",
+    "packets": "void cast_packets(Work work, Frame frame)",
+    "rest": "Hit first_hit(Ray ray, real t0, real t1)",
     "mesh": "vec3 mesh_normal(vec3 p)",
 }
 ONE_COUNTER = (

@@ -18,7 +18,8 @@ costs them 0.4 to 3 ms, since the torus is as cheap as the prepass, and the deci
 from __future__ import annotations
 
 from harness.contract import Precision, Program, Section, Surface
-from harness.kernels.assemble import KERNELS, Language, beam_sections, file_section
+from harness.kernels.assemble import Language
+from harness.kernels.sections import KERNELS, beam_sections, file_section
 
 TILE_BITS = 4  # a tile is 2^TILE_BITS pixels a side
 BISECTIONS = 1  # pieces of depth of a tile are the domain's depth / 2^(the tiles' level + BISECTIONS)

@@ -8,7 +8,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from harness.contract import FirsthitError, Method, Normal, Origin, Program, Proxy, Section, Surface, Variant
-from harness.kernels.assemble import (
+from harness.kernels.sections import (
     cast_sections,
     early_libraries,
     file_section,

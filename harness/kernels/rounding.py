@@ -59,25 +59,26 @@ class _Errors:
 
 
 @lru_cache(maxsize=128)
-def value_errors(surface: Surface, shells: int, coordinates: float) -> tuple[float, ...]:
+def value_errors(surface: Surface, shells: int, coordinates: float, reach: float = 1.0) -> tuple[float, ...]:
     """Bound the error of a computed f in unit roundoffs over balls about the domain's centre, for a polynomial f.
 
     Bound number k = 1 … shells is for the points of the domain within k/shells of its radius from its centre. The
-    points' coordinates have errors of `coordinates` unit roundoffs of that distance. Raises FirsthitError if there is
-    no finite bound.
+    points' coordinates have errors of `coordinates` unit roundoffs of that distance. With `reach` the radius counts as
+    that many times as large, and points outside the domain by no more than the difference count too. Raises
+    FirsthitError if there is no finite bound.
     """
     import surfaces
     from surfaces.lowering import real_tape
     from surfaces.tape import walk
 
-    domain, radius = surface.domain, surface.domain.radius
+    domain, radius = surface.domain, reach * surface.domain.radius
     rng = np.random.default_rng(1)
     directions = rng.normal(size=(POINTS, 3))
     directions /= np.linalg.norm(directions, axis=1)[:, None]
     away = radius * rng.integers(1, 4 * shells + 1, POINTS) / (4 * shells)
     points = directions * away[:, None]
     if isinstance(domain, Box):
-        half = np.subtract(domain.upper, domain.lower) / 2
+        half = np.subtract(domain.upper, domain.lower) / 2 + (reach - 1.0) * domain.radius
         points = np.clip(points, -half, half)
         away = np.linalg.norm(points, axis=1)
     points = points + domain.center
@@ -88,9 +89,9 @@ def value_errors(surface: Surface, shells: int, coordinates: float) -> tuple[flo
         found.append(np.broadcast_to(walk(tape, _Errors(own), inputs)[0][1], away.shape))
     bounds = []
     for k in range(1, shells + 1):
-        reach = radius * k / shells
-        inside = away <= reach * (1.0 + 1e-9)
-        bounds.append(MARGIN * float((found[0] + coordinates * reach * found[1])[inside].max()))
+        ball = radius * k / shells
+        inside = away <= ball * (1.0 + 1e-9)
+        bounds.append(MARGIN * float((found[0] + coordinates * ball * found[1])[inside].max()))
     if not bounds[-1] < np.inf:
         raise FirsthitError(f"{surface.name}: no finite bound of its rounding errors over the domain")
     return tuple(bounds)

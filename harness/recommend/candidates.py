@@ -16,11 +16,11 @@ GOLDEN_ANGLE = 180.0 * (3.0 - math.sqrt(5.0))
 def variants(catalog: Catalog) -> tuple[Variant, ...]:
     """Return every candidate, each binding of a method's parameters once.
 
-    Methods whose kernels take no listed rays are left out, since no error along a ray can be told of them.
+    Methods whose answers are not those of single rays are left out, since no error along a ray can be told of them.
     """
     found: dict[tuple[str, tuple[tuple[str, float | int], ...]], Variant] = {}
     for _, plugin in sorted(catalog.plugins.items()):
-        if plugin.method.answers and not of_method(plugin.method).unlisted:
+        if plugin.method.answers and of_method(plugin.method).answers_rays:
             for variant in _of(plugin):
                 found.setdefault((variant.method, variant.parameters), variant)
     return tuple(found.values())
@@ -28,7 +28,7 @@ def variants(catalog: Catalog) -> tuple[Variant, ...]:
 
 def count(catalog: Catalog) -> int:
     """Return how many bindings `variants` goes through, which is at least as many as it returns."""
-    casting = (p.method for p in catalog.plugins.values() if p.method.answers and not of_method(p.method).unlisted)
+    casting = (p.method for p in catalog.plugins.values() if p.method.answers and of_method(p.method).answers_rays)
     return sum(math.prod(1 + len(p.sweep) for p in m.parameters) + len(m.settings) for m in casting)
 
 

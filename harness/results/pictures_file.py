@@ -24,15 +24,19 @@ TYPES: dict[str, Any] = {
     "evaluations": np.int32,
     "status": np.uint8,
     "level": np.uint8,
+    "stage": np.uint8,
     "drowned": np.bool_,
     "samples": np.float32,
 }
-OPTIONAL = frozenset(("condition", "evaluations", "status", "level", "drowned", "samples"))  # not in every older run
-BYTES_PER_RAY = 25  # of one row's arrays, as they are read
+OPTIONAL = frozenset(  # not in every older run
+    ("condition", "evaluations", "status", "level", "stage", "drowned", "samples")
+)
+BYTES_PER_RAY = 26  # of one row's arrays, as they are read
 BYTES_DRAWN = 150  # of a ray while one row's maps are drawn
 MOST_SIDE = 2**13
 MOST_SAMPLES = 64  # on each side of a pixel
 MOST_LEVEL = 30  # of a quadtree
+MOST_STAGE = 31  # of a frame of tiles
 
 
 def refusal(rays: Sequence[int]) -> str | None:
@@ -68,7 +72,7 @@ def read(path: Path) -> dict[str, NDArray[Any]]:
 
 def _possible(name: str, array: NDArray[Any]) -> bool:
     """Tell whether an array holds only values that its name can have."""
-    most = {"truth": max(TruthStatus), "wrong": len(KINDS), "level": MOST_LEVEL}.get(name)
+    most = {"truth": max(TruthStatus), "wrong": len(KINDS), "level": MOST_LEVEL, "stage": MOST_STAGE}.get(name)
     if most is not None:
         return bool(array.max() <= most)
     if name in ("error", "evaluations"):

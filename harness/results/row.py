@@ -201,6 +201,12 @@ class Accuracy(TypedDict):
     prepass_evaluations_mean: NotRequired[
         Annotated[float, "of evaluations_mean, those that the prepass spent; behind a prepass", NOT_NEGATIVE]
     ]
+    stages: NotRequired[
+        Annotated[
+            dict[str, Annotated[float, SHARE]],
+            "of tiles: the share of the checked frame's pixels that each stage answers, by its name",
+        ]
+    ]
     lanes: NotRequired[
         Annotated[list[Lane] | None, "of beams: what the work items of each level spend, and how long they wait"]
     ]
@@ -281,12 +287,12 @@ class CellRow(TypedDict):
     ]
     reason: Annotated[str | None, "why it did not end well; null where it did"]
     answers: Annotated[bool, Leaf("false of a method that measures the harness and finds nothing", always=True)]
-    casts: Annotated[Casts, "what the method casts: rays, beams, quadtree or mesh"]
+    casts: Annotated[Casts, "what the method casts: rays, beams, quadtree, tiles or mesh"]
     prepass: Annotated[Prepass, "what narrows the rays before the method: none or beams"]
     proxy: Annotated[Proxy | None, "the geometry whose fragments cast rays; of stage raster, else null"]
     normal: Annotated[Normal | None, "what hits are shaded by; of stage raster, else null"]
     scene: Annotated[str | None, "what a scene of several instances is; null of one surface"]
-    origin: Annotated[Origin | None, "where a method sees its rays begin; null of beams and triangles"]
+    origin: Annotated[Origin | None, "where a method sees its rays begin; null of beams, tiles and triangles"]
     pixel_tolerance: Annotated[
         float | None, "pixels that the method's own tolerance may grow to; of stage raster, else null"
     ]

@@ -11,7 +11,7 @@ from harness.devices.executor import START_SECONDS, CellError, LocalExecutor
 from harness.devices.interface import LANGUAGES
 from harness.experiment.kinds import of_method
 from harness.experiment.targets import able
-from harness.kernels.assemble import method_program
+from harness.kernels.assemble import lanes_on, method_program
 from harness.plugins import Plugin
 from harness.running.failures import Failure
 
@@ -89,7 +89,11 @@ def _is_refused(plugin: Plugin, surface: Surface, info: DeviceInfo, precision: P
 def _programs(plugin: Plugin, surface: Surface, info: DeviceInfo, precision: Precision) -> dict[str, Program]:
     """Assemble a method's programs, by the entry that each is started as."""
     kind, variant = of_method(plugin.method), plugin.variant({})
-    stated = plugin.method, plugin.folder, variant, surface, precision, LANGUAGES[info.name.partition(":")[0]]
-    texts: dict[str, Program] = {entry: method_program(*stated, entry) for entry in kind.entries}
+    language = LANGUAGES[info.name.partition(":")[0]]
+    stated, lanes = (
+        (plugin.method, plugin.folder, variant, surface, precision, language),
+        lanes_on(language, info.resident),
+    )
+    texts: dict[str, Program] = {entry: method_program(*stated, entry, lanes=lanes) for entry in kind.entries}
     drawn = kind.compiled_drawing(plugin, surface) if precision == "float32" and able(info) else None
     return texts | ({"raster": drawn} if drawn else {})

@@ -33,7 +33,7 @@ from harness.running.rows import Left, Samples, build_of, row_of, time_of, witho
 
 MINIMUM_SAMPLES = 8
 LONGEST = 16  # times [budget] seconds: the longest that a cell is timed to get the rounds that comparing it needs
-BYTES_PER_RAY = 24  # at most, of a frame that is kept ready: its answer on the device, and the copy that was read back
+BYTES_PER_RAY = 44  # at most, of a frame that is kept ready: its buffers, and the copy of answers that was read back
 LONG_ROUND = 1.0  # seconds after which the samples of a round are kept before it is over
 MOST_BYTES = 3 * 2**30  # of all frames that are kept ready at once
 UNCHECKED = Outcome(0.0)

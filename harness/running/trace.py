@@ -129,23 +129,23 @@ def cast(
     if reason := kind.shot_refusal(camera):
         raise FirsthitError(f"{caster.variant} {reason}")
     assert isinstance(kind, ShotKind)  # shot_refusal refuses all others
-    shot = Shot(rays, camera, dict(caster.variant.parameters), t_min, caster.origin)
+    shot = Shot(rays, camera, dict(caster.variant.parameters), surface, t_min, caster.origin)
     where = f"{caster.variant} on {caster.device}"
     executor = LocalExecutor(caster.timeout)
 
-    def program(language: Language) -> Program:
-        stated = method, caster.plugin.folder, caster.variant, surface, caster.precision, language, kind.entries[0]
-        return method_program(*stated, t_min=t_min, origin=caster.origin)
+    def programs(language: Language) -> tuple[Program, ...]:
+        stated = method, caster.plugin.folder, caster.variant, surface, caster.precision, language
+        return tuple(method_program(*stated, entry, t_min=t_min, origin=caster.origin) for entry in kind.shot_entries)
 
-    def launch(device: str, program: Program, index: NDArray[np.intp]) -> Hits:
-        return kind.shot_hits(executor.check(device, kind.shot(program, shot, index)).answer)
+    def launch(device: str, programs: tuple[Program, ...], index: NDArray[np.intp]) -> Hits:
+        return kind.shot_hits(executor.check(device, kind.shot(programs, shot, index)).answer)
 
     try:
-        hits = launch(caster.device, program(caster.language), np.arange(len(rays)))
+        hits = launch(caster.device, programs(caster.language), np.arange(len(rays)))
         hits = kind.validated(hits, surface, shot)
         if not method.answers:
             return hits
-        second = compilers.SecondBuild(caster.device, caster.precision, program, launch)
+        second = compilers.SecondBuild(caster.device, caster.precision, programs, launch)
         doubts = compilers.doubts_about(surface, rays, hits, second, t_min)
     except CellError as error:
         what = {CellStatus.TIMEOUT: "timed out", CellStatus.CRASHED: "crashed"}.get(error.status, "failed")

@@ -28,15 +28,8 @@ from harness.contract import (
     Variant,
 )
 from harness.experiment.kinds import of_method
-from harness.kernels.assemble import (
-    cast_sections,
-    early_libraries,
-    file_section,
-    files,
-    method_program,
-    method_sections,
-    ray_sections,
-)
+from harness.kernels.assemble import method_program
+from harness.kernels.sections import cast_sections, early_libraries, file_section, files, method_sections, ray_sections
 from harness.plugins import BUILT_IN, Plugin
 from harness.shipping.pruned import pruned
 

@@ -75,6 +75,9 @@ def answers(row: Mapping[str, Any], kept: Arrays) -> Iterator[Wrong]:
         counts[f"drowned_{name}"] = int((kept["drowned"] & wrong).sum())
     if row["casts"] in ("beams", "quadtree"):
         counts["beam_only"] = int((_right_hits(kept) & np.isnan(kept["error"]) & _decided(kept)).sum())
+    elif row["casts"] == "tiles":  # evaluations are of all pixels of the check's frame
+        if any(told["stages"].values()):
+            yield from differing("accuracy.stages", sum(told["stages"].values()), 1.0, 1e-9)
     else:
         spent = kept["evaluations"][kept["status"] != RayStatus.INVALID]
         mean = float(spent.mean()) if len(spent) else None

@@ -51,6 +51,7 @@ _HOUSE: dict[str, Mark] = {
     "interval_uniform": Mark(_ORANGE, "p"),
     "interval_adaptive": Mark(_BLUE, "*"),
     "bernstein": Mark(_GREEN, (3, 1, 0)),  # a star with three points
+    "tiles": Mark(_PURPLE, "H"),
     "polygon": Mark(_GREY, "8"),
     "contour": Mark(_SKY, (4, 1, 0)),  # a star with four points
 }

@@ -30,6 +30,7 @@ class Arrays:
     evaluations: NDArray[np.int32] | None = None  # of f, spent on the ray; None in older runs
     status: NDArray[np.uint8] | None = None  # RayStatus, what can be no answer among it
     level: NDArray[np.uint8] | None = None  # of the quadtree, at which the pixel's box was decided; of beams only
+    stage: NDArray[np.uint8] | None = None  # of the frame, which answered the pixel; of tiles only
     drowned: NDArray[np.bool_] | None = None  # None in older runs
     samples: NDArray[np.float32] | None = None  # shade of each pixel's samples, [s h, s w]; None where there is one
 

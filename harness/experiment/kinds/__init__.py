@@ -5,10 +5,13 @@ frame, and how answers become hits of rays. The rest of the harness asks the kin
 
     module    what it defines
     --------  ---------------------------------------------------------------------------------------------------------
-    model     the abstract classes MethodKind, Kind, Casting and ViewCasting, and what they are handed
+    methods   the abstract class MethodKind
+    model     the abstract classes Kind, Casting and ViewCasting, and what they are handed
     casts     the table of the words of Method.casts; a new way to cast has its line there
     rays      rays, each cast by itself. The model for a kind whose checked rays can be listed
     beams     beams, one for each pixel, and quadtrees of them. The model for a kind that answers for pixels of a frame
+    tiles     tiles of pixels, whose rays are isolated together and finished one by one. The model for a kind of several
+              programs a frame, and for one that answers for pixels and is held against the oracle's rays
     narrowed  rays behind a prepass. The model for a kind of two programs, the first of which helps the second
     mesh      triangles of a surface that is tessellated beforehand
     family    families of hard rays, which are checked and never timed
@@ -27,7 +30,8 @@ from harness.experiment.cells import Cell
 from harness.experiment.config import Experiment
 from harness.experiment.kinds.casts import WAYS, of_method
 from harness.experiment.kinds.family import Family
-from harness.experiment.kinds.model import NOT_RASTERED, Asked, Casting, Kind, MethodKind, Outcome, Rastering
+from harness.experiment.kinds.methods import NOT_RASTERED, MethodKind, Rastering
+from harness.experiment.kinds.model import Asked, Casting, Kind, Outcome
 from harness.experiment.kinds.narrowed import Narrowed
 from harness.experiment.kinds.raster import Raster
 

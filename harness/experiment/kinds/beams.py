@@ -35,13 +35,14 @@ class BeamMethods(ShotKind):
 
     what = "beams"
     entries = ("beams",)
+    shot_entries = ("beams",)
     unlisted = "casts the beams of a camera's pixels, and listed rays have none"
     undrawn = "casts the beams of a camera's pixels, and a fragment has one ray"
 
-    def shot(self, program: Program, shot: Shot, index: NDArray[np.intp]) -> Check[BeamAnswer]:
+    def shot(self, programs: tuple[Program, ...], shot: Shot, index: NDArray[np.intp]) -> Check[BeamAnswer]:
         assert shot.camera is not None
         size, layout = math.isqrt(len(shot.rays)), layout_of(shot.knobs)
-        return BeamCheck(BeamFrame(program, shot.camera, size, self.quadtree, layout), index.astype(np.int32))
+        return BeamCheck(BeamFrame(programs[0], shot.camera, size, self.quadtree, layout), index.astype(np.int32))
 
     def shot_hits(self, answer: BeamAnswer) -> Hits:
         return answer.hits

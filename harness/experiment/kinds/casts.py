@@ -10,8 +10,10 @@ from dataclasses import dataclass
 from harness.contract import Casts, Method
 from harness.experiment.kinds.beams import BeamMethods, Beams
 from harness.experiment.kinds.mesh import Mesh, MeshMethods
-from harness.experiment.kinds.model import Kind, MethodKind
+from harness.experiment.kinds.methods import MethodKind
+from harness.experiment.kinds.model import Kind
 from harness.experiment.kinds.rays import RayMethods, Rays
+from harness.experiment.kinds.tiles import TileMethods, Tiles
 
 
 @dataclass(frozen=True)
@@ -26,6 +28,7 @@ WAYS: dict[Casts, Way] = {
     "rays": Way(RayMethods(), Rays()),
     "beams": Way(BeamMethods(quadtree=False), Beams(quadtree=False)),
     "quadtree": Way(BeamMethods(quadtree=True), Beams(quadtree=True)),
+    "tiles": Way(TileMethods(), Tiles()),
     "mesh": Way(MeshMethods(), Mesh()),
 }
 

@@ -1,4 +1,7 @@
-"""Cast families of hard rays: listed rays that are checked rung by rung, and never timed."""
+"""Cast families of hard rays: listed rays that are checked rung by rung, and never timed.
+
+A method that casts frames, and no listed rays, casts a small frame about each ray, whose middle pixel has the ray.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +14,7 @@ from harness.accuracy.judge import undecided_hits
 from harness.accuracy.rungs import judge_group
 from harness.contract import FirsthitError, Program, Surface
 from harness.devices.executor import LocalExecutor
-from harness.devices.messages import Frame, ListedCheck
+from harness.devices.messages import Frame
 from harness.experiment.cells import Cell
 from harness.experiment.config import AccuracyChoice, Config
 from harness.experiment.kinds.model import Asked, Casting, Kind, KindFacts, Outcome
@@ -23,7 +26,7 @@ from harness.results.row import RungVerdict
 
 
 class FamilyCasting(Casting):
-    """Cast the listed rays of a family, by one program for each of its surfaces."""
+    """Cast the rays of a family by the programs of each of its surfaces, one surface after the other."""
 
     def __init__(self, asked: Asked, checks: tuple[Program, ...]) -> None:
         super().__init__(asked, checks, None)
@@ -34,9 +37,12 @@ class FamilyCasting(Casting):
     def check(self, executor: LocalExecutor, choice: AccuracyChoice, folder: Path, framed: bool) -> Outcome:
         cell, compile_ms, rungs = self.cell, 0.0, list[RungVerdict]()
         assert cell.family
-        for group, program in zip(groups.groups(cell.family), self.checks, strict=True):
+        kind, of_family = self.asked.method_kind, groups.groups(cell.family)
+        each = len(self.checks) // len(of_family)
+        for number, group in enumerate(of_family):
             truth = cached_first_hits(group.surface, group.rays, folder)
-            checked = executor.check(cell.device, ListedCheck(program, group.rays))
+            programs = self.checks[each * number : each * (number + 1)]
+            checked = executor.check(cell.device, kind.hard_check(programs, group.surface, group.rays))
             hits = validated(checked.answer, group.surface.domain, group.rays, origin=cell.origin)
             compile_ms += checked.compile_ms
             rungs += judge_group(group, hits, truth, cell.precision)
@@ -60,6 +66,9 @@ class Family(Kind):
         assert cell.family
         return [group.surface for group in groups.groups(cell.family)]
 
+    def stage_refusal(self, asked: Asked) -> str | None:
+        return None if asked.method_kind.hard_entries else super().stage_refusal(asked)
+
     def unable(self, asked: Asked) -> str | None:
         return None if asked.cell.prepass == "none" else NO_PREPASS
 
@@ -71,5 +80,6 @@ class Family(Kind):
         return {"family": groups.identity(cell.family)}
 
     def casting(self, asked: Asked) -> Casting:
-        checks = tuple(asked.program(surface, "rays") for surface in self.surfaces(asked.cell))
+        entries = asked.method_kind.hard_entries
+        checks = tuple(asked.program(surface, entry) for surface in self.surfaces(asked.cell) for entry in entries)
         return FamilyCasting(asked, checks)

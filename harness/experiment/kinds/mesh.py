@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from harness.contract import FirsthitError, Method, Program, Stage, Surface, Variant
 from harness.experiment.kinds.drawing import Drawing
-from harness.experiment.kinds.model import Asked, Casting, Kind, MethodKind
+from harness.experiment.kinds.methods import MethodKind
+from harness.experiment.kinds.model import Asked, Casting, Kind
 from harness.kernels.raster import mesh_program
 from harness.plugins import Plugin
 from harness.scenes import meshes

@@ -1,9 +1,10 @@
 """State what a kind of casting must say, so that plan, runner and gate ask it and branch on nothing.
 
-A `MethodKind` belongs to what a method's kernel defines (`Method.casts`): rays, beams, a quadtree of beams, a mesh. A
-`Kind` belongs to a cell: it is the way in which the cell's method is asked to cast. A Kind refuses a cell, or makes its
-`Casting`, which holds the cell's programs and runs them. Most castings are a `ViewCasting`, which checks answers on a
-grid of a view's rays. A new kind gives each abstract method; the others have an answer that is right for most kinds.
+A `MethodKind` (methods.py) belongs to what a method's kernel defines (`Method.casts`): rays, beams, a quadtree of
+beams, tiles, a mesh. A `Kind` belongs to a cell: it is the way in which the cell's method is asked to cast. A Kind
+refuses a cell, or makes its `Casting`, which holds the cell's programs and runs them. Most castings are a
+`ViewCasting`, which checks answers on a grid of a view's rays. A new kind gives each abstract method; the others have
+an answer that is right for most kinds.
 """
 
 from __future__ import annotations
@@ -23,34 +24,27 @@ from harness.accuracy.compilers import SecondBuild, doubts_about
 from harness.accuracy.pictures import headlight
 from harness.contract import (
     DeviceInfo,
-    FirsthitError,
     Method,
     Normal,
-    Origin,
     Program,
     Proxy,
     Section,
-    Stage,
     Surface,
-    Variant,
 )
 from harness.devices.executor import LocalExecutor
 from harness.devices.interface import LANGUAGES
 from harness.devices.messages import Frame
 from harness.experiment.cells import Cell
-from harness.experiment.config import AccuracyChoice, Config, Experiment
-from harness.experiment.kinds.drawing import Drawing
+from harness.experiment.config import AccuracyChoice, Config
+from harness.experiment.kinds.methods import MethodKind
 from harness.experiment.kinds.programs import Programs
 from harness.experiment.kinds.shared import Shared
-from harness.kernels.assemble import Entry, Language, method_program, with_free_loops
+from harness.kernels.assemble import Entry, Language, lanes_on, method_program
 from harness.kernels.functions import too_long, unsupported
+from harness.kernels.sections import with_free_loops
 from harness.plugins import Catalog, Plugin
 from harness.results.row import Accuracy, Camera, RungVerdict
 from harness.scenes.camera import camera_for, distance_of, pixel_footprint, rays_of
-from harness.scenes.model import Group
-
-Rastering = tuple[Proxy, float, Normal]  # proxy, tolerance in pixels, normal: of stage raster only
-NOT_RASTERED: Rastering = ("box", 0.0, "distance")
 
 
 class KindFacts(TypedDict):
@@ -100,12 +94,14 @@ class Asked:
         """
         cell, plugin = self.cell, self.plugin
         stated = cell.variant, surface, cell.precision, language or self.language
+        own = self.info if language in (None, self.language) else None
+        lanes = lanes_on(stated[-1], own.resident if own else None)
 
         def make() -> Program:
-            made = method_program(plugin.method, plugin.folder, *stated, entry, narrowed, origin=cell.origin)
+            made = method_program(plugin.method, plugin.folder, *stated, entry, narrowed, 0.0, cell.origin, lanes)
             return self.shared.program(made)
 
-        return self.shared.once((plugin.folder, *stated, entry, narrowed, cell.origin), make)
+        return self.shared.once((plugin.folder, *stated, entry, narrowed, cell.origin, lanes), make)
 
     def freed(self, program: Program) -> Program:
         """Return a program whose loops are left to the compiler, as timed ones are."""
@@ -127,82 +123,6 @@ class Outcome:
     summary: Accuracy | None = None
     pictures: dict[str, NDArray[Any]] | None = None
     rungs: list[RungVerdict] | None = None
-
-
-class MethodKind(ABC):
-    """State what follows from what a method's kernel casts.
-
-    Kinds state the four properties as class attributes. A shot is an image, or listed rays, that `firsthit show` and
-    `firsthit trace` cast once. What `unlisted`, `undrawn` and `shot_refusal` say continues a sentence that begins with
-    the method's name.
-    """
-
-    @property
-    @abstractmethod
-    def what(self) -> str:
-        """Name what the method casts, in the plural: rays, beams, triangles."""
-
-    @property
-    @abstractmethod
-    def entries(self) -> tuple[Entry, ...]:
-        """List the entries of the method's programs, which `firsthit compile` builds; the first is that of shots."""
-
-    @property
-    @abstractmethod
-    def unlisted(self) -> str | None:
-        """Say why listed rays cannot be cast; None if they can."""
-
-    @property
-    @abstractmethod
-    def undrawn(self) -> str | None:
-        """Say why stage raster cannot draw by the method; None if it can."""
-
-    def stage_refusal(self, stage: Stage) -> str | None:
-        """Say why the method cannot cast in a stage other than raster; None if it can."""
-        return f"the method {self.unlisted}" if stage == "rays" and self.unlisted else None
-
-    def origin_refusal(self, method: Method, origin: Origin) -> str | None:
-        """Say why the method cannot begin its rays at `origin`; None if it can."""
-        if origin == "nearest":
-            return None
-        return f"an origin is chosen for rays, and the method {method.name} casts {self.what}"
-
-    def origins(self, experiment: Experiment) -> tuple[Origin, ...]:
-        """List the origins that make a difference to the method. One without rays has a single cell for all of them."""
-        return ("nearest",)
-
-    def told_origin(self, origin: Origin) -> Origin | None:
-        """Return the origin that a row names; None if the method has none."""
-        return None
-
-    def rasterings(self, method: Method, experiment: Experiment) -> list[Rastering]:
-        """List the ways to rasterise that make a difference to the method."""
-        return [NOT_RASTERED]
-
-    def draw_refusal(self, method: Method, variant: Variant, group: Group) -> str | None:
-        """Say why the method cannot draw a scene's group of instances; None if it can."""
-        return None
-
-    def draw_programs(self, plugin: Plugin, drawing: Drawing) -> tuple[Program, Program]:
-        """Make the programs that draw a group: the timed one, and the one that reports what it answers.
-
-        Raises FirsthitError if the method cannot draw the group.
-        """
-        raise FirsthitError(f"{drawing.variant} {self.undrawn}")
-
-    def compiled_drawing(self, plugin: Plugin, surface: Surface) -> Program | None:
-        """Make the reporting program of stage raster, for `firsthit compile`; None if the method draws nothing.
-
-        The reporting program contains the timed one's text.
-        """
-        return None
-
-    def shot_refusal(self, camera: NDArray[np.float32] | None) -> str | None:
-        """Say why the method cannot cast a shot; None if it can.
-
-        `camera`, float32[12], is the camera whose image the shot is; None if the rays are listed ones.
-        """
-        return self.unlisted if camera is None else None
 
 
 class Kind(ABC):
@@ -227,7 +147,7 @@ class Kind(ABC):
         cell, method = asked.cell, asked.method
         if cell.scene:
             return "the stage casts at one surface; several are drawn by stage raster"
-        if reason := asked.method_kind.stage_refusal(cell.stage) or self.unable(asked):
+        if reason := self.stage_refusal(asked) or self.unable(asked):
             return reason
         for surface in self.surfaces(cell):
             if reason := method.accepts(surface):
@@ -239,6 +159,10 @@ class Kind(ABC):
         """Say what the cell's device lacks to run it, whatever the method; None if it lacks nothing."""
         reasons = (unsupported(s, asked.cell.precision, asked.language) for s in self.surfaces(asked.cell))
         return next(filter(None, reasons), None)
+
+    def stage_refusal(self, asked: Asked) -> str | None:
+        """Say why the method cannot cast in the cell's stage; None if it can."""
+        return asked.method_kind.stage_refusal(asked.cell.stage)
 
     def unable(self, asked: Asked) -> str | None:
         """Say why this kind refuses the cell, whatever the surface; None if it does not."""

@@ -29,8 +29,8 @@ from harness.experiment.kinds.model import Asked, Casting, Kind, KindFacts, View
 from harness.experiment.kinds.narrowed import REFUSAL as NO_PREPASS
 from harness.experiment.kinds.programs import Programs
 from harness.experiment.targets import able
-from harness.kernels.assemble import with_free_loops
 from harness.kernels.raster import fill_program
+from harness.kernels.sections import with_free_loops
 from harness.scenes.camera import camera_for
 from harness.scenes.model import Scene, single
 from harness.scenes.records import depth_map

@@ -17,7 +17,8 @@ from harness.devices.executor import LocalExecutor
 from harness.devices.messages import CameraFrame, Check, Frame, ListedCheck, ListedFrame
 from harness.experiment.config import Experiment
 from harness.experiment.kinds.drawing import Drawing
-from harness.experiment.kinds.model import Asked, Casting, Kind, RacedCasting, Rastering
+from harness.experiment.kinds.methods import Rastering
+from harness.experiment.kinds.model import Asked, Casting, Kind, RacedCasting
 from harness.experiment.kinds.programs import Programs
 from harness.experiment.kinds.shots import Shot, ShotKind
 from harness.kernels.raster import raster_program
@@ -35,6 +36,8 @@ class RayMethods(ShotKind):
 
     what = "rays"
     entries = ("rays", "camera")
+    shot_entries = ("rays",)
+    hard_entries = ("rays",)
     unlisted = None
     undrawn = None
 
@@ -86,8 +89,11 @@ class RayMethods(ShotKind):
     def compiled_drawing(self, plugin: Plugin, surface: Surface) -> Program | None:
         return raster_program(plugin.method, plugin.folder, plugin.variant({}), surface, "box", True)
 
-    def shot(self, program: Program, shot: Shot, index: NDArray[np.intp]) -> Check[Hits]:
-        return ListedCheck(program, shot.rays[index])
+    def shot(self, programs: tuple[Program, ...], shot: Shot, index: NDArray[np.intp]) -> Check[Hits]:
+        return ListedCheck(programs[0], shot.rays[index])
+
+    def hard_check(self, programs: tuple[Program, ...], surface: Surface, rays: NDArray[np.float32]) -> Check[Hits]:
+        return ListedCheck(programs[0], rays)
 
     def shot_hits(self, answer: Hits) -> Hits:
         return answer
@@ -135,10 +141,10 @@ def listed_again(asked: Asked, executor: LocalExecutor, cast: Cast, former: Prog
     run = with_listed_rays(executor, cast.rays)
     if former is None:
         return SecondBuild(
-            cell.device, cell.precision, lambda language: asked.program(cell.surface, "rays", language), run
+            cell.device, cell.precision, lambda language: (asked.program(cell.surface, "rays", language),), run
         )
     second = former.second
-    return SecondBuild(cell.device, cell.precision, lambda _: second, run) if second else None
+    return SecondBuild(cell.device, cell.precision, lambda _: (second,), run) if second else None
 
 
 class Rays(Kind):

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 
 from harness.contract import Hits, Origin, Program, Surface
 from harness.devices.messages import Check
-from harness.experiment.kinds.model import MethodKind
+from harness.experiment.kinds.methods import MethodKind
+from harness.kernels.assemble import Entry
 
 
 @dataclass(frozen=True, eq=False)
@@ -22,12 +23,14 @@ class Shot:
     rays: float32[n, 6]
     camera: float32[12], of the square image whose rays these are, row by row; None if they are of no image
     knobs: of the method's variant
+    surface: at which they are cast
     t_min: where the rays begin, in units of t
     """
 
     rays: NDArray[np.float32]
     camera: NDArray[np.float32] | None
     knobs: Mapping[str, float | int]
+    surface: Surface
     t_min: float = 0.0
     origin: Origin = "nearest"
 
@@ -35,9 +38,14 @@ class Shot:
 class ShotKind(MethodKind):
     """State what follows for methods that can cast a shot."""
 
+    @property
     @abstractmethod
-    def shot(self, program: Program, shot: Shot, index: NDArray[np.intp]) -> Check[Any]:
-        """Make the check that casts the rays `index`, int[k], of a shot. `program` has the entry `entries[0]`."""
+    def shot_entries(self) -> tuple[Entry, ...]:
+        """List the entries of the programs that cast a shot; kinds state it as a class attribute."""
+
+    @abstractmethod
+    def shot(self, programs: tuple[Program, ...], shot: Shot, index: NDArray[np.intp]) -> Check[Any]:
+        """Make the check that casts the rays `index`, int[k], of a shot by the programs of `shot_entries`."""
 
     @abstractmethod
     def shot_hits(self, answer: Any) -> Hits:

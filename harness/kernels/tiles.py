@@ -1,0 +1,176 @@
+"""Make the programs of a method that casts tiles: one program for each stage of a frame.
+
+A tile is a square of pixels whose rays are handled together. Sixteen lanes share a tile, and a number of type `wide`
+has one value per lane. The text of a stage is the same whoever has the lanes (sections.Lanes), since what differs lies
+behind the operations of glsl/tiles/{lanes,exchange,nets,blocks,tiles}_*:
+
+    lanes   wide                       isolate                                         finish, packets
+    ------  -------------------------  ----------------------------------------------  ------------------------------
+    vector  vectors of sixteen         a work item has a tile                          a work item has 16 pixels
+    group   a number of the precision  sixteen work items have a tile, and exchange    a work item has a pixel; no
+                                       numbers through local memory                    lane asks another one
+    own     the same                   a work item has a tile, does its lanes in turn  as group; what packets would do
+                                       and halves three polynomials that bound all     is left to the last stage
+
+harness.kernels.tile_polynomials generates what a polynomial's degree decides.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from harness.contract import Box, Language, Method, Precision, Program, Section, Surface, Variant
+from harness.kernels.fourths import GRID, NODES, POWERS, half_side, interpolation, remainder_factors
+from harness.kernels.sections import (
+    Lanes,
+    TileStage,
+    cast_sections,
+    early_libraries,
+    files,
+    kept_loops,
+    literal,
+    method_sections,
+    ray_sections,
+    table_section,
+)
+from harness.kernels.tile_polynomials import macros, to_control, to_powers
+
+STAGES: tuple[TileStage, ...] = ("isolate", "finish", "packets", "rest")
+TILE = 16  # pixels along a side of the first level's tiles
+LEVELS = 2  # of tiles, each of half the side of the one before
+REACH = 1.125  # radius of the last ball of the bounds of rounding errors, in domain radii
+RECORDS = {"OPEN_RECORD": 4, "SINGLE_RECORD": 40, "QUEUE_RECORD": 2}  # reals, reals, int32 that lists have for a tile
+
+
+def stage_program(
+    method: Method,
+    folder: Path,
+    variant: Variant,
+    surface: Surface,
+    precision: Precision,
+    language: Language,
+    stage: TileStage,
+    listed: bool,
+    rest: Path,
+    lanes: Lanes | None = None,
+) -> Program:
+    """Return the program of one stage. Its entry is named as the stage.
+
+    `folder` holds the method's kernel.glsl. If `listed`, each pixel's ray is read from a buffer, else made from the
+    camera. `rest` is the folder of the kernel.glsl that casts the pixels that are left in stage "rest"; it has the same
+    method's knobs and tables.
+
+    `lanes` says who has a tile's sixteen lanes: "vector": a work item, in vectors of sixteen numbers (OpenCL only);
+    "group": sixteen work items, which exchange numbers through local memory where a stage needs it; "own": no lane
+    needs another one, since a work item isolates a tile alone. Default: "vector" for OpenCL, "own" for GLSL.
+    """
+    form: Lanes = lanes or ("vector" if language == "cl" else "own")
+    sections = ray_sections(surface, ("surface_value",), precision, language, early_libraries(method))
+    if language == "glsl":
+        sections.insert(1, kept_loops())
+    sections.append(_shape(surface, precision, language, listed, stage, form))
+    sections += files("rays/camera.glsl")
+    if stage == "rest":
+        sections += method_sections(method, rest, variant, surface, precision, language)
+        sections += [*cast_sections("nearest"), *files(f"tiles/work.{language}", "tiles/lists.glsl", "tiles/rest.glsl")]
+    else:
+        sections += _lane_sections(stage, precision, language, form)
+        held: Lanes = form if form == "vector" or _exchanges(stage, form) else "own"
+        sections += [wide_value(surface, precision, language), macros(surface, precision, language, held)]
+        sections += files(*_net_files(stage, form))
+        domain = "box" if isinstance(surface.domain, Box) else "sphere"
+        sections += [*_lane_tables(precision, language), *files(f"tiles/domain_{domain}.glsl")]
+        sections += method_sections(method, folder, variant, surface, precision, language)
+    sections += files(f"tiles/entry_{stage}.{language}")
+    return Program(language, precision, stage, tuple(sections))
+
+
+def _lane_sections(stage: TileStage, precision: Precision, language: Language, lanes: Lanes) -> list[Section]:
+    """Return the operations on lanes, the buffers, and what a stage reads and writes."""
+    if lanes == "vector":
+        head = (f"tiles/lanes_{precision}.{language}", f"tiles/lanes.{language}", "tiles/wide.glsl")
+        return files(*head, f"tiles/work.{language}", "tiles/lists.glsl", f"tiles/blocks.{language}")
+    first, exchange = [], "own"
+    if _exchanges(stage, lanes):
+        first, exchange = [f"tiles/memory.{language}"], "group"
+    work = (f"tiles/work.{language}", "tiles/lists.glsl", f"tiles/exchange_{exchange}.glsl", "tiles/blocks_one.glsl")
+    return files(*first, "tiles/lanes_one.glsl", "tiles/wide.glsl", *work)
+
+
+def _net_files(stage: TileStage, lanes: Lanes) -> list[str]:
+    """Return the files on what isolation keeps of a tile's polynomials."""
+    if lanes == "vector":
+        return ["tiles/nets_shared.glsl"]
+    if _exchanges(stage, lanes):
+        return ["tiles/nets_shared.glsl", "tiles/tiles_group.glsl"]
+    return ["tiles/nets_own.glsl", "tiles/tiles_own.glsl"]
+
+
+def _exchanges(stage: TileStage, lanes: Lanes) -> bool:
+    """Tell whether a stage's work items exchange numbers."""
+    return lanes == "group" and stage == "isolate"
+
+
+def _shape(
+    surface: Surface, precision: Precision, language: Language, listed: bool, stage: TileStage, lanes: Lanes
+) -> Section:
+    """Return the constants that the host and all stages share.
+
+    TABLE_HALF is half the side of the cube over which GRID³ cells have a bound of f's fourth derivatives. Points that
+    are out of the domain by more than MARGIN have no bounds. TILE_ITEMS work items share a tile, and TILE_GROUP are in
+    a work group. A step needs TILE_ITEMS for each TILE_TURNS of its tiles: where a program costs the same however few
+    of a vector's work items have a tile, each takes several.
+    """
+    assert surface.degree is not None
+    half = half_side(surface.domain)
+    error_x, error_y = remainder_factors(surface.degree)
+    items, group = _grouping(stage, lanes)
+    shape: dict[str, int | float] = {"TILE": TILE, "LEVELS": LEVELS, "GRID": GRID, **RECORDS}
+    shape |= {"TILE_ITEMS": items, "TILE_GROUP": group, "TILE_TURNS": 8 if lanes == "own" else 1}
+    shape |= {"OPEN_TILES": int(lanes == "own"), "LISTED": int(listed)}
+    shape |= {"REACH": REACH, "TABLE_HALF": half, "MARGIN": half / 9.0}
+    shape |= {"REMAINDER_X": error_x, "REMAINDER_Y": error_y, "LEBESGUE": interpolation(NODES)[1]}
+    lines = [f"#define {name} {literal(value, precision, language)}" for name, value in shape.items()]
+    return Section("generated: shape of tiles", "\n".join(lines))
+
+
+def _grouping(stage: TileStage, lanes: Lanes) -> tuple[int, int]:
+    """Return how many work items share a tile, and how many are in a work group."""
+    if stage == "rest":
+        return 1, 64
+    if lanes == "vector":
+        return 1, 1
+    if _exchanges(stage, lanes):
+        return 16, 16
+    return (1, 8) if stage == "isolate" else (16, 64)
+
+
+def wide_value(surface: Surface, precision: Precision, language: Language) -> Section:
+    """Return f of a point per lane: wide wide_value(WideVec3 p)."""
+    import surfaces
+    from harness.kernels.printing import RealPrinter, function_text
+    from surfaces.lowering import real_tape
+
+    printer = RealPrinter({axis: f"p.{axis}" for axis in "xyz"}, precision, language)
+    lines, (value,) = printer.body(real_tape(surfaces.tape_of(surface)))
+    lanes = [f"wide {line.removeprefix('real ')}" for line in lines]
+    text = function_text("wide wide_value(WideVec3 p)", lanes, f"return wide({value});")
+    return Section(f"generated: surface {surface.name}, wide_value", text)
+
+
+def _lane_tables(precision: Precision, language: Language) -> list[Section]:
+    """Return the tables by which TRANSFORM works: six or eight rows of sixteen numbers, one for each lane.
+
+    Lane k is node (k & 3, k >> 2). Row number i of one direction has each lane's factor of the lane whose index in that
+    direction differs by the bits i. LANE_X, LANE_Y: each lane's own indices. NODE_X, NODE_Y: its node's place.
+    POWERS_X, POWERS_Y, POWERS_Z: the powers of its entry in the table of fourth derivatives.
+    """
+    lanes = [(k & 3, k >> 2) for k in range(16)]
+    made = {"LANE_X": [float(x) for x, _ in lanes], "LANE_Y": [float(y) for _, y in lanes]}
+    made |= {"NODE_X": [NODES[x] for x, _ in lanes], "NODE_Y": [NODES[y] for _, y in lanes]}
+    made |= {f"POWERS_{axis}": [*(float(b[k]) for b in POWERS), 0.0] for k, axis in enumerate("XYZ")}
+    for name, matrix in (("TO_CONTROL", to_control()), ("TO_POWERS", to_powers())):
+        across = [float(matrix[x][x ^ i]) for i in range(4) for x, _ in lanes]
+        down = [float(matrix[y][y ^ i]) for i in range(4) for _, y in lanes]
+        made[name] = across + down
+    return [table_section(name, values, precision, language) for name, values in made.items()]

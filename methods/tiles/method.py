@@ -1,0 +1,141 @@
+"""First roots by tiles: roots are isolated once for many rays, and each ray is finished alone.
+
+The image is cut into tiles of 16 by 16 pixels. f is fitted in Bernstein form along the rays of 4 by 4 nodes of a tile,
+and the coefficients are interpolated between them. Where all interpolated coefficients have one sign for certain, no
+ray of the tile has a root. Where they change sign once, each ray has exactly one, and it is refined with f itself.
+
+**Source** firsthit's own. It is made of these parts: beams that share the work of neighbouring rays (beamcasting); the
+isolation of bernstein; bicubic interpolation with a bound of its remainder; Newton's method on f itself.
+
+**Theory** docs/tiles.md proves what the verdicts say. For a fixed depth the point on a ray is an affine function of the
+ray's place in the image. So f along all rays of a tile is a polynomial of depth and place, and what its interpolation
+in place leaves out is bounded by f's fourth derivatives, which the host bounds over the cells of a grid in exact and
+directed arithmetic (harness/kernels/fourths.py). The bound grows in a piece's coefficients as errors of samples do
+(GROWTH). Bounds of rounding errors are those of bernstein, times what interpolation makes of them.
+
+A frame takes four stages, and nothing comes back to the host between them:
+1. isolate: tiles of 16 pixels, and then those of 8 that cover the open ones, are searched from the near end on, by
+   halving and depth first. A tile is empty, single (every ray has its first root in one piece, and no other root
+   there) or open. A tile whose roots lie at too many depths for one piece is tried once more with nodes in planes that
+   lean as the surface does (LEANS).
+2. finish: in a single tile the nodes' roots and slopes are interpolated at each pixel. From there f itself decides: a
+   few steps, and one by the mean of f over PAIRS pairs of points, as in bernstein.
+3. packets: the open tiles' pixels, 4 by 4 together. Each has its own fit and verdict, and only the halving is shared.
+4. rest: what is still open, and roots whose last step leaves more than TOLERANCE, are cast by bernstein's kernel from
+   the depth on that is known to be empty.
+
+**What is promised** Verdicts of tiles hold for every ray wherever bernstein's promise holds. A hit is a place where the
+computed value of f changes its sign between two points at which it was evaluated, so false hits occur on drowned rays
+only.
+
+**Changes against the paper** There is no paper.
+
+**Evaluations counted** Evaluations of f for the pixel itself, and its share of those along the node rays of its tiles.
+
+**Speed** docs/tiles.md says how it is measured; provisional figures are in the changelog's entry.
+
+**What was tried** opencl:intel, processor time at 1024x1024, float32:
+
+    what was tried                                          measured                                            kept
+    ------------------------------------------------------  --------------------------------------------------  ----
+    one bound of fourth derivatives a cell, for all         the 16-ball's packets take 9.0 ms in place of 2.7:  no
+      directions                                            the bound is 240 times too large there
+    vectors of sixteen numbers vectorised once more by      the three stages of the 16-ball compile in 10 s,    no
+      Intel's compiler (no vec_type_hint)                   in place of 1.1 s, and are no faster
+    blocks of open pixels fitted anew (PACKET_FITS)         the decic's last stage: 5.6 to 3.4 ms               yes
+    the same up to 16 times                                 the octic's packets: 9 to 17 ms                     no
+    a piece that ends where the roots of all nodes are      1 % fewer open pixels, and no faster                no
+      passed, before a tile is open
+    planes that lean as the surface does                    16-ball: 22 to 18 ms; the octic's open pixels: 28   yes
+      to 21 % and no faster
+"""
+
+from collections.abc import Mapping
+from math import comb
+
+from harness.contract import Method, Parameter, Precision, Surface
+
+MAX_DEGREE = 20
+SHELLS = 16  # balls about the domain's centre, each with its own bound of f's rounding errors
+DEPTHS = 6  # halvings for which the tables say how errors grow
+COORDINATES = 12.0  # error of a node ray's point, in unit roundoffs of its distance from the centre
+REST = "of a pixel that is cast by itself:"
+
+
+def _tables(surface: Surface, _knobs: Mapping[str, float | int], precision: Precision) -> dict[str, list[float]]:
+    from harness.kernels.fitting import fit_tables, inverse
+    from harness.kernels.rounding import sample_errors_grow, value_errors
+    from harness.kernels.tiles import REACH
+
+    assert surface.degree is not None
+    matrix = inverse(surface.degree, "bernstein", precision)
+    return fit_tables(surface.degree, "bernstein", precision) | {
+        "TILE_ERRORS": list(value_errors(surface, SHELLS, COORDINATES, REACH)),
+        "VALUE_ERRORS": list(value_errors(surface, SHELLS, 6.0)),
+        "BINOMIALS": [float(comb(surface.degree, j)) for j in range(surface.degree + 1)],
+        "COLUMNS": [max(float(abs(row[i])) for row in matrix) for i in range(surface.degree + 1)],
+        "GROWTH": sample_errors_grow(surface.degree, precision, DEPTHS),
+    }
+
+
+def _accepts(surface: Surface) -> str | None:
+    if surface.degree is None:
+        return "not algebraic: along a ray it is no polynomial, which the fit would have to be"
+    if 1 <= surface.degree <= MAX_DEGREE:
+        return None
+    return f"degree {surface.degree}: the fit is for degrees 1 to {MAX_DEGREE}"
+
+
+METHOD = Method(
+    name="tiles",
+    source="firsthit",
+    casts="tiles",
+    rest="bernstein",
+    needs=("surface_value",),
+    libraries=("dual", "fit", "polynomial", "fit_samples"),
+    parameters=(
+        Parameter(
+            "TOLERANCE",
+            2.0**-51,
+            "error that the refinement's last step leaves by its own estimate, over the domain's diameter; never less "
+            "than 4 unit roundoffs",
+            finer="down",
+            sweep=(2.0**-8, 2.0**-12, 2.0**-18),
+            per="2.0 * DOMAIN_RADIUS",
+        ),
+        Parameter("STEP", 2.0**-18, "longest last step but one of the refinement, over the domain's diameter"),
+        Parameter(
+            "PAIRS",
+            2,
+            "pairs of samples around the root, over which the last step takes the mean of f; 0: no such step",
+        ),
+        Parameter(
+            "APART", 4.0, "distance between neighbouring samples of PAIRS, in unit roundoffs of the domain's diameter"
+        ),
+        Parameter("SECANT", 2.0**-12, "steps longer than this, in domain radii, set the slope to the secant's"),
+        Parameter("STEPS", 6, "most steps of the refinement of a pixel, before it is cast by itself"),
+        Parameter("TRUST", 0.015625, "share of the worst case of the rounding errors that counts as their bound"),
+        Parameter("HALVINGS", 6, "halvings of a fitted piece before a tile or a block is open"),
+        Parameter("WIDENING", 8.0, "length of the next piece to be fitted, over that of the piece just decided"),
+        Parameter("REFITS", 1, "how often a tile that is open is fitted anew before its quarters are"),
+        Parameter("PACKET_FITS", 4, "fits of a block of open pixels before those still open are cast by themselves"),
+        Parameter(
+            "AHEAD", 4.0, "length of the first piece that is fitted in an open tile's parts, over the open piece"
+        ),
+        Parameter("LEANS", 1, "1: an open tile is tried once more with nodes in planes that lean as the surface does"),
+        Parameter("SHORTEST", 2.0, "shortest piece of a tile, over the tile's side"),
+        Parameter("TRUSTED", 4, f"{REST} halvings of a fitted piece before what is still open is fitted anew"),
+        Parameter(
+            "COUNTED", 5, f"{REST} highest degree at which sign changes of coefficients and samples are compared"
+        ),
+        Parameter("COMPENSATED", 17, f"{REST} lowest degree at which the fit uses compensated products and sums"),
+        Parameter(
+            "NOISE", 4.0, f"{REST} error bounds below which a fitted piece is decided by the signs of f's samples"
+        ),
+        Parameter("FITS", 64, f"{REST} fits after which the signs of f's samples decide what is open"),
+        Parameter("MAX_EVALUATIONS", 4096, f"{REST} evaluations of f, after which it is exhausted"),
+    ),
+    claims=frozenset({"no_false_hit"}),
+    accepts=_accepts,
+    tables=_tables,
+)
