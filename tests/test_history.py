@@ -284,6 +284,8 @@ def test_where_nothing_can_be_drawn_the_command_says_what_to_do(tmp_path, monkey
     (tmp_path / "file").write_text("")
     assert main(["history", str(config), "-o", str(tmp_path / "file")]) == 2
     assert "cannot write the history into" in capsys.readouterr().err
+    assert main(["history", str(config), "-o", "/proc/history"]) == 3, "no mistake of the user: a disk that refuses"
+    assert "cannot write the history into /proc/history" in capsys.readouterr().err
     for name in [name for name in sys.modules if name.startswith(("reports.history", "reports.drawing"))]:
         monkeypatch.delitem(sys.modules, name)
     monkeypatch.setitem(sys.modules, "matplotlib", None)

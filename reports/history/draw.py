@@ -41,10 +41,8 @@ def build(kept: Sequence[Kept], line: Sequence[str] | None, told: Told, folder: 
     by_figure: dict[str, list[Graph]] = {}
     for graph in graphs:
         by_figure.setdefault(graph.figure, []).append(graph)
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise FirsthitError(f"cannot write the history into {folder}: {error.strerror or error}") from None
+    if folder.exists() and not folder.is_dir():
+        raise FirsthitError(f"cannot write the history into {folder}: it is no folder")
     with replacing_together(folder, "the history") as made:
         (made / "index.html").write_text(
             page.page(history, {name: f"{name}.png" for name in by_figure}), encoding="utf-8", errors="replace"

@@ -25,7 +25,9 @@ ROOT = Path(__file__).parents[2]
 SEAM = Path(__file__).parent / "seam"
 GONE = 20.0  # seconds within which no process of a command may be left
 MARK = "FIRSTHIT_CAMPAIGN"  # in the environment of all processes of a command
-EARLY = (130, -2)  # Ctrl-C while the interpreter starts: its own traceback names no file of ours
+EARLY = (130, -2)  # Ctrl-C while the interpreter starts: its own traceback names no file of OURS
+NOT_BEGUN = "Fatal Python error: init_"  # what Python says where it is stopped still earlier
+OURS = ("harness", "surfaces", "methods", "reports", "firsthit")
 UNFINISHED = ("failed", "timeout", "crashed")
 
 VIEWS = """title = "Views"
@@ -166,7 +168,9 @@ class Command:
             self.end()
             raise Fell(f"`firsthit {' '.join(self.arguments)}` hangs; it told {told[-2000:]}") from None
         told = "".join(path.read_text(errors="replace") for path in (self._err, self._out))
-        if "Traceback" in told and (str(ROOT) in told or code not in EARLY):
+        if NOT_BEGUN in told:
+            code = -2  # as where Python is a little further on; it ends with 1
+        if "Traceback" in told and (any(str(ROOT / room) in told for room in OURS) or code not in EARLY):
             self.end()
             raise Fell(f"`firsthit {' '.join(self.arguments)}` shows a traceback: {told[-3000:]}")
         start = time.monotonic()
