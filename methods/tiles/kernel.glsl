@@ -13,6 +13,8 @@
 #define THIRD 0.3333333432674407958984375
 
 #define FINEST 4.0             // least tolerance of the refinement, in unit roundoffs
+#define LAST_STEPS 2           // most steps by means of f
+#define SHORT 0.0625           // longest last step but one, over the root of the tolerance
 #define ASIDE 0.75             // most cells that a tile's rays may be from its middle ray, in one coordinate
 
 #define SEARCHING 0
@@ -531,14 +533,15 @@ Pencil pencil_of(Work work, Frame frame, int i0, int j0) {
 }
 
 // Newton's method on f itself within [a, b], from t on. `g` is the inverse of f's slope; it becomes that of the secant
-// where steps are long or fall off slowly. `good`: the last step is short, and f changes its sign between two points at
+// where a step is so long that rounding errors do not matter. `good`: the last step is short, and f changes its sign between two points at
 // which it was evaluated.
 STRUCT(Refined) struct Refined { wide t; yes good; int evaluations; };
 
 Refined refined(Work work, Pencil rays, wide from, wide a, wide b, wide g, yes looking) {
-    real tolerance = max(TOLERANCE, FINEST * UNIT_ROUNDOFF) * (2.0 * DOMAIN_RADIUS);
-    real longest = STEP * (2.0 * DOMAIN_RADIUS);
-    real slow = SECANT * DOMAIN_RADIUS;
+    real share = max(TOLERANCE, FINEST * UNIT_ROUNDOFF);
+    real tolerance = share * (2.0 * DOMAIN_RADIUS);
+    real longest = min(STEP, SHORT * sqrt(share)) * (2.0 * DOMAIN_RADIUS);
+    real clear = 32.0 * UNIT_ROUNDOFF * (2.0 * DOMAIN_RADIUS);  // a step in which rounding errors do not matter
     wide lo = a;
     wide hi = b;
     wide t = clamp(from, a, b);
@@ -556,8 +559,7 @@ Refined refined(Work work, Pencil rays, wide from, wide a, wide b, wide g, yes l
         wide f1 = wide_value(wide_point(rays.o, next, rays.d));
         evaluations += 1;
         wide secant = step / (f1 - f);
-        yes poor = EITHER(MORE(fabs(step), wide(slow)), BOTH(MORE(fabs(step), wide(longest)), MORE(fabs(f1), 0.25 * fabs(f))));
-        g = CHOOSE(BOTH(poor, MORE(secant * g, wide(0.0))), secant, g);
+        g = CHOOSE(BOTH(MORE(fabs(step), wide(clear)), MORE(secant * g, wide(0.0))), secant, g);
         t = next;
         f = f1;
         behind = MORE(f * g, wide(0.0));
@@ -569,26 +571,30 @@ Refined refined(Work work, Pencil rays, wide from, wide a, wide b, wide g, yes l
         next = CHOOSE(BOTH(NOT(LESS(next, lo)), NOT(MORE(next, hi))), next, 0.5 * (lo + hi));
         step = next - t;
     }
-    // one last step with the mean of f over points around t, in which rounding errors cancel
-    wide sum = wide(0.0);
-    for (int k = 1; k <= PAIRS; k++) {
-        real away = real(k) * (APART * UNIT_ROUNDOFF * 2.0 * DOMAIN_RADIUS);
-        wide before = wide_value(wide_point(rays.o, next - away, rays.d));
-        wide after = wide_value(wide_point(rays.o, next + away, rays.d));
-        sum += before + after;
-        seen_before = EITHER(seen_before, NOT(MORE(before * g, wide(0.0))));
-        seen_behind = EITHER(seen_behind, MORE(after * g, wide(0.0)));
-    }
-    evaluations += 2 * PAIRS;
-    wide last = wide(0.0);
-    wide left = fabs(step);  // what the last step leaves
-    if (PAIRS > 0) {
+    // one last step with the mean of f over points around t, in which rounding errors cancel; a second one where the
+    // first leaves too much by its own estimate: it leaves that share of itself which is left of f
+    yes short_step = AT_MOST(fabs(step), wide(longest));
+    wide left = fabs(step);
+    for (int turn = 0; turn < LAST_STEPS && PAIRS > 0; turn++) {
+        if (turn > 0 && !any_lane(BOTH(looking, MORE(left, wide(tolerance))))) break;
+        wide sum = wide(0.0);
+        for (int k = 1; k <= PAIRS; k++) {
+            real away = real(k) * (APART * UNIT_ROUNDOFF * 2.0 * DOMAIN_RADIUS);
+            wide before = wide_value(wide_point(rays.o, next - away, rays.d));
+            wide after = wide_value(wide_point(rays.o, next + away, rays.d));
+            sum += before + after;
+            seen_before = EITHER(seen_before, NOT(MORE(before * g, wide(0.0))));
+            seen_behind = EITHER(seen_behind, MORE(after * g, wide(0.0)));
+        }
+        evaluations += 2 * PAIRS;
         wide mean = sum * (1.0 / real(max(2 * PAIRS, 1)));
-        // the secant's slope is better where the step is long enough for rounding errors not to matter
         wide secant = step / (mean - f);
-        yes long_step = MORE(fabs(step), wide(32.0 * UNIT_ROUNDOFF * 2.0 * DOMAIN_RADIUS));
-        last = mean * CHOOSE(BOTH(long_step, MORE(secant * g, wide(0.0))), secant, g);
-        left = fabs(last) * min(fabs(mean), fabs(f)) / max(fabs(f), wide(REAL_TINY));
+        g = CHOOSE(BOTH(MORE(fabs(step), wide(clear)), MORE(secant * g, wide(0.0))), secant, g);
+        step = -mean * g;
+        next = next + step;
+        left = fabs(step) * min(fabs(mean), fabs(f)) / max(fabs(f), wide(REAL_TINY));
+        left = CHOOSE(MORE(fabs(step), wide(0.25 * clear)), left, wide(0.0));  // a step among rounding errors
+        f = mean;
     }
     yes seen = BOTH(seen_before, seen_behind);
     if (any_lane(BOTH(looking, NOT(seen)))) {
@@ -598,9 +604,8 @@ Refined refined(Work work, Pencil rays, wide from, wide a, wide b, wide g, yes l
         seen = EITHER(seen, CHOOSE(seen_before, behind, NOT(behind)));
     }
     Refined result;
-    result.t = clamp(next - last, lo, hi);
-    result.good = BOTH(seen, BOTH(AT_MOST(fabs(step), wide(longest)), AT_MOST(fabs(last), wide(4.0 * longest))));
-    result.good = BOTH(result.good, AT_MOST(left, wide(PAIRS > 0 ? tolerance : longest)));
+    result.t = clamp(next, lo, hi);
+    result.good = BOTH(BOTH(seen, short_step), AT_MOST(left, wide(PAIRS > 0 ? tolerance : longest)));
     result.evaluations = evaluations;
     return result;
 }

@@ -112,7 +112,6 @@ METHOD = Method(
         Parameter(
             "APART", 4.0, "distance between neighbouring samples of PAIRS, in unit roundoffs of the domain's diameter"
         ),
-        Parameter("SECANT", 2.0**-12, "steps longer than this, in domain radii, set the slope to the secant's"),
         Parameter("STEPS", 6, "most steps of the refinement of a pixel, before it is cast by itself"),
         Parameter("TRUST", 0.015625, "share of the worst case of the rounding errors that counts as their bound"),
         Parameter("HALVINGS", 6, "halvings of a fitted piece before a tile or a block is open"),
