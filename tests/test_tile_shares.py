@@ -23,10 +23,10 @@ OPENCL = [info.name for info in usable_devices() if info.name.startswith("opencl
 pytestmark = pytest.mark.skipif(not OPENCL, reason="no device for OpenCL")
 
 
-def window(surface, aside):
+def window(surface, aside, pixels=PIXELS):
     """The camera of a window that lies `aside` of the image's half width to the right of its middle."""
     eye, forward, right, up = camera_for(View("v", azimuth=30, elevation=35), surface).astype(float).reshape(4, 3)
-    part = SIZE / PIXELS
+    part = SIZE / pixels
     return np.concatenate([eye, forward + aside * right, part * right, part * up]).astype(np.float32)
 
 
@@ -87,3 +87,27 @@ def test_a_verdict_single_with_two_uncertain_coefficients_gives_wrong_roots():
     surface = surfaces.get("clebsch")
     _, differ = cast(surface, window(surface, 0.3), ">= N;", ">= N - 1;")
     assert differ > 0.01
+
+
+BREAKS = {  # what is broken, where it shows, and there the ranges as in RANGES, of windows of images of 1024 pixels
+    "a path that is lost leaves tiles open": (
+        ("barth_decic", 0.5, STEP, f"{STEP} inner = OPEN;"),
+        ((0.0, 0.0), (0.49, 0.57), (0.43, 0.51)),
+    ),
+    "no bound of the remainder": (
+        ("sixteen_ball", 0.3, "return bound;", "return 0.0 * bound;"),
+        ((0.0, 0.0), (0.57, 0.62), (0.38, 0.43)),
+    ),
+}
+
+
+@pytest.mark.parametrize("name", BREAKS)
+def test_a_break_that_leaves_answers_right_shows_in_the_shares(name):
+    (named, aside, *edit), ranges = BREAKS[name]
+    surface = surfaces.get(named)
+    camera = window(surface, aside, 1024)
+    shares, differ = cast(surface, camera)
+    assert differ == 0.0
+    assert within(shares, ranges), shares
+    shares, _ = cast(surface, camera, *edit)
+    assert not within(shares, ranges), shares
