@@ -19,6 +19,7 @@ from harness.accuracy.judge import deviations, judge, summarize, wrong_share
 from harness.conformance import (
     Bench,
     Finding,
+    dense,
     examine,
     examine_knobs,
     examine_touches,
@@ -28,7 +29,7 @@ from harness.conformance import (
 )
 from harness.conformance.examine import own_settings
 from harness.contract import PRECISIONS, Precision, RayStatus
-from harness.devices.interface import Device, hits_from, launch_rays
+from harness.devices.interface import Device
 from harness.plugins import find_methods
 from harness.scenes.camera import scene_radius
 
@@ -40,12 +41,8 @@ DEVICES = [info.name for info in usable_devices()]
 
 
 def bench_on(device: Device) -> Bench:
-    def run(program, rays):
-        launch = launch_rays(device, program, device.build(program), rays)
-        launch.run()
-        hits = hits_from(launch.read())
-        launch.release()
-        return hits
+    def run(check):
+        return check.run(device, [device.build(program) for program in check.programs])
 
     return Bench(device.info.name, device.language, device.info.float64, run)
 
@@ -70,6 +67,19 @@ def plugin_for(method: str, surface: surfaces.Surface, precision: Precision, ben
 def test_method_conforms_on_typical_surfaces(device, method, surface_name, precision):
     bench, surface = bench_on(device), surfaces.get(surface_name)
     hold(examine(bench, plugin_for(method, surface, precision, bench), views_case(surface), precision))
+
+
+@pytest.mark.parametrize("precision", PRECISIONS)
+def test_tiles_conform_on_a_typical_surface_as_frames(precision):
+    bench, surface = bench_on(opened(DEVICES[0])), surfaces.get("torus")
+    hold(examine(bench, plugin_for("tiles", surface, precision, bench), views_case(surface), precision))
+
+
+def test_tiles_conform_on_a_dense_polynomial_as_small_frames():
+    bench, case = bench_on(opened(DEVICES[0])), dense.case_of(5, dense.seed_of(5), 100)
+    found = list(examine(bench, plugin_for("tiles", case.surface, "float32", bench), case, "float32"))
+    assert any(finding.check == "no_false_hit" and finding.holds for finding in found)
+    hold(found)
 
 
 def _other_pairs() -> list[tuple[str, str]]:

@@ -11,6 +11,10 @@ count as neither right nor wrong; how many there may be is limited.
 **Views** Four are from outside: oblique, along an axis, down a pole, and from below. One has its eye inside the domain;
 its limit for wrong answers is wider, since the papers start their rays outside.
 
+A method that casts tiles has no listed rays. Its views are cast as frames of at least FRAME pixels a side, in which
+the checked rays are middles of pixels, and the rays of dense polynomials and of touches each as the middle of a small
+frame (harness/experiment/kinds/tiles.py). Other methods that answer for pixels, and not for rays, are not checked.
+
 **Surfaces** On TYPICAL surfaces nearly every answer must be right. On others a method may be weak, but not useless.
 
 **Settings** The papers' own settings (Method.settings) are held to the same claims as the default, and otherwise to the

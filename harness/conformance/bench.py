@@ -4,29 +4,30 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from typing import Any
 
-from harness.conformance.cases import Bench, Finding, Rays, not_checked
+from harness.conformance.cases import Bench, Finding, not_checked
 from harness.conformance.examine import EXAMINATIONS, Located
-from harness.contract import CellStatus, DeviceInfo, FirsthitError, Hits, Program, Surface
+from harness.contract import CellStatus, DeviceInfo, FirsthitError, Surface
 from harness.devices.executor import CellError, LocalExecutor
 from harness.devices.interface import LANGUAGES
-from harness.devices.messages import ListedCheck
+from harness.devices.messages import Check
 from harness.experiment.kinds import of_method
 from harness.plugins import Catalog, Plugin
 
 
 def checkable(catalog: Catalog) -> list[str]:
-    """List the methods that can be checked: those that answer, and can cast listed rays."""
+    """List the methods that can be checked: those that answer, and can cast given rays, listed or in frames."""
     answering = {name: plugin.method for name, plugin in catalog.plugins.items() if plugin.method.answers}
-    return [name for name, method in answering.items() if not of_method(method).unlisted]
+    return [name for name, method in answering.items() if of_method(method).hard_entries]
 
 
 def bench_on(executor: LocalExecutor, info: DeviceInfo) -> Bench:
     """Make the bench that runs kernels in the executor's worker for a device. Its `run` raises CellError."""
 
-    def run(program: Program, rays: Rays) -> Hits:
-        """Build a program of listed rays, cast the rays float32[n, 6], and return the hits [n]."""
-        return executor.check(info.name, ListedCheck(program, rays)).answer
+    def run(check: Check[Any]) -> Any:
+        """Build the programs of a check, run it, and return its answer."""
+        return executor.check(info.name, check).answer
 
     return Bench(info.name, LANGUAGES[info.name.partition(":")[0]], info.float64, run)
 

@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 from harness.accuracy.answers import validated
 from harness.accuracy.judge import Verdicts, judge, judged
 from harness.contract import Box, CellStatus, Hits, Precision, Program, Surface, Truth, TruthStatus, View
-from harness.experiment.kinds import of_method
+from harness.devices.messages import Check
+from harness.experiment.kinds import MethodKind, of_method
 from harness.kernels.assemble import Language, method_program
 from harness.oracle import first_hits
 from harness.plugins import Plugin
@@ -32,6 +33,7 @@ VIEWS: dict[str, tuple[View, int]] = {  # with rays per side
     "below": (View("below", azimuth=-107, elevation=-12), 32),
     INSIDE: (View("inside", azimuth=200, elevation=25, fov=90), 32),
 }
+FRAME = 1024  # least pixels a side of a view that is cast as a frame: in smaller ones tiles are wide, and decide little
 INSIDE_SHARE = 0.7  # of the way from the domain's centre to its boundary: how far the eye of INSIDE is from the centre
 
 Rays = NDArray[np.float32]
@@ -82,21 +84,41 @@ class Case:
 
 @dataclass(frozen=True, eq=False)
 class Bench:
-    """Run kernels on one device: `run` builds a program of listed rays and casts float32[n, 6]."""
+    """Run kernels on one device: `run` builds the programs of a check, runs it and returns its answer."""
 
     device: str
     language: Language
     float64: bool
-    run: Callable[[Program, Rays], Hits]
+    run: Callable[[Check[Any]], Any]
 
     def cast(self, plugin: Plugin, case: Case, precision: Precision, **knobs: float) -> Hits:
         """Return the hits [n] of a case's rays by a method with some of its knobs turned; impossible ones are INVALID.
 
         Raises FirsthitError for a knob that the method does not have, and what `run` raises.
         """
-        variant = plugin.variant(knobs)
-        program = method_program(plugin.method, plugin.folder, variant, case.surface, precision, self.language, "rays")
-        return validated(self.run(program, case.rays), case.surface.domain, case.rays)
+        kind = of_method(plugin.method)
+        stated = plugin.method, plugin.folder, plugin.variant(knobs), case.surface, precision, self.language
+        programs = tuple(method_program(*stated, entry) for entry in kind.hard_entries)
+        answered = [self.run(check) for check in _checks(kind, programs, case)]
+        hits = Hits(**{name: np.concatenate([vars(part)[name] for part in answered]) for name in vars(answered[0])})
+        return validated(hits, case.surface.domain, case.rays)
+
+
+def _checks(kind: MethodKind, programs: tuple[Program, ...], case: Case) -> Iterator[Check[Hits]]:
+    """Yield the checks that together cast a case's rays in their order.
+
+    A method that cannot cast listed rays casts each view as a frame of FRAME pixels a side or more, in which the view's
+    rays are middles of pixels, and rays of no view as its kind casts hard rays.
+    """
+    if not kind.unlisted or not case.views:
+        yield kind.hard_check(programs, case.surface, case.rays)
+        return
+    start = 0
+    for name, count in case.views:
+        yield kind.view_check(
+            programs, case.surface, view_camera(case.surface, name), case.rays[start : start + count], FRAME
+        )
+        start += count
 
 
 @dataclass(frozen=True)
@@ -146,11 +168,16 @@ def some(whole: T, part: slice | NDArray[np.bool_]) -> T:
 @cache
 def view_case(surface: Surface, name: str = OUTSIDE) -> Case:
     """Make the case of one of VIEWS of a surface. Raises KeyError for a name that is not one of these."""
-    view, size = VIEWS[name]
+    rays = rays_of(view_camera(surface, name), VIEWS[name][1])
+    return Case(surface, rays, first_hits(surface, rays), ((name, len(rays)),))
+
+
+def view_camera(surface: Surface, name: str) -> NDArray[np.float32]:
+    """Return the camera float32[12] of one of VIEWS of a surface. Raises KeyError for a name that is none of these."""
+    view, _ = VIEWS[name]
     if name == INSIDE:
         view = dataclasses.replace(view, distance=INSIDE_SHARE * _way_out(surface, view))
-    rays = rays_of(camera_for(view, surface), size)
-    return Case(surface, rays, first_hits(surface, rays), ((name, len(rays)),))
+    return camera_for(view, surface)
 
 
 def _way_out(surface: Surface, view: View) -> float:
@@ -210,8 +237,9 @@ def refusal(plugin: Plugin, surface: Surface, precision: Precision, bench: Bench
         return f"the method has no {precision} form"
     if precision == "float64" and not bench.float64:
         return "the device has no float64"
-    if reason := of_method(plugin.method).unlisted:
-        return f"it {reason}"
+    kind = of_method(plugin.method)
+    if not kind.hard_entries:
+        return f"it {kind.unlisted}"
     return (
         plugin.method.accepts(surface)
         or unsupported(surface, precision, bench.language)

@@ -207,6 +207,23 @@ class TileCheck(HitsCheck[TileAnswer]):
 
 
 @dataclass(frozen=True, eq=False)
+class TileHits(Check[Hits]):
+    """State what TileCheck does, and read no more than the hits of the listed rays."""
+
+    frame: TileFrame
+    rays: NDArray[np.float32]
+    ratio: int
+    index: NDArray[np.intp]
+
+    @property
+    def programs(self) -> tuple[Program, ...]:
+        return self.frame.stages
+
+    def run(self, device: Device, built: Sequence[Built]) -> Hits:
+        return TileCheck(self.frame, self.rays, self.ratio, self.index).run(device, built).hits
+
+
+@dataclass(frozen=True, eq=False)
 class TilePictures(Check[Hits]):
     """State a check that casts listed rays, each in the middle of a small frame of its own, one after the other.
 

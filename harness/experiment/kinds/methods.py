@@ -75,6 +75,21 @@ class MethodKind(ABC):
         """
         raise FirsthitError(f"the method {self.unlisted}")
 
+    def view_check(
+        self,
+        programs: tuple[Program, ...],
+        surface: Surface,
+        camera: NDArray[np.float32],
+        rays: NDArray[np.float32],
+        size: int,
+    ) -> Check[Hits]:
+        """Make the check that casts a view's rays, rays_of(camera, k), by the programs of `hard_entries`.
+
+        A kind that answers for pixels casts them as pixels of a frame of `size` x `size` pixels or more. Raises
+        FirsthitError if the method cannot.
+        """
+        return self.hard_check(programs, surface, rays)
+
     def stage_refusal(self, stage: Stage) -> str | None:
         """Say why the method cannot cast in a stage other than raster; None if it can."""
         return f"the method {self.unlisted}" if stage == "rays" and self.unlisted else None

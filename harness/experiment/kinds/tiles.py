@@ -19,7 +19,7 @@ from harness.accuracy.compilers import SecondBuild
 from harness.contract import FirsthitError, Hits, Program, Surface
 from harness.devices.executor import LocalExecutor
 from harness.devices.messages import Check, Frame
-from harness.devices.tiles import TileAnswer, TileCheck, TileFrame, TilePictures, plan_of
+from harness.devices.tiles import TileAnswer, TileCheck, TileFrame, TileHits, TilePictures, plan_of
 from harness.experiment.kinds.model import Asked, Casting, Kind, RacedCasting
 from harness.experiment.kinds.programs import Programs
 from harness.experiment.kinds.shots import Shot, ShotKind
@@ -48,6 +48,18 @@ class TileMethods(ShotKind):
     def hard_check(self, programs: tuple[Program, ...], surface: Surface, rays: NDArray[np.float32]) -> Check[Hits]:
         cameras = np.stack([camera_about(ray) for ray in rays])
         return TilePictures(frame_of(programs, surface, cameras[0], PICTURE), rays, cameras)
+
+    def view_check(
+        self,
+        programs: tuple[Program, ...],
+        surface: Surface,
+        camera: NDArray[np.float32],
+        rays: NDArray[np.float32],
+        size: int,
+    ) -> Check[Hits]:
+        side = math.isqrt(len(rays))
+        moved, ratio = checked_over(camera, side, size)
+        return TileHits(frame_of(programs, surface, moved, ratio * side), rays, ratio, np.arange(len(rays)))
 
     def shot(self, programs: tuple[Program, ...], shot: Shot, index: NDArray[np.intp]) -> Check[TileAnswer]:
         assert shot.camera is not None

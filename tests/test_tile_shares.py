@@ -1,0 +1,113 @@
+"""Tiles answer the share of pixels that they should at each stage, and breaking the kernel's text shows.
+
+A path that is lost in the halving may leave a tile open: its pixels are cast one by one, and all answers are right.
+Only the shares of pixels by stage tell of it. Other breaks give wrong answers.
+"""
+
+import dataclasses
+from functools import cache
+
+import numpy as np
+import pytest
+
+import surfaces
+from harness.contract import View
+from harness.scenes.camera import camera_for, rays_of
+
+from .benchmarks.tile_rays import Caster, suspects
+from .conftest import opened, usable_devices
+
+SIZE = 64  # pixels a side of a window, in the middle of an image of PIXELS
+PIXELS = 512
+OPENCL = [info.name for info in usable_devices() if info.name.startswith("opencl")][:1]
+pytestmark = pytest.mark.skipif(not OPENCL, reason="no device for OpenCL")
+
+
+def window(surface, aside, pixels=PIXELS):
+    """The camera of a window that lies `aside` of the image's half width to the right of its middle."""
+    eye, forward, right, up = camera_for(View("v", azimuth=30, elevation=35), surface).astype(float).reshape(4, 3)
+    part = SIZE / pixels
+    return np.concatenate([eye, forward + aside * right, part * right, part * up]).astype(np.float32)
+
+
+@cache
+def caster(surface):
+    return Caster(opened(OPENCL[0]), surface)
+
+
+def cast(surface, camera, *edit, size=SIZE):
+    """A window's shares by stage, and the share of its answers that differ from bernstein's in float64.
+
+    `edit` is a line of the kernel, and what stands in its place in the stage that isolates.
+    """
+    right, rays = caster(surface), rays_of(camera, size)
+    isolate, mine = right.programs[0], dataclasses.replace
+    if edit:
+        assert sum(section.text.count(edit[0]) for section in isolate.sections) == 1
+        sections = tuple(mine(section, text=section.text.replace(*edit)) for section in isolate.sections)
+        isolate = mine(isolate, sections=sections)
+    broken = object.__new__(Caster)
+    broken.device, broken.surface = right.device, surface
+    broken.programs = (isolate, *right.programs[1:])
+    broken.built = [right.device.build(isolate), *right.built[1:]] if edit else right.built
+    answer = broken.tiles(camera, rays)
+    return answer.shares, float(suspects(answer.hits, right.alone("float64", rays), surface.domain.radius).mean())
+
+
+STEP = "bundle = stack[depth - 1];"  # to the next path
+RANGES = {  # of the windows: empty, single, and what no tile decides
+    ("torus", 0.75): ((0.0, 0.0), (0.95, 1.0), (0.0, 0.05)),
+    ("clebsch", 0.3): ((0.03, 0.13), (0.65, 0.76), (0.16, 0.27)),
+    ("barth_sextic", 0.6): ((0.17, 0.27), (0.52, 0.63), (0.15, 0.25)),
+}
+
+
+def within(shares, ranges):
+    """Tell whether shares of empty tiles, of single ones and of the rest are in their ranges."""
+    empty, single = (sum(shares[f"{verdict}_{side}"] for side in (16, 8)) for verdict in ("empty", "single"))
+    found = (empty, single, shares["packets"] + shares["rest"])
+    return all(low <= share <= high for share, (low, high) in zip(found, ranges, strict=True))
+
+
+@pytest.mark.parametrize("where", RANGES)
+def test_shares_by_stage_are_in_their_ranges_and_no_answer_differs(where):
+    surface = surfaces.get(where[0])
+    shares, differ = cast(surface, window(surface, where[1]))
+    assert within(shares, RANGES[where]), shares
+    assert differ == 0.0
+
+
+def test_a_path_to_the_wrong_piece_shows_in_answers_or_shares():
+    surface = surfaces.get("barth_sextic")
+    shares, differ = cast(surface, window(surface, 0.6), STEP, "bundle = stack[0];")
+    assert differ > 0.0 or not within(shares, RANGES["barth_sextic", 0.6]), shares
+
+
+def test_a_verdict_single_with_two_uncertain_coefficients_gives_wrong_roots():
+    surface = surfaces.get("clebsch")
+    _, differ = cast(surface, window(surface, 0.3), ">= N;", ">= N - 1;")
+    assert differ > 0.01
+
+
+BREAKS = {  # what is broken, where it shows, and there the ranges as in RANGES, of windows of images of 1024 pixels
+    "a path that is lost leaves tiles open": (
+        ("barth_decic", 0.5, STEP, f"{STEP} inner = OPEN;"),
+        ((0.0, 0.0), (0.49, 0.57), (0.43, 0.51)),
+    ),
+    "no bound of the remainder": (
+        ("sixteen_ball", 0.3, "return bound;", "return 0.0 * bound;"),
+        ((0.0, 0.0), (0.57, 0.62), (0.38, 0.43)),
+    ),
+}
+
+
+@pytest.mark.parametrize("name", BREAKS)
+def test_a_break_that_leaves_answers_right_shows_in_the_shares(name):
+    (named, aside, *edit), ranges = BREAKS[name]
+    surface = surfaces.get(named)
+    camera = window(surface, aside, 1024)
+    shares, differ = cast(surface, camera)
+    assert differ == 0.0
+    assert within(shares, ranges), shares
+    shares, _ = cast(surface, camera, *edit)
+    assert not within(shares, ranges), shares
