@@ -72,7 +72,8 @@ def stated(finished: dict[str, Any]) -> dict[str, Any]:
     read: what the test says of it would not be tried.
     """
     made: dict[str, Any] = json.loads(json.dumps(finished))
-    for quantiles in (part for part in (made["accuracy"] or {}).values() if isinstance(part, dict)):
+    parts = (made["accuracy"] or {}).items()
+    for quantiles in (part for name, part in parts if isinstance(part, dict) and name != "stages"):
         most = quantiles.get("max", max((v for v in quantiles.values() if v is not None), default=None))
         for name in PERCENTILES:
             most = quantiles.setdefault(name, most)

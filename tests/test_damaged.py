@@ -91,7 +91,7 @@ def test_a_row_whose_checksum_does_not_hold_is_no_row(tmp_path):
         (changed(VIEW, "time", "median_ms", 0.0), "time.median_ms: 0.0 is not positive"),
         (changed(VIEW, "time", "median_ms", 1e9), "but the median of samples_ms is"),
         (changed(VIEW, "time", "rounds", [1, 2]), "rounds has 2 items, samples_ms 20"),
-        (changed(VIEW, "time", "wall_samples_ms", [1.0]), "wall_samples_ms has 1 items"),
+        (changed(VIEW, "time", "wall_samples_ms", [1.0]), "wall_samples_ms has 1 item,"),
         (changed(VIEW, "time", "rounds", [0] * 20), "a round stands twice"),
         (changed(VIEW, "time", "rounds", 20), "time.rounds is no list: 20"),
         (changed(VIEW, "time", "rounds", [0.5] * 20), "time.rounds[] is no whole number"),

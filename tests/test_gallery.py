@@ -30,7 +30,11 @@ DEFAULT_RAYS = 40_000
 RAYS = int(os.environ.get("FIRSTHIT_RAYS", DEFAULT_RAYS))
 NAMES = held()
 GRAZING = 1e-3
-CLAIMING = [n for n, plugin in find_methods().plugins.items() if "no_false_hit" in plugin.method.claims]
+CLAIMING = [
+    name
+    for name, plugin in find_methods().plugins.items()
+    if "no_false_hit" in plugin.method.claims and plugin.method.casts == "rays"
+]
 PLACES = [(info.name, precision) for precision in ("float32", "float64") for info in usable_devices()]
 QUASTE_RAY = np.array(
     [[5.781935691833496, 3.3382019996643066, 3.854623794555664,
