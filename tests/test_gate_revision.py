@@ -83,7 +83,7 @@ def test_nothing_is_written_into_the_repository(top):
     assert not list(top.rglob("hook-ran"))
 
 
-def test_methods_may_print_and_a_mistake_skips_their_cells_and_names_their_file(top):
+def test_methods_may_print_and_a_mistake_fails_their_cells_and_names_their_file(top):
     path = top / "plugins" / "mine" / "method.py"
     path.write_text(f"import atexit\nprint('hello')\natexit.register(print, 'bye')\n{METHOD}")
     commit(top)
@@ -91,7 +91,7 @@ def test_methods_may_print_and_a_mistake_skips_their_cells_and_names_their_file(
     path.write_text("raise RuntimeError('this\\nand that')")
     commit(top)
     told = "method 'mine' cannot be loaded: plugins/mine/method.py:1: RuntimeError: this\nand that"
-    assert [former.skip for former in cells(top).values()] == [told] * CELLS
+    assert [former.failure for former in cells(top).values()] == [told] * CELLS
 
 
 def test_a_link_out_of_the_revision_is_no_method_of_it(top):
