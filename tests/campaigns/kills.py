@@ -66,7 +66,8 @@ def _kill(dice: random.Random, name: str, arguments: Sequence[str], work: Path, 
     if whom != "worker" and (new := [row for row, one in after.items() if row not in before and not _is_finished(one)]):
         raise Fell(f"{what}: a cell has a row as if its worker had crashed: {new}")
     crashed = any(not _is_finished(content) for content in after.values())  # since a worker was killed, now or before
-    if code not in (0, *ENDED_BY[number], *([3] if crashed or whom == "worker" else [])):
+    regressed = name == "gate" and crashed and " regressed" in told  # a crash where the baseline has none is one
+    if code not in (0, *ENDED_BY[number], *([3] if crashed or whom == "worker" else []), *([1] if regressed else [])):
         raise Fell(f"{what}: exit code {code}; it told {told[-1500:]}")
     if code in (129, 130, 143) and told.strip():
         _check_told(what, name, told)
