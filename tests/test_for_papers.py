@@ -198,6 +198,8 @@ def test_shared_headings_span_their_columns_and_a_bracket_opens_no_option() -> N
     assert tabulars(text) == [(5, [5, 5, 5, 5])]
     assert files._markdown(tabled).splitlines()[-1] == "| **\\*** | **10.0** | **–** |"
     assert files._csv(tabled) == "a,x b,x c\n[1],1.0,2.5\n*,10.0,\n"
+    titled = Tabled("t", content.Table((content.Column("=a"),), [("b",)], "T."), frozenset())
+    assert files._csv(titled) == "'=a\nb\n", "a heading may be a text of a config, too"
 
 
 def test_the_focus_is_in_bold(made: Path) -> None:

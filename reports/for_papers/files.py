@@ -73,7 +73,7 @@ def _csv(tabled: Tabled) -> str:
     """Return a table as CSV: a line of headings, and values as they are, not rounded."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(_headings(tabled.table))
+    writer.writerow([escaping.cell(heading) for heading in _headings(tabled.table)])
     writer.writerows([[_value(value) for value in row] for row in tabled.table.rows])
     return text.getvalue()
 
