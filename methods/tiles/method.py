@@ -32,10 +32,10 @@ only.
 
 **Evaluations counted** Evaluations of f for the pixel itself, and its share of those along the node rays of its tiles.
 
-**Speed** Median time of a frame in ms by the device's clock, opencl:intel, two cores, float32, 1024x1024:
-configs/tiles.toml cut to these surfaces, that size and that device, 0.4 s a cell. 9,216 rays of each are held against
-the oracle: no clear ray is wrong, of tiles nor of bernstein; newton is wrong on some (450 misses on chmutov's).
-`largest` is the largest error of tiles over that of bernstein on the same rays.
+**Speed** Median time of a frame in ms by the device's clock, float32, 1024x1024, on two cores: `firsthit run
+configs/tiles-1024.toml`. 9,216 rays of each surface are held against the oracle: no clear ray is wrong, of tiles nor of
+bernstein; newton is wrong on some (450 misses on chmutov's). `largest` is the largest error of tiles over that of
+bernstein on the same rays.
 
     surface       tiles  bernstein  eft_yuksel  newton  over bernstein  over eft_yuksel  largest
     ------------  -----  ---------  ----------  ------  --------------  ---------------  -------
@@ -50,10 +50,10 @@ the oracle: no clear ray is wrong, of tiles nor of bernstein; newton is wrong on
     16-ball       9.49   33.0       94.1        5.45    3.5             9.9              1.0
 
 In the geometric mean it is 2.4 times as fast as bernstein and 3.1 times as fast as eft_yuksel. Its errors are not yet
-below bernstein's everywhere. On opengl:llvmpipe, where three polynomials bound a tile's rays, the factor over bernstein
-was between 1.2 and 1.5 at 1024x1024 and about 1 at 512x512 on a busy machine; on opencl:pocl it has not been measured.
+below bernstein's everywhere. The knobs AHEAD, PACKET_FITS, REFITS and LEANS were chosen on these surfaces in this view.
+Other devices, and frames of other sizes (configs/tiles.toml), have not been measured on a quiet machine.
 
-**What was tried** opencl:intel, processor time at 1024x1024, float32:
+**What was tried** opencl:intel, processor time at 1024x1024, float32, mostly single runs on a busy machine:
 
     what was tried                                          measured                                            kept
     ------------------------------------------------------  --------------------------------------------------  ----
