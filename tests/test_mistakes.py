@@ -203,10 +203,10 @@ def _staged(stage: str) -> Program:
 @pytest.mark.parametrize(
     ("stage", "line", "told", "advice"),
     [
-        (STAGE, 12, "2", "use another word than half"),
-        (STAGE.replace("half", "real h"), 12, "2", "did you mean 'STEPS'?"),
-        (STAGE.replace("}", ""), 16, "1", "write the missing '}'"),
-        (STAGE.replace("finish_", "finnish_"), 16, "1", "define `void finish_tiles(Work work, Frame frame) { … }`"),
+        (STAGE, 10, "2", "use another word than half"),
+        (STAGE.replace("half", "real h"), 10, "2", "did you mean 'STEPS'?"),
+        (STAGE.replace("}", ""), 14, "1", "write the missing '}'"),
+        (STAGE.replace("finish_", "finnish_"), 14, "1", "define `void finish_tiles(Work work, Frame frame) { … }`"),
     ],
 )
 def test_a_mistake_in_the_file_of_a_stage_is_told_there(stage, line, told, advice):
