@@ -37,6 +37,7 @@ from harness.kernels.tile_polynomials import macros, to_control, to_powers
 
 STAGES: tuple[TileStage, ...] = ("isolate", "finish", "packets", "rest")
 TILE = 16  # pixels along a side of the first level's tiles
+WARPS = 64  # work items of a group whose lanes are halves of warps
 LEVELS = 2  # of tiles, each of half the side of the one before
 REACH = 1.125  # radius of the last ball of the bounds of rounding errors, in domain radii
 RECORDS = {"OPEN_RECORD": 4, "SINGLE_RECORD": 40, "QUEUE_RECORD": 2}  # reals, reals, int32 that lists have for a tile
@@ -79,7 +80,7 @@ def stage_program(
         sections += [wide_value(surface, precision, language), macros(surface, precision, language, held)]
         sections += files(*_net_files(stage, form))
         domain = "box" if isinstance(surface.domain, Box) else "sphere"
-        sections += [*_lane_tables(precision, language), *files(f"tiles/domain_{domain}.glsl")]
+        sections += [*_lane_tables(precision, language, form), *files(f"tiles/domain_{domain}.glsl")]
         sections += method_sections(method, folder, variant, surface, precision, language, stage=stage)
     sections += files(f"tiles/entry_{stage}.{language}")
     return Program(language, precision, stage, tuple(sections))
@@ -90,10 +91,12 @@ def _lane_sections(stage: TileStage, precision: Precision, language: Language, l
     if lanes == "vector":
         head = (f"tiles/lanes_{precision}.{language}", f"tiles/lanes.{language}", "tiles/wide.glsl")
         return files(*head, f"tiles/work.{language}", "tiles/lists.glsl", f"tiles/blocks.{language}")
-    first, exchange = [], "own"
-    if _exchanges(stage, lanes):
-        first, exchange = [f"tiles/memory.{language}"], "group"
-    work = (f"tiles/work.{language}", "tiles/lists.glsl", f"tiles/exchange_{exchange}.glsl", "tiles/blocks_one.glsl")
+    first, exchange = [], "exchange_own.glsl"
+    if _exchanges(stage, lanes) and lanes == "group":
+        first, exchange = [f"tiles/memory.{language}"], "exchange_group.glsl"
+    elif _exchanges(stage, lanes):
+        first, exchange = [f"tiles/exchange_warp_{precision}.{language}"], f"exchange_warp.{language}"
+    work = (f"tiles/work.{language}", "tiles/lists.glsl", f"tiles/{exchange}", "tiles/blocks_one.glsl")
     return files(*first, "tiles/lanes_one.glsl", "tiles/wide.glsl", *work)
 
 
@@ -108,7 +111,7 @@ def _net_files(stage: TileStage, lanes: Lanes) -> list[str]:
 
 def _exchanges(stage: TileStage, lanes: Lanes) -> bool:
     """Tell whether a stage's work items exchange numbers."""
-    return lanes == "group" and stage == "isolate"
+    return lanes in ("group", "warp") and stage == "isolate"
 
 
 def _shape(
@@ -127,7 +130,8 @@ def _shape(
     items, group = _grouping(stage, lanes)
     shape: dict[str, int | float] = {"TILE": TILE, "LEVELS": LEVELS, "GRID": GRID, **RECORDS}
     shape |= {"TILE_ITEMS": items, "TILE_GROUP": group, "TILE_TURNS": 8 if lanes == "own" else 1}
-    shape |= {"OPEN_TILES": int(lanes == "own"), "LISTED": int(listed)}
+    shape |= {"OPEN_TILES": int(lanes != "vector"), "LISTED": int(listed)}
+    shape |= {"BLOCK_WIDTH": block_width(lanes), "FINISH_PARTS": 16 if lanes in ("group", "warp") else 1}
     shape |= {"REACH": REACH, "TABLE_HALF": half, "MARGIN": half / 9.0}
     shape |= {"REMAINDER_X": error_x, "REMAINDER_Y": error_y, "LEBESGUE": interpolation(NODES)[1]}
     lines = [f"#define {name} {literal(value, precision, language)}" for name, value in shape.items()]
@@ -141,8 +145,13 @@ def _grouping(stage: TileStage, lanes: Lanes) -> tuple[int, int]:
     if lanes == "vector":
         return 1, 1
     if _exchanges(stage, lanes):
-        return 16, 16
+        return 16, 16 if lanes == "group" else WARPS
     return (1, 8) if stage == "isolate" else (16, 64)
+
+
+def block_width(lanes: Lanes) -> int:
+    """Return how many pixels of a row are in a block of sixteen: a GPU writes rows to memory at once."""
+    return 8 if lanes in ("group", "warp") else 4
 
 
 def wide_value(surface: Surface, precision: Precision, language: Language) -> Section:
@@ -158,15 +167,16 @@ def wide_value(surface: Surface, precision: Precision, language: Language) -> Se
     return Section(f"generated: surface {surface.name}, wide_value", text)
 
 
-def _lane_tables(precision: Precision, language: Language) -> list[Section]:
+def _lane_tables(precision: Precision, language: Language, form: Lanes) -> list[Section]:
     """Return the tables by which TRANSFORM works: six or eight rows of sixteen numbers, one for each lane.
 
     Lane k is node (k & 3, k >> 2). Row number i of one direction has each lane's factor of the lane whose index in that
-    direction differs by the bits i. LANE_X, LANE_Y: each lane's own indices. NODE_X, NODE_Y: its node's place.
+    direction differs by the bits i. LANE_X, LANE_Y: the place of each lane's pixel in a block. NODE_X, NODE_Y: its node's place.
     POWERS_X, POWERS_Y, POWERS_Z: the powers of its entry in the table of fourth derivatives.
     """
     lanes = [(k & 3, k >> 2) for k in range(16)]
-    made = {"LANE_X": [float(x) for x, _ in lanes], "LANE_Y": [float(y) for _, y in lanes]}
+    width = block_width(form)
+    made = {"LANE_X": [float(k % width) for k in range(16)], "LANE_Y": [float(k // width) for k in range(16)]}
     made |= {"NODE_X": [NODES[x] for x, _ in lanes], "NODE_Y": [NODES[y] for _, y in lanes]}
     made |= {f"POWERS_{axis}": [*(float(b[k]) for b in POWERS), 0.0] for k, axis in enumerate("XYZ")}
     for name, matrix in (("TO_CONTROL", to_control()), ("TO_POWERS", to_powers())):
