@@ -7,10 +7,13 @@ behind the operations of glsl/tiles/{lanes,exchange,nets,blocks,tiles}_*:
     lanes   wide                       isolate                                         finish, packets
     ------  -------------------------  ----------------------------------------------  ------------------------------
     vector  vectors of sixteen         a work item has a tile                          a work item has 16 pixels
-    group   a number of the precision  sixteen work items have a tile, and exchange    a work item has a pixel; no
-                                       numbers through local memory                    lane asks another one
-    own     the same                   a work item has a tile, does its lanes in turn  as group; what packets would do
-                                       and halves three polynomials that bound all     is left to the last stage
+    group   a number of the precision  sixteen work items have a tile, and exchange    a work item has a pixel, and asks
+                                       numbers through local memory                    no other one; what packets would
+                                                                                       do is left to the last stage
+    warp    the same                   the same, and exchange them without memory:     as group
+                                       NVIDIA's OpenCL
+    own     the same                   a work item has a tile, does its lanes in turn  as group
+                                       and halves three polynomials that bound all
 
 harness.kernels.tile_polynomials generates what a polynomial's degree decides.
 """
@@ -62,8 +65,8 @@ def stage_program(
     that casts the pixels that are left in stage "rest"; it has the same method's knobs and tables.
 
     `lanes` says who has a tile's sixteen lanes: "vector": a work item, in vectors of sixteen numbers (OpenCL only);
-    "group": sixteen work items, which exchange numbers through local memory where a stage needs it; "own": no lane
-    needs another one, since a work item isolates a tile alone. Default: "vector" for OpenCL, "own" for GLSL.
+    "group", "warp": sixteen work items, which exchange numbers where a stage needs it; "own": no lane needs another
+    one, since a work item isolates a tile alone. Default: "vector" for OpenCL, "own" for GLSL.
     """
     form: Lanes = lanes or ("vector" if language == "cl" else "own")
     sections = ray_sections(surface, ("surface_value",), precision, language, early_libraries(method))
@@ -171,7 +174,8 @@ def _lane_tables(precision: Precision, language: Language, form: Lanes) -> list[
     """Return the tables by which TRANSFORM works: six or eight rows of sixteen numbers, one for each lane.
 
     Lane k is node (k & 3, k >> 2). Row number i of one direction has each lane's factor of the lane whose index in that
-    direction differs by the bits i. LANE_X, LANE_Y: the place of each lane's pixel in a block. NODE_X, NODE_Y: its node's place.
+    direction differs by the bits i. LANE_X, LANE_Y: the place of each lane's pixel in a block. NODE_X, NODE_Y: its
+    node's place.
     POWERS_X, POWERS_Y, POWERS_Z: the powers of its entry in the table of fourth derivatives.
     """
     lanes = [(k & 3, k >> 2) for k in range(16)]
