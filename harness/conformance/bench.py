@@ -13,6 +13,7 @@ from harness.devices.executor import CellError, LocalExecutor
 from harness.devices.interface import LANGUAGES
 from harness.devices.messages import Check
 from harness.experiment.kinds import of_method
+from harness.kernels.assemble import lanes_on
 from harness.plugins import Catalog, Plugin
 
 
@@ -29,7 +30,8 @@ def bench_on(executor: LocalExecutor, info: DeviceInfo) -> Bench:
         """Build the programs of a check, run it, and return its answer."""
         return executor.check(info.name, check).answer
 
-    return Bench(info.name, LANGUAGES[info.name.partition(":")[0]], info.float64, run)
+    language = LANGUAGES[info.name.partition(":")[0]]
+    return Bench(info.name, language, info.float64, run, lanes_on(language, info))
 
 
 def findings(bench: Bench, plugin: Plugin, chosen: Sequence[Surface]) -> Iterator[tuple[str, Finding]]:

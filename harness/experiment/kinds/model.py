@@ -95,7 +95,7 @@ class Asked:
         cell, plugin = self.cell, self.plugin
         stated = cell.variant, surface, cell.precision, language or self.language
         own = self.info if language in (None, self.language) else None
-        lanes = lanes_on(stated[-1], own.resident if own else None)
+        lanes = lanes_on(stated[-1], own)
 
         def make() -> Program:
             made = method_program(plugin.method, plugin.folder, *stated, entry, narrowed, 0.0, cell.origin, lanes)
