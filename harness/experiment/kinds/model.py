@@ -219,7 +219,13 @@ class Casting(ABC):
     @property
     def programs(self) -> Programs:
         """Return the cell's programs, with all that belongs to them."""
-        return Programs(self.checks, self.timed, self.others, dict(self.cell.variant.parameters))
+        parameters = dict(self.cell.variant.parameters)
+        return Programs(self.checks, self.timed, self.others, parameters, tables=self.tables)
+
+    @property
+    def tables(self) -> Mapping[str, NDArray[np.float64]]:
+        """Return what the host computes of the surface and hands to the programs in buffers, by name."""
+        return {}
 
     @abstractmethod
     def with_programs(self, programs: Programs) -> Casting:
