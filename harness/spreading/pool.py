@@ -23,9 +23,9 @@ from typing import Any, TypeVar
 
 from harness import memory, spreading
 from harness.hosting import process
+from harness.limits import JOBS
 from surfaces.model import FirsthitError
 
-MOST = 1024  # workers; more than any machine has cores
 STARTING = 1.0  # seconds of work that are worth starting workers: a start was measured at 0.3 s of each core
 SENDING = 0.05  # that are worth handing to workers that run
 LEAST_MEMORY = 256e6  # bytes that a worker should have; 54 MB were measured with a surface of degree 10
@@ -40,7 +40,7 @@ def usual_jobs() -> int:
     """Return how many workers this machine should have: one for each usable core, if its memory holds as many."""
     whole = memory.of_machine()
     fitting = math.inf if whole is None else memory.SHARE * whole / LEAST_MEMORY
-    return max(1, min(process.cores() or 1, MOST, math.floor(min(fitting, MOST))))
+    return max(1, math.floor(min(process.cores() or 1, JOBS.high, fitting)))
 
 
 @contextlib.contextmanager
