@@ -92,10 +92,10 @@ class _Worker:
             raise _Lost(process.explained(self.ended())) from None
         if said[0] == "ok":
             return said[1]
-        error: Exception = said[1]
-        if not isinstance(error, FirsthitError):
-            error.add_note(f"in a worker process:\n{said[2]}")
-        raise error
+        raised: Exception = said[1]
+        if not isinstance(raised, FirsthitError):
+            raised.add_note(f"in a worker process:\n{said[2]}")
+        raise raised
 
     def ended(self) -> int:
         """End the process, and return its exit code, or minus the number of the signal that ended it."""
@@ -115,6 +115,7 @@ class Pool:
         self._lock = threading.Lock()
         self._idle: list[_Worker] = []
         self._running: set[_Worker] = set()
+        self._closed = False
 
     @property
     def worth_seconds(self) -> float:
@@ -144,7 +145,7 @@ class Pool:
     def close(self) -> None:
         """End all workers."""
         with self._lock:
-            running, self._running, self._idle = self._running, set(), []
+            running, self._running, self._idle, self._closed = self._running, set(), [], True
         for worker in running:
             worker.process.kill()
         self._threads.shutdown(cancel_futures=True)
@@ -161,7 +162,7 @@ class Pool:
     def _answer(self, batch: _Batch, function: Callable[[C], A], chunk: C) -> A:
         """Return what a worker makes of a chunk; another one is asked where the first is lost."""
         task = pickle.dumps((function, chunk), pickle.HIGHEST_PROTOCOL)
-        lost = []
+        lost: list[str] = []
         while len(lost) < TRIES:
             worker = self._lent(batch)
             try:
@@ -187,14 +188,16 @@ class Pool:
     def _lent(self, batch: _Batch) -> _Worker:
         """Take a worker that is idle, or start one. Raises FirsthitError where none can be started."""
         with self._lock:
-            worker = self._idle.pop() if self._idle else None
+            alive = [worker for worker in self._idle if worker.process.poll() is None]
+            self._running.difference_update(set(self._idle) - set(alive))
+            self._idle, worker = alive[:-1], alive[-1] if alive else None
         if worker is None:
             started, connection = process.start("harness.spreading.serving", [], "a worker process", STREAMS)
             worker = _Worker(started, connection, memory.Watch(started.pid, memory.SHARE / self._jobs, alone=True))
         with self._lock:
             self._running.add(worker)
             batch.workers.add(worker)
-            if batch.stopped:
+            if batch.stopped or self._closed:
                 worker.process.kill()
         return worker
 
