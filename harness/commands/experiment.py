@@ -10,7 +10,7 @@ from harness import console
 from harness.commands import Add
 from harness.commands.answers import experiments
 from harness.commands.machine import Answer, add_json
-from harness.commands.options import add_wait, add_yes, tell, tell_wrong, typed
+from harness.commands.options import add_jobs, add_wait, add_yes, tell, tell_wrong, typed
 from harness.commands.printer import Printer
 from harness.contract import FirsthitError, plural
 from harness.experiment import config, identity, plan
@@ -39,6 +39,7 @@ def add_parsers(add: Add) -> None:
     parser.add_argument("--force", action="store_true", help="run every cell again")
     parser.add_argument("--retry", choices=["failed"], help="run failed, timed out and crashed cells again")
     parser.add_argument("--device", action="append", metavar="NAME", help="run on this device only; may be repeated")
+    add_jobs(parser)
     add_wait(parser)
     add_yes(parser)
     parser.set_defaults(run=_run)
