@@ -239,8 +239,7 @@ def run(
     words = ["firsthit", *(["--plugins", str(plugins)] if plugins else []), "run", str(config), "--runs", str(runs)]
     words += ["--yes"] if yes else []
     command = shlex.join([*words, *(word for name in devices for word in ("--device", name))])
-    again = {"force": force, "retry_failed": retry_failed, "wait": wait}
-    return running.run(given, folder, command, watcher=watcher, **again)
+    return running.run(given, folder, command, force=force, retry_failed=retry_failed, wait=wait, watcher=watcher)
 
 
 def load(folder: AnyPath) -> pd.DataFrame:
