@@ -29,7 +29,7 @@ LAYERS = (  # from the ground up; what stands in one line does not import each o
     ("harness.contract", "harness.__init__"),
     ("harness.stated",),
     ("harness.hosting",),
-    ("harness.plugins", "harness.results"),
+    ("harness.plugins", "harness.results", "harness.spreading"),
     ("harness.terminal",),
     ("harness.console", "harness.hardcases"),
     ("harness.oracle",),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import math
 import pickle
 from collections.abc import Callable, Sequence
 from typing import Any, TypeVar
@@ -11,6 +12,7 @@ from harness.cluster import admission
 from harness.cluster.engine import Engine
 from harness.cluster.holder import CORES, answer
 from harness.contract import FirsthitError
+from harness.spreading import Spread
 
 LOOK_SECONDS = 0.25
 WORTH_SECONDS = 0.2  # of one core's work that are worth sending
@@ -19,14 +21,19 @@ A = TypeVar("A")
 
 
 class ClusterSpread:
-    """Hand chunks to the workers of a cluster that take work which needs no device."""
+    """Hand chunks to the workers of a cluster that take work which needs no device.
 
-    def __init__(self, engine: Engine) -> None:
-        self._engine = engine
+    Where the cluster has none, `here` takes them: processes of this machine, or nobody.
+    """
+
+    def __init__(self, engine: Engine, here: Spread | None) -> None:
+        self._engine, self._here = engine, here
 
     @property
     def worth_seconds(self) -> float:
-        return WORTH_SECONDS
+        if self._engine.cores():
+            return WORTH_SECONDS
+        return self._here.worth_seconds if self._here else math.inf
 
     def map(self, function: Callable[[C], A], chunks: Sequence[C]) -> list[A]:
         """Return what a function of one of our modules makes of each chunk, in their order.
@@ -34,6 +41,8 @@ class ClusterSpread:
         Chunks that several threads ask for at the same time are answered once. A chunk whose worker is lost goes to
         another one. Raises FirsthitError where none comes, and what of this kind the function raises.
         """
+        if self._here and not self._engine.cores():
+            return self._here.map(function, chunks)
         tasks = [pickle.dumps((self._engine.ours, pickle.dumps((function, chunk), -1)), -1) for chunk in chunks]
         with admission.away():
             said = self._answers(tasks)

@@ -11,6 +11,7 @@ from collections.abc import Callable, Collection, Iterator
 from pathlib import Path
 from typing import Any
 
+from harness import spreading
 from harness.cluster import holder, slurm
 from harness.cluster.engine import PATIENCE_SECONDS, Engine
 from harness.cluster.fleet import ANY, ClusterFleet
@@ -33,10 +34,16 @@ def opened(text: str, wanted: Collection[str], tell: Tell) -> Iterator[ClusterFl
     """Open a cluster for a block: HOST:PORT of a scheduler, local[:N], or a TOML file for Slurm.
 
     `wanted` are the words by which configs name devices; `tell` hears of what is started, lost and found again. What
-    was started for the block is ended after it. Raises FirsthitError where the text says no cluster, Dask is missing,
+    was started for the block is ended after it. While it runs, the cluster's cores take the oracle's work. Raises FirsthitError where the text says no cluster, Dask is missing,
     or nothing answers.
     """
     need_dask("--cluster")
+    with _opened(text, wanted, tell) as fleet, spreading.over(ClusterSpread(fleet.engine, spreading.taker())):
+        yield fleet
+
+
+@contextlib.contextmanager
+def _opened(text: str, wanted: Collection[str], tell: Tell) -> Iterator[ClusterFleet]:
     if text == "local" or text.startswith("local:"):
         with _local(_count(text), wanted, tell) as fleet:
             yield fleet
@@ -129,8 +136,3 @@ def _count(text: str) -> int | None:
     if not number.isdecimal() or not 0 <= int(number) <= MOST_CORES:
         raise FirsthitError(f"--cluster {text!r}: write local:N, where N cores (0 to {MOST_CORES}) take other work")
     return int(number)
-
-
-def spread_of(fleet: ClusterFleet) -> ClusterSpread | None:
-    """Return what hands chunks to the cores of a fleet's cluster; None where it has none now."""
-    return ClusterSpread(fleet.engine) if fleet.engine.cores() else None

@@ -13,7 +13,7 @@ from harness import console
 from harness.commands import Add
 from harness.commands.answers import experiments
 from harness.commands.machine import Answer, add_json
-from harness.commands.options import add_wait, add_yes, tell, tell_wrong, typed
+from harness.commands.options import add_jobs, add_wait, add_yes, tell, tell_wrong, typed
 from harness.commands.printer import Printer
 from harness.contract import FirsthitError, plural
 from harness.experiment import config, identity, plan
@@ -48,6 +48,7 @@ def add_parsers(add: Add) -> None:
         "with N cores for the oracle, or a TOML file for Slurm"
     )
     parser.add_argument("--cluster", metavar="WHERE", help=help_)
+    add_jobs(parser)
     add_wait(parser)
     add_yes(parser)
     parser.set_defaults(run=_run)

@@ -8,7 +8,6 @@ which takes steps to machines of a cluster.
 
 from __future__ import annotations
 
-import signal
 import subprocess
 import threading
 from collections import Counter
@@ -23,6 +22,7 @@ from harness.devices import serving
 from harness.devices.interface import Timing
 from harness.devices.messages import Answer, Check, Checked, Frame, Warmed
 from harness.devices.probes import Probes
+from harness.hosting.process import explained
 
 if TYPE_CHECKING:
     from harness.devices.fingerprint import Fingerprint
@@ -243,7 +243,7 @@ class LocalExecutor:
                 reason = f"{operation} took longer than {seconds:g} s, and its answer did not come whole; killed"
                 raise CellError(CellStatus.TIMEOUT, reason) from None
             when = DURING.get(operation, f"during {operation}")
-            raise CellError(CellStatus.CRASHED, f"the worker {_explain(code)} {when}") from None
+            raise CellError(CellStatus.CRASHED, f"the worker {explained(code)} {when}") from None
         except CellError:
             raise
         except Exception as error:  # what is unpickled may raise anything
@@ -257,10 +257,3 @@ class LocalExecutor:
         if outcome == "broken":
             self._lose(device)
         raise CellError(CellStatus.FAILED, str(result))
-
-
-def _explain(exit_code: int) -> str:
-    if exit_code < 0:
-        name = signal.Signals(-exit_code).name.removeprefix("SIG")
-        return f"was killed by signal {name}"
-    return f"ended with exit code {exit_code}"

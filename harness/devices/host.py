@@ -9,6 +9,8 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
+from harness.hosting.process import cores as cores  # a software device has no more
+
 # How the names of variables begin that drivers and compilers read
 SETTINGS = ("CL_CONFIG_", "POCL_", "LP_", "GALLIVM_", "GALLIUM_", "MESA_", "CUDA_", "__GL_")
 # As harness/devices sets them if the user does not
@@ -23,11 +25,6 @@ def processor() -> str:
         return next(line.split(":", 1)[1].strip() for line in text.splitlines() if line.startswith("model name"))
     except (OSError, StopIteration):
         return platform.processor() or platform.machine()
-
-
-def cores() -> int | None:
-    """Count the processor's cores that this process may use: a software device has no more."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
 
 
 def settings() -> dict[str, str]:
