@@ -9,9 +9,10 @@ from typing import Any
 from harness.conformance.cases import Bench, Finding, not_checked
 from harness.conformance.examine import EXAMINATIONS, Located
 from harness.contract import CellStatus, DeviceInfo, FirsthitError, Surface
-from harness.devices.executor import CellError, LocalExecutor
+from harness.devices.executor import CellError
 from harness.devices.interface import LANGUAGES
 from harness.devices.messages import Check
+from harness.devices.steps import Executor
 from harness.experiment.kinds import of_method
 from harness.kernels.assemble import lanes_on
 from harness.plugins import Catalog, Plugin
@@ -23,7 +24,7 @@ def checkable(catalog: Catalog) -> list[str]:
     return [name for name, method in answering.items() if of_method(method).hard_entries]
 
 
-def bench_on(executor: LocalExecutor, info: DeviceInfo) -> Bench:
+def bench_on(executor: Executor, info: DeviceInfo) -> Bench:
     """Make the bench that runs kernels in the executor's worker for a device. Its `run` raises CellError."""
 
     def run(check: Check[Any]) -> Any:
