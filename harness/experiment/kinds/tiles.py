@@ -18,8 +18,8 @@ from harness.accuracy.answers import validated
 from harness.accuracy.check import Cast
 from harness.accuracy.compilers import SecondBuild
 from harness.contract import FirsthitError, Hits, Program, Surface
-from harness.devices.executor import LocalExecutor
 from harness.devices.messages import Check, Frame
+from harness.devices.steps import Executor
 from harness.devices.tiles import TileAnswer, TileCheck, TileFrame, TileHits, TilePictures, plan_of
 from harness.experiment.kinds.model import Asked, Casting, Kind, RacedCasting
 from harness.experiment.kinds.programs import Programs
@@ -167,7 +167,7 @@ class TileCasting(RacedCasting):
         except FirsthitError:  # which fails the cell where it is cast, with this reason
             return {}
 
-    def cast(self, executor: LocalExecutor, size: int, free_loops: bool = False) -> Cast:
+    def cast(self, executor: Executor, size: int, free_loops: bool = False) -> Cast:
         surface, rays = self.cell.surface, rays_of(self.camera, size)
         programs = tuple(with_free_loops(program) if free_loops else program for program in self.checks)
         camera, ratio = checked_over(self.camera, size, self.samples)
@@ -180,7 +180,7 @@ class TileCasting(RacedCasting):
         pictures = {"stage": answer.stages.reshape(size, size)}
         return Cast(surface, rays, hits, checked.compile_ms, facts, pictures)
 
-    def second_build(self, executor: LocalExecutor, cast: Cast) -> SecondBuild | None:
+    def second_build(self, executor: Executor, cast: Cast) -> SecondBuild | None:
         if self.bounds is not None:
             return None
         cell, size = self.cell, math.isqrt(len(cast.rays))
