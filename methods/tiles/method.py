@@ -65,6 +65,9 @@ Other devices, and frames of other sizes (configs/tiles.toml), have not been mea
     the same up to 16 times                                 the octic's packets: 9 to 17 ms                     no
     a piece that ends where the roots of all nodes are      1 % fewer open pixels, and no faster                no
       passed, before a tile is open
+    the frame before as a start: pieces of single tiles,    torus 1.06, sextic 0.99 times as fast after 6       no
+      and open tiles cut at once (512x512)                  degrees; 1.06 and 1.05 if nothing moves
+    tiles of 32 first, for four samples a pixel             sextic 14.2 to 14.4 ms, decic 45.5 to 44.3          no
     planes that lean as the surface does                    16-ball: 22 to 18 ms; the octic's open pixels: 28   yes
       to 21 % and no faster
 """
