@@ -245,7 +245,7 @@ def run(
     words = ["firsthit", *(["--plugins", str(plugins)] if plugins else []), "run", str(config), "--runs", str(runs)]
     words += ["--yes"] if yes else []
     command = shlex.join([*words, *(word for name in devices for word in ("--device", name))])
-    again = {"force": force, "retry_failed": retry_failed, "wait": wait}
+    again: dict[str, Any] = {"force": force, "retry_failed": retry_failed, "wait": wait}
     with _processes(jobs):
         return running.run(given, folder, command, watcher=watcher, **again)
 

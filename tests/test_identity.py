@@ -15,6 +15,7 @@ import pytest
 import surfaces
 from harness import ROOT, studies
 from harness.contract import FirsthitError
+from harness.devices import host
 from harness.experiment import identity
 from harness.oracle import cache
 from harness.results import sources
@@ -122,6 +123,7 @@ from harness.devices.worker import Worker
 
 class Here:
     '''Does in this process what a worker would.'''
+    moves = 0
     def __init__(self): self.workers = {}
     def __getattr__(self, operation):
         def do(device, *arguments, **named):
@@ -237,7 +239,7 @@ def test_settings_of_drivers_and_the_cores_are_told_apart(monkeypatch):
     before = identity.common([], timed=True)
     monkeypatch.setenv("LP_NUM_THREADS", "1")
     monkeypatch.setenv("POCL_KERNEL_CACHE", "0")  # as the harness itself sets it
-    monkeypatch.setattr(identity, "cores", lambda: 1024)
+    monkeypatch.setattr(host, "cores", lambda: 1024)
     after = identity.common([], timed=True)
     assert after["settings"] == before["settings"] | {"LP_NUM_THREADS": "1"}
     assert after["cores"] == 1024

@@ -2,8 +2,8 @@
 
 A worker that dies, hangs, holds too much memory or answers nonsense is ended, and started again for the next step. A
 device that cannot be opened again is given up after a few tries, so that it does not cost each further cell a minute.
-The runner needs no more of an executor than the methods of LocalExecutor, so that another executor may send cells
-elsewhere.
+What the runner and all others need of an executor is `harness.devices.steps.Executor`; harness.cluster has another one,
+which takes steps to machines of a cluster.
 """
 
 from __future__ import annotations
@@ -68,6 +68,8 @@ class LocalExecutor:
     A worker that takes the place of one that was lost opens its device first. Where REOPENINGS of them in a row cannot,
     the device is given up: each further step raises CellError at once.
     """
+
+    moves = 0  # a worker that takes the place of another one is on the same machine
 
     def __init__(self, timeout: float, share: float = memory.SHARE) -> None:
         self._timeout, self._share = timeout, share
@@ -139,6 +141,10 @@ class LocalExecutor:
             self.warm(device, key, frame)
         timing: Timing = self._call(device, "sample", key, batch)
         return timing
+
+    def holds(self, key: str) -> bool:
+        """Tell whether a frame is kept ready under `key`."""
+        return key in self._warm
 
     def release(self, device: str, key: str) -> None:
         """Free what the frame under `key` holds on its device; do nothing if no frame is kept there.

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import os
 import platform
+from collections.abc import Mapping
+from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
@@ -29,3 +31,17 @@ def settings() -> dict[str, str]:
     """Return the variables by which a user changes drivers and compilers, without those that the harness sets."""
     chosen = {name: value for name, value in os.environ.items() if name.startswith(SETTINGS)}
     return {name: value for name, value in sorted(chosen.items()) if OURS.get(name) != value}
+
+
+@dataclass(frozen=True, eq=False)
+class Host:
+    """Hold what of the machine that holds a device decides what is found there: see processor, cores and settings."""
+
+    processor: str
+    cores: int | None
+    settings: Mapping[str, str]
+
+
+def this_host() -> Host:
+    """Return what is so of this machine, for this process."""
+    return Host(processor(), cores(), settings())

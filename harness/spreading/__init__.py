@@ -49,6 +49,11 @@ def over(spread: Spread | None) -> Iterator[None]:
         _TAKER = before
 
 
+def taker() -> Spread | None:
+    """Return who takes the chunks of this process now; None: nobody."""
+    return _TAKER
+
+
 def answers(function: Callable[[C], A], chunks: Sequence[C], setup_seconds: float = 0.0) -> list[A]:
     """Return what `function` makes of each chunk, in the chunks' order.
 
