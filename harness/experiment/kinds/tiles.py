@@ -79,13 +79,13 @@ def frame_of(stages: tuple[Program, ...], surface: Surface, camera: NDArray[np.f
     `camera` is float32[12]. Raises FirsthitError if the programs read bounds of the surface that there are none of, or,
     as another revision's may, other ones.
     """
-    from harness.kernels.fourths import fourth_bounds
+    from harness.kernels.fourths import GRID, fourth_pyramid
 
     isolate, finish, packets, rest = stages
     grid = plan_of(isolate).grid
-    bounds = fourth_bounds(surface) if grid else np.zeros(0)
-    if grid not in (0, len(bounds)):
-        raise FirsthitError(f"the programs read bounds over {grid} cells a side, and here {len(bounds)} are made")
+    if grid not in (0, GRID):
+        raise FirsthitError(f"the programs read bounds over {grid} cells a side, and here {GRID} are made")
+    bounds = fourth_pyramid(surface) if grid else np.zeros(0)
     return TileFrame((isolate, finish, packets, rest), camera, size, bounds)
 
 
