@@ -1,4 +1,4 @@
-"""A cluster in this process, of workers whose device only sleeps and answers; for tests and benchmarks of the engine."""
+"""A cluster in this process, of workers whose device only sleeps and answers: for tests and benchmarks."""
 
 from __future__ import annotations
 
