@@ -273,7 +273,7 @@ def test_processes_find_the_same(run: Path, tmp_path: Path, monkeypatch: pytest.
     alone = verified(folder)
     with pool.over(2):
         found = verified(folder)
-        assert pool.spreading._TAKER.pids  # type: ignore[union-attr]
+        assert pool.spreading.taker().pids  # type: ignore[union-attr]
     assert found == alone and {one.file.stem for one in found.failing} == {made[4]["key"], made[6]["key"]}
     assert found.rows == 9 and found.certifiable == found.sampled == 7
 
