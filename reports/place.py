@@ -15,6 +15,7 @@ def place(*runs: Path) -> Path:
     a/a-quick-to-b-quick.report, so that two comparisons do not take each other's place.
     """
     whole = [Path(os.path.abspath(run)) for run in runs]  # noqa: PTH100 - a link stays what the user calls the run
+    whole = [run.with_suffix("") if run.is_file() else run for run in whole]  # an archive
     together = len({run.parent for run in whole}) == 1
     above = Path(os.path.commonpath([run.parent for run in whole]))
     names = [run.name if together else "-".join(run.relative_to(above).parts) for run in whole]

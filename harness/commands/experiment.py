@@ -15,7 +15,9 @@ from harness.commands.printer import Printer
 from harness.contract import FirsthitError, plural
 from harness.experiment import config, identity, plan
 from harness.experiment.identity import Difference
+from harness.experiment.shards import Share
 from harness.experiment.size import cells_of
+from harness.limits import Name
 from harness.plugins import find_methods
 from harness.results.begun import Begun
 from harness.results.history import past_of
@@ -30,6 +32,7 @@ FIGURES, TABLES = ("svg", "pdf", "png"), ("latex", "csv", "markdown")  # forms; 
 def add_parsers(add: Add) -> None:
     parser = add("plan", "firsthit plan quick")
     _add_config(parser)
+    _add_shard(parser)
     add_yes(parser)
     add_json(parser)
     parser.set_defaults(run=_plan)
@@ -39,6 +42,9 @@ def add_parsers(add: Add) -> None:
     parser.add_argument("--force", action="store_true", help="run every cell again")
     parser.add_argument("--retry", choices=["failed"], help="run failed, timed out and crashed cells again")
     parser.add_argument("--device", action="append", metavar="NAME", help="run on this device only; may be repeated")
+    _add_shard(parser)
+    help_ = "how rows name this machine (default: its short name in its network); merged runs tell devices apart by it"
+    parser.add_argument("--machine", type=_machine, metavar="NAME", help=help_)
     add_wait(parser)
     add_yes(parser)
     parser.set_defaults(run=_run)
@@ -96,15 +102,35 @@ def _add_config(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def _add_shard(parser: argparse.ArgumentParser) -> None:
+    help_ = (
+        "the K-th of N parts of the config, the same on each machine; what is compared stays together. Its results go "
+        "into a folder of their own, NAME.shard-K-of-N, and `firsthit merge` joins them"
+    )
+    parser.add_argument("--shard", metavar="K/N", help=help_)
+
+
+def _machine(text: str) -> str:
+    """Read the name of a machine. Raises ArgumentTypeError for a text that is no name, or holds a blank or an @."""
+    if problem := Name().broken(text):
+        raise argparse.ArgumentTypeError(problem)
+    if "@" in text or len(text.split()) != 1:
+        raise argparse.ArgumentTypeError(f"{text[:40]!r} holds a blank or an @, which separate it from other words")
+    return text
+
+
 def _read(options: argparse.Namespace, printer: Printer) -> Read:
-    return read(options.config, options.plugins, getattr(options, "device", None) or (), printer, options.yes)
+    devices, machine = (getattr(options, name, None) for name in ("device", "machine"))
+    named = {"shard": options.shard, "machine": machine}
+    return read(options.config, options.plugins, devices or (), printer, options.yes, **named)
 
 
 def _plan(options: argparse.Namespace) -> int | Answer:
     """Tell each config's cells, and how long those that must run will take."""
     printer = Printer()
     loaded = load(_read(options, printer), printer)
-    made = [_planned(part, loaded, options.runs) for part in loaded.parts]
+    shares = zip(loaded.parts, loaded.shares(), strict=True)
+    made = [_planned(part, share, loaded, options.runs) for part, share in shares]
     parts = [facts for facts, _ in made]
     failures = dict.fromkeys(reason for _, reasons in made for reason in reasons)
     for reason in failures.keys() - set(loaded.catalog.warnings):  # those were told already
@@ -119,17 +145,20 @@ def _plan(options: argparse.Namespace) -> int | Answer:
     return code
 
 
-def _planned(part: config.Experiment, loaded: Loaded, runs: Path) -> tuple[experiments.PlanFacts, list[str]]:
+def _planned(
+    part: config.Experiment, share: Share | None, loaded: Loaded, runs: Path
+) -> tuple[experiments.PlanFacts, list[str]]:
     """Say which cells a config has, and which have a row below `runs`; on standard error what domains leave out.
 
     The second part has the reasons of the cells that fail before they run.
     """
     for told in remarks(part):
         tell(f"firsthit: {told}")
-    cells = cells_of(part, loaded.catalog, loaded.devices)
-    with console.doing(f"{part.path}: {cells:,} cells; preparing them") as tell_step:
-        planned = plan.plan(part, loaded.catalog, loaded.devices, tell=tell_step)
-    store = Store(runs / part.name)
+    cells, of = cells_of(part, loaded.catalog, loaded.devices), f"shard {loaded.shard} of " if loaded.shard else ""
+    with console.doing(f"{part.path}: {of}{cells:,} cells; preparing them") as tell_step:
+        only = share.groups if share else None
+        planned = plan.plan(part, loaded.catalog, loaded.devices, tell=tell_step, only=only)
+    store = Store(loaded.folder(runs, part))
     found = due(planned, store, asked=Begun(store.folder).again)
     for message in store.unreadable.values():
         tell_wrong(f"firsthit: {message}; `firsthit run` makes it again")

@@ -15,7 +15,7 @@ from harness.devices import host
 from harness.devices.executor import CellError, LocalExecutor
 from harness.devices.host_arithmetic import host_arithmetic
 from harness.devices.probes import BELIEVABLE, Probes
-from harness.results import declared, git, sealed, sources
+from harness.results import declared, git, owner, sealed, sources
 from harness.results.writing import write_atomically
 
 if TYPE_CHECKING:
@@ -49,8 +49,11 @@ def _is_versioned() -> bool:
     return _git("ls-files", "--error-unmatch", str(Path(__file__))) is not None
 
 
-def describe() -> dict[str, Any]:
-    """Return versions, commit and machine, as plan.json keeps them."""
+def describe(machine: str | None = None) -> dict[str, Any]:
+    """Return versions, commit and machine, as plan.json keeps them.
+
+    `machine` is the name of this one; None: its short name in its network.
+    """
     versions = {}
     for package in PACKAGES:
         try:
@@ -64,6 +67,7 @@ def describe() -> dict[str, Any]:
         "python": platform.python_version(),
         "platform": platform.platform(),
         "cpu": host.processor(),
+        "machine": machine or owner.machine_name(),
         "versions": versions,
     }
 
