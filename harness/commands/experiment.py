@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
@@ -58,14 +59,17 @@ def add_parsers(add: Add) -> None:
     parser = add(
         "report",
         "firsthit report runs/quick -o paper --figures svg,pdf --tables latex",
-        "Write report.pdf, report.html, results.csv and results.parquet about a run, or about what changed from one to "
-        "another. Nothing is written into a run. With --figures and --tables there are also folders for a paper: a "
-        "file for each figure and table, named by what it shows (figures/speed-error-torus.pdf, "
+        "Write report.pdf, report.html, results.csv and results.parquet about a run, about what changed from one to "
+        "another, or about three or more runs of one config, as of several machines, which are joined as `firsthit "
+        "merge` joins them. Nothing is written into a run. With --figures and --tables there are also folders for a "
+        "paper: a file for each figure and table, named by what it shows (figures/speed-error-torus.pdf, "
         "tables/results-torus.tex), with captions.md, and captions.tex to copy floats from. Figures are 84 mm wide, "
         "with text of 8 points; pictures are PNG, whatever the forms. The tables of LaTeX need booktabs and graphicx.",
     )
-    parser.add_argument("folder", type=Path, metavar="RUN", help="a folder below runs/")
-    parser.add_argument("other", type=Path, metavar="OTHER", nargs="?", help="report what changed from RUN to OTHER")
+    help_ = "a folder below runs/, or an archive of one; of two runs, what changed from the first to the second"
+    parser.add_argument("folders", type=Path, metavar="RUN", nargs="+", help=help_)
+    help_ = "report on two runs of one config as on one, as on three or more: devices against each other"
+    parser.add_argument("--together", action="store_true", help=help_)
     parser.add_argument(
         "--baseline",
         metavar="NAME",
@@ -231,21 +235,30 @@ def _why_again(changed: Sequence[Difference]) -> None:
 def _report(options: argparse.Namespace) -> int:
     """Build a report. Raises FirsthitError if a package is missing, or if --baseline is given with two runs."""
     try:
+        from harness.commands import folders
         from reports import compare, report
+        from reports.place import place
 
-        if options.other:
-            for name in ("baseline", "focus", "appendix", "figures", "tables"):
-                if getattr(options, name):
-                    raise FirsthitError(f"--{name} goes with one run: of two, each cell is held against itself")
-        with console.working() as tell_step:
-            if options.other:
-                tell_step(f"comparing {options.folder} with {options.other}")
-                made = compare.build(options.folder, options.other, options.output)
+        runs, names = options.folders, ("baseline", "focus", "appendix", "figures", "tables")
+        changed = len(runs) == 2 and not options.together
+        if changed and (given := next((name for name in names if getattr(options, name)), None)):
+            raise FirsthitError(
+                f"--{given} goes with one run, or with --together: of two, each cell is held against itself"
+            )
+        about = {name: getattr(options, name) for name in names}
+        with contextlib.ExitStack() as stack:
+            tell_step = stack.enter_context(console.working())
+            if changed:
+                tell_step(f"comparing {runs[0]} with {runs[1]}")
+                made = compare.build(*runs, options.output)
+            elif len(runs) == 1:
+                tell_step(f"reading {runs[0]}")
+                made = report.build(runs[0], options.output, **about, tell=tell_step)
             else:
-                tell_step(f"reading {options.folder}")
-                names = ("baseline", "focus", "appendix", "figures", "tables")
-                about = {name: getattr(options, name) for name in names}
-                made = report.build(options.folder, options.output, **about, tell=tell_step)
+                joined, lines = stack.enter_context(folders.joined(runs, tell_step))
+                made = report.build(joined, options.output or place(*runs, joined=True), **about, tell=tell_step)
+                for line in lines:
+                    tell_wrong(f"firsthit: {line}")
         print(made, *(made.with_name(name) for name in ("figures", "tables") if getattr(options, name)), sep="\n")
     except ModuleNotFoundError as error:
         message = (

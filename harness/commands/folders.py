@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 
 from harness import console
@@ -15,6 +16,7 @@ from harness.merging.clean import Unnamed, clean
 from harness.merging.found import Left, lists_of
 from harness.merging.merge import Merged, merge
 from harness.results import archive
+from harness.results.writing import temporary_folder
 
 CONTRADICTED, NOT_ALL = 1, 3  # exit codes
 NAMED = 2  # cells that a line names
@@ -68,6 +70,17 @@ def add_parsers(add: Add) -> None:
 
 def _add_truth(parser: argparse.ArgumentParser, text: str) -> None:
     parser.add_argument("--truth", action="store_true", help=text)
+
+
+@contextlib.contextmanager
+def joined(runs: Sequence[Path], tell_step: Callable[[str], None]) -> Iterator[tuple[Path, list[str]]]:
+    """Yield a folder with several runs merged while the block runs, and lines on what of them does not fit.
+
+    Raises FirsthitError as `merge` does.
+    """
+    with temporary_folder(".firsthit-joined") as made:
+        found = merge(runs, made / "runs", typed(), tell=tell_step)
+        yield found.folder, [*_left_out(found.left), *_twice(found)]
 
 
 def _merge(options: argparse.Namespace) -> int:

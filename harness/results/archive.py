@@ -178,7 +178,7 @@ def _extracted(packed: zipfile.ZipFile, size: int, made: Path) -> Path:
     if len(packed.infolist()) > MOST_MEMBERS or len(members) != len(packed.infolist()):
         raise ValueError("it has too many members, or two of one name")
     if FACTS not in members or members[FACTS].file_size > sealed.LARGEST:
-        raise ValueError(f"it has no {FACTS}: it is no archive of a run")
+        raise ValueError(f"it has no {FACTS}: it is no archive of a run, or not a whole one")
     facts = sealed.unsealed(packed.read(FACTS))
     _CHECK(facts, FACTS)
     if facts["format"] != FORMAT:
