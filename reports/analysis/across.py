@@ -134,8 +134,8 @@ def differing(table: pd.DataFrame) -> pd.DataFrame:
     by_error = by_error.where(~((least == 0) & (error.max(axis=1) > 0)), np.inf)
     kept = (by_wrong > 0) | (by_error > NEAR)
     told = table[kept].copy()
-    told["by_wrong"], told["by_error"] = by_wrong[kept], by_error[kept]
-    return told.sort_values(["by_wrong", "by_error"], ascending=False, kind="stable")
+    told["by_wrong", ""], told["by_error", ""] = by_wrong[kept], by_error[kept]
+    return told.sort_values([("by_wrong", ""), ("by_error", "")], ascending=False, kind="stable")
 
 
 def identical(table: pd.DataFrame) -> int:

@@ -20,8 +20,9 @@ from reports.drawing.style import Mark
 ACROSS, MOST = 2, 6  # panels beside each other, and in all
 PANEL = 1.75  # inches: the height of a panel
 TITLE, BETWEEN = 0.2, 0.12  # inches
-LEFT = 0.5
+LEFT = 0.5  # inches, or as much as the first device's name needs
 TEXT = 7.0  # points
+TURN = math.radians(28)  # by which the devices' names are turned
 
 
 def figure(
@@ -40,15 +41,16 @@ def figure(
     every = pd.concat(drawn.values())
     low, high = min(1.0, float(every["speedup"].min())) / 1.25, max(1.0, float(every["speedup"].max())) * 1.25
     names = line_labels.width([str(label) for label in every["method_label"].unique()])
-    below = 0.12 + max(placing.text_size(device, TEXT)[0] for device in devices) * math.sin(math.radians(28)) / 72
+    below = 0.12 + max(placing.text_size(device, TEXT)[0] for device in devices) * math.sin(TURN) / 72
+    left = max(LEFT, placing.text_size(devices[0], TEXT)[0] * math.cos(TURN) / 72)
     down, across = -(-len(drawn) // ACROSS), min(ACROSS, len(drawn))
     height = down * (PANEL + TITLE) + (down - 1) * BETWEEN + below + 0.12
-    width = (NARROW - LEFT - across * names - (across - 1) * 0.12) / across
+    width = (NARROW - left - across * names - (across - 1) * 0.12) / across
     with matplotlib.rc_context({**RC, "font.size": TEXT}):
         drawing = Drawing(figsize=(NARROW, height))
         for at, (name, of) in enumerate(drawn.items()):
             column, line = at % across, at // across
-            x = LEFT + column * (width + names + 0.12)
+            x = left + column * (width + names + 0.12)
             y = height - TITLE - PANEL - line * (PANEL + TITLE + BETWEEN)
             axes = drawing.add_axes((x / NARROW, y / height, width / NARROW, PANEL / height))
             axes.set_title(scenes[name], loc="left", color=style.INK, pad=3)
@@ -71,7 +73,7 @@ def _dress(axes: Any, devices: Sequence[str], limits: tuple[float, float], first
     axes.set_xticks(range(len(devices)), devices if lowest else [""] * len(devices))
     if lowest:
         for label in axes.get_xticklabels():
-            label.set(rotation=28, ha="right", rotation_mode="anchor")
+            label.set(rotation=math.degrees(TURN), ha="right", rotation_mode="anchor")
     axes.set_yscale("log")
     axes.set_ylim(*limits)
     ticks = [t * 10.0**e for e in range(-4, 6) for t in (1, 2, 5) if limits[0] <= t * 10.0**e <= limits[1]]

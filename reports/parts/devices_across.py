@@ -48,10 +48,10 @@ def sections(material: Material) -> list[Section]:
         differing = across.differing(answered)
         blocks.append(Text(_answers_said(answered, differing)))
         if len(differing):
-            named = scene_names(frame)
-            blocks.append(_differing(differing.head(SHOWN), named, len(differing)))
+            named, order = scene_names(frame), list(dict.fromkeys([*devices, *across.devices_of(frame)]))
+            blocks.append(_differing(differing.head(SHOWN), named, order, len(differing)))
             if len(differing) > SHOWN:
-                details.append(_differing(differing.head(tables.ROW_LIMIT), named, len(differing)))
+                details.append(_differing(differing.head(tables.ROW_LIMIT), named, order, len(differing)))
     return [Section("Devices against each other", tuple(blocks), tuple(details), name="Across devices")]
 
 
@@ -66,8 +66,8 @@ def _said(swaps: Sequence[across.Swap], rows: pd.DataFrame) -> str:
     one = swaps[0]
     pairs = f"{wording.plural(len(swaps), 'pair')} of variants {'changes' if len(swaps) == 1 else 'change'} order"
     return (
-        f"{told}{pairs} between devices: {one.first} is {wording.factor(one.here)} as fast as {one.second} on "
-        f"{one.device}, and {wording.factor(one.there)} on {one.other}."
+        f"{told}{pairs} between devices: on {one.device}, {one.first} is {wording.factor(one.here)} as fast as "
+        f"{one.second}, and on {one.other} {wording.factor(one.there)}."
     )
 
 
@@ -151,9 +151,9 @@ def _answers_said(answered: pd.DataFrame, differing: pd.DataFrame) -> str:
     return f"{told}. Of the other {rest}, {wrong} answer another number of rays wrongly{more}{last}."
 
 
-def _differing(differing: pd.DataFrame, named: dict[str, str], total: int) -> Table:
+def _differing(differing: pd.DataFrame, named: dict[str, str], order: Sequence[str], total: int) -> Table:
     """Make a line for each cell whose answers differ, with wrong rays and largest errors by device."""
-    devices = list(dict.fromkeys(str(device) for device in differing["wrong"].columns))[:COLUMNS]
+    devices = [device for device in order if device in differing["wrong"].columns][:COLUMNS]
     body: list[tuple[Any, ...]] = []
     for (scene, _, precision, label), row in differing.iterrows():
         own = [row.get((name, device)) for device in devices for name in ("wrong", "error")]
