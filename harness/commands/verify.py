@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import dataclasses
 import math
 import secrets
 from collections.abc import Callable
@@ -15,7 +16,8 @@ from harness.commands.machine import Answer, add_json
 from harness.commands.options import add_jobs, whole
 from harness.contract import plural
 from harness.limits import SEED
-from harness.verifying.checks import CHECKS, Verified, verify
+from harness.results import archive
+from harness.verifying.checks import CHECKS, Failing, Verified, verify
 
 USUAL_SAMPLE = "20"
 DOES_NOT_HOLD = 1
@@ -32,7 +34,7 @@ def add_parsers(add: Add) -> None:
         "by its answers ray by ray, and, of a sample of rows, the truth itself, certified anew. Nothing is cast, and "
         "no device is needed. Exit codes: 0 all that was checked holds, 1 a value does not.",
     )
-    parser.add_argument("folders", type=Path, metavar="RUN", nargs="+", help="a folder below runs/")
+    parser.add_argument("folders", type=Path, metavar="RUN", nargs="+", help="a folder below runs/, or an archive")
     sample = "rows whose truth is certified anew: a number, a share as 1%%, or all (default: 20)"
     parser.add_argument("--sample", type=_sample, default=_sample(USUAL_SAMPLE), metavar="N", help=sample)
     seed = "of the sample (default: one that nobody can foresee, which is told)"
@@ -60,14 +62,22 @@ def _sample(text: str) -> Callable[[int], int]:
 
 def _verify(options: argparse.Namespace) -> int | Answer:
     """Check rows again and tell what does not hold."""
-    with console.working() as tell:
+    with archive.all_opened(options.folders) as folders, console.working() as tell:
         seed = secrets.randbelow(UNFORESEEN) if options.seed is None else options.seed
-        found = verify(options.folders, options.sample, seed, tell)
+        found = verify(folders, options.sample, seed, tell)
+    for folder, given in zip(folders, options.folders, strict=True):
+        found.failing = [_named_as_given(one, folder, given) for one in found.failing]
     code = DOES_NOT_HOLD if found.failing else 0
     if options.json:
         return Answer(verifying.answer(found), code)
     _print(found)
     return code
+
+
+def _named_as_given(one: Failing, folder: Path, given: Path) -> Failing:
+    """Name a file in an archive by the archive's name and not by the folder where its content was."""
+    inside = one.file.is_relative_to(folder) and folder != given
+    return dataclasses.replace(one, file=given / one.file.relative_to(folder)) if inside else one
 
 
 def _print(found: Verified) -> None:
